@@ -1,0 +1,1 @@
+//! Symbolic mechanics behind `#[affine_model(...)]`.

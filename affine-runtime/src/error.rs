@@ -1,0 +1,72 @@
+//! Typed errors.
+
+use core::fmt;
+
+/// Result of fallible runtime calls.
+pub type Result<T> = core::result::Result<T, Error>;
+
+/// What can be wrong with a model's numbers, a phase point or a setting.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A condition of well-posedness fails for the values of the model's fields.
+    IllPosed(IllPosed),
+    /// The placement is not finite or does not preserve orientation.
+    Placement {
+        /// `det phi`; NaN where an entry of `phi` is not finite.
+        determinant: f64,
+    },
+    /// A position, velocity or momentum is not finite.
+    NotFinite {
+        /// The quantity, as the paper names it.
+        quantity: &'static str,
+    },
+}
+
+/// A condition on the kinetic energy that fails.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IllPosed {
+    /// The condition, in the model's own parameters: `I + A != 0`.
+    pub condition: &'static str,
+    /// What fails where the condition does, with the equation.
+    pub reason: &'static str,
+    /// The value that should not vanish (or should be positive).
+    pub value: f64,
+    /// The threshold it is held against.
+    pub threshold: f64,
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::IllPosed(defect) => defect.fmt(f),
+            Error::Placement { determinant } => write!(
+                f,
+                "det phi = {determinant:e}: a placement has finite entries and a positive determinant, since the \
+                 configuration space is GL+(n); start from a placement that keeps orientation"
+            ),
+            Error::NotFinite { quantity } => {
+                write!(f, "{quantity} is not finite; give finite numbers")
+            }
+        }
+    }
+}
+
+impl fmt::Display for IllPosed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the kinetic energy is ill-posed: {} fails with the value {:e} (threshold {:e}): {}",
+            self.condition, self.value, self.threshold, self.reason
+        )
+    }
+}
+
+impl core::error::Error for Error {}
+impl core::error::Error for IllPosed {}
+
+impl From<IllPosed> for Error {
+    fn from(defect: IllPosed) -> Self {
+        Error::IllPosed(defect)
+    }
+}

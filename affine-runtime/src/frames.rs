@@ -1,0 +1,204 @@
+//! Spatial, co-moving and two-point quantities as types.
+//!
+//! A formula that adds a spatial to a co-moving quantity, or passes a velocity where a momentum belongs, does
+//! not compile. Index conventions: `phi[(i, A)]` with the space index first; the canonical momentum
+//! `Pi[(A, i)]` is conjugate to `phi[(i, A)]`, so that the pairing is `tr(Pi phi_dot)`.
+
+use crate::scalar::Real;
+
+/// An `N` by `N` matrix.
+pub type Matrix<const N: usize, T = f64> = nalgebra::SMatrix<T, N, N>;
+/// An `N`-vector.
+pub type Vector<const N: usize, T = f64> = nalgebra::SVector<T, N>;
+
+/// A quantity seen from space: `Omega = phi_dot phi^-1`, `Sigma = phi Pi`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spatial<Q>(pub Q);
+
+/// A quantity seen from the body: `Omega_hat = phi^-1 phi_dot`, `Sigma_hat = Pi phi`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comoving<Q>(pub Q);
+
+/// A two-point quantity with one index in space and one in the body: `phi_dot`, `Pi`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoPoint<Q>(pub Q);
+
+/// Affine velocity: `phi_dot phi^-1` in space, `phi^-1 phi_dot` in the body, `phi_dot` between the two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AffineVelocity<const N: usize, T = f64>(pub Matrix<N, T>);
+
+/// Affine spin, the momentum conjugate to the affine velocity: `Sigma = (dT/dOmega)^T` in space,
+/// `Sigma_hat = (dT/dOmega_hat)^T` in the body, `Pi = (dT/dphi_dot)^T` between the two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AffineSpin<const N: usize, T = f64>(pub Matrix<N, T>);
+
+/// A frame in which affine spins are stored: [`Space`], [`Body`] or [`Canonical`].
+pub trait Frame: Copy + core::fmt::Debug + Default + PartialEq + Send + Sync + sealed::Sealed + 'static {
+    /// Name of the momentum in this frame, as in the paper.
+    const MOMENTUM: &'static str;
+
+    /// `Sigma` from the affine spin of this frame.
+    fn to_space<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T>;
+    /// `Sigma_hat` from the affine spin of this frame.
+    fn to_body<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T>;
+    /// `Pi` from the affine spin of this frame.
+    fn to_canonical<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T>;
+    /// The affine spin of this frame from that of another.
+    fn convert<F: Frame, const N: usize, T: Real>(
+        phi: &Matrix<N, T>,
+        spin: &Matrix<N, T>,
+    ) -> Matrix<N, T>;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Space {}
+    impl Sealed for super::Body {}
+    impl Sealed for super::Canonical {}
+}
+
+/// Spatial frame: the affine spin is `Sigma = phi Pi`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Space;
+
+/// Co-moving frame: the affine spin is `Sigma_hat = Pi phi`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Body;
+
+/// Neither: the momentum is `Pi` itself, conjugate to `phi`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Canonical;
+
+impl Frame for Space {
+    const MOMENTUM: &'static str = "Sigma";
+
+    fn to_space<const N: usize, T: Real>(_phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
+        *spin
+    }
+    fn to_body<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
+        inverse(phi) * spin * phi
+    }
+    fn to_canonical<const N: usize, T: Real>(
+        phi: &Matrix<N, T>,
+        spin: &Matrix<N, T>,
+    ) -> Matrix<N, T> {
+        inverse(phi) * spin
+    }
+    fn convert<F: Frame, const N: usize, T: Real>(
+        phi: &Matrix<N, T>,
+        spin: &Matrix<N, T>,
+    ) -> Matrix<N, T> {
+        F::to_space(phi, spin)
+    }
+}
+
+impl Frame for Body {
+    const MOMENTUM: &'static str = "Sigma_hat";
+
+    fn to_space<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
+        phi * spin * inverse(phi)
+    }
+    fn to_body<const N: usize, T: Real>(_phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
+        *spin
+    }
+    fn to_canonical<const N: usize, T: Real>(
+        phi: &Matrix<N, T>,
+        spin: &Matrix<N, T>,
+    ) -> Matrix<N, T> {
+        spin * inverse(phi)
+    }
+    fn convert<F: Frame, const N: usize, T: Real>(
+        phi: &Matrix<N, T>,
+        spin: &Matrix<N, T>,
+    ) -> Matrix<N, T> {
+        F::to_body(phi, spin)
+    }
+}
+
+impl Frame for Canonical {
+    const MOMENTUM: &'static str = "Pi";
+
+    fn to_space<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
+        phi * spin
+    }
+    fn to_body<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
+        spin * phi
+    }
+    fn to_canonical<const N: usize, T: Real>(
+        _phi: &Matrix<N, T>,
+        spin: &Matrix<N, T>,
+    ) -> Matrix<N, T> {
+        *spin
+    }
+    fn convert<F: Frame, const N: usize, T: Real>(
+        phi: &Matrix<N, T>,
+        spin: &Matrix<N, T>,
+    ) -> Matrix<N, T> {
+        F::to_canonical(phi, spin)
+    }
+}
+
+/// A momentum given in some frame: what `at_momentum` accepts.
+///
+/// `Spatial(sigma)`, `Comoving(sigma_hat)` and `TwoPoint(pi)`, of a bare matrix or of an [`AffineSpin`]; an
+/// [`AffineVelocity`] is no momentum and does not compile here.
+pub trait Momentum<const N: usize, T: Real> {
+    /// The frame the matrix is written in.
+    type Frame: Frame;
+    /// The matrix.
+    fn matrix(self) -> Matrix<N, T>;
+}
+
+macro_rules! momentum {
+    ($wrapper:ident, $frame:ident) => {
+        impl<const N: usize, T: Real> Momentum<N, T> for $wrapper<Matrix<N, T>> {
+            type Frame = $frame;
+            fn matrix(self) -> Matrix<N, T> {
+                self.0
+            }
+        }
+        impl<const N: usize, T: Real> Momentum<N, T> for $wrapper<AffineSpin<N, T>> {
+            type Frame = $frame;
+            fn matrix(self) -> Matrix<N, T> {
+                self.0.0
+            }
+        }
+    };
+}
+
+momentum!(Spatial, Space);
+momentum!(Comoving, Body);
+momentum!(TwoPoint, Canonical);
+
+/// Inverse by Gauss-Jordan elimination with partial pivoting; not finite where the matrix is singular (phase
+/// points are checked for `det phi > 0` when they are made).
+pub(crate) fn inverse<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Matrix<N, T> {
+    let mut left = *matrix;
+    let mut right = Matrix::<N, T>::identity();
+    for column in 0..N {
+        let mut pivot = column;
+        for row in column + 1..N {
+            if left[(row, column)].abs() > left[(pivot, column)].abs() {
+                pivot = row;
+            }
+        }
+        left.swap_rows(pivot, column);
+        right.swap_rows(pivot, column);
+        let scale = T::one() / left[(column, column)];
+        for k in 0..N {
+            left[(column, k)] *= scale;
+            right[(column, k)] *= scale;
+        }
+        for row in 0..N {
+            if row != column {
+                let factor = left[(row, column)];
+                for k in 0..N {
+                    let (a, b) = (left[(column, k)], right[(column, k)]);
+                    left[(row, k)] -= factor * a;
+                    right[(row, k)] -= factor * b;
+                }
+            }
+        }
+    }
+    right
+}

@@ -1,0 +1,12 @@
+//! Phase points, kinematics, integrators and reports for affinely-rigid bodies.
+#![cfg_attr(not(feature = "std"), no_std)]
+
+pub mod error;
+pub mod frames;
+pub mod geodesic;
+pub mod model;
+pub mod scalar;
+pub mod state;
+
+pub use error::{Error, Result};
+pub use model::Model;

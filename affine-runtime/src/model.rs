@@ -1,0 +1,208 @@
+//! What the macro generates for a model, as a trait.
+
+use core::fmt::Debug;
+
+use crate::frames::{Matrix, Vector};
+use crate::scalar::{Real, Scalar};
+use crate::state::Phase;
+
+/// A model of an affinely-rigid body in dimension `N`: Legendre transformation, Hamiltonian, Hamilton's
+/// equations and the reduced system that is integrated.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a prepared model of an affinely-rigid body in dimension {N}",
+    label = "no Hamilton equations here",
+    note = "put `#[affine_model(...)]` on the struct; a struct with fields becomes a model by `.prepare()?`"
+)]
+pub trait Model<const N: usize>: Sync {
+    /// Names, equations, counts and conserved quantities, as derived.
+    const DESCRIPTION: Description;
+
+    /// A phase point of this model.
+    type Point<T: Real>: Phase<N, T>;
+    /// What is integrated: the state variables left once everything conserved and everything solvable in
+    /// closed form is taken out; see [`Description::reduced`] for the layout.
+    type Reduced<T: Scalar>: StateVector<T>;
+    /// What one trajectory conserves.
+    type Constants<T: Scalar>: Copy + Debug;
+    /// Phase point as a plain array in the model's own frames; see [`Description::full`] for the layout.
+    type Full<T: Scalar>: StateVector<T>;
+
+    /// The velocities `(x_dot, phi_dot)` of a phase point: the inverse Legendre transformation.
+    fn velocity<T: Real>(&self, point: &Self::Point<T>) -> Velocity<N, T>;
+    /// The kinetic energy `T` of velocities at the placement `phi`.
+    fn kinetic_energy<T: Real>(&self, phi: &Matrix<N, T>, velocity: &Velocity<N, T>) -> T;
+    /// The Hamiltonian `H` of a phase point.
+    fn hamiltonian<T: Real>(&self, point: &Self::Point<T>) -> T;
+
+    /// The point as a plain array.
+    fn flatten<T: Real>(&self, point: &Self::Point<T>) -> Self::Full<T>;
+    /// The point from a plain array, unchecked.
+    fn unflatten<T: Real>(&self, full: &Self::Full<T>) -> Self::Point<T>;
+    /// Hamilton's equations over the plain array: its time derivative.
+    fn hamilton_equations<T: Scalar>(&self, t: T, full: &Self::Full<T>) -> Self::Full<T>;
+
+    /// The reduced state and the constants of the trajectory that passes through `point` at time `t0`.
+    fn reduce<T: Real>(&self, t0: T, point: &Self::Point<T>) -> (Self::Reduced<T>, Self::Constants<T>);
+    /// Time derivative of the reduced state: straight-line code.
+    fn reduced_equations<T: Scalar>(
+        &self,
+        t: T,
+        constants: &Self::Constants<T>,
+        reduced: &Self::Reduced<T>,
+    ) -> Self::Reduced<T>;
+    /// The phase point of a reduced state at time `t`.
+    fn expand<T: Real>(
+        &self,
+        t: T,
+        constants: &Self::Constants<T>,
+        reduced: &Self::Reduced<T>,
+    ) -> Self::Point<T>;
+
+    /// The closed form of the trajectory through `point` at time `t0`, where the model and the scene have one.
+    fn geodesic(&self, t0: f64, point: &Self::Point<f64>) -> Option<crate::geodesic::Geodesic<N>>;
+    /// The phase point at time `t` on a closed-form trajectory that started at `start`.
+    fn on_geodesic(
+        &self,
+        geodesic: &crate::geodesic::Geodesic<N>,
+        t: f64,
+        start: &Self::Point<f64>,
+    ) -> Self::Point<f64>;
+}
+
+/// Velocities of centre of mass and placement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Velocity<const N: usize, T: Real = f64> {
+    /// `x_dot`; zero for a model without translation.
+    pub x_dot: Vector<N, T>,
+    /// `phi_dot`.
+    pub phi_dot: Matrix<N, T>,
+}
+
+/// A fixed-size vector of numbers that integrators step.
+pub trait StateVector<T>: Copy + Debug + PartialEq + AsRef<[T]> + AsMut<[T]> + Send + Sync {
+    /// Number of components.
+    const LEN: usize;
+    /// All components zero.
+    fn zeros() -> Self;
+}
+
+impl<T: Scalar, const D: usize> StateVector<T> for [T; D] {
+    const LEN: usize = D;
+    fn zeros() -> Self {
+        [T::zero(); D]
+    }
+}
+
+/// What was derived about a model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Description {
+    /// Name of the user's type.
+    pub name: &'static str,
+    /// The kinetic energy.
+    pub kinetic_energy: Formula,
+    /// The Hamiltonian.
+    pub hamiltonian: Formula,
+    /// Hamilton's equations in the model's frames.
+    pub equations: &'static [Formula],
+    /// The reduced equations.
+    pub reduced_equations: &'static [Formula],
+    /// Numbers of positive and negative directions of the kinetic metric, internal and translational; `None`
+    /// where they depend on the fields' values.
+    pub signature: Option<(usize, usize)>,
+    /// What every motion conserves.
+    pub conserved: &'static [Conserved],
+    /// What motions with `p = 0` conserve; the same list for a model without translation.
+    pub conserved_at_rest: &'static [Conserved],
+    /// Components of the plain array, group after group.
+    pub full: &'static [Group],
+    /// Components of the reduced state, group after group.
+    pub reduced: &'static [Group],
+    /// Operations of Hamilton's equations.
+    pub full_operations: Operations,
+    /// Operations of the reduced equations.
+    pub reduced_operations: Operations,
+    /// What was taken out of the state, in words.
+    pub left_out: &'static [&'static str],
+}
+
+/// A formula as text and as LaTeX.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Formula {
+    /// Plain text.
+    pub text: &'static str,
+    /// LaTeX, without delimiters.
+    pub latex: &'static str,
+}
+
+/// A run of components of a state vector that form one geometric object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Group {
+    /// The object: `x`, `phi`, `Sigma_hat`, ...
+    pub name: &'static str,
+    /// Number of components, row-major.
+    pub len: usize,
+}
+
+/// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Multiplications.
+    pub mul: usize,
+    /// Additions and subtractions.
+    pub add: usize,
+    /// Divisions.
+    pub div: usize,
+    /// Square roots.
+    pub sqrt: usize,
+    /// Exponentials.
+    pub exp: usize,
+    /// Logarithms.
+    pub ln: usize,
+}
+
+/// A quantity that a model may conserve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Conserved {
+    /// Energy `H`.
+    Energy,
+    /// Linear momentum `p`.
+    LinearMomentum,
+    /// Co-moving linear momentum `p_hat = phi^T p`.
+    ComovingLinearMomentum,
+    /// Orbital angular momentum `x p^T - p x^T`.
+    OrbitalAngularMomentum,
+    /// Total affine momentum `I(O) = x p^T + Sigma`.
+    TotalAffineMomentum,
+    /// Total angular momentum `I(O) - I(O)^T`.
+    TotalAngularMomentum,
+    /// Spatial affine spin `Sigma`.
+    AffineSpin,
+    /// Traceless part of `Sigma`.
+    Deviator,
+    /// Spin `S = Sigma - Sigma^T`.
+    Spin,
+    /// `|S|^2 = -tr(S^2)/2`.
+    SpinNorm,
+    /// Co-moving affine spin `Sigma_hat`.
+    ComovingAffineSpin,
+    /// Traceless part of `Sigma_hat`.
+    ComovingDeviator,
+    /// Vorticity `Sigma_hat - Sigma_hat^T`.
+    Vorticity,
+    /// `|Vort|^2 = -tr(Vort^2)/2`.
+    VorticityNorm,
+    /// Canonical momentum `Pi`.
+    CanonicalMomentum,
+    /// Casimir `C(1) = tr Sigma`, the dilatational momentum.
+    Casimir1,
+    /// Casimir `C(2) = tr Sigma^2`.
+    Casimir2,
+    /// Casimir `C(3) = tr Sigma^3`; only for `n = 3`.
+    Casimir3,
+    /// `tr sigma^2` of the traceless part.
+    DeviatorCasimir2,
+    /// `tr sigma^3` of the traceless part; only for `n = 3`.
+    DeviatorCasimir3,
+}

@@ -1,0 +1,134 @@
+//! Phase points: placement and momentum, with the centre of mass only where a model has one.
+
+use core::fmt::Debug;
+
+use crate::frames::{AffineSpin, Comoving, Frame, Matrix, Momentum, Spatial, TwoPoint, Vector};
+use crate::scalar::Real;
+
+/// What a phase point carries besides placement and affine spin: nothing ([`Pinned`]) or the centre of mass
+/// ([`Centre`]).
+pub trait Translation<const N: usize, T: Real>: Copy + Debug + PartialEq {
+    /// Position of the centre of mass; zero for a pinned body.
+    fn position(&self) -> Vector<N, T>;
+    /// Linear momentum `p = dT/dx_dot`, a spatial covector; zero for a pinned body.
+    fn momentum(&self) -> Vector<N, T>;
+}
+
+/// No translation: the model has neither `x` nor `p`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pinned;
+
+impl<const N: usize, T: Real> Translation<N, T> for Pinned {
+    fn position(&self) -> Vector<N, T> {
+        Vector::<N, T>::zeros()
+    }
+    fn momentum(&self) -> Vector<N, T> {
+        Vector::<N, T>::zeros()
+    }
+}
+
+/// Centre of mass and its conjugate momentum, both in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Centre<const N: usize, T = f64> {
+    /// Position `x`.
+    pub x: Vector<N, T>,
+    /// Linear momentum `p = dT/dx_dot`.
+    pub p: Vector<N, T>,
+}
+
+impl<const N: usize, T: Real> Translation<N, T> for Centre<N, T> {
+    fn position(&self) -> Vector<N, T> {
+        self.x
+    }
+    fn momentum(&self) -> Vector<N, T> {
+        self.p
+    }
+}
+
+/// A point of phase space: placement `phi` with `det phi > 0`, affine spin in the frame `F` of the model, and
+/// the centre of mass where the model has one.
+///
+/// Points are made by the models (`at_momentum`, `at_velocity`), which check them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhasePoint<const N: usize, F, C, T: Real = f64> {
+    phi: Matrix<N, T>,
+    spin: Matrix<N, T>,
+    centre: C,
+    frame: core::marker::PhantomData<F>,
+}
+
+/// What integrators and reports read of a phase point, whatever the model.
+pub trait Phase<const N: usize, T: Real = f64>: Copy + Debug + PartialEq {
+    /// Placement `phi`.
+    fn phi(&self) -> &Matrix<N, T>;
+    /// Position `x` of the centre of mass; zero for a pinned body.
+    fn x(&self) -> Vector<N, T>;
+    /// Linear momentum `p`, spatial; zero for a pinned body.
+    fn p(&self) -> Vector<N, T>;
+    /// Co-moving linear momentum `p_hat = phi^T p`; zero for a pinned body.
+    fn p_hat(&self) -> Comoving<Vector<N, T>> {
+        Comoving(self.phi().tr_mul(&self.p()))
+    }
+    /// Spatial affine spin `Sigma = phi Pi`.
+    fn sigma(&self) -> Spatial<AffineSpin<N, T>>;
+    /// Co-moving affine spin `Sigma_hat = Pi phi`.
+    fn sigma_hat(&self) -> Comoving<AffineSpin<N, T>>;
+    /// Canonical momentum `Pi`.
+    fn pi(&self) -> TwoPoint<AffineSpin<N, T>>;
+    /// Placement, momentum and centre of mass are finite.
+    fn is_finite(&self) -> bool;
+}
+
+impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> PhasePoint<N, F, C, T> {
+    /// The point as it stands, unchecked; `spin` is the affine spin in the frame `F`.
+    pub(crate) fn new(phi: Matrix<N, T>, spin: Matrix<N, T>, centre: C) -> Self {
+        Self { phi, spin, centre, frame: core::marker::PhantomData }
+    }
+
+    /// The point with a momentum given in any frame, unchecked.
+    pub(crate) fn with_momentum(phi: Matrix<N, T>, momentum: impl MomentumIn<N, T>, centre: C) -> Self {
+        Self::new(phi, momentum.in_frame::<F>(&phi), centre)
+    }
+
+    /// The affine spin in the model's frame.
+    pub(crate) fn spin(&self) -> &Matrix<N, T> {
+        &self.spin
+    }
+}
+
+/// A [`Momentum`] brought to another frame.
+pub(crate) trait MomentumIn<const N: usize, T: Real>: Momentum<N, T> + Sized {
+    /// The matrix in the frame `F`.
+    fn in_frame<F: Frame>(self, phi: &Matrix<N, T>) -> Matrix<N, T> {
+        F::convert::<Self::Frame, N, T>(phi, &self.matrix())
+    }
+}
+
+impl<const N: usize, T: Real, M: Momentum<N, T>> MomentumIn<N, T> for M {}
+
+impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> Phase<N, T> for PhasePoint<N, F, C, T> {
+    fn phi(&self) -> &Matrix<N, T> {
+        &self.phi
+    }
+    fn x(&self) -> Vector<N, T> {
+        self.centre.position()
+    }
+    fn p(&self) -> Vector<N, T> {
+        self.centre.momentum()
+    }
+    fn sigma(&self) -> Spatial<AffineSpin<N, T>> {
+        Spatial(AffineSpin(F::to_space(&self.phi, &self.spin)))
+    }
+    fn sigma_hat(&self) -> Comoving<AffineSpin<N, T>> {
+        Comoving(AffineSpin(F::to_body(&self.phi, &self.spin)))
+    }
+    fn pi(&self) -> TwoPoint<AffineSpin<N, T>> {
+        TwoPoint(AffineSpin(F::to_canonical(&self.phi, &self.spin)))
+    }
+    fn is_finite(&self) -> bool {
+        let finite = |m: &Matrix<N, T>| m.iter().all(|v| v.is_finite());
+        finite(&self.phi)
+            && finite(&self.spin)
+            && self.x().iter().chain(self.p().iter()).all(|v| v.is_finite())
+    }
+}

@@ -1,0 +1,2 @@
+//! Drunk missile.
+fn main() {}
