@@ -1,1 +1,3 @@
 //! Symbolic mechanics behind `#[affine_model(...)]`.
+
+pub mod algebra;
