@@ -1,3 +1,6 @@
 //! Symbolic mechanics behind `#[affine_model(...)]`.
 
 pub mod algebra;
+pub mod ir;
+pub mod mechanics;
+pub mod optimise;
