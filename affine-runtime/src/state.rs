@@ -4,7 +4,7 @@ use core::fmt::Debug;
 
 use crate::error::{Error, Result};
 use crate::frames::{AffineSpin, Comoving, Frame, Matrix, Momentum, Spatial, TwoPoint, Vector};
-use crate::kinematics::LogDeterminant;
+use crate::kinematics::{LinearMomentum, LogDeterminant};
 use crate::scalar::Real;
 
 /// What a phase point carries besides placement and affine spin: nothing ([`Pinned`]) or the centre of mass
@@ -68,8 +68,8 @@ pub trait Phase<const N: usize, T: Real = f64>: Copy + Debug + PartialEq {
     /// Linear momentum `p`, spatial; zero for a pinned body.
     fn p(&self) -> Vector<N, T>;
     /// Co-moving linear momentum `p_hat = phi^T p`; zero for a pinned body.
-    fn p_hat(&self) -> Comoving<Vector<N, T>> {
-        Comoving(self.phi().tr_mul(&self.p()))
+    fn p_hat(&self) -> Comoving<LinearMomentum<N, T>> {
+        Comoving(LinearMomentum(self.phi().tr_mul(&self.p())))
     }
     /// Spatial affine spin `Sigma = phi Pi`.
     fn sigma(&self) -> Spatial<AffineSpin<N, T>>;
@@ -77,6 +77,9 @@ pub trait Phase<const N: usize, T: Real = f64>: Copy + Debug + PartialEq {
     fn sigma_hat(&self) -> Comoving<AffineSpin<N, T>>;
     /// Canonical momentum `Pi`.
     fn pi(&self) -> TwoPoint<AffineSpin<N, T>>;
+    /// `Sigma` or `Sigma_hat`, whichever the point gives without an inverse of `phi`: for what depends on the
+    /// conjugacy class alone, such as Casimirs, which then carry no rounding of a conversion.
+    fn mixed_spin(&self) -> Matrix<N, T>;
     /// Placement, momentum and centre of mass are finite.
     fn is_finite(&self) -> bool;
 }
@@ -152,6 +155,9 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> Phase<N, T> for Ph
     }
     fn pi(&self) -> TwoPoint<AffineSpin<N, T>> {
         TwoPoint(AffineSpin(F::to_canonical(&self.phi, &self.spin)))
+    }
+    fn mixed_spin(&self) -> Matrix<N, T> {
+        F::to_mixed(&self.phi, &self.spin)
     }
     fn is_finite(&self) -> bool {
         is_finite(self.phi.as_slice())

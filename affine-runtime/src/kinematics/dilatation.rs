@@ -98,6 +98,12 @@ impl<const N: usize, T: Real> LogDeterminant<N, T> {
         if self.sign >= T::zero() { mean } else { T::from_f64(f64::NAN) }
     }
 
+    /// `det^2`.
+    pub(super) fn squared(self) -> T {
+        let order = i32::try_from(N).unwrap_or(i32::MAX);
+        times_power_of_two((self.mantissa + self.mantissa).exp(), 2 * order * self.exponent)
+    }
+
     /// `det^(1/N)`.
     fn root(self) -> T {
         let root = times_power_of_two((self.mantissa / integer(N)).exp(), self.exponent);
