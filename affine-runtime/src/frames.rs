@@ -33,7 +33,9 @@ pub struct AffineVelocity<const N: usize, T = f64>(pub Matrix<N, T>);
 pub struct AffineSpin<const N: usize, T = f64>(pub Matrix<N, T>);
 
 /// A frame in which affine spins are stored: [`Space`], [`Body`] or [`Canonical`].
-pub trait Frame: Copy + core::fmt::Debug + Default + PartialEq + Send + Sync + sealed::Sealed + 'static {
+pub trait Frame:
+    Copy + core::fmt::Debug + Default + PartialEq + Send + Sync + sealed::Sealed + 'static
+{
     /// Name of the momentum in this frame, as in the paper.
     const MOMENTUM: &'static str;
 
@@ -44,10 +46,7 @@ pub trait Frame: Copy + core::fmt::Debug + Default + PartialEq + Send + Sync + s
     /// `Pi` from the affine spin of this frame.
     fn to_canonical<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T>;
     /// The affine spin of this frame from that of another.
-    fn convert<F: Frame, const N: usize, T: Real>(
-        phi: &Matrix<N, T>,
-        spin: &Matrix<N, T>,
-    ) -> Matrix<N, T>;
+    fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T>;
 }
 
 mod sealed {
@@ -78,16 +77,10 @@ impl Frame for Space {
     fn to_body<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         inverse(phi) * spin * phi
     }
-    fn to_canonical<const N: usize, T: Real>(
-        phi: &Matrix<N, T>,
-        spin: &Matrix<N, T>,
-    ) -> Matrix<N, T> {
+    fn to_canonical<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         inverse(phi) * spin
     }
-    fn convert<F: Frame, const N: usize, T: Real>(
-        phi: &Matrix<N, T>,
-        spin: &Matrix<N, T>,
-    ) -> Matrix<N, T> {
+    fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         F::to_space(phi, spin)
     }
 }
@@ -101,16 +94,10 @@ impl Frame for Body {
     fn to_body<const N: usize, T: Real>(_phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         *spin
     }
-    fn to_canonical<const N: usize, T: Real>(
-        phi: &Matrix<N, T>,
-        spin: &Matrix<N, T>,
-    ) -> Matrix<N, T> {
+    fn to_canonical<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         spin * inverse(phi)
     }
-    fn convert<F: Frame, const N: usize, T: Real>(
-        phi: &Matrix<N, T>,
-        spin: &Matrix<N, T>,
-    ) -> Matrix<N, T> {
+    fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         F::to_body(phi, spin)
     }
 }
@@ -124,16 +111,10 @@ impl Frame for Canonical {
     fn to_body<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         spin * phi
     }
-    fn to_canonical<const N: usize, T: Real>(
-        _phi: &Matrix<N, T>,
-        spin: &Matrix<N, T>,
-    ) -> Matrix<N, T> {
+    fn to_canonical<const N: usize, T: Real>(_phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         *spin
     }
-    fn convert<F: Frame, const N: usize, T: Real>(
-        phi: &Matrix<N, T>,
-        spin: &Matrix<N, T>,
-    ) -> Matrix<N, T> {
+    fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         F::to_canonical(phi, spin)
     }
 }

@@ -5,7 +5,7 @@
 
 use std::cmp::Ordering;
 use std::fmt;
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{Add, Mul, Neg, Sub};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -68,6 +68,12 @@ impl Rational {
             Repr::Small(n, d) => Self::lowest(i128::from(*d), i128::from(*n)),
             Repr::Big(b) => Self::shrink(b.recip()),
         })
+    }
+
+    /// `self / other`; `None` for a zero divisor.
+    #[must_use]
+    pub fn checked_div(&self, other: &Self) -> Option<Self> {
+        Some(self * &other.recip()?)
     }
 
     /// Integer power; `None` for a negative power of zero.
@@ -235,14 +241,6 @@ impl Mul for &Rational {
             }
             _ => Rational::shrink(self.to_big() * other.to_big()),
         }
-    }
-}
-
-impl Div for &Rational {
-    /// `None` for a zero divisor.
-    type Output = Option<Rational>;
-    fn div(self, other: &Rational) -> Option<Rational> {
-        Some(self * &other.recip()?)
     }
 }
 

@@ -1,0 +1,290 @@
+//! Expressions in an arena, built only by constructors that canonicalise.
+//!
+//! Canonical form: a sum is a constant plus terms with rational coefficients, a product is a list of bases with
+//! integer exponents and no number in it; both are flat, sorted by node, without repetition. Equal canonical
+//! forms are the same node, so equality of expressions is equality of handles.
+
+use std::collections::HashMap;
+use std::fmt::Write as _;
+
+use super::rational::Rational;
+
+/// Handle of an expression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Expr(u32);
+
+/// The root of an expression.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A number.
+    Constant(Rational),
+    /// A named indeterminate.
+    Symbol(String),
+    /// `constant + sum of coefficient * term`; at least two summands or one coefficient other than 1.
+    Sum(Rational, Vec<(Expr, Rational)>),
+    /// Product of `base^exponent`; at least two factors or one exponent other than 1.
+    Product(Vec<(Expr, i32)>),
+}
+
+/// Owner of expressions.
+#[derive(Debug, Default)]
+pub struct Arena {
+    nodes: Vec<Node>,
+    index: HashMap<Node, Expr>,
+}
+
+impl Arena {
+    /// An empty arena.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The root node of an expression.
+    #[must_use]
+    pub fn node(&self, expr: Expr) -> &Node {
+        &self.nodes[expr.0 as usize]
+    }
+
+    fn intern(&mut self, node: Node) -> Expr {
+        if let Some(&known) = self.index.get(&node) {
+            return known;
+        }
+        // An arena of 2^32 nodes does not fit in memory.
+        let fresh = Expr(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        self.nodes.push(node.clone());
+        self.index.insert(node, fresh);
+        fresh
+    }
+
+    /// A number.
+    pub fn constant(&mut self, value: Rational) -> Expr {
+        self.intern(Node::Constant(value))
+    }
+
+    /// A named indeterminate; the same name is the same expression.
+    pub fn symbol(&mut self, name: &str) -> Expr {
+        self.intern(Node::Symbol(name.to_owned()))
+    }
+
+    /// The number an expression is, if it is one.
+    #[must_use]
+    pub fn as_constant(&self, expr: Expr) -> Option<&Rational> {
+        match self.node(expr) {
+            Node::Constant(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Name of a symbol, if the expression is one.
+    #[must_use]
+    pub fn name(&self, expr: Expr) -> Option<&str> {
+        match self.node(expr) {
+            Node::Symbol(name) => Some(name),
+            _ => None,
+        }
+    }
+
+    /// Sum of expressions with rational coefficients.
+    pub fn linear(&mut self, summands: &[(Expr, Rational)]) -> Expr {
+        let mut constant = Rational::ZERO;
+        let mut terms: Vec<(Expr, Rational)> = Vec::with_capacity(summands.len());
+        for (expr, weight) in summands {
+            match self.node(*expr) {
+                Node::Constant(value) => constant = &constant + &(value * weight),
+                Node::Sum(inner, list) => {
+                    constant = &constant + &(inner * weight);
+                    terms.extend(list.iter().map(|(term, c)| (*term, c * weight)));
+                }
+                _ => terms.push((*expr, weight.clone())),
+            }
+        }
+        terms.sort_by_key(|(term, _)| *term);
+        terms.dedup_by(|later, earlier| {
+            let same = later.0 == earlier.0;
+            if same {
+                earlier.1 = &earlier.1 + &later.1;
+            }
+            same
+        });
+        terms.retain(|(_, c)| !c.is_zero());
+        match terms.as_slice() {
+            [] => self.constant(constant),
+            [(only, c)] if constant.is_zero() && c.is_one() => *only,
+            _ => self.intern(Node::Sum(constant, terms)),
+        }
+    }
+
+    /// `a + b`.
+    pub fn add(&mut self, a: Expr, b: Expr) -> Expr {
+        self.linear(&[(a, Rational::ONE), (b, Rational::ONE)])
+    }
+
+    /// `a - b`.
+    pub fn sub(&mut self, a: Expr, b: Expr) -> Expr {
+        self.linear(&[(a, Rational::ONE), (b, Rational::MINUS_ONE)])
+    }
+
+    /// `-a`.
+    pub fn neg(&mut self, a: Expr) -> Expr {
+        self.linear(&[(a, Rational::MINUS_ONE)])
+    }
+
+    /// `weight * a`.
+    pub fn scale(&mut self, a: Expr, weight: &Rational) -> Expr {
+        self.linear(&[(a, weight.clone())])
+    }
+
+    /// `a * b`.
+    pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
+        self.product(&[(a, 1), (b, 1)]).unwrap_or(a)
+    }
+
+    /// `a ^ exponent`; `None` for a negative power of zero.
+    pub fn pow(&mut self, a: Expr, exponent: i32) -> Option<Expr> {
+        self.product(&[(a, exponent)])
+    }
+
+    /// `a / b`; `None` where `b` is zero.
+    pub fn div(&mut self, a: Expr, b: Expr) -> Option<Expr> {
+        self.product(&[(a, 1), (b, -1)])
+    }
+
+    /// Product of integer powers; `None` for a negative power of zero.
+    pub fn product(&mut self, factors: &[(Expr, i32)]) -> Option<Expr> {
+        let mut number = Rational::ONE;
+        let mut bases: Vec<(Expr, i32)> = Vec::with_capacity(factors.len());
+        for &(base, exponent) in factors {
+            self.split_factor(base, exponent, &mut number, &mut bases)?;
+        }
+        bases.sort_by_key(|(base, _)| *base);
+        bases.dedup_by(|later, earlier| {
+            let same = later.0 == earlier.0;
+            if same {
+                earlier.1 += later.1;
+            }
+            same
+        });
+        bases.retain(|(_, exponent)| *exponent != 0);
+        let body = match bases.as_slice() {
+            [] => return Some(self.constant(number)),
+            [(only, 1)] => *only,
+            _ => self.intern(Node::Product(bases)),
+        };
+        Some(self.linear(&[(body, number)]))
+    }
+
+    /// Pulls the number out of a factor and flattens products.
+    fn split_factor(
+        &self,
+        base: Expr,
+        exponent: i32,
+        number: &mut Rational,
+        bases: &mut Vec<(Expr, i32)>,
+    ) -> Option<()> {
+        match self.node(base) {
+            Node::Constant(value) => *number = &*number * &value.pow(exponent)?,
+            Node::Product(list) => bases.extend(list.iter().map(|(b, e)| (*b, e * exponent))),
+            Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
+                *number = &*number * &terms[0].1.pow(exponent)?;
+                self.split_factor(terms[0].0, exponent, number, bases)?;
+            }
+            _ => bases.push((base, exponent)),
+        }
+        Some(())
+    }
+
+    /// Derivative with respect to a symbol.
+    pub fn derivative(&mut self, expr: Expr, symbol: Expr) -> Expr {
+        if expr == symbol {
+            return self.constant(Rational::ONE);
+        }
+        match self.node(expr).clone() {
+            Node::Constant(_) | Node::Symbol(_) => self.constant(Rational::ZERO),
+            Node::Sum(_, terms) => {
+                let parts: Vec<_> =
+                    terms.into_iter().map(|(term, c)| (self.derivative(term, symbol), c)).collect();
+                self.linear(&parts)
+            }
+            Node::Product(factors) => {
+                let mut parts = Vec::with_capacity(factors.len());
+                for (k, &(base, exponent)) in factors.iter().enumerate() {
+                    let inner = self.derivative(base, symbol);
+                    let mut rest = factors.clone();
+                    rest[k].1 -= 1;
+                    rest.push((inner, 1));
+                    if let Some(part) = self.product(&rest) {
+                        parts.push((part, Rational::from(i64::from(exponent))));
+                    }
+                }
+                self.linear(&parts)
+            }
+        }
+    }
+
+    /// Calls `visit` once for every symbol below `expr`.
+    pub fn for_each_symbol(&self, expr: Expr, visit: &mut impl FnMut(&str)) {
+        match self.node(expr) {
+            Node::Constant(_) => {}
+            Node::Symbol(name) => visit(name),
+            Node::Sum(_, terms) => terms.iter().for_each(|(term, _)| self.for_each_symbol(*term, visit)),
+            Node::Product(factors) => factors.iter().for_each(|(b, _)| self.for_each_symbol(*b, visit)),
+        }
+    }
+
+    /// The expression as text in the notation of specifications: `2*a + b^2/3`.
+    #[must_use]
+    pub fn text(&self, expr: Expr) -> String {
+        match self.node(expr) {
+            Node::Constant(value) => value.to_string(),
+            Node::Symbol(name) => name.clone(),
+            Node::Sum(constant, terms) => self.sum_text(constant, terms),
+            Node::Product(factors) => self.product_text(factors),
+        }
+    }
+
+    fn sum_text(&self, constant: &Rational, terms: &[(Expr, Rational)]) -> String {
+        let mut text = String::new();
+        for (term, c) in terms {
+            let sign = if c.is_negative() { "-" } else { "+" };
+            match (text.is_empty(), sign) {
+                (true, "-") => text.push('-'),
+                (true, _) => {}
+                (false, sign) => {
+                    let _ = write!(text, " {sign} ");
+                }
+            }
+            if !c.abs().is_one() {
+                let _ = write!(text, "{}*", c.abs());
+            }
+            text.push_str(&self.text(*term));
+        }
+        if !constant.is_zero() {
+            let sign = if constant.is_negative() { "-" } else { "+" };
+            let _ = write!(text, " {sign} {}", constant.abs());
+        }
+        text
+    }
+
+    fn product_text(&self, factors: &[(Expr, i32)]) -> String {
+        let mut above = Vec::new();
+        let mut below = Vec::new();
+        for &(base, exponent) in factors {
+            let body = match self.node(base) {
+                Node::Sum(..) => format!("({})", self.text(base)),
+                _ => self.text(base),
+            };
+            let list = if exponent > 0 { &mut above } else { &mut below };
+            list.push(match exponent.unsigned_abs() {
+                1 => body,
+                power => format!("{body}^{power}"),
+            });
+        }
+        let above = if above.is_empty() { "1".to_owned() } else { above.join("*") };
+        match below.len() {
+            0 => above,
+            1 => format!("{above}/{}", below[0]),
+            _ => format!("{above}/({})", below.join("*")),
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! The reference evaluator: expressions by their definition, in any commutative field.
+//!
+//! It is the oracle of every pass: no sharing, no reordering, no rounding when the field is [`Rational`].
+
+use super::arena::{Arena, Expr, Node};
+use super::polynomial::Polynomial;
+use super::rational::Rational;
+
+/// A field to evaluate in.
+pub trait Field: Clone {
+    /// The image of an exact number.
+    fn from_rational(value: &Rational) -> Self;
+    /// Sum.
+    fn add(&self, other: &Self) -> Self;
+    /// Product.
+    fn mul(&self, other: &Self) -> Self;
+    /// Reciprocal; `None` where there is none.
+    fn recip(&self) -> Option<Self>;
+}
+
+impl Field for Rational {
+    fn from_rational(value: &Rational) -> Self {
+        value.clone()
+    }
+    fn add(&self, other: &Self) -> Self {
+        self + other
+    }
+    fn mul(&self, other: &Self) -> Self {
+        self * other
+    }
+    fn recip(&self) -> Option<Self> {
+        Rational::recip(self)
+    }
+}
+
+impl Field for f64 {
+    fn from_rational(value: &Rational) -> Self {
+        value.to_doubles().0
+    }
+    fn add(&self, other: &Self) -> Self {
+        self + other
+    }
+    fn mul(&self, other: &Self) -> Self {
+        self * other
+    }
+    fn recip(&self) -> Option<Self> {
+        Some(1.0 / self)
+    }
+}
+
+/// Value of an expression; `None` where a symbol has no value or a reciprocal does not exist.
+pub fn evaluate<F: Field>(arena: &Arena, expr: Expr, value: &impl Fn(&str) -> Option<F>) -> Option<F> {
+    match arena.node(expr) {
+        Node::Constant(number) => Some(F::from_rational(number)),
+        Node::Symbol(name) => value(name),
+        Node::Sum(constant, terms) => {
+            let mut sum = F::from_rational(constant);
+            for (term, c) in terms {
+                sum = sum.add(&F::from_rational(c).mul(&evaluate(arena, *term, value)?));
+            }
+            Some(sum)
+        }
+        Node::Product(factors) => {
+            let mut product = F::from_rational(&Rational::ONE);
+            for &(base, exponent) in factors {
+                let base = evaluate(arena, base, value)?;
+                let base = if exponent < 0 { base.recip()? } else { base };
+                for _ in 0..exponent.unsigned_abs() {
+                    product = product.mul(&base);
+                }
+            }
+            Some(product)
+        }
+    }
+}
+
+/// Value of a polynomial; as [`evaluate`].
+pub fn evaluate_polynomial<F: Field>(
+    arena: &Arena,
+    polynomial: &Polynomial,
+    value: &impl Fn(&str) -> Option<F>,
+) -> Option<F> {
+    let mut sum = F::from_rational(&Rational::ZERO);
+    for (monomial, c) in polynomial.terms() {
+        let mut product = F::from_rational(c);
+        for atom in monomial {
+            product = product.mul(&evaluate(arena, *atom, value)?);
+        }
+        sum = sum.add(&product);
+    }
+    Some(sum)
+}

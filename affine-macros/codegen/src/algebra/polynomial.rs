@@ -1,0 +1,204 @@
+//! Polynomial normal form: the decision procedure behind every cancellation.
+//!
+//! Indeterminates are atoms of the arena: symbols and reciprocals of what is not a product. Two polynomials are
+//! equal as functions of independent atoms exactly when they are equal as values.
+
+use std::collections::BTreeMap;
+
+use super::arena::{Arena, Expr, Node};
+use super::rational::Rational;
+
+/// A product of atoms, sorted, a power repeated.
+pub type Monomial = Vec<Expr>;
+
+/// A polynomial in atoms with rational coefficients; no zero coefficient is stored.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Polynomial {
+    terms: BTreeMap<Monomial, Rational>,
+}
+
+impl Polynomial {
+    /// 0.
+    #[must_use]
+    pub fn zero() -> Self {
+        Self::default()
+    }
+
+    /// A number.
+    #[must_use]
+    pub fn constant(value: Rational) -> Self {
+        Self::term(Vec::new(), value)
+    }
+
+    /// An atom.
+    #[must_use]
+    pub fn atom(atom: Expr) -> Self {
+        Self::term(vec![atom], Rational::ONE)
+    }
+
+    /// `coefficient * monomial`; the monomial is sorted.
+    #[must_use]
+    pub fn term(monomial: Monomial, coefficient: Rational) -> Self {
+        let mut result = Self::zero();
+        result.add_term(monomial, &coefficient);
+        result
+    }
+
+    /// The normal form of an expression.
+    pub fn normal_form(arena: &mut Arena, expr: Expr) -> Self {
+        match arena.node(expr).clone() {
+            Node::Constant(value) => Self::constant(value),
+            Node::Symbol(_) => Self::atom(expr),
+            Node::Sum(constant, terms) => {
+                let mut sum = Self::constant(constant);
+                for (term, c) in terms {
+                    sum.add_scaled(&Self::normal_form(arena, term), &c);
+                }
+                sum
+            }
+            Node::Product(factors) => {
+                let mut product = Self::constant(Rational::ONE);
+                for (base, exponent) in factors {
+                    let factor = match exponent {
+                        1.. => Self::normal_form(arena, base),
+                        // A canonical base is never the number zero, so its reciprocal exists.
+                        _ => Self::atom(arena.pow(base, -1).unwrap_or(base)),
+                    };
+                    for _ in 0..exponent.unsigned_abs() {
+                        product = product.mul(&factor);
+                    }
+                }
+                product
+            }
+        }
+    }
+
+    /// The polynomial as an expression.
+    pub fn expression(&self, arena: &mut Arena) -> Expr {
+        let summands: Vec<_> = self
+            .terms
+            .iter()
+            .map(|(monomial, c)| {
+                let factors: Vec<_> = monomial.iter().map(|atom| (*atom, 1)).collect();
+                // Only first powers of atoms: no division.
+                (arena.product(&factors), c.clone())
+            })
+            .filter_map(|(product, c)| product.map(|p| (p, c)))
+            .collect();
+        arena.linear(&summands)
+    }
+
+    /// Monomials with their coefficients, in canonical order.
+    pub fn terms(&self) -> impl ExactSizeIterator<Item = (&Monomial, &Rational)> + Clone {
+        self.terms.iter()
+    }
+
+    /// No terms?
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    /// The number it is, if it is one.
+    #[must_use]
+    pub fn as_constant(&self) -> Option<Rational> {
+        match self.terms.len() {
+            0 => Some(Rational::ZERO),
+            1 => self.terms.get(&[] as &[Expr]).cloned(),
+            _ => None,
+        }
+    }
+
+    /// Adds `coefficient * monomial`.
+    pub fn add_term(&mut self, mut monomial: Monomial, coefficient: &Rational) {
+        if coefficient.is_zero() {
+            return;
+        }
+        monomial.sort_unstable();
+        match self.terms.get_mut(&monomial) {
+            None => {
+                self.terms.insert(monomial, coefficient.clone());
+            }
+            Some(held) => {
+                *held = &*held + coefficient;
+                if held.is_zero() {
+                    self.terms.remove(&monomial);
+                }
+            }
+        }
+    }
+
+    /// Adds `weight * other`.
+    pub fn add_scaled(&mut self, other: &Self, weight: &Rational) {
+        for (monomial, c) in &other.terms {
+            self.add_term(monomial.clone(), &(c * weight));
+        }
+    }
+
+    /// Adds `left * right`.
+    pub fn add_product(&mut self, left: &Self, right: &Self, weight: &Rational) {
+        for (m1, c1) in &left.terms {
+            let c1 = c1 * weight;
+            for (m2, c2) in &right.terms {
+                self.add_term([m1.as_slice(), m2.as_slice()].concat(), &(&c1 * c2));
+            }
+        }
+    }
+
+    /// `self * other`.
+    #[must_use]
+    pub fn mul(&self, other: &Self) -> Self {
+        let mut result = Self::zero();
+        result.add_product(self, other, &Rational::ONE);
+        result
+    }
+
+    /// `weight * self`.
+    #[must_use]
+    pub fn scaled(&self, weight: &Rational) -> Self {
+        let mut result = Self::zero();
+        result.add_scaled(self, weight);
+        result
+    }
+
+    /// Derivative with respect to an atom.
+    #[must_use]
+    pub fn derivative(&self, atom: Expr) -> Self {
+        let mut result = Self::zero();
+        for (monomial, c) in &self.terms {
+            let Some(at) = monomial.iter().position(|a| *a == atom) else { continue };
+            let power = monomial.iter().filter(|a| **a == atom).count();
+            let mut rest = monomial.clone();
+            rest.remove(at);
+            // Degrees are tiny.
+            result.add_term(rest, &(c * &Rational::from(i64::try_from(power).unwrap_or(i64::MAX))));
+        }
+        result
+    }
+
+    /// Replaces atoms by polynomials.
+    #[must_use]
+    pub fn substitute(&self, value: &impl Fn(Expr) -> Option<Polynomial>) -> Self {
+        let mut result = Self::zero();
+        for (monomial, c) in &self.terms {
+            let mut kept = Vec::new();
+            let mut product: Option<Polynomial> = None;
+            for atom in monomial {
+                match value(*atom) {
+                    None => kept.push(*atom),
+                    Some(p) => product = Some(product.map_or_else(|| p.clone(), |q| q.mul(&p))),
+                }
+            }
+            match product {
+                None => result.add_term(kept, c),
+                Some(p) => result.add_product(&Self::term(kept, c.clone()), &p, &Rational::ONE),
+            }
+        }
+        result
+    }
+
+    /// Does any term contain an atom for which `wanted` holds?
+    pub fn mentions(&self, mut wanted: impl FnMut(Expr) -> bool) -> bool {
+        self.terms.keys().flatten().any(|atom| wanted(*atom))
+    }
+}
