@@ -10,6 +10,8 @@ pub mod spec;
 
 pub mod check;
 
+pub mod lower;
+
 pub mod algebra;
 
 pub mod mechanics;
