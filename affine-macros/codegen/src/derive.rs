@@ -131,8 +131,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
 
     let (full_chart, full_h) = full_chart(arena, &h);
     let full = full_equations(arena, &h, &full_chart, &full_h, &mut coefficients);
-    let (reduction, reduced, trajectory, trajectory_inputs) =
-        best_reduction(arena, &h, &mut coefficients)?;
+    let (reduction, reduced, trajectory, trajectory_inputs) = best_reduction(arena, &h, &mut coefficients)?;
     let formulas = Formulas {
         kinetic_energy: describe::kinetic_energy(arena, &kinetic),
         hamiltonian: describe::hamiltonian(arena, &h, &full_h),
@@ -152,8 +151,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let velocity = inline(arena, velocity, momenta);
     let (energy, energy_inputs) = energy_batch(arena, &kinetic, velocities);
     let kinetic_energy = inline(arena, energy, energy_inputs);
-    let points: Vec<Expr> =
-        full_chart.coordinates().into_iter().map(|z| full_chart.symbol(z)).collect();
+    let points: Vec<Expr> = full_chart.coordinates().into_iter().map(|z| full_chart.symbol(z)).collect();
     let hamiltonian = inline(arena, result("energy", full_h.clone()), points);
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {
         let mass = Polynomial::normal_form(arena, t.mass);
@@ -442,8 +440,7 @@ fn numeric_blocks(arena: &mut Arena, h: &Hamiltonian, positive: bool) -> Vec<Num
         .iter()
         .map(|block| {
             let size = block.form.len();
-            let upper: Vec<(usize, usize)> =
-                (0..size).flat_map(|i| (i..size).map(move |j| (i, j))).collect();
+            let upper: Vec<(usize, usize)> = (0..size).flat_map(|i| (i..size).map(move |j| (i, j))).collect();
             let name = |s: Expr| arena.name(s).unwrap_or("inverse").to_owned();
             let inverse = upper.iter().map(|(i, j)| name(block.inverse[*i][*j])).collect();
             let program = unbound(arena, upper.iter().map(|(i, j)| block.form[*i][*j].clone()));

@@ -92,7 +92,10 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
                 reported.push(kind);
                 (eigenvalue_name(kind).0.to_owned(), eigenvalue_in_numbers(spec, kind))
             }
-            _ => ("the smallest square of T".to_owned(), format!("negative on {} directions", inertia.negative)),
+            _ => (
+                "the smallest square of T".to_owned(),
+                format!("negative on {} directions", inertia.negative),
+            ),
         };
         found.report(required.span, Diagnostic::NotPositiveDefinite { quantity, value });
     }
@@ -109,9 +112,7 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
 /// and for O(n) one reflection leaves it unchanged as well.
 fn claims(spec: &Spec, arena: &mut Arena, kinetic: &Kinetic, places: &[usize], found: &mut Diagnostics) {
     let Some(symmetry) = &spec.symmetry else { return };
-    for (side, name, claim) in
-        [(Side::Space, "space", symmetry.space), (Side::Body, "body", symmetry.body)]
-    {
+    for (side, name, claim) in [(Side::Space, "space", symmetry.space), (Side::Body, "body", symmetry.body)] {
         let (group, letters) = match claim.value {
             Claim::Affine => (Group::Affine, "GL"),
             Claim::Metric => (Group::Metric, "O"),

@@ -87,7 +87,10 @@ pub fn kinetic_energy(arena: &mut Arena, kinetic: &Kinetic) -> Formula {
 pub fn hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) -> Formula {
     let Some(iso) = &h.isotropic else {
         let form = full.expression(arena);
-        return Formula { text: format!("H = {}", plain(arena, form)), latex: format!("H = {}", latex(arena, form)) };
+        return Formula {
+            text: format!("H = {}", plain(arena, form)),
+            latex: format!("H = {}", latex(arena, form)),
+        };
     };
     let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
     let mut sum = Sum::new("H", "H");
@@ -191,14 +194,11 @@ fn known_forms(h: &Hamiltonian, chart: &Chart, velocity: &[Vec<(Expr, Polynomial
         let comoving = chart.linear == Some(Linear::Body);
         let ph: Vec<Polynomial> = if comoving { p.clone() } else { times(&transpose(&phi), &p) };
         let name = if comoving { ("p_hat", "\\hat p") } else { ("phi^T p", "\\varphi^T p") };
-        let scaled = |v: Vec<Polynomial>| -> Vec<Polynomial> { v.iter().map(|c| c.mul(inverse_mass)).collect() };
+        let scaled =
+            |v: Vec<Polynomial>| -> Vec<Polynomial> { v.iter().map(|c| c.mul(inverse_mass)).collect() };
         add("p / m".into(), "p / m".into(), scaled(p.clone()));
         add(format!("phi {} / m", name.0), format!("\\varphi {} / m", name.1), scaled(times(&phi, &ph)));
-        add(
-            format!("{omega}^T p_hat"),
-            format!("{omega_latex}^T \\hat p"),
-            times(&transpose(&o), &p),
-        );
+        add(format!("{omega}^T p_hat"), format!("{omega_latex}^T \\hat p"), times(&transpose(&o), &p));
         if *frame == Frame::Body {
             let thrust = outer(&scaled(ph.clone()), &ph);
             add(
@@ -257,8 +257,11 @@ pub fn system(arena: &mut Arena, system: &System) -> Vec<Formula> {
         .map(|(symbol, p, rate)| {
             let form = p.expression(arena);
             let (name, name_latex) = (plain(arena, symbol), latex(arena, symbol));
-            let (left, left_latex) =
-                if rate { (format!("d{name}/dt"), format!("\\dot{{{name_latex}}}")) } else { (name, name_latex) };
+            let (left, left_latex) = if rate {
+                (format!("d{name}/dt"), format!("\\dot{{{name_latex}}}"))
+            } else {
+                (name, name_latex)
+            };
             Formula {
                 text: format!("{left} = {}", plain(arena, form)),
                 latex: format!("{left_latex} = {}", latex(arena, form)),
@@ -384,10 +387,21 @@ fn latex(arena: &Arena, expr: Expr) -> String {
         Node::Sum(constant, terms) => {
             let mut text = String::new();
             for (term, c) in terms {
-                let sign = if c.is_negative() { "-" } else if text.is_empty() { "" } else { "+" };
+                let sign = if c.is_negative() {
+                    "-"
+                } else if text.is_empty() {
+                    ""
+                } else {
+                    "+"
+                };
                 let size = c.abs();
-                let number = if size.is_one() { String::new() } else { format!("{}\\,", number_latex(&size)) };
-                text += &format!("{}{sign} {number}{}", if text.is_empty() { "" } else { " " }, latex(arena, *term));
+                let number =
+                    if size.is_one() { String::new() } else { format!("{}\\,", number_latex(&size)) };
+                text += &format!(
+                    "{}{sign} {number}{}",
+                    if text.is_empty() { "" } else { " " },
+                    latex(arena, *term)
+                );
             }
             if !constant.is_zero() {
                 let sign = if constant.is_negative() { "-" } else { "+" };
