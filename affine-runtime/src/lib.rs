@@ -1,6 +1,7 @@
 //! Phase points, kinematics, integrators and reports for affinely-rigid bodies.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+pub mod decompose;
 pub mod error;
 pub mod frames;
 pub mod geodesic;
