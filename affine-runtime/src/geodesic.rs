@@ -5,6 +5,7 @@
 
 use crate::decompose::{exponential, skew_exponential};
 use crate::frames::{Matrix, Vector};
+use crate::state::Phase;
 
 /// A trajectory in closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +46,13 @@ pub enum Motion<const N: usize> {
 }
 
 impl<const N: usize> Geodesic<N> {
+    /// The phase point at time `t` of the trajectory that passes through `start` at `t0`.
+    #[must_use]
+    pub fn point<P: Phase<N>>(&self, t: f64, start: &P) -> P {
+        let (x, phi) = (self.position(t, &start.x()), self.placement(t, start.phi()));
+        start.moved(x, phi, |spin| self.spin(t, spin))
+    }
+
     /// `phi(t)` of the trajectory with `phi(t0) = start`.
     #[must_use]
     pub fn placement(&self, t: f64, start: &Matrix<N>) -> Matrix<N> {

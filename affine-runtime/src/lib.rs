@@ -7,6 +7,7 @@ pub mod frames;
 pub mod geodesic;
 pub mod kinematics;
 pub mod model;
+mod reduction;
 pub mod scalar;
 pub mod state;
 
@@ -16,3 +17,17 @@ pub mod __private;
 
 pub use error::{Error, Result};
 pub use model::Model;
+
+#[cfg(feature = "macros")]
+pub use affine_macros::affine_model;
+
+/// What a scene needs.
+pub mod prelude {
+    pub use crate::frames::{AffineSpin, AffineVelocity, Comoving, Matrix, Spatial, TwoPoint, Vector};
+    pub use crate::kinematics::Kinematics;
+    pub use crate::model::Model;
+    pub use crate::state::Phase;
+
+    #[cfg(feature = "macros")]
+    pub use crate::affine_model;
+}

@@ -1,9 +1,21 @@
 //! What emitted code uses besides the public traits. No stable interface: it changes with the macro.
 
-use crate::error::Result;
-use crate::frames::{Frame, Matrix, Momentum};
-use crate::scalar::Real;
-use crate::state::{PhasePoint, Translation};
+pub use core::primitive::f64;
+pub use core::result::Result::Ok;
+
+pub use crate::decompose::skew_exponential;
+pub use crate::error::Result;
+pub use crate::frames::{
+    Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,
+};
+pub use crate::geodesic::{Geodesic, Motion};
+pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Velocity};
+pub use crate::reduction::{Condition, inverse_form, total_affine_momentum, turn, well_posed};
+pub use crate::scalar::{Real, Scalar};
+pub use crate::state::{Centre, Phase, PhasePoint, Pinned};
+
+use crate::frames::Frame;
+use crate::state::Translation;
 
 /// The phase point with placement `phi`, a momentum given in any frame, and `centre`.
 ///
@@ -16,4 +28,33 @@ pub fn phase_point<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
     centre: C,
 ) -> Result<PhasePoint<N, F, C, T>> {
     PhasePoint::checked(phi, momentum, centre)
+}
+
+/// The same point, unchecked: integrators watch over their states themselves.
+pub fn point<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
+    phi: Matrix<N, T>,
+    momentum: impl Momentum<N, T>,
+    centre: C,
+) -> PhasePoint<N, F, C, T> {
+    PhasePoint::with_momentum(phi, momentum, centre)
+}
+
+/// The rows of a matrix.
+pub fn rows<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> [[T; N]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| matrix[(i, j)]))
+}
+
+/// The matrix with the given rows.
+pub fn matrix<const N: usize, T: Real>(rows: [[T; N]; N]) -> Matrix<N, T> {
+    Matrix::from_fn(|i, j| rows[i][j])
+}
+
+/// The components of a vector.
+pub fn components<const N: usize, T: Real>(vector: &Vector<N, T>) -> [T; N] {
+    core::array::from_fn(|i| vector[i])
+}
+
+/// The vector with the given components.
+pub fn vector<const N: usize, T: Real>(components: [T; N]) -> Vector<N, T> {
+    Vector::from(components)
 }
