@@ -18,17 +18,10 @@ pub(super) fn computable(spec: &Spec, found: &mut Diagnostics) -> Result<(), Rep
 /// add degrees and powers multiply them. The rules below are applied from the leaves upwards, so that what they
 /// evaluate is bounded already.
 fn degree(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result<u64, Reported> {
-    let mut degrees = Ok(Vec::new());
-    for operand in expression.operands() {
-        degrees = match (degrees, degree(operand, n, found)) {
-            (Ok(mut all), Ok(one)) => {
-                all.push(one);
-                Ok(all)
-            }
-            (Err(reported), _) | (_, Err(reported)) => Err(reported),
-        };
-    }
-    let degrees = degrees?;
+    // All operands before the first error is looked for, so that all are reported.
+    let degrees: Vec<_> =
+        expression.operands().into_iter().map(|operand| degree(operand, n, found)).collect();
+    let degrees: Vec<u64> = degrees.into_iter().collect::<Result<_, _>>()?;
     let degree = match &expression.kind {
         ExpressionKind::Power(base, exponent) => {
             let power = exponent_is_integer(exponent, n, found)?;

@@ -81,7 +81,11 @@ pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
             Value::Matrix(rows) => {
                 sized(term.span, "rows".to_owned(), rows.len());
                 for (index, row) in rows.iter().enumerate() {
-                    sized(extent(row).unwrap_or(term.span), format!("entries in row {}", index + 1), row.len());
+                    sized(
+                        extent(row).unwrap_or(term.span),
+                        format!("entries in row {}", index + 1),
+                        row.len(),
+                    );
                 }
             }
         }

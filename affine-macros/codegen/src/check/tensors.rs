@@ -11,8 +11,7 @@ pub(super) fn literal(spec: &Spec, found: &mut Diagnostics) {
     for term in tensors(spec) {
         let entries = term.value.expressions();
         for entry in entries.filter(|entry| has_field(spec, entry)) {
-            let mistake =
-                Diagnostic::TensorEntry { term: term.kind.value.name(), entry: entry.to_string() };
+            let mistake = Diagnostic::TensorEntry { term: term.kind.value.name(), entry: entry.to_string() };
             found.report(entry.span, mistake);
         }
     }

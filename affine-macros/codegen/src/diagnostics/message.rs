@@ -52,7 +52,9 @@ impl Diagnostic {
             ),
             Self::UnavailableKey { list, key } => text(
                 format!("`{key}` in `{list}(...)` is not available in this version"),
-                format!("`{key}` belongs to the specification language, but nothing can be derived from it yet"),
+                format!(
+                    "`{key}` belongs to the specification language, but nothing can be derived from it yet"
+                ),
                 format!("state the model without `{key}`"),
             ),
             Self::RepeatedKey { list, key } => text(
@@ -180,7 +182,9 @@ impl Diagnostic {
             ),
             Self::Degree { degree, limit } => text(
                 format!("these powers have degree {degree}"),
-                format!("the macro computes them exactly and stops at degree {limit}, so that a slip cannot stall a build"),
+                format!(
+                    "the macro computes them exactly and stops at degree {limit}, so that a slip cannot stall a build"
+                ),
                 "compute the power and keep it in a field",
             ),
             Self::DivisionByZero { divisor } => text(
@@ -188,11 +192,9 @@ impl Diagnostic {
                 "numbers are exact: nothing was lost to rounding",
                 "write a divisor that is not zero",
             ),
-            Self::TermShape { term, found, takes, instead } => text(
-                format!("`{term}` has {found}"),
-                format!("`{term}` takes {takes}"),
-                *instead,
-            ),
+            Self::TermShape { term, found, takes, instead } => {
+                text(format!("`{term}` has {found}"), format!("`{term}` takes {takes}"), *instead)
+            }
             Self::MatrixSize { term, counted, found, expected, because } => text(
                 format!("the matrix of `{term}` has {found} {counted}, not {expected}"),
                 format!("its size follows from the dimension: {because}"),
@@ -251,7 +253,10 @@ impl Diagnostic {
                 "add `casimir2`, `body_inertia`, `space_inertia`, `dalembert`, `body_tensor` or `space_tensor`",
             ),
             Self::Degenerate { eigenvalue, numbers, directions } => text(
-                format!("the kinetic energy is degenerate: {} = 0 on {directions}", equated(eigenvalue, numbers)),
+                format!(
+                    "the kinetic energy is degenerate: {} = 0 on {directions}",
+                    equated(eigenvalue, numbers)
+                ),
                 format!(
                     "the Legendre transformation X = I O^T + A O + B tr(O) 1 (4.18), (4.20) has the eigenvalue \
                      {eigenvalue} there; the momentum does not determine the velocity"
@@ -268,7 +273,10 @@ impl Diagnostic {
                 "change the tensor, or add a term that is not zero on this velocity",
             ),
             Self::NotPositiveDefinite { quantity, value } => text(
-                format!("the kinetic energy is not positive definite: {} is not positive", equated(quantity, value)),
+                format!(
+                    "the kinetic energy is not positive definite: {} is not positive",
+                    equated(quantity, value)
+                ),
                 "`require(positive_definite)` asks for T > 0 at every velocity; the isotropic form has it iff \
                  I > |A| and I + A + n B > 0",
                 "change the coefficients, or remove the requirement: indefinite energies are legitimate",

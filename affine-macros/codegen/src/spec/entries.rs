@@ -47,7 +47,9 @@ pub(super) fn pieces(tokens: TokenStream, end: Span) -> Vec<Piece> {
     };
     for token in tokens {
         match token {
-            TokenTree::Punct(punct) if punct.as_char() == ',' => close(std::mem::take(&mut open), punct.span()),
+            TokenTree::Punct(punct) if punct.as_char() == ',' => {
+                close(std::mem::take(&mut open), punct.span())
+            }
             token => open.push(token),
         }
     }

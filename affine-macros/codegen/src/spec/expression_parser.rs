@@ -109,7 +109,9 @@ impl<'p> Parser<'p> {
             TokenTree::Literal(literal) => self.number(&literal),
             TokenTree::Ident(name) => self.symbol(name),
             // A fragment of `macro_rules!` arrives in an invisible group and is one operand, as in Rust.
-            TokenTree::Group(group) if matches!(group.delimiter(), Delimiter::Parenthesis | Delimiter::None) => {
+            TokenTree::Group(group)
+                if matches!(group.delimiter(), Delimiter::Parenthesis | Delimiter::None) =>
+            {
                 self.group(&group)
             }
             other => Err(self.unexpected(&other, "a number, a field or `(`")),
@@ -162,7 +164,8 @@ impl<'p> Parser<'p> {
     }
 
     fn punct(&mut self, symbol: char) -> Option<Region> {
-        let next = self.tokens.next_if(|token| matches!(token, TokenTree::Punct(p) if p.as_char() == symbol))?;
+        let next =
+            self.tokens.next_if(|token| matches!(token, TokenTree::Punct(p) if p.as_char() == symbol))?;
         Some(next.span().into())
     }
 

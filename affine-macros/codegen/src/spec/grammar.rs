@@ -130,8 +130,7 @@ fn expect_value(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Piece, Rep
         Body::Value(piece) if !piece.tokens.is_empty() => Ok(piece),
         Body::Refused(reported) => Err(reported),
         _ => {
-            let mistake =
-                Diagnostic::ExpectedValue { key: entry.key.name(), example: entry.key.example() };
+            let mistake = Diagnostic::ExpectedValue { key: entry.key.name(), example: entry.key.example() };
             Err(found.report(entry.at, mistake))
         }
     }
@@ -209,10 +208,8 @@ fn terms(
             }
             Body::Refused(_) => {}
             _ => {
-                let mistake = Diagnostic::ExpectedValue {
-                    key: entry.key.name(),
-                    example: value::example(entry.key),
-                };
+                let mistake =
+                    Diagnostic::ExpectedValue { key: entry.key.name(), example: value::example(entry.key) };
                 found.report(entry.at, mistake);
             }
         }
