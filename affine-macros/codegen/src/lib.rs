@@ -1,7 +1,8 @@
 //! Symbolic mechanics behind `#[affine_model(...)]`.
 //!
 //! The order of the modules is the order of the passes and of permission: the front half (`diagnostics`,
-//! `spec`, `check`) never emits, the back half never fails.
+//! `spec`, `check`) never emits, the back half never fails. `algebra` and `ir` know neither Rust syntax nor
+//! mechanics, `mechanics` never sees tokens, `emit` does no algebra.
 
 pub mod diagnostics;
 
@@ -9,7 +10,15 @@ pub mod spec;
 
 pub mod check;
 
+pub mod lower;
+
 pub mod algebra;
+
+pub mod mechanics;
+
+pub mod ir;
+
+pub mod optimise;
 
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -1,8 +1,8 @@
 //! Expressions in an arena, built only by constructors that canonicalise.
 //!
 //! Canonical form: a sum is a constant plus terms with rational coefficients, a product is a list of bases with
-//! integer exponents and no number in it; both are flat, sorted by node, without repetition. Equal canonical
-//! forms are the same node, so equality of expressions is equality of handles.
+//! integer exponents and no number in it; both are flat, sorted by node, without repetition. Nothing is expanded:
+//! `2*(a + b)` and `2*a + 2*b` are different nodes, and [`Polynomial`](super::Polynomial) decides equality.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -92,7 +92,8 @@ impl Arena {
         for (expr, weight) in summands {
             match self.node(*expr) {
                 Node::Constant(value) => constant = &constant + &(value * weight),
-                Node::Sum(inner, list) => {
+                // A number before a sum of several terms stays there: factored forms are not expanded.
+                Node::Sum(inner, list) if weight.abs().is_one() || (inner.is_zero() && list.len() == 1) => {
                     constant = &constant + &(inner * weight);
                     terms.extend(list.iter().map(|(term, c)| (*term, c * weight)));
                 }
@@ -176,18 +177,30 @@ impl Arena {
 
     /// Pulls the number out of a factor and flattens products.
     fn split_factor(
-        &self,
+        &mut self,
         base: Expr,
         exponent: i32,
         number: &mut Rational,
         bases: &mut Vec<(Expr, i32)>,
     ) -> Option<()> {
-        match self.node(base) {
+        match &self.node(base).clone() {
             Node::Constant(value) => *number = &*number * &value.pow(exponent)?,
             Node::Product(list) => bases.extend(list.iter().map(|(b, e)| (*b, e * exponent))),
             Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
                 *number = &*number * &terms[0].1.pow(exponent)?;
                 self.split_factor(terms[0].0, exponent, number, bases)?;
+            }
+            // Reciprocals of multiples are multiples of reciprocals: 1/(2a + 2b) and 1/(a + b) share a node.
+            Node::Sum(constant, terms) if exponent < 0 && !terms[0].1.is_one() => {
+                let lead = terms[0].1.clone();
+                let scale = lead.recip()?;
+                let mut summands: Vec<(Expr, Rational)> =
+                    terms.iter().map(|(term, c)| (*term, c * &scale)).collect();
+                let constant = constant * &scale;
+                summands.push((self.constant(constant), Rational::ONE));
+                let monic = self.linear(&summands);
+                *number = &*number * &lead.pow(exponent)?;
+                bases.push((monic, exponent));
             }
             _ => bases.push((base, exponent)),
         }
@@ -257,7 +270,12 @@ impl Arena {
             if !c.abs().is_one() {
                 let _ = write!(text, "{}*", c.abs());
             }
-            text.push_str(&self.text(*term));
+            match self.node(*term) {
+                Node::Sum(..) => {
+                    let _ = write!(text, "({})", self.text(*term));
+                }
+                _ => text.push_str(&self.text(*term)),
+            }
         }
         if !constant.is_zero() {
             let sign = if constant.is_negative() { "-" } else { "+" };
