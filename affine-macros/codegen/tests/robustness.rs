@@ -99,8 +99,9 @@ fn any_stream() -> impl Strategy<Value = TokenStream> {
 
 /// Something like a value: short, and often well-formed.
 fn any_value() -> impl Strategy<Value = String> {
-    let entry =
-        prop::sample::select(vec!["0", "1", "-1", "a", "n", "a/0", "2^a", "1/3", "b", "m", "3^99", "f(a)"]);
+    let good = prop::sample::select(vec!["0", "1", "-1", "a", "n", "1/3", "2*a^2"]);
+    let bad = prop::sample::select(vec!["a/0", "2^a", "b", "m", "3^99", "f(a)"]);
+    let entry = prop_oneof![9 => good, 1 => bad];
     let row = prop::collection::vec(entry.clone(), 0..5).prop_map(|entries| entries.join(","));
     let matrix =
         prop::collection::vec(row.clone(), 0..5).prop_map(|rows| format!("[[{}]]", rows.join("],[")));
@@ -123,7 +124,7 @@ fn any_specification() -> impl Strategy<Value = String> {
     ];
     let term =
         (prop::sample::select(terms), any_value()).prop_map(|(term, value)| format!("{term} = {value}"));
-    let kinetic = prop::collection::vec(term, 0..4).prop_map(|terms| format!("kinetic({})", terms.join(",")));
+    let kinetic = prop::collection::vec(term, 1..4).prop_map(|terms| format!("kinetic({})", terms.join(",")));
     let dim =
         prop::sample::select(vec!["dim = 2", "dim = 3", "dim = 2, require(positive_definite)", "dim = 0"]);
     let other = prop::sample::select(vec![
@@ -200,5 +201,5 @@ fn the_near_misses_include_good_models() {
             refusal(args.parse().expect("arguments"), item).is_none()
         })
         .count();
-    assert!(accepted > 50, "only {accepted} of 1000 are accepted: the generator tests little");
+    assert!(accepted > 40, "only {accepted} of 1000 are accepted: the generator tests little");
 }
