@@ -20,6 +20,8 @@ pub mod ir;
 
 pub mod optimise;
 
+pub mod derive;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
