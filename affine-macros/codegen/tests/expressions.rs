@@ -94,7 +94,7 @@ fn a_fragment_of_a_macro_is_one_operand() {
     let sum = Group::new(Delimiter::None, "1 + 2".parse().expect("tokens"));
     let mut tokens = TokenStream::from(TokenTree::Group(sum));
     tokens.extend("^2".parse::<TokenStream>().expect("tokens"));
-    let expression = gate(|found| parse_expression(tokens, found)).ok().expect("an expression");
+    let expression = gate(|found| parse_expression(tokens, found)).expect("an expression");
     assert_eq!(grouped(&expression), "((1 + 2) ^ 2)");
 }
 
@@ -133,10 +133,10 @@ fn long_and_deep_expressions_are_refused_not_overflowed() {
     let powers = vec!["2"; 5000].join("^");
     let sum = vec!["a"; 5000].join("+");
     for source in [deep, signs, powers, sum] {
-        let rejected = try_read(&source).err().expect("a refusal");
+        let rejected = try_read(&source).map(|_| ()).expect_err("a refusal");
         assert!(matches!(rejected.diagnostics().next(), Some(Diagnostic::ExpressionSize { .. })));
     }
-    assert!(try_read(&vec!["a"; 1001].join("+")).is_ok());
+    assert!(try_read(&vec!["a"; 257].join("+")).is_ok());
     assert!(try_read(&format!("{}1{}", "(".repeat(64), ")".repeat(64))).is_ok());
 }
 

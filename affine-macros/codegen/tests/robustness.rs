@@ -141,10 +141,14 @@ fn any_specification() -> impl Strategy<Value = String> {
         .prop_map(|(dim, kinetic, other)| format!("{dim}, {kinetic}, {}", other.unwrap_or_default()))
 }
 
-/// The refusal, if there is one, by the same two gates as an expansion.
+/// The refusal, if there is one, by the same passes as an expansion.
 fn refusal(args: TokenStream, item: TokenStream) -> Option<Rejected> {
-    gate(|found| spec::parse(args, item, found))
-        .and_then(|spec| gate(|found| check::as_written(&spec, found)))
+    let spec = match gate(|found| spec::parse(args, item, found)) {
+        Ok(spec) => spec,
+        Err(rejected) => return Some(rejected),
+    };
+    gate(|found| check::as_written(&spec, found))
+        .and_then(|()| gate(|found| check::form(&spec, found)).map(|_| ()))
         .err()
 }
 

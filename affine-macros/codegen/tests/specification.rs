@@ -9,8 +9,8 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 
 fn read(args: TokenStream, item: TokenStream) -> Spec {
-    let spec = gate(|found| parse(args, item, found)).ok().expect("a specification");
-    gate(|found| check::as_written(&spec, found)).ok().expect("a well-posed specification");
+    let spec = gate(|found| parse(args, item, found)).expect("a specification");
+    gate(|found| check::as_written(&spec, found)).expect("a well-posed specification");
     spec
 }
 
@@ -62,12 +62,12 @@ fn fields_generics_matrices_and_the_rest() {
             require(positive_definite,),
             dim = 2,
             symmetry(body = none),
-            kinetic(dalembert = [[i, a/2], [a/2, i^2]], space_translation = 2*i + n),
+            kinetic(dalembert = [[i, a*(1 + i)], [a + a*i, i^2]], space_translation = 2*i + n),
         },
         item.clone(),
     );
     let expected = [
-        (TermKind::Dalembert, vec!["i", "a/2", "a/2", "i^2"]),
+        (TermKind::Dalembert, vec!["i", "a*(1 + i)", "a + a*i", "i^2"]),
         (TermKind::SpaceTranslation, vec!["2*i + n"]),
     ];
     let expected =
@@ -133,4 +133,23 @@ fn an_accepted_struct_is_emitted_too() {
     );
     let tokens = expand(quote!(dim = 2, kinetic(casimir2 = a, body_inertia = 1)), item.clone()).to_string();
     assert!(tokens.starts_with(&item.to_string()) && !tokens.contains("compile_error"));
+}
+
+#[test]
+fn the_longest_expressions_pass_every_rule() {
+    let sum = vec!["a"; 257].join("+");
+    let divisor = vec!["a"; 256].join("-");
+    let nested = format!("{}a{}", "2*(1 + ".repeat(15), ")".repeat(15));
+    for value in [sum, format!("1/({divisor})"), nested] {
+        let value: TokenStream = value.parse().expect("tokens");
+        let spec = read(
+            quote!(dim = 2, kinetic(dalembert = #value)),
+            quote!(
+                struct M {
+                    a: f64,
+                }
+            ),
+        );
+        assert!(gate(|found| check::form(&spec, found)).is_ok());
+    }
 }

@@ -1,6 +1,7 @@
 //! Arithmetic that has an exact value.
 
 use super::constant::{LARGEST_POWER, constant, integer};
+use super::identity::vanishes;
 use crate::algebra::Rational;
 use crate::diagnostics::{Diagnostic, Diagnostics, Reported};
 use crate::spec::{Expression, ExpressionKind, Spec};
@@ -65,12 +66,11 @@ fn degree_is_bounded(expression: &Expression, degree: u64, found: &mut Diagnosti
     Err(found.report(expression.span, Diagnostic::Degree { degree, limit: LARGEST_POWER }))
 }
 
-/// A divisor that is exactly zero; one that depends on fields is left to `prepare()`.
+/// A divisor that is zero, as a number or whatever the fields are; one that is zero for some values of the
+/// fields is left to `prepare()`.
 fn divisor_is_not_zero(divisor: &Expression, n: usize, found: &mut Diagnostics) -> Result<(), Reported> {
-    match constant(divisor, n) {
-        Some(value) if value.is_zero() => {
-            Err(found.report(divisor.span, Diagnostic::DivisionByZero { divisor: divisor.to_string() }))
-        }
-        _ => Ok(()),
+    if vanishes(divisor, n) {
+        return Err(found.report(divisor.span, Diagnostic::DivisionByZero { divisor: divisor.to_string() }));
     }
+    Ok(())
 }

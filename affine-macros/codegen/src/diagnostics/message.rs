@@ -197,7 +197,7 @@ impl Diagnostic {
             ),
             Self::DivisionByZero { divisor } => text(
                 format!("division by `{divisor}`, which is zero"),
-                "numbers are exact: nothing was lost to rounding",
+                "coefficients are exact: nothing was lost to rounding",
                 "write a divisor that is not zero",
             ),
             Self::TermShape { term, found, takes, instead } => {
@@ -220,7 +220,7 @@ impl Diagnostic {
                 ),
                 "in 1/2 K[(A,B),(C,D)] O[A,B] O[C,D] (4.1), (4.2) only the part symmetric under exchange of the \
                  pairs (A,B), (C,D) counts; row (A,B) is row n(A-1)+B, columns likewise",
-                "make the two entries equal; their mean gives the same energy",
+                "write the same entry in both places; their mean gives the same energy",
             ),
             Self::InertiaNotSymmetric { term, row, column, value, transposed } => text(
                 format!(
@@ -228,7 +228,7 @@ impl Diagnostic {
                      J[{column},{row}] = {transposed}"
                 ),
                 "J is the quadratic moment of the mass distribution, the integral of a a^T (2.1)",
-                "make the two entries equal; their mean gives the same energy",
+                "write the same entry in both places; their mean gives the same energy",
             ),
             Self::InertiaNotPositive { term, defect } => text(
                 format!("the inertia of `{term}` is not positive definite: {defect}"),
