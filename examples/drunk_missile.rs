@@ -28,7 +28,8 @@ fn main() -> affine_runtime::Result<()> {
     let h = 10.0 / steps as f64;
     for _ in 0..steps {
         let f = |y: &[f64; 12]| DrunkMissile.reduced_equations(0.0, &k, y);
-        let add = |y: &[f64; 12], d: &[f64; 12], s: f64| -> [f64; 12] { core::array::from_fn(|i| y[i] + s * d[i]) };
+        let add =
+            |y: &[f64; 12], d: &[f64; 12], s: f64| -> [f64; 12] { core::array::from_fn(|i| y[i] + s * d[i]) };
         let k1 = f(&y);
         let k2 = f(&add(&y, &k1, h / 2.0));
         let k3 = f(&add(&y, &k2, h / 2.0));

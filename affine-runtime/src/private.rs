@@ -1,7 +1,6 @@
 //! What emitted code uses besides the public traits. No stable interface: it changes with the macro.
 
 pub use core::primitive::f64;
-pub use core::result::Result::Ok;
 
 pub use crate::decompose::skew_exponential;
 pub use crate::error::Result;

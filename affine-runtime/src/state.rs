@@ -138,7 +138,6 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> PhasePoint<N, F, C
         }
         Ok(point)
     }
-
 }
 
 /// A [`Momentum`] brought to another frame.

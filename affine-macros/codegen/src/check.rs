@@ -9,6 +9,7 @@ mod constant;
 mod dimension;
 mod form;
 mod frames;
+mod identity;
 mod inertia;
 mod shapes;
 mod symbols;

@@ -30,15 +30,18 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let context = Context { spec, model, names: &names, has_fields };
     let item = &spec.item.tokens;
     let rt = &names.rt;
-    let prepare = prepare::items(&context, &runtime);
+    let prepared_type = prepare::prepared_type(&context);
+    let prepare = prepare::method(&context);
     let constants = reduction::constants_type(&context);
     let implementation = model_impl(&context);
     let points = points::inherent(&context);
     quote! {
         #item
-        #prepare
+        #prepared_type
         const _: () = {
             use #runtime::__private as #rt;
+            use #rt::Scalar as _;
+            #prepare
             #constants
             #implementation
             #points

@@ -58,7 +58,7 @@ fn coefficient(arena: &mut Arena, n: usize, value: &Value) -> Option<Coefficient
 }
 
 /// The symbolic value of a coefficient; `None` only for what the checks refuse (division by zero).
-fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<Expr> {
+pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<Expr> {
     if let Some(value) = constant(e, n) {
         return Some(arena.constant(value));
     }

@@ -3,8 +3,9 @@
 use crate::algebra::Rational;
 use crate::spec::{Expression, ExpressionKind};
 
-/// The largest exponent that is evaluated; no kinetic energy has more than a few powers.
-pub(super) const LARGEST_POWER: u64 = 64;
+/// The largest exponent that is evaluated. No kinetic energy has more than a few powers, and the polynomials in
+/// the fields that the derivation multiplies out grow with this degree.
+pub(super) const LARGEST_POWER: u64 = 16;
 
 /// The exact value of an expression in dimension `n`; `None` where it depends on a field, or has none.
 #[must_use]

@@ -84,27 +84,25 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
     for block in &hessian.blocks {
         let kind = block.basis[0].kind;
         let Some(inertia) = block.inertia(kinetic.dim).filter(|i| i.negative > 0) else { continue };
-        let (quantity, value) = match block.eigenvalue().and_then(|e| e.as_constant()) {
+        let defect = match block.eigenvalue().and_then(|e| e.as_constant()) {
             Some(_) if only_isotropic(spec) && kind != Direction::Entry => {
                 if reported.contains(&kind) {
                     continue;
                 }
                 reported.push(kind);
-                (eigenvalue_name(kind).0.to_owned(), eigenvalue_in_numbers(spec, kind))
+                format!("{} = {} is negative", eigenvalue_name(kind).0, eigenvalue_in_numbers(spec, kind))
             }
-            _ => (
-                "the smallest square of T".to_owned(),
-                format!("negative on {} directions", inertia.negative),
-            ),
+            _ if inertia.negative == 1 => "T has a negative square".to_owned(),
+            _ => format!("T has {} negative squares", inertia.negative),
         };
-        found.report(required.span, Diagnostic::NotPositiveDefinite { quantity, value });
+        found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
     }
     let mass = spec.kinetic.iter().find(|t| t.kind.value.is_translation());
     if let Some((term, value)) = mass.and_then(|t| Some((t, scalar(spec, t)?)))
         && value.is_negative()
     {
-        let quantity = format!("the mass `{}`", term.kind.value.name());
-        found.report(required.span, Diagnostic::NotPositiveDefinite { quantity, value: value.to_string() });
+        let defect = format!("the mass `{} = {value}` is negative", term.kind.value.name());
+        found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
     }
 }
 

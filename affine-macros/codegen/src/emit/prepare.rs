@@ -10,30 +10,45 @@ use super::Context;
 use super::body::{Body, Scope, body};
 use crate::ir::Program;
 
-/// The prepared type and the method that makes it; nothing for a model without fields in its coefficients.
-pub(super) fn items(context: &Context, runtime: &TokenStream) -> TokenStream {
+/// What `prepare()` returns; nothing for a model without fields in its coefficients.
+pub(super) fn prepared_type(context: &Context) -> TokenStream {
     if !context.has_fields {
         return TokenStream::new();
     }
     let (model, prepared) = (&context.names.model, &context.names.prepared);
     let visibility = &context.spec.item.visibility;
-    let (generics, types, clause) = context.spec.item.generics.split_for_impl();
-    let private = quote!(#runtime::__private);
-    let conditions = conditions(context, &private);
-    let blocks: TokenStream =
-        context.model.numeric_blocks.iter().map(|block| numeric_block(block, &private)).collect();
-    let Body { lets, results } = over_fields(&context.model.coefficients);
-    let count = Literal::usize_unsuffixed(results.len());
+    let count = Literal::usize_unsuffixed(context.model.coefficients.outputs.len());
     let summary = format!("[`{model}`] with values of its fields that make it well posed.");
     quote! {
         #[doc = #summary]
         ///
         /// Made by `prepare()`; holds the coefficients that the equations need, computed once.
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[derive(
+            ::core::clone::Clone,
+            ::core::marker::Copy,
+            ::core::fmt::Debug,
+            ::core::cmp::PartialEq,
+        )]
         #visibility struct #prepared {
             coefficients: [::core::primitive::f64; #count],
         }
+    }
+}
 
+/// The method that makes it.
+pub(super) fn method(context: &Context) -> TokenStream {
+    if !context.has_fields {
+        return TokenStream::new();
+    }
+    let (model, prepared, rt) = (&context.names.model, &context.names.prepared, &context.names.rt);
+    let visibility = &context.spec.item.visibility;
+    let (generics, types, clause) = context.spec.item.generics.split_for_impl();
+    let private = quote!(#rt);
+    let conditions = conditions(context, &private);
+    let blocks: TokenStream =
+        context.model.numeric_blocks.iter().map(|block| numeric_block(block, &private)).collect();
+    let Body { lets, results } = over_fields(&context.model.coefficients);
+    quote! {
         impl #generics #model #types #clause {
             /// Checks the values of the fields and computes the coefficients of the equations.
             ///
@@ -44,7 +59,7 @@ pub(super) fn items(context: &Context, runtime: &TokenStream) -> TokenStream {
                 #conditions
                 #blocks
                 #lets
-                #private::Ok(#prepared { coefficients: [#(#results),*] })
+                ::core::result::Result::Ok(#prepared { coefficients: [#(#results),*] })
             }
         }
     }

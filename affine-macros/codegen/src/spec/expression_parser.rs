@@ -19,7 +19,7 @@ use crate::algebra::Rational;
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
 /// More than a person writes, few enough for recursion over the tree on a small stack.
-const MOST_OPERATORS: usize = 1000;
+const MOST_OPERATORS: usize = 256;
 /// Brackets, signs and powers within each other; each level costs several stack frames of this parser.
 const DEEPEST: usize = 64;
 /// The decimal exponents of f64.
@@ -172,7 +172,7 @@ impl<'p> Parser<'p> {
     fn count(&mut self, at: Region) -> Result<(), Reported> {
         self.effort.operators += 1;
         if self.effort.operators > MOST_OPERATORS {
-            return Err(self.found.report(at, Diagnostic::ExpressionSize { limit: "1000 operators" }));
+            return Err(self.found.report(at, Diagnostic::ExpressionSize { limit: "256 operators" }));
         }
         Ok(())
     }
