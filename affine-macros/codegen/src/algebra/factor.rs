@@ -38,8 +38,7 @@ pub fn scale_atoms(
             let (number, constants) = &weight;
             let mut product = constants.clone();
             product.push(*atom);
-            let name = arena.name(*atom).unwrap_or("atom").to_owned();
-            let symbol = arena.symbol(&format!("scaled_{}_{name}", scaled.len() + 1));
+            let symbol = arena.symbol(&format!("scaled_{}", scaled.len() + 1));
             scaled.push((symbol, Polynomial::term(product, number.clone())));
             for polynomial in polynomials.iter_mut() {
                 *polynomial = replace_scaled(polynomial, &weight, *atom, symbol, varies);
