@@ -1,6 +1,8 @@
 //! Phase points, kinematics, integrators and reports for affinely-rigid bodies.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+#[cfg(feature = "std")]
+pub mod counting;
 pub mod decompose;
 pub mod error;
 pub mod frames;
