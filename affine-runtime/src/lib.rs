@@ -6,6 +6,8 @@ pub mod frames;
 pub mod geodesic;
 pub mod kinematics;
 pub mod model;
+#[cfg(feature = "report")]
+pub mod report;
 pub mod scalar;
 pub mod state;
 
