@@ -4,6 +4,7 @@
 pub mod error;
 pub mod frames;
 pub mod geodesic;
+pub mod integrate;
 pub mod model;
 pub mod scalar;
 pub mod state;
