@@ -45,6 +45,9 @@ pub trait Frame:
     fn to_body<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T>;
     /// `Pi` from the affine spin of this frame.
     fn to_canonical<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T>;
+    /// `Sigma` or `Sigma_hat`, whichever takes no inverse of `phi`. The two are similar matrices: traces of
+    /// their powers agree.
+    fn to_mixed<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T>;
     /// The affine spin of this frame from that of another.
     fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T>;
 }
@@ -80,6 +83,9 @@ impl Frame for Space {
     fn to_canonical<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         inverse(phi) * spin
     }
+    fn to_mixed<const N: usize, T: Real>(_phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
+        *spin
+    }
     fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         F::to_space(phi, spin)
     }
@@ -97,6 +103,9 @@ impl Frame for Body {
     fn to_canonical<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         spin * inverse(phi)
     }
+    fn to_mixed<const N: usize, T: Real>(_phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
+        *spin
+    }
     fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         F::to_body(phi, spin)
     }
@@ -113,6 +122,9 @@ impl Frame for Canonical {
     }
     fn to_canonical<const N: usize, T: Real>(_phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         *spin
+    }
+    fn to_mixed<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
+        spin * phi
     }
     fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         F::to_canonical(phi, spin)

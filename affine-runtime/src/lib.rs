@@ -5,9 +5,14 @@ pub mod error;
 pub mod frames;
 pub mod geodesic;
 pub mod integrate;
+pub mod kinematics;
 pub mod model;
 pub mod scalar;
 pub mod state;
+
+#[doc(hidden)]
+#[path = "private.rs"]
+pub mod __private;
 
 pub use error::{Error, Result};
 pub use model::Model;

@@ -2,7 +2,9 @@
 
 use core::fmt::Debug;
 
+use crate::error::{Error, Result};
 use crate::frames::{AffineSpin, Comoving, Frame, Matrix, Momentum, Spatial, TwoPoint, Vector};
+use crate::kinematics::{LinearMomentum, LogDeterminant};
 use crate::scalar::Real;
 
 /// What a phase point carries besides placement and affine spin: nothing ([`Pinned`]) or the centre of mass
@@ -66,8 +68,8 @@ pub trait Phase<const N: usize, T: Real = f64>: Copy + Debug + PartialEq {
     /// Linear momentum `p`, spatial; zero for a pinned body.
     fn p(&self) -> Vector<N, T>;
     /// Co-moving linear momentum `p_hat = phi^T p`; zero for a pinned body.
-    fn p_hat(&self) -> Comoving<Vector<N, T>> {
-        Comoving(self.phi().tr_mul(&self.p()))
+    fn p_hat(&self) -> Comoving<LinearMomentum<N, T>> {
+        Comoving(LinearMomentum(self.phi().tr_mul(&self.p())))
     }
     /// Spatial affine spin `Sigma = phi Pi`.
     fn sigma(&self) -> Spatial<AffineSpin<N, T>>;
@@ -75,6 +77,9 @@ pub trait Phase<const N: usize, T: Real = f64>: Copy + Debug + PartialEq {
     fn sigma_hat(&self) -> Comoving<AffineSpin<N, T>>;
     /// Canonical momentum `Pi`.
     fn pi(&self) -> TwoPoint<AffineSpin<N, T>>;
+    /// `Sigma` or `Sigma_hat`, whichever the point gives without an inverse of `phi`: for what depends on the
+    /// conjugacy class alone, such as Casimirs, which then carry no rounding of a conversion.
+    fn mixed_spin(&self) -> Matrix<N, T>;
     /// Placement, momentum and centre of mass are finite.
     fn is_finite(&self) -> bool;
 }
@@ -88,6 +93,32 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> PhasePoint<N, F, C
     /// The point with a momentum given in any frame, unchecked.
     pub(crate) fn with_momentum(phi: Matrix<N, T>, momentum: impl MomentumIn<N, T>, centre: C) -> Self {
         Self::new(phi, momentum.in_frame::<F>(&phi), centre)
+    }
+
+    /// The point with a momentum given in any frame, checked.
+    ///
+    /// The sign of `det phi` comes from an elimination on the scaled placement, so that neither large nor small
+    /// entries decide it; it is certain where the condition number then is below about `1/(10 epsilon)`.
+    ///
+    /// # Errors
+    /// [`Error::Placement`] unless `phi` is finite and `det phi > 0`; [`Error::NotFinite`] with the name of the
+    /// momentum, `x` or `p` that is not finite, or not finite once in the frame `F`.
+    pub(crate) fn checked<M: Momentum<N, T>>(phi: Matrix<N, T>, momentum: M, centre: C) -> Result<Self> {
+        let determinant = LogDeterminant::of(&phi);
+        if !determinant.is_positive() {
+            return Err(Error::Placement { determinant: determinant.to_f64() });
+        }
+        let point = Self::with_momentum(phi, momentum, centre);
+        for (quantity, entries) in [
+            (M::Frame::MOMENTUM, point.spin.as_slice()),
+            ("x", point.x().as_slice()),
+            ("p", point.p().as_slice()),
+        ] {
+            if !is_finite(entries) {
+                return Err(Error::NotFinite { quantity });
+            }
+        }
+        Ok(point)
     }
 
     /// The affine spin in the model's frame.
@@ -125,10 +156,18 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> Phase<N, T> for Ph
     fn pi(&self) -> TwoPoint<AffineSpin<N, T>> {
         TwoPoint(AffineSpin(F::to_canonical(&self.phi, &self.spin)))
     }
-    fn is_finite(&self) -> bool {
-        let finite = |m: &Matrix<N, T>| m.iter().all(|v| v.is_finite());
-        finite(&self.phi)
-            && finite(&self.spin)
-            && self.x().iter().chain(self.p().iter()).all(|v| v.is_finite())
+    fn mixed_spin(&self) -> Matrix<N, T> {
+        F::to_mixed(&self.phi, &self.spin)
     }
+    fn is_finite(&self) -> bool {
+        is_finite(self.phi.as_slice())
+            && is_finite(self.spin.as_slice())
+            && is_finite(self.x().as_slice())
+            && is_finite(self.p().as_slice())
+    }
+}
+
+/// All entries are finite.
+fn is_finite<T: Real>(entries: &[T]) -> bool {
+    entries.iter().all(|entry| entry.is_finite())
 }

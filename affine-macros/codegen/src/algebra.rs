@@ -1,11 +1,15 @@
 //! Exact and symbolic mathematics; knows neither Rust syntax nor mechanics.
 
 pub mod arena;
+pub mod bind;
 pub mod evaluate;
+pub mod factor;
 pub mod linear;
+pub mod matrix;
 pub mod polynomial;
 pub mod rational;
 
 pub use arena::{Arena, Expr};
+pub use matrix::Matrix;
 pub use polynomial::Polynomial;
 pub use rational::Rational;

@@ -1,8 +1,8 @@
 //! Expressions in an arena, built only by constructors that canonicalise.
 //!
 //! Canonical form: a sum is a constant plus terms with rational coefficients, a product is a list of bases with
-//! integer exponents and no number in it; both are flat, sorted by node, without repetition. Equal canonical
-//! forms are the same node, so equality of expressions is equality of handles.
+//! integer exponents and no number in it; both are flat, sorted by node, without repetition. Nothing is expanded:
+//! `2*(a + b)` and `2*a + 2*b` are different nodes, and [`Polynomial`](super::Polynomial) decides equality.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -92,7 +92,8 @@ impl Arena {
         for (expr, weight) in summands {
             match self.node(*expr) {
                 Node::Constant(value) => constant = &constant + &(value * weight),
-                Node::Sum(inner, list) => {
+                // A number before a sum of several terms stays there: factored forms are not expanded.
+                Node::Sum(inner, list) if weight.abs().is_one() || (inner.is_zero() && list.len() == 1) => {
                     constant = &constant + &(inner * weight);
                     terms.extend(list.iter().map(|(term, c)| (*term, c * weight)));
                 }
@@ -257,7 +258,12 @@ impl Arena {
             if !c.abs().is_one() {
                 let _ = write!(text, "{}*", c.abs());
             }
-            text.push_str(&self.text(*term));
+            match self.node(*term) {
+                Node::Sum(..) => {
+                    let _ = write!(text, "({})", self.text(*term));
+                }
+                _ => text.push_str(&self.text(*term)),
+            }
         }
         if !constant.is_zero() {
             let sign = if constant.is_negative() { "-" } else { "+" };

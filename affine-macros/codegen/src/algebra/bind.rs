@@ -1,0 +1,69 @@
+//! Binding times: what does not change along a trajectory is computed once, before it starts.
+
+use std::collections::BTreeMap;
+
+use super::arena::{Arena, Expr};
+use super::polynomial::{Monomial, Polynomial};
+use super::rational::Rational;
+
+/// Named constants that stand for polynomials in slower quantities.
+#[derive(Clone, Debug)]
+pub struct Constants {
+    stem: &'static str,
+    /// Symbols and their definitions, each once up to sign.
+    pub entries: Vec<(Expr, Polynomial)>,
+}
+
+impl Constants {
+    /// No constants yet; they will be named `stem_1`, `stem_2`, ...
+    #[must_use]
+    pub fn new(stem: &'static str) -> Self {
+        Self { stem, entries: Vec::new() }
+    }
+
+    /// Is the symbol one of these constants?
+    #[must_use]
+    pub fn contains(&self, symbol: Expr) -> bool {
+        self.entries.iter().any(|(s, _)| *s == symbol)
+    }
+
+    /// Collects every polynomial in the atoms that vary; what multiplies them becomes a number or a constant.
+    pub fn bind(
+        &mut self,
+        arena: &mut Arena,
+        polynomial: &Polynomial,
+        varies: &impl Fn(Expr) -> bool,
+    ) -> Polynomial {
+        let mut collected: BTreeMap<Monomial, Polynomial> = BTreeMap::new();
+        for (monomial, c) in polynomial.terms() {
+            let (moving, fixed): (Monomial, Monomial) = monomial.iter().partition(|atom| varies(**atom));
+            collected.entry(moving).or_default().add_term(fixed, c);
+        }
+        let mut bound = Polynomial::zero();
+        for (mut monomial, coefficient) in collected {
+            let number = match coefficient.as_constant() {
+                Some(number) => number,
+                None => {
+                    let (symbol, sign) = self.symbol(arena, coefficient);
+                    monomial.push(symbol);
+                    sign
+                }
+            };
+            bound.add_term(monomial, &number);
+        }
+        bound
+    }
+
+    /// The constant of a polynomial, and the sign that restores it.
+    fn symbol(&mut self, arena: &mut Arena, value: Polynomial) -> (Expr, Rational) {
+        let negative = value.terms().next().is_some_and(|(_, c)| c.is_negative());
+        let sign = if negative { Rational::MINUS_ONE } else { Rational::ONE };
+        let value = value.scaled(&sign);
+        if let Some((symbol, _)) = self.entries.iter().find(|(_, known)| *known == value) {
+            return (*symbol, sign);
+        }
+        let symbol = arena.symbol(&format!("{}_{}", self.stem, self.entries.len() + 1));
+        self.entries.push((symbol, value));
+        (symbol, sign)
+    }
+}

@@ -1,0 +1,169 @@
+//! Factored forms of polynomials: fewer operations for the same value.
+
+use std::collections::BTreeMap;
+
+use super::arena::{Arena, Expr};
+use super::polynomial::{Monomial, Polynomial};
+use super::rational::Rational;
+
+/// A factor that does not vary: a positive number and constant atoms.
+type Weight = (Rational, Monomial);
+
+/// Scales varying atoms by constants once, where a constant multiplies many products of few of them:
+/// `c a x + c b x + c d x` costs three multiplications by `c`, and one as `(c x) (a + b + d)` in any number of
+/// polynomials. Returns the scaled atoms with their definitions.
+pub fn scale_atoms(
+    arena: &mut Arena,
+    polynomials: &mut [Polynomial],
+    varies: &impl Fn(Expr) -> bool,
+) -> Vec<(Expr, Polynomial)> {
+    let mut uses: BTreeMap<Weight, Vec<(usize, Monomial)>> = BTreeMap::new();
+    for (k, polynomial) in polynomials.iter().enumerate() {
+        for (monomial, c) in polynomial.terms() {
+            let (weight, moving) = split(monomial, c, varies);
+            if weight != (Rational::ONE, Vec::new()) && !moving.is_empty() {
+                uses.entry(weight).or_default().push((k, moving));
+            }
+        }
+    }
+    let mut scaled = Vec::new();
+    for (weight, places) in uses {
+        let mut hosts: Vec<usize> = places.iter().map(|(k, _)| *k).collect();
+        hosts.dedup();
+        let cover = cover(places.iter().map(|(_, m)| m));
+        if cover.len() >= hosts.len() {
+            continue;
+        }
+        for atom in &cover {
+            let (number, constants) = &weight;
+            let mut product = constants.clone();
+            product.push(*atom);
+            let name = arena.name(*atom).unwrap_or("atom").to_owned();
+            let symbol = arena.symbol(&format!("scaled_{}_{name}", scaled.len() + 1));
+            scaled.push((symbol, Polynomial::term(product, number.clone())));
+            for polynomial in polynomials.iter_mut() {
+                *polynomial = replace_scaled(polynomial, &weight, *atom, symbol, varies);
+            }
+        }
+    }
+    scaled
+}
+
+/// Constant and varying part of a term.
+fn split(monomial: &Monomial, c: &Rational, varies: &impl Fn(Expr) -> bool) -> (Weight, Monomial) {
+    let (moving, fixed): (Monomial, Monomial) = monomial.iter().partition(|atom| varies(**atom));
+    ((c.abs(), fixed), moving)
+}
+
+/// Few atoms such that every monomial contains one, greedily by frequency.
+fn cover<'a>(monomials: impl Iterator<Item = &'a Monomial>) -> Vec<Expr> {
+    let mut open: Vec<&Monomial> = monomials.collect();
+    let mut chosen = Vec::new();
+    while !open.is_empty() {
+        let Some(best) = most_frequent(open.iter().copied()).map(|(atom, _)| atom) else { break };
+        open.retain(|m| !m.contains(&best));
+        chosen.push(best);
+    }
+    chosen
+}
+
+/// The atom that occurs in most monomials, the first of several, with its count.
+fn most_frequent<'a>(monomials: impl Iterator<Item = &'a Monomial>) -> Option<(Expr, usize)> {
+    let mut counts: BTreeMap<Expr, usize> = BTreeMap::new();
+    for monomial in monomials {
+        let mut last = None;
+        for atom in monomial {
+            if last != Some(atom) {
+                *counts.entry(*atom).or_default() += 1;
+            }
+            last = Some(atom);
+        }
+    }
+    counts.into_iter().max_by_key(|(atom, count)| (*count, std::cmp::Reverse(*atom)))
+}
+
+/// Writes `symbol` for `weight * atom` in every term with that weight.
+fn replace_scaled(
+    polynomial: &Polynomial,
+    weight: &Weight,
+    atom: Expr,
+    symbol: Expr,
+    varies: &impl Fn(Expr) -> bool,
+) -> Polynomial {
+    let mut result = Polynomial::zero();
+    for (monomial, c) in polynomial.terms() {
+        let (this, mut moving) = split(monomial, c, varies);
+        match moving.iter().position(|a| *a == atom) {
+            Some(at) if this == *weight => {
+                moving[at] = symbol;
+                let sign = if c.is_negative() { Rational::MINUS_ONE } else { Rational::ONE };
+                result.add_term(moving, &sign);
+            }
+            _ => result.add_term(monomial.clone(), c),
+        }
+    }
+    result
+}
+
+/// A factored expression of a polynomial: nested by the most frequent atom, then by common numbers.
+pub fn factored(arena: &mut Arena, polynomial: &Polynomial) -> Expr {
+    let frequent = most_frequent(polynomial.terms().map(|(m, _)| m)).filter(|(_, count)| *count > 1);
+    if let Some((atom, _)) = frequent {
+        let (mut quotient, mut rest) = (Polynomial::zero(), Polynomial::zero());
+        for (monomial, c) in polynomial.terms() {
+            match monomial.iter().position(|a| *a == atom) {
+                Some(at) => {
+                    let mut lower = monomial.clone();
+                    lower.remove(at);
+                    quotient.add_term(lower, c);
+                }
+                None => rest.add_term(monomial.clone(), c),
+            }
+        }
+        return distribute(arena, |arena, inner| arena.mul(atom, inner), &quotient, &rest);
+    }
+    if let Some(number) = common_number(polynomial) {
+        let (mut quotient, mut rest) = (Polynomial::zero(), Polynomial::zero());
+        for (monomial, c) in polynomial.terms() {
+            if c.abs() == number {
+                let sign = if c.is_negative() { Rational::MINUS_ONE } else { Rational::ONE };
+                quotient.add_term(monomial.clone(), &sign);
+            } else {
+                rest.add_term(monomial.clone(), c);
+            }
+        }
+        return distribute(arena, |arena, inner| arena.scale(inner, &number), &quotient, &rest);
+    }
+    polynomial.expression(arena)
+}
+
+/// `times(quotient) + rest`, the quotient with a positive leading coefficient so that `a - b` and `b - a` share.
+fn distribute(
+    arena: &mut Arena,
+    times: impl Fn(&mut Arena, Expr) -> Expr,
+    quotient: &Polynomial,
+    rest: &Polynomial,
+) -> Expr {
+    let negative = quotient.terms().next().is_some_and(|(_, c)| c.is_negative());
+    let sign = if negative { Rational::MINUS_ONE } else { Rational::ONE };
+    let inner = factored(arena, &quotient.scaled(&sign));
+    let product = times(arena, inner);
+    let rest = factored(arena, rest);
+    arena.linear(&[(product, sign), (rest, Rational::ONE)])
+}
+
+/// A number other than one that multiplies at least two terms.
+fn common_number(polynomial: &Polynomial) -> Option<Rational> {
+    let mut seen: Vec<Rational> = Vec::new();
+    for (_, c) in polynomial.terms() {
+        let size = c.abs();
+        if size.is_one() {
+            continue;
+        }
+        if seen.contains(&size) {
+            return Some(size);
+        }
+        seen.push(size);
+    }
+    None
+}

@@ -1,0 +1,107 @@
+//! Straight-line programs in static single assignment, and their passes; knows neither syntax nor mechanics.
+
+pub mod build;
+pub mod count;
+pub mod fuse;
+pub mod run;
+
+use crate::algebra::Rational;
+
+/// A value: the index of the step that makes it.
+pub type Value = usize;
+
+/// One operation.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Op {
+    /// A named input.
+    Input(String),
+    /// An exact number.
+    Constant(Rational),
+    /// `a + b`
+    Add(Value, Value),
+    /// `a - b`
+    Sub(Value, Value),
+    /// `a * b`
+    Mul(Value, Value),
+    /// `a / b`
+    Div(Value, Value),
+    /// `-a`
+    Neg(Value),
+    /// `a * b + c`
+    MulAdd(Value, Value, Value),
+}
+
+impl Op {
+    /// The values it reads.
+    #[must_use]
+    pub fn operands(&self) -> Vec<Value> {
+        match *self {
+            Op::Input(_) | Op::Constant(_) => Vec::new(),
+            Op::Neg(a) => vec![a],
+            Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => vec![a, b],
+            Op::MulAdd(a, b, c) => vec![a, b, c],
+        }
+    }
+}
+
+/// A straight-line program: every step reads earlier ones only.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Program {
+    /// The steps in order.
+    pub steps: Vec<Op>,
+    /// Names of values that mean something.
+    pub names: Vec<(Value, String)>,
+    /// The results in order.
+    pub outputs: Vec<(String, Value)>,
+}
+
+impl Program {
+    /// How often each value is read, by steps and as a result.
+    #[must_use]
+    pub fn uses(&self) -> Vec<usize> {
+        let mut uses = vec![0; self.steps.len()];
+        for step in &self.steps {
+            step.operands().into_iter().for_each(|v| uses[v] += 1);
+        }
+        self.outputs.iter().for_each(|(_, v)| uses[*v] += 1);
+        uses
+    }
+
+    /// Keeps only what the results need, in the same order.
+    #[must_use]
+    pub fn without_dead_steps(&self) -> Self {
+        let mut needed = vec![false; self.steps.len()];
+        self.outputs.iter().for_each(|(_, v)| needed[*v] = true);
+        for k in (0..self.steps.len()).rev() {
+            if needed[k] {
+                self.steps[k].operands().into_iter().for_each(|v| needed[v] = true);
+            }
+        }
+        let mut place = vec![0; self.steps.len()];
+        let mut result = Self::default();
+        for (k, step) in self.steps.iter().enumerate().filter(|(k, _)| needed[*k]) {
+            place[k] = result.steps.len();
+            result.steps.push(step.renumbered(&place));
+        }
+        result.names =
+            self.names.iter().filter(|(v, _)| needed[*v]).map(|(v, n)| (place[*v], n.clone())).collect();
+        result.outputs = self.outputs.iter().map(|(n, v)| (n.clone(), place[*v])).collect();
+        result
+    }
+}
+
+impl Op {
+    /// The same operation on renumbered values.
+    #[must_use]
+    pub fn renumbered(&self, place: &[Value]) -> Self {
+        match self {
+            Op::Input(_) | Op::Constant(_) => self.clone(),
+            Op::Neg(a) => Op::Neg(place[*a]),
+            Op::Add(a, b) => Op::Add(place[*a], place[*b]),
+            Op::Sub(a, b) => Op::Sub(place[*a], place[*b]),
+            Op::Mul(a, b) => Op::Mul(place[*a], place[*b]),
+            Op::Div(a, b) => Op::Div(place[*a], place[*b]),
+            Op::MulAdd(a, b, c) => Op::MulAdd(place[*a], place[*b], place[*c]),
+        }
+    }
+}

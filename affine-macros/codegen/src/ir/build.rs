@@ -1,0 +1,136 @@
+//! Expressions to straight-line code, common subexpressions once.
+
+use std::collections::HashMap;
+
+use crate::algebra::arena::Node;
+use crate::algebra::{Arena, Expr, Rational};
+
+use super::{Op, Program, Value};
+
+/// Builds a program expression by expression.
+#[derive(Debug, Default)]
+pub struct Builder {
+    program: Program,
+    known: HashMap<Op, Value>,
+    lowered: HashMap<Expr, Value>,
+}
+
+impl Builder {
+    /// An empty program.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Computes `value` once and reads `symbol` from it from here on.
+    pub fn define(&mut self, arena: &Arena, symbol: Expr, value: Expr) {
+        let made = self.lower(arena, value);
+        self.lowered.insert(symbol, made);
+        if let Some(name) = arena.name(symbol)
+            && !matches!(self.program.steps[made], Op::Input(_) | Op::Constant(_))
+            && !self.program.names.iter().any(|(v, _)| *v == made)
+        {
+            self.program.names.push((made, name.to_owned()));
+        }
+    }
+
+    /// Adds a result.
+    pub fn output(&mut self, arena: &Arena, name: &str, value: Expr) {
+        let made = self.lower(arena, value);
+        self.program.outputs.push((name.to_owned(), made));
+    }
+
+    /// The program: only what the results need.
+    #[must_use]
+    pub fn finish(self) -> Program {
+        self.program.without_dead_steps()
+    }
+
+    fn step(&mut self, op: Op) -> Value {
+        if let Some(&known) = self.known.get(&op) {
+            return known;
+        }
+        let value = self.program.steps.len();
+        self.program.steps.push(op.clone());
+        self.known.insert(op, value);
+        value
+    }
+
+    fn commutative(&mut self, make: fn(Value, Value) -> Op, a: Value, b: Value) -> Value {
+        self.step(make(a.min(b), a.max(b)))
+    }
+
+    fn constant(&mut self, value: &Rational) -> Value {
+        self.step(Op::Constant(value.clone()))
+    }
+
+    fn lower(&mut self, arena: &Arena, expr: Expr) -> Value {
+        if let Some(&known) = self.lowered.get(&expr) {
+            return known;
+        }
+        let value = match arena.node(expr) {
+            Node::Constant(number) => self.constant(number),
+            Node::Symbol(name) => self.step(Op::Input(name.clone())),
+            Node::Sum(constant, terms) => self.sum(arena, constant, terms),
+            Node::Product(factors) => self.product(arena, factors),
+        };
+        self.lowered.insert(expr, value);
+        value
+    }
+
+    /// Positive summands first, so that a leading minus is rare.
+    fn sum(&mut self, arena: &Arena, constant: &Rational, terms: &[(Expr, Rational)]) -> Value {
+        let mut summands: Vec<(bool, Value)> = Vec::with_capacity(terms.len() + 1);
+        for (term, c) in terms {
+            let body = self.lower(arena, *term);
+            let size = c.abs();
+            let value = if size.is_one() {
+                body
+            } else {
+                let number = self.constant(&size);
+                self.commutative(Op::Mul, number, body)
+            };
+            summands.push((c.is_negative(), value));
+        }
+        if !constant.is_zero() {
+            let value = self.constant(&constant.abs());
+            summands.push((constant.is_negative(), value));
+        }
+        summands.sort_by_key(|(negative, _)| *negative);
+        let mut sum: Option<Value> = None;
+        for (negative, value) in summands {
+            sum = Some(match (sum, negative) {
+                (None, false) => value,
+                (None, true) => self.step(Op::Neg(value)),
+                (Some(sum), false) => self.commutative(Op::Add, sum, value),
+                (Some(sum), true) => self.step(Op::Sub(sum, value)),
+            });
+        }
+        sum.unwrap_or_else(|| self.constant(&Rational::ZERO))
+    }
+
+    fn product(&mut self, arena: &Arena, factors: &[(Expr, i32)]) -> Value {
+        let mut above: Option<Value> = None;
+        let mut below: Option<Value> = None;
+        for &(base, exponent) in factors {
+            let base = self.lower(arena, base);
+            let side = if exponent > 0 { &mut above } else { &mut below };
+            let mut product = *side;
+            for _ in 0..exponent.unsigned_abs() {
+                product = Some(match product {
+                    None => base,
+                    Some(p) => self.commutative(Op::Mul, p, base),
+                });
+            }
+            *side = product;
+        }
+        match (above, below) {
+            (Some(a), None) => a,
+            (above, Some(b)) => {
+                let a = above.unwrap_or_else(|| self.constant(&Rational::ONE));
+                self.step(Op::Div(a, b))
+            }
+            (None, None) => self.constant(&Rational::ONE),
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! From a kinetic energy to Hamilton's equations; never sees tokens. One file per step.
+
+pub mod brackets;
+pub mod charts;
+pub mod conserved;
+pub mod equations;
+pub mod hamiltonian;
+pub mod hessian;
+pub mod kinetic;
+pub mod reduce;
+pub mod symmetry;

@@ -1,0 +1,131 @@
+//! Charts of phase space: which momenta stand beside `x` and `phi`.
+
+use crate::algebra::{Arena, Expr, Matrix};
+
+use super::kinetic::Frame;
+
+/// The affine momentum of a chart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Momentum {
+    /// Co-moving affine spin `Sigma_hat = Pi phi`.
+    Body,
+    /// Spatial affine spin `Sigma = phi Pi`.
+    Space,
+    /// Total affine momentum `I(O) = x p^T + Sigma`.
+    Total,
+    /// Canonical momentum `Pi`.
+    Canonical,
+}
+
+/// The linear momentum of a chart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Linear {
+    /// `p`.
+    Space,
+    /// `p_hat = phi^T p`.
+    Body,
+}
+
+/// Coordinates of phase space and their symbols.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// Dimension of space.
+    pub dim: usize,
+    /// Which affine momentum.
+    pub momentum: Momentum,
+    /// Which linear momentum; `None` without translation.
+    pub linear: Option<Linear>,
+    /// `x_i`; empty without translation.
+    pub x: Vec<Expr>,
+    /// `phi_iA`.
+    pub phi: Matrix,
+    /// `p_i` or `p_hat_A`; empty without translation.
+    pub p: Vec<Expr>,
+    /// The affine momentum.
+    pub m: Matrix,
+}
+
+/// One coordinate of a chart, indices from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Coordinate {
+    /// `x_i`.
+    X(usize),
+    /// `phi_iA`.
+    Phi(usize, usize),
+    /// `p_i` or `p_hat_A`.
+    P(usize),
+    /// Entry of the affine momentum.
+    M(usize, usize),
+}
+
+impl Momentum {
+    /// The affine spin of a frame.
+    #[must_use]
+    pub fn of(frame: Frame) -> Self {
+        match frame {
+            Frame::Body => Momentum::Body,
+            Frame::Space => Momentum::Space,
+            Frame::Flat => Momentum::Canonical,
+        }
+    }
+
+    /// Stem of the names of the coordinates.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Momentum::Body => "sigma_hat",
+            Momentum::Space => "sigma",
+            Momentum::Total => "total",
+            Momentum::Canonical => "pi",
+        }
+    }
+
+    /// Stem of the names of the conjugate velocity `(dH/dM)^T`.
+    #[must_use]
+    pub fn velocity_name(self) -> &'static str {
+        match self {
+            Momentum::Body => "omega_hat",
+            Momentum::Space | Momentum::Total => "omega",
+            Momentum::Canonical => "velocity",
+        }
+    }
+}
+
+impl Chart {
+    /// The chart with the given momenta.
+    pub fn new(arena: &mut Arena, dim: usize, momentum: Momentum, linear: Option<Linear>) -> Self {
+        let mut vector =
+            |name: &str| -> Vec<Expr> { (1..=dim).map(|i| arena.symbol(&format!("{name}_{i}"))).collect() };
+        let (x, p) = match linear {
+            None => (Vec::new(), Vec::new()),
+            Some(Linear::Space) => (vector("x"), vector("p")),
+            Some(Linear::Body) => (vector("x"), vector("p_hat")),
+        };
+        let phi = Matrix::symbols(arena, "phi", dim);
+        let m = Matrix::symbols(arena, momentum.name(), dim);
+        Self { dim, momentum, linear, x, phi, p, m }
+    }
+
+    /// All coordinates, group after group.
+    #[must_use]
+    pub fn coordinates(&self) -> Vec<Coordinate> {
+        let n = self.dim;
+        let pairs = || (0..n).flat_map(move |i| (0..n).map(move |j| (i, j)));
+        let mut all: Vec<Coordinate> = (0..self.x.len()).map(Coordinate::X).collect();
+        all.extend(pairs().map(|(i, a)| Coordinate::Phi(i, a)));
+        all.extend((0..self.p.len()).map(Coordinate::P));
+        all.extend(pairs().map(|(a, b)| Coordinate::M(a, b)));
+        all
+    }
+
+    /// Symbol of a coordinate.
+    #[must_use]
+    pub fn symbol(&self, coordinate: Coordinate) -> Expr {
+        match coordinate {
+            Coordinate::X(i) => self.x[i],
+            Coordinate::Phi(i, a) => self.phi.0[i][a],
+            Coordinate::P(i) => self.p[i],
+            Coordinate::M(a, b) => self.m.0[a][b],
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Hamilton's equations of a chart from its brackets.
+
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
+
+use super::brackets::bracket;
+use super::charts::{Chart, Coordinate, Momentum};
+
+/// Straight-line system: quantities that several equations share, then the rates of the coordinates.
+#[derive(Clone, Debug, Default)]
+pub struct System {
+    /// Shared quantities, each a polynomial in coordinates and earlier ones.
+    pub shared: Vec<(Expr, Polynomial)>,
+    /// Coordinates and their time derivatives.
+    pub rates: Vec<(Coordinate, Expr, Polynomial)>,
+}
+
+/// How the rate of a coordinate is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// Expanded and collected: what cancels is gone.
+    Expanded,
+    /// Through the affine velocity: products stay products.
+    ThroughVelocity,
+}
+
+/// The affine velocity `O = (dH/dM)^T` of a chart as symbols with their definitions.
+pub fn velocities(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> Vec<Vec<(Expr, Polynomial)>> {
+    let stem = chart.momentum.velocity_name();
+    (0..chart.dim)
+        .map(|a| {
+            (0..chart.dim)
+                .map(|b| {
+                    let symbol = arena.symbol(&format!("{stem}_{}{}", a + 1, b + 1));
+                    (symbol, h.derivative(chart.m.0[b][a]))
+                })
+                .collect()
+        })
+        .collect()
+}
+
+/// `dz/dt = {z, H} = sum over coordinates y of {z, y} dH/dy`.
+pub fn rate(
+    chart: &Chart,
+    h: &Polynomial,
+    velocity: &[Vec<(Expr, Polynomial)>],
+    form: Form,
+    z: Coordinate,
+) -> Polynomial {
+    let mut sum = Polynomial::zero();
+    for y in chart.coordinates() {
+        let zy = bracket(chart, z, y);
+        if zy.is_zero() {
+            continue;
+        }
+        match (form, y) {
+            (Form::ThroughVelocity, Coordinate::M(a, b)) => {
+                let (symbol, value) = &velocity[b][a];
+                if !value.is_zero() {
+                    sum.add_product(&zy, &Polynomial::atom(*symbol), &Rational::ONE);
+                }
+            }
+            (Form::Expanded, Coordinate::M(a, b)) => {
+                sum.add_product(&zy, &velocity[b][a].1, &Rational::ONE);
+            }
+            _ => sum.add_product(&zy, &h.derivative(chart.symbol(y)), &Rational::ONE),
+        }
+    }
+    sum
+}
+
+/// Hamilton's equations of all coordinates: placement through the velocity, momenta in the given form.
+pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form) -> System {
+    let velocity = velocities(arena, chart, h);
+    let rates = chart
+        .coordinates()
+        .into_iter()
+        .map(|z| {
+            let form = match z {
+                Coordinate::Phi(..) => Form::ThroughVelocity,
+                Coordinate::M(..) => momenta,
+                // With I(O) as momentum the velocity of x is a difference that cancels.
+                Coordinate::X(_) | Coordinate::P(_) if chart.momentum == Momentum::Total => Form::Expanded,
+                Coordinate::X(_) | Coordinate::P(_) => Form::ThroughVelocity,
+            };
+            (z, chart.symbol(z), rate(chart, h, &velocity, form, z))
+        })
+        .collect();
+    System { shared: velocity.into_iter().flatten().collect(), rates }
+}
+
+impl System {
+    /// Replaces atoms by polynomials in every definition and every rate.
+    #[must_use]
+    pub fn substitute(&self, value: &impl Fn(Expr) -> Option<Polynomial>) -> Self {
+        let each = |p: &Polynomial| p.substitute(value);
+        Self {
+            shared: self.shared.iter().map(|(s, p)| (*s, each(p))).collect(),
+            rates: self.rates.iter().map(|(z, s, p)| (*z, *s, each(p))).collect(),
+        }
+    }
+
+    /// Drops shared quantities that nothing uses, and puts in place those that are a single constant or atom.
+    #[must_use]
+    pub fn tidied(mut self) -> Self {
+        let trivial: Vec<(Expr, Polynomial)> = self
+            .shared
+            .iter()
+            .filter(|(_, p)| {
+                p.terms().len() == 0
+                    || (p.terms().len() == 1
+                        && p.terms().all(|(m, c)| m.is_empty() || (m.len() == 1 && c.is_one())))
+            })
+            .cloned()
+            .collect();
+        let value = |atom: Expr| trivial.iter().find(|(s, _)| *s == atom).map(|(_, p)| p.clone());
+        self = self.substitute(&value);
+        self.shared.retain(|(s, _)| !trivial.iter().any(|(t, _)| t == s));
+        let used = |symbol: Expr, shared: &[(Expr, Polynomial)]| {
+            shared
+                .iter()
+                .map(|(_, p)| p)
+                .chain(self.rates.iter().map(|(_, _, p)| p))
+                .any(|p| p.mentions(|a| a == symbol))
+        };
+        let keep: Vec<bool> = self.shared.iter().map(|(s, _)| used(*s, &self.shared)).collect();
+        let mut keep = keep.into_iter();
+        self.shared.retain(|_| keep.next().unwrap_or(true));
+        self
+    }
+}

@@ -1,0 +1,227 @@
+//! Inverse Legendre transformation and Hamiltonian, in any chart that admits them as polynomials.
+
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+
+use super::charts::{Chart, Linear, Momentum};
+use super::hessian::{Direction, Hessian, NumericBlock};
+use super::kinetic::{Frame, Kinetic};
+
+/// The kinetic Hamiltonian in pieces.
+#[derive(Clone, Debug)]
+pub struct Hamiltonian {
+    /// Dimension of space.
+    pub dim: usize,
+    /// Frame in which the internal energy has constant coefficients.
+    pub frame: Frame,
+    /// The affine spin of that frame.
+    pub momentum: Matrix,
+    /// The affine velocity as a linear function of the affine spin: `O = (dH/dX)^T`.
+    pub velocity: Vec<Vec<Polynomial>>,
+    /// `C(2)/(2 alpha) + C(1)^2/(2 beta) + |W|^2/(2 mu)`, where the energy is isotropic.
+    pub isotropic: Option<Isotropic>,
+    /// Frame and `1/m` of the translational energy.
+    pub translation: Option<(Frame, Polynomial)>,
+    /// Inverse blocks that only the fields' values give.
+    pub numeric_blocks: Vec<NumericBlock>,
+}
+
+/// Coefficients of an isotropic Hamiltonian, (4.24).
+#[derive(Clone, Debug)]
+pub struct Isotropic {
+    /// `1/alpha`, of `C(2)/2`.
+    pub casimir2: Polynomial,
+    /// `1/beta`, of `C(1)^2/2`.
+    pub casimir1_squared: Polynomial,
+    /// `1/mu`, of `|W|^2/2` with `W = X - X^T`, `|W|^2` the sum over `a < b` of `W_ab^2`.
+    pub skew: Polynomial,
+}
+
+impl Hamiltonian {
+    /// Inverts the Legendre transformation; `None` where it is degenerate.
+    pub fn new(arena: &mut Arena, kinetic: &Kinetic, hessian: &Hessian) -> Option<Self> {
+        let n = kinetic.dim;
+        let inverse = hessian.inverse(arena)?;
+        let momentum = Matrix::symbols(arena, kinetic.frame.momentum_name(), n);
+        // X = (dT/dO)^T: the momentum conjugate to O_ab is X_ba.
+        let conjugate: Vec<Expr> = momentum.transpose().0.into_iter().flatten().collect();
+        let linear_form = |row: &Vec<Polynomial>| {
+            let mut sum = Polynomial::zero();
+            for (c, x) in row.iter().zip(&conjugate) {
+                sum.add_product(c, &Polynomial::atom(*x), &Rational::ONE);
+            }
+            sum
+        };
+        let flat: Vec<Polynomial> = inverse.matrix.iter().map(linear_form).collect();
+        let translation = match kinetic.translation {
+            None => None,
+            Some(t) => {
+                let reciprocal = arena.pow(t.mass, -1)?;
+                Some((t.frame, Polynomial::normal_form(arena, reciprocal)))
+            }
+        };
+        Some(Self {
+            dim: n,
+            frame: kinetic.frame,
+            momentum,
+            velocity: flat.chunks(n).map(<[Polynomial]>::to_vec).collect(),
+            isotropic: match kinetic.frame {
+                // The Casimirs of the affine group are no functions of Pi alone.
+                Frame::Flat => None,
+                Frame::Body | Frame::Space => isotropic(arena, hessian, n),
+            },
+            translation,
+            numeric_blocks: inverse.numeric_blocks,
+        })
+    }
+
+    /// `1/2 tr(X O(X))` in the frame's own affine spin.
+    #[must_use]
+    pub fn internal(&self) -> Polynomial {
+        let mut sum = Polynomial::zero();
+        for (a, row) in self.velocity.iter().enumerate() {
+            for (b, o) in row.iter().enumerate() {
+                let x = Polynomial::atom(self.momentum.0[b][a]);
+                sum.add_product(&x, o, &half());
+            }
+        }
+        sum
+    }
+
+    /// The internal energy in a chart, with its skew part (of isotropic energies) left out on request; `None`
+    /// where it is not a polynomial there.
+    #[must_use]
+    pub fn internal_in(&self, chart: &Chart, without_skew: bool) -> Option<Polynomial> {
+        let spin = spatial_or_own(chart);
+        match &self.isotropic {
+            Some(iso) if without_skew || iso.skew.is_zero() => {
+                (chart.momentum != Momentum::Canonical).then(|| iso.casimirs(&spin))
+            }
+            _ if chart.momentum == Momentum::of(self.frame) => Some(self.internal()),
+            _ if chart.momentum == Momentum::Total && self.frame == Frame::Space => {
+                let index =
+                    |atom: Expr| {
+                        self.momentum.0.iter().enumerate().find_map(|(i, row)| {
+                            row.iter().position(|m| *m == atom).map(|j| spin[i][j].clone())
+                        })
+                    };
+                Some(self.internal().substitute(&index))
+            }
+            _ => None,
+        }
+    }
+
+    /// The translational energy in a chart.
+    #[must_use]
+    pub fn translation_in(&self, chart: &Chart) -> Polynomial {
+        let Some((frame, inverse_mass)) = &self.translation else { return Polynomial::zero() };
+        let squares = match (frame, chart.linear) {
+            (Frame::Body, Some(Linear::Space)) => comoving(chart),
+            _ => chart.p.iter().map(|p| Polynomial::atom(*p)).collect(),
+        };
+        let mut sum = Polynomial::zero();
+        for p in &squares {
+            sum.add_product(&p.mul(p), inverse_mass, &half());
+        }
+        sum
+    }
+}
+
+impl Isotropic {
+    /// `C(2)/(2 alpha) + C(1)^2/(2 beta)` of an affine spin.
+    #[must_use]
+    pub fn casimirs(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
+        let (mut c1, mut c2) = (Polynomial::zero(), Polynomial::zero());
+        for (a, row) in spin.iter().enumerate() {
+            c1.add_scaled(&row[a], &Rational::ONE);
+            for (b, value) in row.iter().enumerate() {
+                c2.add_product(value, &spin[b][a], &Rational::ONE);
+            }
+        }
+        let mut sum = Polynomial::zero();
+        sum.add_product(&c2, &self.casimir2, &half());
+        sum.add_product(&c1.mul(&c1), &self.casimir1_squared, &half());
+        sum
+    }
+
+    /// `|W|^2/(2 mu)` of an affine spin.
+    #[must_use]
+    pub fn skew_norm(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
+        let mut norm = Polynomial::zero();
+        for a in 0..spin.len() {
+            for b in a + 1..spin.len() {
+                let mut w = spin[a][b].clone();
+                w.add_scaled(&spin[b][a], &Rational::MINUS_ONE);
+                norm.add_product(&w, &w, &half());
+            }
+        }
+        norm.mul(&self.skew)
+    }
+}
+
+/// `p_hat = phi^T p`.
+fn comoving(chart: &Chart) -> Vec<Polynomial> {
+    (0..chart.dim)
+        .map(|a| {
+            let mut sum = Polynomial::zero();
+            for (i, p) in chart.p.iter().enumerate() {
+                sum.add_term(vec![chart.phi.0[i][a], *p], &Rational::ONE);
+            }
+            sum
+        })
+        .collect()
+}
+
+/// The chart's affine momentum, or `Sigma = I(O) - x p^T` where that is the total one.
+#[must_use]
+pub fn spatial_or_own(chart: &Chart) -> Vec<Vec<Polynomial>> {
+    let orbital = chart.momentum == Momentum::Total;
+    (0..chart.dim)
+        .map(|i| {
+            (0..chart.dim)
+                .map(|j| {
+                    let mut entry = Polynomial::atom(chart.m.0[i][j]);
+                    if orbital {
+                        entry.add_term(vec![chart.x[i], chart.p[j]], &Rational::MINUS_ONE);
+                    }
+                    entry
+                })
+                .collect()
+        })
+        .collect()
+}
+
+fn half() -> Rational {
+    Rational::ratio(1, 2).unwrap_or(Rational::ONE)
+}
+
+/// The isotropic coefficients, where shear, rotation and dilatation each have one eigenvalue.
+fn isotropic(arena: &mut Arena, hessian: &Hessian, n: usize) -> Option<Isotropic> {
+    let mut common = |kind: Direction| {
+        let mut found: Option<Polynomial> = None;
+        for block in hessian.blocks.iter().filter(|b| b.basis[0].kind == kind) {
+            let eigenvalue = block.eigenvalue()?;
+            if found.as_ref().is_some_and(|f| *f != eigenvalue) {
+                return None;
+            }
+            found = Some(eigenvalue);
+        }
+        let value = found?.expression(arena);
+        let reciprocal = arena.pow(value, -1)?;
+        Some(Polynomial::normal_form(arena, reciprocal))
+    };
+    let shear = common(Direction::Shear)?;
+    let rotation = common(Direction::Rotation)?;
+    let dilatation = common(Direction::Dilatation)?;
+    // H = |shear|^2/(2 shear) + |skew|^2/(2 rotation) + (tr)^2/(2 n dilatation), rewritten by
+    // C(2) = |symmetric|^2 - |skew|^2 and |W|^2 = 2 |skew|^2 (sum over all entries on the right).
+    let mut casimir1_squared = dilatation;
+    casimir1_squared.add_scaled(&shear, &Rational::MINUS_ONE);
+    let nth = Rational::ratio(1, i64::try_from(n).ok()?)?;
+    let mut skew = shear.clone();
+    skew.add_scaled(&rotation, &Rational::ONE);
+    Some(Isotropic {
+        casimir2: shear,
+        casimir1_squared: casimir1_squared.scaled(&nth),
+        skew: skew.scaled(&half()),
+    })
+}

@@ -1,0 +1,242 @@
+//! The Hessian of the kinetic energy on the velocity space, its invariant blocks and its exact inverse.
+
+use crate::algebra::linear::{self, Inertia};
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
+
+use super::kinetic::Kinetic;
+
+/// The Hessian `d^2 T / dO_k dO_l` on the `n^2` entries of the affine velocity, row-major, split into the blocks
+/// that do not mix.
+#[derive(Clone, Debug)]
+pub struct Hessian {
+    /// The blocks; their basis vectors together span the velocity space.
+    pub blocks: Vec<Block>,
+    /// Entry `[k][l]`, a polynomial in the model's parameters.
+    pub matrix: Vec<Vec<Polynomial>>,
+}
+
+/// A block of the Hessian in a rational basis.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Basis vectors, each of `n^2` rational entries.
+    pub basis: Vec<BasisVector>,
+    /// The form on them.
+    pub form: Vec<Vec<Polynomial>>,
+}
+
+/// A direction in the space of affine velocities.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BasisVector {
+    /// Which subspace of the velocity space it belongs to.
+    pub kind: Direction,
+    /// Its nonzero entries: row-major index and weight.
+    pub entries: Vec<(usize, Rational)>,
+}
+
+/// Subspaces of the velocity space that are invariant under rotations, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Direction {
+    /// Symmetric and traceless.
+    Shear,
+    /// Skew.
+    Rotation,
+    /// Multiples of the identity.
+    Dilatation,
+    /// A single entry.
+    Entry,
+}
+
+impl BasisVector {
+    fn square(&self) -> Rational {
+        self.entries.iter().fold(Rational::ZERO, |sum, (_, w)| &sum + &(w * w))
+    }
+}
+
+impl Block {
+    /// The eigenvalue of a block of size one, with respect to the norm `tr(O O^T)`.
+    #[must_use]
+    pub fn eigenvalue(&self) -> Option<Polynomial> {
+        let [vector] = self.basis.as_slice() else { return None };
+        Some(self.form[0][0].scaled(&vector.square().recip()?))
+    }
+
+    /// The form as numbers, if it is numeric.
+    #[must_use]
+    pub fn numbers(&self) -> Option<linear::Square> {
+        self.form.iter().map(|row| row.iter().map(Polynomial::as_constant).collect()).collect()
+    }
+
+    /// Inertia of a numeric block, its kernel as an affine velocity of `n^2` entries.
+    #[must_use]
+    pub fn inertia(&self, dim: usize) -> Option<Inertia> {
+        let mut inertia = linear::inertia(&self.numbers()?);
+        inertia.kernel = inertia.kernel.map(|kernel| {
+            let mut direction = vec![Rational::ZERO; dim * dim];
+            for (weight, vector) in kernel.iter().zip(&self.basis) {
+                for (k, w) in &vector.entries {
+                    direction[*k] = &direction[*k] + &(weight * w);
+                }
+            }
+            direction
+        });
+        Some(inertia)
+    }
+}
+
+impl Hessian {
+    /// The Hessian of the internal energy.
+    pub fn new(arena: &mut Arena, kinetic: &Kinetic) -> Self {
+        let energy = kinetic.internal_energy(arena);
+        let velocities: Vec<Expr> = kinetic.velocity.0.iter().flatten().copied().collect();
+        let gradient: Vec<Expr> = velocities.iter().map(|v| arena.derivative(energy, *v)).collect();
+        let matrix: Vec<Vec<Polynomial>> = gradient
+            .iter()
+            .map(|g| {
+                let form = Polynomial::normal_form(arena, *g);
+                velocities.iter().map(|v| form.derivative(*v)).collect()
+            })
+            .collect();
+        let blocks = [entries(kinetic.dim), invariant(kinetic.dim)]
+            .map(|basis| blocks(&matrix, basis))
+            .into_iter()
+            // Work of inverting; the invariant directions win a tie, since they name the eigenvalues.
+            .min_by_key(|blocks| {
+                let work: usize = blocks.iter().map(|b| b.basis.len().pow(3)).sum();
+                (work, blocks[0].basis[0].kind == Direction::Entry)
+            })
+            .unwrap_or_default();
+        Self { blocks, matrix }
+    }
+
+    /// The inverse: entry `[k][l]` is a polynomial in parameters, reciprocals of eigenvalues, and symbols for
+    /// the inverse blocks that only numbers can give. `None` where the form is degenerate.
+    pub fn inverse(&self, arena: &mut Arena) -> Option<Inverse> {
+        let n2 = self.matrix.len();
+        let mut result =
+            Inverse { matrix: vec![vec![Polynomial::zero(); n2]; n2], numeric_blocks: Vec::new() };
+        for block in &self.blocks {
+            let inverse = result.invert(arena, block)?;
+            for (row, left) in inverse.iter().zip(&block.basis) {
+                for (value, right) in row.iter().zip(&block.basis) {
+                    for (k, wk) in &left.entries {
+                        for (l, wl) in &right.entries {
+                            result.matrix[*k][*l].add_scaled(value, &(wk * wl));
+                        }
+                    }
+                }
+            }
+        }
+        Some(result)
+    }
+}
+
+/// The inverse of a Hessian.
+#[derive(Clone, Debug)]
+pub struct Inverse {
+    /// Entry `[k][l]`.
+    pub matrix: Vec<Vec<Polynomial>>,
+    /// Blocks that mix directions and depend on fields: their inverses are computed when the model is prepared.
+    pub numeric_blocks: Vec<NumericBlock>,
+}
+
+/// A symmetric block whose inverse is computed from the values of the fields.
+#[derive(Clone, Debug)]
+pub struct NumericBlock {
+    /// The form, in parameters.
+    pub form: Vec<Vec<Polynomial>>,
+    /// Symbols of the inverse, row after row; symmetric.
+    pub inverse: Vec<Vec<Expr>>,
+}
+
+impl Inverse {
+    fn invert(&mut self, arena: &mut Arena, block: &Block) -> Option<Vec<Vec<Polynomial>>> {
+        if let Some(numbers) = block.numbers() {
+            let inverse = linear::inverse(&numbers)?;
+            return Some(
+                inverse.into_iter().map(|row| row.into_iter().map(Polynomial::constant).collect()).collect(),
+            );
+        }
+        if let [row] = block.form.as_slice() {
+            let value = row[0].expression(arena);
+            let reciprocal = arena.pow(value, -1)?;
+            return Some(vec![vec![Polynomial::normal_form(arena, reciprocal)]]);
+        }
+        let b = self.numeric_blocks.len() + 1;
+        let size = block.form.len();
+        let mut symbol =
+            |i: usize, j: usize| arena.symbol(&format!("inverse_{b}_{}_{}", i.min(j) + 1, i.max(j) + 1));
+        let inverse: Vec<Vec<Expr>> = (0..size).map(|i| (0..size).map(|j| symbol(i, j)).collect()).collect();
+        self.numeric_blocks.push(NumericBlock { form: block.form.clone(), inverse: inverse.clone() });
+        Some(inverse.into_iter().map(|row| row.into_iter().map(Polynomial::atom).collect()).collect())
+    }
+}
+
+/// The entries themselves.
+fn entries(n: usize) -> Vec<BasisVector> {
+    (0..n * n).map(|k| BasisVector { kind: Direction::Entry, entries: vec![(k, Rational::ONE)] }).collect()
+}
+
+/// Symmetric traceless, skew and trace directions, orthogonal and rational.
+fn invariant(n: usize) -> Vec<BasisVector> {
+    let one = || Rational::ONE;
+    let mut basis = Vec::new();
+    for a in 0..n {
+        for b in a + 1..n {
+            basis.push(BasisVector {
+                kind: Direction::Shear,
+                entries: vec![(n * a + b, one()), (n * b + a, one())],
+            });
+            basis.push(BasisVector {
+                kind: Direction::Rotation,
+                entries: vec![(n * a + b, one()), (n * b + a, Rational::MINUS_ONE)],
+            });
+        }
+    }
+    for a in 1..n {
+        let mut entries: Vec<_> = (0..a).map(|b| (n * b + b, one())).collect();
+        entries.push((n * a + a, Rational::from(-i64::try_from(a).unwrap_or(i64::MAX))));
+        basis.push(BasisVector { kind: Direction::Shear, entries });
+    }
+    basis.push(BasisVector {
+        kind: Direction::Dilatation,
+        entries: (0..n).map(|a| (n * a + a, one())).collect(),
+    });
+    basis
+}
+
+/// The form in a basis, cut into its connected components.
+fn blocks(matrix: &[Vec<Polynomial>], basis: Vec<BasisVector>) -> Vec<Block> {
+    let form: Vec<Vec<Polynomial>> =
+        basis.iter().map(|a| basis.iter().map(|b| pairing(matrix, a, b)).collect()).collect();
+    let mut component: Vec<usize> = (0..basis.len()).collect();
+    for i in 0..basis.len() {
+        for j in 0..i {
+            if !form[i][j].is_zero() && component[i] != component[j] {
+                let (keep, drop) = (component[j].min(component[i]), component[j].max(component[i]));
+                component.iter_mut().filter(|c| **c == drop).for_each(|c| *c = keep);
+            }
+        }
+    }
+    (0..basis.len())
+        .filter_map(|root| {
+            let members: Vec<usize> = (0..basis.len()).filter(|i| component[*i] == root).collect();
+            (!members.is_empty()).then(|| Block {
+                basis: members.iter().map(|i| basis[*i].clone()).collect(),
+                form: members
+                    .iter()
+                    .map(|i| members.iter().map(|j| form[*i][*j].clone()).collect())
+                    .collect(),
+            })
+        })
+        .collect()
+}
+
+fn pairing(matrix: &[Vec<Polynomial>], a: &BasisVector, b: &BasisVector) -> Polynomial {
+    let mut sum = Polynomial::zero();
+    for (k, wk) in &a.entries {
+        for (l, wl) in &b.entries {
+            sum.add_scaled(&matrix[*k][*l], &(wk * wl));
+        }
+    }
+    sum
+}

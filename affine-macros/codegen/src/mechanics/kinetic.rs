@@ -1,0 +1,220 @@
+//! The kinetic energy, term by term, in the velocity of its frame.
+
+use crate::algebra::{Arena, Expr, Matrix, Rational};
+
+/// A term of the kinetic energy and its coefficient.
+#[derive(Clone, Debug)]
+pub struct Term {
+    /// Which form.
+    pub kind: TermKind,
+    /// Its coefficient or coefficients.
+    pub value: Coefficient,
+}
+
+/// Coefficient of a term.
+#[derive(Clone, Debug)]
+pub enum Coefficient {
+    /// A number or expression in the model's parameters.
+    Scalar(Expr),
+    /// A matrix of them, row after row.
+    Matrix(Matrix),
+}
+
+/// The quadratic forms that a specification can name; `Oh = phi^-1 phi_dot`, `Om = phi_dot phi^-1`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TermKind {
+    /// `A/2 tr O^2`, the same in both frames.
+    Casimir2,
+    /// `B/2 (tr O)^2`, the same in both frames.
+    Casimir1Squared,
+    /// `I/2 tr(Oh Oh^T)`, (4.14).
+    BodyInertia,
+    /// `I/2 tr(Om Om^T)`, (4.15).
+    SpaceInertia,
+    /// `1/2 K[nA+B][nC+D] Oh[A][B] Oh[C][D]`, (4.1).
+    BodyTensor,
+    /// `1/2 K[nA+B][nC+D] Om[A][B] Om[C][D]`, (4.2).
+    SpaceTensor,
+    /// `1/2 tr(phi_dot J phi_dot^T)`, (2.1).
+    Dalembert,
+    /// `m/2 |phi^-1 x_dot|^2`, (4.4).
+    BodyTranslation,
+    /// `m/2 |x_dot|^2`, (4.5).
+    SpaceTranslation,
+}
+
+/// The frame in which an energy has constant coefficients.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// Co-moving: `Oh`, `Sigma_hat`, `p_hat`.
+    Body,
+    /// Spatial: `Om`, `Sigma`, `p`.
+    Space,
+    /// Neither: `phi_dot`, `Pi`.
+    Flat,
+}
+
+impl Frame {
+    /// Stem of the names of the affine velocity.
+    #[must_use]
+    pub fn velocity_name(self) -> &'static str {
+        match self {
+            Frame::Body => "omega_hat",
+            Frame::Space => "omega",
+            Frame::Flat => "phi_dot",
+        }
+    }
+
+    /// Stem of the names of the affine spin.
+    #[must_use]
+    pub fn momentum_name(self) -> &'static str {
+        match self {
+            Frame::Body => "sigma_hat",
+            Frame::Space => "sigma",
+            Frame::Flat => "pi",
+        }
+    }
+}
+
+impl TermKind {
+    /// The frame that makes the term's coefficients constant; `None` where any of body and space does.
+    #[must_use]
+    pub fn internal_frame(self) -> Option<Frame> {
+        match self {
+            TermKind::BodyInertia | TermKind::BodyTensor => Some(Frame::Body),
+            TermKind::SpaceInertia | TermKind::SpaceTensor => Some(Frame::Space),
+            TermKind::Dalembert => Some(Frame::Flat),
+            _ => None,
+        }
+    }
+
+    /// The frame of a translational term.
+    #[must_use]
+    pub fn translation_frame(self) -> Option<Frame> {
+        match self {
+            TermKind::BodyTranslation => Some(Frame::Body),
+            TermKind::SpaceTranslation => Some(Frame::Space),
+            _ => None,
+        }
+    }
+}
+
+/// A kinetic energy with constant coefficients in one internal and at most one translational frame.
+#[derive(Clone, Debug)]
+pub struct Kinetic {
+    /// Dimension of space.
+    pub dim: usize,
+    /// Frame of the internal motion.
+    pub frame: Frame,
+    /// The affine velocity of that frame, as symbols.
+    pub velocity: Matrix,
+    /// Energy of each internal term, with its place in the specification.
+    pub internal: Vec<(usize, Expr)>,
+    /// Frame and mass of the translational term, with its place in the specification.
+    pub translation: Option<Translation>,
+}
+
+/// The translational term `m/2 |v|^2` in the frame of `v`.
+#[derive(Clone, Copy, Debug)]
+pub struct Translation {
+    /// `Body`: `v = phi^-1 x_dot`; `Space`: `v = x_dot`.
+    pub frame: Frame,
+    /// `m`.
+    pub mass: Expr,
+    /// Place in the specification.
+    pub place: usize,
+}
+
+impl Kinetic {
+    /// Writes the terms in their common frame; the places of two terms that have none, otherwise.
+    ///
+    /// # Errors
+    /// The places of the first two terms whose coefficients cannot be constant together.
+    pub fn new(arena: &mut Arena, dim: usize, terms: &[Term]) -> Result<Self, (usize, usize)> {
+        let translation = common(terms, TermKind::translation_frame)?;
+        let fixed = common(terms, TermKind::internal_frame)?;
+        // The Casimir terms alone live in both affine frames; the one of the translation makes it shortest.
+        let frame = fixed.or(translation).map_or(Frame::Body, |(frame, _)| frame);
+        if let (Frame::Flat, Some((_, flat))) = (frame, fixed)
+            && let Some(affine) = terms
+                .iter()
+                .position(|t| t.kind.internal_frame().is_none() && t.kind.translation_frame().is_none())
+        {
+            return Err((flat.min(affine), flat.max(affine)));
+        }
+        let velocity = Matrix::symbols(arena, frame.velocity_name(), dim);
+        let mut kinetic = Self { dim, frame, velocity, internal: Vec::new(), translation: None };
+        for (place, term) in terms.iter().enumerate() {
+            match (term.kind.translation_frame(), &term.value) {
+                (Some(frame), Coefficient::Scalar(mass)) => {
+                    kinetic.translation = Some(Translation { frame, mass: *mass, place });
+                }
+                _ => {
+                    let energy = internal_energy(arena, &kinetic.velocity, term);
+                    kinetic.internal.push((place, energy));
+                }
+            }
+        }
+        Ok(kinetic)
+    }
+
+    /// The internal energy `T_int`.
+    pub fn internal_energy(&self, arena: &mut Arena) -> Expr {
+        let parts: Vec<_> = self.internal.iter().map(|(_, e)| (*e, Rational::ONE)).collect();
+        arena.linear(&parts)
+    }
+}
+
+/// The one frame that `frame` gives for the terms, with the place of the first term that asks for it.
+fn common(
+    terms: &[Term],
+    frame: impl Fn(TermKind) -> Option<Frame>,
+) -> Result<Option<(Frame, usize)>, (usize, usize)> {
+    let mut found: Option<(Frame, usize)> = None;
+    for (place, term) in terms.iter().enumerate() {
+        match (found, frame(term.kind)) {
+            (None, Some(this)) => found = Some((this, place)),
+            (Some((first, at)), Some(this)) if this != first => return Err((at, place)),
+            _ => {}
+        }
+    }
+    Ok(found)
+}
+
+/// The energy of an internal term at the affine velocity `o` of its frame.
+fn internal_energy(arena: &mut Arena, o: &Matrix, term: &Term) -> Expr {
+    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+    let form = match (&term.value, term.kind) {
+        (Coefficient::Scalar(c), TermKind::Casimir2) => {
+            let trace = o.mul(arena, o).trace(arena);
+            arena.mul(*c, trace)
+        }
+        (Coefficient::Scalar(c), TermKind::Casimir1Squared) => {
+            let trace = o.trace(arena);
+            let square = arena.mul(trace, trace);
+            arena.mul(*c, square)
+        }
+        (Coefficient::Scalar(c), _) => {
+            let trace = o.mul(arena, &o.transpose()).trace(arena);
+            arena.mul(*c, trace)
+        }
+        (Coefficient::Matrix(j), TermKind::Dalembert) => {
+            o.mul(arena, j).mul(arena, &o.transpose()).trace(arena)
+        }
+        (Coefficient::Matrix(k), _) => tensor_form(arena, o, k),
+    };
+    arena.scale(form, &half)
+}
+
+/// `K[nA+B][nC+D] O[A][B] O[C][D]`.
+fn tensor_form(arena: &mut Arena, o: &Matrix, k: &Matrix) -> Expr {
+    let entries: Vec<Expr> = o.0.iter().flatten().copied().collect();
+    let mut sum = Vec::new();
+    for (row, a) in k.0.iter().zip(&entries) {
+        for (coefficient, b) in row.iter().zip(&entries) {
+            let pair = arena.mul(*a, *b);
+            sum.push((arena.mul(*coefficient, pair), Rational::ONE));
+        }
+    }
+    arena.linear(&sum)
+}

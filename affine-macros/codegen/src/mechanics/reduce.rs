@@ -1,0 +1,285 @@
+//! What has to be integrated: commuting pieces of `H` with exact flows are split off, conserved momenta leave the
+//! state, space is turned so that `p` has one component.
+
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
+
+use super::brackets::poisson;
+use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::conserved::rotation_invariant;
+use super::equations::{Form, System, hamilton};
+use super::hamiltonian::{Hamiltonian, spatial_or_own};
+use super::kinetic::Frame;
+
+/// A piece of `H` that commutes with the rest and whose flow is known.
+#[derive(Clone, Debug)]
+pub enum Commuting {
+    /// `|Vort|^2/(2 mu)`: `phi -> phi exp(-t Vort/mu)`.
+    Vorticity(Polynomial),
+    /// `|S|^2/(2 mu)`: `phi -> exp(-t S/mu) phi`.
+    Spin(Polynomial),
+    /// `|p|^2/(2 m)`: `x -> x + t p/m`.
+    Drift(Polynomial),
+}
+
+/// How the affine momentum of the reduced chart enters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// All of it is conserved: a constant of the trajectory.
+    Constant,
+    /// Its skew part is conserved; the symmetric part is state.
+    Symmetric,
+    /// All entries are state.
+    Entries,
+}
+
+/// A reduced system.
+#[derive(Clone, Debug)]
+pub struct Reduction {
+    /// Its chart.
+    pub chart: Chart,
+    /// What was split off.
+    pub commuting: Vec<Commuting>,
+    /// Space is turned so that `p = (|p|, 0, 0)`, and `I(O)_13 = 0` where `I(O)` is constant.
+    pub turned: bool,
+    /// How the affine momentum enters.
+    pub layout: Layout,
+    /// The equations of the state variables.
+    pub system: System,
+    /// State variables: group name and symbols.
+    pub states: Vec<(&'static str, Vec<Expr>)>,
+}
+
+/// Closed-form motions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClosedForm {
+    /// `phi0 exp(tX) exp(tW)`
+    Body,
+    /// `exp(tW) exp(tX) phi0`
+    Space,
+    /// `phi0 + t phi_dot0`
+    Straight,
+}
+
+/// The closed form of the geodesics, and whether it needs `p = 0`.
+#[must_use]
+pub fn closed_form(h: &Hamiltonian, commuting: &[Commuting]) -> Option<(ClosedForm, bool)> {
+    let at_rest = h.translation.is_some() && !commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
+    let rotation_solved = h
+        .isotropic
+        .as_ref()
+        .is_some_and(|iso| iso.skew.is_zero() || commuting.iter().any(|c| !matches!(c, Commuting::Drift(_))));
+    match h.frame {
+        Frame::Flat => Some((ClosedForm::Straight, at_rest)),
+        Frame::Body if rotation_solved => Some((ClosedForm::Body, at_rest)),
+        Frame::Space if rotation_solved => Some((ClosedForm::Space, at_rest)),
+        _ => None,
+    }
+}
+
+/// The chart of the model's own frame, `p` spatial.
+pub fn own_chart(arena: &mut Arena, h: &Hamiltonian) -> Chart {
+    Chart::new(arena, h.dim, Momentum::of(h.frame), h.translation.as_ref().map(|_| Linear::Space))
+}
+
+/// `H` in the chart of the model's own frame.
+#[must_use]
+pub fn own_hamiltonian(h: &Hamiltonian, chart: &Chart) -> Polynomial {
+    let mut sum = h.internal();
+    sum.add_scaled(&h.translation_in(chart), &Rational::ONE);
+    sum
+}
+
+/// The pieces of `H` that can be split off, each proved to commute with the rest.
+pub fn commuting(arena: &mut Arena, h: &Hamiltonian) -> Vec<Commuting> {
+    let chart = own_chart(arena, h);
+    let translation = h.translation_in(&chart);
+    let mut found = Vec::new();
+    if let Some(iso) = h.isotropic.as_ref().filter(|iso| !iso.skew.is_zero()) {
+        let spin = spatial_or_own(&chart);
+        let mut rest = iso.casimirs(&spin);
+        rest.add_scaled(&translation, &Rational::ONE);
+        if poisson(&chart, &iso.skew_norm(&spin), &rest).is_zero() {
+            found.push(match h.frame {
+                Frame::Body => Commuting::Vorticity(iso.skew.clone()),
+                _ => Commuting::Spin(iso.skew.clone()),
+            });
+        }
+    }
+    if let Some((Frame::Space, inverse_mass)) = &h.translation
+        && poisson(&chart, &translation, &h.internal()).is_zero()
+    {
+        found.push(Commuting::Drift(inverse_mass.clone()));
+    }
+    found
+}
+
+/// Every chart in which the rest of `H` is a polynomial, reduced.
+pub fn candidates(arena: &mut Arena, h: &Hamiltonian) -> Vec<Reduction> {
+    let commuting = commuting(arena, h);
+    let drift = commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
+    let without_skew = commuting.iter().any(|c| !matches!(c, Commuting::Drift(_)));
+    let linear = (h.translation.is_some() && !drift).then_some(Linear::Space);
+    let own = own_chart(arena, h);
+    let full = own_hamiltonian(h, &own);
+    let turn = linear.is_some() && rotation_invariant(arena, &own, &full);
+    let mut momenta = vec![Momentum::of(h.frame)];
+    for other in [Momentum::Body, Momentum::Space, Momentum::Total] {
+        if !momenta.contains(&other) && (other != Momentum::Total || linear.is_some()) {
+            momenta.push(other);
+        }
+    }
+    momenta
+        .into_iter()
+        .filter_map(|momentum| {
+            let chart = Chart::new(arena, h.dim, momentum, linear);
+            let mut main = h.internal_in(&chart, without_skew)?;
+            if linear.is_some() {
+                main.add_scaled(&h.translation_in(&chart), &Rational::ONE);
+            }
+            Some(reduced(arena, chart, &main, commuting.clone(), turn))
+        })
+        .collect()
+}
+
+/// Takes the conserved momenta out of the state.
+fn reduced(
+    arena: &mut Arena,
+    chart: Chart,
+    h: &Polynomial,
+    commuting: Vec<Commuting>,
+    turn: bool,
+) -> Reduction {
+    let mut system = hamilton(arena, &chart, h, Form::Expanded);
+    let rate = |z: Coordinate, system: &System| {
+        system.rates.iter().find(|(c, _, _)| *c == z).map(|(_, _, r)| r.clone()).unwrap_or_default()
+    };
+    let n = chart.dim;
+    let still = |z: Coordinate| rate(z, &system).is_zero();
+    let pairs: Vec<(usize, usize)> = (0..n).flat_map(|a| (0..n).map(move |b| (a, b))).collect();
+    let layout = if pairs.iter().all(|(a, b)| still(Coordinate::M(*a, *b))) {
+        Layout::Constant
+    } else if pairs
+        .iter()
+        .all(|(a, b)| rate(Coordinate::M(*a, *b), &system) == rate(Coordinate::M(*b, *a), &system))
+    {
+        Layout::Symmetric
+    } else {
+        Layout::Entries
+    };
+    let p_constant = (0..chart.p.len()).all(|i| still(Coordinate::P(i)));
+    let turned = turn && p_constant;
+    system.rates.retain(|(z, _, _)| match z {
+        Coordinate::X(_) | Coordinate::Phi(..) => true,
+        Coordinate::P(_) => !p_constant,
+        Coordinate::M(a, b) => match layout {
+            Layout::Constant => false,
+            Layout::Symmetric => a <= b,
+            Layout::Entries => true,
+        },
+    });
+    let symmetric = symmetric_part(arena, &chart, layout);
+    let gauge = gauge(&chart, turned, layout);
+    let value = |atom: Expr| {
+        symmetric.iter().chain(&gauge).find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone())
+    };
+    system = system.substitute(&value).tidied();
+    if layout == Layout::Symmetric {
+        for (z, symbol, _) in &mut system.rates {
+            if let Coordinate::M(a, b) = *z {
+                *symbol = stretch_symbol(arena, &chart, a, b);
+            }
+        }
+    }
+    let states = states(&chart, &system);
+    Reduction { chart, commuting, turned, layout, system, states }
+}
+
+/// State variables, grouped.
+fn states(chart: &Chart, system: &System) -> Vec<(&'static str, Vec<Expr>)> {
+    let group = |name: &'static str, wanted: fn(&Coordinate) -> bool| {
+        let symbols: Vec<Expr> =
+            system.rates.iter().filter(|(z, _, _)| wanted(z)).map(|(_, s, _)| *s).collect();
+        (name, symbols)
+    };
+    [
+        group("x", |z| matches!(z, Coordinate::X(_))),
+        group("phi", |z| matches!(z, Coordinate::Phi(..))),
+        group("p", |z| matches!(z, Coordinate::P(_))),
+        group(chart.momentum.name(), |z| matches!(z, Coordinate::M(..))),
+    ]
+    .into_iter()
+    .filter(|(_, symbols)| !symbols.is_empty())
+    .collect()
+}
+
+/// Symbol of an entry of the symmetric part of the momentum.
+fn stretch_symbol(arena: &mut Arena, chart: &Chart, a: usize, b: usize) -> Expr {
+    match a == b {
+        true => chart.m.0[a][b],
+        false => arena.symbol(&format!("{}_sym_{}{}", chart.momentum.name(), a + 1, b + 1)),
+    }
+}
+
+/// `M_ab = s_ab + w_ab/2`, `M_ba = s_ab - w_ab/2` off the diagonal, where the skew part `w` is constant.
+fn symmetric_part(arena: &mut Arena, chart: &Chart, layout: Layout) -> Vec<(Expr, Polynomial)> {
+    if layout != Layout::Symmetric {
+        return Vec::new();
+    }
+    split_symmetric(arena, chart)
+        .into_iter()
+        .flat_map(|split| [(split.upper, split.value(1)), (split.lower, split.value(-1))])
+        .collect()
+}
+
+/// A pair of entries `M_ab`, `M_ba` as symmetric and skew part.
+#[derive(Clone, Copy, Debug)]
+pub struct Split {
+    /// `M_ab`, `a < b`.
+    pub upper: Expr,
+    /// `M_ba`.
+    pub lower: Expr,
+    /// `s = (M_ab + M_ba)/2`
+    pub symmetric: Expr,
+    /// `w = M_ab - M_ba`
+    pub skew: Expr,
+}
+
+impl Split {
+    /// `s + sign w/2`.
+    #[must_use]
+    pub fn value(&self, sign: i64) -> Polynomial {
+        let mut sum = Polynomial::atom(self.symmetric);
+        if let Some(half) = Rational::ratio(sign, 2) {
+            sum.add_term(vec![self.skew], &half);
+        }
+        sum
+    }
+}
+
+/// Symmetric and skew parts of a chart's momentum, pair by pair.
+pub fn split_symmetric(arena: &mut Arena, chart: &Chart) -> Vec<Split> {
+    let mut splits = Vec::new();
+    for a in 0..chart.dim {
+        for b in a + 1..chart.dim {
+            splits.push(Split {
+                upper: chart.m.0[a][b],
+                lower: chart.m.0[b][a],
+                symmetric: stretch_symbol(arena, chart, a, b),
+                skew: arena.symbol(&format!("{}_skew_{}{}", chart.momentum.name(), a + 1, b + 1)),
+            });
+        }
+    }
+    splits
+}
+
+/// Components that vanish once space is turned.
+fn gauge(chart: &Chart, turned: bool, layout: Layout) -> Vec<(Expr, Polynomial)> {
+    let mut zero = Vec::new();
+    if turned {
+        zero.extend(chart.p.iter().skip(1).map(|p| (*p, Polynomial::zero())));
+        if chart.momentum == Momentum::Total && layout == Layout::Constant && chart.dim == 3 {
+            zero.push((chart.m.0[0][2], Polynomial::zero()));
+        }
+    }
+    zero
+}

@@ -1,0 +1,52 @@
+//! From derived systems to the shortest straight-line programs.
+
+use crate::algebra::bind::Constants;
+use crate::algebra::factor::{factored, scale_atoms};
+use crate::algebra::{Arena, Expr, Polynomial};
+use crate::ir::Program;
+use crate::ir::build::Builder;
+
+/// Named polynomials in the order of their results, with quantities they share.
+#[derive(Clone, Debug, Default)]
+pub struct Batch {
+    /// Shared quantities; each may use others of the list.
+    pub shared: Vec<(Expr, Polynomial)>,
+    /// Results.
+    pub results: Vec<(String, Polynomial)>,
+}
+
+/// A program for the batch: slow coefficients become `constants`, the rest is factored.
+pub fn straight_line(
+    arena: &mut Arena,
+    batch: &Batch,
+    constants: &mut Constants,
+    varies: &impl Fn(Expr) -> bool,
+) -> Program {
+    let shared: Vec<Expr> = batch.shared.iter().map(|(s, _)| *s).collect();
+    let moving = |atom: Expr| varies(atom) || shared.contains(&atom);
+    let mut polynomials: Vec<Polynomial> = batch
+        .shared
+        .iter()
+        .map(|(_, p)| p)
+        .chain(batch.results.iter().map(|(_, p)| p))
+        .map(|p| constants.bind(arena, p, &moving))
+        .collect();
+    let scaled = scale_atoms(arena, &mut polynomials, &moving);
+    let (shared_forms, result_forms) = polynomials.split_at(batch.shared.len());
+    let mut open: Vec<(Expr, Polynomial)> =
+        scaled.into_iter().chain(shared.iter().copied().zip(shared_forms.iter().cloned())).collect();
+    let mut builder = Builder::new();
+    // Definitions in an order in which each uses only what is there already.
+    while let Some(ready) =
+        open.iter().position(|(_, p)| !p.mentions(|atom| open.iter().any(|(symbol, _)| *symbol == atom)))
+    {
+        let (symbol, polynomial) = open.remove(ready);
+        let value = factored(arena, &polynomial);
+        builder.define(arena, symbol, value);
+    }
+    for ((name, _), form) in batch.results.iter().zip(result_forms) {
+        let value = factored(arena, form);
+        builder.output(arena, name, value);
+    }
+    builder.finish()
+}

@@ -1,0 +1,123 @@
+//! Motion through a point: the canonical vector field and derivatives along it.
+
+use num_rational::BigRational;
+
+use crate::error::Error;
+use crate::kinetic::Kinetic;
+use crate::matrix::Matrix;
+use crate::observable::Observable;
+use crate::ring::rounded;
+use crate::state::State;
+
+/// The canonical vector field of a kinetic energy at one point.
+#[derive(Clone, Debug)]
+pub struct Motion<'a> {
+    kinetic: &'a Kinetic,
+    state: State,
+    rate: State,
+    energy: BigRational,
+}
+
+impl Kinetic {
+    /// Hamilton's equations at `state`: `x_dot, phi_dot = dH/dP = M^-1 P`; `Pi_dot = -dH/dphi = dT/dphi` at fixed
+    /// velocities, by dual numbers through `T`; `p_dot = -dH/dx = 0`, since no term of `T` contains `x`.
+    ///
+    /// # Errors
+    /// As [`Kinetic::velocity`].
+    pub fn motion(&self, state: &State) -> Result<Motion<'_>, Error> {
+        let n = self.dimension();
+        let (x_dot, phi_dot) = self.velocity(state)?;
+        let energy = self.energy(&state.phi, &x_dot, &phi_dot)?.entry(0, 0);
+        let mut pi_dot = Vec::with_capacity(n * n);
+        // Row-major in (A, i), as Pi is.
+        for place in 0..n * n {
+            let direction = Matrix::unit(n, place % n, place / n);
+            let slope = self
+                .energy(
+                    &Matrix::along(&state.phi, &direction),
+                    &Matrix::constant(&x_dot),
+                    &Matrix::constant(&phi_dot),
+                )?
+                .slope();
+            pi_dot.push(slope.entry(0, 0));
+        }
+        let rate = State {
+            x: x_dot,
+            phi: phi_dot,
+            p: Matrix::zeros(n, 1),
+            pi: Matrix::from_rationals(n, n, &pi_dot),
+        };
+        Ok(Motion { kinetic: self, state: state.clone(), rate, energy })
+    }
+
+    /// Everything about one point, each number exact until it is rounded at the end.
+    ///
+    /// # Errors
+    /// As [`Kinetic::velocity`].
+    pub fn expected(&self, state: &State) -> Result<Expected, Error> {
+        self.motion(state)?.expected()
+    }
+}
+
+impl Motion<'_> {
+    /// The point.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// `(x_dot, phi_dot; p_dot, Pi_dot)`.
+    pub fn rate(&self) -> &State {
+        &self.rate
+    }
+
+    /// The kinetic energy of the velocities, equal to `H`.
+    pub fn energy(&self) -> &BigRational {
+        &self.energy
+    }
+
+    /// `{F, H}`, the derivative of `F` along the motion; exactly 0 where `F` is conserved to first order at the point.
+    ///
+    /// # Errors
+    /// As [`Kinetic::velocity`], for [`Observable::Energy`] only.
+    pub fn bracket(&self, observable: Observable) -> Result<Matrix, Error> {
+        Ok(observable.value(self.kinetic, &self.state.along(&self.rate))?.slope())
+    }
+
+    /// The motion in `f64`.
+    ///
+    /// # Errors
+    /// As [`Motion::bracket`].
+    pub fn expected(&self) -> Result<Expected, Error> {
+        Ok(Expected {
+            hamiltonian: rounded(&self.energy),
+            x_dot: self.rate.x.to_f64(),
+            phi_dot: self.rate.phi.to_f64(),
+            p_dot: self.rate.p.to_f64(),
+            pi_dot: self.rate.pi.to_f64(),
+            sigma_dot: self.bracket(Observable::AffineSpin)?.to_f64(),
+            sigma_hat_dot: self.bracket(Observable::ComovingAffineSpin)?.to_f64(),
+            p_hat_dot: self.bracket(Observable::ComovingLinearMomentum)?.to_f64(),
+        })
+    }
+}
+
+/// Energy and derivatives at one point, each correctly rounded from the exact value; matrices row-major.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expected {
+    /// `H`.
+    pub hamiltonian: f64,
+    /// `x_dot`; zero without translation.
+    pub x_dot: Vec<f64>,
+    /// `phi_dot[i][A]`.
+    pub phi_dot: Vec<f64>,
+    /// `p_dot`.
+    pub p_dot: Vec<f64>,
+    /// `Pi_dot[A][i]`.
+    pub pi_dot: Vec<f64>,
+    /// `d(phi Pi)/dt`.
+    pub sigma_dot: Vec<f64>,
+    /// `d(Pi phi)/dt`.
+    pub sigma_hat_dot: Vec<f64>,
+    /// `d(phi^T p)/dt`.
+    pub p_hat_dot: Vec<f64>,
+}
