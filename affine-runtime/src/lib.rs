@@ -4,6 +4,7 @@
 pub mod error;
 pub mod frames;
 pub mod geodesic;
+pub mod integrate;
 pub mod kinematics;
 pub mod model;
 #[cfg(feature = "report")]

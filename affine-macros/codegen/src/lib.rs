@@ -1,6 +1,48 @@
 //! Symbolic mechanics behind `#[affine_model(...)]`.
+//!
+//! The order of the modules is the order of the passes and of permission: the front half (`diagnostics`,
+//! `spec`, `check`) never emits, the back half never fails. `algebra` and `ir` know neither Rust syntax nor
+//! mechanics, `mechanics` never sees tokens, `emit` does no algebra.
+
+pub mod diagnostics;
+
+pub mod spec;
+
+pub mod check;
 
 pub mod algebra;
-pub mod ir;
+
 pub mod mechanics;
+
+pub mod ir;
+
 pub mod optimise;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use diagnostics::{Rejected, gate};
+
+/// The expansion of `#[affine_model(args)] item`: parse, gate, check, gate, derive, optimise, emit.
+#[must_use]
+pub fn expand(args: TokenStream, item: TokenStream) -> TokenStream {
+    match model(args, item.clone()) {
+        Ok(tokens) => tokens,
+        Err(rejected) => stub(&item, &rejected),
+    }
+}
+
+fn model(args: TokenStream, item: TokenStream) -> Result<TokenStream, Rejected> {
+    let spec = gate(|found| spec::parse(args, item, found))?;
+    gate(|found| check::as_written(&spec, found))?;
+
+    Ok(spec.item.tokens)
+}
+
+/// What a refused model expands to: the user's item, unchanged, so that its other uses raise no errors of their
+/// own, and the reasons.
+#[must_use]
+pub fn stub(item: &TokenStream, rejected: &Rejected) -> TokenStream {
+    let errors = rejected.compile_errors();
+    quote!(#item #errors)
+}

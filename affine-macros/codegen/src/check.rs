@@ -1,0 +1,44 @@
+//! Rules of well-posedness, one function each with its reason above it.
+//!
+//! [`as_written`] holds the rules that need only what the user wrote; they leave a model in which every name
+//! has a meaning, every coefficient a value and every matrix its size.
+
+mod arithmetic;
+mod capabilities;
+mod constant;
+mod dimension;
+mod frames;
+mod inertia;
+mod shapes;
+mod symbols;
+mod tensors;
+
+use crate::diagnostics::{Diagnostics, Reported};
+use crate::spec::Spec;
+
+pub use constant::constant;
+
+/// The rules that need only what the user wrote.
+///
+/// # Errors
+/// [`Reported`] if any rule is broken; all broken ones are in the bag.
+pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> {
+    symbols::hidden(spec, found);
+    symbols::resolved(spec, found);
+    capabilities::available(spec, found);
+    frames::internal_motion(spec, found);
+    frames::affine_translation(spec, found);
+    shapes::shapes(spec, found);
+    // The size of a matrix and the value of `n` follow from the dimension, and no value is computed before the
+    // powers in it are known to be bounded.
+    dimension::two_or_three(spec, found)?;
+    shapes::sizes(spec, found);
+    arithmetic::computable(spec, found)?;
+    frames::same_frame(spec, found);
+    inertia::masses(spec, found);
+    inertia::symmetric(spec, found);
+    inertia::positive(spec, found);
+    tensors::literal(spec, found);
+    tensors::symmetric(spec, found);
+    found.verdict()
+}

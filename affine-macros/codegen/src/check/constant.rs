@@ -1,0 +1,31 @@
+//! Exact values of expressions without fields.
+
+use crate::algebra::Rational;
+use crate::spec::{Expression, ExpressionKind};
+
+/// The largest exponent that is evaluated; no kinetic energy has more than a few powers.
+pub(super) const LARGEST_POWER: u64 = 64;
+
+/// The exact value of an expression in dimension `n`; `None` where it depends on a field, or has none.
+#[must_use]
+pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
+    let value = |operand: &Expression| constant(operand, n);
+    match &expression.kind {
+        ExpressionKind::Number(number) => Some(number.clone()),
+        ExpressionKind::Symbol(name) => {
+            (name == "n").then(|| i64::try_from(n).ok().map(Rational::from)).flatten()
+        }
+        ExpressionKind::Negate(one) => Some(-&value(one)?),
+        ExpressionKind::Add(left, right) => Some(&value(left)? + &value(right)?),
+        ExpressionKind::Subtract(left, right) => Some(&value(left)? - &value(right)?),
+        ExpressionKind::Multiply(left, right) => Some(&value(left)? * &value(right)?),
+        ExpressionKind::Divide(left, right) => &value(left)? / &value(right)?,
+        ExpressionKind::Power(base, exponent) => value(base)?.pow(integer(exponent, n)?),
+    }
+}
+
+/// The value of an exponent: an integer of moderate size.
+pub(super) fn integer(exponent: &Expression, n: usize) -> Option<i32> {
+    let value = constant(exponent, n)?.to_i64()?;
+    (value.unsigned_abs() <= LARGEST_POWER).then(|| i32::try_from(value).ok()).flatten()
+}

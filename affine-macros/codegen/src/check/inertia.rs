@@ -1,0 +1,108 @@
+//! The inertia J of a d'Alembert energy, and masses. Entries with fields are left to `prepare()`.
+
+use super::constant::constant;
+use crate::algebra::Rational;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::spec::{Expression, Named, Spec, Term, TermKind, Value};
+
+/// p = m x_dot: a zero mass leaves the velocity open. A negative mass is a legitimate indefinite energy beside
+/// affine terms, but not beside d'Alembert's, which is the energy of the same positive masses (2.1).
+pub(super) fn masses(spec: &Spec, found: &mut Diagnostics) {
+    let dalembert = spec.term(TermKind::Dalembert).is_some();
+    for term in spec.kinetic.iter().filter(|term| term.kind.value.is_translation()) {
+        let Value::Scalar(mass) = &term.value else { continue };
+        let Some(value) = constant(mass, spec.dim.value) else { continue };
+        let (name, coefficient) = (term.kind.value.name(), mass.to_string());
+        if value.is_zero() {
+            found.report(term.span, Diagnostic::ZeroMass { term: name, coefficient });
+        } else if value.is_negative() && dalembert {
+            let value = value.to_string();
+            found.report(term.span, Diagnostic::NegativeMass { term: name, coefficient, value });
+        }
+    }
+}
+
+/// J = J^T: it is the second moment of the mass distribution in the body (2.1). Pairs of numbers are compared
+/// exactly.
+pub(super) fn symmetric(spec: &Spec, found: &mut Diagnostics) {
+    let Some((term, rows)) = matrix(spec) else { return };
+    for (i, j) in (0..rows.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
+        let (Some(lower), Some(upper)) = (entry(rows, i, j), entry(rows, j, i)) else { continue };
+        let n = spec.dim.value;
+        let (Some(value), Some(transposed)) = (constant(upper, n), constant(lower, n)) else { continue };
+        if value != transposed {
+            let mistake = Diagnostic::InertiaNotSymmetric {
+                term: term.kind.value.name(),
+                row: j + 1,
+                column: i + 1,
+                value: value.to_string(),
+                transposed: transposed.to_string(),
+            };
+            found.report(lower.span, mistake);
+        }
+    }
+}
+
+/// J > 0: it is a second moment of positive masses, and H = 1/2 Tr(Pi^T J^-1 Pi) (2.2) needs its inverse.
+/// Sylvester: the leading minors are positive, that is, all pivots of J = L D L^T.
+pub(super) fn positive(spec: &Spec, found: &mut Diagnostics) {
+    let Some(term) = spec.term(TermKind::Dalembert) else { return };
+    let n = spec.dim.value;
+    let defect = match &term.value {
+        Value::Scalar(inertia) => constant(inertia, n)
+            .filter(|value| !positive_number(value))
+            .map(|value| format!("J is {value} times the identity")),
+        Value::Diagonal(entries) => entries.iter().enumerate().find_map(|(index, entry)| {
+            let value = constant(entry, n).filter(|value| !positive_number(value))?;
+            Some(format!("J[{0},{0}] = {value}", index + 1))
+        }),
+        Value::Matrix(rows) => values(rows, n).and_then(bad_minor),
+    };
+    if let Some(defect) = defect {
+        found.report(term.span, Diagnostic::InertiaNotPositive { term: term.kind.value.name(), defect });
+    }
+}
+
+fn positive_number(value: &Rational) -> bool {
+    !value.is_zero() && !value.is_negative()
+}
+
+/// The first leading minor that is not positive.
+fn bad_minor(mut rows: Vec<Vec<Rational>>) -> Option<String> {
+    let mut minor = Rational::ONE;
+    for k in 0..rows.len() {
+        minor = &minor * &rows[k][k];
+        if !positive_number(&minor) {
+            return Some(format!("its leading {0} x {0} minor is {minor}", k + 1));
+        }
+        let pivot_row = rows[k].clone();
+        for row in rows.iter_mut().skip(k + 1) {
+            let factor = (&row[k] / &pivot_row[k])?;
+            for (value, above) in row.iter_mut().zip(&pivot_row) {
+                *value = &*value - &(&factor * above);
+            }
+        }
+    }
+    None
+}
+
+/// The values of a square symmetric matrix of numbers; the other defects have rules of their own.
+fn values(rows: &[Vec<Expression>], n: usize) -> Option<Vec<Vec<Rational>>> {
+    let values: Vec<Vec<Rational>> =
+        rows.iter().map(|row| row.iter().map(|entry| constant(entry, n)).collect()).collect::<Option<_>>()?;
+    let square = values.len() == n && values.iter().all(|row| row.len() == n);
+    let symmetric = || (0..n).all(|i| (0..i).all(|j| values[i][j] == values[j][i]));
+    (square && symmetric()).then_some(values)
+}
+
+fn matrix(spec: &Spec) -> Option<(&Term, &[Vec<Expression>])> {
+    let term = spec.term(TermKind::Dalembert)?;
+    match &term.value {
+        Value::Matrix(rows) => Some((term, rows)),
+        _ => None,
+    }
+}
+
+fn entry(rows: &[Vec<Expression>], i: usize, j: usize) -> Option<&Expression> {
+    rows.get(i)?.get(j)
+}

@@ -1,0 +1,57 @@
+//! Tensors `1/2 K[(A,B),(C,D)] O[A,B] O[C,D]` over an affine velocity.
+
+use super::constant::constant;
+use super::symbols::has_field;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::spec::{Expression, Named, Spec, Term, Value};
+
+/// The inverse of a tensor is found by exact elimination, whose pivots must be known when the model is
+/// compiled: the entries are numbers.
+pub(super) fn literal(spec: &Spec, found: &mut Diagnostics) {
+    for term in tensors(spec) {
+        let entries = term.value.expressions();
+        for entry in entries.filter(|entry| has_field(spec, entry)) {
+            let mistake =
+                Diagnostic::TensorEntry { term: term.kind.value.name(), entry: entry.to_string() };
+            found.report(entry.span, mistake);
+        }
+    }
+}
+
+/// K[(A,B),(C,D)] = K[(C,D),(A,B)]: T sees only the part of K that is symmetric under exchange of the pairs,
+/// so a tensor without this symmetry has a slip in it. The row and column of (A,B) are n(A-1)+B.
+pub(super) fn symmetric(spec: &Spec, found: &mut Diagnostics) {
+    let n = spec.dim.value;
+    for term in tensors(spec) {
+        let Value::Matrix(rows) = &term.value else { continue };
+        for (row, column) in (0..rows.len()).flat_map(|row| (0..row).map(move |column| (row, column))) {
+            let (Some(lower), Some(upper)) = (entry(rows, row, column), entry(rows, column, row)) else {
+                continue;
+            };
+            let (Some(value), Some(transposed)) = (constant(upper, n), constant(lower, n)) else { continue };
+            if value != transposed {
+                let mistake = Diagnostic::TensorNotSymmetric {
+                    term: term.kind.value.name(),
+                    first: pair(column, n),
+                    second: pair(row, n),
+                    value: value.to_string(),
+                    transposed: transposed.to_string(),
+                };
+                found.report(lower.span, mistake);
+            }
+        }
+    }
+}
+
+fn tensors(spec: &Spec) -> impl Iterator<Item = &Term> {
+    spec.kinetic.iter().filter(|term| term.kind.value.is_tensor())
+}
+
+fn entry(rows: &[Vec<Expression>], row: usize, column: usize) -> Option<&Expression> {
+    rows.get(row)?.get(column)
+}
+
+/// The 1-based pair of a row or column.
+fn pair(index: usize, n: usize) -> String {
+    format!("({},{})", index / n + 1, index % n + 1)
+}

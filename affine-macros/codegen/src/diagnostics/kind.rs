@@ -1,0 +1,418 @@
+//! The mistakes, one variant each, with the data that their messages need.
+
+use std::fmt;
+
+/// A mistake in a model, as the user should hear of it; `Display` is the full message.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Diagnostic {
+    // ---- the notation ----
+    /// Something other than a name stands where a list expects `key = value`, `key(...)` or a name.
+    ExpectedKey {
+        /// The list: `affine_model`, `kinetic`, ...
+        list: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// A key or term that does not exist.
+    UnknownKey {
+        /// The list it stands in.
+        list: &'static str,
+        /// The user's key.
+        found: String,
+        /// The key probably meant.
+        nearest: Option<&'static str>,
+        /// All keys of the list.
+        known: Vec<&'static str>,
+    },
+    /// A key or term of the specification language that this version does not have.
+    UnavailableKey {
+        /// The list it stands in.
+        list: &'static str,
+        /// The key.
+        key: &'static str,
+    },
+    /// A key given twice.
+    RepeatedKey {
+        /// The list it stands in.
+        list: &'static str,
+        /// The key.
+        key: &'static str,
+    },
+    /// A key that every model needs.
+    MissingKey {
+        /// The key.
+        key: &'static str,
+        /// What it states.
+        states: &'static str,
+        /// How it may look.
+        example: &'static str,
+    },
+    /// A key without `= value`.
+    ExpectedValue {
+        /// The key.
+        key: &'static str,
+        /// How it may look.
+        example: &'static str,
+    },
+    /// A key without its parenthesised list.
+    ExpectedList {
+        /// The key.
+        key: &'static str,
+        /// How it may look.
+        example: &'static str,
+    },
+    /// `key()`.
+    EmptyList {
+        /// The key.
+        key: &'static str,
+        /// How it may look.
+        example: &'static str,
+    },
+    /// A claim, requirement or capability that does not exist.
+    UnknownName {
+        /// What is named: `claim`, `requirement`, `capability`.
+        role: &'static str,
+        /// The user's name.
+        found: String,
+        /// The name probably meant.
+        nearest: Option<&'static str>,
+        /// All names of this role.
+        known: Vec<&'static str>,
+    },
+    /// A capability that this version does not have.
+    UnavailableCapability {
+        /// The capability.
+        capability: &'static str,
+        /// What it will give.
+        gives: &'static str,
+    },
+    /// A dimension other than the literals 2 and 3.
+    Dimension {
+        /// What is written.
+        found: String,
+    },
+    /// `crate = ...` is not a path.
+    RuntimePath {
+        /// What is written.
+        found: String,
+    },
+    /// An enum, union or tuple struct.
+    ItemKind {
+        /// What the item is: `an enum`, ...
+        found: &'static str,
+    },
+    /// An item that is no data type, or that the parser cannot read.
+    UnreadableItem {
+        /// What the parser says.
+        problem: String,
+    },
+
+    // ---- expressions ----
+    /// A token that does not fit.
+    UnexpectedToken {
+        /// The token.
+        found: String,
+        /// What fits there.
+        expected: &'static str,
+    },
+    /// An expression, or an operand, that is missing.
+    MissingOperand,
+    /// `**`.
+    DoubleStar,
+    /// `0.2f64`, `2a`.
+    NumberSuffix {
+        /// The number before the suffix.
+        number: String,
+        /// The suffix.
+        suffix: String,
+    },
+    /// A literal that is no decimal number: `"0.2"`, `0x10`.
+    NotANumber {
+        /// The literal.
+        literal: String,
+    },
+    /// A number beyond the range of the machine numbers.
+    NumberRange {
+        /// The literal.
+        literal: String,
+    },
+    /// `f(...)` or `f[...]` in a coefficient.
+    FunctionCall {
+        /// What stands before the bracket.
+        name: String,
+    },
+    /// An expression with more operators, or deeper brackets, than the macro accepts.
+    ExpressionSize {
+        /// The limit that is exceeded.
+        limit: &'static str,
+    },
+    /// `[1, 2]`, `[[1, 2], 3]`.
+    FlatMatrix,
+    /// A name that is neither a field nor a symbol.
+    UnknownSymbol {
+        /// The name.
+        name: String,
+        /// The name probably meant.
+        nearest: Option<String>,
+        /// The names in scope.
+        scope: Vec<String>,
+    },
+    /// A field in an expression that is not an `f64`.
+    FieldType {
+        /// The field.
+        field: String,
+        /// Its type.
+        ty: String,
+    },
+    /// A field named as a symbol of the specification language.
+    HiddenSymbol {
+        /// The name.
+        name: &'static str,
+        /// What the symbol means.
+        meaning: &'static str,
+    },
+    /// An exponent that is no integer known when the model is compiled.
+    Exponent {
+        /// The exponent.
+        exponent: String,
+    },
+    /// Powers of a degree that no coefficient needs.
+    Degree {
+        /// The degree.
+        degree: u64,
+        /// The largest accepted.
+        limit: u64,
+    },
+    /// A divisor, or the base of a negative power, that is exactly zero.
+    DivisionByZero {
+        /// The divisor.
+        divisor: String,
+    },
+
+    // ---- terms ----
+    /// A scalar where a matrix is due, or the other way round.
+    TermShape {
+        /// The term.
+        term: &'static str,
+        /// What is written.
+        found: &'static str,
+        /// What the term takes.
+        takes: String,
+        /// What to write.
+        instead: &'static str,
+    },
+    /// A matrix of the wrong size.
+    MatrixSize {
+        /// The term.
+        term: &'static str,
+        /// What is counted: `rows`, `entries in row 2`, `diagonal entries`.
+        counted: String,
+        /// How many there are.
+        found: usize,
+        /// How many are due.
+        expected: usize,
+        /// Where that number comes from: `n^2 = 9`.
+        because: String,
+    },
+    /// A tensor entry that contains a field.
+    TensorEntry {
+        /// The term.
+        term: &'static str,
+        /// The entry.
+        entry: String,
+    },
+    /// `K[(A,B),(C,D)] != K[(C,D),(A,B)]`.
+    TensorNotSymmetric {
+        /// The term.
+        term: &'static str,
+        /// The first bi-index, 1-based: `(1,2)`.
+        first: String,
+        /// The second bi-index.
+        second: String,
+        /// The value at (first, second).
+        value: String,
+        /// The value at (second, first).
+        transposed: String,
+    },
+    /// `J[A,B] != J[B,A]`.
+    InertiaNotSymmetric {
+        /// The term.
+        term: &'static str,
+        /// The row, 1-based.
+        row: usize,
+        /// The column, 1-based.
+        column: usize,
+        /// The value at (row, column).
+        value: String,
+        /// The value at (column, row).
+        transposed: String,
+    },
+    /// `J` is not positive definite.
+    InertiaNotPositive {
+        /// The term.
+        term: &'static str,
+        /// What shows it: `its leading 2 x 2 minor is -3`.
+        defect: String,
+    },
+    /// A translation coefficient that is exactly zero.
+    ZeroMass {
+        /// The term.
+        term: &'static str,
+        /// The coefficient as written.
+        coefficient: String,
+    },
+    /// A negative mass beside a d'Alembert energy.
+    NegativeMass {
+        /// The translation term.
+        term: &'static str,
+        /// The coefficient as written.
+        coefficient: String,
+        /// Its value.
+        value: String,
+    },
+    /// Two terms whose sum has a mass matrix that depends on the placement.
+    MixedFrames {
+        /// One term.
+        first: &'static str,
+        /// The velocity in which it has constant coefficients.
+        first_velocity: &'static str,
+        /// The other term.
+        second: &'static str,
+        /// The velocity in which that one has constant coefficients.
+        second_velocity: &'static str,
+    },
+    /// Only translation terms, or none.
+    NoKineticEnergy,
+
+    // ---- the quadratic form ----
+    /// The isotropic form vanishes on some directions.
+    Degenerate {
+        /// The eigenvalue: `I + A + n B`.
+        eigenvalue: String,
+        /// The same in the user's numbers: `1 + 2 + 3*(-1)`.
+        numbers: String,
+        /// The directions.
+        directions: Directions,
+    },
+    /// A tensor, or a sum of terms with one, that has a kernel.
+    DegenerateTensor {
+        /// The terms: `body_tensor`, `body_tensor + casimir2`.
+        terms: String,
+        /// The velocity in which the form is constant: `Oh`, `Om`, `phi_dot`.
+        velocity: &'static str,
+        /// A velocity on which it vanishes.
+        kernel: String,
+    },
+    /// `require(positive_definite)` fails.
+    NotPositiveDefinite {
+        /// The quantity that should be positive.
+        quantity: String,
+        /// Its value, in the user's numbers.
+        value: String,
+    },
+    /// A claimed symmetry that a term does not have.
+    ClaimBroken {
+        /// `space` or `body`.
+        side: &'static str,
+        /// The claim: `affine` or `metric`.
+        claim: &'static str,
+        /// The group: `GL(3)`, `O(2)`.
+        group: String,
+        /// The term that breaks it.
+        term: &'static str,
+        /// The transformation under which it changes: `the generator E[1,2]`, `the reflection diag(-1, 1)`.
+        transformation: String,
+    },
+    /// An affine claim on both sides beside a translation term.
+    AffineTranslation {
+        /// The translation term.
+        term: &'static str,
+    },
+}
+
+/// The invariant parts of an affine velocity `O` under rotations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Directions {
+    /// `(O + O^T)/2 - (tr O/n) 1`.
+    SymmetricTraceless,
+    /// `(O - O^T)/2`.
+    Skew,
+    /// `(tr O/n) 1`.
+    Trace,
+}
+
+impl fmt::Display for Directions {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::SymmetricTraceless => "symmetric traceless velocities (shear)",
+            Self::Skew => "skew velocities (rotation)",
+            Self::Trace => "multiples of the identity (dilatation)",
+        })
+    }
+}
+
+/// Writes `name` and `NAMES` from one list; the match has no wildcard, so that a variant without a name does
+/// not compile.
+macro_rules! names {
+    ($($variant:ident => $name:literal,)*) => {
+        impl Diagnostic {
+            /// The names of all mistakes, in the order of the variants.
+            pub const NAMES: &[&str] = &[$($name),*];
+
+            /// The stable short name of the mistake, which also ends the first line of its message.
+            #[must_use]
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$variant { .. } => $name,)*
+                }
+            }
+        }
+    };
+}
+
+names! {
+    ExpectedKey => "expected-key",
+    UnknownKey => "unknown-key",
+    UnavailableKey => "unavailable-key",
+    RepeatedKey => "repeated-key",
+    MissingKey => "missing-key",
+    ExpectedValue => "expected-value",
+    ExpectedList => "expected-list",
+    EmptyList => "empty-list",
+    UnknownName => "unknown-name",
+    UnavailableCapability => "unavailable-capability",
+    Dimension => "dimension",
+    RuntimePath => "runtime-path",
+    ItemKind => "item-kind",
+    UnreadableItem => "unreadable-item",
+    UnexpectedToken => "unexpected-token",
+    MissingOperand => "missing-operand",
+    DoubleStar => "double-star",
+    NumberSuffix => "number-suffix",
+    NotANumber => "not-a-number",
+    NumberRange => "number-range",
+    FunctionCall => "function-call",
+    ExpressionSize => "expression-size",
+    FlatMatrix => "flat-matrix",
+    UnknownSymbol => "unknown-symbol",
+    FieldType => "field-type",
+    HiddenSymbol => "hidden-symbol",
+    Exponent => "exponent",
+    Degree => "degree",
+    DivisionByZero => "division-by-zero",
+    TermShape => "term-shape",
+    MatrixSize => "matrix-size",
+    TensorEntry => "tensor-entry",
+    TensorNotSymmetric => "tensor-not-symmetric",
+    InertiaNotSymmetric => "inertia-not-symmetric",
+    InertiaNotPositive => "inertia-not-positive",
+    ZeroMass => "zero-mass",
+    NegativeMass => "negative-mass",
+    MixedFrames => "mixed-frames",
+    NoKineticEnergy => "no-kinetic-energy",
+    Degenerate => "degenerate",
+    DegenerateTensor => "degenerate-tensor",
+    NotPositiveDefinite => "not-positive-definite",
+    ClaimBroken => "claim-broken",
+    AffineTranslation => "affine-translation",
+}

@@ -1,0 +1,305 @@
+//! The texts. Every message has three parts: what is wrong, why, and what to write instead.
+
+use std::fmt;
+
+use super::Diagnostic;
+
+/// The three parts of a message.
+struct Text {
+    what: String,
+    why: String,
+    instead: String,
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Text { what, why, instead } = self.text();
+        write!(f, "{what} [{}]\nwhy: {why}\ninstead: {instead}", self.name())
+    }
+}
+
+fn text(what: impl Into<String>, why: impl Into<String>, instead: impl Into<String>) -> Text {
+    Text { what: what.into(), why: why.into(), instead: instead.into() }
+}
+
+/// `` `a`, `b` and `c` ``.
+fn listed<S: AsRef<str>>(names: &[S]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{}`", name.as_ref())).collect();
+    match quoted.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+        None => "none".to_owned(),
+    }
+}
+
+/// The nearest known name, or else the advice to pick one.
+fn suggestion(nearest: Option<&str>, otherwise: &str) -> String {
+    nearest.map_or_else(|| otherwise.to_owned(), |name| format!("did you mean `{name}`?"))
+}
+
+impl Diagnostic {
+    fn text(&self) -> Text {
+        match self {
+            Self::ExpectedKey { list, found } => text(
+                format!("`{list}(...)` has {found} where a name should stand"),
+                format!("the items of `{list}(...)` are separated by commas and each begins with a name"),
+                "write `name = value`, `name(...)` or `name`, as the item asks",
+            ),
+            Self::UnknownKey { list, found, nearest, known } => text(
+                format!("`{list}(...)` has no item `{found}`"),
+                format!("its items are {}", listed(known)),
+                suggestion(*nearest, "use one of these, or remove it"),
+            ),
+            Self::UnavailableKey { list, key } => text(
+                format!("`{key}` in `{list}(...)` is not available in this version"),
+                format!("`{key}` belongs to the specification language, but nothing can be derived from it yet"),
+                format!("state the model without `{key}`"),
+            ),
+            Self::RepeatedKey { list, key } => text(
+                format!("`{key}` stands twice in `{list}(...)`"),
+                "an item is given once; two values would contradict each other or hide a slip",
+                "keep one of them; coefficients may be sums, as in `casimir2 = a + b`",
+            ),
+            Self::MissingKey { key, states, example } => text(
+                format!("`affine_model(...)` lacks `{key}`"),
+                format!("it states {states}, which has no default"),
+                format!("add `{example}`"),
+            ),
+            Self::ExpectedValue { key, example } => text(
+                format!("`{key}` has no value"),
+                format!("`{key}` takes one value, after an equals sign"),
+                format!("write `{example}`"),
+            ),
+            Self::ExpectedList { key, example } => text(
+                format!("`{key}` has no list"),
+                format!("`{key}` takes a list in parentheses, directly after the name"),
+                format!("write `{example}`"),
+            ),
+            Self::EmptyList { key, example } => text(
+                format!("`{key}()` is empty"),
+                "an empty list states nothing",
+                format!("write `{example}`, or remove `{key}`"),
+            ),
+            Self::UnknownName { role, found, nearest, known } => text(
+                format!("there is no {role} `{found}`"),
+                format!("a {role} is one of {}", listed(known)),
+                suggestion(*nearest, "use one of these, or remove it"),
+            ),
+            Self::UnavailableCapability { capability, gives } => text(
+                format!("the capability `{capability}` is not available in this version"),
+                format!("it will give {gives}; this version emits the default: Hamilton's equations"),
+                format!("remove `{capability}` from `emit(...)`"),
+            ),
+            Self::Dimension { found } => text(
+                format!("`dim = {found}`: the dimension is 2 or 3"),
+                "the equations are written out component by component for GL(2) and GL(3)",
+                "write `dim = 2` or `dim = 3`, as a literal",
+            ),
+            Self::RuntimePath { found } => text(
+                format!("`crate = {found}` is not a path"),
+                "`crate` names the runtime crate where it was renamed or re-exported",
+                "write a path such as `crate = ::my_crate::affine_runtime`",
+            ),
+            Self::ItemKind { found } => text(
+                format!("`#[affine_model]` stands on {found}"),
+                "the parameters of a model are the named fields of a struct; a model without parameters is a \
+                 unit struct",
+                "write `struct Model;` or `struct Model { a: f64, b: f64 }`",
+            ),
+            Self::UnreadableItem { problem } => text(
+                format!("`#[affine_model]` cannot read this item: {problem}"),
+                "the parameters of a model are the named fields of a struct; a model without parameters is a \
+                 unit struct",
+                "write `struct Model;` or `struct Model { a: f64, b: f64 }`",
+            ),
+            Self::UnexpectedToken { found, expected } => text(
+                format!("{found} where {expected} should stand"),
+                "expressions are made of decimal numbers, fields, `n`, the operators `+ - * / ^` and parentheses; \
+                 items end with a comma",
+                format!("put {expected} before it, or remove it; a product is written `2*a`"),
+            ),
+            Self::MissingOperand => text(
+                "an expression ends where a number, a field or `(` should stand",
+                "every operator needs its operands, and every place in a list its value",
+                "write the missing value, or remove the operator or comma",
+            ),
+            Self::DoubleStar => text(
+                "`**` is not an operator",
+                "powers are written with `^`, which binds tighter than a minus sign: `-q^2` is `-(q^2)`",
+                "write `a^2`",
+            ),
+            Self::NumberSuffix { number, suffix } => text(
+                format!("the number `{number}{suffix}` has the suffix `{suffix}`"),
+                "numbers are exact rationals (`0.2` is 1/5) and have no machine type",
+                format!("write `{number}`; a product is written `{number}*{suffix}`"),
+            ),
+            Self::NotANumber { literal } => text(
+                format!("`{literal}` is not a decimal number"),
+                "coefficients are exact rationals written in decimal, such as `2`, `0.2`, `1e-3` or `1/3`",
+                "write a decimal number",
+            ),
+            Self::NumberRange { literal } => text(
+                format!("the number `{literal}` is beyond the range of machine numbers"),
+                "coefficients are rounded to f64 in the end, which spans about 1e-308 to 1e308",
+                "choose units in which the coefficients are of moderate size",
+            ),
+            Self::FunctionCall { name } => text(
+                format!("`{name}` is applied to brackets, but a coefficient has no functions and no indices"),
+                "the coefficients of a kinetic energy are constants: arithmetic over numbers, fields and `n`",
+                format!("write `{name}*(...)` for a product, or compute the value and keep it in a field"),
+            ),
+            Self::ExpressionSize { limit } => text(
+                format!("the expression has more than {limit}"),
+                "the macro bounds what it works through, so that a slip cannot stall a build",
+                "split it: compute a part and keep it in a field",
+            ),
+            Self::FlatMatrix => text(
+                "a row of a matrix is not in brackets",
+                "a matrix is an array of rows, and a row is an array of entries",
+                "write `[[a, b], [c, d]]`, or `diag(a, d)`",
+            ),
+            Self::UnknownSymbol { name, nearest, scope } => text(
+                format!("there is no field or symbol `{name}`"),
+                format!("in scope are {}", listed(scope)),
+                suggestion(nearest.as_deref(), &format!("add a field `{name}: f64`, or use one of these")),
+            ),
+            Self::FieldType { field, ty } => text(
+                format!("the field `{field}` has type `{ty}` and cannot stand in an expression"),
+                "a coefficient is a real number; fields of other types are left alone",
+                format!("write `{field}: f64` in the struct, spelled `f64` and not as an alias"),
+            ),
+            Self::HiddenSymbol { name, meaning } => text(
+                format!("the field `{name}` hides the symbol `{name}`"),
+                format!("`{name}` means {meaning} in every expression"),
+                "give the field another name",
+            ),
+            Self::Exponent { exponent } => text(
+                format!("the exponent `{exponent}` is not an integer known at compile time"),
+                "the inverse of a kinetic energy is derived exactly, in rational functions of the coefficients",
+                "write an integer, as in `a^2` or `a^-1`; keep a root in a field of its own",
+            ),
+            Self::Degree { degree, limit } => text(
+                format!("these powers have degree {degree}"),
+                format!("the macro computes them exactly and stops at degree {limit}, so that a slip cannot stall a build"),
+                "compute the power and keep it in a field",
+            ),
+            Self::DivisionByZero { divisor } => text(
+                format!("division by `{divisor}`, which is zero"),
+                "numbers are exact: nothing was lost to rounding",
+                "write a divisor that is not zero",
+            ),
+            Self::TermShape { term, found, takes, instead } => text(
+                format!("`{term}` has {found}"),
+                format!("`{term}` takes {takes}"),
+                *instead,
+            ),
+            Self::MatrixSize { term, counted, found, expected, because } => text(
+                format!("the matrix of `{term}` has {found} {counted}, not {expected}"),
+                format!("its size follows from the dimension: {because}"),
+                format!("write {expected} {counted}"),
+            ),
+            Self::TensorEntry { term, entry } => text(
+                format!("the entry `{entry}` of `{term}` depends on a field"),
+                "this version inverts the tensor exactly when the model is compiled, which needs numbers",
+                "write numbers; isotropic energies with fields are `body_inertia`, `space_inertia`, `casimir2`, \
+                 `casimir1_squared`",
+            ),
+            Self::TensorNotSymmetric { term, first, second, value, transposed } => text(
+                format!(
+                    "`{term}` is not symmetric: K[{first},{second}] = {value}, K[{second},{first}] = {transposed}"
+                ),
+                "in 1/2 K[(A,B),(C,D)] O[A,B] O[C,D] (4.1), (4.2) only the part symmetric under exchange of the \
+                 pairs (A,B), (C,D) counts; row (A,B) is row n(A-1)+B, columns likewise",
+                "make the two entries equal; their mean gives the same energy",
+            ),
+            Self::InertiaNotSymmetric { term, row, column, value, transposed } => text(
+                format!(
+                    "the inertia of `{term}` is not symmetric: J[{row},{column}] = {value}, \
+                     J[{column},{row}] = {transposed}"
+                ),
+                "J is the quadratic moment of the mass distribution, the integral of a a^T (2.1)",
+                "make the two entries equal; their mean gives the same energy",
+            ),
+            Self::InertiaNotPositive { term, defect } => text(
+                format!("the inertia of `{term}` is not positive definite: {defect}"),
+                "J is the quadratic moment of positive masses, and H needs its inverse: \
+                 Pi = J phi_dot^T (2.2)",
+                "write a symmetric J whose leading minors are all positive; indefinite energies are stated with \
+                 `casimir2`, `casimir1_squared`, `body_inertia`, `space_inertia`",
+            ),
+            Self::ZeroMass { term, coefficient } => text(
+                format!("`{term} = {coefficient}` is zero"),
+                "p = m x_dot (4.6), (4.8) cannot be solved for the velocity",
+                format!("write a mass that is not zero, or remove `{term}`: the body is then fixed in space"),
+            ),
+            Self::NegativeMass { term, coefficient, value } => text(
+                format!("`{term} = {}` is negative", equated(coefficient, value)),
+                "`dalembert` is the kinetic energy of positive masses (2.1), and these are the same masses",
+                "write a positive mass",
+            ),
+            Self::MixedFrames { first, first_velocity, second, second_velocity } => text(
+                format!("`{first}` and `{second}` do not go together in this version"),
+                format!(
+                    "`{first}` is a constant form in {first_velocity}, `{second}` in {second_velocity}: \
+                     their sum has a mass matrix that depends on phi"
+                ),
+                format!("keep `{first}` or `{second}`, or state both in the same frame"),
+            ),
+            Self::NoKineticEnergy => text(
+                "there is no kinetic energy of the internal motion",
+                "without a term in phi_dot the Legendre transformation has no inverse: Sigma = (dT/dOm)^T = 0",
+                "add `casimir2`, `body_inertia`, `space_inertia`, `dalembert`, `body_tensor` or `space_tensor`",
+            ),
+            Self::Degenerate { eigenvalue, numbers, directions } => text(
+                format!("the kinetic energy is degenerate: {} = 0 on {directions}", equated(eigenvalue, numbers)),
+                format!(
+                    "the Legendre transformation X = I O^T + A O + B tr(O) 1 (4.18), (4.20) has the eigenvalue \
+                     {eigenvalue} there; the momentum does not determine the velocity"
+                ),
+                format!(
+                    "change a coefficient so that {eigenvalue} is not zero; I is the sum of the inertias, \
+                     A is `casimir2`, B is `casimir1_squared`"
+                ),
+            ),
+            Self::DegenerateTensor { terms, velocity, kernel } => text(
+                format!("the kinetic energy is degenerate: {terms} vanishes on {velocity} = {kernel}"),
+                "the Legendre transformation X[B,A] = K[(A,B),(C,D)] O[C,D] (4.6), (4.8) gives zero momentum \
+                 there; the momentum does not determine the velocity",
+                "change the tensor, or add a term that is not zero on this velocity",
+            ),
+            Self::NotPositiveDefinite { quantity, value } => text(
+                format!("the kinetic energy is not positive definite: {} is not positive", equated(quantity, value)),
+                "`require(positive_definite)` asks for T > 0 at every velocity; the isotropic form has it iff \
+                 I > |A| and I + A + n B > 0",
+                "change the coefficients, or remove the requirement: indefinite energies are legitimate",
+            ),
+            Self::ClaimBroken { side, claim, group, term, transformation } => text(
+                format!("`{term}` breaks the claim `{side} = {claim}`"),
+                format!(
+                    "the claim is that T is invariant under {group} acting {}, and T of `{term}` changes under \
+                     {transformation}",
+                    if *side == "space" { "in space, phi -> L phi" } else { "in the body, phi -> phi R" },
+                ),
+                format!(
+                    "claim less, {}, or replace the term",
+                    if *claim == "affine" {
+                        format!("`{side} = metric` or `{side} = none`")
+                    } else {
+                        format!("`{side} = none`")
+                    },
+                ),
+            ),
+            Self::AffineTranslation { term } => text(
+                format!("`{term}` cannot be affine in space and in the body at once"),
+                "every form on the affine group that is invariant on both sides is degenerate (section 4, \
+                 after (4.5)): a translational energy needs a metric on one side",
+                format!("claim `metric` on one side, or remove `{term}`"),
+            ),
+        }
+    }
+}
+
+/// `a = b`, or `a` alone where both are the same text.
+fn equated(name: &str, value: &str) -> String {
+    if name == value { name.to_owned() } else { format!("{name} = {value}") }
+}

@@ -1,0 +1,138 @@
+//! What the user wrote, as plain data with its places in the source; nothing is judged here but the notation.
+
+mod entries;
+mod expression;
+mod expression_parser;
+mod grammar;
+mod item;
+mod names;
+mod value;
+
+use proc_macro2::{Ident, TokenStream};
+
+use crate::diagnostics::{Diagnostics, Region, Reported};
+
+pub use expression::{Expression, ExpressionKind, Operator};
+pub use item::{Field, Item};
+pub use names::{Capability, Claim, Named, Requirement, TermKind, nearest};
+
+/// Something with its place in the source.
+#[derive(Clone, Copy, Debug)]
+pub struct Spanned<T> {
+    /// The thing.
+    pub value: T,
+    /// Its place.
+    pub span: Region,
+}
+
+/// A model as stated by the attribute and the struct below it.
+pub struct Spec {
+    /// The user's struct.
+    pub item: Item,
+    /// `dim`: n, not yet known to be 2 or 3 before the checks.
+    pub dim: Spanned<usize>,
+    /// `symmetry(space = ..., body = ...)`; without it nothing is claimed.
+    pub symmetry: Option<Symmetry>,
+    /// The terms of `kinetic(...)`, in the user's order, each kind at most once.
+    pub kinetic: Vec<Term>,
+    /// The key `kinetic`.
+    pub kinetic_key: Region,
+    /// `require(...)`.
+    pub require: Vec<Spanned<Requirement>>,
+    /// `emit(...)`.
+    pub emit: Vec<Spanned<Capability>>,
+    /// `crate = ...`: the runtime, where it has another name than `affine_runtime`.
+    pub runtime: Option<syn::Path>,
+}
+
+/// A claim about the kinetic energy: a lower bound of its symmetry group.
+#[derive(Clone, Copy, Debug)]
+pub struct Symmetry {
+    /// Left action, phi -> L phi; [`Claim::None`] at the key `symmetry` if omitted.
+    pub space: Spanned<Claim>,
+    /// Right action, phi -> phi R; likewise.
+    pub body: Spanned<Claim>,
+}
+
+/// One summand of the kinetic energy.
+#[derive(Clone, Debug)]
+pub struct Term {
+    /// Its kind, at its name.
+    pub kind: Spanned<TermKind>,
+    /// Its coefficients.
+    pub value: Value,
+    /// The place of the value.
+    pub span: Region,
+}
+
+/// The coefficients of a term.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// `a + 1/2`.
+    Scalar(Expression),
+    /// `diag(a, b, c)`.
+    Diagonal(Vec<Expression>),
+    /// `[[a, b], [c, d]]`; the rows may still differ in length before the checks.
+    Matrix(Vec<Vec<Expression>>),
+}
+
+impl Value {
+    /// All expressions, row by row.
+    pub fn expressions(&self) -> impl Iterator<Item = &Expression> {
+        let (flat, rows): (&[Expression], &[Vec<Expression>]) = match self {
+            Self::Scalar(one) => (std::slice::from_ref(one), &[]),
+            Self::Diagonal(entries) => (entries, &[]),
+            Self::Matrix(rows) => (&[], rows),
+        };
+        flat.iter().chain(rows.iter().flatten())
+    }
+}
+
+/// What a name in an expression stands for.
+#[derive(Clone, Copy)]
+pub enum Symbol<'a> {
+    /// `n`.
+    Dimension,
+    /// A field of the struct.
+    Field(&'a Field),
+}
+
+/// The symbols of coefficients besides the fields, with their meaning.
+pub const SYMBOLS: [(&str, &str); 1] = [("n", "the dimension")];
+
+impl Spec {
+    /// What `name` stands for in this model's expressions; symbols go before fields.
+    #[must_use]
+    pub fn resolve(&self, name: &Ident) -> Option<Symbol<'_>> {
+        if name == "n" {
+            return Some(Symbol::Dimension);
+        }
+        self.item.fields.iter().find(|field| field.ident == *name).map(Symbol::Field)
+    }
+
+    /// The term of a kind.
+    #[must_use]
+    pub fn term(&self, kind: TermKind) -> Option<&Term> {
+        self.kinetic.iter().find(|term| term.kind.value == kind)
+    }
+}
+
+/// Reads the attribute's arguments and the item below it.
+///
+/// # Errors
+/// [`Reported`] if the notation has mistakes; all of them are in the bag.
+pub fn parse(args: TokenStream, item: TokenStream, found: &mut Diagnostics) -> Result<Spec, Reported> {
+    let item = item::parse(item, found);
+    let arguments = grammar::parse(args, found);
+    let (item, arguments) = (item?, arguments?);
+    Ok(arguments.of(item))
+}
+
+/// Reads one expression, as a coefficient is read.
+///
+/// # Errors
+/// [`Reported`] if it is malformed.
+pub fn parse_expression(tokens: TokenStream, found: &mut Diagnostics) -> Result<Expression, Reported> {
+    let at = entries::extent(&tokens).unwrap_or_else(|| proc_macro2::Span::call_site().into());
+    expression_parser::parse(tokens.into_iter().collect(), at, found)
+}

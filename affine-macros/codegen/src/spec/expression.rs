@@ -1,0 +1,185 @@
+//! Expressions as written: a tree with places, no simplification.
+
+use std::fmt;
+
+use proc_macro2::Ident;
+
+use crate::algebra::Rational;
+use crate::diagnostics::Region;
+
+/// An arithmetic expression; `Display` writes it with the fewest parentheses, and reading that gives it back.
+#[derive(Clone, Debug)]
+pub struct Expression {
+    /// What it is.
+    pub kind: ExpressionKind,
+    /// Its place.
+    pub span: Region,
+}
+
+/// The forms of an expression.
+#[derive(Clone, Debug)]
+pub enum ExpressionKind {
+    /// A decimal literal, exactly.
+    Number(Rational),
+    /// A field or a symbol.
+    Symbol(Ident),
+    /// `-a`.
+    Negate(Box<Expression>),
+    /// `a + b`.
+    Add(Box<Expression>, Box<Expression>),
+    /// `a - b`.
+    Subtract(Box<Expression>, Box<Expression>),
+    /// `a * b`.
+    Multiply(Box<Expression>, Box<Expression>),
+    /// `a / b`.
+    Divide(Box<Expression>, Box<Expression>),
+    /// `a ^ b`.
+    Power(Box<Expression>, Box<Expression>),
+}
+
+/// The binary operators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`
+    Divide,
+    /// `^`
+    Power,
+}
+
+impl Operator {
+    /// Applies the operator; the place spans both operands.
+    #[must_use]
+    pub fn apply(self, left: Expression, right: Expression) -> Expression {
+        let span = left.span.to(right.span);
+        let (left, right) = (Box::new(left), Box::new(right));
+        let kind = match self {
+            Self::Add => ExpressionKind::Add(left, right),
+            Self::Subtract => ExpressionKind::Subtract(left, right),
+            Self::Multiply => ExpressionKind::Multiply(left, right),
+            Self::Divide => ExpressionKind::Divide(left, right),
+            Self::Power => ExpressionKind::Power(left, right),
+        };
+        Expression { kind, span }
+    }
+}
+
+/// How tightly a form binds; an operand that binds less tightly than its place asks gets parentheses.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Sum,
+    Product,
+    Sign,
+    Power,
+    Atom,
+}
+
+impl Expression {
+    /// The operands of the outermost form.
+    #[must_use]
+    pub fn operands(&self) -> Vec<&Expression> {
+        match &self.kind {
+            ExpressionKind::Number(_) | ExpressionKind::Symbol(_) => Vec::new(),
+            ExpressionKind::Negate(one) => vec![one],
+            ExpressionKind::Add(left, right)
+            | ExpressionKind::Subtract(left, right)
+            | ExpressionKind::Multiply(left, right)
+            | ExpressionKind::Divide(left, right)
+            | ExpressionKind::Power(left, right) => vec![left, right],
+        }
+    }
+
+    fn binding(&self) -> Binding {
+        match self.kind {
+            ExpressionKind::Number(_) | ExpressionKind::Symbol(_) => Binding::Atom,
+            ExpressionKind::Negate(_) => Binding::Sign,
+            ExpressionKind::Add(..) | ExpressionKind::Subtract(..) => Binding::Sum,
+            ExpressionKind::Multiply(..) | ExpressionKind::Divide(..) => Binding::Product,
+            ExpressionKind::Power(..) => Binding::Power,
+        }
+    }
+
+    fn write(&self, at_least: Binding, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bracketed = self.binding() < at_least;
+        if bracketed {
+            f.write_str("(")?;
+        }
+        match &self.kind {
+            ExpressionKind::Number(value) => f.write_str(&decimal(value))?,
+            ExpressionKind::Symbol(name) => write!(f, "{name}")?,
+            ExpressionKind::Negate(one) => {
+                f.write_str("-")?;
+                one.write(Binding::Sign, f)?;
+            }
+            ExpressionKind::Add(left, right) => pair(left, " + ", right, [Binding::Sum, Binding::Product], f)?,
+            ExpressionKind::Subtract(left, right) => {
+                pair(left, " - ", right, [Binding::Sum, Binding::Product], f)?;
+            }
+            ExpressionKind::Multiply(left, right) => pair(left, "*", right, [Binding::Product, Binding::Sign], f)?,
+            ExpressionKind::Divide(left, right) => pair(left, "/", right, [Binding::Product, Binding::Sign], f)?,
+            // An exponent takes a sign and further powers without parentheses: 2^-1, 2^3^2 = 2^(3^2).
+            ExpressionKind::Power(left, right) => pair(left, "^", right, [Binding::Atom, Binding::Sign], f)?,
+        }
+        if bracketed {
+            f.write_str(")")?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Expression {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write(Binding::Sum, f)
+    }
+}
+
+fn pair(
+    left: &Expression,
+    sign: &str,
+    right: &Expression,
+    at_least: [Binding; 2],
+    f: &mut fmt::Formatter<'_>,
+) -> fmt::Result {
+    left.write(at_least[0], f)?;
+    f.write_str(sign)?;
+    right.write(at_least[1], f)
+}
+
+/// A number as a decimal literal, as the user would write it. Only a number that no literal denotes comes out
+/// as a fraction, in parentheses.
+fn decimal(value: &Rational) -> String {
+    // Literals reach down to 1e-308 with a few hundred digits at most.
+    const LONGEST: usize = 700;
+    // Beyond this a reader counts zeros: an exponent is clearer.
+    const ZEROS: usize = 12;
+    if value.is_negative() {
+        return format!("(-{})", decimal(&-value));
+    }
+    let ten = Rational::from(10);
+    let mut scaled = value.clone();
+    let mut places = 0;
+    while !scaled.is_integer() {
+        if places == LONGEST {
+            return format!("({value})");
+        }
+        scaled = &scaled * &ten;
+        places += 1;
+    }
+    let digits = scaled.to_string();
+    if places == 0 {
+        let kept = digits.trim_end_matches('0').len().max(1);
+        let zeros = digits.len() - kept;
+        return if zeros > ZEROS { format!("{}e{zeros}", &digits[..kept]) } else { digits };
+    }
+    if places > digits.len() + ZEROS {
+        return format!("{digits}e-{places}");
+    }
+    let padded = format!("{digits:0>width$}", width = places + 1);
+    let (whole, fraction) = padded.split_at(padded.len() - places);
+    format!("{whole}.{fraction}")
+}

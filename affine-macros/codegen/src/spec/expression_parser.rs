@@ -1,0 +1,235 @@
+//! Precedence parser for expressions.
+//!
+//! ```text
+//! sum     = product (("+" | "-") product)*
+//! product = sign (("*" | "/") sign)*
+//! sign    = "-" sign | power
+//! power   = atom ("^" sign)?
+//! atom    = number | name | "(" sum ")"
+//! ```
+//!
+//! Hence `^` binds tightest and to the right, above the minus sign: `-q^2` is `-(q^2)`, `2^-1` is one half.
+//! Rust's own precedences are of no use: there `^` is weaker than `+`.
+
+use proc_macro2::{Delimiter, Group, Ident, Literal, TokenTree};
+
+use super::entries::describe;
+use super::{Expression, ExpressionKind, Operator};
+use crate::algebra::Rational;
+use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
+
+/// More than a person writes, few enough for recursion over the tree on a small stack.
+const MOST_OPERATORS: usize = 1000;
+/// Brackets, signs and powers within each other; each level costs several stack frames of this parser.
+const DEEPEST: usize = 64;
+/// The decimal exponents of f64.
+const LARGEST_EXPONENT: u32 = 308;
+/// Digits of a literal: f64 has 17, a double-double 32; exact arithmetic on a page of digits helps nobody.
+const MOST_DIGITS: usize = 320;
+
+pub(super) fn parse(
+    tokens: Vec<TokenTree>,
+    at: Region,
+    found: &mut Diagnostics,
+) -> Result<Expression, Reported> {
+    let mut effort = Effort { operators: 0, depth: 0 };
+    Parser::new(tokens, at, &mut effort, found).whole()
+}
+
+/// What an expression has cost so far.
+struct Effort {
+    operators: usize,
+    depth: usize,
+}
+
+struct Parser<'p> {
+    tokens: std::iter::Peekable<std::vec::IntoIter<TokenTree>>,
+    /// The token read last: where something is missing if nothing follows.
+    last: Region,
+    effort: &'p mut Effort,
+    found: &'p mut Diagnostics,
+}
+
+impl<'p> Parser<'p> {
+    fn new(tokens: Vec<TokenTree>, at: Region, effort: &'p mut Effort, found: &'p mut Diagnostics) -> Self {
+        Self { tokens: tokens.into_iter().peekable(), last: at, effort, found }
+    }
+
+    fn whole(mut self) -> Result<Expression, Reported> {
+        let expression = self.sum()?;
+        match self.tokens.next() {
+            None => Ok(expression),
+            Some(rest) => Err(self.unexpected(&rest, "an operator or a comma")),
+        }
+    }
+
+    fn sum(&mut self) -> Result<Expression, Reported> {
+        let mut left = self.product()?;
+        while let Some(operator) = self.operator(&[('+', Operator::Add), ('-', Operator::Subtract)])? {
+            left = operator.apply(left, self.product()?);
+        }
+        Ok(left)
+    }
+
+    fn product(&mut self) -> Result<Expression, Reported> {
+        let mut left = self.sign()?;
+        while let Some(operator) = self.operator(&[('*', Operator::Multiply), ('/', Operator::Divide)])? {
+            if operator == Operator::Multiply
+                && let Some(star) = self.punct('*')
+            {
+                return Err(self.found.report(self.last.to(star), Diagnostic::DoubleStar));
+            }
+            left = operator.apply(left, self.sign()?);
+        }
+        Ok(left)
+    }
+
+    fn sign(&mut self) -> Result<Expression, Reported> {
+        let Some(minus) = self.punct('-') else { return self.power() };
+        self.count(minus)?;
+        let operand = self.deeper(Self::sign)?;
+        let span = minus.to(operand.span);
+        Ok(Expression { kind: ExpressionKind::Negate(Box::new(operand)), span })
+    }
+
+    fn power(&mut self) -> Result<Expression, Reported> {
+        let base = self.atom()?;
+        match self.operator(&[('^', Operator::Power)])? {
+            None => Ok(base),
+            Some(power) => Ok(power.apply(base, self.deeper(Self::sign)?)),
+        }
+    }
+
+    fn atom(&mut self) -> Result<Expression, Reported> {
+        let Some(token) = self.tokens.next() else {
+            return Err(self.found.report(self.last, Diagnostic::MissingOperand));
+        };
+        self.last = token.span().into();
+        match token {
+            TokenTree::Literal(literal) => self.number(&literal),
+            TokenTree::Ident(name) => self.symbol(name),
+            // A fragment of `macro_rules!` arrives in an invisible group and is one operand, as in Rust.
+            TokenTree::Group(group) if matches!(group.delimiter(), Delimiter::Parenthesis | Delimiter::None) => {
+                self.group(&group)
+            }
+            other => Err(self.unexpected(&other, "a number, a field or `(`")),
+        }
+    }
+
+    fn group(&mut self, group: &Group) -> Result<Expression, Reported> {
+        self.deeper(|parser| {
+            let inside = group.stream().into_iter().collect();
+            let at = Region { start: group.span_open(), end: group.span_close() };
+            let inner = Parser::new(inside, at, parser.effort, parser.found).whole()?;
+            Ok(Expression { kind: inner.kind, span: at })
+        })
+    }
+
+    /// A name; brackets directly after it would apply a function or an index.
+    fn symbol(&mut self, name: Ident) -> Result<Expression, Reported> {
+        let span = Region::from(name.span());
+        if let Some(TokenTree::Group(group)) = self.tokens.peek()
+            && matches!(group.delimiter(), Delimiter::Parenthesis | Delimiter::Bracket)
+        {
+            return Err(self.found.report(span, Diagnostic::FunctionCall { name: name.to_string() }));
+        }
+        Ok(Expression { kind: ExpressionKind::Symbol(name), span })
+    }
+
+    fn number(&mut self, literal: &Literal) -> Result<Expression, Reported> {
+        let span = Region::from(literal.span());
+        let text = literal.to_string();
+        // A macro can make the one token `-1`.
+        let (negative, digits) = text.strip_prefix('-').map_or((false, text.as_str()), |rest| (true, rest));
+        let value = exact(digits).map_err(|mistake| self.found.report(span, mistake))?;
+        let number = Expression { kind: ExpressionKind::Number(value), span };
+        if negative {
+            return Ok(Expression { kind: ExpressionKind::Negate(Box::new(number)), span });
+        }
+        Ok(number)
+    }
+
+    /// The operator that stands next, if it is one of these.
+    fn operator(&mut self, any: &[(char, Operator)]) -> Result<Option<Operator>, Reported> {
+        for (symbol, operator) in any {
+            if let Some(at) = self.punct(*symbol) {
+                self.last = at;
+                self.count(at)?;
+                return Ok(Some(*operator));
+            }
+        }
+        Ok(None)
+    }
+
+    fn punct(&mut self, symbol: char) -> Option<Region> {
+        let next = self.tokens.next_if(|token| matches!(token, TokenTree::Punct(p) if p.as_char() == symbol))?;
+        Some(next.span().into())
+    }
+
+    fn count(&mut self, at: Region) -> Result<(), Reported> {
+        self.effort.operators += 1;
+        if self.effort.operators > MOST_OPERATORS {
+            return Err(self.found.report(at, Diagnostic::ExpressionSize { limit: "1000 operators" }));
+        }
+        Ok(())
+    }
+
+    fn deeper<T>(&mut self, inner: impl FnOnce(&mut Self) -> Result<T, Reported>) -> Result<T, Reported> {
+        if self.effort.depth == DEEPEST {
+            let mistake = Diagnostic::ExpressionSize { limit: "64 levels of brackets, signs and powers" };
+            return Err(self.found.report(self.last, mistake));
+        }
+        self.effort.depth += 1;
+        let result = inner(self);
+        self.effort.depth -= 1;
+        result
+    }
+
+    fn unexpected(&mut self, token: &TokenTree, expected: &'static str) -> Reported {
+        self.found.report(token.span(), Diagnostic::UnexpectedToken { found: describe(token), expected })
+    }
+}
+
+/// The rational that a literal denotes. Hexadecimal and the like have no fractions and no place here; a suffix
+/// would promise a machine type that exact numbers do not have.
+fn exact(literal: &str) -> Result<Rational, Diagnostic> {
+    let not_a_number = || Diagnostic::NotANumber { literal: super::entries::shortened(literal) };
+    if !literal.starts_with(|first: char| first.is_ascii_digit()) {
+        return Err(not_a_number());
+    }
+    let (number, suffix) = literal.split_at(number_length(literal));
+    if number == "0" && suffix.starts_with(['x', 'o', 'b']) {
+        return Err(not_a_number());
+    }
+    if !suffix.is_empty() {
+        let number = number.trim_end_matches('_').to_owned();
+        return Err(Diagnostic::NumberSuffix { number, suffix: suffix.to_owned() });
+    }
+    let out_of_range = || Diagnostic::NumberRange { literal: super::entries::shortened(literal) };
+    let exponent = number.find(['e', 'E']).map_or("0", |at| &number[at + 1..]).replace('_', "");
+    let small = exponent.parse::<i32>().is_ok_and(|exponent| exponent.unsigned_abs() <= LARGEST_EXPONENT);
+    if !small || number.len() > MOST_DIGITS {
+        return Err(out_of_range());
+    }
+    Rational::parse_decimal(number).ok_or_else(not_a_number)
+}
+
+/// Length of the leading `digits [. digits] [e [+|-] digits]`, with `_` between digits.
+fn number_length(literal: &str) -> usize {
+    let digits = |from: usize| {
+        let rest = literal.as_bytes().get(from..).unwrap_or_default();
+        from + rest.iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'_').count()
+    };
+    let byte = |at: usize| literal.as_bytes().get(at).copied();
+    let mut end = digits(0);
+    if byte(end) == Some(b'.') {
+        end = digits(end + 1);
+    }
+    if matches!(byte(end), Some(b'e' | b'E')) {
+        let from = if matches!(byte(end + 1), Some(b'+' | b'-')) { end + 2 } else { end + 1 };
+        if literal[from..digits(from)].contains(|c: char| c.is_ascii_digit()) {
+            end = digits(from);
+        }
+    }
+    end
+}

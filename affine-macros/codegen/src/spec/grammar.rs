@@ -1,0 +1,278 @@
+//! The arguments of the attribute.
+
+use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
+use syn::parse::Parser;
+
+use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
+use super::names::{Capability, Claim, Named, Requirement, TermKind, nearest};
+use super::{Item, Spanned, Spec, Symmetry, Term, value};
+use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
+
+/// The keys of `affine_model(...)`.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Key {
+    Dim,
+    Symmetry,
+    Kinetic,
+    Require,
+    Emit,
+    Crate,
+}
+
+/// Keys of the specification language that later versions read.
+const LATER_KEYS: [&str; 7] =
+    ["hamiltonian", "metrics", "group", "constraint", "potential", "dissipation", "forces"];
+
+/// Kinetic terms that later versions read; the last three belong to the momentum side.
+const LATER_TERMS: [&str; 4] = ["flat_tensor", "vorticity_squared", "spin_squared", "casimir3"];
+
+impl Named for Key {
+    const ALL: &'static [Self] =
+        &[Self::Dim, Self::Symmetry, Self::Kinetic, Self::Require, Self::Emit, Self::Crate];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Dim => "dim",
+            Self::Symmetry => "symmetry",
+            Self::Kinetic => "kinetic",
+            Self::Require => "require",
+            Self::Emit => "emit",
+            Self::Crate => "crate",
+        }
+    }
+}
+
+impl Key {
+    fn example(self) -> &'static str {
+        match self {
+            Self::Dim => "dim = 3",
+            Self::Symmetry => "symmetry(space = affine, body = metric)",
+            Self::Kinetic => "kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)",
+            Self::Require => "require(positive_definite)",
+            Self::Emit => "emit(splitting)",
+            Self::Crate => "crate = ::affine_runtime",
+        }
+    }
+}
+
+/// The sides of `symmetry(...)`.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Space,
+    Body,
+}
+
+impl Named for Side {
+    const ALL: &'static [Self] = &[Self::Space, Self::Body];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Space => "space",
+            Self::Body => "body",
+        }
+    }
+}
+
+/// A [`Spec`] without its item.
+pub(super) struct Arguments {
+    dim: Spanned<usize>,
+    symmetry: Option<Symmetry>,
+    kinetic: Spanned<Vec<Term>>,
+    require: Vec<Spanned<Requirement>>,
+    emit: Vec<Spanned<Capability>>,
+    runtime: Option<syn::Path>,
+}
+
+impl Arguments {
+    pub(super) fn of(self, item: Item) -> Spec {
+        let Self { dim, symmetry, kinetic, require, emit, runtime } = self;
+        Spec {
+            item,
+            dim,
+            symmetry,
+            kinetic: kinetic.value,
+            kinetic_key: kinetic.span,
+            require,
+            emit,
+            runtime,
+        }
+    }
+}
+
+pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Arguments, Reported> {
+    let here = Span::call_site();
+    let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &LATER_KEYS, found);
+    let (mut dim, mut symmetry, mut kinetic, mut runtime) = (None, None, None, None);
+    let (mut require, mut emit) = (Vec::new(), Vec::new());
+    for entry in entries {
+        let at = entry.at;
+        match entry.key {
+            Key::Dim => dim = Some(dimension(expect_value(entry, found), found)),
+            Key::Symmetry => symmetry = sides(expect_list(entry, found), at, found),
+            Key::Kinetic => kinetic = Some(terms(expect_list(entry, found), at, found)),
+            Key::Require => require = members("requirement", expect_list(entry, found), found),
+            Key::Emit => emit = members("capability", expect_list(entry, found), found),
+            Key::Crate => runtime = path(expect_value(entry, found), found),
+        }
+    }
+    let dim = dim.unwrap_or_else(|| Err(missing(Key::Dim, "the dimension of space and body", here, found)));
+    let kinetic = kinetic.unwrap_or_else(|| Err(missing(Key::Kinetic, "the kinetic energy", here, found)));
+    Ok(Arguments { dim: dim?, symmetry, kinetic: kinetic?, require, emit, runtime })
+}
+
+fn missing(key: Key, states: &'static str, at: Span, found: &mut Diagnostics) -> Reported {
+    found.report(at, Diagnostic::MissingKey { key: key.name(), states, example: key.example() })
+}
+
+/// The value of an entry; a missing one is reported.
+fn expect_value(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Piece, Reported> {
+    match entry.body {
+        Body::Value(piece) if !piece.tokens.is_empty() => Ok(piece),
+        Body::Refused(reported) => Err(reported),
+        _ => {
+            let mistake =
+                Diagnostic::ExpectedValue { key: entry.key.name(), example: entry.key.example() };
+            Err(found.report(entry.at, mistake))
+        }
+    }
+}
+
+/// The list of an entry; a missing or empty one is reported.
+fn expect_list(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Group, Reported> {
+    let (key, example) = (entry.key.name(), entry.key.example());
+    match entry.body {
+        Body::List(group) if !group.stream().is_empty() => Ok(group),
+        Body::Refused(reported) => Err(reported),
+        Body::List(_) => Err(found.report(entry.at, Diagnostic::EmptyList { key, example })),
+        _ => Err(found.report(entry.at, Diagnostic::ExpectedList { key, example })),
+    }
+}
+
+/// `dim`: any whole number here, so that the rule about 2 and 3 has one place.
+fn dimension(piece: Result<Piece, Reported>, found: &mut Diagnostics) -> Result<Spanned<usize>, Reported> {
+    let Piece { tokens, at } = piece?;
+    let text = tokens.into_iter().collect::<TokenStream>().to_string();
+    match text.parse() {
+        Ok(value) => Ok(Spanned { value, span: at }),
+        Err(_) => Err(found.report(at, Diagnostic::Dimension { found: shortened(&text) })),
+    }
+}
+
+/// `symmetry(...)`; an omitted side claims nothing.
+fn sides(list: Result<Group, Reported>, key: Span, found: &mut Diagnostics) -> Option<Symmetry> {
+    let list = list.ok()?;
+    let unclaimed = Spanned { value: Claim::None, span: key.into() };
+    let mut symmetry = Symmetry { space: unclaimed, body: unclaimed };
+    for entry in entries::<Side>("symmetry", list.stream(), list.span_close(), &[], found) {
+        let claim = claim(&entry, found);
+        match (entry.key, claim) {
+            (Side::Space, Some(claim)) => symmetry.space = claim,
+            (Side::Body, Some(claim)) => symmetry.body = claim,
+            (_, None) => {}
+        }
+    }
+    Some(symmetry)
+}
+
+fn claim(entry: &Entry<Side>, found: &mut Diagnostics) -> Option<Spanned<Claim>> {
+    let piece = match &entry.body {
+        Body::Value(piece) if !piece.tokens.is_empty() => piece,
+        Body::Refused(_) => return None,
+        _ => {
+            let (key, example) = match entry.key {
+                Side::Space => ("space", "space = affine"),
+                Side::Body => ("body", "body = metric"),
+            };
+            found.report(entry.at, Diagnostic::ExpectedValue { key, example });
+            return None;
+        }
+    };
+    member("claim", piece.tokens.clone(), piece.at, found)
+}
+
+/// `kinetic(...)`.
+fn terms(
+    list: Result<Group, Reported>,
+    key: Span,
+    found: &mut Diagnostics,
+) -> Result<Spanned<Vec<Term>>, Reported> {
+    let list = list?;
+    let mut terms = Vec::new();
+    for entry in entries::<TermKind>("kinetic", list.stream(), list.span_close(), &LATER_TERMS, found) {
+        let kind = Spanned { value: entry.key, span: entry.at.into() };
+        match entry.body {
+            Body::Value(piece) if !piece.tokens.is_empty() => {
+                let span = piece.at;
+                if let Ok(value) = value::parse(piece, found) {
+                    terms.push(Term { kind, value, span });
+                }
+            }
+            Body::Refused(_) => {}
+            _ => {
+                let mistake = Diagnostic::ExpectedValue {
+                    key: entry.key.name(),
+                    example: value::example(entry.key),
+                };
+                found.report(entry.at, mistake);
+            }
+        }
+    }
+    Ok(Spanned { value: terms, span: key.into() })
+}
+
+/// `require(...)` and `emit(...)`: names and nothing else.
+fn members<T: Named + PartialEq>(
+    role: &'static str,
+    list: Result<Group, Reported>,
+    found: &mut Diagnostics,
+) -> Vec<Spanned<T>> {
+    let Ok(list) = list else { return Vec::new() };
+    let mut members: Vec<Spanned<T>> = Vec::new();
+    for Piece { tokens, at } in pieces(list.stream(), list.span_close()) {
+        let Some(member) = member::<T>(role, tokens, at, found) else { continue };
+        if members.iter().any(|earlier| earlier.value == member.value) {
+            let list = if role == "capability" { Key::Emit.name() } else { Key::Require.name() };
+            found.report(at, Diagnostic::RepeatedKey { list, key: member.value.name() });
+        } else {
+            members.push(member);
+        }
+    }
+    members
+}
+
+/// One name out of a closed set.
+fn member<T: Named>(
+    role: &'static str,
+    tokens: Vec<TokenTree>,
+    at: Region,
+    found: &mut Diagnostics,
+) -> Option<Spanned<T>> {
+    let tokens = unwrapped(tokens);
+    let name: Option<&Ident> = match tokens.as_slice() {
+        [TokenTree::Ident(name)] => Some(name),
+        _ => None,
+    };
+    if let Some(value) = name.and_then(|name| T::named(&name.to_string())) {
+        return Some(Spanned { value, span: at });
+    }
+    let written = match tokens.as_slice() {
+        [one] => describe(one).trim_matches('`').to_owned(),
+        _ => shortened(&tokens.into_iter().collect::<TokenStream>().to_string()),
+    };
+    let nearest = nearest(&written, T::names());
+    found.report(at, Diagnostic::UnknownName { role, found: written, nearest, known: T::names() });
+    None
+}
+
+/// `crate = path`.
+fn path(piece: Result<Piece, Reported>, found: &mut Diagnostics) -> Option<syn::Path> {
+    let Piece { tokens, at } = piece.ok()?;
+    let tokens: TokenStream = tokens.into_iter().collect();
+    match syn::Path::parse_mod_style.parse2(tokens.clone()) {
+        Ok(path) => Some(path),
+        Err(_) => {
+            found.report(at, Diagnostic::RuntimePath { found: shortened(&tokens.to_string()) });
+            None
+        }
+    }
+}

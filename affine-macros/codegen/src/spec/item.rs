@@ -1,0 +1,95 @@
+//! The struct below the attribute.
+
+use proc_macro2::{Ident, TokenStream};
+use syn::{Attribute, Data, DeriveInput, Fields, Generics, Type, Visibility};
+
+use super::entries::shortened;
+use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
+
+/// The user's struct.
+pub struct Item {
+    /// Exactly as written, with everything that the fields below do not repeat.
+    pub tokens: TokenStream,
+    /// The attributes below ours.
+    pub attributes: Vec<Attribute>,
+    /// The visibility.
+    pub visibility: Visibility,
+    /// The name.
+    pub ident: Ident,
+    /// The generics, with the where clause.
+    pub generics: Generics,
+    /// The named fields; none for a unit struct.
+    pub fields: Vec<Field>,
+}
+
+/// A named field.
+pub struct Field {
+    /// The name.
+    pub ident: Ident,
+    /// The type.
+    pub ty: Type,
+    /// The place of the name.
+    pub span: Region,
+}
+
+impl Field {
+    /// Written as `f64`, also with its full path: what expressions may use. An alias cannot be seen through.
+    #[must_use]
+    pub fn is_real(&self) -> bool {
+        let mut ty = &self.ty;
+        loop {
+            match ty {
+                // A `macro_rules!` fragment arrives in an invisible group.
+                Type::Group(group) => ty = &group.elem,
+                Type::Paren(paren) => ty = &paren.elem,
+                Type::Path(path) if path.qself.is_none() => return is_f64(&path.path),
+                _ => return false,
+            }
+        }
+    }
+}
+
+fn is_f64(path: &syn::Path) -> bool {
+    let names: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
+    let plain = path.segments.iter().all(|segment| segment.arguments.is_empty());
+    match names.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        ["f64"] => plain && path.leading_colon.is_none(),
+        ["core" | "std", "primitive", "f64"] => plain,
+        _ => false,
+    }
+}
+
+pub(super) fn parse(item: TokenStream, found: &mut Diagnostics) -> Result<Item, Reported> {
+    let input: DeriveInput = syn::parse2(item.clone()).map_err(|error| {
+        found.report(error.span(), Diagnostic::UnreadableItem { problem: shortened(&error.to_string()) })
+    })?;
+    let fields = match input.data {
+        Data::Struct(data) => match data.fields {
+            Fields::Unit => Vec::new(),
+            Fields::Named(named) => named.named.into_iter().filter_map(field).collect(),
+            Fields::Unnamed(_) => return Err(refused(&input.ident, "a tuple struct", found)),
+        },
+        Data::Enum(_) => return Err(refused(&input.ident, "an enum", found)),
+        Data::Union(_) => return Err(refused(&input.ident, "a union", found)),
+    };
+    Ok(Item {
+        tokens: item,
+        attributes: input.attrs,
+        visibility: input.vis,
+        ident: input.ident,
+        generics: input.generics,
+        fields,
+    })
+}
+
+fn field(field: syn::Field) -> Option<Field> {
+    let ident = field.ident?;
+    let span = ident.span().into();
+    Some(Field { ident, ty: field.ty, span })
+}
+
+/// Parameters need names to be used in expressions, and one kinetic energy belongs to one type: no tuple
+/// structs, no enums, no unions.
+fn refused(name: &Ident, kind: &'static str, found: &mut Diagnostics) -> Reported {
+    found.report(name.span(), Diagnostic::ItemKind { found: kind })
+}

@@ -1,0 +1,201 @@
+//! The names of the specification language, and how a misspelt one finds its neighbour.
+
+/// A closed set of names.
+pub trait Named: Copy + 'static {
+    /// All members, in the order in which messages list them.
+    const ALL: &'static [Self];
+
+    /// The name as written by the user.
+    fn name(self) -> &'static str;
+
+    /// The member of a name.
+    fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|member| member.name() == name)
+    }
+
+    /// All names.
+    fn names() -> Vec<&'static str> {
+        Self::ALL.iter().map(|member| member.name()).collect()
+    }
+}
+
+/// A group claimed to leave the kinetic energy unchanged, on one side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Claim {
+    /// GL(n).
+    Affine,
+    /// O(n).
+    Metric,
+    /// No claim.
+    None,
+}
+
+impl Named for Claim {
+    const ALL: &'static [Self] = &[Self::Affine, Self::Metric, Self::None];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Affine => "affine",
+            Self::Metric => "metric",
+            Self::None => "none",
+        }
+    }
+}
+
+/// A condition that the user wants enforced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Requirement {
+    /// T > 0 at every velocity that is not zero.
+    PositiveDefinite,
+}
+
+impl Named for Requirement {
+    const ALL: &'static [Self] = &[Self::PositiveDefinite];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::PositiveDefinite => "positive_definite",
+        }
+    }
+}
+
+/// Something that is emitted only when asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Capability {
+    /// Exact sub-flows.
+    Splitting,
+    /// Taylor coefficients.
+    Taylor,
+    /// Lattice form.
+    TwoPolar,
+    /// Variational equations.
+    Tangent,
+    /// SIMD lanes.
+    Lanes,
+}
+
+impl Named for Capability {
+    const ALL: &'static [Self] =
+        &[Self::Splitting, Self::Taylor, Self::TwoPolar, Self::Tangent, Self::Lanes];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Splitting => "splitting",
+            Self::Taylor => "taylor",
+            Self::TwoPolar => "two_polar",
+            Self::Tangent => "tangent",
+            Self::Lanes => "lanes",
+        }
+    }
+}
+
+impl Capability {
+    /// What it gives, as the end of a sentence.
+    #[must_use]
+    pub fn gives(self) -> &'static str {
+        match self {
+            Self::Splitting => "the exact sub-flows of the pieces of H",
+            Self::Taylor => "Taylor coefficients of the motion to any order",
+            Self::TwoPolar => "the lattice form (q, p, M, N)",
+            Self::Tangent => "the variational equations",
+            Self::Lanes => "evaluation over SIMD lanes",
+        }
+    }
+}
+
+/// The kinds of terms of a kinetic energy; `Oh = phi^-1 phi_dot`, `Om = phi_dot phi^-1`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TermKind {
+    /// `A/2 tr Om^2 = A/2 tr Oh^2`.
+    Casimir2,
+    /// `B/2 (tr Om)^2 = B/2 (tr Oh)^2`.
+    Casimir1Squared,
+    /// `I/2 tr(Oh Oh^T)`, (4.14).
+    BodyInertia,
+    /// `I/2 tr(Om Om^T)`, (4.15).
+    SpaceInertia,
+    /// `m/2 |phi^-1 x_dot|^2`, (4.4).
+    BodyTranslation,
+    /// `m/2 |x_dot|^2`, (4.5).
+    SpaceTranslation,
+    /// `1/2 tr(phi_dot J phi_dot^T)`, (2.1).
+    Dalembert,
+    /// `1/2 K[nA+B][nC+D] Oh[A][B] Oh[C][D]`, (4.1).
+    BodyTensor,
+    /// `1/2 K[nA+B][nC+D] Om[A][B] Om[C][D]`, (4.2).
+    SpaceTensor,
+}
+
+impl Named for TermKind {
+    const ALL: &'static [Self] = &[
+        Self::Casimir2,
+        Self::Casimir1Squared,
+        Self::BodyInertia,
+        Self::SpaceInertia,
+        Self::BodyTranslation,
+        Self::SpaceTranslation,
+        Self::Dalembert,
+        Self::BodyTensor,
+        Self::SpaceTensor,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Casimir2 => "casimir2",
+            Self::Casimir1Squared => "casimir1_squared",
+            Self::BodyInertia => "body_inertia",
+            Self::SpaceInertia => "space_inertia",
+            Self::BodyTranslation => "body_translation",
+            Self::SpaceTranslation => "space_translation",
+            Self::Dalembert => "dalembert",
+            Self::BodyTensor => "body_tensor",
+            Self::SpaceTensor => "space_tensor",
+        }
+    }
+}
+
+impl TermKind {
+    /// A kinetic energy of the centre of mass, in x_dot?
+    #[must_use]
+    pub fn is_translation(self) -> bool {
+        matches!(self, Self::BodyTranslation | Self::SpaceTranslation)
+    }
+
+    /// An n^2 x n^2 form over an affine velocity?
+    #[must_use]
+    pub fn is_tensor(self) -> bool {
+        matches!(self, Self::BodyTensor | Self::SpaceTensor)
+    }
+}
+
+/// The candidate nearest to `name`, if it is near enough to be meant: an edit distance of at most a third of
+/// the longer name's length.
+#[must_use]
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let near = |candidate: &'a str| {
+        let distance = edit_distance(&name.to_lowercase(), &candidate.to_lowercase());
+        let longest = name.chars().count().max(candidate.chars().count());
+        (3 * distance <= longest).then_some((distance, candidate))
+    };
+    candidates.into_iter().filter_map(near).min_by_key(|(distance, _)| *distance).map(|(_, name)| name)
+}
+
+/// Least number of insertions, deletions, substitutions and exchanges of neighbours (optimal string alignment).
+fn edit_distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut before: Vec<usize> = Vec::new();
+    let mut above: Vec<usize> = (0..=b.len()).collect();
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let substituted = above[j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut least = substituted.min(above[j] + 1).min(row[j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                least = least.min(before[j - 2] + 1);
+            }
+            row.push(least);
+        }
+        before = std::mem::replace(&mut above, row);
+    }
+    above[b.len()]
+}

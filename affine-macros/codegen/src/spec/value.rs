@@ -1,0 +1,65 @@
+//! Coefficients: a scalar, `diag(...)` or a nested matrix.
+
+use proc_macro2::{Delimiter, TokenTree};
+
+use super::entries::{Piece, pieces, unwrapped};
+use super::{Expression, TermKind, Value, expression_parser};
+use crate::diagnostics::{Diagnostic, Diagnostics, Reported};
+
+/// How a term may look, in a message.
+pub(super) fn example(kind: TermKind) -> &'static str {
+    match kind {
+        TermKind::Casimir2 => "casimir2 = 0.2",
+        TermKind::Casimir1Squared => "casimir1_squared = 0.1",
+        TermKind::BodyInertia => "body_inertia = 1",
+        TermKind::SpaceInertia => "space_inertia = 1",
+        TermKind::BodyTranslation => "body_translation = 1",
+        TermKind::SpaceTranslation => "space_translation = 1",
+        TermKind::Dalembert => "dalembert = diag(1, 2, 3)",
+        TermKind::BodyTensor => "body_tensor = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
+        TermKind::SpaceTensor => "space_tensor = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
+    }
+}
+
+pub(super) fn parse(piece: Piece, found: &mut Diagnostics) -> Result<Value, Reported> {
+    let Piece { tokens, at } = piece;
+    let tokens = unwrapped(tokens);
+    match tokens.as_slice() {
+        [TokenTree::Group(group)] if group.delimiter() == Delimiter::Bracket => {
+            let rows = pieces(group.stream(), group.span_close()).into_iter().map(|piece| row(piece, found));
+            all(rows).map(Value::Matrix)
+        }
+        [TokenTree::Ident(name), TokenTree::Group(group)]
+            if name == "diag" && group.delimiter() == Delimiter::Parenthesis =>
+        {
+            let entries =
+                pieces(group.stream(), group.span_close()).into_iter().map(|piece| entry(piece, found));
+            all(entries).map(Value::Diagonal)
+        }
+        _ => expression_parser::parse(tokens, at, found).map(Value::Scalar),
+    }
+}
+
+fn row(piece: Piece, found: &mut Diagnostics) -> Result<Vec<Expression>, Reported> {
+    match unwrapped(piece.tokens).as_slice() {
+        [TokenTree::Group(group)] if group.delimiter() == Delimiter::Bracket => {
+            all(pieces(group.stream(), group.span_close()).into_iter().map(|piece| entry(piece, found)))
+        }
+        _ => Err(found.report(piece.at, Diagnostic::FlatMatrix)),
+    }
+}
+
+fn entry(piece: Piece, found: &mut Diagnostics) -> Result<Expression, Reported> {
+    expression_parser::parse(piece.tokens, piece.at, found)
+}
+
+/// Everything, or an error; unlike `collect`, it reads on after a mistake, so that all are reported.
+fn all<T>(results: impl Iterator<Item = Result<T, Reported>>) -> Result<Vec<T>, Reported> {
+    results.fold(Ok(Vec::new()), |all, next| match (all, next) {
+        (Ok(mut all), Ok(next)) => {
+            all.push(next);
+            Ok(all)
+        }
+        (Err(reported), _) | (_, Err(reported)) => Err(reported),
+    })
+}
