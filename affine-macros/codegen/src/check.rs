@@ -7,6 +7,7 @@ mod arithmetic;
 mod capabilities;
 mod constant;
 mod dimension;
+mod form;
 mod frames;
 mod inertia;
 mod shapes;
@@ -17,6 +18,7 @@ use crate::diagnostics::{Diagnostics, Reported};
 use crate::spec::Spec;
 
 pub use constant::constant;
+pub use form::{Form, eigenvalues, form, signature};
 
 /// The rules that need only what the user wrote.
 ///

@@ -10,6 +10,8 @@ pub mod spec;
 
 pub mod check;
 
+pub mod lower;
+
 pub mod algebra;
 
 pub mod mechanics;
@@ -17,6 +19,8 @@ pub mod mechanics;
 pub mod ir;
 
 pub mod optimise;
+
+pub mod derive;
 
 use proc_macro2::TokenStream;
 use quote::quote;

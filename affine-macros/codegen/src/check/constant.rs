@@ -19,7 +19,7 @@ pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
         ExpressionKind::Add(left, right) => Some(&value(left)? + &value(right)?),
         ExpressionKind::Subtract(left, right) => Some(&value(left)? - &value(right)?),
         ExpressionKind::Multiply(left, right) => Some(&value(left)? * &value(right)?),
-        ExpressionKind::Divide(left, right) => &value(left)? / &value(right)?,
+        ExpressionKind::Divide(left, right) => value(left)?.checked_div(&value(right)?),
         ExpressionKind::Power(base, exponent) => value(base)?.pow(integer(exponent, n)?),
     }
 }

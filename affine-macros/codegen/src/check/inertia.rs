@@ -77,7 +77,7 @@ fn bad_minor(mut rows: Vec<Vec<Rational>>) -> Option<String> {
         }
         let pivot_row = rows[k].clone();
         for row in rows.iter_mut().skip(k + 1) {
-            let factor = (&row[k] / &pivot_row[k])?;
+            let factor = row[k].checked_div(&pivot_row[k])?;
             for (value, above) in row.iter_mut().zip(&pivot_row) {
                 *value = &*value - &(&factor * above);
             }
