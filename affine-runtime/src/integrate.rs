@@ -5,6 +5,7 @@ pub mod runge_kutta;
 mod step_size;
 
 pub use error_norm::ErrorNorm;
+pub(crate) use error_norm::norm;
 pub use runge_kutta::RungeKutta8;
 
 use core::fmt;

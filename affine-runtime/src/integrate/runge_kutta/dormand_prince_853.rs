@@ -24,6 +24,7 @@ macro_rules! rows {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod order_conditions;
 
 rows! {
