@@ -57,3 +57,42 @@ pub fn components<const N: usize, T: Real>(vector: &Vector<N, T>) -> [T; N] {
 pub fn vector<const N: usize, T: Real>(components: [T; N]) -> Vector<N, T> {
     Vector::from(components)
 }
+
+/// The phase point with placement `phi`, affine spin `spin` in the frame `F`, and `centre`, unchecked: for states
+/// on the way, which are checked when they are recorded.
+pub fn unchecked_point<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
+    phi: Matrix<N, T>,
+    spin: Matrix<N, T>,
+    centre: C,
+) -> PhasePoint<N, F, C, T> {
+    PhasePoint::new(phi, spin, centre)
+}
+
+/// The affine spin of a phase point in the frame it is stored in.
+pub fn stored_spin<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
+    point: &PhasePoint<N, F, C, T>,
+) -> &Matrix<N, T> {
+    point.spin()
+}
+
+/// A description with a name and nothing else: other crates cannot write the struct out, but can fill in fields.
+#[must_use]
+pub const fn description(name: &'static str) -> Description {
+    const NO_FORMULA: Formula = Formula { text: "", latex: "" };
+    const NO_OPERATIONS: Operations = Operations { mul: 0, add: 0, div: 0, sqrt: 0, exp: 0, ln: 0 };
+    Description {
+        name,
+        kinetic_energy: NO_FORMULA,
+        hamiltonian: NO_FORMULA,
+        equations: &[],
+        reduced_equations: &[],
+        signature: None,
+        conserved: &[],
+        conserved_at_rest: &[],
+        full: &[],
+        reduced: &[],
+        full_operations: NO_OPERATIONS,
+        reduced_operations: NO_OPERATIONS,
+        left_out: &[],
+    }
+}

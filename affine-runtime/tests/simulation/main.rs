@@ -1,0 +1,6 @@
+//! Simulations from start to end, on models written by hand.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod accuracy;
+mod models;
+mod reference;
