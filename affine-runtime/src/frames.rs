@@ -165,7 +165,7 @@ momentum!(TwoPoint, Canonical);
 
 /// Inverse by Gauss-Jordan elimination with partial pivoting; not finite where the matrix is singular (phase
 /// points are checked for `det phi > 0` when they are made).
-pub(crate) fn inverse<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Matrix<N, T> {
+pub fn inverse<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Matrix<N, T> {
     let mut left = *matrix;
     let mut right = Matrix::<N, T>::identity();
     for column in 0..N {

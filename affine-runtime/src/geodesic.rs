@@ -1,6 +1,11 @@
 //! Closed-form trajectories (Slawianowski et al., section 5; Martin and Neff, arXiv:1409.7849).
+//!
+//! Every instant is computed from the start, with at most two exponentials: output times may come in any
+//! order, and errors do not add up from one to the next.
 
+use crate::decompose::{exponential, skew_exponential};
 use crate::frames::{Matrix, Vector};
+use crate::state::Phase;
 
 /// A trajectory in closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,4 +43,76 @@ pub enum Motion<const N: usize> {
         /// `phi_dot0`.
         velocity: Matrix<N>,
     },
+}
+
+impl<const N: usize> Geodesic<N> {
+    /// The phase point at time `t` of the trajectory that passes through `start` at `t0`.
+    #[must_use]
+    pub fn point<P: Phase<N>>(&self, t: f64, start: &P) -> P {
+        let (x, phi) = (self.position(t, &start.x()), self.placement(t, start.phi()));
+        start.moved(x, phi, |spin| self.spin(t, spin))
+    }
+
+    /// `phi(t)` of the trajectory with `phi(t0) = start`.
+    #[must_use]
+    pub fn placement(&self, t: f64, start: &Matrix<N>) -> Matrix<N> {
+        self.motion.placement(t - self.t0, start)
+    }
+
+    /// `x(t) = x0 + (t - t0) drift` of the trajectory with `x(t0) = start`.
+    #[must_use]
+    pub fn position(&self, t: f64, start: &Vector<N>) -> Vector<N> {
+        start + self.drift * (t - self.t0)
+    }
+
+    /// The affine spin at time `t` of the trajectory that has the spin `start` at `t0`, in the frame of the
+    /// motion: see [`Motion::spin`].
+    #[must_use]
+    pub fn spin(&self, t: f64, start: &Matrix<N>) -> Matrix<N> {
+        self.motion.spin(t - self.t0, start)
+    }
+}
+
+impl<const N: usize> Motion<N> {
+    /// The placement after the time `elapsed`, from the placement `start`; the formula stands with each
+    /// variant.
+    #[must_use]
+    pub fn placement(&self, elapsed: f64, start: &Matrix<N>) -> Matrix<N> {
+        match self {
+            Self::Body { stretch, whirl } => {
+                let stretched = start * exponential(&(stretch * elapsed));
+                turned(whirl, elapsed).map_or(stretched, |turn| stretched * turn)
+            }
+            Self::Space { stretch, whirl } => {
+                let stretched = exponential(&(stretch * elapsed)) * start;
+                turned(whirl, elapsed).map_or(stretched, |turn| turn * stretched)
+            }
+            Self::Straight { velocity } => start + velocity * elapsed,
+        }
+    }
+
+    /// The affine spin after the time `elapsed`, from the spin `start`, in the frame of the motion.
+    ///
+    /// ```text
+    /// Body:      Sigma_hat(t) = exp(-t whirl) Sigma_hat0 exp(t whirl)     (Sigma and Vort are constant)
+    /// Space:     Sigma(t)     = exp(t whirl) Sigma0 exp(-t whirl)         (Sigma_hat and S are constant)
+    /// Straight:  Pi(t)        = Pi0
+    /// ```
+    #[must_use]
+    pub fn spin(&self, elapsed: f64, start: &Matrix<N>) -> Matrix<N> {
+        match self {
+            Self::Body { whirl, .. } => {
+                turned(whirl, elapsed).map_or(*start, |turn| turn.transpose() * start * turn)
+            }
+            Self::Space { whirl, .. } => {
+                turned(whirl, elapsed).map_or(*start, |turn| turn * start * turn.transpose())
+            }
+            Self::Straight { .. } => *start,
+        }
+    }
+}
+
+/// `exp(elapsed whirl)`; `None` stands for the identity.
+fn turned<const N: usize>(whirl: &Option<Matrix<N>>, elapsed: f64) -> Option<Matrix<N>> {
+    whirl.as_ref().map(|skew| skew_exponential(&(skew * elapsed)))
 }

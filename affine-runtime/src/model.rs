@@ -13,7 +13,7 @@ use crate::state::Phase;
     label = "no Hamilton equations here",
     note = "put `#[affine_model(...)]` on the struct; a struct with fields becomes a model by `.prepare()?`"
 )]
-pub trait Model<const N: usize>: Sync {
+pub trait Model<const N: usize> {
     /// Names, equations, counts and conserved quantities, as derived.
     const DESCRIPTION: Description;
 
@@ -66,7 +66,9 @@ pub trait Model<const N: usize>: Sync {
         geodesic: &crate::geodesic::Geodesic<N>,
         t: f64,
         start: &Self::Point<f64>,
-    ) -> Self::Point<f64>;
+    ) -> Self::Point<f64> {
+        geodesic.point(t, start)
+    }
 }
 
 /// Velocities of centre of mass and placement.
@@ -93,9 +95,8 @@ impl<T: Scalar, const D: usize> StateVector<T> for [T; D] {
     }
 }
 
-/// What was derived about a model.
+/// What was derived about a model; made by the macro alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct Description {
     /// Name of the user's type.
     pub name: &'static str,

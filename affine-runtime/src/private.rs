@@ -1,10 +1,20 @@
 //! What emitted code uses besides the public traits. No stable interface: it changes with the macro.
 
-use crate::error::Result;
-use crate::frames::{Frame, Matrix, Momentum};
-use crate::model::{Description, Formula, Operations};
-use crate::scalar::Real;
-use crate::state::{PhasePoint, Translation};
+pub use core::primitive::f64;
+
+pub use crate::decompose::skew_exponential;
+pub use crate::error::Result;
+pub use crate::frames::{
+    Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,
+};
+pub use crate::geodesic::{Geodesic, Motion};
+pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Velocity};
+pub use crate::reduction::{Condition, inverse_form, total_affine_momentum, turn, well_posed};
+pub use crate::scalar::{Real, Scalar};
+pub use crate::state::{Centre, Phase, PhasePoint, Pinned};
+
+use crate::frames::Frame;
+use crate::state::Translation;
 
 /// The phase point with placement `phi`, a momentum given in any frame, and `centre`.
 ///
@@ -19,41 +29,31 @@ pub fn phase_point<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
     PhasePoint::checked(phi, momentum, centre)
 }
 
-/// The phase point with placement `phi`, affine spin `spin` in the frame `F`, and `centre`, unchecked: for states
-/// on the way, which are checked when they are recorded.
-pub fn unchecked_point<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
+/// The same point, unchecked: integrators watch over their states themselves.
+pub fn point<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
     phi: Matrix<N, T>,
-    spin: Matrix<N, T>,
+    momentum: impl Momentum<N, T>,
     centre: C,
 ) -> PhasePoint<N, F, C, T> {
-    PhasePoint::new(phi, spin, centre)
+    PhasePoint::with_momentum(phi, momentum, centre)
 }
 
-/// The affine spin of a phase point in the frame it is stored in.
-pub fn stored_spin<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
-    point: &PhasePoint<N, F, C, T>,
-) -> &Matrix<N, T> {
-    point.spin()
+/// The rows of a matrix.
+pub fn rows<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> [[T; N]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| matrix[(i, j)]))
 }
 
-/// A description with a name and nothing else: other crates cannot write the struct out, but can fill in fields.
-#[must_use]
-pub const fn description(name: &'static str) -> Description {
-    const NO_FORMULA: Formula = Formula { text: "", latex: "" };
-    const NO_OPERATIONS: Operations = Operations { mul: 0, add: 0, div: 0, sqrt: 0, exp: 0, ln: 0 };
-    Description {
-        name,
-        kinetic_energy: NO_FORMULA,
-        hamiltonian: NO_FORMULA,
-        equations: &[],
-        reduced_equations: &[],
-        signature: None,
-        conserved: &[],
-        conserved_at_rest: &[],
-        full: &[],
-        reduced: &[],
-        full_operations: NO_OPERATIONS,
-        reduced_operations: NO_OPERATIONS,
-        left_out: &[],
-    }
+/// The matrix with the given rows.
+pub fn matrix<const N: usize, T: Real>(rows: [[T; N]; N]) -> Matrix<N, T> {
+    Matrix::from_fn(|i, j| rows[i][j])
+}
+
+/// The components of a vector.
+pub fn components<const N: usize, T: Real>(vector: &Vector<N, T>) -> [T; N] {
+    core::array::from_fn(|i| vector[i])
+}
+
+/// The vector with the given components.
+pub fn vector<const N: usize, T: Real>(components: [T; N]) -> Vector<N, T> {
+    Vector::from(components)
 }

@@ -14,6 +14,9 @@ pub trait Translation<const N: usize, T: Real>: Copy + Debug + PartialEq {
     fn position(&self) -> Vector<N, T>;
     /// Linear momentum `p = dT/dx_dot`, a spatial covector; zero for a pinned body.
     fn momentum(&self) -> Vector<N, T>;
+    /// The same momentum at another position; a pinned body stays.
+    #[must_use]
+    fn moved(&self, x: Vector<N, T>) -> Self;
 }
 
 /// No translation: the model has neither `x` nor `p`.
@@ -26,6 +29,9 @@ impl<const N: usize, T: Real> Translation<N, T> for Pinned {
     }
     fn momentum(&self) -> Vector<N, T> {
         Vector::<N, T>::zeros()
+    }
+    fn moved(&self, _x: Vector<N, T>) -> Self {
+        *self
     }
 }
 
@@ -44,6 +50,9 @@ impl<const N: usize, T: Real> Translation<N, T> for Centre<N, T> {
     }
     fn momentum(&self) -> Vector<N, T> {
         self.p
+    }
+    fn moved(&self, x: Vector<N, T>) -> Self {
+        Self { x, p: self.p }
     }
 }
 
@@ -80,6 +89,15 @@ pub trait Phase<const N: usize, T: Real = f64>: Copy + Debug + PartialEq {
     /// `Sigma` or `Sigma_hat`, whichever the point gives without an inverse of `phi`: for what depends on the
     /// conjugacy class alone, such as Casimirs, which then carry no rounding of a conversion.
     fn mixed_spin(&self) -> Matrix<N, T>;
+    /// The point at another placement and position, with `p` kept and the affine spin of the model's own frame
+    /// mapped.
+    #[must_use]
+    fn moved(
+        &self,
+        x: Vector<N, T>,
+        phi: Matrix<N, T>,
+        spin: impl FnOnce(&Matrix<N, T>) -> Matrix<N, T>,
+    ) -> Self;
     /// Placement, momentum and centre of mass are finite.
     fn is_finite(&self) -> bool;
 }
@@ -120,11 +138,6 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> PhasePoint<N, F, C
         }
         Ok(point)
     }
-
-    /// The affine spin in the model's frame.
-    pub(crate) fn spin(&self) -> &Matrix<N, T> {
-        &self.spin
-    }
 }
 
 /// A [`Momentum`] brought to another frame.
@@ -158,6 +171,14 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> Phase<N, T> for Ph
     }
     fn mixed_spin(&self) -> Matrix<N, T> {
         F::to_mixed(&self.phi, &self.spin)
+    }
+    fn moved(
+        &self,
+        x: Vector<N, T>,
+        phi: Matrix<N, T>,
+        spin: impl FnOnce(&Matrix<N, T>) -> Matrix<N, T>,
+    ) -> Self {
+        Self::new(phi, spin(&self.spin), self.centre.moved(x))
     }
     fn is_finite(&self) -> bool {
         is_finite(self.phi.as_slice())

@@ -7,7 +7,9 @@ mod arithmetic;
 mod capabilities;
 mod constant;
 mod dimension;
+mod form;
 mod frames;
+mod identity;
 mod inertia;
 mod shapes;
 mod symbols;
@@ -17,6 +19,7 @@ use crate::diagnostics::{Diagnostics, Reported};
 use crate::spec::Spec;
 
 pub use constant::constant;
+pub use form::{Form, eigenvalues, form, signature};
 
 /// The rules that need only what the user wrote.
 ///

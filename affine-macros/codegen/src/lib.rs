@@ -10,6 +10,8 @@ pub mod spec;
 
 pub mod check;
 
+pub mod lower;
+
 pub mod algebra;
 
 pub mod mechanics;
@@ -17,6 +19,10 @@ pub mod mechanics;
 pub mod ir;
 
 pub mod optimise;
+
+pub mod derive;
+
+pub mod emit;
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -35,8 +41,11 @@ pub fn expand(args: TokenStream, item: TokenStream) -> TokenStream {
 fn model(args: TokenStream, item: TokenStream) -> Result<TokenStream, Rejected> {
     let spec = gate(|found| spec::parse(args, item, found))?;
     gate(|found| check::as_written(&spec, found))?;
-
-    Ok(spec.item.tokens)
+    let form = gate(|found| check::form(&spec, found))?;
+    // Past the second gate nothing can fail: a form that passed has an invertible Legendre transformation.
+    let positive = spec.require.iter().any(|r| r.value == spec::Requirement::PositiveDefinite);
+    let tokens = derive::derive(form, positive).map(|model| emit::emit(&spec, &model));
+    Ok(tokens.unwrap_or(spec.item.tokens))
 }
 
 /// What a refused model expands to: the user's item, unchanged, so that its other uses raise no errors of their

@@ -3,6 +3,7 @@
 pub mod brackets;
 pub mod charts;
 pub mod conserved;
+pub mod describe;
 pub mod equations;
 pub mod hamiltonian;
 pub mod hessian;

@@ -177,18 +177,30 @@ impl Arena {
 
     /// Pulls the number out of a factor and flattens products.
     fn split_factor(
-        &self,
+        &mut self,
         base: Expr,
         exponent: i32,
         number: &mut Rational,
         bases: &mut Vec<(Expr, i32)>,
     ) -> Option<()> {
-        match self.node(base) {
+        match &self.node(base).clone() {
             Node::Constant(value) => *number = &*number * &value.pow(exponent)?,
             Node::Product(list) => bases.extend(list.iter().map(|(b, e)| (*b, e * exponent))),
             Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
                 *number = &*number * &terms[0].1.pow(exponent)?;
                 self.split_factor(terms[0].0, exponent, number, bases)?;
+            }
+            // Reciprocals of multiples are multiples of reciprocals: 1/(2a + 2b) and 1/(a + b) share a node.
+            Node::Sum(constant, terms) if exponent < 0 && !terms[0].1.is_one() => {
+                let lead = terms[0].1.clone();
+                let scale = lead.recip()?;
+                let mut summands: Vec<(Expr, Rational)> =
+                    terms.iter().map(|(term, c)| (*term, c * &scale)).collect();
+                let constant = constant * &scale;
+                summands.push((self.constant(constant), Rational::ONE));
+                let monic = self.linear(&summands);
+                *number = &*number * &lead.pow(exponent)?;
+                bases.push((monic, exponent));
             }
             _ => bases.push((base, exponent)),
         }

@@ -1,6 +1,7 @@
 //! Arithmetic that has an exact value.
 
 use super::constant::{LARGEST_POWER, constant, integer};
+use super::identity::vanishes;
 use crate::algebra::Rational;
 use crate::diagnostics::{Diagnostic, Diagnostics, Reported};
 use crate::spec::{Expression, ExpressionKind, Spec};
@@ -18,17 +19,10 @@ pub(super) fn computable(spec: &Spec, found: &mut Diagnostics) -> Result<(), Rep
 /// add degrees and powers multiply them. The rules below are applied from the leaves upwards, so that what they
 /// evaluate is bounded already.
 fn degree(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result<u64, Reported> {
-    let mut degrees = Ok(Vec::new());
-    for operand in expression.operands() {
-        degrees = match (degrees, degree(operand, n, found)) {
-            (Ok(mut all), Ok(one)) => {
-                all.push(one);
-                Ok(all)
-            }
-            (Err(reported), _) | (_, Err(reported)) => Err(reported),
-        };
-    }
-    let degrees = degrees?;
+    // All operands before the first error is looked for, so that all are reported.
+    let degrees: Vec<_> =
+        expression.operands().into_iter().map(|operand| degree(operand, n, found)).collect();
+    let degrees: Vec<u64> = degrees.into_iter().collect::<Result<_, _>>()?;
     let degree = match &expression.kind {
         ExpressionKind::Power(base, exponent) => {
             let power = exponent_is_integer(exponent, n, found)?;
@@ -72,12 +66,11 @@ fn degree_is_bounded(expression: &Expression, degree: u64, found: &mut Diagnosti
     Err(found.report(expression.span, Diagnostic::Degree { degree, limit: LARGEST_POWER }))
 }
 
-/// A divisor that is exactly zero; one that depends on fields is left to `prepare()`.
+/// A divisor that is zero, as a number or whatever the fields are; one that is zero for some values of the
+/// fields is left to `prepare()`.
 fn divisor_is_not_zero(divisor: &Expression, n: usize, found: &mut Diagnostics) -> Result<(), Reported> {
-    match constant(divisor, n) {
-        Some(value) if value.is_zero() => {
-            Err(found.report(divisor.span, Diagnostic::DivisionByZero { divisor: divisor.to_string() }))
-        }
-        _ => Ok(()),
+    if vanishes(divisor, n) {
+        return Err(found.report(divisor.span, Diagnostic::DivisionByZero { divisor: divisor.to_string() }));
     }
+    Ok(())
 }

@@ -3,8 +3,9 @@
 use crate::algebra::Rational;
 use crate::spec::{Expression, ExpressionKind};
 
-/// The largest exponent that is evaluated; no kinetic energy has more than a few powers.
-pub(super) const LARGEST_POWER: u64 = 64;
+/// The largest exponent that is evaluated. No kinetic energy has more than a few powers, and the polynomials in
+/// the fields that the derivation multiplies out grow with this degree.
+pub(super) const LARGEST_POWER: u64 = 16;
 
 /// The exact value of an expression in dimension `n`; `None` where it depends on a field, or has none.
 #[must_use]
@@ -19,7 +20,7 @@ pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
         ExpressionKind::Add(left, right) => Some(&value(left)? + &value(right)?),
         ExpressionKind::Subtract(left, right) => Some(&value(left)? - &value(right)?),
         ExpressionKind::Multiply(left, right) => Some(&value(left)? * &value(right)?),
-        ExpressionKind::Divide(left, right) => &value(left)? / &value(right)?,
+        ExpressionKind::Divide(left, right) => value(left)?.checked_div(&value(right)?),
         ExpressionKind::Power(base, exponent) => value(base)?.pow(integer(exponent, n)?),
     }
 }

@@ -1,6 +1,7 @@
-//! The inertia J of a d'Alembert energy, and masses. Entries with fields are left to `prepare()`.
+//! The inertia J of a d'Alembert energy, and masses. Signs that depend on fields are left to `prepare()`.
 
 use super::constant::constant;
+use super::identity::equal;
 use crate::algebra::Rational;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::spec::{Expression, Named, Spec, Term, TermKind, Value};
@@ -22,21 +23,19 @@ pub(super) fn masses(spec: &Spec, found: &mut Diagnostics) {
     }
 }
 
-/// J = J^T: it is the second moment of the mass distribution in the body (2.1). Pairs of numbers are compared
-/// exactly.
+/// J = J^T: it is the second moment of the mass distribution in the body (2.1). Entries with fields must be
+/// equal whatever the fields are.
 pub(super) fn symmetric(spec: &Spec, found: &mut Diagnostics) {
     let Some((term, rows)) = matrix(spec) else { return };
     for (i, j) in (0..rows.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
         let (Some(lower), Some(upper)) = (entry(rows, i, j), entry(rows, j, i)) else { continue };
-        let n = spec.dim.value;
-        let (Some(value), Some(transposed)) = (constant(upper, n), constant(lower, n)) else { continue };
-        if value != transposed {
+        if equal(upper, lower, spec.dim.value) == Some(false) {
             let mistake = Diagnostic::InertiaNotSymmetric {
                 term: term.kind.value.name(),
                 row: j + 1,
                 column: i + 1,
-                value: value.to_string(),
-                transposed: transposed.to_string(),
+                value: upper.to_string(),
+                transposed: lower.to_string(),
             };
             found.report(lower.span, mistake);
         }
@@ -77,7 +76,7 @@ fn bad_minor(mut rows: Vec<Vec<Rational>>) -> Option<String> {
         }
         let pivot_row = rows[k].clone();
         for row in rows.iter_mut().skip(k + 1) {
-            let factor = (&row[k] / &pivot_row[k])?;
+            let factor = row[k].checked_div(&pivot_row[k])?;
             for (value, above) in row.iter_mut().zip(&pivot_row) {
                 *value = &*value - &(&factor * above);
             }

@@ -1,7 +1,5 @@
 //! Scalars, diagonals and matrices where they belong, and of the size that the dimension asks for.
 
-use proc_macro2::Span;
-
 use crate::diagnostics::{Diagnostic, Diagnostics, Region};
 use crate::spec::{Expression, Named, Spec, Term, TermKind, Value};
 
@@ -58,8 +56,8 @@ fn accepted(term: &Term) -> (bool, &'static str, &'static str) {
     }
 }
 
-/// J is n x n, a tensor n^2 x n^2. The number of rows comes first; then every row that is too short or too
-/// long is reported on its own.
+/// J is n x n, a tensor n^2 x n^2. The number of rows comes first; if it is right, every row that is too short
+/// or too long is reported on its own.
 pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
     let n = spec.dim.value;
     for term in &spec.kinetic {
@@ -69,26 +67,32 @@ pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
             kind if kind.is_tensor() => (n * n, format!("n^2 = {}", n * n)),
             _ => continue,
         };
-        let mut sized = |at: Region, counted: String, actual: usize| {
+        for (at, counted, actual) in counts(term, expected) {
             if actual != expected {
                 let (term, because) = (kind.name(), because.clone());
                 found.report(at, Diagnostic::MatrixSize { term, counted, found: actual, expected, because });
-            }
-        };
-        match &term.value {
-            Value::Scalar(_) => {}
-            Value::Diagonal(entries) => sized(term.span, "diagonal entries".to_owned(), entries.len()),
-            Value::Matrix(rows) => {
-                sized(term.span, "rows".to_owned(), rows.len());
-                for (index, row) in rows.iter().enumerate() {
-                    sized(extent(row).unwrap_or(term.span), format!("entries in row {}", index + 1), row.len());
-                }
             }
         }
     }
 }
 
+/// What is counted in a matrix: its rows, or what is in them where the number of rows is right.
+fn counts(term: &Term, expected: usize) -> Vec<(Region, String, usize)> {
+    match &term.value {
+        Value::Scalar(_) => Vec::new(),
+        Value::Diagonal(entries) => vec![(term.span, "diagonal entries".to_owned(), entries.len())],
+        Value::Matrix(rows) if rows.len() != expected => vec![(term.span, "rows".to_owned(), rows.len())],
+        Value::Matrix(rows) => rows
+            .iter()
+            .enumerate()
+            .map(|(index, row)| {
+                let at = extent(row).unwrap_or(term.span);
+                (at, format!("entries in row {}", index + 1), row.len())
+            })
+            .collect(),
+    }
+}
+
 fn extent(row: &[Expression]) -> Option<Region> {
-    let (start, end): (Span, Span) = (row.first()?.span.start, row.last()?.span.end);
-    Some(Region { start, end })
+    Some(row.first()?.span.to(row.last()?.span))
 }

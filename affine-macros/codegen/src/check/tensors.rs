@@ -1,6 +1,6 @@
 //! Tensors `1/2 K[(A,B),(C,D)] O[A,B] O[C,D]` over an affine velocity.
 
-use super::constant::constant;
+use super::identity::equal;
 use super::symbols::has_field;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::spec::{Expression, Named, Spec, Term, Value};
@@ -11,8 +11,7 @@ pub(super) fn literal(spec: &Spec, found: &mut Diagnostics) {
     for term in tensors(spec) {
         let entries = term.value.expressions();
         for entry in entries.filter(|entry| has_field(spec, entry)) {
-            let mistake =
-                Diagnostic::TensorEntry { term: term.kind.value.name(), entry: entry.to_string() };
+            let mistake = Diagnostic::TensorEntry { term: term.kind.value.name(), entry: entry.to_string() };
             found.report(entry.span, mistake);
         }
     }
@@ -28,14 +27,13 @@ pub(super) fn symmetric(spec: &Spec, found: &mut Diagnostics) {
             let (Some(lower), Some(upper)) = (entry(rows, row, column), entry(rows, column, row)) else {
                 continue;
             };
-            let (Some(value), Some(transposed)) = (constant(upper, n), constant(lower, n)) else { continue };
-            if value != transposed {
+            if equal(upper, lower, n) == Some(false) {
                 let mistake = Diagnostic::TensorNotSymmetric {
                     term: term.kind.value.name(),
                     first: pair(column, n),
                     second: pair(row, n),
-                    value: value.to_string(),
-                    transposed: transposed.to_string(),
+                    value: upper.to_string(),
+                    transposed: lower.to_string(),
                 };
                 found.report(lower.span, mistake);
             }

@@ -13,6 +13,13 @@ pub enum Diagnostic {
         /// What stands there.
         found: String,
     },
+    /// Something stands between a name and the comma that ends its item.
+    MalformedItem {
+        /// The list.
+        list: &'static str,
+        /// What stands there.
+        found: String,
+    },
     /// A key or term that does not exist.
     UnknownKey {
         /// The list it stands in.
@@ -305,10 +312,8 @@ pub enum Diagnostic {
     },
     /// `require(positive_definite)` fails.
     NotPositiveDefinite {
-        /// The quantity that should be positive.
-        quantity: String,
-        /// Its value, in the user's numbers.
-        value: String,
+        /// What shows it, in the user's numbers: `I - A = 1 - 2 is negative`.
+        defect: String,
     },
     /// A claimed symmetry that a term does not have.
     ClaimBroken {
@@ -372,6 +377,7 @@ macro_rules! names {
 
 names! {
     ExpectedKey => "expected-key",
+    MalformedItem => "malformed-item",
     UnknownKey => "unknown-key",
     UnavailableKey => "unavailable-key",
     RepeatedKey => "repeated-key",

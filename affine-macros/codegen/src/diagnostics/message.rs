@@ -45,6 +45,11 @@ impl Diagnostic {
                 format!("the items of `{list}(...)` are separated by commas and each begins with a name"),
                 "write `name = value`, `name(...)` or `name`, as the item asks",
             ),
+            Self::MalformedItem { list, found } => text(
+                format!("{found} does not belong to this item of `{list}(...)`"),
+                "an item is `name = value`, `name(...)` or `name`, and ends with a comma",
+                "put a comma or `=` before it, or remove it",
+            ),
             Self::UnknownKey { list, found, nearest, known } => text(
                 format!("`{list}(...)` has no item `{found}`"),
                 format!("its items are {}", listed(known)),
@@ -52,7 +57,9 @@ impl Diagnostic {
             ),
             Self::UnavailableKey { list, key } => text(
                 format!("`{key}` in `{list}(...)` is not available in this version"),
-                format!("`{key}` belongs to the specification language, but nothing can be derived from it yet"),
+                format!(
+                    "`{key}` belongs to the specification language, but nothing can be derived from it yet"
+                ),
                 format!("state the model without `{key}`"),
             ),
             Self::RepeatedKey { list, key } => text(
@@ -82,7 +89,7 @@ impl Diagnostic {
             ),
             Self::UnknownName { role, found, nearest, known } => text(
                 format!("there is no {role} `{found}`"),
-                format!("a {role} is one of {}", listed(known)),
+                format!("to choose from: {}", listed(known)),
                 suggestion(*nearest, "use one of these, or remove it"),
             ),
             Self::UnavailableCapability { capability, gives } => text(
@@ -114,9 +121,8 @@ impl Diagnostic {
             ),
             Self::UnexpectedToken { found, expected } => text(
                 format!("{found} where {expected} should stand"),
-                "expressions are made of decimal numbers, fields, `n`, the operators `+ - * / ^` and parentheses; \
-                 items end with a comma",
-                format!("put {expected} before it, or remove it; a product is written `2*a`"),
+                "expressions are made of decimal numbers, fields, `n`, the operators `+ - * / ^` and parentheses",
+                format!("put {expected} before it, or remove it; a product has its sign, as in `2*a`"),
             ),
             Self::MissingOperand => text(
                 "an expression ends where a number, a field or `(` should stand",
@@ -130,8 +136,12 @@ impl Diagnostic {
             ),
             Self::NumberSuffix { number, suffix } => text(
                 format!("the number `{number}{suffix}` has the suffix `{suffix}`"),
-                "numbers are exact rationals (`0.2` is 1/5) and have no machine type",
-                format!("write `{number}`; a product is written `{number}*{suffix}`"),
+                "numbers are exact rationals (`0.2` is 1/5) and have no machine type; a product has its sign",
+                if is_machine_type(suffix) {
+                    format!("write `{number}`")
+                } else {
+                    format!("write `{number}*{suffix}`")
+                },
             ),
             Self::NotANumber { literal } => text(
                 format!("`{literal}` is not a decimal number"),
@@ -146,7 +156,7 @@ impl Diagnostic {
             Self::FunctionCall { name } => text(
                 format!("`{name}` is applied to brackets, but a coefficient has no functions and no indices"),
                 "the coefficients of a kinetic energy are constants: arithmetic over numbers, fields and `n`",
-                format!("write `{name}*(...)` for a product, or compute the value and keep it in a field"),
+                "compute the value and keep it in a field; a product has its sign, as in `a*(b + c)`",
             ),
             Self::ExpressionSize { limit } => text(
                 format!("the expression has more than {limit}"),
@@ -160,8 +170,8 @@ impl Diagnostic {
             ),
             Self::UnknownSymbol { name, nearest, scope } => text(
                 format!("there is no field or symbol `{name}`"),
-                format!("in scope are {}", listed(scope)),
-                suggestion(nearest.as_deref(), &format!("add a field `{name}: f64`, or use one of these")),
+                format!("an expression can use {}", listed(scope)),
+                suggestion(nearest.as_deref(), &format!("add a field `{name}: f64`")),
             ),
             Self::FieldType { field, ty } => text(
                 format!("the field `{field}` has type `{ty}` and cannot stand in an expression"),
@@ -180,19 +190,19 @@ impl Diagnostic {
             ),
             Self::Degree { degree, limit } => text(
                 format!("these powers have degree {degree}"),
-                format!("the macro computes them exactly and stops at degree {limit}, so that a slip cannot stall a build"),
+                format!(
+                    "the macro computes them exactly and stops at degree {limit}, so that a slip cannot stall a build"
+                ),
                 "compute the power and keep it in a field",
             ),
             Self::DivisionByZero { divisor } => text(
                 format!("division by `{divisor}`, which is zero"),
-                "numbers are exact: nothing was lost to rounding",
+                "coefficients are exact: nothing was lost to rounding",
                 "write a divisor that is not zero",
             ),
-            Self::TermShape { term, found, takes, instead } => text(
-                format!("`{term}` has {found}"),
-                format!("`{term}` takes {takes}"),
-                *instead,
-            ),
+            Self::TermShape { term, found, takes, instead } => {
+                text(format!("`{term}` has {found}"), format!("`{term}` takes {takes}"), *instead)
+            }
             Self::MatrixSize { term, counted, found, expected, because } => text(
                 format!("the matrix of `{term}` has {found} {counted}, not {expected}"),
                 format!("its size follows from the dimension: {because}"),
@@ -210,7 +220,7 @@ impl Diagnostic {
                 ),
                 "in 1/2 K[(A,B),(C,D)] O[A,B] O[C,D] (4.1), (4.2) only the part symmetric under exchange of the \
                  pairs (A,B), (C,D) counts; row (A,B) is row n(A-1)+B, columns likewise",
-                "make the two entries equal; their mean gives the same energy",
+                "write the same entry in both places; their mean gives the same energy",
             ),
             Self::InertiaNotSymmetric { term, row, column, value, transposed } => text(
                 format!(
@@ -218,7 +228,7 @@ impl Diagnostic {
                      J[{column},{row}] = {transposed}"
                 ),
                 "J is the quadratic moment of the mass distribution, the integral of a a^T (2.1)",
-                "make the two entries equal; their mean gives the same energy",
+                "write the same entry in both places; their mean gives the same energy",
             ),
             Self::InertiaNotPositive { term, defect } => text(
                 format!("the inertia of `{term}` is not positive definite: {defect}"),
@@ -229,7 +239,7 @@ impl Diagnostic {
             ),
             Self::ZeroMass { term, coefficient } => text(
                 format!("`{term} = {coefficient}` is zero"),
-                "p = m x_dot (4.6), (4.8) cannot be solved for the velocity",
+                "the momentum is the mass times the velocity (4.6), (4.8) and does not determine it",
                 format!("write a mass that is not zero, or remove `{term}`: the body is then fixed in space"),
             ),
             Self::NegativeMass { term, coefficient, value } => text(
@@ -243,7 +253,7 @@ impl Diagnostic {
                     "`{first}` is a constant form in {first_velocity}, `{second}` in {second_velocity}: \
                      their sum has a mass matrix that depends on phi"
                 ),
-                format!("keep `{first}` or `{second}`, or state both in the same frame"),
+                format!("keep `{first}` or `{second}`"),
             ),
             Self::NoKineticEnergy => text(
                 "there is no kinetic energy of the internal motion",
@@ -251,7 +261,10 @@ impl Diagnostic {
                 "add `casimir2`, `body_inertia`, `space_inertia`, `dalembert`, `body_tensor` or `space_tensor`",
             ),
             Self::Degenerate { eigenvalue, numbers, directions } => text(
-                format!("the kinetic energy is degenerate: {} = 0 on {directions}", equated(eigenvalue, numbers)),
+                format!(
+                    "the kinetic energy is degenerate: {} = 0 on {directions}",
+                    equated(eigenvalue, numbers)
+                ),
                 format!(
                     "the Legendre transformation X = I O^T + A O + B tr(O) 1 (4.18), (4.20) has the eigenvalue \
                      {eigenvalue} there; the momentum does not determine the velocity"
@@ -262,14 +275,14 @@ impl Diagnostic {
                 ),
             ),
             Self::DegenerateTensor { terms, velocity, kernel } => text(
-                format!("the kinetic energy is degenerate: {terms} vanishes on {velocity} = {kernel}"),
+                format!("the kinetic energy is degenerate: `{terms}` vanishes on {velocity} = {kernel}"),
                 "the Legendre transformation X[B,A] = K[(A,B),(C,D)] O[C,D] (4.6), (4.8) gives zero momentum \
                  there; the momentum does not determine the velocity",
-                "change the tensor, or add a term that is not zero on this velocity",
+                "change a coefficient, or add a term that is not zero on this velocity",
             ),
-            Self::NotPositiveDefinite { quantity, value } => text(
-                format!("the kinetic energy is not positive definite: {} is not positive", equated(quantity, value)),
-                "`require(positive_definite)` asks for T > 0 at every velocity; the isotropic form has it iff \
+            Self::NotPositiveDefinite { defect } => text(
+                format!("the kinetic energy is not positive definite: {defect}"),
+                "`require(positive_definite)` asks for T > 0 at every velocity that is not zero; an isotropic form has it iff \
                  I > |A| and I + A + n B > 0",
                 "change the coefficients, or remove the requirement: indefinite energies are legitimate",
             ),
@@ -297,6 +310,12 @@ impl Diagnostic {
             ),
         }
     }
+}
+
+/// Would a Rust programmer mean the type of the number, rather than a factor?
+fn is_machine_type(suffix: &str) -> bool {
+    let size = suffix.strip_prefix(['f', 'i', 'u']);
+    size.is_some_and(|size| matches!(size, "8" | "16" | "32" | "64" | "128" | "size"))
 }
 
 /// `a = b`, or `a` alone where both are the same text.

@@ -148,6 +148,12 @@ pub struct NumericBlock {
     pub inverse: Vec<Vec<Expr>>,
 }
 
+impl NumericBlock {
+    fn as_atoms(&self) -> Vec<Vec<Polynomial>> {
+        self.inverse.iter().map(|row| row.iter().map(|s| Polynomial::atom(*s)).collect()).collect()
+    }
+}
+
 impl Inverse {
     fn invert(&mut self, arena: &mut Arena, block: &Block) -> Option<Vec<Vec<Polynomial>>> {
         if let Some(numbers) = block.numbers() {
@@ -161,13 +167,16 @@ impl Inverse {
             let reciprocal = arena.pow(value, -1)?;
             return Some(vec![vec![Polynomial::normal_form(arena, reciprocal)]]);
         }
+        if let Some(known) = self.numeric_blocks.iter().find(|known| known.form == block.form) {
+            return Some(known.as_atoms());
+        }
         let b = self.numeric_blocks.len() + 1;
         let size = block.form.len();
         let mut symbol =
             |i: usize, j: usize| arena.symbol(&format!("inverse_{b}_{}_{}", i.min(j) + 1, i.max(j) + 1));
         let inverse: Vec<Vec<Expr>> = (0..size).map(|i| (0..size).map(|j| symbol(i, j)).collect()).collect();
-        self.numeric_blocks.push(NumericBlock { form: block.form.clone(), inverse: inverse.clone() });
-        Some(inverse.into_iter().map(|row| row.into_iter().map(Polynomial::atom).collect()).collect())
+        self.numeric_blocks.push(NumericBlock { form: block.form.clone(), inverse });
+        self.numeric_blocks.last().map(NumericBlock::as_atoms)
     }
 }
 

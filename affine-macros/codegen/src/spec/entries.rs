@@ -47,7 +47,9 @@ pub(super) fn pieces(tokens: TokenStream, end: Span) -> Vec<Piece> {
     };
     for token in tokens {
         match token {
-            TokenTree::Punct(punct) if punct.as_char() == ',' => close(std::mem::take(&mut open), punct.span()),
+            TokenTree::Punct(punct) if punct.as_char() == ',' => {
+                close(std::mem::take(&mut open), punct.span())
+            }
             token => open.push(token),
         }
     }
@@ -134,7 +136,7 @@ fn entry<K: Named>(
     };
     let at = name.span();
     match K::named(&name.to_string()) {
-        Some(key) => Some(Entry { key, at, body: body(tokens, found) }),
+        Some(key) => Some(Entry { key, at, body: body(list, tokens, found) }),
         None => {
             let (meant, reported) = unknown(list, &name, later, found);
             meant.map(|key| Entry { key, at, body: Body::Refused(reported) })
@@ -143,7 +145,7 @@ fn entry<K: Named>(
 }
 
 /// What follows the name of an entry.
-fn body(mut tokens: impl Iterator<Item = TokenTree>, found: &mut Diagnostics) -> Body {
+fn body(list: &'static str, mut tokens: impl Iterator<Item = TokenTree>, found: &mut Diagnostics) -> Body {
     let body = match tokens.next() {
         None => Body::Nothing,
         Some(TokenTree::Punct(equals)) if equals.as_char() == '=' => {
@@ -152,16 +154,16 @@ fn body(mut tokens: impl Iterator<Item = TokenTree>, found: &mut Diagnostics) ->
             Body::Value(Piece { tokens, at })
         }
         Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => Body::List(group),
-        Some(other) => return Body::Refused(unexpected(&other, "`=`, `(` or a comma", found)),
+        Some(other) => return Body::Refused(malformed(list, &other, found)),
     };
     match tokens.next() {
         None => body,
-        Some(extra) => Body::Refused(unexpected(&extra, "a comma", found)),
+        Some(extra) => Body::Refused(malformed(list, &extra, found)),
     }
 }
 
-fn unexpected(token: &TokenTree, expected: &'static str, found: &mut Diagnostics) -> Reported {
-    found.report(token.span(), Diagnostic::UnexpectedToken { found: describe(token), expected })
+fn malformed(list: &'static str, token: &TokenTree, found: &mut Diagnostics) -> Reported {
+    found.report(token.span(), Diagnostic::MalformedItem { list, found: describe(token) })
 }
 
 /// Reports a name that is no key. A key of a later version is told apart from a slip; for a slip, the key

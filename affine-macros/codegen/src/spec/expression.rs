@@ -116,12 +116,18 @@ impl Expression {
                 f.write_str("-")?;
                 one.write(Binding::Sign, f)?;
             }
-            ExpressionKind::Add(left, right) => pair(left, " + ", right, [Binding::Sum, Binding::Product], f)?,
+            ExpressionKind::Add(left, right) => {
+                pair(left, " + ", right, [Binding::Sum, Binding::Product], f)?
+            }
             ExpressionKind::Subtract(left, right) => {
                 pair(left, " - ", right, [Binding::Sum, Binding::Product], f)?;
             }
-            ExpressionKind::Multiply(left, right) => pair(left, "*", right, [Binding::Product, Binding::Sign], f)?,
-            ExpressionKind::Divide(left, right) => pair(left, "/", right, [Binding::Product, Binding::Sign], f)?,
+            ExpressionKind::Multiply(left, right) => {
+                pair(left, "*", right, [Binding::Product, Binding::Sign], f)?
+            }
+            ExpressionKind::Divide(left, right) => {
+                pair(left, "/", right, [Binding::Product, Binding::Sign], f)?
+            }
             // An exponent takes a sign and further powers without parentheses: 2^-1, 2^3^2 = 2^(3^2).
             ExpressionKind::Power(left, right) => pair(left, "^", right, [Binding::Atom, Binding::Sign], f)?,
         }

@@ -19,7 +19,7 @@ use crate::algebra::Rational;
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
 /// More than a person writes, few enough for recursion over the tree on a small stack.
-const MOST_OPERATORS: usize = 1000;
+const MOST_OPERATORS: usize = 256;
 /// Brackets, signs and powers within each other; each level costs several stack frames of this parser.
 const DEEPEST: usize = 64;
 /// The decimal exponents of f64.
@@ -109,7 +109,9 @@ impl<'p> Parser<'p> {
             TokenTree::Literal(literal) => self.number(&literal),
             TokenTree::Ident(name) => self.symbol(name),
             // A fragment of `macro_rules!` arrives in an invisible group and is one operand, as in Rust.
-            TokenTree::Group(group) if matches!(group.delimiter(), Delimiter::Parenthesis | Delimiter::None) => {
+            TokenTree::Group(group)
+                if matches!(group.delimiter(), Delimiter::Parenthesis | Delimiter::None) =>
+            {
                 self.group(&group)
             }
             other => Err(self.unexpected(&other, "a number, a field or `(`")),
@@ -162,14 +164,15 @@ impl<'p> Parser<'p> {
     }
 
     fn punct(&mut self, symbol: char) -> Option<Region> {
-        let next = self.tokens.next_if(|token| matches!(token, TokenTree::Punct(p) if p.as_char() == symbol))?;
+        let next =
+            self.tokens.next_if(|token| matches!(token, TokenTree::Punct(p) if p.as_char() == symbol))?;
         Some(next.span().into())
     }
 
     fn count(&mut self, at: Region) -> Result<(), Reported> {
         self.effort.operators += 1;
         if self.effort.operators > MOST_OPERATORS {
-            return Err(self.found.report(at, Diagnostic::ExpressionSize { limit: "1000 operators" }));
+            return Err(self.found.report(at, Diagnostic::ExpressionSize { limit: "256 operators" }));
         }
         Ok(())
     }

@@ -130,8 +130,7 @@ fn expect_value(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Piece, Rep
         Body::Value(piece) if !piece.tokens.is_empty() => Ok(piece),
         Body::Refused(reported) => Err(reported),
         _ => {
-            let mistake =
-                Diagnostic::ExpectedValue { key: entry.key.name(), example: entry.key.example() };
+            let mistake = Diagnostic::ExpectedValue { key: entry.key.name(), example: entry.key.example() };
             Err(found.report(entry.at, mistake))
         }
     }
@@ -141,7 +140,8 @@ fn expect_value(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Piece, Rep
 fn expect_list(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Group, Reported> {
     let (key, example) = (entry.key.name(), entry.key.example());
     match entry.body {
-        Body::List(group) if !group.stream().is_empty() => Ok(group),
+        // An empty sum is a model without kinetic energy, which a rule of its own refuses.
+        Body::List(group) if !group.stream().is_empty() || entry.key == Key::Kinetic => Ok(group),
         Body::Refused(reported) => Err(reported),
         Body::List(_) => Err(found.report(entry.at, Diagnostic::EmptyList { key, example })),
         _ => Err(found.report(entry.at, Diagnostic::ExpectedList { key, example })),
@@ -151,7 +151,7 @@ fn expect_list(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Group, Repo
 /// `dim`: any whole number here, so that the rule about 2 and 3 has one place.
 fn dimension(piece: Result<Piece, Reported>, found: &mut Diagnostics) -> Result<Spanned<usize>, Reported> {
     let Piece { tokens, at } = piece?;
-    let text = tokens.into_iter().collect::<TokenStream>().to_string();
+    let text = unwrapped(tokens).into_iter().collect::<TokenStream>().to_string();
     match text.parse() {
         Ok(value) => Ok(Spanned { value, span: at }),
         Err(_) => Err(found.report(at, Diagnostic::Dimension { found: shortened(&text) })),
@@ -209,10 +209,8 @@ fn terms(
             }
             Body::Refused(_) => {}
             _ => {
-                let mistake = Diagnostic::ExpectedValue {
-                    key: entry.key.name(),
-                    example: value::example(entry.key),
-                };
+                let mistake =
+                    Diagnostic::ExpectedValue { key: entry.key.name(), example: value::example(entry.key) };
                 found.report(entry.at, mistake);
             }
         }
@@ -267,7 +265,7 @@ fn member<T: Named>(
 /// `crate = path`.
 fn path(piece: Result<Piece, Reported>, found: &mut Diagnostics) -> Option<syn::Path> {
     let Piece { tokens, at } = piece.ok()?;
-    let tokens: TokenStream = tokens.into_iter().collect();
+    let tokens: TokenStream = unwrapped(tokens).into_iter().collect();
     match syn::Path::parse_mod_style.parse2(tokens.clone()) {
         Ok(path) => Some(path),
         Err(_) => {

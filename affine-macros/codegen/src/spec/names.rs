@@ -75,8 +75,7 @@ pub enum Capability {
 }
 
 impl Named for Capability {
-    const ALL: &'static [Self] =
-        &[Self::Splitting, Self::Taylor, Self::TwoPolar, Self::Tangent, Self::Lanes];
+    const ALL: &'static [Self] = &[Self::Splitting, Self::Taylor, Self::TwoPolar, Self::Tangent, Self::Lanes];
 
     fn name(self) -> &'static str {
         match self {

@@ -53,13 +53,8 @@ fn entry(piece: Piece, found: &mut Diagnostics) -> Result<Expression, Reported> 
     expression_parser::parse(piece.tokens, piece.at, found)
 }
 
-/// Everything, or an error; unlike `collect`, it reads on after a mistake, so that all are reported.
+/// Everything, or an error; the results are made before the first error is looked for, so that all are reported.
 fn all<T>(results: impl Iterator<Item = Result<T, Reported>>) -> Result<Vec<T>, Reported> {
-    results.fold(Ok(Vec::new()), |all, next| match (all, next) {
-        (Ok(mut all), Ok(next)) => {
-            all.push(next);
-            Ok(all)
-        }
-        (Err(reported), _) | (_, Err(reported)) => Err(reported),
-    })
+    let results: Vec<_> = results.collect();
+    results.into_iter().collect()
 }

@@ -1,0 +1,248 @@
+//! Rules on the kinetic energy as a quadratic form, decided exactly.
+
+use std::collections::BTreeMap;
+
+use crate::algebra::{Arena, Polynomial, Rational};
+use crate::diagnostics::{Diagnostic, Diagnostics, Directions, Reported};
+use crate::lower;
+use crate::mechanics::hessian::{Block, Direction, Hessian};
+use crate::mechanics::kinetic::{Frame, Kinetic, Term};
+use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
+use crate::spec::{self, Claim, Named, Requirement, Spec, Value};
+
+/// A kinetic energy that passed all rules that can be decided before its fields have values.
+pub struct Form {
+    /// Owner of its expressions.
+    pub arena: Arena,
+    /// The energy.
+    pub kinetic: Kinetic,
+    /// Its Hessian on the affine velocities.
+    pub hessian: Hessian,
+    /// The largest of GL(n), O(n) that acts on space without changing the energy.
+    pub space_group: Group,
+    /// Likewise for the body.
+    pub body_group: Group,
+}
+
+/// Builds the form and holds it against every rule.
+///
+/// # Errors
+/// [`Reported`] if any rule is broken; all broken ones are in the bag.
+pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
+    let mut arena = Arena::new();
+    let (places, terms): (Vec<usize>, Vec<Term>) = lower::terms(&mut arena, spec).into_iter().unzip();
+    let kinetic = Kinetic::new(&mut arena, spec.dim.value, &terms)
+        .ok()
+        .filter(|k| !k.internal.is_empty())
+        .ok_or_else(|| found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy))?;
+    let hessian = Hessian::new(&mut arena, &kinetic);
+    invertible(spec, &hessian, found);
+    positive(spec, &kinetic, &hessian, found);
+    claims(spec, &mut arena, &kinetic, &places, found);
+    found.verdict()?;
+    let space_group = largest_group(&mut arena, &kinetic, Side::Space);
+    let body_group = largest_group(&mut arena, &kinetic, Side::Body);
+    Ok(Form { arena, kinetic, hessian, space_group, body_group })
+}
+
+/// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic
+/// form is zero, and a tensor has no kernel. Blocks with fields are left to `prepare()`.
+fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics) {
+    let mut reported = Vec::new();
+    for block in &hessian.blocks {
+        let kind = block.basis[0].kind;
+        let vanishes = block.eigenvalue().is_some_and(|e| e.is_zero());
+        if vanishes && only_isotropic(spec) && kind != Direction::Entry {
+            if !reported.contains(&kind) {
+                reported.push(kind);
+                found.report(spec.kinetic_key, degenerate(spec, kind));
+            }
+        } else if let Some(kernel) = block.inertia(spec.dim.value).and_then(|inertia| inertia.kernel) {
+            let kernel = matrix_text(spec.dim.value, &kernel);
+            let mistake = Diagnostic::DegenerateTensor {
+                terms: internal_terms(spec).map(|t| t.kind.value.name()).collect::<Vec<_>>().join(" + "),
+                velocity: match internal_terms(spec).find_map(|t| frame_of(t.kind.value)) {
+                    Some(Frame::Space) => "Om",
+                    Some(Frame::Flat) => "phi_dot",
+                    _ => "Oh",
+                },
+                kernel,
+            };
+            found.report(spec.kinetic_key, mistake);
+            return;
+        }
+    }
+}
+
+/// `require(positive_definite)`: every square of the form, and the mass, is positive. Squares with fields are
+/// left to `prepare()`.
+fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagnostics) {
+    let Some(required) = spec.require.iter().find(|r| r.value == Requirement::PositiveDefinite) else {
+        return;
+    };
+    let mut reported = Vec::new();
+    for block in &hessian.blocks {
+        let kind = block.basis[0].kind;
+        let Some(inertia) = block.inertia(kinetic.dim).filter(|i| i.negative > 0) else { continue };
+        let defect = match block.eigenvalue().and_then(|e| e.as_constant()) {
+            Some(_) if only_isotropic(spec) && kind != Direction::Entry => {
+                if reported.contains(&kind) {
+                    continue;
+                }
+                reported.push(kind);
+                format!("{} = {} is negative", eigenvalue_name(kind).0, eigenvalue_in_numbers(spec, kind))
+            }
+            _ if inertia.negative == 1 => "T has a negative square".to_owned(),
+            _ => format!("T has {} negative squares", inertia.negative),
+        };
+        found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
+    }
+    let mass = spec.kinetic.iter().find(|t| t.kind.value.is_translation());
+    if let Some((term, value)) = mass.and_then(|t| Some((t, scalar(spec, t)?)))
+        && value.is_negative()
+    {
+        let defect = format!("the mass `{} = {value}` is negative", term.kind.value.name());
+        found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
+    }
+}
+
+/// A claimed symmetry is a theorem about the form: its derivative along every generator of the group vanishes,
+/// and for O(n) one reflection leaves it unchanged as well.
+fn claims(spec: &Spec, arena: &mut Arena, kinetic: &Kinetic, places: &[usize], found: &mut Diagnostics) {
+    let Some(symmetry) = &spec.symmetry else { return };
+    for (side, name, claim) in [(Side::Space, "space", symmetry.space), (Side::Body, "body", symmetry.body)] {
+        let (group, letters) = match claim.value {
+            Claim::Affine => (Group::Affine, "GL"),
+            Claim::Metric => (Group::Metric, "O"),
+            Claim::None => continue,
+        };
+        let Some((breaker, place)) = broken_by(arena, kinetic, side, group) else { continue };
+        let n = kinetic.dim;
+        let term = &spec.kinetic[places[place]];
+        let mistake = Diagnostic::ClaimBroken {
+            side: name,
+            claim: claim.value.name(),
+            group: format!("{letters}({n})"),
+            term: term.kind.value.name(),
+            transformation: match breaker {
+                Breaker::Generator(a, b) => format!("the generator E[{a},{b}]"),
+                Breaker::Rotation(a, b) => format!("the generator E[{a},{b}] - E[{b},{a}]"),
+                Breaker::Reflection => {
+                    format!("the reflection diag(-1{})", ", 1".repeat(n - 1))
+                }
+            },
+        };
+        found.report(claim.span, mistake);
+    }
+}
+
+fn internal_terms(spec: &Spec) -> impl Iterator<Item = &spec::Term> {
+    spec.kinetic.iter().filter(|t| !t.kind.value.is_translation())
+}
+
+/// Are all internal terms multiples of the three rotation-invariant squares?
+fn only_isotropic(spec: &Spec) -> bool {
+    internal_terms(spec).all(|t| matches!(t.value, Value::Scalar(_)))
+}
+
+fn frame_of(kind: spec::TermKind) -> Option<Frame> {
+    match kind {
+        spec::TermKind::BodyInertia | spec::TermKind::BodyTensor => Some(Frame::Body),
+        spec::TermKind::SpaceInertia | spec::TermKind::SpaceTensor => Some(Frame::Space),
+        spec::TermKind::Dalembert => Some(Frame::Flat),
+        _ => None,
+    }
+}
+
+fn scalar(spec: &Spec, term: &spec::Term) -> Option<Rational> {
+    match &term.value {
+        Value::Scalar(e) => super::constant(e, spec.dim.value),
+        _ => None,
+    }
+}
+
+fn degenerate(spec: &Spec, kind: Direction) -> Diagnostic {
+    let (eigenvalue, directions) = eigenvalue_name(kind);
+    Diagnostic::Degenerate {
+        eigenvalue: eigenvalue.to_owned(),
+        numbers: eigenvalue_in_numbers(spec, kind),
+        directions,
+    }
+}
+
+/// Eigenvalues of the isotropic form and the velocities they belong to.
+fn eigenvalue_name(kind: Direction) -> (&'static str, Directions) {
+    match kind {
+        Direction::Rotation => ("I - A", Directions::Skew),
+        Direction::Dilatation => ("I + A + n B", Directions::Trace),
+        Direction::Shear | Direction::Entry => ("I + A", Directions::SymmetricTraceless),
+    }
+}
+
+/// An eigenvalue with the user's coefficients in it: `1 + 0.2 + 3*(-0.4)`.
+fn eigenvalue_in_numbers(spec: &Spec, kind: Direction) -> String {
+    let written: BTreeMap<&str, String> = internal_terms(spec)
+        .filter_map(|t| match &t.value {
+            Value::Scalar(e) => Some((t.kind.value.name(), e.to_string())),
+            _ => None,
+        })
+        .collect();
+    let get = |names: &[&str]| {
+        names.iter().find_map(|name| written.get(name)).cloned().unwrap_or_else(|| "0".to_owned())
+    };
+    let bracket = |text: String| {
+        let simple = text.chars().all(|c| c.is_alphanumeric() || c == '.' || c == '_');
+        if simple { text } else { format!("({text})") }
+    };
+    let i = get(&["body_inertia", "space_inertia", "dalembert"]);
+    let a = bracket(get(&["casimir2"]));
+    let b = bracket(get(&["casimir1_squared"]));
+    match kind {
+        Direction::Rotation => format!("{i} - {a}"),
+        Direction::Dilatation => format!("{i} + {a} + {}*{b}", spec.dim.value),
+        Direction::Shear | Direction::Entry => format!("{i} + {a}"),
+    }
+}
+
+/// An affine velocity as a nested matrix.
+fn matrix_text(n: usize, entries: &[Rational]) -> String {
+    let rows: Vec<String> = entries
+        .chunks(n)
+        .map(|row| format!("[{}]", row.iter().map(Rational::to_string).collect::<Vec<_>>().join(", ")))
+        .collect();
+    format!("[{}]", rows.join(", "))
+}
+
+/// The numbers of positive and negative squares of a numeric form.
+#[must_use]
+pub fn signature(form: &Form) -> Option<(usize, usize)> {
+    let mut count = (0, 0);
+    for inertia in form.hessian.blocks.iter().map(|b: &Block| b.inertia(form.kinetic.dim)) {
+        let inertia = inertia?;
+        count.0 += inertia.positive;
+        count.1 += inertia.negative;
+    }
+    if let Some(t) = form.kinetic.translation {
+        let mass = form.arena.as_constant(t.mass)?;
+        match mass.is_negative() {
+            true => count.1 += form.kinetic.dim,
+            false => count.0 += form.kinetic.dim,
+        }
+    }
+    Some(count)
+}
+
+/// The eigenvalues that decide whether a model with fields is well posed: condition, reason, value.
+#[must_use]
+pub fn eigenvalues(form: &Form) -> Vec<(Direction, Polynomial)> {
+    let mut list: Vec<(Direction, Polynomial)> = Vec::new();
+    for block in &form.hessian.blocks {
+        if let Some(value) = block.eigenvalue() {
+            let kind = block.basis[0].kind;
+            if value.as_constant().is_none() && !list.contains(&(kind, value.clone())) {
+                list.push((kind, value));
+            }
+        }
+    }
+    list
+}

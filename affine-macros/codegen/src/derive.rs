@@ -1,0 +1,450 @@
+//! The derivation of one model: from its quadratic form to straight-line programs, ready to be written down.
+
+use crate::algebra::bind::Constants;
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::check::{Form, eigenvalues, signature};
+use crate::ir::Program;
+use crate::ir::fuse::fuse;
+use crate::mechanics::charts::{Chart, Linear, Momentum};
+use crate::mechanics::conserved::{Candidate, conserved};
+use crate::mechanics::describe::{self, Formula};
+use crate::mechanics::equations::{self, System, hamilton};
+use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::hessian::Direction;
+use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::reduce::{self, ClosedForm, Layout, Reduction};
+use crate::mechanics::symmetry::Group;
+use crate::optimise::{Batch, straight_line};
+
+/// Everything that is emitted about a model.
+pub struct Model {
+    /// Dimension of space.
+    pub dim: usize,
+    /// Frame of the internal motion.
+    pub frame: Frame,
+    /// Frame of the translational energy.
+    pub translation: Option<Frame>,
+    /// Coefficients that depend on the fields, and the program that computes them when the model is prepared.
+    pub coefficients: Program,
+    /// Inverse blocks that need numbers.
+    pub numeric_blocks: Vec<NumericBlock>,
+    /// What `prepare()` must find different from zero.
+    pub conditions: Vec<Condition>,
+    /// `O -> X`.
+    pub legendre: Program,
+    /// `X -> O`.
+    pub velocity: Program,
+    /// `1/m` and `m` of the translation.
+    pub mass: Option<Program>,
+    /// `(O, v) -> T`.
+    pub kinetic_energy: Program,
+    /// Point -> `H`.
+    pub hamiltonian: Program,
+    /// Hamilton's equations in the model's own frames.
+    pub full: Equations,
+    /// The reduced equations.
+    pub reduced: Equations,
+    /// How the state was reduced.
+    pub reduction: Reduction,
+    /// The constants of a trajectory as functions of its conserved momenta.
+    pub trajectory: Program,
+    /// The momenta that `trajectory` reads: `p_i`, then the affine momentum.
+    pub trajectory_inputs: Vec<String>,
+    /// Closed form of the geodesics; whether it needs `p = 0`.
+    pub closed_form: Option<(ClosedForm, bool)>,
+    /// `1/alpha`, `1/beta`, `1/mu` of an isotropic model.
+    pub isotropic: Option<Program>,
+    /// Conserved quantities.
+    pub conserved: Vec<Candidate>,
+    /// Conserved quantities of motions with `p = 0`.
+    pub conserved_at_rest: Vec<Candidate>,
+    /// Numbers of positive and negative squares.
+    pub signature: Option<(usize, usize)>,
+    /// Symmetry groups of space and body.
+    pub groups: (Group, Group),
+    /// `T`, `H`, and the equations.
+    pub formulas: Formulas,
+}
+
+/// The derivation as formulas.
+pub struct Formulas {
+    /// `T`.
+    pub kinetic_energy: Formula,
+    /// `H`.
+    pub hamiltonian: Formula,
+    /// Hamilton's equations.
+    pub equations: Vec<Formula>,
+    /// The reduced equations, component by component.
+    pub reduced: Vec<Formula>,
+    /// What was taken out of the state.
+    pub left_out: Vec<String>,
+}
+
+/// A first-order system as a program over a plain array.
+pub struct Equations {
+    /// Groups of the array: name and component symbols.
+    pub groups: Vec<(&'static str, Vec<String>)>,
+    /// Array -> its rate.
+    pub program: Program,
+}
+
+/// A quantity that must not vanish once the fields have values.
+pub struct Condition {
+    /// `I + A`.
+    pub name: &'static str,
+    /// Which velocities lose their momentum.
+    pub directions: &'static str,
+    /// Must it be positive?
+    pub positive: bool,
+    /// Computes the value, then the terms whose sizes make the threshold.
+    pub program: Program,
+}
+
+/// A block to invert numerically.
+pub struct NumericBlock {
+    /// Computes the upper triangle, row after row.
+    pub program: Program,
+    /// Names of the entries of the inverse, upper triangle, row after row.
+    pub inverse: Vec<String>,
+    /// Size.
+    pub size: usize,
+    /// Must it be positive definite?
+    pub positive: bool,
+}
+
+/// Derives a model; `None` only for forms that the checks refuse.
+pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
+    let signature = signature(&form);
+    let groups = (form.space_group, form.body_group);
+    let eigenvalues = eigenvalues(&form);
+    let Form { mut arena, kinetic, hessian, .. } = form;
+    let arena = &mut arena;
+    let h = Hamiltonian::new(arena, &kinetic, &hessian)?;
+    let own = reduce::own_chart(arena, &h);
+    let own_h = reduce::own_hamiltonian(&h, &own);
+    let mut coefficients = Constants::new("c");
+
+    let conserved_now = conserved(arena, &own, &own_h);
+    let conserved_at_rest = at_rest(arena, &h, &conserved_now);
+    let commuting = reduce::commuting(arena, &h);
+    let closed_form = reduce::closed_form(&h, &commuting);
+
+    let (full_chart, full_h) = full_chart(arena, &h);
+    let full = full_equations(arena, &h, &full_chart, &full_h, &mut coefficients);
+    let (reduction, reduced, trajectory, trajectory_inputs) = best_reduction(arena, &h, &mut coefficients)?;
+    let formulas = Formulas {
+        kinetic_energy: describe::kinetic_energy(arena, &kinetic),
+        hamiltonian: describe::hamiltonian(arena, &h, &full_h),
+        equations: describe::equations(arena, &h, &full_chart, &full_h),
+        reduced: describe::system(arena, &reduction.system),
+        left_out: describe::left_out(&h, &reduction, closed_form),
+    };
+
+    let mut inline = |arena: &mut Arena, batch: Batch, inputs: Vec<Expr>| {
+        fuse(&straight_line(arena, &batch, &mut coefficients, &|a| inputs.contains(&a)))
+    };
+    let velocities: Vec<Expr> = kinetic.velocity.0.iter().flatten().copied().collect();
+    let momenta: Vec<Expr> = h.momentum.0.iter().flatten().copied().collect();
+    let legendre = legendre_batch(arena, &kinetic);
+    let legendre = inline(arena, legendre, velocities.clone());
+    let velocity = matrix_batch(arena, &kinetic.velocity, &h.velocity);
+    let velocity = inline(arena, velocity, momenta);
+    let (energy, energy_inputs) = energy_batch(arena, &kinetic, velocities);
+    let kinetic_energy = inline(arena, energy, energy_inputs);
+    let points: Vec<Expr> = full_chart.coordinates().into_iter().map(|z| full_chart.symbol(z)).collect();
+    let hamiltonian = inline(arena, result("energy", full_h.clone()), points);
+    let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {
+        let mass = Polynomial::normal_form(arena, t.mass);
+        let batch = Batch {
+            shared: Vec::new(),
+            results: vec![("inverse_mass".into(), inverse.clone()), ("mass".into(), mass)],
+        };
+        inline(arena, batch, Vec::new())
+    });
+    let isotropic = h.isotropic.as_ref().map(|iso| {
+        let named = [
+            ("inverse_alpha", &iso.casimir2),
+            ("inverse_beta", &iso.casimir1_squared),
+            ("inverse_mu", &iso.skew),
+        ];
+        let results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
+        inline(arena, Batch { shared: Vec::new(), results }, Vec::new())
+    });
+    let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.frame == Frame::Flat);
+    Some(Model {
+        dim: kinetic.dim,
+        frame: kinetic.frame,
+        translation: kinetic.translation.map(|t| t.frame),
+        conditions: conditions(arena, &kinetic, eigenvalues, require_positive),
+        coefficients: coefficient_program(arena, &coefficients),
+        numeric_blocks,
+        legendre,
+        velocity,
+        mass,
+        kinetic_energy,
+        hamiltonian,
+        full,
+        reduced,
+        reduction,
+        trajectory,
+        trajectory_inputs,
+        closed_form,
+        isotropic,
+        conserved: conserved_now,
+        conserved_at_rest,
+        signature,
+        groups,
+        formulas,
+    })
+}
+
+fn result(name: &str, polynomial: Polynomial) -> Batch {
+    Batch { shared: Vec::new(), results: vec![(name.to_owned(), polynomial)] }
+}
+
+/// The list for `p = 0`: translation dropped, and with it what it alone makes meaningful.
+fn at_rest(arena: &mut Arena, h: &Hamiltonian, moving: &[Candidate]) -> Vec<Candidate> {
+    if h.translation.is_none() {
+        return moving.to_vec();
+    }
+    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), None);
+    conserved(arena, &chart, &h.internal())
+}
+
+/// Chart and Hamiltonian of the equations that users of other codes write down: all momenta in the model's frames.
+fn full_chart(arena: &mut Arena, h: &Hamiltonian) -> (Chart, Polynomial) {
+    let linear = h.translation.as_ref().map(|(frame, _)| match (frame, h.frame) {
+        (Frame::Body, Frame::Body) => Linear::Body,
+        _ => Linear::Space,
+    });
+    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), linear);
+    let full = reduce::own_hamiltonian(h, &chart);
+    (chart, full)
+}
+
+/// The shortest of the ways to write the equations.
+fn full_equations(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    chart: &Chart,
+    full_h: &Polynomial,
+    coefficients: &mut Constants,
+) -> Equations {
+    let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
+    let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
+    if h.isotropic.is_some() || h.frame == Frame::Flat {
+        let expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
+        ways.push(batch(arena, &expanded));
+        ways.push(split_batch(arena, chart, &expanded));
+    }
+    let (program, chosen) = ways
+        .iter()
+        .map(|way| {
+            let mut constants = coefficients.clone();
+            (straight_line(arena, way, &mut constants, &|a| inputs.contains(&a)), constants)
+        })
+        .min_by_key(|(program, _)| program.operations().weight())
+        .unwrap_or_else(|| (Program::default(), coefficients.clone()));
+    *coefficients = chosen;
+    let name = |symbols: &[Expr]| -> Vec<String> {
+        symbols.iter().filter_map(|s| arena.name(*s).map(str::to_owned)).collect()
+    };
+    let linear_name = if chart.linear == Some(Linear::Body) { "p_hat" } else { "p" };
+    let groups = [
+        ("x", name(&chart.x)),
+        ("phi", name(&chart.phi.0.concat())),
+        (linear_name, name(&chart.p)),
+        (chart.momentum.name(), name(&chart.m.0.concat())),
+    ];
+    Equations {
+        groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),
+        program: fuse(&program),
+    }
+}
+
+fn batch(arena: &Arena, system: &System) -> Batch {
+    Batch {
+        shared: system.shared.clone(),
+        results: system
+            .rates
+            .iter()
+            .map(|(_, symbol, rate)| (format!("d_{}", arena.name(*symbol).unwrap_or("state")), rate.clone()))
+            .collect(),
+    }
+}
+
+/// The system in symmetric and skew parts of the affine momentum, formed from its entries.
+fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> Batch {
+    let splits = reduce::split_symmetric(arena, chart);
+    let value = |atom: Expr| {
+        splits.iter().find_map(|s| match atom {
+            a if a == s.upper => Some(s.value(1)),
+            a if a == s.lower => Some(s.value(-1)),
+            _ => None,
+        })
+    };
+    let mut result = batch(arena, &system.substitute(&value));
+    for split in &splits {
+        let (upper, lower) = (Polynomial::atom(split.upper), Polynomial::atom(split.lower));
+        let (mut sum, mut difference) = (upper.clone(), upper);
+        sum.add_scaled(&lower, &Rational::ONE);
+        difference.add_scaled(&lower, &Rational::MINUS_ONE);
+        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        result.shared.push((split.symmetric, sum.scaled(&half)));
+        result.shared.push((split.skew, difference));
+    }
+    result
+}
+
+/// The reduction with the shortest equations, and its programs.
+fn best_reduction(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    coefficients: &mut Constants,
+) -> Option<(Reduction, Equations, Program, Vec<String>)> {
+    let mut best: Option<(usize, Reduction, Program, Constants)> = None;
+    for candidate in reduce::candidates(arena, h) {
+        let states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
+        let mut constants = Constants::new("k");
+        let way = batch(arena, &candidate.system);
+        let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
+        let weight = program.operations().weight() + states.len();
+        if best.as_ref().is_none_or(|(least, ..)| weight < *least) {
+            best = Some((weight, candidate, program, constants));
+        }
+    }
+    let (_, reduction, program, constants) = best?;
+    let inputs: Vec<Expr> = trajectory_symbols(arena, &reduction);
+    let definitions = Batch {
+        shared: Vec::new(),
+        results: constants
+            .entries
+            .iter()
+            .map(|(s, p)| (arena.name(*s).unwrap_or("k").to_owned(), p.clone()))
+            .collect(),
+    };
+    let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
+    let name = |s: &Expr| arena.name(*s).unwrap_or("state").to_owned();
+    let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(name).collect())).collect();
+    let inputs = inputs.iter().map(name).collect();
+    Some((reduction, Equations { groups, program: fuse(&program) }, trajectory, inputs))
+}
+
+/// What `trajectory` reads: `p` where the state depends on it, and the constant part of the affine momentum.
+fn trajectory_symbols(arena: &mut Arena, reduction: &Reduction) -> Vec<Expr> {
+    let chart = &reduction.chart;
+    let mut symbols = chart.p.clone();
+    match reduction.layout {
+        Layout::Constant => symbols.extend(chart.m.0.concat()),
+        Layout::Symmetric => {
+            symbols.extend(reduce::split_symmetric(arena, chart).iter().map(|split| split.skew));
+        }
+        Layout::Entries => {}
+    }
+    symbols
+}
+
+/// `X_ab = dT/dO_ba`.
+fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
+    let energy = kinetic.internal_energy(arena);
+    let n = kinetic.dim;
+    let mut momenta = vec![vec![Polynomial::zero(); n]; n];
+    for (a, row) in kinetic.velocity.0.iter().enumerate() {
+        for (b, velocity) in row.iter().enumerate() {
+            let slope = arena.derivative(energy, *velocity);
+            momenta[b][a] = Polynomial::normal_form(arena, slope);
+        }
+    }
+    let names = Matrix::symbols(arena, kinetic.frame.momentum_name(), n);
+    matrix_batch(arena, &names, &momenta)
+}
+
+fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Batch {
+    let name = |s: &Expr| arena.name(*s).unwrap_or("entry").to_owned();
+    let results = names.0.concat().iter().map(name).zip(values.concat()).collect();
+    Batch { shared: Vec::new(), results }
+}
+
+/// `T_int(O) + m/2 |v|^2`, with its inputs.
+fn energy_batch(arena: &mut Arena, kinetic: &Kinetic, mut inputs: Vec<Expr>) -> (Batch, Vec<Expr>) {
+    let internal = kinetic.internal_energy(arena);
+    let mut energy = Polynomial::normal_form(arena, internal);
+    if let Some(t) = kinetic.translation {
+        let mass = Polynomial::normal_form(arena, t.mass);
+        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        for i in 1..=kinetic.dim {
+            let v = arena.symbol(&format!("v_{i}"));
+            energy.add_product(&Polynomial::term(vec![v, v], Rational::ONE), &mass, &half);
+            inputs.push(v);
+        }
+    }
+    (result("energy", energy), inputs)
+}
+
+/// What `prepare()` has to check once the fields have values.
+fn conditions(
+    arena: &mut Arena,
+    kinetic: &Kinetic,
+    eigenvalues: Vec<(Direction, Polynomial)>,
+    require_positive: bool,
+) -> Vec<Condition> {
+    let dalembert = kinetic.frame == Frame::Flat;
+    let mut list: Vec<(&'static str, &'static str, bool, Polynomial)> = eigenvalues
+        .into_iter()
+        .map(|(direction, value)| {
+            let (name, directions) = match direction {
+                Direction::Shear => ("I + A", "symmetric traceless velocities (shear)"),
+                Direction::Rotation => ("I - A", "skew velocities (rotation)"),
+                Direction::Dilatation => ("I + A + n B", "multiples of the identity (dilatation)"),
+                Direction::Entry => ("J", "a row of phi_dot"),
+            };
+            (if dalembert { "J" } else { name }, directions, require_positive || dalembert, value)
+        })
+        .collect();
+    if let Some(t) = kinetic.translation
+        && arena.as_constant(t.mass).is_none()
+    {
+        let mass = Polynomial::normal_form(arena, t.mass);
+        list.push(("m", "the velocity of the centre of mass", require_positive || dalembert, mass));
+    }
+    list.into_iter()
+        .map(|(name, directions, positive, value)| {
+            let sizes: Vec<Polynomial> =
+                value.terms().map(|(m, c)| Polynomial::term(m.clone(), c.clone())).collect();
+            let program = unbound(arena, std::iter::once(value).chain(sizes));
+            Condition { name, directions, positive, program }
+        })
+        .collect()
+}
+
+/// A program over the fields alone.
+fn unbound(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
+    let results = values.enumerate().map(|(k, p)| (format!("value_{}", k + 1), p)).collect();
+    let batch = Batch { shared: Vec::new(), results };
+    fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
+}
+
+fn coefficient_program(arena: &mut Arena, coefficients: &Constants) -> Program {
+    let results = coefficients
+        .entries
+        .iter()
+        .map(|(s, p)| (arena.name(*s).unwrap_or("c").to_owned(), p.clone()))
+        .collect();
+    let batch = Batch { shared: Vec::new(), results };
+    fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
+}
+
+fn numeric_blocks(arena: &mut Arena, h: &Hamiltonian, positive: bool) -> Vec<NumericBlock> {
+    h.numeric_blocks
+        .iter()
+        .map(|block| {
+            let size = block.form.len();
+            let upper: Vec<(usize, usize)> = (0..size).flat_map(|i| (i..size).map(move |j| (i, j))).collect();
+            let name = |s: Expr| arena.name(s).unwrap_or("inverse").to_owned();
+            let inverse = upper.iter().map(|(i, j)| name(block.inverse[*i][*j])).collect();
+            let program = unbound(arena, upper.iter().map(|(i, j)| block.form[*i][*j].clone()));
+            NumericBlock { program, inverse, size, positive }
+        })
+        .collect()
+}

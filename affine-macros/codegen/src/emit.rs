@@ -1,0 +1,158 @@
+//! A derived model as Rust items; no algebra here.
+
+mod body;
+mod description;
+mod dynamics;
+mod names;
+mod points;
+mod prepare;
+mod reduction;
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::derive::Model;
+use crate::ir::Program;
+use crate::mechanics::kinetic::Frame;
+use crate::spec::Spec;
+
+use body::{Body, Scope, body, inputs};
+use names::Names;
+
+/// The user's item and everything that belongs to it.
+pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
+    let has_fields = !model.coefficients.outputs.is_empty();
+    let names = Names::new(spec, has_fields);
+    let runtime = match &spec.runtime {
+        Some(path) => quote!(#path),
+        None => quote!(::affine_runtime),
+    };
+    let context = Context { spec, model, names: &names, has_fields };
+    let item = &spec.item.tokens;
+    let rt = &names.rt;
+    let prepared_type = prepare::prepared_type(&context);
+    let prepare = prepare::method(&context);
+    let constants = reduction::constants_type(&context);
+    let implementation = model_impl(&context);
+    let points = points::inherent(&context);
+    quote! {
+        #item
+        #prepared_type
+        const _: () = {
+            use #runtime::__private as #rt;
+            use #rt::Scalar as _;
+            #prepare
+            #constants
+            #implementation
+            #points
+        };
+    }
+}
+
+/// What every emitter reads.
+struct Context<'a> {
+    spec: &'a Spec,
+    model: &'a Model,
+    names: &'a Names,
+    /// Do coefficients depend on fields?
+    has_fields: bool,
+}
+
+impl Context<'_> {
+    fn dim(&self) -> Literal {
+        Literal::usize_unsuffixed(self.model.dim)
+    }
+
+    fn frame(&self) -> TokenStream {
+        let rt = &self.names.rt;
+        match self.model.frame {
+            Frame::Body => quote!(#rt::Body),
+            Frame::Space => quote!(#rt::Space),
+            Frame::Flat => quote!(#rt::Canonical),
+        }
+    }
+
+    /// Type of the centre of mass over a scalar.
+    fn centre(&self, scalar: &TokenStream) -> TokenStream {
+        let (rt, n) = (&self.names.rt, self.dim());
+        match self.model.translation {
+            Some(_) => quote!(#rt::Centre<#n, #scalar>),
+            None => quote!(#rt::Pinned),
+        }
+    }
+
+    /// Type of phase points over a scalar.
+    fn point(&self, scalar: &TokenStream) -> TokenStream {
+        let (rt, n, frame, centre) = (&self.names.rt, self.dim(), self.frame(), self.centre(scalar));
+        quote!(#rt::PhasePoint<#n, #frame, #centre, #scalar>)
+    }
+
+    /// Generics of the type that implements the model.
+    fn generics(&self) -> (TokenStream, TokenStream, TokenStream) {
+        if self.has_fields {
+            return (TokenStream::new(), TokenStream::new(), TokenStream::new());
+        }
+        let (implementation, ty, clause) = self.spec.item.generics.split_for_impl();
+        (quote!(#implementation), quote!(#ty), quote!(#clause))
+    }
+
+    /// A program whose inputs are variables of the same name and coefficients of the prepared model.
+    fn body(&self, program: &Program, scalar: &TokenStream) -> Body {
+        let input = |name: &str| match coefficient_index(name) {
+            Some(index) => quote!(<#scalar>::constant(self.coefficients[#index], 0.0)),
+            None => {
+                let name = format_ident!("{name}");
+                quote!(#name)
+            }
+        };
+        body(program, &Scope { scalar, input: &input })
+    }
+}
+
+/// Index of `c_1`, `c_2`, ... in the prepared model.
+fn coefficient_index(name: &str) -> Option<Literal> {
+    let index: usize = name.strip_prefix("c_")?.parse().ok()?;
+    Some(Literal::usize_unsuffixed(index.checked_sub(1)?))
+}
+
+/// Pattern that binds the components that `used` reads, in order.
+fn pattern(components: &[String], used: &[&str]) -> TokenStream {
+    let bind = components.iter().map(|name| {
+        if used.contains(&name.as_str()) {
+            let name = format_ident!("{name}");
+            quote!(#name)
+        } else {
+            quote!(_)
+        }
+    });
+    quote!([#(#bind),*])
+}
+
+fn identifiers(names: &[String]) -> Vec<Ident> {
+    names.iter().map(|name| format_ident!("{name}")).collect()
+}
+
+fn model_impl(context: &Context) -> TokenStream {
+    let Names { prepared, rt, constants, scalar, .. } = context.names;
+    let (generics, types, clause) = context.generics();
+    let n = context.dim();
+    let full: usize = context.model.full.groups.iter().map(|(_, g)| g.len()).sum();
+    let reduced: usize = context.model.reduced.groups.iter().map(|(_, g)| g.len()).sum();
+    let point = context.point(&quote!(#scalar));
+    let docs = description::docs(context);
+    let description = description::constant(context);
+    let dynamics = dynamics::methods(context);
+    let reduction = reduction::methods(context);
+    quote! {
+        #(#[doc = #docs])*
+        impl #generics #rt::Model<#n> for #prepared #types #clause {
+            const DESCRIPTION: #rt::Description = #description;
+            type Point<#scalar: #rt::Real> = #point;
+            type Full<#scalar: #rt::Scalar> = [#scalar; #full];
+            type Reduced<#scalar: #rt::Scalar> = [#scalar; #reduced];
+            type Constants<#scalar: #rt::Scalar> = #constants<#scalar>;
+            #dynamics
+            #reduction
+        }
+    }
+}

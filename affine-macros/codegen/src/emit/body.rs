@@ -1,0 +1,165 @@
+//! Straight-line programs as Rust: one `let` for what has a name or is read twice, everything else in place.
+
+use std::collections::HashMap;
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::algebra::Rational;
+use crate::ir::{Op, Program, Value};
+
+/// A program as statements and result expressions.
+pub(super) struct Body {
+    /// `let` statements.
+    pub lets: TokenStream,
+    /// One expression for each result.
+    pub results: Vec<TokenStream>,
+}
+
+/// How a body names its surroundings.
+pub(super) struct Scope<'a> {
+    /// Type of the numbers.
+    pub scalar: &'a TokenStream,
+    /// Expression of an input.
+    pub input: &'a dyn Fn(&str) -> TokenStream,
+}
+
+/// Binding strength of an expression's outermost operator.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Strength {
+    Sum,
+    Product,
+    Sign,
+    Atom,
+}
+
+/// Writes a program down.
+pub(super) fn body(program: &Program, scope: &Scope) -> Body {
+    let mut writer = Writer {
+        program,
+        scope,
+        uses: program.uses(),
+        bound: HashMap::new(),
+        lets: TokenStream::new(),
+        temporaries: 0,
+    };
+    writer.constants();
+    for value in 0..program.steps.len() {
+        writer.bind(value);
+    }
+    let results = program.outputs.iter().map(|(_, v)| writer.expression(*v).0).collect();
+    Body { lets: writer.lets, results }
+}
+
+/// The inputs a program reads.
+pub(super) fn inputs(program: &Program) -> Vec<&str> {
+    program
+        .steps
+        .iter()
+        .filter_map(|step| match step {
+            Op::Input(name) => Some(name.as_str()),
+            _ => None,
+        })
+        .collect()
+}
+
+struct Writer<'a> {
+    program: &'a Program,
+    scope: &'a Scope<'a>,
+    uses: Vec<usize>,
+    bound: HashMap<Value, Ident>,
+    lets: TokenStream,
+    temporaries: usize,
+}
+
+impl Writer<'_> {
+    /// Numbers first, named by their exact value.
+    fn constants(&mut self) {
+        for (value, step) in self.program.steps.iter().enumerate() {
+            if let Op::Constant(number) = step
+                && !number.is_zero()
+                && !number.is_one()
+            {
+                let name = format_ident!("r{}", number.to_string().replace('/', "_").replace('-', "m"));
+                let exact = constant(self.scope.scalar, number);
+                self.lets.extend(quote!(let #name = #exact;));
+                self.bound.insert(value, name);
+            }
+        }
+    }
+
+    fn bind(&mut self, value: Value) {
+        let step = &self.program.steps[value];
+        if matches!(step, Op::Input(_) | Op::Constant(_)) {
+            return;
+        }
+        let named = self.program.names.iter().find(|(v, _)| *v == value).map(|(_, n)| n.clone());
+        let result = self.program.outputs.iter().find(|(_, v)| *v == value).map(|(n, _)| n.clone());
+        let sign_only = matches!(step, Op::Neg(_));
+        let name = match (named, result) {
+            (Some(name), _) | (None, Some(name)) => name,
+            (None, None) if self.uses[value] > 1 && !sign_only => {
+                self.temporaries += 1;
+                format!("t{}", self.temporaries)
+            }
+            _ => return,
+        };
+        let name = format_ident!("{name}");
+        let (expression, _) = self.expression(value);
+        self.lets.extend(quote!(let #name = #expression;));
+        self.bound.insert(value, name);
+    }
+
+    fn expression(&self, value: Value) -> (TokenStream, Strength) {
+        if let Some(name) = self.bound.get(&value) {
+            return (quote!(#name), Strength::Atom);
+        }
+        let scalar = self.scope.scalar;
+        match &self.program.steps[value] {
+            Op::Input(name) => ((self.scope.input)(name), Strength::Atom),
+            Op::Constant(number) if number.is_zero() => (zero(scalar), Strength::Atom),
+            Op::Constant(number) => (constant(scalar, number), Strength::Atom),
+            Op::Neg(a) => {
+                let a = self.at_least(*a, Strength::Sign);
+                (quote!(-#a), Strength::Sign)
+            }
+            Op::Add(a, b) => self.infix(*a, *b, quote!(+), Strength::Sum, Strength::Sum),
+            Op::Sub(a, b) => self.infix(*a, *b, quote!(-), Strength::Sum, Strength::Product),
+            Op::Mul(a, b) => self.infix(*a, *b, quote!(*), Strength::Product, Strength::Product),
+            Op::Div(a, b) => self.infix(*a, *b, quote!(/), Strength::Product, Strength::Sign),
+            Op::MulAdd(a, b, c) => {
+                let a = self.at_least(*a, Strength::Atom);
+                let (b, c) = (self.expression(*b).0, self.expression(*c).0);
+                (quote!(#a.fma(#b, #c)), Strength::Atom)
+            }
+        }
+    }
+
+    fn infix(
+        &self,
+        a: Value,
+        b: Value,
+        sign: TokenStream,
+        strength: Strength,
+        right: Strength,
+    ) -> (TokenStream, Strength) {
+        let (a, b) = (self.at_least(a, strength), self.at_least(b, right));
+        (quote!(#a #sign #b), strength)
+    }
+
+    fn at_least(&self, value: Value, least: Strength) -> TokenStream {
+        let (tokens, strength) = self.expression(value);
+        if strength < least { quote!((#tokens)) } else { tokens }
+    }
+}
+
+fn zero(scalar: &TokenStream) -> TokenStream {
+    quote!(<#scalar>::constant(0.0, 0.0))
+}
+
+/// The number to double-double precision.
+pub(super) fn constant(scalar: &TokenStream, number: &Rational) -> TokenStream {
+    let (hi, lo) = number.to_doubles();
+    let (hi, lo) = (Literal::f64_unsuffixed(hi), Literal::f64_unsuffixed(lo));
+    quote!(<#scalar>::constant(#hi, #lo))
+}

@@ -1,0 +1,135 @@
+//! What was derived, as rustdoc and as a constant.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use crate::ir::count::Operations;
+use crate::mechanics::conserved::Candidate;
+use crate::mechanics::describe::Formula;
+use crate::mechanics::symmetry::Group;
+
+use super::Context;
+
+/// Documentation of the implementation, line by line.
+pub(super) fn docs(context: &Context) -> Vec<String> {
+    let model = context.model;
+    let formulas = &model.formulas;
+    let mut lines = vec![
+        format!("`{}`", formulas.kinetic_energy.text),
+        String::new(),
+        format!("`{}`", formulas.hamiltonian.text),
+        String::new(),
+        "Hamilton's equations:".to_owned(),
+        "```text".to_owned(),
+    ];
+    lines.extend(formulas.equations.iter().map(|f| f.text.clone()));
+    lines.push("```".to_owned());
+    lines.push(format!(
+        "{}; reduced: {}.",
+        counts(model.full.program.operations()),
+        counts(model.reduced.program.operations())
+    ));
+    lines.push(String::new());
+    lines.push("Reduced equations:".to_owned());
+    lines.push("```text".to_owned());
+    lines.extend(formulas.reduced.iter().map(|f| f.text.clone()));
+    lines.push("```".to_owned());
+    if !formulas.left_out.is_empty() {
+        lines.push(format!("Left out of the state: {}.", formulas.left_out.join("; ")));
+        lines.push(String::new());
+    }
+    lines.push(match model.signature {
+        Some((p, 0)) => format!("The kinetic metric is positive definite, ({p}, 0)."),
+        Some((p, q)) => format!("The kinetic metric is indefinite, ({p}, {q})."),
+        None => "The signature of the kinetic metric depends on the fields.".to_owned(),
+    });
+    lines.push(String::new());
+    let n = model.dim;
+    let group = |g: Group| match g {
+        Group::Affine => format!("GL({n})"),
+        Group::Metric => format!("O({n})"),
+        Group::Less => format!("less than O({n})"),
+    };
+    lines.push(format!(
+        "Invariant under {} in space and {} in the body.",
+        group(model.groups.0),
+        group(model.groups.1)
+    ));
+    lines.push(String::new());
+    lines.push(format!("Conserved: {}.", names(&model.conserved)));
+    if model.translation.is_some() {
+        lines.push(format!("With `p = 0`: {}.", names(&model.conserved_at_rest)));
+    }
+    lines
+}
+
+fn names(list: &[Candidate]) -> String {
+    list.iter().map(|c| format!("`{c:?}`")).collect::<Vec<_>>().join(", ")
+}
+
+fn counts(operations: Operations) -> String {
+    let mut parts =
+        vec![format!("{} multiplications", operations.mul), format!("{} additions", operations.add)];
+    if operations.div > 0 {
+        parts.push(format!("{} divisions", operations.div));
+    }
+    parts.join(", ")
+}
+
+/// The description as an expression.
+pub(super) fn constant(context: &Context) -> TokenStream {
+    let (model, rt) = (context.model, &context.names.rt);
+    let name = context.names.model.to_string();
+    let formula = |f: &Formula| {
+        let (text, latex) = (&f.text, &f.latex);
+        quote!(#rt::Formula { text: #text, latex: #latex })
+    };
+    let kinetic_energy = formula(&model.formulas.kinetic_energy);
+    let hamiltonian = formula(&model.formulas.hamiltonian);
+    let equations = model.formulas.equations.iter().map(formula);
+    let reduced_equations = model.formulas.reduced.iter().map(formula);
+    let left_out = &model.formulas.left_out;
+    let signature = match model.signature {
+        Some((p, q)) => quote!(::core::option::Option::Some((#p, #q))),
+        None => quote!(::core::option::Option::None),
+    };
+    let conserved = |list: &[Candidate]| {
+        let entries = list.iter().map(|c| {
+            let variant = format_ident!("{c:?}");
+            quote!(#rt::Conserved::#variant)
+        });
+        quote!(&[#(#entries),*])
+    };
+    let (now, at_rest) = (conserved(&model.conserved), conserved(&model.conserved_at_rest));
+    let groups = |groups: &[(&'static str, Vec<String>)]| {
+        let entries = groups.iter().map(|(name, components)| {
+            let len = components.len();
+            quote!(#rt::Group { name: #name, len: #len })
+        });
+        quote!(&[#(#entries),*])
+    };
+    let (full, reduced) = (groups(&model.full.groups), groups(&model.reduced.groups));
+    let operations = |o: Operations| {
+        let Operations { mul, add, div } = o;
+        quote!(#rt::Operations { mul: #mul, add: #add, div: #div, sqrt: 0, exp: 0, ln: 0 })
+    };
+    let full_operations = operations(model.full.program.operations());
+    let reduced_operations = operations(model.reduced.program.operations());
+    quote! {
+        #rt::Description {
+            name: #name,
+            kinetic_energy: #kinetic_energy,
+            hamiltonian: #hamiltonian,
+            equations: &[#(#equations),*],
+            reduced_equations: &[#(#reduced_equations),*],
+            signature: #signature,
+            conserved: #now,
+            conserved_at_rest: #at_rest,
+            full: #full,
+            reduced: #reduced,
+            full_operations: #full_operations,
+            reduced_operations: #reduced_operations,
+            left_out: &[#(#left_out),*],
+        }
+    }
+}

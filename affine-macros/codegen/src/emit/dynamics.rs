@@ -1,0 +1,228 @@
+//! Energies, velocities and Hamilton's equations.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use crate::ir::Program;
+use crate::mechanics::charts::Linear;
+use crate::mechanics::kinetic::Frame;
+
+use super::body::Body;
+use super::points::{affine_velocity, components, wrapper};
+use super::{Context, identifiers, inputs, pattern};
+
+/// The methods of the model trait that do not reduce.
+pub(super) fn methods(context: &Context) -> TokenStream {
+    let velocity = velocity(context);
+    let kinetic_energy = kinetic_energy(context);
+    let hamiltonian = hamiltonian(context);
+    let flat = flat(context);
+    let equations = hamilton_equations(context);
+    quote!(#velocity #kinetic_energy #hamiltonian #flat #equations)
+}
+
+/// The model's own affine spin of `point`, as a matrix.
+pub(super) fn own_spin(context: &Context) -> TokenStream {
+    let rt = &context.names.rt;
+    match context.model.frame {
+        Frame::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
+        Frame::Space => quote!(#rt::Phase::sigma(point).0.0),
+        Frame::Flat => quote!(#rt::Phase::pi(point).0.0),
+    }
+}
+
+fn velocity(context: &Context) -> TokenStream {
+    let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
+    let spin = own_spin(context);
+    let names = components(context.model.frame.momentum_name(), context.model.dim);
+    let used = inputs(&context.model.velocity);
+    let rows = names.iter().map(|row| pattern(row, &used));
+    let Body { lets, results } = context.body(&context.model.velocity, &quote!(#t));
+    let out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
+    let phi_dot = match context.model.frame {
+        Frame::Body => quote!(phi * affine_velocity),
+        Frame::Space => quote!(affine_velocity * phi),
+        Frame::Flat => quote!(affine_velocity),
+    };
+    let (mass, x_dot) = match (&context.model.mass, context.model.translation) {
+        (Some(program), Some(frame)) => {
+            let Body { lets, results } = context.body(program, &quote!(#t));
+            let inverse_mass = results.first().cloned().unwrap_or_default();
+            let x_dot = match frame {
+                Frame::Body => quote!(phi * #rt::Phase::p_hat(point).0.0 * (#inverse_mass)),
+                _ => quote!(#rt::Phase::p(point) * (#inverse_mass)),
+            };
+            (lets, x_dot)
+        }
+        _ => (TokenStream::new(), quote!(#rt::Vector::<#n, #t>::zeros())),
+    };
+    quote! {
+        fn velocity<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
+            let phi = #rt::Phase::phi(point);
+            let [#(#rows),*] = #rt::rows(&#spin);
+            #lets
+            let affine_velocity = #rt::matrix([#(#out),*]);
+            #mass
+            #rt::Velocity { x_dot: #x_dot, phi_dot: #phi_dot }
+        }
+    }
+}
+
+fn kinetic_energy(context: &Context) -> TokenStream {
+    let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
+    let program = &context.model.kinetic_energy;
+    let used = inputs(program);
+    let names = components(context.model.frame.velocity_name(), context.model.dim);
+    let rows = names.iter().map(|row| pattern(row, &used));
+    let o = affine_velocity(context);
+    let centre = match context.model.translation {
+        None => TokenStream::new(),
+        Some(frame) => {
+            let names: Vec<String> = (1..=context.model.dim).map(|i| format!("v_{i}")).collect();
+            let v = pattern(&names, &used);
+            let value = match frame {
+                Frame::Body => quote!((#rt::inverse(phi) * velocity.x_dot)),
+                _ => quote!(velocity.x_dot),
+            };
+            quote!(let #v = #rt::components(&#value);)
+        }
+    };
+    let Body { lets, results } = context.body(program, &quote!(#t));
+    quote! {
+        fn kinetic_energy<#t: #rt::Real>(
+            &self,
+            phi: &#rt::Matrix<#n, #t>,
+            velocity: &#rt::Velocity<#n, #t>,
+        ) -> #t {
+            let phi_dot = velocity.phi_dot;
+            let [#(#rows),*] = #rt::rows(&#o);
+            #centre
+            #lets
+            #(#results)*
+        }
+    }
+}
+
+/// `let` statements that bind the components of `point` that a program reads.
+fn bind_point(context: &Context, program: &Program) -> TokenStream {
+    let rt = &context.names.rt;
+    let used = inputs(program);
+    let spin = own_spin(context);
+    let n = context.model.dim;
+    let mut lets = TokenStream::new();
+    for (group, names) in &context.model.full.groups {
+        if !names.iter().any(|name| used.contains(&name.as_str())) {
+            continue;
+        }
+        let value = match *group {
+            "x" => quote!(#rt::components(&#rt::Phase::x(point))),
+            "phi" => quote!(#rt::rows(#rt::Phase::phi(point))),
+            "p" => quote!(#rt::components(&#rt::Phase::p(point))),
+            "p_hat" => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
+            _ => quote!(#rt::rows(&#spin)),
+        };
+        lets.extend(if names.len() == n {
+            let bound = pattern(names, &used);
+            quote!(let #bound = #value;)
+        } else {
+            let rows = names.chunks(n).map(|row| pattern(row, &used));
+            quote!(let [#(#rows),*] = #value;)
+        });
+    }
+    lets
+}
+
+fn hamiltonian(context: &Context) -> TokenStream {
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let program = &context.model.hamiltonian;
+    let bound = bind_point(context, program);
+    let Body { lets, results } = context.body(program, &quote!(#t));
+    quote! {
+        fn hamiltonian<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #t {
+            #bound
+            #lets
+            #(#results)*
+        }
+    }
+}
+
+/// `flatten` and `unflatten`.
+fn flat(context: &Context) -> TokenStream {
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let n = context.model.dim;
+    let groups = &context.model.full.groups;
+    let all: Vec<String> = groups.iter().flat_map(|(_, names)| names.clone()).collect();
+    let names = identifiers(&all);
+    let mut bound = TokenStream::new();
+    let spin = own_spin(context);
+    for (group, names) in groups {
+        let value = match *group {
+            "x" => quote!(#rt::components(&#rt::Phase::x(point))),
+            "phi" => quote!(#rt::rows(#rt::Phase::phi(point))),
+            "p" => quote!(#rt::components(&#rt::Phase::p(point))),
+            "p_hat" => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
+            _ => quote!(#rt::rows(&#spin)),
+        };
+        let names = identifiers(names);
+        bound.extend(if names.len() == n {
+            quote!(let [#(#names),*] = #value;)
+        } else {
+            let rows = names.chunks(n).map(|row| quote!([#(#row),*]));
+            quote!(let [#(#rows),*] = #value;)
+        });
+    }
+    let rows = |stem: &str| {
+        let rows = components(stem, n).into_iter().map(|row| {
+            let row = identifiers(&row);
+            quote!([#(#row),*])
+        });
+        quote!(#rt::matrix([#(#rows),*]))
+    };
+    let vector = |stem: &str| {
+        let names = (1..=n).map(|i| format_ident!("{stem}_{i}"));
+        quote!(#rt::vector([#(#names),*]))
+    };
+    let (phi, own, wrap) = (rows("phi"), rows(context.model.frame.momentum_name()), wrapper(context));
+    let linear = context.model.full.groups.iter().any(|(name, _)| *name == "p_hat");
+    let linear = if linear { Linear::Body } else { Linear::Space };
+    let centre = match (context.model.translation, linear) {
+        (None, _) => quote!(let centre = #rt::Pinned;),
+        (Some(_), Linear::Space) => {
+            let (x, p) = (vector("x"), vector("p"));
+            quote!(let centre = #rt::Centre { x: #x, p: #p };)
+        }
+        (Some(_), Linear::Body) => {
+            let (x, p_hat) = (vector("x"), vector("p_hat"));
+            quote!(let centre = #rt::Centre { x: #x, p: #rt::inverse(&phi).tr_mul(&#p_hat) };)
+        }
+    };
+    quote! {
+        fn flatten<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> Self::Full<#t> {
+            #bound
+            [#(#names),*]
+        }
+
+        fn unflatten<#t: #rt::Real>(&self, full: &Self::Full<#t>) -> Self::Point<#t> {
+            let [#(#names),*] = *full;
+            let phi = #phi;
+            #centre
+            #rt::point(phi, #wrap(#own), centre)
+        }
+    }
+}
+
+fn hamilton_equations(context: &Context) -> TokenStream {
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let program = &context.model.full.program;
+    let all: Vec<String> = context.model.full.groups.iter().flat_map(|(_, names)| names.clone()).collect();
+    let bound = pattern(&all, &inputs(program));
+    let Body { lets, results } = context.body(program, &quote!(#t));
+    quote! {
+        #[inline]
+        fn hamilton_equations<#t: #rt::Scalar>(&self, _t: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
+            let #bound = *full;
+            #lets
+            [#(#results),*]
+        }
+    }
+}

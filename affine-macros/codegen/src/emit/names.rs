@@ -1,0 +1,49 @@
+//! Every name that emitted code introduces, chosen against the user's own.
+
+use proc_macro2::Ident;
+use quote::format_ident;
+
+use crate::spec::Spec;
+
+/// Names of one expansion.
+pub(super) struct Names {
+    /// The user's type.
+    pub model: Ident,
+    /// The type that implements the model traits: the user's own, or what `prepare()` returns.
+    pub prepared: Ident,
+    /// Constants of a trajectory.
+    pub constants: Ident,
+    /// The runtime's support module.
+    pub rt: Ident,
+    /// The scalar type parameter.
+    pub scalar: Ident,
+}
+
+impl Names {
+    pub(super) fn new(spec: &Spec, has_fields: bool) -> Self {
+        let model = spec.item.ident.clone();
+        let prepared = if has_fields { format_ident!("Prepared{}", model) } else { model.clone() };
+        let taken = |name: &str| {
+            model == name
+                || spec.item.generics.params.iter().any(|p| match p {
+                    syn::GenericParam::Type(t) => t.ident == name,
+                    syn::GenericParam::Const(c) => c.ident == name,
+                    syn::GenericParam::Lifetime(_) => false,
+                })
+        };
+        let free = |wanted: &str| {
+            let mut name = wanted.to_owned();
+            while taken(&name) {
+                name.push('_');
+            }
+            format_ident!("{name}")
+        };
+        Self {
+            constants: format_ident!("{}Constants", model),
+            rt: free("rt"),
+            scalar: free("T"),
+            model,
+            prepared,
+        }
+    }
+}

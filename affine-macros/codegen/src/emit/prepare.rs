@@ -1,0 +1,138 @@
+//! `prepare()`: from values of the fields to a checked model with its coefficients.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::derive::{Condition, NumericBlock};
+use crate::lower::FIELD;
+
+use super::Context;
+use super::body::{Body, Scope, body};
+use crate::ir::Program;
+
+/// What `prepare()` returns; nothing for a model without fields in its coefficients.
+pub(super) fn prepared_type(context: &Context) -> TokenStream {
+    if !context.has_fields {
+        return TokenStream::new();
+    }
+    let (model, prepared) = (&context.names.model, &context.names.prepared);
+    let visibility = &context.spec.item.visibility;
+    let count = Literal::usize_unsuffixed(context.model.coefficients.outputs.len());
+    let summary = format!("[`{model}`] with values of its fields that make it well posed.");
+    quote! {
+        #[doc = #summary]
+        ///
+        /// Made by `prepare()`; holds the coefficients that the equations need, computed once.
+        #[derive(
+            ::core::clone::Clone,
+            ::core::marker::Copy,
+            ::core::fmt::Debug,
+            ::core::cmp::PartialEq,
+        )]
+        #visibility struct #prepared {
+            coefficients: [::core::primitive::f64; #count],
+        }
+    }
+}
+
+/// The method that makes it.
+pub(super) fn method(context: &Context) -> TokenStream {
+    if !context.has_fields {
+        return TokenStream::new();
+    }
+    let (model, prepared, rt) = (&context.names.model, &context.names.prepared, &context.names.rt);
+    let visibility = &context.spec.item.visibility;
+    let (generics, types, clause) = context.spec.item.generics.split_for_impl();
+    let private = quote!(#rt);
+    let conditions = conditions(context, &private);
+    let blocks: TokenStream =
+        context.model.numeric_blocks.iter().map(|block| numeric_block(block, &private)).collect();
+    let Body { lets, results } = over_fields(&context.model.coefficients);
+    quote! {
+        impl #generics #model #types #clause {
+            /// Checks the values of the fields and computes the coefficients of the equations.
+            ///
+            /// # Errors
+            /// `IllPosed` with the condition, its value and its threshold, where the Legendre transformation
+            /// is degenerate to rounding or a required sign is missing.
+            #visibility fn prepare(&self) -> #private::Result<#prepared> {
+                #conditions
+                #blocks
+                #lets
+                ::core::result::Result::Ok(#prepared { coefficients: [#(#results),*] })
+            }
+        }
+    }
+}
+
+/// A program over the fields, and over inverse blocks computed before.
+fn over_fields(program: &Program) -> Body {
+    let input = |name: &str| match name.strip_prefix(FIELD) {
+        Some(field) => {
+            let field = format_ident!("{field}");
+            quote!(self.#field)
+        }
+        None => {
+            let name = format_ident!("{name}");
+            quote!(#name)
+        }
+    };
+    body(program, &Scope { scalar: &quote!(::core::primitive::f64), input: &input })
+}
+
+/// Eigenvalues share one threshold, a mass has its own.
+fn conditions(context: &Context, private: &TokenStream) -> TokenStream {
+    let is_mass = |c: &&Condition| c.name == "m";
+    let list = |conditions: Vec<&Condition>| {
+        if conditions.is_empty() {
+            return TokenStream::new();
+        }
+        let entries = conditions.iter().map(|c| condition(c, private));
+        quote!(#private::well_posed(&[#(#entries),*])?;)
+    };
+    let eigenvalues = list(context.model.conditions.iter().filter(|c| !is_mass(c)).collect());
+    let masses = list(context.model.conditions.iter().filter(is_mass).collect());
+    quote!(#eigenvalues #masses)
+}
+
+fn condition(condition: &Condition, private: &TokenStream) -> TokenStream {
+    let positive = condition.positive;
+    let text = format!("{} {} 0", condition.name, if positive { ">" } else { "!=" });
+    let reason = format!(
+        "on {} the momentum is {} times the velocity; {}",
+        condition.directions,
+        condition.name,
+        if positive {
+            "choose fields that make it positive"
+        } else {
+            "choose fields that keep it away from zero, or the momentum does not determine the velocity"
+        }
+    );
+    let Body { lets, results } = over_fields(&condition.program);
+    let (value, sizes) = results.split_first().map_or((quote!(0.0), &[][..]), |(v, s)| (v.clone(), s));
+    quote! {
+        {
+            #lets
+            #private::Condition {
+                condition: #text,
+                reason: #reason,
+                positive: #positive,
+                value: #value,
+                sizes: &[#(#sizes),*],
+            }
+        }
+    }
+}
+
+fn numeric_block(block: &NumericBlock, private: &TokenStream) -> TokenStream {
+    let Body { lets, results } = over_fields(&block.program);
+    let names = block.inverse.iter().map(|name| format_ident!("{name}"));
+    let (size, positive) = (Literal::usize_unsuffixed(block.size), block.positive);
+    let count = Literal::usize_unsuffixed(results.len());
+    quote! {
+        let [#(#names),*]: [::core::primitive::f64; #count] = {
+            #lets
+            #private::inverse_form::<#size, #count>([#(#results),*], #positive)?
+        };
+    }
+}

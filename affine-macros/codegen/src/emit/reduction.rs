@@ -1,0 +1,457 @@
+//! Reduction, reduced equations, expansion, and closed forms.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use crate::mechanics::charts::Momentum;
+use crate::mechanics::kinetic::Frame;
+use crate::mechanics::reduce::{ClosedForm, Commuting, Layout};
+
+use super::body::Body;
+use super::dynamics::own_spin;
+use super::points::components;
+use super::{Context, identifiers, inputs, pattern};
+
+/// What one trajectory needs besides its reduced state.
+struct Parts {
+    /// A time origin: something moves in closed form.
+    origin: bool,
+    /// Space is turned.
+    turn: bool,
+    /// `p` is a constant.
+    linear: bool,
+    /// `x0` and `p/m` of a free centre of mass.
+    drift: bool,
+    /// The affine momentum is a constant.
+    momentum: bool,
+    /// The skew part of the affine momentum is a constant: number of components.
+    skew: usize,
+    /// Generator of the rotation that commutes.
+    whirl: Option<Frame>,
+    /// Coefficients of the reduced equations.
+    coefficients: usize,
+}
+
+impl Parts {
+    fn of(context: &Context) -> Self {
+        let reduction = &context.model.reduction;
+        let n = context.model.dim;
+        let whirl = reduction.commuting.iter().find_map(|piece| match piece {
+            Commuting::Vorticity(_) => Some(Frame::Body),
+            Commuting::Spin(_) => Some(Frame::Space),
+            Commuting::Drift(_) => None,
+        });
+        let drift = reduction.commuting.iter().any(|piece| matches!(piece, Commuting::Drift(_)));
+        Self {
+            origin: whirl.is_some() || drift,
+            turn: reduction.turned,
+            linear: context.model.translation.is_some(),
+            drift,
+            momentum: reduction.layout == Layout::Constant,
+            skew: if reduction.layout == Layout::Symmetric { n * (n - 1) / 2 } else { 0 },
+            whirl,
+            coefficients: context.model.trajectory.outputs.len(),
+        }
+    }
+}
+
+/// The constants of a trajectory as a struct.
+pub(super) fn constants_type(context: &Context) -> TokenStream {
+    let (name, rt, t) = (&context.names.constants, &context.names.rt, &context.names.scalar);
+    let n = context.dim();
+    let parts = Parts::of(context);
+    let mut fields = TokenStream::new();
+    let mut field = |wanted: bool, doc: &str, tokens: TokenStream| {
+        if wanted {
+            fields.extend(quote!(#[doc = #doc] pub #tokens,));
+        }
+    };
+    let (momentum, skew, coefficients) = (&parts.momentum, parts.skew, parts.coefficients);
+    field(parts.origin, "Time of the start.", quote!(t0: #t));
+    field(
+        parts.turn,
+        "Turns space so that `p` lies along the first axis.",
+        quote!(turn: #rt::Matrix<#n, #t>),
+    );
+    field(parts.linear, "Linear momentum `p`.", quote!(p: #rt::Vector<#n, #t>));
+    field(parts.drift, "Centre of mass at the start.", quote!(x0: #rt::Vector<#n, #t>));
+    field(parts.drift, "Velocity `p/m` of the centre of mass.", quote!(drift: #rt::Vector<#n, #t>));
+    field(*momentum, "Conserved affine momentum.", quote!(momentum: #rt::Matrix<#n, #t>));
+    field(skew > 0, "Conserved skew part of the affine momentum, row by row.", quote!(skew: [#t; #skew]));
+    field(
+        parts.whirl.is_some(),
+        "Generator of the rotation that commutes with the rest of the motion.",
+        quote!(whirl: #rt::Matrix<#n, #t>),
+    );
+    field(
+        coefficients > 0,
+        "Coefficients of the reduced equations.",
+        quote!(coefficients: [#t; #coefficients]),
+    );
+    let doc = format!("What one trajectory of [`{}`] conserves.", context.names.model);
+    let marker = (fields.is_empty()).then(|| quote!(scalar: ::core::marker::PhantomData<#t>));
+    quote! {
+        #[doc = #doc]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+        pub struct #name<#t> { #fields #marker }
+    }
+}
+
+/// `reduce`, `reduced_equations`, `expand`, `geodesic`, `on_geodesic`.
+pub(super) fn methods(context: &Context) -> TokenStream {
+    let parts = Parts::of(context);
+    let reduce = reduce(context, &parts);
+    let equations = reduced_equations(context, &parts);
+    let expand = expand(context, &parts);
+    let geodesic = geodesic(context);
+    quote!(#reduce #equations #expand #geodesic)
+}
+
+/// The affine momentum of the reduced chart at `point`.
+fn chart_momentum(context: &Context) -> TokenStream {
+    let rt = &context.names.rt;
+    match context.model.reduction.chart.momentum {
+        Momentum::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
+        Momentum::Space => quote!(#rt::Phase::sigma(point).0.0),
+        Momentum::Total => quote!(#rt::total_affine_momentum(point)),
+        Momentum::Canonical => quote!(#rt::Phase::pi(point).0.0),
+    }
+}
+
+fn reduce(context: &Context, parts: &Parts) -> TokenStream {
+    let (rt, t, constants) = (&context.names.rt, &context.names.scalar, &context.names.constants);
+    let chart = &context.model.reduction.chart;
+    let momentum = chart_momentum(context);
+    let moving = chart.linear.is_some();
+    let mut lets = TokenStream::new();
+    if parts.linear {
+        lets.extend(quote!(let p = #rt::Phase::p(point);));
+    }
+    lets.extend(quote!(let momentum = #momentum;));
+    if parts.turn {
+        lets.extend(match (chart.momentum, parts.momentum) {
+            (Momentum::Total, true) => {
+                quote!(let turn = #rt::turn(&p, ::core::option::Option::Some(&momentum));)
+            }
+            _ => quote!(let turn = #rt::turn(&p, ::core::option::Option::None);),
+        });
+    }
+    lets.extend(bind_state(context, parts, moving));
+    let body = context.body(&context.model.trajectory, &quote!(#t));
+    let (trajectory, results) = (body.lets, body.results);
+    let whirl = whirl(context, parts);
+    let state: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let state = identifiers(&state);
+    let mut fields = TokenStream::new();
+    let mut field = |wanted: bool, tokens: TokenStream| {
+        if wanted {
+            fields.extend(quote!(#tokens,));
+        }
+    };
+    let skew = skew_names(context);
+    field(parts.origin, quote!(t0));
+    field(parts.turn, quote!(turn));
+    field(parts.linear, quote!(p));
+    field(parts.drift, quote!(x0: #rt::Phase::x(point)));
+    field(parts.drift, quote!(drift));
+    field(parts.momentum, quote!(momentum));
+    field(parts.skew > 0, quote!(skew: [#(#skew),*]));
+    field(parts.whirl.is_some(), quote!(whirl));
+    field(parts.coefficients > 0, quote!(coefficients: [#(#results),*]));
+    if fields.is_empty() {
+        fields = quote!(scalar: ::core::marker::PhantomData);
+    }
+    let origin = if parts.origin { quote!(t0) } else { quote!(_t0) };
+    quote! {
+        fn reduce<#t: #rt::Real>(
+            &self,
+            #origin: #t,
+            point: &Self::Point<#t>,
+        ) -> (Self::Reduced<#t>, Self::Constants<#t>) {
+            #lets
+            #trajectory
+            #whirl
+            ([#(#state),*], #constants { #fields })
+        }
+    }
+}
+
+/// Components of state and momenta in turned space, as variables.
+fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
+    let (rt, n) = (&context.names.rt, context.model.dim);
+    let chart = &context.model.reduction.chart;
+    let mut used: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    used.extend(inputs(&context.model.trajectory).into_iter().map(str::to_owned));
+    // The symmetric and skew parts are formed from the entries.
+    if parts.skew > 0 {
+        used.extend(components(chart.momentum.name(), n).concat());
+    }
+    let used: Vec<&str> = used.iter().map(String::as_str).collect();
+    let turned = |value: TokenStream| if parts.turn { quote!((turn * #value)) } else { value };
+    let mut lets = TokenStream::new();
+    let vector = |stem: &str| -> Vec<String> { (1..=n).map(|i| format!("{stem}_{i}")).collect() };
+    if moving {
+        for (names, value) in
+            [(vector("x"), turned(quote!(#rt::Phase::x(point)))), (vector("p"), turned(quote!(p)))]
+        {
+            if names.iter().any(|name| used.contains(&name.as_str())) {
+                let bound = pattern(&names, &used);
+                lets.extend(quote!(let #bound = #rt::components(&#value);));
+            }
+        }
+    }
+    let phi = turned(quote!(#rt::Phase::phi(point)));
+    let phi_rows = components("phi", n).into_iter().map(|row| pattern(&row, &used)).collect::<Vec<_>>();
+    lets.extend(if parts.turn {
+        quote!(let [#(#phi_rows),*] = #rt::rows(&#phi);)
+    } else {
+        quote!(let [#(#phi_rows),*] = #rt::rows(#phi);)
+    });
+    let names = components(chart.momentum.name(), n);
+    if names.concat().iter().any(|name| used.contains(&name.as_str())) {
+        let rows = names.iter().map(|row| pattern(row, &used));
+        let value = match (parts.turn, chart.momentum) {
+            (false, _) | (_, Momentum::Body) => quote!(momentum),
+            (true, Momentum::Canonical) => quote!((momentum * turn.transpose())),
+            (true, _) => quote!((turn * momentum * turn.transpose())),
+        };
+        lets.extend(quote!(let [#(#rows),*] = #rt::rows(&#value);));
+    }
+    if parts.skew > 0 {
+        lets.extend(split(context));
+    }
+    lets
+}
+
+/// `s = (M_ab + M_ba)/2`, `w = M_ab - M_ba`.
+fn split(context: &Context) -> TokenStream {
+    let t = &context.names.scalar;
+    let stem = context.model.reduction.chart.momentum.name();
+    let n = context.model.dim;
+    let mut lets = quote!(let half = <#t>::constant(0.5, 0.0););
+    for a in 1..=n {
+        for b in a + 1..=n {
+            let (upper, lower) = (format_ident!("{stem}_{a}{b}"), format_ident!("{stem}_{b}{a}"));
+            let (s, w) = (format_ident!("{stem}_sym_{a}{b}"), format_ident!("{stem}_skew_{a}{b}"));
+            lets.extend(quote! {
+                let #s = half * (#upper + #lower);
+                let #w = #upper - #lower;
+            });
+        }
+    }
+    lets
+}
+
+fn skew_names(context: &Context) -> Vec<proc_macro2::Ident> {
+    let stem = context.model.reduction.chart.momentum.name();
+    let n = context.model.dim;
+    (1..=n)
+        .flat_map(|a| (a + 1..=n).map(move |b| (a, b)))
+        .map(|(a, b)| format_ident!("{stem}_skew_{a}{b}"))
+        .collect()
+}
+
+/// Generators of what moves in closed form: `-W/mu`, `p/m`.
+fn whirl(context: &Context, parts: &Parts) -> TokenStream {
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let mut lets = TokenStream::new();
+    if let (Some(frame), Some(program)) = (parts.whirl, &context.model.isotropic) {
+        let Body { lets: inner, results } = context.body(program, &quote!(#t));
+        let inverse_mu = results.get(2).cloned().unwrap_or_default();
+        let spin = match frame {
+            Frame::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
+            _ => quote!(#rt::Phase::sigma(point).0.0),
+        };
+        lets.extend(quote! {
+            #inner
+            let spin = #spin;
+            let whirl = (spin.transpose() - spin) * (#inverse_mu);
+        });
+    }
+    if let (true, Some(program)) = (parts.drift, &context.model.mass) {
+        let Body { lets: inner, results } = context.body(program, &quote!(#t));
+        let inverse_mass = results.first().cloned().unwrap_or_default();
+        lets.extend(quote!(#inner let drift = p * (#inverse_mass);));
+    }
+    lets
+}
+
+fn reduced_equations(context: &Context, parts: &Parts) -> TokenStream {
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let program = &context.model.reduced.program;
+    let used = inputs(program);
+    let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let bound = pattern(&all, &used);
+    let coefficient_names: Vec<String> = (1..=parts.coefficients).map(|k| format!("k_{k}")).collect();
+    let coefficients = pattern(&coefficient_names, &used);
+    let read = (parts.coefficients > 0).then(|| quote!(let #coefficients = constants.coefficients;));
+    let constants = if parts.coefficients > 0 { quote!(constants) } else { quote!(_constants) };
+    let reads_state = all.iter().any(|name| used.contains(&name.as_str()));
+    let state = if reads_state { quote!(reduced) } else { quote!(_reduced) };
+    let bind = reads_state.then(|| quote!(let #bound = *reduced;));
+    let Body { lets, results } = context.body(program, &quote!(#t));
+    quote! {
+        #[inline]
+        fn reduced_equations<#t: #rt::Scalar>(
+            &self,
+            _t: #t,
+            #constants: &Self::Constants<#t>,
+            #state: &Self::Reduced<#t>,
+        ) -> Self::Reduced<#t> {
+            #read
+            #bind
+            #lets
+            [#(#results),*]
+        }
+    }
+}
+
+fn expand(context: &Context, parts: &Parts) -> TokenStream {
+    let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
+    let chart = &context.model.reduction.chart;
+    let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let names = identifiers(&all);
+    let mut lets = quote!(let [#(#names),*] = *reduced;);
+    let rows = |stem: &str| {
+        let rows = components(stem, n).into_iter().map(|row| {
+            let row = identifiers(&row);
+            quote!([#(#row),*])
+        });
+        quote!(#rt::matrix([#(#rows),*]))
+    };
+    let back = |value: TokenStream| {
+        if parts.turn { quote!(constants.turn.tr_mul(&#value)) } else { value }
+    };
+    let phi = back(rows("phi"));
+    lets.extend(quote!(let phi = #phi;));
+    if parts.origin {
+        lets.extend(quote!(let elapsed = t - constants.t0;));
+    }
+    if chart.linear.is_some() {
+        let x = (1..=n).map(|i| format_ident!("x_{i}"));
+        let x = back(quote!(#rt::vector([#(#x),*])));
+        lets.extend(quote!(let x = #x;));
+    } else if parts.drift {
+        lets.extend(quote!(let x = constants.x0 + constants.drift * elapsed;));
+    }
+    lets.extend(expanded_momentum(context, parts, &rows(chart.momentum.name())));
+    let spin = match (parts.whirl, chart.momentum) {
+        (Some(Frame::Body), Momentum::Body) => quote!(#rt::Comoving(whirl.tr_mul(&momentum) * whirl)),
+        (Some(Frame::Space), Momentum::Space) => quote!(#rt::Spatial(whirl * momentum * whirl.transpose())),
+        (_, Momentum::Body) => quote!(#rt::Comoving(momentum)),
+        (_, Momentum::Space) => quote!(#rt::Spatial(momentum)),
+        (_, Momentum::Total) => quote!(#rt::Spatial(momentum - x * constants.p.transpose())),
+        (_, Momentum::Canonical) => quote!(#rt::TwoPoint(momentum)),
+    };
+    if let Some(frame) = parts.whirl {
+        lets.extend(quote!(let whirl = #rt::skew_exponential(&(constants.whirl * elapsed));));
+        lets.extend(match frame {
+            Frame::Body => quote!(let phi = phi * whirl;),
+            _ => quote!(let phi = whirl * phi;),
+        });
+    }
+    let centre = match parts.linear {
+        true => quote!(#rt::Centre { x, p: constants.p }),
+        false => quote!(#rt::Pinned),
+    };
+    let time = if parts.origin { quote!(t) } else { quote!(_t) };
+    let reads = parts.origin || parts.turn || parts.linear || parts.momentum || parts.skew > 0;
+    let constants = if reads { quote!(constants) } else { quote!(_constants) };
+    quote! {
+        fn expand<#t: #rt::Real>(
+            &self,
+            #time: #t,
+            #constants: &Self::Constants<#t>,
+            reduced: &Self::Reduced<#t>,
+        ) -> Self::Point<#t> {
+            #lets
+            #rt::point(phi, #spin, #centre)
+        }
+    }
+}
+
+/// The affine momentum of the chart, back from turned space.
+fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> TokenStream {
+    let t = &context.names.scalar;
+    let chart = &context.model.reduction.chart;
+    if parts.momentum {
+        return quote!(let momentum = constants.momentum;);
+    }
+    let mut lets = TokenStream::new();
+    if parts.skew > 0 {
+        let stem = chart.momentum.name();
+        let skew = skew_names(context);
+        lets.extend(quote! {
+            let [#(#skew),*] = constants.skew;
+            let half = <#t>::constant(0.5, 0.0);
+        });
+        for a in 1..=context.model.dim {
+            for b in a + 1..=context.model.dim {
+                let (upper, lower) = (format_ident!("{stem}_{a}{b}"), format_ident!("{stem}_{b}{a}"));
+                let (s, w) = (format_ident!("{stem}_sym_{a}{b}"), format_ident!("{stem}_skew_{a}{b}"));
+                lets.extend(quote! {
+                    let #upper = #s + half * #w;
+                    let #lower = #s - half * #w;
+                });
+            }
+        }
+    }
+    let momentum = match (parts.turn, chart.momentum) {
+        (false, _) | (_, Momentum::Body) => quote!(#rows),
+        (true, Momentum::Canonical) => quote!(#rows * constants.turn),
+        (true, _) => quote!(constants.turn.tr_mul(&#rows) * constants.turn),
+    };
+    lets.extend(quote!(let momentum = #momentum;));
+    lets
+}
+
+fn geodesic(context: &Context) -> TokenStream {
+    let (rt, n) = (&context.names.rt, context.dim());
+    let parts = Parts::of(context);
+    let f64 = quote!(#rt::f64);
+    let none = quote!(::core::option::Option::None);
+    let Some((form, needs_rest)) = context.model.closed_form else {
+        return quote! {
+            fn geodesic(&self, _t0: #f64, _point: &Self::Point<#f64>) -> ::core::option::Option<#rt::Geodesic<#n>> {
+                #none
+            }
+        };
+    };
+    let rest = needs_rest.then(|| {
+        quote! {
+            if #rt::Phase::p(point) != #rt::Vector::<#n>::zeros() {
+                return #none;
+            }
+        }
+    });
+    let drift = match (&context.model.mass, parts.drift) {
+        (Some(program), true) => {
+            let Body { lets, results } = context.body(program, &f64);
+            let inverse_mass = results.first().cloned().unwrap_or_default();
+            quote!(#lets let drift = #rt::Phase::p(point) * (#inverse_mass);)
+        }
+        _ => quote!(let drift = #rt::Vector::<#n>::zeros();),
+    };
+    let spin = own_spin(context);
+    let motion = match (form, &context.model.isotropic) {
+        (ClosedForm::Straight, _) | (_, None) => quote! {
+            let motion = #rt::Motion::straight(#rt::Model::velocity(self, point).phi_dot);
+        },
+        (affine, Some(program)) => {
+            let Body { lets, results } = context.body(program, &f64);
+            let make = match affine {
+                ClosedForm::Body => quote!(body),
+                _ => quote!(space),
+            };
+            quote!(#lets let motion = #rt::Motion::#make(&#spin, [#(#results),*]);)
+        }
+    };
+    quote! {
+        fn geodesic(&self, t0: #f64, point: &Self::Point<#f64>) -> ::core::option::Option<#rt::Geodesic<#n>> {
+            #rest
+            #drift
+            #motion
+            ::core::option::Option::Some(#rt::Geodesic { t0, motion, drift })
+        }
+    }
+}

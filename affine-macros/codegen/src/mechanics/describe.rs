@@ -1,0 +1,486 @@
+//! The derivation as formulas, in text and LaTeX. A matrix formula is stated only after its components were
+//! compared with the derived ones.
+
+use crate::algebra::arena::Node;
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
+
+use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::equations::{Form, System, rate, velocities};
+use super::hamiltonian::Hamiltonian;
+use super::kinetic::{Frame, Kinetic};
+use super::reduce::{ClosedForm, Commuting, Layout, Reduction};
+
+/// A formula in both notations.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Formula {
+    /// Plain text.
+    pub text: String,
+    /// LaTeX.
+    pub latex: String,
+}
+
+/// A sum under construction.
+struct Sum {
+    text: String,
+    latex: String,
+}
+
+impl Sum {
+    fn new(left: &str, left_latex: &str) -> Self {
+        Self { text: format!("{left} ="), latex: format!("{left_latex} =") }
+    }
+
+    /// Adds `coefficient * body`, with the sign in front.
+    fn add(&mut self, arena: &mut Arena, coefficient: &Polynomial, body: (&str, &str)) {
+        if coefficient.is_zero() {
+            return;
+        }
+        let negative = coefficient.terms().all(|(_, c)| c.is_negative());
+        let first = self.text.ends_with('=');
+        let sign = match (negative, first) {
+            (true, true) => " -",
+            (true, false) => " - ",
+            (false, true) => " ",
+            (false, false) => " + ",
+        };
+        let size = if negative { coefficient.scaled(&Rational::MINUS_ONE) } else { coefficient.clone() };
+        let factor = size.expression(arena);
+        let one = arena.as_constant(factor).is_some_and(Rational::is_one);
+        self.text.push_str(sign);
+        self.latex.push_str(sign);
+        if !one {
+            let (text, latex) = (plain(arena, factor), latex(arena, factor));
+            let bracket = matches!(arena.node(factor), Node::Sum(_, terms) if terms.len() > 1);
+            self.text += &if bracket { format!("({text}) ") } else { format!("{text} ") };
+            self.latex += &if bracket { format!("\\left({latex}\\right) ") } else { format!("{latex}\\, ") };
+        }
+        self.text.push_str(body.0);
+        self.latex.push_str(body.1);
+    }
+
+    fn finish(mut self) -> Formula {
+        if self.text.ends_with('=') {
+            self.text.push_str(" 0");
+            self.latex.push_str(" 0");
+        }
+        Formula { text: self.text, latex: self.latex }
+    }
+}
+
+/// `T` as the sum of its terms.
+pub fn kinetic_energy(arena: &mut Arena, kinetic: &Kinetic) -> Formula {
+    let mut energy = kinetic.internal_energy(arena);
+    if let Some(t) = kinetic.translation {
+        let v = match t.frame {
+            Frame::Body => arena.symbol("v_hat^2"),
+            _ => arena.symbol("v^2"),
+        };
+        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        let translation = arena.mul(t.mass, v);
+        energy = arena.linear(&[(energy, Rational::ONE), (translation, half)]);
+    }
+    let form = Polynomial::normal_form(arena, energy).expression(arena);
+    Formula { text: format!("T = {}", plain(arena, form)), latex: format!("T = {}", latex(arena, form)) }
+}
+
+/// `H`, through the Casimirs where it is isotropic.
+pub fn hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) -> Formula {
+    let Some(iso) = &h.isotropic else {
+        let form = full.expression(arena);
+        return Formula {
+            text: format!("H = {}", plain(arena, form)),
+            latex: format!("H = {}", latex(arena, form)),
+        };
+    };
+    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+    let mut sum = Sum::new("H", "H");
+    let (x, hat, skew) = match h.frame {
+        Frame::Body => ("Sigma_hat", "\\hat\\Sigma", ("|Vort|^2", "\\|V\\|^2")),
+        _ => ("Sigma", "\\Sigma", ("|S|^2", "\\|S\\|^2")),
+    };
+    sum.add(
+        arena,
+        &iso.casimir2.scaled(&half),
+        (&format!("tr({x}^2)"), &format!("\\operatorname{{tr}}{hat}^2")),
+    );
+    sum.add(
+        arena,
+        &iso.casimir1_squared.scaled(&half),
+        (&format!("(tr {x})^2"), &format!("(\\operatorname{{tr}}{hat})^2")),
+    );
+    sum.add(arena, &iso.skew.scaled(&half), skew);
+    if let Some((frame, inverse_mass)) = &h.translation {
+        let body = match frame {
+            Frame::Body => ("|phi^T p|^2", "|\\varphi^T p|^2"),
+            _ => ("|p|^2", "|p|^2"),
+        };
+        sum.add(arena, &inverse_mass.scaled(&half), body);
+    }
+    sum.finish()
+}
+
+/// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
+pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polynomial) -> Vec<Formula> {
+    let velocity = velocities(arena, chart, full);
+    let mut list = vec![affine_velocity(arena, h, chart)];
+    let groups: [(&str, &str, Vec<Coordinate>); 4] = [
+        ("dx/dt", "\\dot x", (0..chart.x.len()).map(Coordinate::X).collect()),
+        ("dphi/dt", "\\dot\\varphi", pairs(chart.dim, Coordinate::Phi)),
+        (
+            if chart.linear == Some(Linear::Body) { "dp_hat/dt" } else { "dp/dt" },
+            if chart.linear == Some(Linear::Body) { "\\dot{\\hat p}" } else { "\\dot p" },
+            (0..chart.p.len()).map(Coordinate::P).collect(),
+        ),
+        (momentum_names(chart.momentum).2, momentum_names(chart.momentum).3, pairs(chart.dim, Coordinate::M)),
+    ];
+    for (left, left_latex, coordinates) in groups.into_iter().filter(|(_, _, c)| !c.is_empty()) {
+        let derived: Vec<Polynomial> =
+            coordinates.iter().map(|z| rate(chart, full, &velocity, Form::Expanded, *z)).collect();
+        let known = known_forms(h, chart, &velocity).into_iter().find(|k| {
+            k.components.len() == derived.len() && k.components.iter().zip(&derived).all(|(a, b)| a == b)
+        });
+        match known {
+            Some(k) => list.push(Formula {
+                text: format!("{left} = {}", k.text),
+                latex: format!("{left_latex} = {}", k.latex),
+            }),
+            None => list.extend(coordinates.iter().zip(&derived).map(|(z, p)| {
+                let symbol = chart.symbol(*z);
+                let form = p.expression(arena);
+                Formula {
+                    text: format!("d{}/dt = {}", plain(arena, symbol), plain(arena, form)),
+                    latex: format!("\\dot{{{}}} = {}", latex(arena, symbol), latex(arena, form)),
+                }
+            })),
+        }
+    }
+    list
+}
+
+/// A matrix or vector formula with its components.
+struct Known {
+    text: String,
+    latex: String,
+    components: Vec<Polynomial>,
+}
+
+/// Balance laws of section 4 and (3.1), as candidates to compare the derived equations with.
+fn known_forms(h: &Hamiltonian, chart: &Chart, velocity: &[Vec<(Expr, Polynomial)>]) -> Vec<Known> {
+    let n = chart.dim;
+    let atoms = |rows: &Vec<Vec<Expr>>| -> Vec<Vec<Polynomial>> {
+        rows.iter().map(|row| row.iter().map(|e| Polynomial::atom(*e)).collect()).collect()
+    };
+    let (phi, m) = (atoms(&chart.phi.0), atoms(&chart.m.0));
+    let o: Vec<Vec<Polynomial>> =
+        velocity.iter().map(|row| row.iter().map(|(_, p)| p.clone()).collect()).collect();
+    let p: Vec<Polynomial> = chart.p.iter().map(|e| Polynomial::atom(*e)).collect();
+    let (x, x_latex, ..) = momentum_names(chart.momentum);
+    let (omega, omega_latex) = velocity_names(chart.momentum);
+    let mut known = Vec::new();
+    let mut add = |text: String, latex: String, components: Vec<Polynomial>| {
+        known.push(Known { text, latex, components });
+    };
+    add("0".into(), "0".into(), vec![Polynomial::zero(); n]);
+    add("0".into(), "0".into(), vec![Polynomial::zero(); n * n]);
+    add(format!("phi {omega}"), format!("\\varphi\\,{omega_latex}"), product(&phi, &o).concat());
+    add(format!("{omega} phi"), format!("{omega_latex}\\,\\varphi"), product(&o, &phi).concat());
+    add(omega.into(), omega_latex.into(), o.concat());
+    let (xo, ox) = (product(&m, &o), product(&o, &m));
+    let body_commutator = difference(&xo, &ox);
+    let space_commutator = difference(&ox, &xo);
+    add(format!("[{x}, {omega}]"), format!("[{x_latex}, {omega_latex}]"), body_commutator.concat());
+    add(format!("[{omega}, {x}]"), format!("[{omega_latex}, {x_latex}]"), space_commutator.concat());
+    if let Some((frame, inverse_mass)) = &h.translation {
+        let comoving = chart.linear == Some(Linear::Body);
+        let ph: Vec<Polynomial> = if comoving { p.clone() } else { times(&transpose(&phi), &p) };
+        let name = if comoving { ("p_hat", "\\hat p") } else { ("phi^T p", "\\varphi^T p") };
+        let scaled =
+            |v: Vec<Polynomial>| -> Vec<Polynomial> { v.iter().map(|c| c.mul(inverse_mass)).collect() };
+        add("p / m".into(), "p / m".into(), scaled(p.clone()));
+        add(format!("phi {} / m", name.0), format!("\\varphi {} / m", name.1), scaled(times(&phi, &ph)));
+        add(format!("{omega}^T p_hat"), format!("{omega_latex}^T \\hat p"), times(&transpose(&o), &p));
+        if *frame == Frame::Body {
+            let thrust = outer(&scaled(ph.clone()), &ph);
+            add(
+                format!("[{x}, {omega}] - {0} {0}^T / m", bracketed(name.0)),
+                format!("[{x_latex}, {omega_latex}] - {0} {0}^T / m", bracketed(name.1)),
+                difference(&body_commutator, &thrust).concat(),
+            );
+            let spatial = outer(&scaled(times(&phi, &ph)), &p);
+            add(
+                format!("[{omega}, {x}] - phi phi^T p p^T / m"),
+                format!("[{omega_latex}, {x_latex}] - \\varphi\\varphi^T p\\,p^T / m"),
+                difference(&space_commutator, &spatial).concat(),
+            );
+            let flat = difference(&vec![vec![Polynomial::zero(); n]; n], &outer(&scaled(ph), &p));
+            add("-phi^T p p^T / m".into(), "-\\varphi^T p\\,p^T / m".into(), flat.concat());
+        }
+    }
+    known
+}
+
+/// The inverse Legendre transformation.
+fn affine_velocity(arena: &mut Arena, h: &Hamiltonian, chart: &Chart) -> Formula {
+    let (x, x_latex, ..) = momentum_names(chart.momentum);
+    let (omega, omega_latex) = velocity_names(chart.momentum);
+    let mut sum = Sum::new(omega, omega_latex);
+    match &h.isotropic {
+        Some(iso) => {
+            sum.add(arena, &iso.casimir2, (x, x_latex));
+            sum.add(
+                arena,
+                &iso.casimir1_squared,
+                (&format!("tr({x}) 1"), &format!("\\operatorname{{tr}}({x_latex})\\,1")),
+            );
+            sum.add(
+                arena,
+                &iso.skew.scaled(&Rational::MINUS_ONE),
+                (&format!("({x} - {x}^T)"), &format!("({x_latex} - {x_latex}^T)")),
+            );
+            sum.finish()
+        }
+        None => Formula {
+            text: format!("{omega} = (dH/d{x})^T"),
+            latex: format!("{omega_latex} = (\\partial H/\\partial {x_latex})^T"),
+        },
+    }
+}
+
+/// Shared quantities and rates of a system, component by component.
+pub fn system(arena: &mut Arena, system: &System) -> Vec<Formula> {
+    let shared: Vec<(Expr, Polynomial, bool)> =
+        system.shared.iter().map(|(s, p)| (*s, p.clone(), false)).collect();
+    let rates = system.rates.iter().map(|(_, s, p)| (*s, p.clone(), true));
+    shared
+        .into_iter()
+        .chain(rates)
+        .map(|(symbol, p, rate)| {
+            let form = p.expression(arena);
+            let (name, name_latex) = (plain(arena, symbol), latex(arena, symbol));
+            let (left, left_latex) = if rate {
+                (format!("d{name}/dt"), format!("\\dot{{{name_latex}}}"))
+            } else {
+                (name, name_latex)
+            };
+            Formula {
+                text: format!("{left} = {}", plain(arena, form)),
+                latex: format!("{left_latex} = {}", latex(arena, form)),
+            }
+        })
+        .collect()
+}
+
+/// What the reduction took out of the state, one sentence each.
+pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedForm, bool)>) -> Vec<String> {
+    let mut list = Vec::new();
+    if h.translation.is_none() {
+        list.push("x and p: the model has no translation".to_owned());
+    }
+    for piece in &reduction.commuting {
+        list.push(match piece {
+            Commuting::Vorticity(_) => {
+                "the |Vort|^2 part of H: it commutes with the rest and is applied exactly, phi -> phi exp(-t Vort/mu)"
+            }
+            Commuting::Spin(_) => {
+                "the |S|^2 part of H: it commutes with the rest and is applied exactly, phi -> exp(-t S/mu) phi"
+            }
+            Commuting::Drift(_) => "x and p: the centre of mass moves freely, x = x0 + t p/m",
+        }
+        .to_owned());
+    }
+    let (name, ..) = momentum_names(reduction.chart.momentum);
+    match reduction.layout {
+        Layout::Constant => list.push(format!("{name}: conserved")),
+        Layout::Symmetric => list.push(format!("the skew part of {name}: conserved")),
+        Layout::Entries => {}
+    }
+    if reduction.chart.linear.is_some() && reduction.turned {
+        list.push("p: conserved; space is turned so that only its first component is left".to_owned());
+    }
+    match closed {
+        Some((_, false)) => list.push("integration: every motion has a closed form".to_owned()),
+        Some((_, true)) => list.push("integration of motions with p = 0: they have a closed form".to_owned()),
+        None => {}
+    }
+    list
+}
+
+/// Names of a momentum and of its rate, in text and LaTeX.
+fn momentum_names(momentum: Momentum) -> (&'static str, &'static str, &'static str, &'static str) {
+    match momentum {
+        Momentum::Body => ("Sigma_hat", "\\hat\\Sigma", "dSigma_hat/dt", "\\dot{\\hat\\Sigma}"),
+        Momentum::Space => ("Sigma", "\\Sigma", "dSigma/dt", "\\dot\\Sigma"),
+        Momentum::Total => ("I(O)", "I(O)", "dI(O)/dt", "\\dot I(O)"),
+        Momentum::Canonical => ("Pi", "\\Pi", "dPi/dt", "\\dot\\Pi"),
+    }
+}
+
+fn velocity_names(momentum: Momentum) -> (&'static str, &'static str) {
+    match momentum {
+        Momentum::Body => ("Omega_hat", "\\hat\\Omega"),
+        Momentum::Space | Momentum::Total => ("Omega", "\\Omega"),
+        Momentum::Canonical => ("phi_dot", "\\dot\\varphi"),
+    }
+}
+
+fn bracketed(name: &str) -> String {
+    if name.contains(' ') { format!("({name})") } else { name.to_owned() }
+}
+
+fn pairs(n: usize, make: fn(usize, usize) -> Coordinate) -> Vec<Coordinate> {
+    (0..n).flat_map(|i| (0..n).map(move |j| make(i, j))).collect()
+}
+
+type Square = Vec<Vec<Polynomial>>;
+
+fn transpose(a: &Square) -> Square {
+    (0..a.len()).map(|i| (0..a.len()).map(|j| a[j][i].clone()).collect()).collect()
+}
+
+fn product(a: &Square, b: &Square) -> Square {
+    let columns = transpose(b);
+    a.iter().map(|row| columns.iter().map(|column| dot(row, column)).collect()).collect()
+}
+
+fn times(a: &Square, v: &[Polynomial]) -> Vec<Polynomial> {
+    a.iter().map(|row| dot(row, v)).collect()
+}
+
+fn dot(a: &[Polynomial], b: &[Polynomial]) -> Polynomial {
+    let mut sum = Polynomial::zero();
+    for (x, y) in a.iter().zip(b) {
+        sum.add_product(x, y, &Rational::ONE);
+    }
+    sum
+}
+
+fn outer(a: &[Polynomial], b: &[Polynomial]) -> Square {
+    a.iter().map(|x| b.iter().map(|y| x.mul(y)).collect()).collect()
+}
+
+fn difference(a: &Square, b: &Square) -> Square {
+    a.iter()
+        .zip(b)
+        .map(|(ra, rb)| {
+            ra.iter()
+                .zip(rb)
+                .map(|(x, y)| {
+                    let mut d = x.clone();
+                    d.add_scaled(y, &Rational::MINUS_ONE);
+                    d
+                })
+                .collect()
+        })
+        .collect()
+}
+
+/// Text of an expression; fields lose the mark that keeps them apart.
+fn plain(arena: &Arena, expr: Expr) -> String {
+    arena.text(expr).replace("self.", "")
+}
+
+/// LaTeX of an expression.
+fn latex(arena: &Arena, expr: Expr) -> String {
+    match arena.node(expr) {
+        Node::Constant(value) => number_latex(value),
+        Node::Symbol(name) => symbol_latex(name),
+        Node::Sum(constant, terms) => {
+            let mut text = String::new();
+            for (term, c) in terms {
+                let sign = if c.is_negative() {
+                    "-"
+                } else if text.is_empty() {
+                    ""
+                } else {
+                    "+"
+                };
+                let size = c.abs();
+                let number =
+                    if size.is_one() { String::new() } else { format!("{}\\,", number_latex(&size)) };
+                text += &format!(
+                    "{}{sign} {number}{}",
+                    if text.is_empty() { "" } else { " " },
+                    latex(arena, *term)
+                );
+            }
+            if !constant.is_zero() {
+                let sign = if constant.is_negative() { "-" } else { "+" };
+                text += &format!(" {sign} {}", number_latex(&constant.abs()));
+            }
+            text.trim_start().to_owned()
+        }
+        Node::Product(factors) => {
+            let body = |base: Expr, power: u32| {
+                let inner = latex(arena, base);
+                let inner = match arena.node(base) {
+                    Node::Sum(..) => format!("\\left({inner}\\right)"),
+                    _ => inner,
+                };
+                if power == 1 { inner } else { format!("{inner}^{{{power}}}") }
+            };
+            let side = |positive: bool| -> Vec<String> {
+                factors
+                    .iter()
+                    .filter(|(_, e)| (*e > 0) == positive)
+                    .map(|(b, e)| body(*b, e.unsigned_abs()))
+                    .collect()
+            };
+            let (above, below) = (side(true), side(false));
+            match below.is_empty() {
+                true => above.join(" "),
+                false => {
+                    let above = if above.is_empty() { "1".to_owned() } else { above.join(" ") };
+                    format!("\\frac{{{above}}}{{{}}}", below.join(" "))
+                }
+            }
+        }
+    }
+}
+
+fn number_latex(value: &Rational) -> String {
+    let text = value.to_string();
+    match text.split_once('/') {
+        Some((above, below)) => match above.strip_prefix('-') {
+            Some(above) => format!("-\\frac{{{above}}}{{{below}}}"),
+            None => format!("\\frac{{{above}}}{{{below}}}"),
+        },
+        None => text,
+    }
+}
+
+/// `sigma_hat_12` becomes `\hat\Sigma_{12}`; a field keeps its name.
+fn symbol_latex(name: &str) -> String {
+    if let Some(field) = name.strip_prefix("self.") {
+        return format!("\\mathit{{{}}}", field.replace('_', "\\_"));
+    }
+    let stems = [
+        ("sigma_hat_sym_", "\\hat\\Sigma^{s}"),
+        ("sigma_sym_", "\\Sigma^{s}"),
+        ("total_sym_", "I^{s}"),
+        ("sigma_hat_skew_", "\\hat\\Sigma^{w}"),
+        ("sigma_skew_", "\\Sigma^{w}"),
+        ("total_skew_", "I^{w}"),
+        ("sigma_hat_", "\\hat\\Sigma"),
+        ("sigma_", "\\Sigma"),
+        ("total_", "I"),
+        ("pi_", "\\Pi"),
+        ("phi_dot_", "\\dot\\varphi"),
+        ("velocity_", "\\dot\\varphi"),
+        ("phi_", "\\varphi"),
+        ("omega_hat_", "\\hat\\Omega"),
+        ("omega_", "\\Omega"),
+        ("p_hat_", "\\hat p"),
+        ("p_", "p"),
+        ("x_", "x"),
+        ("k_", "k"),
+        ("c_", "c"),
+    ];
+    match name {
+        "v_hat^2" => "|\\hat v|^2".to_owned(),
+        "v^2" => "|v|^2".to_owned(),
+        _ => stems
+            .iter()
+            .find_map(|(stem, latex)| name.strip_prefix(stem).map(|index| format!("{latex}_{{{index}}}")))
+            .unwrap_or_else(|| format!("\\mathtt{{{}}}", name.replace('_', "\\_"))),
+    }
+}

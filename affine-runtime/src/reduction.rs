@@ -1,0 +1,191 @@
+//! Support for emitted reductions: turning space, closed forms, well-posedness of prepared models.
+
+use crate::error::{Error, IllPosed, Result};
+use crate::frames::{Matrix, Vector};
+use crate::geodesic::Motion;
+use crate::scalar::Real;
+use crate::state::Phase;
+
+/// `I(O) = x p^T + Sigma`.
+pub fn total_affine_momentum<const N: usize, T: Real>(point: &impl Phase<N, T>) -> Matrix<N, T> {
+    point.x() * point.p().transpose() + point.sigma().0.0
+}
+
+/// A rotation `R` with `R p = (|p|, 0, ..)` and, for `n = 3` and a given `I(O)`, `(R I(O) R^T)_13 = 0`.
+///
+/// Products of plane rotations, each built from `hypot`: orthogonal to rounding for every `p`, zero included.
+pub fn turn<const N: usize, T: Real>(p: &Vector<N, T>, total: Option<&Matrix<N, T>>) -> Matrix<N, T> {
+    let mut turn = Matrix::<N, T>::identity();
+    let mut direction = *p;
+    for k in (1..N).rev() {
+        rotate_into(&mut turn, 0, k, direction[0], direction[k]);
+        direction = turn * p;
+    }
+    if let (3, Some(total)) = (N, total) {
+        let turned = turn * total * turn.transpose();
+        rotate_into(&mut turn, 1, 2, turned[(0, 1)], turned[(0, 2)]);
+    }
+    turn
+}
+
+/// Multiplies `turn` from the left by the rotation of the plane `(i, k)` that takes `(a, b)` to `(r, 0)`.
+fn rotate_into<const N: usize, T: Real>(turn: &mut Matrix<N, T>, i: usize, k: usize, a: T, b: T) {
+    let r = a.hypot(b);
+    if r == T::zero() {
+        return;
+    }
+    let (c, s) = (a / r, b / r);
+    for column in 0..N {
+        let (u, v) = (turn[(i, column)], turn[(k, column)]);
+        turn[(i, column)] = c * u + s * v;
+        turn[(k, column)] = c * v - s * u;
+    }
+}
+
+impl<const N: usize> Motion<N> {
+    /// The closed form in the co-moving frame from `Sigma_hat` and `[1/alpha, 1/beta, 1/mu]`.
+    #[must_use]
+    pub fn body(spin: &Matrix<N>, inverse: [f64; 3]) -> Self {
+        let (stretch, whirl) = generators(spin, inverse);
+        Motion::Body { stretch, whirl }
+    }
+
+    /// The closed form in the spatial frame from `Sigma` and `[1/alpha, 1/beta, 1/mu]`.
+    #[must_use]
+    pub fn space(spin: &Matrix<N>, inverse: [f64; 3]) -> Self {
+        let (stretch, whirl) = generators(spin, inverse);
+        Motion::Space { stretch, whirl }
+    }
+
+    /// The straight line with the velocity `phi_dot0`.
+    #[must_use]
+    pub fn straight(velocity: Matrix<N>) -> Self {
+        Motion::Straight { velocity }
+    }
+}
+
+/// `X/alpha + (tr X/beta) 1` and `-W/mu`, the latter left out where it vanishes.
+fn generators<const N: usize>(spin: &Matrix<N>, inverse: [f64; 3]) -> (Matrix<N>, Option<Matrix<N>>) {
+    let [alpha, beta, mu] = inverse;
+    let stretch = spin * alpha + Matrix::<N>::identity() * (spin.trace() * beta);
+    let whirl = (spin.transpose() - spin) * mu;
+    (stretch, (whirl != Matrix::<N>::zeros()).then_some(whirl))
+}
+
+/// A quantity that must not vanish, with the sizes of the terms it is a sum of.
+#[derive(Clone, Copy, Debug)]
+pub struct Condition<'a> {
+    /// The condition: `I + A != 0`.
+    pub condition: &'static str,
+    /// What fails without it.
+    pub reason: &'static str,
+    /// Must the value be positive?
+    pub positive: bool,
+    /// The value.
+    pub value: f64,
+    /// Its summands.
+    pub sizes: &'a [f64],
+}
+
+/// Holds every value against `eps` times the largest sum of sizes.
+///
+/// # Errors
+/// [`Error::IllPosed`] with the first condition that fails.
+pub fn well_posed(conditions: &[Condition<'_>]) -> Result<()> {
+    let size = |c: &Condition<'_>| c.sizes.iter().fold(0.0, |sum, s| sum + s.abs());
+    let scale = conditions.iter().map(size).fold(0.0, f64::max);
+    let threshold = f64::EPSILON * scale;
+    for c in conditions {
+        let held = if c.positive { c.value } else { c.value.abs() };
+        // NaN holds nothing.
+        if !(held > threshold && held.is_finite()) {
+            return Err(Error::IllPosed(IllPosed {
+                condition: c.condition,
+                reason: c.reason,
+                value: c.value,
+                threshold,
+            }));
+        }
+    }
+    Ok(())
+}
+
+/// Inverse of a symmetric form given by its upper triangle, as an upper triangle: through its eigenvectors, so
+/// that the smallest eigenvalue is at hand. `M = K (K + 1)/2`.
+///
+/// # Errors
+/// [`Error::IllPosed`] where an eigenvalue is not above `eps` times the largest one, or not positive on demand.
+pub fn inverse_form<const K: usize, const M: usize>(upper: [f64; M], positive: bool) -> Result<[f64; M]> {
+    let at = |i: usize, j: usize| {
+        let (a, b) = (i.min(j), i.max(j));
+        a * K - a * (a + 1) / 2 + b
+    };
+    let form = nalgebra::SMatrix::<f64, K, K>::from_fn(|i, j| upper[at(i, j)]);
+    let eigen = jacobi::<K>(form);
+    let scale = eigen.values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let threshold = f64::EPSILON * scale;
+    for value in eigen.values {
+        let held = if positive { value } else { value.abs() };
+        if !(held > threshold && held.is_finite()) {
+            return Err(Error::IllPosed(IllPosed {
+                condition: if positive { "every eigenvalue of T > 0" } else { "every eigenvalue of T != 0" },
+                reason: "the quadratic form of the velocities is degenerate to rounding or has the wrong sign; \
+                         choose fields that keep its eigenvalues away from zero",
+                value,
+                threshold,
+            }));
+        }
+    }
+    let mut inverse = [0.0; M];
+    for i in 0..K {
+        for j in i..K {
+            inverse[at(i, j)] =
+                (0..K).map(|k| eigen.vectors[(i, k)] * eigen.vectors[(j, k)] / eigen.values[k]).sum();
+        }
+    }
+    Ok(inverse)
+}
+
+/// Eigenvalues and orthonormal eigenvectors (columns).
+struct Eigen<const K: usize> {
+    values: [f64; K],
+    vectors: nalgebra::SMatrix<f64, K, K>,
+}
+
+/// Cyclic Jacobi rotations (Golub and Van Loan, section 8.5): small symmetric matrices of any size `K` without
+/// the dimension arithmetic that nalgebra's solver asks of its types.
+fn jacobi<const K: usize>(mut form: nalgebra::SMatrix<f64, K, K>) -> Eigen<K> {
+    let mut vectors = nalgebra::SMatrix::<f64, K, K>::identity();
+    for _sweep in 0..30 {
+        let mut off = 0.0;
+        for p in 0..K {
+            for q in p + 1..K {
+                off += form[(p, q)].abs();
+                if form[(p, q)] == 0.0 {
+                    continue;
+                }
+                let theta = (form[(q, q)] - form[(p, p)]) / (2.0 * form[(p, q)]);
+                let t = theta.signum() / (theta.abs() + libm::hypot(theta, 1.0));
+                let c = 1.0 / libm::hypot(t, 1.0);
+                let s = t * c;
+                for k in 0..K {
+                    let (a, b) = (form[(k, p)], form[(k, q)]);
+                    form[(k, p)] = c * a - s * b;
+                    form[(k, q)] = s * a + c * b;
+                }
+                for k in 0..K {
+                    let (a, b) = (form[(p, k)], form[(q, k)]);
+                    form[(p, k)] = c * a - s * b;
+                    form[(q, k)] = s * a + c * b;
+                    let (a, b) = (vectors[(k, p)], vectors[(k, q)]);
+                    vectors[(k, p)] = c * a - s * b;
+                    vectors[(k, q)] = s * a + c * b;
+                }
+            }
+        }
+        if off == 0.0 {
+            break;
+        }
+    }
+    Eigen { values: core::array::from_fn(|k| form[(k, k)]), vectors }
+}
