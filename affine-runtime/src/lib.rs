@@ -38,8 +38,9 @@ pub mod prelude {
     pub use crate::model::Model;
     pub use crate::state::Phase;
 
-    #[cfg(feature = "macros")]
-    pub use crate::affine_model;
     #[cfg(feature = "std")]
     pub use crate::simulate::{Method, Simulation, Trajectory};
+
+    #[cfg(feature = "macros")]
+    pub use crate::affine_model;
 }

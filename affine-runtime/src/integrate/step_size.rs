@@ -65,8 +65,9 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     span: f64,
     tolerance: f64,
 ) -> f64 {
-    let rate =
-        |end: &S, change: &S| error_norm.largest(y.as_ref(), end.as_ref(), |r| norm(&change.as_ref()[r]));
+    let rate = |end: &S, change: &S| {
+        error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), |r| norm(&change.as_ref()[r]))
+    };
     let first = rate(y, slope);
     let within = |h: f64| if h < span.abs() { h } else { span.abs() };
     // Nothing moves, or something that is zero moves: no rate to go by.
