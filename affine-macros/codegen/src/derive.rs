@@ -255,7 +255,7 @@ fn full_equations(
         ("x", name(&chart.x)),
         ("phi", name(&chart.phi.0.concat())),
         (linear_name, name(&chart.p)),
-        (chart.momentum.name(), name(&chart.m.0.concat())),
+        (chart.momentum.symbol(), name(&chart.m.0.concat())),
     ];
     Equations {
         groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),

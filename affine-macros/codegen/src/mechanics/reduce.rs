@@ -222,7 +222,7 @@ fn states(chart: &Chart, system: &System) -> Vec<(&'static str, Vec<Expr>)> {
         group("x", |z| matches!(z, Coordinate::X(_))),
         group("phi", |z| matches!(z, Coordinate::Phi(..))),
         group("p", |z| matches!(z, Coordinate::P(_))),
-        group(chart.momentum.name(), |z| matches!(z, Coordinate::M(..))),
+        group(chart.momentum.symbol(), |z| matches!(z, Coordinate::M(..))),
     ]
     .into_iter()
     .filter(|(_, symbols)| !symbols.is_empty())
