@@ -54,15 +54,24 @@ fn rest() {
     use affine_runtime::state::Pinned;
     let (s, c) = 0.7f64.sin_cos();
     let (s2, c2) = 0.3f64.sin_cos();
-    let turn = Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0) * Matrix::<3>::new(1.0, 0.0, 0.0, 0.0, c2, -s2, 0.0, s2, c2);
+    let turn = Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
+        * Matrix::<3>::new(1.0, 0.0, 0.0, 0.0, c2, -s2, 0.0, s2, c2);
     for (kappa, c1) in [(10.0, 0.5), (1e6, 0.5), (10.0, 1e4)] {
         for amp in [0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3] {
             let m = VibratingBody { kappa, c1, ..VibratingBody::BENCHMARK };
-            let phi = turn * (Matrix::<3>::identity() + Matrix::<3>::new(1.0, 0.5, 0.3, 0.1, -0.4, 0.2, 0.0, 0.3, 0.6) * amp);
+            let phi = turn
+                * (Matrix::<3>::identity()
+                    + Matrix::<3>::new(1.0, 0.5, 0.3, 0.1, -0.4, 0.2, 0.0, 0.3, 0.6) * amp);
             let start = unchecked_point(phi, Matrix::<3>::zeros(), Pinned);
-            let run = Simulation::new(&m, start).until(if kappa > 1e3 {1.0} else {10.0}).tolerance(1e-12).max_steps(3000).run();
+            let run = Simulation::new(&m, start)
+                .until(if kappa > 1e3 { 1.0 } else { 10.0 })
+                .tolerance(1e-12)
+                .max_steps(3000)
+                .run();
             match run {
-                Ok(r) => println!("{kappa} {c1} {amp:e}: {:?} {:e}", r.statistics(), r.conservation().worst()),
+                Ok(r) => {
+                    println!("{kappa} {c1} {amp:e}: {:?} {:e}", r.statistics(), r.conservation().worst())
+                }
                 Err(h) => println!("{kappa} {c1} {amp:e}: {h} {:?}", h.trajectory.statistics()),
             }
         }
