@@ -114,7 +114,9 @@ impl Writer<'_> {
     /// Numbers first, named by their exact value.
     fn constants(&mut self) {
         for (value, step) in self.program.steps.iter().enumerate() {
-            if let Op::Constant(number) = step {
+            if let Op::Constant(number) = step
+                && !self.ends_with(value)
+            {
                 let name = match number {
                     zero if zero.is_zero() => format_ident!("zero"),
                     one if one.is_one() => format_ident!("one"),
@@ -127,18 +129,21 @@ impl Writer<'_> {
         }
     }
 
+    /// Is the value the only result, and nothing else?
+    fn ends_with(&self, value: Value) -> bool {
+        matches!(self.program.outputs.as_slice(), [(_, only)] if *only == value) && self.uses[value] == 1
+    }
+
     fn bind(&mut self, value: Value) {
         let step = &self.program.steps[value];
         if matches!(step, Op::Input(_) | Op::Constant(_)) {
             return;
         }
-        // The only result is where the code ends.
-        let alone = self.program.outputs.len() == 1 && self.uses[value] == 1;
         let named = self.program.names.iter().find(|(v, _)| *v == value).map(|(_, n)| n.clone());
         let result = self.program.outputs.iter().find(|(_, v)| *v == value).map(|(n, _)| n.clone());
         let sign_only = matches!(step, Op::Neg(_));
         let name = match (named, result) {
-            (_, Some(_)) if alone => return,
+            (_, Some(_)) if self.ends_with(value) => return,
             (_, Some(name)) | (Some(name), None) => name,
             (None, None) if self.uses[value] > 1 && !sign_only => {
                 self.temporaries += 1;
