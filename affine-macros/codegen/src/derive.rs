@@ -114,7 +114,11 @@ pub struct NumericBlock {
 
 /// Derives a model; `None` only for forms that the checks refuse.
 pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
-    let signature = signature(&form);
+    let signature = match require_positive || form.kinetic.frame == Frame::Flat {
+        // `prepare()` refuses anything else.
+        true => Some((form.kinetic.degrees_of_freedom(), 0)),
+        false => signature(&form),
+    };
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form);
     let Form { mut arena, kinetic, hessian, .. } = form;
