@@ -131,7 +131,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let conserved_now = conserved(arena, &own, &own_h);
     let conserved_at_rest = at_rest(arena, &h, &conserved_now);
     let commuting = reduce::commuting(arena, &h);
-    let closed_form = reduce::closed_form(&h, &commuting);
+    let closed_form = reduce::closed_form(arena, &h, &commuting);
 
     let (full_chart, full_h) = full_chart(arena, &h);
     let full = full_equations(arena, &h, &full_chart, &full_h, &mut coefficients);
