@@ -43,6 +43,8 @@ pub struct Reduction {
     pub turned: bool,
     /// How the affine momentum enters.
     pub layout: Layout,
+    /// Components of the affine momentum that are conserved while others are state, in turned space.
+    pub fixed: Vec<Expr>,
     /// The equations of the state variables.
     pub system: System,
     /// State variables: group name and symbols.
@@ -61,11 +63,7 @@ pub enum ClosedForm {
 }
 
 /// The closed form of the geodesics, and whether it needs `p = 0`.
-pub fn closed_form(
-    arena: &mut Arena,
-    h: &Hamiltonian,
-    moving: &[Commuting],
-) -> Option<(ClosedForm, bool)> {
+pub fn closed_form(arena: &mut Arena, h: &Hamiltonian, moving: &[Commuting]) -> Option<(ClosedForm, bool)> {
     let at_rest = h.translation.is_some() && !moving.iter().any(|c| matches!(c, Commuting::Drift(_)));
     if h.frame == Frame::Flat {
         return Some((ClosedForm::Straight, at_rest));
@@ -195,8 +193,19 @@ impl Plan {
                 }
             }
         }
+        let mut fixed: Vec<Expr> = match layout {
+            Layout::Symmetric => split_symmetric(arena, &chart).iter().map(|split| split.skew).collect(),
+            Layout::Constant | Layout::Entries => Vec::new(),
+        };
+        system.rates.retain(|(z, symbol, rate)| {
+            let still = matches!(z, Coordinate::M(..)) && rate.is_zero();
+            if still {
+                fixed.push(*symbol);
+            }
+            !still
+        });
         let states = states(&chart, &system);
-        Reduction { chart, commuting: self.commuting.clone(), turned, layout, system, states }
+        Reduction { chart, commuting: self.commuting.clone(), turned, layout, fixed, system, states }
     }
 }
 
