@@ -7,13 +7,15 @@ use crate::scalar::Real;
 /// Order of the leading term of the error estimate in the step size.
 const ERROR_ORDER: f64 = 8.0;
 
-/// Aim at `SAFETY^8` of the tolerance, so that the next step is accepted although the error grows along the way.
+/// Below 1, so that the next step is accepted although the error grows along the way: steps settle where the error
+/// is `SAFETY^(8/INTEGRAL)`, a third of the tolerance.
 const SAFETY: f64 = 0.9;
 /// A step is at most so many times longer than the one before: the estimate holds only nearby.
 const LARGEST_GROWTH: f64 = 6.0;
 /// And at least so long.
 const LARGEST_CUT: f64 = 0.2;
-/// The integral part of the controller: `h ~ error^(-k/8)`; 1 would be the plain controller.
+/// The integral part of the controller: `h ~ error^(-k/8)`; 1 without a proportional part would be the plain
+/// controller. On the test problems all usual pairs give the same error for the same work, up to a few percent.
 const INTEGRAL: f64 = 0.8;
 /// Its proportional part: `h ~ (previous error / error)^(k/8)`, which damps oscillations of the step size.
 const PROPORTIONAL: f64 = 0.3;

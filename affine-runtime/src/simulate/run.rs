@@ -22,6 +22,9 @@ const CLEARLY_POSITIVE: f64 = 1e-12;
 impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     /// Runs the simulation.
     ///
+    /// Every step and every output is checked: finite, and `det phi > 0`. What happens between two of them is not
+    /// seen: a body without a potential that prevents it may collapse and turn inside out twice in between.
+    ///
     /// # Errors
     /// [`Halt`] with the [`Reason`], the time, the step and the trajectory so far; the conversion to
     /// [`Error`](crate::Error) by `?` keeps reason, time and step.

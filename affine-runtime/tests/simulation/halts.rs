@@ -80,6 +80,18 @@ fn collapse_keeps_what_came_before() {
 }
 
 #[test]
+fn collapse_between_outputs_is_seen_at_the_steps() {
+    // det phi = (cos t - sin t)(1.5 cos t - 0.2 sin t) + ..., negative from about 0.8 to 1.4 and positive at 2.
+    let start = planar::start(-1.0);
+    let simulation = || Simulation::new(&Planar::SPRING, start).tolerance(1e-12);
+    let halt = simulation().until(2.0).output([2.0]).run().unwrap_err();
+    let Reason::Placement { determinant, t } = halt.stop.reason else { panic!("{halt}") };
+    assert!(determinant < 0.0 && (0.75..1.5).contains(&t), "{halt}");
+    assert!(halt.trajectory.is_empty() && halt.stop.t > 0.0 && halt.stop.t < t);
+    assert!(halt.trajectory.end().1.phi().determinant() > 0.0);
+}
+
+#[test]
 fn singular_force_stops_with_the_step() {
     // Pi_11 = 1/(1 - t) - 1 + Pi_11(0): no step passes t = 1.
     let model = Planar { spring: 0.0, singular_at: Some(1.0) };
