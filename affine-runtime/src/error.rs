@@ -24,6 +24,12 @@ pub enum Error {
     /// A simulation did not reach its end, or could not begin.
     #[cfg(feature = "std")]
     Stopped(crate::simulate::Stop),
+    /// A work-precision report has nothing to hold its results against.
+    #[cfg(feature = "report")]
+    NoReference {
+        /// Name of the model.
+        model: &'static str,
+    },
     /// A file cannot be written.
     #[cfg(feature = "std")]
     File {
@@ -61,6 +67,12 @@ impl fmt::Display for Error {
             }
             #[cfg(feature = "std")]
             Error::Stopped(stop) => stop.fmt(f),
+            #[cfg(feature = "report")]
+            Error::NoReference { model } => write!(
+                f,
+                "no reference for {model}: it has no closed form from this start, so that nothing tells the true \
+                 error; give the phase point at the end with `.against(point)`"
+            ),
             #[cfg(feature = "std")]
             Error::File { path, kind } => {
                 write!(

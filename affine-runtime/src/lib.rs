@@ -2,6 +2,8 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 
 pub mod conserved;
+#[cfg(feature = "std")]
+pub mod counting;
 pub mod decompose;
 pub mod error;
 pub mod frames;
@@ -10,6 +12,8 @@ pub mod integrate;
 pub mod kinematics;
 pub mod model;
 mod reduction;
+#[cfg(feature = "report")]
+pub mod report;
 pub mod scalar;
 #[cfg(feature = "std")]
 pub mod simulate;

@@ -72,9 +72,9 @@ fn generators<const N: usize>(spin: &Matrix<N>, inverse: [f64; 3]) -> (Matrix<N>
     (stretch, (whirl != Matrix::<N>::zeros()).then_some(whirl))
 }
 
-/// A quantity that must not vanish, with the sizes of the terms it is a sum of.
+/// A quantity that must not vanish, with the size of the terms it is a sum of.
 #[derive(Clone, Copy, Debug)]
-pub struct Condition<'a> {
+pub struct Condition {
     /// The condition: `I + A != 0`.
     pub condition: &'static str,
     /// What fails without it.
@@ -83,17 +83,22 @@ pub struct Condition<'a> {
     pub positive: bool,
     /// The value.
     pub value: f64,
-    /// Its summands.
-    pub sizes: &'a [f64],
+    /// Sum of the sizes of its summands.
+    pub size: f64,
+}
+
+/// `|a| + |b| + ...`
+#[must_use]
+pub fn total_size<const K: usize>(summands: [f64; K]) -> f64 {
+    summands.iter().fold(0.0, |sum, s| sum + s.abs())
 }
 
 /// Holds every value against `eps` times the largest sum of sizes.
 ///
 /// # Errors
 /// [`Error::IllPosed`] with the first condition that fails.
-pub fn well_posed(conditions: &[Condition<'_>]) -> Result<()> {
-    let size = |c: &Condition<'_>| c.sizes.iter().fold(0.0, |sum, s| sum + s.abs());
-    let scale = conditions.iter().map(size).fold(0.0, f64::max);
+pub fn well_posed(conditions: &[Condition]) -> Result<()> {
+    let scale = conditions.iter().map(|c| c.size).fold(0.0, f64::max);
     let threshold = f64::EPSILON * scale;
     for c in conditions {
         let held = if c.positive { c.value } else { c.value.abs() };

@@ -99,7 +99,7 @@ impl Context<'_> {
     /// A program whose inputs are variables of the same name and coefficients of the prepared model.
     fn body(&self, program: &Program, scalar: &TokenStream) -> Body {
         let input = |name: &str| match coefficient_index(name) {
-            Some(index) => quote!(<#scalar>::constant(self.coefficients[#index], 0.0)),
+            Some(index) => quote!(#scalar::constant(self.coefficients[#index], 0.0)),
             None => {
                 let name = format_ident!("{name}");
                 quote!(#name)

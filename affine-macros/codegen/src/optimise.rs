@@ -1,7 +1,7 @@
 //! From derived systems to the shortest straight-line programs.
 
 use crate::algebra::bind::Constants;
-use crate::algebra::factor::{factored, scale_atoms};
+use crate::algebra::factor::{complete_sums, factored, scale_atoms};
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
 use crate::ir::build::Builder;
@@ -22,19 +22,23 @@ pub fn straight_line(
     constants: &mut Constants,
     varies: &impl Fn(Expr) -> bool,
 ) -> Program {
-    let shared: Vec<Expr> = batch.shared.iter().map(|(s, _)| *s).collect();
+    let mut shared: Vec<Expr> = batch.shared.iter().map(|(s, _)| *s).collect();
     let moving = |atom: Expr| varies(atom) || shared.contains(&atom);
-    let mut polynomials: Vec<Polynomial> = batch
-        .shared
-        .iter()
-        .map(|(_, p)| p)
-        .chain(batch.results.iter().map(|(_, p)| p))
-        .map(|p| constants.bind(arena, p, &moving))
-        .collect();
+    let mut polynomials: Vec<Polynomial> =
+        batch.shared.iter().map(|(_, p)| p).chain(batch.results.iter().map(|(_, p)| p)).cloned().collect();
+    let sums = complete_sums(arena, &mut polynomials, &moving);
+    shared.extend(sums.iter().map(|(s, _)| *s));
+    let moving = |atom: Expr| varies(atom) || shared.contains(&atom);
+    for polynomial in &mut polynomials {
+        *polynomial = constants.bind(arena, polynomial, &moving);
+    }
     let scaled = scale_atoms(arena, &mut polynomials, &moving);
     let (shared_forms, result_forms) = polynomials.split_at(batch.shared.len());
-    let mut open: Vec<(Expr, Polynomial)> =
-        scaled.into_iter().chain(shared.iter().copied().zip(shared_forms.iter().cloned())).collect();
+    let mut open: Vec<(Expr, Polynomial)> = sums
+        .into_iter()
+        .chain(scaled)
+        .chain(shared.iter().copied().zip(shared_forms.iter().cloned()))
+        .collect();
     let mut builder = Builder::new();
     // Definitions in an order in which each uses only what is there already.
     while let Some(ready) =

@@ -67,6 +67,19 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         Conservation { model: self.description.name, drifts: quantities.iter().map(drift).collect() }
     }
 
+    /// The drift of one of the quantities of [`conservation`](Self::conservation) at each output,
+    /// `|Q(t) - Q(t0)|` relative to its scale.
+    #[must_use]
+    pub fn relative_drifts(&self, Drift { quantity, scale, .. }: &Drift) -> Vec<f64> {
+        let relative = |absolute: f64| if absolute == 0.0 { 0.0 } else { absolute / scale };
+        let Some(at_start) = evaluate(*quantity, &self.start.1) else {
+            let distance = |energy: &f64| (energy - self.energies.start).abs();
+            return self.energies.outputs.iter().map(distance).map(relative).collect();
+        };
+        let distance = |point: &P| evaluate(*quantity, point).map_or(0.0, |value| value.distance(&at_start));
+        self.points.iter().map(distance).map(relative).collect()
+    }
+
     fn drift(&self, quantity: Conserved) -> Drift {
         let mut drift = Drift { quantity, absolute: 0.0, scale: 0.0 };
         let Some(at_start) = evaluate(quantity, &self.start.1) else {

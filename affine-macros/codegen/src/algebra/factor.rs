@@ -6,6 +6,69 @@ use super::arena::{Arena, Expr};
 use super::polynomial::{Monomial, Polynomial};
 use super::rational::Rational;
 
+/// Completes sums that several linear forms nearly share: in `c x + d y + d z` and `d x + c y + d z` the sum
+/// `x + y + z` is formed once, as in `O = X/alpha + (tr X/beta) 1`. Returns the sums with their definitions.
+pub fn complete_sums(
+    arena: &mut Arena,
+    polynomials: &mut [Polynomial],
+    varies: &impl Fn(Expr) -> bool,
+) -> Vec<(Expr, Polynomial)> {
+    let nearly: Vec<Option<NearlySum>> = polynomials.iter().map(|p| NearlySum::of(p, varies)).collect();
+    let mut sums: Vec<(Vec<Expr>, Expr)> = Vec::new();
+    for form in nearly.iter().flatten() {
+        let sharing = nearly.iter().flatten().filter(|other| other.atoms == form.atoms).count();
+        if sharing > 1 && !sums.iter().any(|(atoms, _)| *atoms == form.atoms) {
+            let symbol = arena.symbol(&format!("sum_{}", sums.len() + 1));
+            sums.push((form.atoms.clone(), symbol));
+        }
+    }
+    for (polynomial, form) in polynomials.iter_mut().zip(nearly) {
+        let Some(form) = form else { continue };
+        if let Some((_, symbol)) = sums.iter().find(|(atoms, _)| *atoms == form.atoms) {
+            let mut completed = form.common.mul(&Polynomial::atom(*symbol));
+            completed.add_product(&form.excess, &Polynomial::atom(form.odd), &Rational::ONE);
+            *polynomial = completed;
+        }
+    }
+    let total = |atoms: &Vec<Expr>| {
+        let mut sum = Polynomial::zero();
+        atoms.iter().for_each(|atom| sum.add_term(vec![*atom], &Rational::ONE));
+        sum
+    };
+    sums.iter().map(|(atoms, symbol)| (*symbol, total(atoms))).collect()
+}
+
+/// A linear form in at least three atoms with one coefficient for all but one of them.
+struct NearlySum {
+    atoms: Vec<Expr>,
+    odd: Expr,
+    common: Polynomial,
+    /// The odd coefficient less the common one.
+    excess: Polynomial,
+}
+
+impl NearlySum {
+    fn of(polynomial: &Polynomial, varies: &impl Fn(Expr) -> bool) -> Option<Self> {
+        let mut coefficients: BTreeMap<Expr, Polynomial> = BTreeMap::new();
+        for (monomial, c) in polynomial.terms() {
+            let (moving, fixed): (Monomial, Monomial) = monomial.iter().partition(|atom| varies(**atom));
+            let [atom] = moving.as_slice() else { return None };
+            coefficients.entry(*atom).or_default().add_term(fixed, c);
+        }
+        let (odd, coefficient) = coefficients
+            .iter()
+            .find(|(_, c)| coefficients.values().filter(|other| other == c).count() == 1)?;
+        let mut others = coefficients.iter().filter(|(atom, _)| *atom != odd).map(|(_, c)| c);
+        let common = others.next()?.clone();
+        if coefficients.len() < 3 || others.any(|c| *c != common) {
+            return None;
+        }
+        let mut excess = coefficient.clone();
+        excess.add_scaled(&common, &Rational::MINUS_ONE);
+        Some(Self { odd: *odd, common, excess, atoms: coefficients.into_keys().collect() })
+    }
+}
+
 /// A factor that does not vary: a positive number and constant atoms.
 type Weight = (Rational, Monomial);
 
@@ -38,8 +101,7 @@ pub fn scale_atoms(
             let (number, constants) = &weight;
             let mut product = constants.clone();
             product.push(*atom);
-            let name = arena.name(*atom).unwrap_or("atom").to_owned();
-            let symbol = arena.symbol(&format!("scaled_{}_{name}", scaled.len() + 1));
+            let symbol = arena.symbol(&format!("scaled_{}", scaled.len() + 1));
             scaled.push((symbol, Polynomial::term(product, number.clone())));
             for polynomial in polynomials.iter_mut() {
                 *polynomial = replace_scaled(polynomial, &weight, *atom, symbol, varies);

@@ -154,12 +154,22 @@ impl Writer<'_> {
 }
 
 fn zero(scalar: &TokenStream) -> TokenStream {
-    quote!(<#scalar>::constant(0.0, 0.0))
+    quote!(#scalar::constant(0.0, 0.0))
 }
 
 /// The number to double-double precision.
 pub(super) fn constant(scalar: &TokenStream, number: &Rational) -> TokenStream {
     let (hi, lo) = number.to_doubles();
-    let (hi, lo) = (Literal::f64_unsuffixed(hi), Literal::f64_unsuffixed(lo));
-    quote!(<#scalar>::constant(#hi, #lo))
+    let (hi, lo) = (literal(hi), literal(lo));
+    quote!(#scalar::constant(#hi, #lo))
+}
+
+/// A double with an exponent where that is shorter.
+fn literal(value: f64) -> TokenStream {
+    let size = value.abs();
+    let plain = size == 0.0 || (1e-4..1e16).contains(&size);
+    let digits = if plain { format!("{size:?}") } else { format!("{size:e}") };
+    // Both forms are literals of Rust.
+    let digits: Literal = digits.parse().unwrap_or_else(|_| Literal::f64_unsuffixed(size));
+    if value.is_sign_negative() { quote!(-#digits) } else { quote!(#digits) }
 }

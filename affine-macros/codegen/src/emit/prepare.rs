@@ -1,6 +1,6 @@
 //! `prepare()`: from values of the fields to a checked model with its coefficients.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::derive::{Condition, NumericBlock};
@@ -43,10 +43,9 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let (model, prepared, rt) = (&context.names.model, &context.names.prepared, &context.names.rt);
     let visibility = &context.spec.item.visibility;
     let (generics, types, clause) = context.spec.item.generics.split_for_impl();
-    let private = quote!(#rt);
-    let conditions = conditions(context, &private);
+    let conditions = conditions(context, rt);
     let blocks: TokenStream =
-        context.model.numeric_blocks.iter().map(|block| numeric_block(block, &private)).collect();
+        context.model.numeric_blocks.iter().map(|block| numeric_block(block, rt)).collect();
     let Body { lets, results } = over_fields(&context.model.coefficients);
     quote! {
         impl #generics #model #types #clause {
@@ -55,7 +54,7 @@ pub(super) fn method(context: &Context) -> TokenStream {
             /// # Errors
             /// `IllPosed` with the condition, its value and its threshold, where the Legendre transformation
             /// is degenerate to rounding or a required sign is missing.
-            #visibility fn prepare(&self) -> #private::Result<#prepared> {
+            #visibility fn prepare(&self) -> #rt::Result<#prepared> {
                 #conditions
                 #blocks
                 #lets
@@ -81,21 +80,21 @@ fn over_fields(program: &Program) -> Body {
 }
 
 /// Eigenvalues share one threshold, a mass has its own.
-fn conditions(context: &Context, private: &TokenStream) -> TokenStream {
+fn conditions(context: &Context, rt: &Ident) -> TokenStream {
     let is_mass = |c: &&Condition| c.name == "m";
     let list = |conditions: Vec<&Condition>| {
         if conditions.is_empty() {
             return TokenStream::new();
         }
-        let entries = conditions.iter().map(|c| condition(c, private));
-        quote!(#private::well_posed(&[#(#entries),*])?;)
+        let entries = conditions.iter().map(|c| condition(c, rt));
+        quote!(#rt::well_posed(&[#(#entries),*])?;)
     };
     let eigenvalues = list(context.model.conditions.iter().filter(|c| !is_mass(c)).collect());
     let masses = list(context.model.conditions.iter().filter(is_mass).collect());
     quote!(#eigenvalues #masses)
 }
 
-fn condition(condition: &Condition, private: &TokenStream) -> TokenStream {
+fn condition(condition: &Condition, rt: &Ident) -> TokenStream {
     let positive = condition.positive;
     let text = format!("{} {} 0", condition.name, if positive { ">" } else { "!=" });
     let reason = format!(
@@ -113,18 +112,18 @@ fn condition(condition: &Condition, private: &TokenStream) -> TokenStream {
     quote! {
         {
             #lets
-            #private::Condition {
+            #rt::Condition {
                 condition: #text,
                 reason: #reason,
                 positive: #positive,
                 value: #value,
-                sizes: &[#(#sizes),*],
+                size: #rt::total_size([#(#sizes),*]),
             }
         }
     }
 }
 
-fn numeric_block(block: &NumericBlock, private: &TokenStream) -> TokenStream {
+fn numeric_block(block: &NumericBlock, rt: &Ident) -> TokenStream {
     let Body { lets, results } = over_fields(&block.program);
     let names = block.inverse.iter().map(|name| format_ident!("{name}"));
     let (size, positive) = (Literal::usize_unsuffixed(block.size), block.positive);
@@ -132,7 +131,7 @@ fn numeric_block(block: &NumericBlock, private: &TokenStream) -> TokenStream {
     quote! {
         let [#(#names),*]: [::core::primitive::f64; #count] = {
             #lets
-            #private::inverse_form::<#size, #count>([#(#results),*], #positive)?
+            #rt::inverse_form::<#size, #count>([#(#results),*], #positive)?
         };
     }
 }

@@ -228,7 +228,7 @@ fn split(context: &Context) -> TokenStream {
     let t = &context.names.scalar;
     let stem = context.model.reduction.chart.momentum.name();
     let n = context.model.dim;
-    let mut lets = quote!(let half = <#t>::constant(0.5, 0.0););
+    let mut lets = quote!(let half = #t::constant(0.5, 0.0););
     for a in 1..=n {
         for b in a + 1..=n {
             let (upper, lower) = (format_ident!("{stem}_{a}{b}"), format_ident!("{stem}_{b}{a}"));
@@ -383,7 +383,7 @@ fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> To
         let skew = skew_names(context);
         lets.extend(quote! {
             let [#(#skew),*] = constants.skew;
-            let half = <#t>::constant(0.5, 0.0);
+            let half = #t::constant(0.5, 0.0);
         });
         for a in 1..=context.model.dim {
             for b in a + 1..=context.model.dim {

@@ -130,68 +130,85 @@ pub fn candidates(arena: &mut Arena, h: &Hamiltonian) -> Vec<Reduction> {
     }
     momenta
         .into_iter()
-        .filter_map(|momentum| {
+        .flat_map(|momentum| {
             let chart = Chart::new(arena, h.dim, momentum, linear);
-            let mut main = h.internal_in(&chart, without_skew)?;
+            let Some(mut main) = h.internal_in(&chart, without_skew) else { return Vec::new() };
             if linear.is_some() {
                 main.add_scaled(&h.translation_in(&chart), &Rational::ONE);
             }
-            Some(reduced(arena, chart, &main, commuting.clone(), turn))
+            let plan = Plan { chart, commuting: commuting.clone(), turn };
+            plan.reduced(arena, &main)
         })
         .collect()
 }
 
-/// Takes the conserved momenta out of the state.
-fn reduced(
-    arena: &mut Arena,
+/// What is known about a reduction before its equations are.
+struct Plan {
     chart: Chart,
-    h: &Polynomial,
     commuting: Vec<Commuting>,
     turn: bool,
-) -> Reduction {
-    let mut system = hamilton(arena, &chart, h, Form::Expanded);
-    let rate = |z: Coordinate, system: &System| {
-        system.rates.iter().find(|(c, _, _)| *c == z).map(|(_, _, r)| r.clone()).unwrap_or_default()
+}
+
+impl Plan {
+    /// Takes the conserved momenta out of the state. Where the affine momentum stays in it, its equations are
+    /// written in both forms.
+    fn reduced(self, arena: &mut Arena, h: &Polynomial) -> Vec<Reduction> {
+        let expanded = hamilton(arena, &self.chart, h, Form::Expanded);
+        let layout = layout(&self.chart, &expanded);
+        let mut systems = vec![expanded];
+        if layout == Layout::Entries {
+            systems.push(hamilton(arena, &self.chart, h, Form::ThroughVelocity));
+        }
+        systems.into_iter().map(|system| self.state_only(arena, system, layout)).collect()
+    }
+
+    fn state_only(&self, arena: &mut Arena, mut system: System, layout: Layout) -> Reduction {
+        let chart = self.chart.clone();
+        let p_constant =
+            system.rates.iter().all(|(z, _, rate)| !matches!(z, Coordinate::P(_)) || rate.is_zero());
+        let turned = self.turn && p_constant;
+        system.rates.retain(|(z, _, _)| match z {
+            Coordinate::X(_) | Coordinate::Phi(..) => true,
+            Coordinate::P(_) => !p_constant,
+            Coordinate::M(a, b) => match layout {
+                Layout::Constant => false,
+                Layout::Symmetric => a <= b,
+                Layout::Entries => true,
+            },
+        });
+        let symmetric = symmetric_part(arena, &chart, layout);
+        let gauge = gauge(&chart, turned, layout);
+        let value = |atom: Expr| {
+            let known = symmetric.iter().chain(&gauge).find(|(symbol, _)| *symbol == atom);
+            known.map(|(_, value)| value.clone())
+        };
+        system = system.substitute(&value).tidied();
+        if layout == Layout::Symmetric {
+            for (z, symbol, _) in &mut system.rates {
+                if let Coordinate::M(a, b) = *z {
+                    *symbol = stretch_symbol(arena, &chart, a, b);
+                }
+            }
+        }
+        let states = states(&chart, &system);
+        Reduction { chart, commuting: self.commuting.clone(), turned, layout, system, states }
+    }
+}
+
+/// What of the affine momentum an expanded system conserves.
+fn layout(chart: &Chart, system: &System) -> Layout {
+    let rate = |a: usize, b: usize| {
+        let wanted = Coordinate::M(a, b);
+        system.rates.iter().find(|(z, _, _)| *z == wanted).map(|(_, _, rate)| rate)
     };
-    let n = chart.dim;
-    let still = |z: Coordinate| rate(z, &system).is_zero();
-    let pairs: Vec<(usize, usize)> = (0..n).flat_map(|a| (0..n).map(move |b| (a, b))).collect();
-    let layout = if pairs.iter().all(|(a, b)| still(Coordinate::M(*a, *b))) {
+    let pairs = || (0..chart.dim).flat_map(|a| (0..chart.dim).map(move |b| (a, b)));
+    if pairs().all(|(a, b)| rate(a, b).is_none_or(Polynomial::is_zero)) {
         Layout::Constant
-    } else if pairs
-        .iter()
-        .all(|(a, b)| rate(Coordinate::M(*a, *b), &system) == rate(Coordinate::M(*b, *a), &system))
-    {
+    } else if pairs().all(|(a, b)| rate(a, b) == rate(b, a)) {
         Layout::Symmetric
     } else {
         Layout::Entries
-    };
-    let p_constant = (0..chart.p.len()).all(|i| still(Coordinate::P(i)));
-    let turned = turn && p_constant;
-    system.rates.retain(|(z, _, _)| match z {
-        Coordinate::X(_) | Coordinate::Phi(..) => true,
-        Coordinate::P(_) => !p_constant,
-        Coordinate::M(a, b) => match layout {
-            Layout::Constant => false,
-            Layout::Symmetric => a <= b,
-            Layout::Entries => true,
-        },
-    });
-    let symmetric = symmetric_part(arena, &chart, layout);
-    let gauge = gauge(&chart, turned, layout);
-    let value = |atom: Expr| {
-        symmetric.iter().chain(&gauge).find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone())
-    };
-    system = system.substitute(&value).tidied();
-    if layout == Layout::Symmetric {
-        for (z, symbol, _) in &mut system.rates {
-            if let Coordinate::M(a, b) = *z {
-                *symbol = stretch_symbol(arena, &chart, a, b);
-            }
-        }
     }
-    let states = states(&chart, &system);
-    Reduction { chart, commuting, turned, layout, system, states }
 }
 
 /// State variables, grouped.
