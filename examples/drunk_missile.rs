@@ -61,7 +61,9 @@ fn derived() {
     for equation in model.equations {
         println!("  {}", equation.text);
     }
-    println!("\nwhat is integrated, in a space turned so that p = (p_1, 0, 0); total is I(O) = x p^T + Sigma:\n");
+    println!(
+        "\nwhat is integrated, in a space turned so that p = (p_1, 0, 0); total is I(O) = x p^T + Sigma:\n"
+    );
     for equation in model.reduced_equations {
         println!("  {}", equation.text);
     }
@@ -100,7 +102,8 @@ fn print_errors(end: &Point, exact: &Point) {
 
 /// With p = 0 the model has a closed form: both ways to the same end.
 fn at_rest(moving: &Point) -> affine_runtime::Result<()> {
-    let start = DrunkMissile.at_momentum(moving.x(), *moving.phi(), Vector::<3>::zeros(), moving.sigma_hat())?;
+    let start =
+        DrunkMissile.at_momentum(moving.x(), *moving.phi(), Vector::<3>::zeros(), moving.sigma_hat())?;
     let exact = Simulation::new(&DrunkMissile, start).until(T_END).run()?;
     print!("{}", exact.why());
     let steps = Simulation::new(&DrunkMissile, start)
