@@ -39,7 +39,7 @@ fn main() -> affine_runtime::Result<()> {
     println!("\nerror at t = {T_END} against the 45-digit reference, norm-wise:");
     print_errors(end, &exact_end);
     println!("\n{}", run.conservation());
-    run.write_csv(output.join("drunk_missile.csv"))?;
+    run.save_csv(output.join("drunk_missile.csv"))?;
     run.save_svg(output.join("drunk_missile.svg"))?;
 
     println!("\nIts twin with p = 0\n");

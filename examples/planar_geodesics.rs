@@ -27,7 +27,11 @@ fn main() -> affine_runtime::Result<()> {
     // A folder that cannot be made shows in the first file that cannot be written.
     let _ = fs::create_dir_all("output");
     let phi = Matrix::<2>::new(1.2, 0.3, -0.1, 0.9);
-    println!("{}\n{}\n", PlanarBody::DESCRIPTION.kinetic_energy.text, PlanarBody::DESCRIPTION.hamiltonian.text);
+    println!(
+        "{}\n{}\n",
+        PlanarBody::DESCRIPTION.kinetic_energy.text,
+        PlanarBody::DESCRIPTION.hamiltonian.text
+    );
     // Traceless spins: mostly rotation, mostly shear.
     let bounded = PlanarBody.at_momentum(phi, Comoving(Matrix::<2>::new(0.1, 0.5, -0.3, -0.1)))?;
     let escaping = PlanarBody.at_momentum(phi, Comoving(Matrix::<2>::new(0.3, 0.2, 0.1, -0.3)))?;

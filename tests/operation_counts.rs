@@ -55,8 +55,8 @@ macro_rules! pinned {
     };
 }
 
-/// Problem P1: `(x, phi, p_hat, Sigma_hat)` to their derivatives takes 206 operations in the shortest code of other
-/// generators; the reduced right-hand side does the same task.
+/// Problem P1: the same function as other tools evaluate, `(x, phi, p_hat, Sigma_hat)` to their derivatives, and the
+/// reduced right-hand side, which does the same task.
 #[test]
 fn drunk_missile() {
     let [full, reduced] = counts::<3, LeftMissile3>(&LeftMissile3, &sample::<3, LeftMissile3>(&LeftMissile3));

@@ -114,7 +114,11 @@ pub struct NumericBlock {
 
 /// Derives a model; `None` only for forms that the checks refuse.
 pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
-    let signature = signature(&form);
+    let signature = match require_positive || form.kinetic.frame == Frame::Flat {
+        // `prepare()` refuses anything else.
+        true => Some((form.kinetic.degrees_of_freedom(), 0)),
+        false => signature(&form),
+    };
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form);
     let Form { mut arena, kinetic, hessian, .. } = form;
@@ -127,7 +131,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let conserved_now = conserved(arena, &own, &own_h);
     let conserved_at_rest = at_rest(arena, &h, &conserved_now);
     let commuting = reduce::commuting(arena, &h);
-    let closed_form = reduce::closed_form(&h, &commuting);
+    let closed_form = reduce::closed_form(arena, &h, &commuting);
 
     let (full_chart, full_h) = full_chart(arena, &h);
     let full = full_equations(arena, &h, &full_chart, &full_h, &mut coefficients);
@@ -255,7 +259,7 @@ fn full_equations(
         ("x", name(&chart.x)),
         ("phi", name(&chart.phi.0.concat())),
         (linear_name, name(&chart.p)),
-        (chart.momentum.name(), name(&chart.m.0.concat())),
+        (chart.momentum.symbol(), name(&chart.m.0.concat())),
     ];
     Equations {
         groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),

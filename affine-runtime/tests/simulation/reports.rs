@@ -97,7 +97,7 @@ fn csv_of_a_pinned_body() {
 fn csv_reads_back_as_the_same_numbers() {
     let run = Simulation::new(&DrunkMissile, drunk_missile::start()).until(1.0).every(0.5).run().unwrap();
     let path = std::env::temp_dir().join(format!("affine-runtime-{}.csv", std::process::id()));
-    run.write_csv(&path).unwrap();
+    run.save_csv(&path).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::remove_file(&path).unwrap();
     let mut lines = text.lines();
@@ -122,7 +122,7 @@ fn csv_reads_back_as_the_same_numbers() {
 fn a_file_that_cannot_be_written() {
     let run = Simulation::new(&Planar::FREE, planar::start(0.5)).until(0.5).run().unwrap();
     let path = std::env::temp_dir().join("no such folder").join("run.csv");
-    let error = run.write_csv(&path).unwrap_err();
+    let error = run.save_csv(&path).unwrap_err();
     assert_eq!(error, Error::File { path: path.clone(), kind: std::io::ErrorKind::NotFound });
     assert!(error.to_string().contains("run.csv"), "{error}");
 }

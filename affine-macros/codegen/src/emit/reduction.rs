@@ -10,7 +10,7 @@ use crate::mechanics::reduce::{ClosedForm, Commuting, Layout};
 use super::body::Body;
 use super::dynamics::own_spin;
 use super::points::components;
-use super::{Context, identifiers, inputs, pattern};
+use super::{Context, identifiers, inputs, number, pattern};
 
 /// What one trajectory needs besides its reduced state.
 struct Parts {
@@ -63,10 +63,11 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
     let mut fields = TokenStream::new();
     let mut field = |wanted: bool, doc: &str, tokens: TokenStream| {
         if wanted {
+            let doc = format!(" {doc}");
             fields.extend(quote!(#[doc = #doc] pub #tokens,));
         }
     };
-    let (momentum, skew, coefficients) = (&parts.momentum, parts.skew, parts.coefficients);
+    let (skew, coefficients) = (number(parts.skew), number(parts.coefficients));
     field(parts.origin, "Time of the start.", quote!(t0: #t));
     field(
         parts.turn,
@@ -76,24 +77,29 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
     field(parts.linear, "Linear momentum `p`.", quote!(p: #rt::Vector<#n, #t>));
     field(parts.drift, "Centre of mass at the start.", quote!(x0: #rt::Vector<#n, #t>));
     field(parts.drift, "Velocity `p/m` of the centre of mass.", quote!(drift: #rt::Vector<#n, #t>));
-    field(*momentum, "Conserved affine momentum.", quote!(momentum: #rt::Matrix<#n, #t>));
-    field(skew > 0, "Conserved skew part of the affine momentum, row by row.", quote!(skew: [#t; #skew]));
+    field(parts.momentum, "Conserved affine momentum.", quote!(momentum: #rt::Matrix<#n, #t>));
+    field(
+        parts.skew > 0,
+        "Conserved skew part of the affine momentum, row by row.",
+        quote!(skew: [#t; #skew]),
+    );
     field(
         parts.whirl.is_some(),
         "Generator of the rotation that commutes with the rest of the motion.",
         quote!(whirl: #rt::Matrix<#n, #t>),
     );
     field(
-        coefficients > 0,
+        parts.coefficients > 0,
         "Coefficients of the reduced equations.",
         quote!(coefficients: [#t; #coefficients]),
     );
-    let doc = format!("What one trajectory of [`{}`] conserves.", context.names.model);
+    let visibility = &context.spec.item.visibility;
+    let doc = format!(" What one trajectory of [`{}`] conserves.", context.names.model);
     let marker = (fields.is_empty()).then(|| quote!(scalar: ::core::marker::PhantomData<#t>));
     quote! {
         #[doc = #doc]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
-        pub struct #name<#t> { #fields #marker }
+        #visibility struct #name<#t> { #fields #marker }
     }
 }
 
@@ -137,7 +143,7 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
         });
     }
     lets.extend(bind_state(context, parts, moving));
-    let body = context.body(&context.model.trajectory, &quote!(#t));
+    let body = context.generic(&context.model.trajectory);
     let (trajectory, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
     let state: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
@@ -253,11 +259,11 @@ fn skew_names(context: &Context) -> Vec<proc_macro2::Ident> {
 
 /// Generators of what moves in closed form: `-W/mu`, `p/m`.
 fn whirl(context: &Context, parts: &Parts) -> TokenStream {
-    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let rt = &context.names.rt;
     let mut lets = TokenStream::new();
     if let (Some(frame), Some(program)) = (parts.whirl, &context.model.isotropic) {
-        let Body { lets: inner, results } = context.body(program, &quote!(#t));
-        let inverse_mu = results.get(2).cloned().unwrap_or_default();
+        let body = context.generic(&program.only("inverse_mu"));
+        let (inner, inverse_mu) = (&body.lets, body.result());
         let spin = match frame {
             Frame::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
             _ => quote!(#rt::Phase::sigma(point).0.0),
@@ -265,13 +271,14 @@ fn whirl(context: &Context, parts: &Parts) -> TokenStream {
         lets.extend(quote! {
             #inner
             let spin = #spin;
-            let whirl = (spin.transpose() - spin) * (#inverse_mu);
+            let inverse_mu = #inverse_mu;
+            let whirl = (spin.transpose() - spin) * inverse_mu;
         });
     }
     if let (true, Some(program)) = (parts.drift, &context.model.mass) {
-        let Body { lets: inner, results } = context.body(program, &quote!(#t));
-        let inverse_mass = results.first().cloned().unwrap_or_default();
-        lets.extend(quote!(#inner let drift = p * (#inverse_mass);));
+        let body = context.generic(&program.only("inverse_mass"));
+        let (inner, inverse_mass) = (&body.lets, body.result());
+        lets.extend(quote!(#inner let inverse_mass = #inverse_mass; let drift = p * inverse_mass;));
     }
     lets
 }
@@ -289,7 +296,7 @@ fn reduced_equations(context: &Context, parts: &Parts) -> TokenStream {
     let reads_state = all.iter().any(|name| used.contains(&name.as_str()));
     let state = if reads_state { quote!(reduced) } else { quote!(_reduced) };
     let bind = reads_state.then(|| quote!(let #bound = *reduced;));
-    let Body { lets, results } = context.body(program, &quote!(#t));
+    let Body { lets, results } = context.generic(program);
     quote! {
         #[inline]
         fn reduced_equations<#t: #rt::Scalar>(
@@ -426,9 +433,9 @@ fn geodesic(context: &Context) -> TokenStream {
     });
     let drift = match (&context.model.mass, parts.drift) {
         (Some(program), true) => {
-            let Body { lets, results } = context.body(program, &f64);
-            let inverse_mass = results.first().cloned().unwrap_or_default();
-            quote!(#lets let drift = #rt::Phase::p(point) * (#inverse_mass);)
+            let body = context.double(&program.only("inverse_mass"));
+            let (lets, inverse_mass) = (&body.lets, body.result());
+            quote!(#lets let inverse_mass = #inverse_mass; let drift = #rt::Phase::p(point) * inverse_mass;)
         }
         _ => quote!(let drift = #rt::Vector::<#n>::zeros();),
     };
@@ -438,7 +445,7 @@ fn geodesic(context: &Context) -> TokenStream {
             let motion = #rt::Motion::straight(#rt::Model::velocity(self, point).phi_dot);
         },
         (affine, Some(program)) => {
-            let Body { lets, results } = context.body(program, &f64);
+            let Body { lets, results } = context.double(program);
             let make = match affine {
                 ClosedForm::Body => quote!(body),
                 _ => quote!(space),

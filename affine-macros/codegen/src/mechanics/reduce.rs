@@ -61,19 +61,24 @@ pub enum ClosedForm {
 }
 
 /// The closed form of the geodesics, and whether it needs `p = 0`.
-#[must_use]
-pub fn closed_form(h: &Hamiltonian, commuting: &[Commuting]) -> Option<(ClosedForm, bool)> {
-    let at_rest = h.translation.is_some() && !commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
-    let rotation_solved = h
-        .isotropic
-        .as_ref()
-        .is_some_and(|iso| iso.skew.is_zero() || commuting.iter().any(|c| !matches!(c, Commuting::Drift(_))));
-    match h.frame {
-        Frame::Flat => Some((ClosedForm::Straight, at_rest)),
-        Frame::Body if rotation_solved => Some((ClosedForm::Body, at_rest)),
-        Frame::Space if rotation_solved => Some((ClosedForm::Space, at_rest)),
-        _ => None,
+pub fn closed_form(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    moving: &[Commuting],
+) -> Option<(ClosedForm, bool)> {
+    let at_rest = h.translation.is_some() && !moving.iter().any(|c| matches!(c, Commuting::Drift(_)));
+    if h.frame == Frame::Flat {
+        return Some((ClosedForm::Straight, at_rest));
     }
+    let iso = h.isotropic.as_ref()?;
+    // The translational energy is quadratic in p: at p = 0 its flow stands still, and only the internal pieces have
+    // to commute.
+    let resting = at_rest.then(|| commuting(arena, &Hamiltonian { translation: None, ..h.clone() }));
+    let pieces = resting.as_deref().unwrap_or(moving);
+    if !iso.skew.is_zero() && pieces.iter().all(|c| matches!(c, Commuting::Drift(_))) {
+        return None;
+    }
+    Some((if h.frame == Frame::Body { ClosedForm::Body } else { ClosedForm::Space }, at_rest))
 }
 
 /// The chart of the model's own frame, `p` spatial.
@@ -222,7 +227,7 @@ fn states(chart: &Chart, system: &System) -> Vec<(&'static str, Vec<Expr>)> {
         group("x", |z| matches!(z, Coordinate::X(_))),
         group("phi", |z| matches!(z, Coordinate::Phi(..))),
         group("p", |z| matches!(z, Coordinate::P(_))),
-        group(chart.momentum.name(), |z| matches!(z, Coordinate::M(..))),
+        group(chart.momentum.symbol(), |z| matches!(z, Coordinate::M(..))),
     ]
     .into_iter()
     .filter(|(_, symbols)| !symbols.is_empty())
