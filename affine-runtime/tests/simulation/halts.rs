@@ -150,7 +150,13 @@ fn step_limit_keeps_the_trajectory() {
     assert_eq!(halt.stop.reason, Reason::StepLimit { limit: 7 });
     assert_eq!((halt.stop.steps, halt.trajectory.len()), (7, 8));
     let whole = Simulation::new(&DrunkMissile, drunk_missile::start()).until(10.0).tolerance(1e-12).run();
-    assert_eq!(halt.trajectory.points(), &whole.unwrap().points()[..8], "the same steps");
+    let whole = whole.unwrap();
+    assert_eq!(halt.trajectory.points(), &whole.points()[..8], "the same steps");
+    let sparse = Simulation::new(&DrunkMissile, drunk_missile::start()).until(10.0).output([10.0]);
+    let sparse = sparse.tolerance(1e-12).max_steps(7).run().unwrap_err();
+    assert!(sparse.trajectory.is_empty());
+    assert_eq!(sparse.trajectory.end(), (whole.times()[7], &whole.points()[7]), "the last good point");
+    assert_eq!(sparse.stop.t, whole.times()[7]);
     assert!(halt.to_string().contains("max_steps"), "{halt}");
 }
 
