@@ -5,7 +5,7 @@ use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
-use super::equations::{Form, System, rate, velocities};
+use super::equations::{Form, System, gradient, rate, velocities};
 use super::hamiltonian::Hamiltonian;
 use super::kinetic::{Coefficient, Frame, Kinetic, TermKind};
 use super::notation::{latex, plain};
@@ -151,6 +151,8 @@ pub fn hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) -> For
 /// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
 pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polynomial) -> Vec<Formula> {
     let velocity = velocities(arena, chart, full);
+    let slopes = gradient(chart, full);
+    let known = known_forms(h, chart, &velocity);
     // For the canonical momentum the velocity is the rate of phi itself.
     let mut list = match chart.momentum {
         Momentum::Canonical => Vec::new(),
@@ -168,8 +170,8 @@ pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polyn
     ];
     for (left, left_latex, coordinates) in groups.into_iter().filter(|(_, _, c)| !c.is_empty()) {
         let derived: Vec<Polynomial> =
-            coordinates.iter().map(|z| rate(chart, full, &velocity, Form::Expanded, *z)).collect();
-        let known = known_forms(h, chart, &velocity).into_iter().find(|k| {
+            coordinates.iter().map(|z| rate(chart, &slopes, &velocity, Form::Expanded, *z)).collect();
+        let known = known.iter().find(|k| {
             k.components.len() == derived.len() && k.components.iter().zip(&derived).all(|(a, b)| a == b)
         });
         match known {
