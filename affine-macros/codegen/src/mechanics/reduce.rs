@@ -61,11 +61,7 @@ pub enum ClosedForm {
 }
 
 /// The closed form of the geodesics, and whether it needs `p = 0`.
-pub fn closed_form(
-    arena: &mut Arena,
-    h: &Hamiltonian,
-    moving: &[Commuting],
-) -> Option<(ClosedForm, bool)> {
+pub fn closed_form(arena: &mut Arena, h: &Hamiltonian, moving: &[Commuting]) -> Option<(ClosedForm, bool)> {
     let at_rest = h.translation.is_some() && !moving.iter().any(|c| matches!(c, Commuting::Drift(_)));
     if h.frame == Frame::Flat {
         return Some((ClosedForm::Straight, at_rest));
