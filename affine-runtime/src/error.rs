@@ -21,6 +21,23 @@ pub enum Error {
         /// The quantity, as the paper names it.
         quantity: &'static str,
     },
+    /// A simulation did not reach its end, or could not begin.
+    #[cfg(feature = "std")]
+    Stopped(crate::simulate::Stop),
+    /// A work-precision report has nothing to hold its results against.
+    #[cfg(feature = "report")]
+    NoReference {
+        /// Name of the model.
+        model: &'static str,
+    },
+    /// A file cannot be written.
+    #[cfg(feature = "std")]
+    File {
+        /// The file.
+        path: std::path::PathBuf,
+        /// The kind of failure.
+        kind: std::io::ErrorKind,
+    },
 }
 
 /// A condition on the kinetic energy that fails.
@@ -47,6 +64,22 @@ impl fmt::Display for Error {
             ),
             Error::NotFinite { quantity } => {
                 write!(f, "{quantity} is not finite; give finite numbers")
+            }
+            #[cfg(feature = "std")]
+            Error::Stopped(stop) => stop.fmt(f),
+            #[cfg(feature = "report")]
+            Error::NoReference { model } => write!(
+                f,
+                "no reference for {model}: it has no closed form from this start, so that nothing tells the true \
+                 error; give the phase point at the end with `.against(point)`"
+            ),
+            #[cfg(feature = "std")]
+            Error::File { path, kind } => {
+                write!(
+                    f,
+                    "cannot write {}: {kind}; check the folder, its permissions and its space",
+                    path.display()
+                )
             }
         }
     }

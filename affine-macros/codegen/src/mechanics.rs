@@ -8,5 +8,6 @@ pub mod equations;
 pub mod hamiltonian;
 pub mod hessian;
 pub mod kinetic;
+mod notation;
 pub mod reduce;
 pub mod symmetry;

@@ -7,7 +7,8 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::equations::{Form, System, rate, velocities};
 use super::hamiltonian::Hamiltonian;
-use super::kinetic::{Frame, Kinetic};
+use super::kinetic::{Coefficient, Frame, Kinetic, TermKind};
+use super::notation::{latex, plain};
 use super::reduce::{ClosedForm, Commuting, Layout, Reduction};
 
 /// A formula in both notations.
@@ -69,18 +70,46 @@ impl Sum {
 
 /// `T` as the sum of its terms.
 pub fn kinetic_energy(arena: &mut Arena, kinetic: &Kinetic) -> Formula {
-    let mut energy = kinetic.internal_energy(arena);
-    if let Some(t) = kinetic.translation {
-        let v = match t.frame {
-            Frame::Body => arena.symbol("v_hat^2"),
-            _ => arena.symbol("v^2"),
+    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+    let mut sum = Sum::new("T", "T");
+    let (o, o_latex) = match kinetic.frame {
+        Frame::Body => ("Omega_hat", "\\hat\\Omega"),
+        Frame::Space => ("Omega", "\\Omega"),
+        Frame::Flat => ("phi_dot", "\\dot\\varphi"),
+    };
+    for term in &kinetic.terms {
+        let (coefficient, (text, latex)) = match (term.kind, &term.value) {
+            (TermKind::Casimir2, Coefficient::Scalar(c)) => {
+                (*c, (format!("tr({o}^2)"), format!("\\operatorname{{tr}}{o_latex}^2")))
+            }
+            (TermKind::Casimir1Squared, Coefficient::Scalar(c)) => {
+                (*c, (format!("(tr {o})^2"), format!("(\\operatorname{{tr}}{o_latex})^2")))
+            }
+            (TermKind::BodyTranslation, Coefficient::Scalar(m)) => {
+                (*m, ("|phi^-1 dx/dt|^2".into(), "|\\varphi^{-1}\\dot x|^2".into()))
+            }
+            (TermKind::SpaceTranslation, Coefficient::Scalar(m)) => {
+                (*m, ("|dx/dt|^2".into(), "|\\dot x|^2".into()))
+            }
+            (_, Coefficient::Scalar(c)) => {
+                (*c, (format!("tr({o} {o}^T)"), format!("\\operatorname{{tr}}({o_latex}{o_latex}^T)")))
+            }
+            (TermKind::Dalembert, Coefficient::Matrix(_)) => (
+                arena.constant(Rational::ONE),
+                (format!("tr({o} J {o}^T)"), format!("\\operatorname{{tr}}({o_latex} J {o_latex}^T)")),
+            ),
+            (_, Coefficient::Matrix(_)) => (
+                arena.constant(Rational::ONE),
+                (
+                    format!("K[(A,B),(C,D)] {o}[A,B] {o}[C,D]"),
+                    format!("K_{{(AB)(CD)}}\\,{o_latex}_{{AB}}{o_latex}_{{CD}}"),
+                ),
+            ),
         };
-        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
-        let translation = arena.mul(t.mass, v);
-        energy = arena.linear(&[(energy, Rational::ONE), (translation, half)]);
+        let weight = Polynomial::normal_form(arena, coefficient).scaled(&half);
+        sum.add(arena, &weight, (&text, &latex));
     }
-    let form = Polynomial::normal_form(arena, energy).expression(arena);
-    Formula { text: format!("T = {}", plain(arena, form)), latex: format!("T = {}", latex(arena, form)) }
+    sum.finish()
 }
 
 /// `H`, through the Casimirs where it is isotropic.
@@ -122,7 +151,11 @@ pub fn hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) -> For
 /// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
 pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polynomial) -> Vec<Formula> {
     let velocity = velocities(arena, chart, full);
-    let mut list = vec![affine_velocity(arena, h, chart)];
+    // For the canonical momentum the velocity is the rate of phi itself.
+    let mut list = match chart.momentum {
+        Momentum::Canonical => Vec::new(),
+        _ => vec![affine_velocity(arena, h, chart)],
+    };
     let groups: [(&str, &str, Vec<Coordinate>); 4] = [
         ("dx/dt", "\\dot x", (0..chart.x.len()).map(Coordinate::X).collect()),
         ("dphi/dt", "\\dot\\varphi", pairs(chart.dim, Coordinate::Phi)),
@@ -184,7 +217,7 @@ fn known_forms(h: &Hamiltonian, chart: &Chart, velocity: &[Vec<(Expr, Polynomial
     add("0".into(), "0".into(), vec![Polynomial::zero(); n * n]);
     add(format!("phi {omega}"), format!("\\varphi\\,{omega_latex}"), product(&phi, &o).concat());
     add(format!("{omega} phi"), format!("{omega_latex}\\,\\varphi"), product(&o, &phi).concat());
-    add(omega.into(), omega_latex.into(), o.concat());
+    add("(dH/dPi)^T".into(), "(\\partial H/\\partial \\Pi)^T".into(), o.concat());
     let (xo, ox) = (product(&m, &o), product(&o, &m));
     let body_commutator = difference(&xo, &ox);
     let space_commutator = difference(&ox, &xo);
@@ -246,14 +279,18 @@ fn affine_velocity(arena: &mut Arena, h: &Hamiltonian, chart: &Chart) -> Formula
     }
 }
 
-/// Shared quantities and rates of a system, component by component.
+/// Shared quantities and rates of a system, component by component; what is a rate itself is written there.
 pub fn system(arena: &mut Arena, system: &System) -> Vec<Formula> {
-    let shared: Vec<(Expr, Polynomial, bool)> =
-        system.shared.iter().map(|(s, p)| (*s, p.clone(), false)).collect();
-    let rates = system.rates.iter().map(|(_, s, p)| (*s, p.clone(), true));
-    shared
+    let value_of_rate = |rate: &Polynomial| {
+        system.shared.iter().find(|(s, _)| *rate == Polynomial::atom(*s)).map(|(_, value)| value.clone())
+    };
+    let is_rate = |s: Expr| system.rates.iter().any(|(_, _, rate)| *rate == Polynomial::atom(s));
+    let shared = system.shared.iter().filter(|(s, _)| !is_rate(*s)).map(|(s, p)| (*s, p.clone(), false));
+    let rates =
+        system.rates.iter().map(|(_, s, p)| (*s, value_of_rate(p).unwrap_or_else(|| p.clone()), true));
+    let equations: Vec<(Expr, Polynomial, bool)> = shared.chain(rates).collect();
+    equations
         .into_iter()
-        .chain(rates)
         .map(|(symbol, p, rate)| {
             let form = p.expression(arena);
             let (name, name_latex) = (plain(arena, symbol), latex(arena, symbol));
@@ -324,7 +361,7 @@ fn velocity_names(momentum: Momentum) -> (&'static str, &'static str) {
 }
 
 fn bracketed(name: &str) -> String {
-    if name.contains(' ') { format!("({name})") } else { name.to_owned() }
+    if name.contains("^T") { format!("({name})") } else { name.to_owned() }
 }
 
 fn pairs(n: usize, make: fn(usize, usize) -> Coordinate) -> Vec<Coordinate> {
@@ -372,115 +409,4 @@ fn difference(a: &Square, b: &Square) -> Square {
                 .collect()
         })
         .collect()
-}
-
-/// Text of an expression; fields lose the mark that keeps them apart.
-fn plain(arena: &Arena, expr: Expr) -> String {
-    arena.text(expr).replace("self.", "")
-}
-
-/// LaTeX of an expression.
-fn latex(arena: &Arena, expr: Expr) -> String {
-    match arena.node(expr) {
-        Node::Constant(value) => number_latex(value),
-        Node::Symbol(name) => symbol_latex(name),
-        Node::Sum(constant, terms) => {
-            let mut text = String::new();
-            for (term, c) in terms {
-                let sign = if c.is_negative() {
-                    "-"
-                } else if text.is_empty() {
-                    ""
-                } else {
-                    "+"
-                };
-                let size = c.abs();
-                let number =
-                    if size.is_one() { String::new() } else { format!("{}\\,", number_latex(&size)) };
-                text += &format!(
-                    "{}{sign} {number}{}",
-                    if text.is_empty() { "" } else { " " },
-                    latex(arena, *term)
-                );
-            }
-            if !constant.is_zero() {
-                let sign = if constant.is_negative() { "-" } else { "+" };
-                text += &format!(" {sign} {}", number_latex(&constant.abs()));
-            }
-            text.trim_start().to_owned()
-        }
-        Node::Product(factors) => {
-            let body = |base: Expr, power: u32| {
-                let inner = latex(arena, base);
-                let inner = match arena.node(base) {
-                    Node::Sum(..) => format!("\\left({inner}\\right)"),
-                    _ => inner,
-                };
-                if power == 1 { inner } else { format!("{inner}^{{{power}}}") }
-            };
-            let side = |positive: bool| -> Vec<String> {
-                factors
-                    .iter()
-                    .filter(|(_, e)| (*e > 0) == positive)
-                    .map(|(b, e)| body(*b, e.unsigned_abs()))
-                    .collect()
-            };
-            let (above, below) = (side(true), side(false));
-            match below.is_empty() {
-                true => above.join(" "),
-                false => {
-                    let above = if above.is_empty() { "1".to_owned() } else { above.join(" ") };
-                    format!("\\frac{{{above}}}{{{}}}", below.join(" "))
-                }
-            }
-        }
-    }
-}
-
-fn number_latex(value: &Rational) -> String {
-    let text = value.to_string();
-    match text.split_once('/') {
-        Some((above, below)) => match above.strip_prefix('-') {
-            Some(above) => format!("-\\frac{{{above}}}{{{below}}}"),
-            None => format!("\\frac{{{above}}}{{{below}}}"),
-        },
-        None => text,
-    }
-}
-
-/// `sigma_hat_12` becomes `\hat\Sigma_{12}`; a field keeps its name.
-fn symbol_latex(name: &str) -> String {
-    if let Some(field) = name.strip_prefix("self.") {
-        return format!("\\mathit{{{}}}", field.replace('_', "\\_"));
-    }
-    let stems = [
-        ("sigma_hat_sym_", "\\hat\\Sigma^{s}"),
-        ("sigma_sym_", "\\Sigma^{s}"),
-        ("total_sym_", "I^{s}"),
-        ("sigma_hat_skew_", "\\hat\\Sigma^{w}"),
-        ("sigma_skew_", "\\Sigma^{w}"),
-        ("total_skew_", "I^{w}"),
-        ("sigma_hat_", "\\hat\\Sigma"),
-        ("sigma_", "\\Sigma"),
-        ("total_", "I"),
-        ("pi_", "\\Pi"),
-        ("phi_dot_", "\\dot\\varphi"),
-        ("velocity_", "\\dot\\varphi"),
-        ("phi_", "\\varphi"),
-        ("omega_hat_", "\\hat\\Omega"),
-        ("omega_", "\\Omega"),
-        ("p_hat_", "\\hat p"),
-        ("p_", "p"),
-        ("x_", "x"),
-        ("k_", "k"),
-        ("c_", "c"),
-    ];
-    match name {
-        "v_hat^2" => "|\\hat v|^2".to_owned(),
-        "v^2" => "|v|^2".to_owned(),
-        _ => stems
-            .iter()
-            .find_map(|(stem, latex)| name.strip_prefix(stem).map(|index| format!("{latex}_{{{index}}}")))
-            .unwrap_or_else(|| format!("\\mathtt{{{}}}", name.replace('_', "\\_"))),
-    }
 }

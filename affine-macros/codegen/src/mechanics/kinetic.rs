@@ -108,9 +108,11 @@ pub struct Kinetic {
     pub frame: Frame,
     /// The affine velocity of that frame, as symbols.
     pub velocity: Matrix,
-    /// Energy of each internal term, with its place in the specification.
+    /// The terms as given.
+    pub terms: Vec<Term>,
+    /// Energy of each internal term, with its place among the terms.
     pub internal: Vec<(usize, Expr)>,
-    /// Frame and mass of the translational term, with its place in the specification.
+    /// Frame and mass of the translational term, with its place among the terms.
     pub translation: Option<Translation>,
 }
 
@@ -121,11 +123,17 @@ pub struct Translation {
     pub frame: Frame,
     /// `m`.
     pub mass: Expr,
-    /// Place in the specification.
+    /// Place among the terms.
     pub place: usize,
 }
 
 impl Kinetic {
+    /// `n^2`, and `n` more with translation.
+    #[must_use]
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.dim * self.dim + if self.translation.is_some() { self.dim } else { 0 }
+    }
+
     /// Writes the terms in their common frame; the places of two terms that have none, otherwise.
     ///
     /// # Errors
@@ -143,7 +151,8 @@ impl Kinetic {
             return Err((flat.min(affine), flat.max(affine)));
         }
         let velocity = Matrix::symbols(arena, frame.velocity_name(), dim);
-        let mut kinetic = Self { dim, frame, velocity, internal: Vec::new(), translation: None };
+        let mut kinetic =
+            Self { dim, frame, velocity, terms: terms.to_vec(), internal: Vec::new(), translation: None };
         for (place, term) in terms.iter().enumerate() {
             match (term.kind.translation_frame(), &term.value) {
                 (Some(frame), Coefficient::Scalar(mass)) => {

@@ -43,6 +43,8 @@ pub struct Reduction {
     pub turned: bool,
     /// How the affine momentum enters.
     pub layout: Layout,
+    /// Components of the affine momentum that are conserved while others are state, in turned space.
+    pub fixed: Vec<Expr>,
     /// The equations of the state variables.
     pub system: System,
     /// State variables: group name and symbols.
@@ -191,8 +193,19 @@ impl Plan {
                 }
             }
         }
+        let mut fixed: Vec<Expr> = match layout {
+            Layout::Symmetric => split_symmetric(arena, &chart).iter().map(|split| split.skew).collect(),
+            Layout::Constant | Layout::Entries => Vec::new(),
+        };
+        system.rates.retain(|(z, symbol, rate)| {
+            let still = matches!(z, Coordinate::M(..)) && rate.is_zero();
+            if still {
+                fixed.push(*symbol);
+            }
+            !still
+        });
         let states = states(&chart, &system);
-        Reduction { chart, commuting: self.commuting.clone(), turned, layout, system, states }
+        Reduction { chart, commuting: self.commuting.clone(), turned, layout, fixed, system, states }
     }
 }
 
@@ -223,7 +236,7 @@ fn states(chart: &Chart, system: &System) -> Vec<(&'static str, Vec<Expr>)> {
         group("x", |z| matches!(z, Coordinate::X(_))),
         group("phi", |z| matches!(z, Coordinate::Phi(..))),
         group("p", |z| matches!(z, Coordinate::P(_))),
-        group(chart.momentum.name(), |z| matches!(z, Coordinate::M(..))),
+        group(chart.momentum.symbol(), |z| matches!(z, Coordinate::M(..))),
     ]
     .into_iter()
     .filter(|(_, symbols)| !symbols.is_empty())

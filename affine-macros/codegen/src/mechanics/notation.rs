@@ -1,0 +1,111 @@
+//! Expressions in text and LaTeX.
+
+use crate::algebra::arena::Node;
+use crate::algebra::{Arena, Expr, Rational};
+
+/// Text of an expression; fields lose the mark that keeps them apart.
+pub(super) fn plain(arena: &Arena, expr: Expr) -> String {
+    arena.text(expr).replace("self.", "")
+}
+
+/// LaTeX of an expression.
+pub(super) fn latex(arena: &Arena, expr: Expr) -> String {
+    match arena.node(expr) {
+        Node::Constant(value) => number_latex(value),
+        Node::Symbol(name) => symbol_latex(name),
+        Node::Sum(constant, terms) => {
+            let mut text = String::new();
+            for (term, c) in terms {
+                let sign = if c.is_negative() {
+                    "-"
+                } else if text.is_empty() {
+                    ""
+                } else {
+                    "+"
+                };
+                let size = c.abs();
+                let number =
+                    if size.is_one() { String::new() } else { format!("{}\\,", number_latex(&size)) };
+                text += &format!(
+                    "{}{sign} {number}{}",
+                    if text.is_empty() { "" } else { " " },
+                    latex(arena, *term)
+                );
+            }
+            if !constant.is_zero() {
+                let sign = if constant.is_negative() { "-" } else { "+" };
+                text += &format!(" {sign} {}", number_latex(&constant.abs()));
+            }
+            text.trim_start().to_owned()
+        }
+        Node::Product(factors) => {
+            let body = |base: Expr, power: u32| {
+                let inner = latex(arena, base);
+                let inner = match arena.node(base) {
+                    Node::Sum(..) => format!("\\left({inner}\\right)"),
+                    _ => inner,
+                };
+                if power == 1 { inner } else { format!("{inner}^{{{power}}}") }
+            };
+            let side = |positive: bool| -> Vec<String> {
+                factors
+                    .iter()
+                    .filter(|(_, e)| (*e > 0) == positive)
+                    .map(|(b, e)| body(*b, e.unsigned_abs()))
+                    .collect()
+            };
+            let (above, below) = (side(true), side(false));
+            match below.is_empty() {
+                true => above.join(" "),
+                false => {
+                    let above = if above.is_empty() { "1".to_owned() } else { above.join(" ") };
+                    format!("\\frac{{{above}}}{{{}}}", below.join(" "))
+                }
+            }
+        }
+    }
+}
+
+fn number_latex(value: &Rational) -> String {
+    let text = value.to_string();
+    match text.split_once('/') {
+        Some((above, below)) => match above.strip_prefix('-') {
+            Some(above) => format!("-\\frac{{{above}}}{{{below}}}"),
+            None => format!("\\frac{{{above}}}{{{below}}}"),
+        },
+        None => text,
+    }
+}
+
+/// `sigma_hat_12` becomes `\hat\Sigma_{12}`; a field keeps its name.
+fn symbol_latex(name: &str) -> String {
+    if let Some(field) = name.strip_prefix("self.") {
+        return format!("\\mathit{{{}}}", field.replace('_', "\\_"));
+    }
+    let stems = [
+        ("sigma_hat_sym_", "\\hat\\Sigma^{s}"),
+        ("sigma_sym_", "\\Sigma^{s}"),
+        ("total_sym_", "I^{s}"),
+        ("sigma_hat_skew_", "\\hat\\Sigma^{w}"),
+        ("sigma_skew_", "\\Sigma^{w}"),
+        ("total_skew_", "I^{w}"),
+        ("sigma_hat_", "\\hat\\Sigma"),
+        ("sigma_", "\\Sigma"),
+        ("total_", "I"),
+        ("pi_", "\\Pi"),
+        ("phi_dot_", "\\dot\\varphi"),
+        ("velocity_", "\\dot\\varphi"),
+        ("phi_", "\\varphi"),
+        ("omega_hat_", "\\hat\\Omega"),
+        ("omega_", "\\Omega"),
+        ("p_hat_", "\\hat p"),
+        ("p_", "p"),
+        ("x_", "x"),
+        ("k_", "k"),
+        ("c_", "c"),
+    ];
+    stems
+        .iter()
+        .find_map(|(stem, latex)| name.strip_prefix(stem).map(|index| format!("{latex}_{{{index}}}")))
+        .unwrap_or_else(|| format!("\\mathtt{{{}}}", name.replace('_', "\\_")))
+}

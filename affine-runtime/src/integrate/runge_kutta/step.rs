@@ -1,0 +1,227 @@
+//! One step, whatever its size, and the polynomial over it.
+
+use super::dormand_prince_853::*;
+use crate::model::StateVector;
+use crate::scalar::Scalar;
+
+const STAGES: usize = 16;
+
+/// Solution less the embedded solution of order 3.
+const E3: [(usize, f64); B.len()] = {
+    let mut difference = B;
+    let mut k = 0;
+    while k < B.len() {
+        let mut j = 0;
+        while j < B3.len() {
+            if B3[j].0 == B[k].0 {
+                difference[k].1 -= B3[j].1;
+            }
+            j += 1;
+        }
+        k += 1;
+    }
+    difference
+};
+
+/// A step of the method from `(t, y)`: for callers with their own control of the step size, and for measuring the
+/// order.
+#[derive(Clone, Debug)]
+pub struct Step<S> {
+    t: f64,
+    y: S,
+    t_trial: f64,
+    y_trial: S,
+    accepted: bool,
+    /// `k_1` to `k_12`; `k_13 = f` at the end of the step, the `k_1` of the next; `k_14` to `k_16` for dense output.
+    stages: [S; STAGES],
+}
+
+impl<S: StateVector<f64>> Step<S> {
+    /// At `(t, y)`, before any step. One evaluation.
+    pub fn start(f: &impl Fn(f64, &S) -> S, t: f64, y: S) -> Self {
+        let mut stages = [S::zeros(); STAGES];
+        stages[0] = f(t, &y);
+        Self { t, y, t_trial: t, y_trial: y, accepted: false, stages }
+    }
+
+    /// Computes the step to the time `end`, from the same point as before. 11 evaluations.
+    #[inline]
+    pub fn attempt(&mut self, f: &impl Fn(f64, &S) -> S, end: f64) {
+        self.t_trial = end;
+        self.accepted = false;
+        self.stage::<2, 1>(f, &A2);
+        self.stage::<3, 2>(f, &A3);
+        self.stage::<4, 2>(f, &A4);
+        self.stage::<5, 3>(f, &A5);
+        self.stage::<6, 3>(f, &A6);
+        self.stage::<7, 4>(f, &A7);
+        self.stage::<8, 5>(f, &A8);
+        self.stage::<9, 6>(f, &A9);
+        self.stage::<10, 7>(f, &A10);
+        self.stage::<11, 8>(f, &A11);
+        self.stage::<12, 9>(f, &A12);
+        self.y_trial = self.moved(&B);
+    }
+
+    /// Accepts the step: evaluates the slope at its end. One evaluation.
+    #[inline]
+    pub fn accept(&mut self, f: &impl Fn(f64, &S) -> S) {
+        self.stages[12] = f(self.t_trial, &self.y_trial);
+        self.accepted = true;
+    }
+
+    /// Turns to the next step, which begins where this one ended.
+    #[inline]
+    pub fn begin_next(&mut self) {
+        if self.accepted {
+            self.t = self.t_trial;
+            self.y = self.y_trial;
+            self.stages[0] = self.stages[12];
+            self.accepted = false;
+        }
+    }
+
+    /// Dense output of an accepted step. Three evaluations.
+    pub fn dense(&mut self, f: &impl Fn(f64, &S) -> S) -> Dense<S> {
+        self.stage::<14, 8>(f, &A14);
+        self.stage::<15, 8>(f, &A15);
+        self.stage::<16, 8>(f, &A16);
+        let h = self.length();
+        let mut coefficients = [S::zeros(); 7];
+        for i in 0..S::LEN {
+            let rise = self.y_trial.as_ref()[i] - self.y.as_ref()[i];
+            let (begin, end) = (h * self.stages[0].as_ref()[i], h * self.stages[12].as_ref()[i]);
+            coefficients[0].as_mut()[i] = rise;
+            coefficients[1].as_mut()[i] = begin - rise;
+            coefficients[2].as_mut()[i] = 2.0 * rise - (begin + end);
+        }
+        for (coefficient, combination) in coefficients[3..].iter_mut().zip([
+            self.combination(&D4),
+            self.combination(&D5),
+            self.combination(&D6),
+            self.combination(&D7),
+        ]) {
+            for (c, r) in coefficient.as_mut().iter_mut().zip(combination.as_ref()) {
+                *c = h * r;
+            }
+        }
+        Dense { t: self.t, t_end: self.t_trial, y: self.y, y_end: self.y_trial, coefficients }
+    }
+
+    /// Time at the end of the step as far as it is accepted.
+    #[must_use]
+    pub fn end_time(&self) -> f64 {
+        if self.accepted { self.t_trial } else { self.t }
+    }
+
+    /// State at the end of the step as far as it is accepted.
+    #[must_use]
+    pub fn end(&self) -> &S {
+        if self.accepted { &self.y_trial } else { &self.y }
+    }
+
+    /// Gives up the attempted step.
+    pub(super) fn withdraw(&mut self) {
+        self.accepted = false;
+    }
+
+    pub(super) fn time(&self) -> f64 {
+        self.t
+    }
+
+    pub(super) fn begin(&self) -> &S {
+        &self.y
+    }
+
+    pub(super) fn slope(&self) -> &S {
+        &self.stages[0]
+    }
+
+    pub(super) fn trial_end(&self) -> &S {
+        &self.y_trial
+    }
+
+    pub(super) fn end_slope(&self) -> &S {
+        &self.stages[12]
+    }
+
+    /// `h`, the exact difference of the two times wherever it is a floating-point number.
+    pub(super) fn length(&self) -> f64 {
+        self.t_trial - self.t
+    }
+
+    /// Differences, divided by `h`, of the solution to the embedded ones of orders 5 and 3.
+    #[inline]
+    pub(super) fn error_slopes(&self) -> (S, S) {
+        (self.combination(&E5), self.combination(&E3))
+    }
+
+    /// `k_s = f(t + c_s h, y + h sum_j a_sj k_j)`.
+    #[inline(always)]
+    fn stage<const NUMBER: usize, const TERMS: usize>(
+        &mut self,
+        f: &impl Fn(f64, &S) -> S,
+        row: &[(usize, f64); TERMS],
+    ) {
+        let (_, node) = NODES[NUMBER - 2];
+        let time = if node == 1.0 { self.t_trial } else { self.t + node * self.length() };
+        self.stages[NUMBER - 1] = f(time, &self.moved(row));
+    }
+
+    /// `y + h sum_j a_j k_j`.
+    #[inline(always)]
+    fn moved<const TERMS: usize>(&self, row: &[(usize, f64); TERMS]) -> S {
+        let h = self.length();
+        let mut moved = self.combination(row);
+        for (m, y) in moved.as_mut().iter_mut().zip(self.y.as_ref()) {
+            *m = m.fma(h, *y);
+        }
+        moved
+    }
+
+    /// `sum_j a_j k_j`.
+    #[inline(always)]
+    fn combination<const TERMS: usize>(&self, row: &[(usize, f64); TERMS]) -> S {
+        let mut sum = S::zeros();
+        for (i, sum) in sum.as_mut().iter_mut().enumerate() {
+            for (stage, coefficient) in row {
+                *sum = self.stages[stage - 1].as_ref()[i].fma(*coefficient, *sum);
+            }
+        }
+        sum
+    }
+}
+
+/// Dense output: a polynomial of degree 7 in `theta = (t - t_n)/h` with an error of order `h^8`,
+/// `y_n + theta (r_1 + (1 - theta)(r_2 + theta (r_3 + (1 - theta)(r_4 + theta (r_5 + (1 - theta)(r_6 + theta
+/// r_7))))))` (Hairer, Norsett, Wanner, section II.6), `r_1 = y_{n+1} - y_n`, `r_2 = h k_1 - r_1`,
+/// `r_3 = 2 r_1 - h (k_1 + k_13)`, `r_i = h sum_j d_ij k_j` beyond. Value and slope are exact at both ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dense<S> {
+    t: f64,
+    t_end: f64,
+    y: S,
+    y_end: S,
+    coefficients: [S; 7],
+}
+
+impl<S: StateVector<f64>> Dense<S> {
+    /// The state at a time within the step.
+    #[must_use]
+    pub fn at(&self, t: f64) -> S {
+        // The end is y_{n+1} itself, not y_n + r_1, which rounds.
+        if t == self.t_end {
+            return self.y_end;
+        }
+        let theta = (t - self.t) / (self.t_end - self.t);
+        let mut y = S::zeros();
+        for (i, value) in y.as_mut().iter_mut().enumerate() {
+            for (k, coefficient) in self.coefficients.iter().enumerate().rev() {
+                let factor = if k % 2 == 0 { theta } else { 1.0 - theta };
+                *value = (*value + coefficient.as_ref()[i]) * factor;
+            }
+            *value += self.y.as_ref()[i];
+        }
+        y
+    }
+}

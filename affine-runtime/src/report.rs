@@ -1,0 +1,69 @@
+//! Reports: error against run time, and trajectories as pictures.
+//!
+//! # Error against run time
+//!
+//! [`WorkPrecision`] runs a problem with every method at every tolerance and gives a [`WorkPrecisionReport`]: a
+//! table (`Display`), comma-separated values ([`to_csv`](WorkPrecisionReport::to_csv)) and a picture
+//! ([`save_svg`](WorkPrecisionReport::save_svg)). Per row:
+//!
+//! - **True error.** `|a - b|/|b|` at the end of the run for each part of the phase point as the model stores it
+//!   (`phi`, the momenta, `x`), in the Euclidean or Frobenius norm, `b` being the reference: a phase point known
+//!   from elsewhere, or the closed form where the model has one. An error far below the reference's own is
+//!   meaningless; the report cannot know how good the reference is.
+//! - **Steps, rejected steps, evaluations** of the right-hand side. They do not depend on the machine and repeat
+//!   exactly: compare methods with the same right-hand side by them.
+//! - **Run time** from phase point to phase point: reduction, integration, the check of every accepted state, the
+//!   energy at both ends. It is the median of the repeats, by the monotonic clock, after one run that is not
+//!   timed. No output on the way is asked for.
+//! - **Energy drift** relative to the size of the energy, where the model conserves it.
+//!
+//! A run that stops keeps its row and says why.
+//!
+//! *Limits.* Run times on a machine that others use too are noise of ten percent and more, and of a factor of two
+//! while its clock rate changes: repeat, and compare within one report rather than between reports. Medians hide
+//! single interruptions, not a busy machine. Times below a microsecond are near the resolution of the clock.
+//! Nothing is said about the error on the way: a method may be wrong in between and right at the end.
+//!
+//! # Pictures
+//!
+//! [`Trajectory::save_svg`](crate::Trajectory::save_svg) draws the motion, the log-stretches and the drift of what
+//! should be conserved. Documents are well-formed SVG 1.1, the same bytes for the same data.
+
+mod axes;
+mod canvas;
+mod diagram;
+mod drift;
+mod palette;
+mod picture;
+mod scene;
+mod table;
+mod view;
+mod work_precision;
+
+use std::io;
+use std::path::Path;
+
+pub use diagram::{LEAST_ERROR, Series, WorkPrecisionDiagram, WorkPrecisionPoint};
+pub use work_precision::{
+    DEFAULT_REPEATS, DEFAULT_TIME_CAP, DEFAULT_TOLERANCES, Measurement, Row, WorkPrecision,
+    WorkPrecisionReport,
+};
+
+use crate::error::{Error, Result};
+use crate::simulate::Method;
+
+/// What a method is called in tables and legends.
+fn method_name(method: Method) -> &'static str {
+    match method {
+        Method::Automatic => "automatic",
+        Method::ClosedForm => "closed form",
+        Method::RungeKutta8 => "Runge-Kutta 8",
+    }
+}
+
+/// Writes a file.
+fn save(path: &Path, contents: io::Result<String>) -> Result<()> {
+    contents
+        .and_then(|contents| std::fs::write(path, contents))
+        .map_err(|error| Error::File { path: path.to_path_buf(), kind: error.kind() })
+}

@@ -1,0 +1,172 @@
+//! Simulations: from a start to output times, with everything that can stop them.
+
+mod conservation;
+mod csv;
+mod halt;
+mod output;
+mod run;
+mod trajectory;
+mod why;
+
+use core::ops::ControlFlow;
+
+pub use conservation::{Conservation, Drift};
+pub use halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
+pub use trajectory::{Computation, Trajectory};
+pub use why::Why;
+
+use crate::model::Model;
+use output::Output;
+
+/// How a trajectory is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Method {
+    /// The closed form where model and start have one, else [`Method::RungeKutta8`].
+    #[default]
+    Automatic,
+    /// The closed form; an error where there is none.
+    ClosedForm,
+    /// Embedded explicit Runge-Kutta method of order 8, [`RungeKutta8`](crate::integrate::RungeKutta8).
+    RungeKutta8,
+}
+
+/// How far a run has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Progress {
+    /// Time of the start.
+    pub t0: f64,
+    /// Time reached.
+    pub t: f64,
+    /// Time to reach.
+    pub t_end: f64,
+    /// Accepted steps so far; output times so far for a closed form.
+    pub steps: u64,
+}
+
+impl Progress {
+    /// Part of the time interval that is done, 0 to 1.
+    #[must_use]
+    pub fn fraction(&self) -> f64 {
+        if self.t == self.t_end { 1.0 } else { (self.t - self.t0) / (self.t_end - self.t0) }
+    }
+}
+
+/// Tolerance of a simulation that names none.
+pub const DEFAULT_TOLERANCE: f64 = 1e-10;
+/// Steps of a simulation that names no limit.
+pub const DEFAULT_MAX_STEPS: u64 = 1_000_000;
+
+type Watch<'a> = Box<dyn FnMut(&Progress) -> ControlFlow<()> + 'a>;
+type Observe<'a, P> = Box<dyn FnMut(f64, &P) -> ControlFlow<()> + 'a>;
+
+/// A simulation to be run: model, start, time interval, accuracy and output.
+///
+/// ```text
+/// let run = Simulation::new(&model, start).until(50.0).tolerance(1e-12).every(0.1).run()?;
+/// ```
+///
+/// Settings are checked by [`run`](Self::run).
+pub struct Simulation<'a, const N: usize, M: Model<N>> {
+    model: &'a M,
+    start: M::Point<f64>,
+    t0: f64,
+    t_end: Option<f64>,
+    tolerance: f64,
+    output: Output,
+    method: Method,
+    max_steps: u64,
+    progress: Option<Watch<'a>>,
+    observe: Option<Observe<'a, M::Point<f64>>>,
+}
+
+impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
+    /// A simulation of `model` from the phase point `start` at time 0.
+    #[must_use]
+    pub fn new(model: &'a M, start: M::Point<f64>) -> Self {
+        Self {
+            model,
+            start,
+            t0: 0.0,
+            t_end: None,
+            tolerance: DEFAULT_TOLERANCE,
+            output: Output::Steps,
+            method: Method::Automatic,
+            max_steps: DEFAULT_MAX_STEPS,
+            progress: None,
+            observe: None,
+        }
+    }
+
+    /// Time of the start; 0 if not set.
+    #[must_use]
+    pub fn from(self, t0: f64) -> Self {
+        Self { t0, ..self }
+    }
+
+    /// Time of the end, before or after the start. The end is hit exactly.
+    #[must_use]
+    pub fn until(self, t_end: f64) -> Self {
+        Self { t_end: Some(t_end), ..self }
+    }
+
+    /// Relative error allowed in each step, in the norm of [`ErrorNorm`](crate::integrate::ErrorNorm):
+    /// `1e-15 <= eps < 1`; [`DEFAULT_TOLERANCE`] if not set. A closed form is exact up to rounding whatever `eps`.
+    #[must_use]
+    pub fn tolerance(self, eps: f64) -> Self {
+        Self { tolerance: eps, ..self }
+    }
+
+    /// Output at exactly these times, in the direction of time. Without it and without [`every`](Self::every): at
+    /// every accepted step, start and end included; a closed form has no steps, and gives 101 equidistant times.
+    #[must_use]
+    pub fn output(self, times: impl IntoIterator<Item = f64>) -> Self {
+        Self { output: Output::At(times.into_iter().collect()), ..self }
+    }
+
+    /// Output at the start, then at every `dt > 0` of elapsed time, and at the end.
+    #[must_use]
+    pub fn every(self, dt: f64) -> Self {
+        Self { output: Output::Every(dt), ..self }
+    }
+
+    /// The method; [`Method::Automatic`] if not set.
+    #[must_use]
+    pub fn method(self, method: Method) -> Self {
+        Self { method, ..self }
+    }
+
+    /// Largest number of accepted steps; [`DEFAULT_MAX_STEPS`] if not set.
+    #[must_use]
+    pub fn max_steps(self, max_steps: u64) -> Self {
+        Self { max_steps, ..self }
+    }
+
+    /// Called after every accepted step (every output of a closed form); `ControlFlow::Break(())` ends the run.
+    #[must_use]
+    pub fn progress(self, callback: impl FnMut(&Progress) -> ControlFlow<()> + 'a) -> Self {
+        Self { progress: Some(Box::new(callback)), ..self }
+    }
+
+    /// Called with time and phase point at every output; `ControlFlow::Break(())` ends the run after it.
+    #[must_use]
+    pub fn observe(self, callback: impl FnMut(f64, &M::Point<f64>) -> ControlFlow<()> + 'a) -> Self {
+        Self { observe: Some(Box::new(callback)), ..self }
+    }
+}
+
+impl<const N: usize, M: Model<N>> core::fmt::Debug for Simulation<'_, N, M> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Simulation")
+            .field("model", &M::DESCRIPTION.name)
+            .field("start", &self.start)
+            .field("t0", &self.t0)
+            .field("t_end", &self.t_end)
+            .field("tolerance", &self.tolerance)
+            .field("output", &self.output)
+            .field("method", &self.method)
+            .field("max_steps", &self.max_steps)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,123 @@
+//! How well a trajectory keeps what its model conserves.
+
+use core::fmt;
+
+use super::trajectory::Trajectory;
+use crate::conserved::{evaluate, scale};
+use crate::model::Conserved;
+use crate::state::Phase;
+
+/// Drifts of all conserved quantities over the outputs of a trajectory; displays as a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conservation {
+    model: &'static str,
+    drifts: Vec<Drift>,
+}
+
+/// Drift of one quantity `Q`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drift {
+    /// The quantity.
+    pub quantity: Conserved,
+    /// Largest `|Q(t) - Q(t0)|` over the outputs and the end.
+    pub absolute: f64,
+    /// The size it is held against: the largest, over the same points, of what the quantity is made of (see
+    /// [`scale`](crate::conserved::scale)); for the energy, of `|H|` and `(|Pi| |phi_dot| + |p| |x_dot|)/2`.
+    pub scale: f64,
+}
+
+impl Drift {
+    /// `absolute / scale`; 0 where nothing drifts.
+    #[must_use]
+    pub fn relative(&self) -> f64 {
+        if self.absolute == 0.0 { 0.0 } else { self.absolute / self.scale }
+    }
+}
+
+impl Conservation {
+    /// One row per quantity.
+    #[must_use]
+    pub fn drifts(&self) -> &[Drift] {
+        &self.drifts
+    }
+
+    /// The row of a quantity, if this motion conserves it.
+    #[must_use]
+    pub fn of(&self, quantity: Conserved) -> Option<&Drift> {
+        self.drifts.iter().find(|drift| drift.quantity == quantity)
+    }
+
+    /// The largest relative drift; NaN where one is.
+    #[must_use]
+    pub fn worst(&self) -> f64 {
+        self.drifts.iter().map(Drift::relative).fold(0.0, |worst, d| if d <= worst { worst } else { d })
+    }
+}
+
+impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
+    /// Drift of every quantity that the model conserves, or conserves while `p = 0` where the start is at rest.
+    #[must_use]
+    pub fn conservation(&self) -> Conservation {
+        let quantities = if self.computation.at_rest {
+            self.description.conserved_at_rest
+        } else {
+            self.description.conserved
+        };
+        let drift = |&quantity: &Conserved| self.drift(quantity);
+        Conservation { model: self.description.name, drifts: quantities.iter().map(drift).collect() }
+    }
+
+    /// The drift of one of the quantities of [`conservation`](Self::conservation) at each output,
+    /// `|Q(t) - Q(t0)|` relative to its scale.
+    #[must_use]
+    pub fn relative_drifts(&self, Drift { quantity, scale, .. }: &Drift) -> Vec<f64> {
+        let relative = |absolute: f64| if absolute == 0.0 { 0.0 } else { absolute / scale };
+        let Some(at_start) = evaluate(*quantity, &self.start.1) else {
+            let distance = |energy: &f64| (energy - self.energies.start).abs();
+            return self.energies.outputs.iter().map(distance).map(relative).collect();
+        };
+        let distance = |point: &P| evaluate(*quantity, point).map_or(0.0, |value| value.distance(&at_start));
+        self.points.iter().map(distance).map(relative).collect()
+    }
+
+    fn drift(&self, quantity: Conserved) -> Drift {
+        let mut drift = Drift { quantity, absolute: 0.0, scale: 0.0 };
+        let Some(at_start) = evaluate(quantity, &self.start.1) else {
+            drift.scale = self.energies.scale;
+            for energy in self.energies.outputs.iter().chain([&self.energies.end]) {
+                drift.absolute = larger(drift.absolute, (energy - self.energies.start).abs());
+            }
+            return drift;
+        };
+        for point in self.points.iter().chain([&self.start.1, &self.end.1]) {
+            let distance = evaluate(quantity, point).map_or(0.0, |value| value.distance(&at_start));
+            drift.absolute = larger(drift.absolute, distance);
+            drift.scale = larger(drift.scale, scale(quantity, point).unwrap_or(0.0));
+        }
+        drift
+    }
+}
+
+/// The larger of two numbers; NaN where one is.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
+}
+
+impl fmt::Display for Conservation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}: drift of conserved quantities", self.model)?;
+        let width = self.drifts.iter().map(|d| d.quantity.symbol().len()).max().unwrap_or(0).max(8);
+        writeln!(f, "{:width$}  {:>9}  {:>9}  {:>9}", "quantity", "relative", "absolute", "scale")?;
+        for drift in &self.drifts {
+            writeln!(
+                f,
+                "{:width$}  {:>9.2e}  {:>9.2e}  {:>9.2e}",
+                drift.quantity.symbol(),
+                drift.relative(),
+                drift.absolute,
+                drift.scale
+            )?;
+        }
+        Ok(())
+    }
+}

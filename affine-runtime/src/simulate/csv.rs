@@ -1,0 +1,93 @@
+//! Trajectories as comma-separated values.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use super::trajectory::Trajectory;
+use crate::error::{Error, Result};
+use crate::frames::Matrix;
+use crate::state::Phase;
+
+impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
+    /// Writes the outputs to a file, as [`csv`](Self::csv) does.
+    ///
+    /// # Errors
+    /// [`Error::File`] with path and kind of the failure.
+    pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
+        let written = File::create(path).and_then(|file| {
+            let mut writer = BufWriter::new(file);
+            self.csv(&mut writer)?;
+            writer.flush()
+        });
+        written.map_err(|error| Error::File { path: path.to_path_buf(), kind: error.kind() })
+    }
+
+    /// Writes a line of names, then a line per output: `t`, `x1`.. and `p1`.. where the model has translation,
+    /// `phi11`, `phi12`.. row by row, and the model's momentum likewise (`Sigma`, `Sigma_hat` or `Pi`, which has
+    /// the body index first). Numbers are the shortest decimals that read back as the same doubles.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn csv(&self, mut writer: impl Write) -> io::Result<()> {
+        let columns = Columns::<N, P>::of(self);
+        writeln!(writer, "t{}", columns.names())?;
+        for (t, point) in self.iter() {
+            write!(writer, "{t:e}")?;
+            for value in columns.values(point) {
+                write!(writer, ",{value:e}")?;
+            }
+            writeln!(writer)?;
+        }
+        Ok(())
+    }
+}
+
+/// What a line holds besides the time.
+struct Columns<const N: usize, P> {
+    translation: bool,
+    momentum: (&'static str, fn(&P) -> Matrix<N>),
+}
+
+impl<const N: usize, P: Phase<N>> Columns<N, P> {
+    fn of(trajectory: &Trajectory<N, P>) -> Self {
+        let stored = |name| trajectory.description.full.iter().any(|group| group.name == name);
+        let momentum: (&'static str, fn(&P) -> Matrix<N>) = if stored("Sigma") {
+            ("Sigma", |point| point.sigma().0.0)
+        } else if stored("Sigma_hat") {
+            ("Sigma_hat", |point| point.sigma_hat().0.0)
+        } else {
+            ("Pi", |point| point.pi().0.0)
+        };
+        Self { translation: stored("x"), momentum }
+    }
+
+    fn names(&self) -> String {
+        let vector = |name: &str| (1..=N).map(|a| format!(",{name}{a}")).collect::<String>();
+        let matrix = |name: &str| {
+            let indices = (0..N * N).map(|k| (k / N + 1, k % N + 1));
+            indices.map(|(a, b)| format!(",{name}{a}{b}")).collect::<String>()
+        };
+        let momentum = matrix(self.momentum.0);
+        if self.translation {
+            [vector("x"), matrix("phi"), vector("p"), momentum].concat()
+        } else {
+            [matrix("phi"), momentum].concat()
+        }
+    }
+
+    fn values(&self, point: &P) -> Vec<f64> {
+        let rows = |m: Matrix<N>| (0..N * N).map(move |k| m[(k / N, k % N)]);
+        let mut values = Vec::with_capacity(2 * N * (N + 1));
+        if self.translation {
+            values.extend(point.x().iter());
+        }
+        values.extend(rows(*point.phi()));
+        if self.translation {
+            values.extend(point.p().iter());
+        }
+        values.extend(rows((self.momentum.1)(point)));
+        values
+    }
+}

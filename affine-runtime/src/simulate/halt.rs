@@ -1,0 +1,220 @@
+//! What stops a run.
+
+use core::fmt;
+
+use super::trajectory::Trajectory;
+use crate::error::Error;
+use crate::state::Phase;
+
+/// A run that did not reach its end: the stop, and the trajectory up to there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Halt<const N: usize, P> {
+    /// Why, when and at which step.
+    pub stop: Stop,
+    /// The outputs before the stop; [`Trajectory::end`] is the last good phase point.
+    pub trajectory: Box<Trajectory<N, P>>,
+}
+
+/// What a run gives.
+pub type Outcome<const N: usize, P> = core::result::Result<Trajectory<N, P>, Halt<N, P>>;
+
+/// Why, when and at which step a run stopped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    /// The reason.
+    pub reason: Reason,
+    /// Time of the last good phase point.
+    pub t: f64,
+    /// Accepted steps up to there.
+    pub steps: u64,
+}
+
+/// Why a run stopped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Reason {
+    /// A setting is wrong; the run did not begin.
+    Setting(Setting),
+    /// The equations of motion, a state or a phase point are not finite.
+    NotFinite,
+    /// The placement lost its orientation or degenerated.
+    Placement {
+        /// `det phi` of the first bad phase point.
+        determinant: f64,
+        /// Its time.
+        t: f64,
+    },
+    /// The error stays above the tolerance however short the step.
+    StepUnderflow {
+        /// The tolerance.
+        tolerance: f64,
+    },
+    /// The largest number of steps is used up.
+    StepLimit {
+        /// That number.
+        limit: u64,
+    },
+    /// A callback said `Break`.
+    Interrupted(Callback),
+}
+
+/// The callback that ended a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Callback {
+    /// [`Simulation::progress`](super::Simulation::progress).
+    Progress,
+    /// [`Simulation::observe`](super::Simulation::observe).
+    Observer,
+}
+
+/// A setting of a simulation that makes no sense.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Setting {
+    /// No end time was given.
+    NoEnd,
+    /// A time is not finite.
+    Time {
+        /// Which.
+        name: &'static str,
+        /// Its value.
+        given: f64,
+    },
+    /// The tolerance is not in `1e-15 <= eps < 1`.
+    Tolerance {
+        /// Its value.
+        given: f64,
+    },
+    /// No step is allowed.
+    NoSteps,
+    /// The spacing of outputs is not positive, not finite, or much too fine for the interval.
+    OutputSpacing {
+        /// The spacing.
+        dt: f64,
+        /// Start of the interval.
+        t0: f64,
+        /// End of the interval.
+        t_end: f64,
+    },
+    /// An output time lies outside the interval.
+    OutputOutside {
+        /// Its index in the list.
+        index: usize,
+        /// The time.
+        t: f64,
+        /// Start of the interval.
+        t0: f64,
+        /// End of the interval.
+        t_end: f64,
+    },
+    /// Output times do not follow one another in the direction of time.
+    OutputOrder {
+        /// Index of the later one in the list.
+        index: usize,
+        /// The time.
+        t: f64,
+        /// The time listed before it.
+        before: f64,
+    },
+    /// [`Method::ClosedForm`](super::Method::ClosedForm) was asked for and there is none.
+    NoClosedForm {
+        /// Name of the model.
+        model: &'static str,
+    },
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Setting::NoEnd => f.write_str("no end time: a run needs one; say `.until(t_end)`"),
+            Setting::Time { name, given } => write!(f, "{name} is {given}: times are finite numbers"),
+            Setting::Tolerance { given } => write!(
+                f,
+                "tolerance {given:e}: it is a relative error per step, at least 1e-15 (what rounding leaves of \
+                 double precision) and below 1; 1e-6 to 1e-13 are common"
+            ),
+            Setting::NoSteps => f.write_str("max_steps(0) allows no step: give a positive number"),
+            Setting::OutputSpacing { dt, t0, t_end } => write!(
+                f,
+                "output every {dt:e} between {t0} and {t_end}: the spacing is a positive number, coarser than the \
+                 rounding of times, and gives at most 1e8 outputs"
+            ),
+            Setting::OutputOutside { index, t, t0, t_end } => write!(
+                f,
+                "output time {t} (number {index} of the list, from 0) lies outside the run from {t0} to {t_end}: \
+                 drop it or extend the run"
+            ),
+            Setting::OutputOrder { index, t, before } => write!(
+                f,
+                "output time {t} (number {index} of the list, from 0) does not come after {before}: list each time \
+                 once, in the direction of the run"
+            ),
+            Setting::NoClosedForm { model } => write!(
+                f,
+                "{model} has no closed form from this start: use Method::Automatic, which takes one only where it \
+                 exists"
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Reason::Setting(setting) => setting.fmt(f),
+            Reason::NotFinite => f.write_str(
+                "the equations of motion or the phase point are not finite any more: the motion has left the range \
+                 of numbers or met a singularity of the model; end the run before, or change the potential",
+            ),
+            Reason::Placement { determinant, t } => write!(
+                f,
+                "det phi = {determinant:e} at t = {t}: the body has collapsed or turned inside out, and leaves the \
+                 configuration space GL+(n); a potential that grows without bound as det phi -> 0 prevents it"
+            ),
+            Reason::StepUnderflow { tolerance } => write!(
+                f,
+                "the error stays above the tolerance {tolerance:e} however short the step: the motion runs into a \
+                 singularity, or the tolerance is finer than rounding allows; end the run before, or loosen it"
+            ),
+            Reason::StepLimit { limit } => write!(
+                f,
+                "the largest number of steps, {limit}, is used up: raise it with `.max_steps(n)`, loosen the \
+                 tolerance, or, if the model is stiff, soften what makes it so"
+            ),
+            Reason::Interrupted(Callback::Progress) => f.write_str("the progress callback ended the run"),
+            Reason::Interrupted(Callback::Observer) => f.write_str("the observer ended the run"),
+        }
+    }
+}
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.reason {
+            Reason::Setting(setting) => setting.fmt(f),
+            reason => write!(f, "stopped at t = {} after {} steps: {reason}", self.t, self.steps),
+        }
+    }
+}
+
+impl<const N: usize, P> fmt::Display for Halt<N, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.stop.fmt(f)
+    }
+}
+
+impl std::error::Error for Setting {}
+impl std::error::Error for Stop {}
+impl<const N: usize, P: Phase<N>> std::error::Error for Halt<N, P> {}
+
+impl From<Setting> for Reason {
+    fn from(setting: Setting) -> Self {
+        Reason::Setting(setting)
+    }
+}
+
+impl<const N: usize, P> From<Halt<N, P>> for Error {
+    /// Keeps the stop and drops the trajectory.
+    fn from(halt: Halt<N, P>) -> Self {
+        Error::Stopped(halt.stop)
+    }
+}

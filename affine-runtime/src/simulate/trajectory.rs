@@ -1,0 +1,114 @@
+//! A computed trajectory.
+
+use super::Method;
+use crate::integrate::Statistics;
+use crate::model::Description;
+use crate::state::Phase;
+
+/// Phase points over time, with how they were computed and what they should conserve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trajectory<const N: usize, P> {
+    pub(super) description: Description,
+    pub(super) start: (f64, P),
+    pub(super) end: (f64, P),
+    pub(super) times: Vec<f64>,
+    pub(super) points: Vec<P>,
+    /// Energies of these points; the trajectory does not keep the model to compute them later.
+    pub(super) energies: Energies,
+    pub(super) statistics: Statistics,
+    pub(super) computation: Computation,
+}
+
+/// How a trajectory was computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Computation {
+    /// What was asked for.
+    pub asked: Method,
+    /// What ran: never [`Method::Automatic`].
+    pub method: Method,
+    /// Tolerance of the integration.
+    pub tolerance: f64,
+    /// The start has a closed form.
+    pub closed_form_exists: bool,
+    /// The skew factor of the closed form drops out: no vorticity (body frame) or no spin (space frame).
+    pub no_whirl: bool,
+    /// `p = 0` at the start.
+    pub at_rest: bool,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Energies {
+    pub(super) start: f64,
+    pub(super) end: f64,
+    pub(super) outputs: Vec<f64>,
+    /// Largest of `|H|` and `(|Pi| |phi_dot| + |p| |x_dot|)/2`, which bounds the kinetic energy whatever its sign.
+    pub(super) scale: f64,
+}
+
+impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
+    /// The output times.
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// The phase points at the output times.
+    #[must_use]
+    pub fn points(&self) -> &[P] {
+        &self.points
+    }
+
+    /// Output times with their phase points.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = (f64, &P)> + DoubleEndedIterator {
+        self.times.iter().copied().zip(&self.points)
+    }
+
+    /// Number of outputs.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+
+    /// There are no outputs.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.times.is_empty()
+    }
+
+    /// Time and phase point of the start, an output or not.
+    #[must_use]
+    pub fn start(&self) -> (f64, &P) {
+        (self.start.0, &self.start.1)
+    }
+
+    /// Time and phase point reached last, an output or not.
+    #[must_use]
+    pub fn end(&self) -> (f64, &P) {
+        (self.end.0, &self.end.1)
+    }
+
+    /// Energies `H` at the output times.
+    #[must_use]
+    pub fn energies(&self) -> &[f64] {
+        &self.energies.outputs
+    }
+
+    /// What the computation cost; nothing is counted for a closed form.
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
+        self.statistics
+    }
+
+    /// How the trajectory was computed; [`why`](Self::why) says it in words.
+    #[must_use]
+    pub fn computation(&self) -> Computation {
+        self.computation
+    }
+
+    /// What was derived about the model.
+    #[must_use]
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+}

@@ -1,0 +1,10 @@
+//! Simulations from start to end, on models written by hand.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod accuracy;
+mod halts;
+mod models;
+mod outputs;
+mod reference;
+mod reports;
+mod small_motions;

@@ -1,0 +1,13 @@
+//! The reviewed expansions of `tests/snapshots`, compiled as ordinary code without the standard library: no lint
+//! of the compiler, of the workspace or of clippy has anything to say.
+#![no_std]
+#![deny(warnings)]
+// The items stand in snapshots without documentation of their own.
+#![allow(missing_docs)]
+
+// What the snapshot of `crate = crate::renamed::runtime` reads.
+mod renamed {
+    pub(crate) use affine_runtime as runtime;
+}
+
+include!(concat!(env!("OUT_DIR"), "/expansions.rs"));
