@@ -163,9 +163,9 @@ fn assert_reduced_equations_move<const N: usize, F: Family<N>>(
         ("phi", slopes(&entries(moving.phi()))),
         ("p", slopes(moving.p().as_slice())),
         ("p_hat", slopes(moving.p_hat().0.0.as_slice())),
-        ("sigma", slopes(&entries(&moving.sigma().0.0))),
-        ("sigma_hat", slopes(&entries(&moving.sigma_hat().0.0))),
-        ("pi", slopes(&entries(&moving.pi().0.0))),
+        ("Sigma", slopes(&entries(&moving.sigma().0.0))),
+        ("Sigma_hat", slopes(&entries(&moving.sigma_hat().0.0))),
+        ("Pi", slopes(&entries(&moving.pi().0.0))),
     ] {
         reference.assert_rate(name, &found, CANONICAL);
     }
