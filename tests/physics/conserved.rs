@@ -13,7 +13,10 @@ fn exists(quantity: Observable, n: usize, translation: bool) -> bool {
         TotalAffineMomentum, TotalAngularMomentum,
     };
     match quantity {
-        LinearMomentum | ComovingLinearMomentum | OrbitalAngularMomentum | TotalAffineMomentum
+        LinearMomentum
+        | ComovingLinearMomentum
+        | OrbitalAngularMomentum
+        | TotalAffineMomentum
         | TotalAngularMomentum => translation,
         Casimir3 | DeviatorCasimir3 => n == 3,
         _ => true,

@@ -104,6 +104,7 @@ fn full_equations_reach_the_reference() {
 /// `p` and `I(O)` are constants of the trajectory: `x` and `phi` are left to integrate.
 #[test]
 fn reduced_state_is_x_and_phi() {
-    let groups: Vec<_> = DrunkMissile::DESCRIPTION.reduced.iter().map(|group| (group.name, group.len)).collect();
+    let groups: Vec<_> =
+        DrunkMissile::DESCRIPTION.reduced.iter().map(|group| (group.name, group.len)).collect();
     assert_eq!(groups, [("x", 3), ("phi", 9)]);
 }

@@ -1,6 +1,8 @@
 //! Every family of models, n = 2 and 3, with its energy stated a second time for the oracle.
 
-use affine_oracle::{Isotropic, Kinetic, Matrix as Exact, Random, Rational, State, Term, exact, rational, rounded};
+use affine_oracle::{
+    Isotropic, Kinetic, Matrix as Exact, Random, Rational, State, Term, exact, rational, rounded,
+};
 use affine_runtime::prelude::*;
 
 /// Values of all fields that the models have between them.
@@ -33,6 +35,13 @@ impl Parameters {
         self.isotropic.is_indefinite(self.n)
     }
 
+    /// The least and the largest of |I+A|, |I-A|, |I+A+nB|, |m|.
+    pub(crate) fn extremes(&self) -> [f64; 2] {
+        let eigenvalues = self.isotropic.eigenvalues(self.n);
+        let sizes = eigenvalues.iter().chain([&self.isotropic.m]).map(|value| rounded(value).abs());
+        sizes.fold([f64::INFINITY, 0.0], |[least, largest], size| [least.min(size), largest.max(size)])
+    }
+
     /// The value of a field of the models.
     pub(crate) fn field(&self, name: &str) -> f64 {
         let Isotropic { i, a, b, m } = &self.isotropic;
@@ -42,7 +51,13 @@ impl Parameters {
             "b" => b.clone(),
             "m" => m.clone(),
             "alpha" => i + a,
-            "mass" => if *m < rational(0, 1) { -m } else { m.clone() },
+            "mass" => {
+                if *m < rational(0, 1) {
+                    -m
+                } else {
+                    m.clone()
+                }
+            }
             "small" => self.small.clone(),
             "j13" | "j23" | "j33" if self.n == 2 => rational(0, 1),
             entry => {

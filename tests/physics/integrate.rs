@@ -10,7 +10,12 @@ const ROWS: usize = 6;
 /// Each step extrapolates Gragg's modified midpoint rule with 2, 4, .., 12 substeps (Hairer, Norsett, Wanner, Solving
 /// Ordinary Differential Equations I, section II.9). The increment is extrapolated, not the state, so that rounding
 /// errors shrink with the step.
-pub(crate) fn extrapolated<Y: StateVector<f64>>(f: impl Fn(&Y) -> Y, start: Y, duration: f64, steps: u32) -> Y {
+pub(crate) fn extrapolated<Y: StateVector<f64>>(
+    f: impl Fn(&Y) -> Y,
+    start: Y,
+    duration: f64,
+    steps: u32,
+) -> Y {
     let h = duration / f64::from(steps);
     (0..steps).fold(start, |y, _| sum(&y, &increment(&f, &y, h), 1.0))
 }

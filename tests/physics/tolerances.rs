@@ -2,7 +2,7 @@
 
 /// Generated code against exact values, per condition of the mass matrix: some hundred roundings of 1.1e-16 each in
 /// the Legendre transformation, in conversions between the frames and in brackets.
-pub(crate) const CANONICAL: f64 = 1e-13;
+pub(crate) const CANONICAL: f64 = 1e-14;
 
 /// A closed form against integration, over a time in which the body turns or stretches by 1.5: errors of the
 /// integrator are eps per step, of the closed form eps times the norm of the exponents, of either times the growth of
