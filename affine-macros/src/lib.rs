@@ -3,6 +3,36 @@
 use proc_macro::TokenStream;
 
 /// States the kinetic energy of an affinely-rigid body and derives everything else.
+///
+/// On a unit struct, or a struct with named `f64` fields (other fields are left alone):
+///
+/// | key | value | meaning |
+/// |---|---|---|
+/// | `dim` | `2`, `3` | dimension; `n` in expressions |
+/// | `kinetic(...)` | terms | the kinetic energy, a sum of the terms below |
+/// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
+/// | `require(...)` | `positive_definite` | a condition to enforce |
+/// | `crate` | path | the runtime, where it has another name than `affine_runtime` |
+///
+/// | term | energy |
+/// |---|---|
+/// | `casimir2 = A` | `A/2 tr Om^2 = A/2 tr Oh^2` |
+/// | `casimir1_squared = B` | `B/2 (tr Om)^2` |
+/// | `body_inertia = I` | `I/2 tr(Oh Oh^T)`, (4.14) |
+/// | `space_inertia = I` | `I/2 tr(Om Om^T)`, (4.15) |
+/// | `body_translation = m` | `m/2 \|phi^-1 x_dot\|^2`, (4.4) |
+/// | `space_translation = m` | `m/2 \|x_dot\|^2`, (4.5) |
+/// | `dalembert = I`, `diag(..)`, `[[..], ..]` | `1/2 tr(phi_dot J phi_dot^T)`, (2.1) |
+/// | `body_tensor = [[..], ..]`, `space_tensor = [[..], ..]` | `1/2 K[nA+B][nC+D] O[A][B] O[C][D]`, (4.1), (4.2) |
+///
+/// `Oh = phi^-1 phi_dot`, `Om = phi_dot phi^-1`. A coefficient is an arithmetic expression over exact decimal literals,
+/// fields and `n`; `^` binds tightest and to the right, above the sign: `-a^2` is `-(a^2)`.
+///
+/// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
+/// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`.
+///
+/// A model is refused, with the condition, its numbers and the remedy, where the Legendre transformation is
+/// degenerate, a claim is broken, or a matrix is not what its term asks for.
 #[proc_macro_attribute]
 pub fn affine_model(args: TokenStream, item: TokenStream) -> TokenStream {
     affine_codegen::expand(args.into(), item.into()).into()

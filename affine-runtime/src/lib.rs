@@ -1,4 +1,18 @@
 //! Phase points, kinematics, integrators and reports for affinely-rigid bodies.
+//!
+//! An affinely-rigid body has the placement `x, phi` with `phi` in GL+(n), n = 2 or 3: the body point `a` is at
+//! `x + phi a`. The attribute `#[affine_model(...)]` turns a kinetic energy into a [`Model`]; a `Simulation` runs it.
+//!
+//! ```text
+//! Omega     = phi_dot phi^-1     Sigma     = phi Pi = (dT/dOmega)^T        spatial
+//! Omega_hat = phi^-1 phi_dot     Sigma_hat = Pi phi = (dT/dOmega_hat)^T    co-moving
+//!                                Pi        = (dT/dphi_dot)^T               conjugate to phi
+//! ```
+//!
+//! Space and body carry the identity metric; `^T` is the plain transpose. Spatial, co-moving and two-point
+//! quantities, velocities and momenta are different types (see [`frames`] and [`kinematics`]): a formula that
+//! mixes them does not compile. Equation numbers are those of Slawianowski et al., *Affine symmetry in mechanics
+//! of collective and internal modes, Part I*.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 pub mod conserved;
@@ -38,8 +52,14 @@ pub mod prelude {
     pub use crate::model::Model;
     pub use crate::state::Phase;
 
-    #[cfg(feature = "macros")]
-    pub use crate::affine_model;
     #[cfg(feature = "std")]
     pub use crate::simulate::{Method, Simulation, Trajectory};
+
+    #[cfg(feature = "macros")]
+    pub use crate::affine_model;
 }
+
+/// The examples of the README, compiled.
+#[cfg(all(doctest, feature = "macros", feature = "std"))]
+#[doc = include_str!("../../README.md")]
+mod readme {}

@@ -138,11 +138,6 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> PhasePoint<N, F, C
         }
         Ok(point)
     }
-
-    /// The affine spin in the model's frame.
-    pub(crate) fn spin(&self) -> &Matrix<N, T> {
-        &self.spin
-    }
 }
 
 /// A [`Momentum`] brought to another frame.

@@ -8,7 +8,7 @@ use affine_runtime::model::Group;
 /// Rounding ends the convergence there; larger than the roundoff of a few hundred steps.
 const FLOOR: f64 = 2e-14;
 
-/// Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, section II.4 (with `x^2` as there).
+/// A classical test problem with the solution `exp(sin t^2), exp(5 sin t^2), sin t^2 + 1, cos t^2`.
 fn four(t: f64, y: &[f64; 4]) -> [f64; 4] {
     [
         2.0 * t * y[1].powf(0.2) * y[3],
@@ -23,7 +23,7 @@ fn four_exact(t: f64) -> [f64; 4] {
     [sin.exp(), (5.0 * sin).exp(), sin + 1.0, cos]
 }
 
-/// A forced pendulum-like pair with the solution `(sin t, 1/(1 + t^2))`.
+/// A coupled pair with the solution `(sin t, 1/(1 + t^2))`.
 fn pair(t: f64, y: &[f64; 2]) -> [f64; 2] {
     let (sin, cos) = t.sin_cos();
     [cos + (y[0] * y[0] - sin * sin) * y[1], -2.0 * t * y[1] * y[1] + y[0] * y[0] - sin * sin]
@@ -33,21 +33,22 @@ fn pair_exact(t: f64) -> [f64; 2] {
     [t.sin(), 1.0 / (1.0 + t * t)]
 }
 
-const GROUPS: &[Group] = &[Group { name: "y", len: 4 }];
+const FOUR: &[Group] = &[Group { name: "y", len: 4 }];
 const PAIR: &[Group] = &[Group { name: "y", len: 2 }];
 
 fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs() / (1.0 + b.abs())).fold(0.0, f64::max)
 }
 
-/// Errors of `y_n` at `t = 1` and of the dense output on the way, with `n` equal steps.
+/// Errors of `y_n` at `t_end` and of the dense output on the way, with `n` equal steps.
 fn errors<const D: usize>(
     f: impl Fn(f64, &[f64; D]) -> [f64; D],
     exact: impl Fn(f64) -> [f64; D],
+    t_end: f64,
     n: usize,
 ) -> (f64, f64) {
     let mut dense_error = 0.0f64;
-    let time = |i: usize| i as f64 / n as f64;
+    let time = |i: usize| t_end * i as f64 / n as f64;
     let mut step = Step::start(&f, 0.0, exact(0.0));
     for i in 0..n {
         step.begin_next();
@@ -57,51 +58,151 @@ fn errors<const D: usize>(
         local.accept(&f);
         let dense = local.dense(&f);
         for theta in [0.15, 0.35, 0.5, 0.7, 0.9] {
-            let t = time(i) + theta / n as f64;
+            let t = time(i) + theta * t_end / n as f64;
             dense_error = dense_error.max(distance(&dense.at(t), &exact(t)));
         }
         step.attempt(&f, time(i + 1));
         step.accept(&f);
     }
-    (distance(step.end(), &exact(1.0)), dense_error)
+    (distance(step.end(), &exact(t_end)), dense_error)
 }
 
-/// Slopes of `log error` against `log n` between numbers of steps 1.5 apart, above the floor.
+/// Slopes of `log error` against `log n` from the fewest steps to the most.
 fn observed_orders<const D: usize>(
     f: impl Fn(f64, &[f64; D]) -> [f64; D],
     exact: impl Fn(f64) -> [f64; D],
-    numbers: &[usize],
+    t_end: f64,
+    (few, many): (usize, usize),
 ) -> (f64, f64) {
-    let errors: Vec<(f64, f64)> = numbers.iter().map(|n| errors(&f, &exact, *n)).collect();
-    let order = |pick: fn(&(f64, f64)) -> f64| {
-        let (first, last) = (pick(&errors[0]), pick(&errors[errors.len() - 1]));
-        (first / last).ln() / (numbers[numbers.len() - 1] as f64 / numbers[0] as f64).ln()
-    };
-    let orders = (order(|e| e.0), order(|e| e.1));
-    println!("{errors:?} {orders:?}");
-    orders
+    let (first, last) = (errors(&f, &exact, t_end, few), errors(&f, &exact, t_end, many));
+    assert!(last.0 > FLOOR && last.1 > FLOOR, "rounding hides the order: {last:?}");
+    let ratio = (many as f64 / few as f64).ln();
+    ((first.0 / last.0).ln() / ratio, (first.1 / last.1).ln() / ratio)
 }
 
 #[test]
 fn solution_is_of_order_8_and_dense_output_of_order_7() {
-    let (end, dense) = observed_orders(four, four_exact, &[8, 12, 16, 24, 36, 48]);
-    //assert!(end >= 7.8 && dense >= 6.8, "observed orders {end}, {dense}");
-    let (end, dense) = observed_orders(pair, pair_exact, &[2, 3, 4, 6, 9, 12]);
-    //assert!(end >= 7.8 && dense >= 6.8, "observed orders {end}, {dense}");
+    // The polynomial over one step has order 7: its error is of order h^8.
+    let observed = [
+        observed_orders(four, four_exact, 2.0, (50, 100)),
+        observed_orders(pair, pair_exact, 1.0, (4, 9)),
+        observed_orders(pair, pair_exact, 3.0, (12, 24)),
+    ];
+    for (solution, polynomial) in observed {
+        assert!(solution >= 7.8, "order {solution}");
+        assert!(polynomial >= 7.8, "error of order {polynomial}");
+        assert!(solution < 9.0 && polynomial < 9.0, "no more than that: {solution}, {polynomial}");
+    }
 }
 
 #[test]
-fn tolerance_bounds_the_error() {
-    for (tolerance, steps, evaluations) in
-        [(1e-3, 0, 0), (1e-6, 0, 0), (1e-9, 0, 0), (1e-12, 0, 0), (1e-14, 0, 0), (1e-15, 0, 0)]
-    {
-        let mut run = RungeKutta8::new(four, GROUPS, (0.0, four_exact(0.0)), 3.0, tolerance).unwrap();
+fn errors_and_costs_follow_the_tolerance() {
+    // Errors on the way grow with the solution, which varies by exp(10).
+    let expected =
+        [(1e-3, (23, 4, 322)), (1e-6, (37, 10, 556)), (1e-9, (73, 15, 1043)), (1e-12, (159, 21, 2141))];
+    for (tolerance, (steps, rejected, evaluations)) in expected {
+        let mut run = RungeKutta8::new(four, FOUR, (0.0, four_exact(0.0)), 3.0, tolerance).unwrap();
         while !run.is_finished() {
             run.advance().unwrap();
         }
+        assert_eq!(run.t(), 3.0);
         let error = distance(run.y(), &four_exact(3.0));
-        println!("{tolerance:e}: {error:e} {:?}", run.statistics());
-        let _ = (steps, evaluations);
+        assert!(error < 1e3 * tolerance, "{tolerance:e}: {error:e}");
+        assert_eq!(run.statistics(), Statistics { steps, rejected, evaluations }, "{tolerance:e}");
     }
-    let _ = (PAIR, Failure::NotFinite, Statistics::default());
+}
+
+#[test]
+fn dense_output_meets_the_steps() {
+    let mut run = RungeKutta8::new(pair, PAIR, (0.0, pair_exact(0.0)), 2.0, 1e-9).unwrap();
+    let (mut t, mut y) = (run.t(), *run.y());
+    while !run.is_finished() {
+        run.advance().unwrap();
+        let dense = run.dense();
+        assert_eq!(dense.at(t), y, "the beginning");
+        assert_eq!(dense.at(run.t()), *run.y(), "the end");
+        let middle = 0.5 * (t + run.t());
+        assert!(distance(&dense.at(middle), &pair_exact(middle)) < 1e-8);
+        (t, y) = (run.t(), *run.y());
+    }
+}
+
+#[test]
+fn backward_in_time() {
+    let mut run = RungeKutta8::new(four, FOUR, (1.5, four_exact(1.5)), -0.5, 1e-12).unwrap();
+    let mut before = run.t();
+    while !run.is_finished() {
+        run.advance().unwrap();
+        assert!(run.t() < before);
+        before = run.t();
+    }
+    assert_eq!(run.t(), -0.5);
+    assert!(distance(run.y(), &four_exact(-0.5)) < 1e-10);
+}
+
+#[test]
+fn nothing_to_do_costs_one_evaluation() {
+    let mut run = RungeKutta8::new(pair, PAIR, (2.0, pair_exact(2.0)), 2.0, 1e-9).unwrap();
+    run.advance().unwrap();
+    assert_eq!((run.t(), *run.y()), (2.0, pair_exact(2.0)));
+    assert_eq!(run.statistics(), Statistics { steps: 0, rejected: 0, evaluations: 1 });
+}
+
+#[test]
+fn blow_up_stops_before_the_pole_and_keeps_the_state() {
+    // y' = y^2, y = 1/(1 - t).
+    let square = |_: f64, y: &[f64; 1]| [y[0] * y[0]];
+    const ONE: &[Group] = &[Group { name: "y", len: 1 }];
+    let mut run = RungeKutta8::new(square, ONE, (0.0, [1.0]), 2.0, 1e-10).unwrap();
+    let failure = loop {
+        if let Err(failure) = run.advance() {
+            break failure;
+        }
+    };
+    assert_eq!(failure, Failure::StepUnderflow);
+    let (t, y) = (run.t(), run.y()[0]);
+    assert!((t - 1.0).abs() < 1e-9, "the pole, up to the errors of the steps: {t}");
+    assert!(y.is_finite() && y > 1e6);
+    assert_eq!(run.advance(), Err(Failure::StepUnderflow), "and again");
+    assert_eq!((run.t(), run.y()[0]), (t, y));
+}
+
+#[test]
+fn what_is_not_finite_is_told_apart() {
+    const ONE: &[Group] = &[Group { name: "y", len: 1 }];
+    let root = |_: f64, y: &[f64; 1]| [-1.0 / y[0].sqrt()];
+    assert_eq!(RungeKutta8::new(root, ONE, (0.0, [-1.0]), 1.0, 1e-6).unwrap_err(), Failure::NotFinite);
+    // Beyond t = 1 the right-hand side is NaN: rejections until the step underflows.
+    let edge = |t: f64, _: &[f64; 1]| [if t > 1.0 { f64::NAN } else { 1.0 }];
+    let mut run = RungeKutta8::new(edge, ONE, (0.0, [0.0]), 3.0, 1e-6).unwrap();
+    let failure = loop {
+        if let Err(failure) = run.advance() {
+            break failure;
+        }
+    };
+    assert_eq!(failure, Failure::NotFinite);
+    assert!(run.t() <= 1.0 && run.t() > 1.0 - 1e-12, "{}", run.t());
+    assert!((run.y()[0] - run.t()).abs() < 1e-12);
+}
+
+#[test]
+fn units_of_time_and_state_do_not_matter() {
+    // The same problem with time in another unit and the state in another: powers of two, so that even rounding
+    // is the same.
+    let (second, metre) = (1024.0, 0.125);
+    let scaled = move |t: f64, y: &[f64; 2]| {
+        let slopes = pair(t / second, &[y[0] / metre, y[1] / metre]);
+        [slopes[0] * metre / second, slopes[1] * metre / second]
+    };
+    let mut plain = RungeKutta8::new(pair, PAIR, (0.0, pair_exact(0.0)), 2.0, 1e-9).unwrap();
+    let start = pair_exact(0.0).map(|y| y * metre);
+    let mut other = RungeKutta8::new(scaled, PAIR, (0.0, start), 2.0 * second, 1e-9).unwrap();
+    while !plain.is_finished() {
+        plain.advance().unwrap();
+        other.advance().unwrap();
+        assert_eq!(other.t(), plain.t() * second);
+        assert_eq!(*other.y(), plain.y().map(|y| y * metre));
+    }
+    assert!(other.is_finished());
+    assert_eq!(other.statistics(), plain.statistics());
 }

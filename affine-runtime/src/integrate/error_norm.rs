@@ -2,41 +2,99 @@
 
 use core::ops::Range;
 
-use crate::model::Group;
+use crate::model::{Group, StateVector};
 use crate::scalar::Real;
+
+/// A state vector has at most so many groups with a floor of their own.
+const GROUPS: usize = 8;
+/// An error of a momentum is tolerated that moves the placement, over one step, by this part of what the
+/// placement's own error may be. Ten times less than the balance, for what adds up over an oscillation.
+const PART_OF_DISPLACEMENT: f64 = 0.1;
 
 /// Largest relative error of the geometric objects in a state vector.
 ///
 /// `max over groups g of |e_g| / s_g`, `|.|` the Frobenius norm and `s_g` the larger of `|g|` before and after the
-/// step, so that neither rotations of space nor units change it. Two groups have a scale of their own:
+/// step, so that neither rotations of space nor units change it. Some groups have a scale of their own:
 ///
 /// * `x`, a position, is measured against `|x| + |phi|`: it may start at zero, its origin is arbitrary, and under
 ///   affine maps of space it transforms as the columns of `phi` do;
-/// * `q`, logarithms of stretches, is measured against 1: an error of `q` is a relative error of `exp q`.
+/// * `q`, logarithms of stretches, is measured against 1: an error of `q` is a relative error of `exp q`;
+/// * momenta, all groups but these and `phi`, are measured against `|g|` or `0.1 mu_g/h`, whichever is larger,
+///   where `mu_g/h` is the momentum that moves the placement by its own size within a step of length `h`. Without
+///   that, a body that vibrates by `1e-9` would need its momentum to digits that the forces do not have, and one
+///   at rest would take ever shorter steps.
+///
+/// The inertia `mu_g` is found at the start from the equations themselves, as the least `|dg| |phi|/|d phi'|`
+/// over single components of `g` (with `x` in place of `phi` for the groups `p` and `p_hat`).
 ///
 /// Sums of squares are formed without scaling: groups between about 1e-150 and 1e150 in norm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorNorm {
     groups: &'static [Group],
+    /// Where `phi` is, if anywhere.
+    phi: Option<(usize, usize)>,
+    inertia: [f64; GROUPS],
 }
 
 impl ErrorNorm {
-    /// The norm for a state vector that consists of `groups`, one after the other.
+    /// The norm for a state vector that consists of `groups`, one after the other, without inertias.
     #[must_use]
-    pub const fn new(groups: &'static [Group]) -> Self {
-        Self { groups }
+    pub fn new(groups: &'static [Group]) -> Self {
+        let unplaced = Self { groups, phi: None, inertia: [0.0; GROUPS] };
+        Self { phi: unplaced.range_of("phi").map(|range| (range.start, range.end)), ..unplaced }
     }
 
-    /// `max_g value(range of g) / s_g`; zero where `value` is, and NaN where a scale is not finite.
-    pub(crate) fn largest(&self, before: &[f64], after: &[f64], value: impl Fn(Range<usize>) -> f64) -> f64 {
+    /// The norm with the inertias at `(t, y)`, where `f(t, y) = slope`; and the number of evaluations that took,
+    /// one for each component of a momentum.
+    pub(crate) fn probed<S: StateVector<f64>>(
+        groups: &'static [Group],
+        f: &impl Fn(f64, &S) -> S,
+        (t, y, slope): (f64, &S, &S),
+    ) -> (Self, u64) {
+        let mut probed = Self::new(groups);
+        let mut evaluations = 0;
+        for (k, group) in groups.iter().enumerate().take(GROUPS) {
+            let Some(moved) = probed.moved_by(group.name) else { continue };
+            let own = probed.range(k);
+            let size = norm(&y.as_ref()[own.clone()]);
+            // Any change will do where the group is zero: the equations are linear in momenta, or nearly so.
+            let change = if size > 0.0 { size } else { 1.0 };
+            let mut response = 0.0;
+            for component in own {
+                let mut changed = *y;
+                changed.as_mut()[component] += change;
+                let changed = f(t, &changed);
+                evaluations += 1;
+                let difference = |i: usize| square(changed.as_ref()[i] - slope.as_ref()[i]);
+                let of_component = Real::sqrt(moved.clone().map(difference).sum::<f64>());
+                response = if of_component <= response { response } else { of_component };
+            }
+            let extent = probed.extent(moved, y.as_ref());
+            let inertia = change * extent / response;
+            probed.inertia[k] = if inertia.is_finite() { inertia } else { 0.0 };
+        }
+        (probed, evaluations)
+    }
+
+    /// `max_g value(range of g) / s_g` for a step of length `h`; zero where `value` is, and NaN where a scale is
+    /// not finite.
+    pub(crate) fn largest(
+        &self,
+        h: f64,
+        before: &[f64],
+        after: &[f64],
+        value: impl Fn(Range<usize>) -> f64,
+    ) -> f64 {
         let mut largest = 0.0;
         let mut start = 0;
-        for group in self.groups {
+        for (k, group) in self.groups.iter().enumerate() {
             let range = start..start + group.len;
             start = range.end;
-            let scale = self.scale(group, range.clone(), before, after);
+            let floor = self.inertia.get(k).map_or(0.0, |inertia| PART_OF_DISPLACEMENT * inertia / h);
+            let scale = self.scale(group.name, range.clone(), before, after);
             let value = value(range);
             if value != 0.0 || !scale.is_finite() {
+                let scale = if floor > scale { floor } else { scale };
                 let relative = if scale.is_finite() { value / scale } else { f64::NAN };
                 // Not `f64::max`, which would drop a NaN.
                 largest = if relative <= largest { largest } else { relative };
@@ -48,27 +106,43 @@ impl ErrorNorm {
         largest
     }
 
-    fn scale(&self, group: &Group, range: Range<usize>, before: &[f64], after: &[f64]) -> f64 {
-        let larger = |r: Range<usize>| {
-            let (a, b) = (norm(&before[r.clone()]), norm(&after[r]));
-            if a >= b { a } else { b }
+    fn scale(&self, name: &str, range: Range<usize>, before: &[f64], after: &[f64]) -> f64 {
+        if name == "q" {
+            return 1.0;
+        }
+        let (a, b) = match name {
+            "x" => (self.extent(range.clone(), before), self.extent(range, after)),
+            _ => (norm(&before[range.clone()]), norm(&after[range])),
         };
-        match group.name {
-            "q" => 1.0,
-            "x" => larger(range) + self.range_of("phi").map_or(0.0, larger),
-            _ => larger(range),
+        // A NaN is kept.
+        if a >= b { a } else { b }
+    }
+
+    /// Size of the placement, and of the position with it where that is asked for.
+    fn extent(&self, configuration: Range<usize>, y: &[f64]) -> f64 {
+        let own = norm(&y[configuration.clone()]);
+        match self.phi {
+            Some((start, end)) if start != configuration.start => own + norm(&y[start..end]),
+            _ => own,
+        }
+    }
+
+    /// Components of the configuration that a momentum moves; `None` for what is no momentum.
+    fn moved_by(&self, name: &str) -> Option<Range<usize>> {
+        match name {
+            "x" | "phi" | "q" => None,
+            "p" | "p_hat" => self.range_of("x"),
+            _ => self.range_of("phi"),
         }
     }
 
     fn range_of(&self, name: &str) -> Option<Range<usize>> {
-        let mut start = 0;
-        for group in self.groups {
-            if group.name == name {
-                return Some(start..start + group.len);
-            }
-            start += group.len;
-        }
-        None
+        self.groups.iter().position(|group| group.name == name).map(|k| self.range(k))
+    }
+
+    fn range(&self, k: usize) -> Range<usize> {
+        let start = self.groups[..k].iter().map(|group| group.len).sum();
+        start..start + self.groups[k].len
     }
 }
 
@@ -79,23 +153,27 @@ pub(crate) fn norm(components: &[f64]) -> f64 {
 
 /// Sum of squares.
 pub(crate) fn sum_of_squares(components: &[f64]) -> f64 {
-    components.iter().map(|v| v * v).sum()
+    components.iter().map(|v| square(*v)).sum()
+}
+
+fn square(value: f64) -> f64 {
+    value * value
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const GROUPS: &[Group] =
+    const LAYOUT: &[Group] =
         &[Group { name: "x", len: 2 }, Group { name: "phi", len: 2 }, Group { name: "q", len: 1 }];
 
     fn error(before: [f64; 5], after: [f64; 5], error: [f64; 5]) -> f64 {
-        ErrorNorm::new(GROUPS).largest(&before, &after, |r| norm(&error[r]))
+        ErrorNorm::new(LAYOUT).largest(1.0, &before, &after, |r| norm(&error[r]))
     }
 
     #[test]
     fn each_group_has_its_scale() {
-        let (before, after) = ([0.0, 0.0, 3.0, 4.0, 7.0], [0.0, 5.0, 0.0, 1.0, 9.0]);
+        let (before, after) = ([0.0, 0.0, 3.0, 4.0, 7.0], [0.0, 5.0, 0.0, 5.0, 9.0]);
         assert_eq!(error(before, after, [3.0, 4.0, 0.0, 0.0, 0.0]), 0.5, "|e| = 5 against |x| + |phi| = 10");
         assert_eq!(error(before, after, [0.0, 0.0, 0.0, 1.0, 0.0]), 0.2, "against |phi| = 5 before the step");
         assert_eq!(error(before, after, [0.0, 0.0, 0.0, 0.0, 0.25]), 0.25, "against 1");
@@ -109,8 +187,30 @@ mod tests {
         for bad in [f64::INFINITY, f64::NAN] {
             let after = [0.0, 0.0, bad, 0.0, 0.0];
             assert!(error([1.0; 5], after, [0.0; 5]).is_nan(), "a state that is {bad} has no error");
-            assert!(error([1.0; 5], [1.0; 5], [bad, 0.0, 0.0, 0.0, 0.0]) >= f64::INFINITY || bad.is_nan());
         }
+        assert_eq!(error([1.0; 5], [1.0; 5], [f64::INFINITY, 0.0, 0.0, 0.0, 0.0]), f64::INFINITY);
         assert!(error([1.0; 5], [1.0; 5], [f64::NAN, 0.0, 0.0, 0.0, 1.0]).is_nan(), "NaN is not dropped");
+    }
+
+    #[test]
+    fn momenta_are_held_against_what_they_move() {
+        const LAYOUT: &[Group] = &[
+            Group { name: "x", len: 1 },
+            Group { name: "phi", len: 2 },
+            Group { name: "p", len: 1 },
+            Group { name: "Pi", len: 2 },
+        ];
+        // x' = p/4, phi' = (Pi_1/2, Pi_2): masses 4, 2 and 1, the least of Pi is 1.
+        let f = |_: f64, y: &[f64; 6]| [y[3] / 4.0, y[4] / 2.0, y[5], 0.0, 0.0, 0.0];
+        let y = [5.0, 3.0, 4.0, 0.0, 8.0, 0.0];
+        let (norm_at_y, evaluations) = ErrorNorm::probed(LAYOUT, &f, (0.0, &y, &f(0.0, &y)));
+        assert_eq!(evaluations, 3, "one per component of p and Pi");
+        let error = |h: f64, e: [f64; 6]| norm_at_y.largest(h, &y, &y, |r| norm(&e[r]));
+        // |x| + |phi| = 10 and the mass 4: p moves x by that in a step of 0.5 when it is 80.
+        assert!((error(0.5, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]) - 1.0 / 8.0).abs() < 1e-15);
+        // |phi| = 5 and the mass 1: Pi = 500 in a step of 0.01, a tenth of which is more than |Pi| = 8.
+        assert!((error(0.01, [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]) - 1.0 / 50.0).abs() < 1e-15);
+        // In a step of 1 it is less.
+        assert_eq!(error(1.0, [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]), 1.0 / 8.0);
     }
 }

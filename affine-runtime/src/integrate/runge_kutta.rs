@@ -5,6 +5,8 @@ mod step;
 
 pub use step::{Dense, Step};
 
+use core::fmt;
+
 use super::error_norm::{ErrorNorm, sum_of_squares};
 use super::step_size::{Controller, first_step};
 use super::{Failure, Statistics};
@@ -21,8 +23,8 @@ use crate::scalar::Real;
 /// depends on the problem.
 ///
 /// Cost: 12 evaluations per accepted step, 11 (or 12, where only the slope at its end is not finite) per rejected
-/// one, 3 for the dense output of a step, 2 at the start.
-#[derive(Clone, Debug)]
+/// one, 3 for the dense output of a step; at the start 2, and one for each component of a momentum.
+#[derive(Clone)]
 pub struct RungeKutta8<S, F> {
     f: F,
     error_norm: ErrorNorm,
@@ -31,7 +33,7 @@ pub struct RungeKutta8<S, F> {
     step: Step<S>,
     length: f64,
     t_end: f64,
-    begun: bool,
+    failure: Option<Failure>,
     statistics: Statistics,
 }
 
@@ -47,33 +49,35 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
         t_end: f64,
         tolerance: f64,
     ) -> Result<Self, Failure> {
-        let error_norm = ErrorNorm::new(groups);
         let step = Step::start(&f, t0, y0);
         if !is_finite(&y0) || !is_finite(step.slope()) {
             return Err(Failure::NotFinite);
         }
         let mut statistics = Statistics { evaluations: 1, ..Statistics::default() };
-        let mut length = 0.0;
+        let (mut error_norm, mut length) = (ErrorNorm::new(groups), 0.0);
         if t_end != t0 {
+            let probes;
+            (error_norm, probes) = ErrorNorm::probed(groups, &f, (t0, &y0, step.slope()));
+            statistics.evaluations += probes;
             length = first_step(&f, &error_norm, (t0, &y0, step.slope()), t_end - t0, tolerance);
             statistics.evaluations += 1;
         }
         let controller = Controller::new();
-        Ok(Self { f, error_norm, tolerance, controller, step, length, t_end, begun: false, statistics })
+        Ok(Self { f, error_norm, tolerance, controller, step, length, t_end, failure: None, statistics })
     }
 
     /// Takes one accepted step; does nothing at `t_end`, which the last step hits exactly.
     ///
     /// # Errors
-    /// [`Failure`]; the state stays that of the last accepted step.
+    /// [`Failure`], now and ever after; the state stays that of the last accepted step.
     pub fn advance(&mut self) -> Result<(), Failure> {
+        if let Some(failure) = self.failure {
+            return Err(failure);
+        }
         if self.is_finished() {
             return Ok(());
         }
-        if self.begun {
-            self.step.begin_next();
-        }
-        self.begun = true;
+        self.step.begin_next();
         loop {
             let end = self.next_time();
             self.step.attempt(&self.f, end);
@@ -93,7 +97,9 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
             self.length = self.step.length().abs() * self.controller.reject(error);
             if self.length <= self.shortest() {
                 self.step.withdraw();
-                return Err(if error.is_finite() { Failure::StepUnderflow } else { Failure::NotFinite });
+                let failure = if error.is_finite() { Failure::StepUnderflow } else { Failure::NotFinite };
+                self.failure = Some(failure);
+                return Err(failure);
             }
         }
     }
@@ -154,12 +160,24 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
         let (fifth, third) = self.step.error_slopes();
         let before = self.step.begin().as_ref();
         let after = self.step.trial_end().as_ref();
-        let relative = self.error_norm.largest(before, after, |range| {
+        let relative = self.error_norm.largest(self.step.length().abs(), before, after, |range| {
             let fifth = sum_of_squares(&fifth.as_ref()[range.clone()]);
             let third = sum_of_squares(&third.as_ref()[range]);
             if fifth == 0.0 { 0.0 } else { fifth / Real::sqrt(fifth + 0.01 * third) }
         });
         self.step.length().abs() * relative / self.tolerance
+    }
+}
+
+impl<S: StateVector<f64>, F> fmt::Debug for RungeKutta8<S, F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("RungeKutta8")
+            .field("t", &self.step.end_time())
+            .field("y", self.step.end())
+            .field("t_end", &self.t_end)
+            .field("tolerance", &self.tolerance)
+            .field("statistics", &self.statistics)
+            .finish_non_exhaustive()
     }
 }
 

@@ -14,7 +14,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     ///
     /// # Errors
     /// [`Error::File`] with path and kind of the failure.
-    pub fn write_csv(&self, path: impl AsRef<Path>) -> Result<()> {
+    pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         let written = File::create(path).and_then(|file| {
             let mut writer = BufWriter::new(file);

@@ -2,5 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod accuracy;
+mod halts;
 mod models;
+mod outputs;
 mod reference;
+mod reports;
+mod small_motions;

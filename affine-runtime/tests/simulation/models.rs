@@ -1,19 +1,20 @@
 //! Models written by hand, as the macro would write them but for the reduction.
 
-pub mod drunk_missile;
-pub mod planar;
-pub mod vibrating_body;
+pub(crate) mod drunk_missile;
+pub(crate) mod planar;
+pub(crate) mod vibrating_body;
 
 use affine_runtime::frames::{Matrix, Vector};
+use affine_runtime::model::{Description, Formula, Operations};
 use affine_runtime::scalar::{Real, Scalar};
 
 /// The placement of the benchmark problems.
-pub fn phi0() -> Matrix<3> {
+pub(crate) fn phi0() -> Matrix<3> {
     Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05)
 }
 
 /// The co-moving affine spin of the benchmark problems.
-pub fn spin0() -> Matrix<3> {
+pub(crate) fn spin0() -> Matrix<3> {
     Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05)
 }
 
@@ -42,4 +43,25 @@ fn isotropic_energy<T: Real>(oh: &Matrix<3, T>, [i, a, b]: [f64; 3]) -> T {
     let number = |value: f64| T::constant(0.5 * value, 0.0);
     let trace = oh[(0, 0)] + oh[(1, 1)] + oh[(2, 2)];
     oh.dot(oh) * number(i) + oh.transpose().dot(oh) * number(a) + trace * trace * number(b)
+}
+
+/// A description with a name; each fixture fills in what simulations read.
+const fn description(name: &'static str) -> Description {
+    const NO_FORMULA: Formula = Formula { text: "", latex: "" };
+    const NOTHING: Operations = Operations { mul: 0, add: 0, div: 0, sqrt: 0, exp: 0, ln: 0 };
+    Description {
+        name,
+        kinetic_energy: NO_FORMULA,
+        hamiltonian: NO_FORMULA,
+        equations: &[],
+        reduced_equations: &[],
+        signature: None,
+        conserved: &[],
+        conserved_at_rest: &[],
+        full: &[],
+        reduced: &[],
+        full_operations: NOTHING,
+        reduced_operations: NOTHING,
+        left_out: &[],
+    }
 }

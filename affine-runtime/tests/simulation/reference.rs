@@ -3,7 +3,7 @@
 #![allow(clippy::excessive_precision, reason = "digits of the reference, rounded by the compiler")]
 
 /// Times and states `x, phi, p_hat, Sigma_hat`, row-major of the drunk missile.
-pub const DRUNK_MISSILE: [(f64, [f64; 24]); 2] = [
+pub(crate) const DRUNK_MISSILE: [(f64, [f64; 24]); 2] = [
     (
         1.0,
         [
@@ -65,7 +65,7 @@ pub const DRUNK_MISSILE: [(f64, [f64; 24]); 2] = [
 ];
 
 /// Times and states `phi, Sigma_hat`, row-major of the vibrating body with `kappa = 10`, `c1 = 0.5`.
-pub const VIBRATING_BODY: [(f64, [f64; 18]); 2] = [
+pub(crate) const VIBRATING_BODY: [(f64, [f64; 18]); 2] = [
     (
         10.0,
         [

@@ -24,8 +24,10 @@ struct Parts {
     drift: bool,
     /// The affine momentum is a constant.
     momentum: bool,
-    /// The skew part of the affine momentum is a constant: number of components.
-    skew: usize,
+    /// The affine momentum is split into its symmetric and skew parts.
+    split: bool,
+    /// Components of the affine momentum that are constants while others are state.
+    fixed: Vec<String>,
     /// Generator of the rotation that commutes.
     whirl: Option<Frame>,
     /// Coefficients of the reduced equations.
@@ -35,7 +37,6 @@ struct Parts {
 impl Parts {
     fn of(context: &Context) -> Self {
         let reduction = &context.model.reduction;
-        let n = context.model.dim;
         let whirl = reduction.commuting.iter().find_map(|piece| match piece {
             Commuting::Vorticity(_) => Some(Frame::Body),
             Commuting::Spin(_) => Some(Frame::Space),
@@ -48,7 +49,8 @@ impl Parts {
             linear: context.model.translation.is_some(),
             drift,
             momentum: reduction.layout == Layout::Constant,
-            skew: if reduction.layout == Layout::Symmetric { n * (n - 1) / 2 } else { 0 },
+            split: reduction.layout == Layout::Symmetric,
+            fixed: context.model.fixed.clone(),
             whirl,
             coefficients: context.model.trajectory.outputs.len(),
         }
@@ -67,7 +69,8 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
             fields.extend(quote!(#[doc = #doc] pub #tokens,));
         }
     };
-    let (skew, coefficients) = (number(parts.skew), number(parts.coefficients));
+    let (fixed, coefficients) = (number(parts.fixed.len()), number(parts.coefficients));
+    let fixed_doc = format!("Conserved components of the affine momentum: {}.", parts.fixed.join(", "));
     field(parts.origin, "Time of the start.", quote!(t0: #t));
     field(
         parts.turn,
@@ -78,11 +81,7 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
     field(parts.drift, "Centre of mass at the start.", quote!(x0: #rt::Vector<#n, #t>));
     field(parts.drift, "Velocity `p/m` of the centre of mass.", quote!(drift: #rt::Vector<#n, #t>));
     field(parts.momentum, "Conserved affine momentum.", quote!(momentum: #rt::Matrix<#n, #t>));
-    field(
-        parts.skew > 0,
-        "Conserved skew part of the affine momentum, row by row.",
-        quote!(skew: [#t; #skew]),
-    );
+    field(!parts.fixed.is_empty(), &fixed_doc, quote!(fixed: [#t; #fixed]));
     field(
         parts.whirl.is_some(),
         "Generator of the rotation that commutes with the rest of the motion.",
@@ -154,14 +153,14 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
             fields.extend(quote!(#tokens,));
         }
     };
-    let skew = skew_names(context);
+    let fixed = identifiers(&parts.fixed);
     field(parts.origin, quote!(t0));
     field(parts.turn, quote!(turn));
     field(parts.linear, quote!(p));
     field(parts.drift, quote!(x0: #rt::Phase::x(point)));
     field(parts.drift, quote!(drift));
     field(parts.momentum, quote!(momentum));
-    field(parts.skew > 0, quote!(skew: [#(#skew),*]));
+    field(!parts.fixed.is_empty(), quote!(fixed: [#(#fixed),*]));
     field(parts.whirl.is_some(), quote!(whirl));
     field(parts.coefficients > 0, quote!(coefficients: [#(#results),*]));
     if fields.is_empty() {
@@ -188,8 +187,9 @@ fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
     let chart = &context.model.reduction.chart;
     let mut used: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
     used.extend(inputs(&context.model.trajectory).into_iter().map(str::to_owned));
+    used.extend(parts.fixed.clone());
     // The symmetric and skew parts are formed from the entries.
-    if parts.skew > 0 {
+    if parts.split {
         used.extend(components(chart.momentum.name(), n).concat());
     }
     let used: Vec<&str> = used.iter().map(String::as_str).collect();
@@ -223,7 +223,7 @@ fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
         };
         lets.extend(quote!(let [#(#rows),*] = #rt::rows(&#value);));
     }
-    if parts.skew > 0 {
+    if parts.split {
         lets.extend(split(context));
     }
     lets
@@ -246,15 +246,6 @@ fn split(context: &Context) -> TokenStream {
         }
     }
     lets
-}
-
-fn skew_names(context: &Context) -> Vec<proc_macro2::Ident> {
-    let stem = context.model.reduction.chart.momentum.name();
-    let n = context.model.dim;
-    (1..=n)
-        .flat_map(|a| (a + 1..=n).map(move |b| (a, b)))
-        .map(|(a, b)| format_ident!("{stem}_skew_{a}{b}"))
-        .collect()
 }
 
 /// Generators of what moves in closed form: `-W/mu`, `p/m`.
@@ -362,7 +353,7 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
         false => quote!(#rt::Pinned),
     };
     let time = if parts.origin { quote!(t) } else { quote!(_t) };
-    let reads = parts.origin || parts.turn || parts.linear || parts.momentum || parts.skew > 0;
+    let reads = parts.origin || parts.turn || parts.linear || parts.momentum || !parts.fixed.is_empty();
     let constants = if reads { quote!(constants) } else { quote!(_constants) };
     quote! {
         fn expand<#t: #rt::Real>(
@@ -385,13 +376,13 @@ fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> To
         return quote!(let momentum = constants.momentum;);
     }
     let mut lets = TokenStream::new();
-    if parts.skew > 0 {
+    if !parts.fixed.is_empty() {
+        let fixed = identifiers(&parts.fixed);
+        lets.extend(quote!(let [#(#fixed),*] = constants.fixed;));
+    }
+    if parts.split {
         let stem = chart.momentum.name();
-        let skew = skew_names(context);
-        lets.extend(quote! {
-            let [#(#skew),*] = constants.skew;
-            let half = #t::constant(0.5, 0.0);
-        });
+        lets.extend(quote!(let half = #t::constant(0.5, 0.0);));
         for a in 1..=context.model.dim {
             for b in a + 1..=context.model.dim {
                 let (upper, lower) = (format_ident!("{stem}_{a}{b}"), format_ident!("{stem}_{b}{a}"));

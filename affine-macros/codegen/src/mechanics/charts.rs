@@ -80,6 +80,17 @@ impl Momentum {
         }
     }
 
+    /// The paper's symbol.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Momentum::Body => "Sigma_hat",
+            Momentum::Space => "Sigma",
+            Momentum::Total => "I(O)",
+            Momentum::Canonical => "Pi",
+        }
+    }
+
     /// Stem of the names of the conjugate velocity `(dH/dM)^T`.
     #[must_use]
     pub fn velocity_name(self) -> &'static str {

@@ -1,19 +1,19 @@
 //! The drunk missile, written naively: affine in space, metrical in the body, with translation and without a
 //! potential. Nothing is taken out of the state, which is `x, phi, p_hat, Sigma_hat`.
 
-use affine_runtime::__private::{description, stored_spin, unchecked_point};
+use affine_runtime::__private::point as point_of;
 use affine_runtime::frames::{AffineSpin, Body, Comoving, Matrix, Vector};
 use affine_runtime::geodesic::Geodesic;
 use affine_runtime::model::{Conserved, Description, Group, Model, Velocity};
 use affine_runtime::scalar::{Real, Scalar};
 use affine_runtime::state::{Centre, Phase, PhasePoint};
 
-use super::{inverse, isotropic_energy, matrix, write};
+use super::{description, inverse, isotropic_energy, matrix, write};
 
 /// `T = |v_hat|^2/2 + tr(Oh^T Oh)/2 + (A tr Oh^2 + B (tr Oh)^2)/2` with `I = m = 1`, `A = 1/5`, `B = 1/10`.
-pub struct DrunkMissile;
+pub(crate) struct DrunkMissile;
 
-pub type Missile<T = f64> = PhasePoint<3, Body, Centre<3, T>, T>;
+pub(crate) type Missile<T = f64> = PhasePoint<3, Body, Centre<3, T>, T>;
 
 const GROUPS: &[Group] = &[
     Group { name: "x", len: 3 },
@@ -60,7 +60,10 @@ impl Model<3> for DrunkMissile {
 
     fn velocity<T: Real>(&self, point: &Missile<T>) -> Velocity<3, T> {
         let p_hat = point.phi().tr_mul(&point.p());
-        Velocity { x_dot: point.phi() * p_hat, phi_dot: point.phi() * affine_velocity(stored_spin(point)) }
+        Velocity {
+            x_dot: point.phi() * p_hat,
+            phi_dot: point.phi() * affine_velocity(&point.sigma_hat().0.0),
+        }
     }
 
     fn kinetic_energy<T: Real>(&self, phi: &Matrix<3, T>, velocity: &Velocity<3, T>) -> T {
@@ -70,7 +73,7 @@ impl Model<3> for DrunkMissile {
     }
 
     fn hamiltonian<T: Real>(&self, point: &Missile<T>) -> T {
-        let spin = stored_spin(point);
+        let spin = &point.sigma_hat().0.0;
         let p_hat = point.phi().tr_mul(&point.p());
         let half = T::constant(0.5, 0.0);
         half * (p_hat.dot(&p_hat) + spin.transpose().dot(&affine_velocity(spin)))
@@ -81,7 +84,7 @@ impl Model<3> for DrunkMissile {
         flat[..3].copy_from_slice(point.x().as_slice());
         write(&mut flat[3..12], point.phi());
         flat[12..15].copy_from_slice(point.phi().tr_mul(&point.p()).as_slice());
-        write(&mut flat[15..24], stored_spin(point));
+        write(&mut flat[15..24], &point.sigma_hat().0.0);
         flat
     }
 
@@ -90,7 +93,7 @@ impl Model<3> for DrunkMissile {
         let p_hat = Vector::<3, T>::from_column_slice(&flat[12..15]);
         let centre =
             Centre { x: Vector::<3, T>::from_column_slice(&flat[..3]), p: inverse(&phi).tr_mul(&p_hat) };
-        unchecked_point(phi, matrix(&flat[15..24]), centre)
+        point_of(phi, Comoving(matrix(&flat[15..24])), centre)
     }
 
     /// `x' = phi p_hat/m`, `phi' = phi Oh`, `p_hat' = Oh^T p_hat`, `Sh' = [Sh, Oh] - p_hat p_hat^T/m`.
@@ -128,14 +131,20 @@ impl Model<3> for DrunkMissile {
 }
 
 /// The start of the benchmark problem: `x = 0`, `p = (0.3, -0.2, 0.5)`.
-pub fn start() -> Missile {
+pub(crate) fn start() -> Missile {
     let centre = Centre { x: Vector::<3>::zeros(), p: Vector::<3>::new(0.3, -0.2, 0.5) };
-    unchecked_point(super::phi0(), super::spin0(), centre)
+    point_of(super::phi0(), Comoving(super::spin0()), centre)
 }
 
 /// The same with `p = 0`.
-pub fn start_at_rest() -> Missile {
+pub(crate) fn start_at_rest() -> Missile {
     let centre = Centre { x: Vector::<3>::zeros(), p: Vector::<3>::zeros() };
     affine_runtime::__private::phase_point(super::phi0(), Comoving(AffineSpin(super::spin0())), centre)
         .unwrap()
+}
+
+/// The start of the benchmark problem after a rotation of space: `phi -> Q phi`, `p -> Q p`, same `Sigma_hat`.
+pub(crate) fn turned_start(turn: &Matrix<3>) -> Missile {
+    let centre = Centre { x: Vector::<3>::zeros(), p: turn * start().p() };
+    point_of(turn * super::phi0(), Comoving(super::spin0()), centre)
 }

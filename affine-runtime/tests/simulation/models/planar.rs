@@ -2,28 +2,28 @@
 //! placement moves along a straight line, the one closed form that needs no exponential; with a spring it swings
 //! through `det phi = 0` as through anything else.
 
-use affine_runtime::__private::{description, stored_spin, unchecked_point};
-use affine_runtime::frames::{Canonical, Matrix, Vector};
+use affine_runtime::__private::point as point_of;
+use affine_runtime::frames::{Canonical, Matrix, TwoPoint, Vector};
 use affine_runtime::geodesic::{Geodesic, Motion};
 use affine_runtime::model::{Conserved, Description, Group, Model, Velocity};
 use affine_runtime::scalar::{Real, Scalar};
 use affine_runtime::state::{Phase, PhasePoint, Pinned};
 
-use super::{matrix, write};
+use super::{description, matrix, write};
 
 /// `H = (|Pi|^2 + k |phi|^2)/2`, with a force that turns infinite at the time `singular_at`.
-pub struct Planar {
-    pub spring: f64,
-    pub singular_at: Option<f64>,
+pub(crate) struct Planar {
+    pub(crate) spring: f64,
+    pub(crate) singular_at: Option<f64>,
 }
 
-pub type Disc<T = f64> = PhasePoint<2, Canonical, Pinned, T>;
+pub(crate) type Disc<T = f64> = PhasePoint<2, Canonical, Pinned, T>;
 
 const GROUPS: &[Group] = &[Group { name: "phi", len: 4 }, Group { name: "Pi", len: 4 }];
 
 impl Planar {
-    pub const FREE: Self = Self { spring: 0.0, singular_at: None };
-    pub const SPRING: Self = Self { spring: 1.0, singular_at: None };
+    pub(crate) const FREE: Self = Self { spring: 0.0, singular_at: None };
+    pub(crate) const SPRING: Self = Self { spring: 1.0, singular_at: None };
 }
 
 impl Model<2> for Planar {
@@ -42,7 +42,7 @@ impl Model<2> for Planar {
     type Full<T: Scalar> = [T; 8];
 
     fn velocity<T: Real>(&self, point: &Disc<T>) -> Velocity<2, T> {
-        Velocity { x_dot: Vector::<2, T>::zeros(), phi_dot: stored_spin(point).transpose() }
+        Velocity { x_dot: Vector::<2, T>::zeros(), phi_dot: point.pi().0.0.transpose() }
     }
 
     fn kinetic_energy<T: Real>(&self, _phi: &Matrix<2, T>, velocity: &Velocity<2, T>) -> T {
@@ -50,19 +50,19 @@ impl Model<2> for Planar {
     }
 
     fn hamiltonian<T: Real>(&self, point: &Disc<T>) -> T {
-        let (phi, pi) = (point.phi(), stored_spin(point));
-        (pi.dot(pi) + phi.dot(phi) * T::constant(self.spring, 0.0)) * T::constant(0.5, 0.0)
+        let (phi, pi) = (point.phi(), point.pi().0.0);
+        (pi.dot(&pi) + phi.dot(phi) * T::constant(self.spring, 0.0)) * T::constant(0.5, 0.0)
     }
 
     fn flatten<T: Real>(&self, point: &Disc<T>) -> [T; 8] {
         let mut flat = [T::zero(); 8];
         write(&mut flat[..4], point.phi());
-        write(&mut flat[4..], stored_spin(point));
+        write(&mut flat[4..], &point.pi().0.0);
         flat
     }
 
     fn unflatten<T: Real>(&self, flat: &[T; 8]) -> Disc<T> {
-        unchecked_point(matrix(&flat[..4]), matrix(&flat[4..]), Pinned)
+        point_of(matrix(&flat[..4]), TwoPoint(matrix(&flat[4..])), Pinned)
     }
 
     fn hamilton_equations<T: Scalar>(&self, t: T, flat: &[T; 8]) -> [T; 8] {
@@ -92,18 +92,18 @@ impl Model<2> for Planar {
     fn geodesic(&self, t0: f64, point: &Disc) -> Option<Geodesic<2>> {
         (self.spring == 0.0 && self.singular_at.is_none()).then(|| Geodesic {
             t0,
-            motion: Motion::Straight { velocity: stored_spin(point).transpose() },
+            motion: Motion::Straight { velocity: point.pi().0.0.transpose() },
             drift: Vector::<2>::zeros(),
         })
     }
 
     fn on_geodesic(&self, geodesic: &Geodesic<2>, t: f64, start: &Disc) -> Disc {
         let Motion::Straight { velocity } = geodesic.motion else { unreachable!("made above") };
-        unchecked_point(start.phi() + velocity * (t - geodesic.t0), *stored_spin(start), Pinned)
+        point_of(start.phi() + velocity * (t - geodesic.t0), TwoPoint(start.pi().0.0), Pinned)
     }
 }
 
 /// A stretched placement whose first row moves by `rate` per unit of time.
-pub fn start(rate: f64) -> Disc {
-    unchecked_point(Matrix::<2>::new(1.0, 0.2, 0.0, 1.5), Matrix::<2>::new(rate, 0.1, 0.0, -0.2), Pinned)
+pub(crate) fn start(rate: f64) -> Disc {
+    point_of(Matrix::<2>::new(1.0, 0.2, 0.0, 1.5), TwoPoint(Matrix::<2>::new(rate, 0.1, 0.0, -0.2)), Pinned)
 }

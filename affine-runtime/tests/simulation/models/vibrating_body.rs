@@ -2,34 +2,34 @@
 //! neo-Hookean potential. The state is `phi, Sigma_hat, r` with `r = (det phi)^(-1/3)`, which makes the equations
 //! rational.
 
-use affine_runtime::__private::{description, stored_spin, unchecked_point};
-use affine_runtime::frames::{Body, Matrix};
+use affine_runtime::__private::point as point_of;
+use affine_runtime::frames::{Body, Comoving, Matrix};
 use affine_runtime::geodesic::Geodesic;
 use affine_runtime::model::{Conserved, Description, Group, Model, Velocity};
 use affine_runtime::scalar::{Real, Scalar};
 use affine_runtime::state::{Phase, PhasePoint, Pinned};
 
-use super::{inverse, isotropic_energy, matrix, write};
+use super::{description, inverse, isotropic_energy, matrix, write};
 
 /// `T = (I tr(Oh^T Oh) + A tr Oh^2 + B (tr Oh)^2)/2`, `U = (kappa/2) sinh^2 q + c1 (r^2 tr G - 3)`.
-pub struct VibratingBody {
-    pub i: f64,
-    pub a: f64,
-    pub b: f64,
-    pub kappa: f64,
-    pub c1: f64,
+pub(crate) struct VibratingBody {
+    pub(crate) i: f64,
+    pub(crate) a: f64,
+    pub(crate) b: f64,
+    pub(crate) kappa: f64,
+    pub(crate) c1: f64,
 }
 
-pub type Body3<T = f64> = PhasePoint<3, Body, Pinned, T>;
+pub(crate) type Body3<T = f64> = PhasePoint<3, Body, Pinned, T>;
 
 const GROUPS: &[Group] =
     &[Group { name: "phi", len: 9 }, Group { name: "Sigma_hat", len: 9 }, Group { name: "r", len: 1 }];
 
 impl VibratingBody {
     /// The benchmark problem "vibrating body".
-    pub const BENCHMARK: Self = Self { i: 1.0, a: 0.2, b: 0.1, kappa: 10.0, c1: 0.5 };
+    pub(crate) const BENCHMARK: Self = Self { i: 1.0, a: 0.2, b: 0.1, kappa: 10.0, c1: 0.5 };
 
-    pub fn affine_velocity<T: Scalar>(&self, spin: &Matrix<3, T>) -> Matrix<3, T> {
+    pub(crate) fn affine_velocity<T: Scalar>(&self, spin: &Matrix<3, T>) -> Matrix<3, T> {
         let Self { i, a, b, .. } = *self;
         let number = |value: f64| T::constant(value, 0.0);
         let trace = (spin[(0, 0)] + spin[(1, 1)] + spin[(2, 2)]) * number(-b / ((i + a) * (i + a + 3.0 * b)));
@@ -80,7 +80,7 @@ impl Model<3> for VibratingBody {
     type Full<T: Scalar> = [T; 19];
 
     fn velocity<T: Real>(&self, point: &Body3<T>) -> Velocity<3, T> {
-        let phi_dot = point.phi() * self.affine_velocity(stored_spin(point));
+        let phi_dot = point.phi() * self.affine_velocity(&point.sigma_hat().0.0);
         Velocity { x_dot: point.x(), phi_dot }
     }
 
@@ -90,7 +90,7 @@ impl Model<3> for VibratingBody {
 
     fn hamiltonian<T: Real>(&self, point: &Body3<T>) -> T {
         let number = |value: f64| T::constant(value, 0.0);
-        let spin = stored_spin(point);
+        let spin = &point.sigma_hat().0.0;
         let r = self.flatten(point)[18];
         let r_squared = r * r;
         let kinetic = spin.transpose().dot(&self.affine_velocity(spin)) * number(0.5);
@@ -101,7 +101,7 @@ impl Model<3> for VibratingBody {
     fn flatten<T: Real>(&self, point: &Body3<T>) -> [T; 19] {
         let mut flat = [T::zero(); 19];
         write(&mut flat[..9], point.phi());
-        write(&mut flat[9..18], stored_spin(point));
+        write(&mut flat[9..18], &point.sigma_hat().0.0);
         let row = |i: usize| point.phi().row(i).transpose();
         let determinant = row(0).dot(&row(1).cross(&row(2)));
         flat[18] = (-(determinant.ln() / T::from_f64(3.0))).exp();
@@ -109,7 +109,7 @@ impl Model<3> for VibratingBody {
     }
 
     fn unflatten<T: Real>(&self, flat: &[T; 19]) -> Body3<T> {
-        unchecked_point(matrix(&flat[..9]), matrix(&flat[9..18]), Pinned)
+        point_of(matrix(&flat[..9]), Comoving(matrix(&flat[9..18])), Pinned)
     }
 
     fn hamilton_equations<T: Scalar>(&self, _t: T, flat: &[T; 19]) -> [T; 19] {
@@ -142,6 +142,6 @@ impl Model<3> for VibratingBody {
 }
 
 /// The start of the benchmark problem.
-pub fn start() -> Body3 {
-    unchecked_point(super::phi0(), super::spin0(), Pinned)
+pub(crate) fn start() -> Body3 {
+    point_of(super::phi0(), Comoving(super::spin0()), Pinned)
 }

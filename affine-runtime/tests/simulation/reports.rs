@@ -1,0 +1,128 @@
+//! What a trajectory tells about itself.
+
+use affine_runtime::model::Conserved;
+use affine_runtime::simulate::Method;
+use affine_runtime::state::Phase;
+use affine_runtime::{Error, Simulation};
+
+use crate::models::drunk_missile::{self, DrunkMissile};
+use crate::models::planar::{self, Planar};
+
+#[test]
+fn drunk_missile_conserves_what_it_should() {
+    let run =
+        Simulation::new(&DrunkMissile, drunk_missile::start()).until(10.0).tolerance(1e-13).run().unwrap();
+    let conservation = run.conservation();
+    let quantities: Vec<Conserved> = conservation.drifts().iter().map(|d| d.quantity).collect();
+    assert_eq!(quantities, run.description().conserved);
+    // The errors of one trajectory, which are below 1e-12.
+    assert!(conservation.worst() < 1e-12, "{conservation}");
+    assert!(conservation.of(Conserved::AffineSpin).is_none(), "not conserved with p != 0");
+    let momentum = conservation.of(Conserved::LinearMomentum).unwrap();
+    assert!((momentum.scale - 0.38f64.sqrt()).abs() < 1e-12, "|p| = |(0.3, -0.2, 0.5)|");
+    let table = conservation.to_string();
+    assert_eq!(table.lines().count(), 2 + quantities.len(), "{table}");
+    assert!(table.contains("I = x p^T + Sigma"), "{table}");
+}
+
+#[test]
+fn at_rest_more_is_conserved() {
+    let run = Simulation::new(&DrunkMissile, drunk_missile::start_at_rest()).until(5.0).run().unwrap();
+    let conservation = run.conservation();
+    assert!(conservation.of(Conserved::AffineSpin).is_some(), "{conservation}");
+    assert!(conservation.of(Conserved::LinearMomentum).is_none(), "{conservation}");
+    assert!(conservation.worst() < 1e-9, "{conservation}");
+    assert!(run.why().to_string().contains("p = 0"), "{}", run.why());
+}
+
+#[test]
+fn a_drift_is_what_it_is() {
+    // A driven body does not keep its energy: Pi_11(t) = Pi_11(0) + 1/(10 - t) - 1/10, and only that changes.
+    let model = Planar { spring: 0.0, singular_at: Some(10.0) };
+    let start = planar::start(0.5);
+    let run = Simulation::new(&model, start).until(5.0).every(1.0).tolerance(1e-12).run().unwrap();
+    let drift = *run.conservation().of(Conserved::Energy).unwrap();
+    let (before, after) = (0.5, 0.5 + 0.2 - 0.1);
+    assert!((drift.absolute - 0.5 * (after * after - before * before)).abs() < 1e-11);
+    // H = |Pi|^2/2, and |Pi| |phi_dot|/2 is the same: both largest at the end.
+    let largest = 0.5 * (after * after + 0.01 + 0.04);
+    assert!((drift.scale - largest).abs() < 1e-11, "{drift:?}");
+    assert!((drift.relative() - drift.absolute / largest).abs() < 1e-11);
+    assert_eq!(run.energies().len(), 6);
+    assert!((run.energies()[5] - largest).abs() < 1e-11);
+}
+
+#[test]
+fn the_end_counts_although_it_is_no_output() {
+    let model = Planar { spring: 0.0, singular_at: Some(10.0) };
+    let at = |times: &[f64]| {
+        let simulation = Simulation::new(&model, planar::start(0.5)).until(5.0).tolerance(1e-12);
+        simulation.output(times.iter().copied()).run().unwrap().conservation()
+    };
+    let (few, all) = (at(&[]), at(&[0.0, 1.0, 5.0]));
+    let energy = Conserved::Energy;
+    assert_eq!(few.of(energy).unwrap().absolute, all.of(energy).unwrap().absolute);
+}
+
+#[test]
+fn why_names_method_and_reason() {
+    let text = |method| {
+        let simulation = Simulation::new(&Planar::FREE, planar::start(0.5)).until(1.0).method(method);
+        simulation.run().unwrap().why().to_string()
+    };
+    assert!(text(Method::Automatic).starts_with("Planar: closed form: this model has one"));
+    assert!(text(Method::ClosedForm).starts_with("Planar: closed form, as asked for"));
+    assert!(text(Method::RungeKutta8).contains("Method::Automatic would take the closed form"));
+    let run =
+        Simulation::new(&DrunkMissile, drunk_missile::start()).until(1.0).tolerance(1e-6).run().unwrap();
+    let why = run.why().to_string();
+    assert!(why.contains("Runge-Kutta of order 8, relative error 1e-6 per step"), "{why}");
+    assert!(why.contains("left out of the model: nothing: a naive fixture"), "{why}");
+    assert!(!why.contains("p = 0"), "{why}");
+    assert_eq!(run.computation().method, Method::RungeKutta8);
+}
+
+#[test]
+fn csv_of_a_pinned_body() {
+    let run = Simulation::new(&Planar::FREE, planar::start(0.5)).until(0.5).every(0.5).run().unwrap();
+    let mut text = Vec::new();
+    run.csv(&mut text).unwrap();
+    let expected = "t,phi11,phi12,phi21,phi22,Pi11,Pi12,Pi21,Pi22\n\
+                    0e0,1e0,2e-1,0e0,1.5e0,5e-1,1e-1,0e0,-2e-1\n\
+                    5e-1,1.25e0,2e-1,5e-2,1.4e0,5e-1,1e-1,0e0,-2e-1\n";
+    assert_eq!(String::from_utf8(text).unwrap(), expected);
+}
+
+#[test]
+fn csv_reads_back_as_the_same_numbers() {
+    let run = Simulation::new(&DrunkMissile, drunk_missile::start()).until(1.0).every(0.5).run().unwrap();
+    let path = std::env::temp_dir().join(format!("affine-runtime-{}.csv", std::process::id()));
+    run.save_csv(&path).unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(
+        lines.next().unwrap(),
+        "t,x1,x2,x3,phi11,phi12,phi13,phi21,phi22,phi23,phi31,phi32,phi33,p1,p2,p3,Sigma_hat11,Sigma_hat12,\
+         Sigma_hat13,Sigma_hat21,Sigma_hat22,Sigma_hat23,Sigma_hat31,Sigma_hat32,Sigma_hat33"
+    );
+    for (line, (t, point)) in lines.zip(run.iter()) {
+        let numbers: Vec<f64> = line.split(',').map(|n| n.parse().unwrap()).collect();
+        let mut expected = vec![t];
+        expected.extend(point.x().iter());
+        expected.extend(point.phi().transpose().iter());
+        expected.extend(point.p().iter());
+        expected.extend(point.sigma_hat().0.0.transpose().iter());
+        assert_eq!(numbers, expected);
+    }
+    assert_eq!(text.lines().count(), 4);
+}
+
+#[test]
+fn a_file_that_cannot_be_written() {
+    let run = Simulation::new(&Planar::FREE, planar::start(0.5)).until(0.5).run().unwrap();
+    let path = std::env::temp_dir().join("no such folder").join("run.csv");
+    let error = run.save_csv(&path).unwrap_err();
+    assert_eq!(error, Error::File { path: path.clone(), kind: std::io::ErrorKind::NotFound });
+    assert!(error.to_string().contains("run.csv"), "{error}");
+}
