@@ -32,7 +32,7 @@ macro_rules! families {
         $(
             #[test]
             fn $name() {
-                check(stringify!($name), $args, &format!("pub struct {};", camel_case(stringify!($name))));
+                check(stringify!($name), $args, &format!("/// A body.\npub struct {};", camel_case(stringify!($name))));
             }
         )*
     };
@@ -104,45 +104,61 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "fields_left_missile_3",
         "dim = 3, require(positive_definite), \
          kinetic(casimir2 = a, casimir1_squared = b, body_inertia = i, body_translation = m)",
-        "/// A missile with parameters.\n#[derive(Clone, Debug)]\n\
-         pub struct Missile { pub a: f64, pub b: f64, pub i: f64, pub m: f64 }",
+        "/// A missile with parameters.
+        #[derive(Clone, Debug)]
+        pub struct Missile { a: f64, b: f64, i: f64, m: f64 }",
     ),
     (
         "fields_right_2",
         "dim = 2, kinetic(casimir2 = a/2, casimir1_squared = 0.1, space_inertia = i^2, space_translation = 1)",
-        "pub struct Right { pub a: f64, pub i: f64 }",
+        "/// A body.
+        pub struct Right { a: f64, i: f64 }",
     ),
     (
         "fields_affine_3",
         "dim = 3, kinetic(casimir2 = a, casimir1_squared = b)",
-        "pub struct Affine { a: f64, b: f64 }",
+        "/// A body.
+        pub struct Affine { a: f64, b: f64 }",
     ),
     (
         "fields_dalembert_3",
         "dim = 3, kinetic(dalembert = [[a, b, 0], [b, c, 0], [0, 0, 1]], space_translation = a + c)",
-        "pub struct DAlembert { pub a: f64, pub b: f64, pub c: f64 }",
+        "/// A body.
+        pub struct DAlembert { a: f64, b: f64, c: f64 }",
     ),
     (
         "fields_body_tensor_2",
         "dim = 2, kinetic(casimir2 = a, \
          body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])",
-        "pub struct BodyTensor { pub a: f64 }",
+        "/// A body.
+        pub struct BodyTensor { a: f64 }",
     ),
     (
         "generics_2",
         "dim = 2, kinetic(casimir2 = a, casimir1_squared = 0.1)",
-        "pub struct Labelled<'l, T: Clone, const N: usize> where T: Sync \
-         { pub a: f64, pub label: &'l str, pub history: [T; N] }",
+        "/// A body with a label.
+        pub struct Labelled<'l, T: Clone, const N: usize> where T: Sync {
+            a: f64,
+            /// The label.
+            pub label: &'l str,
+            /// Earlier labels.
+            pub history: [T; N],
+        }",
     ),
     (
         "generics_without_coefficients_2",
         "dim = 2, kinetic(casimir2 = 0.2)",
-        "pub struct Tagged<T> where T: Copy { pub tag: T }",
+        "/// A body with a tag.
+        pub struct Tagged<T> where T: Copy {
+            /// The tag.
+            pub tag: T,
+        }",
     ),
     (
         "runtime_path_2",
         "dim = 2, crate = crate::renamed::runtime, kinetic(casimir2 = 0.2)",
-        "pub struct Renamed;",
+        "/// A body.
+        pub struct Renamed;",
     ),
 ];
 

@@ -23,10 +23,7 @@ use names::Names;
 pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let has_fields = !model.coefficients.outputs.is_empty();
     let names = Names::new(spec, has_fields);
-    let runtime = match &spec.runtime {
-        Some(path) => quote!(#path),
-        None => quote!(::affine_runtime),
-    };
+    let runtime = runtime(spec.runtime.as_ref());
     let context = Context { spec, model, names: &names, has_fields };
     let item = &spec.item.tokens;
     let rt = &names.rt;
@@ -45,6 +42,14 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #implementation
             #points
         };
+    }
+}
+
+/// The path of the runtime.
+pub fn runtime(renamed: Option<&syn::Path>) -> TokenStream {
+    match renamed {
+        Some(path) => quote!(#path),
+        None => quote!(::affine_runtime),
     }
 }
 

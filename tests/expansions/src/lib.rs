@@ -2,8 +2,6 @@
 //! of the compiler, of the workspace or of clippy has anything to say.
 #![no_std]
 #![deny(warnings)]
-// The items stand in snapshots without documentation of their own.
-#![allow(missing_docs)]
 
 // What the snapshot of `crate = crate::renamed::runtime` reads.
 mod renamed {
