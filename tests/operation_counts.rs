@@ -84,7 +84,7 @@ pinned! {
     DAlembert2 2 (dalembert = diag(1, 1.5)) = full (2, 0), reduced (0, 0);
     DAlembert3 3 (dalembert = diag(1, 1.5, 2), space_translation = 1) = full (6, 0), reduced (0, 0);
     DAlembertFull3 3 (dalembert = [[2, 1, 0], [1, 3, 1], [0, 1, 4]]) = full (27, 18), reduced (0, 0);
-    DAlembertMissile3 3 (dalembert = diag(1, 1.5, 2), body_translation = 1) = full (51, 24), reduced (21, 6);
+    DAlembertMissile3 3 (dalembert = diag(1, 1.5, 2), body_translation = 1) = full (51, 24), reduced (17, 6);
     BodyTensor2 2 (body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]], body_translation = 1)
         = full (36, 29), reduced (36, 27);
     SpaceTensor2 2 (space_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])

@@ -48,8 +48,8 @@ pub struct Model {
     pub reduction: Reduction,
     /// The constants of a trajectory as functions of its conserved momenta.
     pub trajectory: Program,
-    /// The momenta that `trajectory` reads: `p_i`, then the affine momentum.
-    pub trajectory_inputs: Vec<String>,
+    /// Components of the affine momentum that are constants of the trajectory while others are state.
+    pub fixed: Vec<String>,
     /// Closed form of the geodesics; whether it needs `p = 0`.
     pub closed_form: Option<(ClosedForm, bool)>,
     /// `1/alpha`, `1/beta`, `1/mu` of an isotropic model.
@@ -114,7 +114,11 @@ pub struct NumericBlock {
 
 /// Derives a model; `None` only for forms that the checks refuse.
 pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
-    let signature = signature(&form);
+    let signature = match require_positive || form.kinetic.frame == Frame::Flat {
+        // `prepare()` refuses anything else.
+        true => Some((form.kinetic.degrees_of_freedom(), 0)),
+        false => signature(&form),
+    };
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form);
     let Form { mut arena, kinetic, hessian, .. } = form;
@@ -127,11 +131,11 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let conserved_now = conserved(arena, &own, &own_h);
     let conserved_at_rest = at_rest(arena, &h, &conserved_now);
     let commuting = reduce::commuting(arena, &h);
-    let closed_form = reduce::closed_form(&h, &commuting);
+    let closed_form = reduce::closed_form(arena, &h, &commuting);
 
     let (full_chart, full_h) = full_chart(arena, &h);
     let full = full_equations(arena, &h, &full_chart, &full_h, &mut coefficients);
-    let (reduction, reduced, trajectory, trajectory_inputs) = best_reduction(arena, &h, &mut coefficients)?;
+    let (reduction, reduced, trajectory, fixed) = best_reduction(arena, &h, &mut coefficients)?;
     let formulas = Formulas {
         kinetic_energy: describe::kinetic_energy(arena, &kinetic),
         hamiltonian: describe::hamiltonian(arena, &h, &full_h),
@@ -187,7 +191,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         reduced,
         reduction,
         trajectory,
-        trajectory_inputs,
+        fixed,
         closed_form,
         isotropic,
         conserved: conserved_now,
@@ -315,7 +319,7 @@ fn best_reduction(
         }
     }
     let (_, reduction, program, constants) = best?;
-    let inputs: Vec<Expr> = trajectory_symbols(arena, &reduction);
+    let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {
         shared: Vec::new(),
         results: constants
@@ -327,22 +331,18 @@ fn best_reduction(
     let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
     let name = |s: &Expr| arena.name(*s).unwrap_or("state").to_owned();
     let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(name).collect())).collect();
-    let inputs = inputs.iter().map(name).collect();
-    Some((reduction, Equations { groups, program: fuse(&program) }, trajectory, inputs))
+    let fixed = reduction.fixed.iter().map(name).collect();
+    Some((reduction, Equations { groups, program: fuse(&program) }, trajectory, fixed))
 }
 
 /// What `trajectory` reads: `p` where the state depends on it, and the constant part of the affine momentum.
-fn trajectory_symbols(arena: &mut Arena, reduction: &Reduction) -> Vec<Expr> {
+fn trajectory_symbols(reduction: &Reduction) -> Vec<Expr> {
     let chart = &reduction.chart;
-    let mut symbols = chart.p.clone();
-    match reduction.layout {
-        Layout::Constant => symbols.extend(chart.m.0.concat()),
-        Layout::Symmetric => {
-            symbols.extend(reduce::split_symmetric(arena, chart).iter().map(|split| split.skew));
-        }
-        Layout::Entries => {}
-    }
-    symbols
+    let momentum = match reduction.layout {
+        Layout::Constant => chart.m.0.concat(),
+        Layout::Symmetric | Layout::Entries => reduction.fixed.clone(),
+    };
+    [chart.p.clone(), momentum].concat()
 }
 
 /// `X_ab = dT/dO_ba`.

@@ -11,22 +11,19 @@ mod reduction;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::derive::Model;
+use crate::derive::{Equations, Model};
 use crate::ir::Program;
 use crate::mechanics::kinetic::Frame;
 use crate::spec::Spec;
 
-use body::{Body, Scope, body, inputs};
+use body::{Body, Number, Scope, body, inputs};
 use names::Names;
 
 /// The user's item and everything that belongs to it.
 pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let has_fields = !model.coefficients.outputs.is_empty();
     let names = Names::new(spec, has_fields);
-    let runtime = match &spec.runtime {
-        Some(path) => quote!(#path),
-        None => quote!(::affine_runtime),
-    };
+    let runtime = runtime(spec.runtime.as_ref());
     let context = Context { spec, model, names: &names, has_fields };
     let item = &spec.item.tokens;
     let rt = &names.rt;
@@ -40,12 +37,19 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
         #prepared_type
         const _: () = {
             use #runtime::__private as #rt;
-            use #rt::Scalar as _;
             #prepare
             #constants
             #implementation
             #points
         };
+    }
+}
+
+/// The path of the runtime.
+pub fn runtime(renamed: Option<&syn::Path>) -> TokenStream {
+    match renamed {
+        Some(path) => quote!(#path),
+        None => quote!(::affine_runtime),
     }
 }
 
@@ -60,7 +64,7 @@ struct Context<'a> {
 
 impl Context<'_> {
     fn dim(&self) -> Literal {
-        Literal::usize_unsuffixed(self.model.dim)
+        number(self.model.dim)
     }
 
     fn frame(&self) -> TokenStream {
@@ -96,23 +100,41 @@ impl Context<'_> {
         (quote!(#implementation), quote!(#ty), quote!(#clause))
     }
 
-    /// A program whose inputs are variables of the same name and coefficients of the prepared model.
-    fn body(&self, program: &Program, scalar: &TokenStream) -> Body {
-        let input = |name: &str| match coefficient_index(name) {
-            Some(index) => quote!(#scalar::constant(self.coefficients[#index], 0.0)),
-            None => {
-                let name = format_ident!("{name}");
-                quote!(#name)
-            }
+    /// A program over the scalar type parameter.
+    fn generic(&self, program: &Program) -> Body {
+        self.body(program, Number::Generic(&self.names.scalar))
+    }
+
+    /// A program over doubles.
+    fn double(&self, program: &Program) -> Body {
+        self.body(program, Number::Double)
+    }
+
+    /// A program whose inputs are variables of the same name, and coefficients that are read first.
+    fn body(&self, program: &Program, number: Number) -> Body {
+        let input = |name: &str| {
+            let name = format_ident!("{name}");
+            quote!(#name)
         };
-        body(program, &Scope { scalar, input: &input })
+        let Body { lets, results } = body(program, &Scope { number, input: &input });
+        let coefficients = inputs(program).into_iter().filter_map(|name| {
+            let (index, name) = (coefficient_index(name)?, format_ident!("{name}"));
+            let value = number.of_double(quote!(self.coefficients[#index]));
+            Some(quote!(let #name = #value;))
+        });
+        Body { lets: coefficients.chain([lets]).collect(), results }
     }
 }
 
 /// Index of `c_1`, `c_2`, ... in the prepared model.
 fn coefficient_index(name: &str) -> Option<Literal> {
     let index: usize = name.strip_prefix("c_")?.parse().ok()?;
-    Some(Literal::usize_unsuffixed(index.checked_sub(1)?))
+    Some(number(index.checked_sub(1)?))
+}
+
+/// A count as people write it.
+fn number(count: usize) -> Literal {
+    Literal::usize_unsuffixed(count)
 }
 
 /// Pattern that binds the components that `used` reads, in order.
@@ -136,8 +158,9 @@ fn model_impl(context: &Context) -> TokenStream {
     let Names { prepared, rt, constants, scalar, .. } = context.names;
     let (generics, types, clause) = context.generics();
     let n = context.dim();
-    let full: usize = context.model.full.groups.iter().map(|(_, g)| g.len()).sum();
-    let reduced: usize = context.model.reduced.groups.iter().map(|(_, g)| g.len()).sum();
+    let size =
+        |equations: &Equations| number(equations.groups.iter().map(|(_, components)| components.len()).sum());
+    let (full, reduced) = (size(&context.model.full), size(&context.model.reduced));
     let point = context.point(&quote!(#scalar));
     let docs = description::docs(context);
     let description = description::constant(context);

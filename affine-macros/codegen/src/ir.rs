@@ -67,6 +67,14 @@ impl Program {
         uses
     }
 
+    /// The program of one result alone.
+    #[must_use]
+    pub fn only(&self, result: &str) -> Self {
+        let mut program = self.clone();
+        program.outputs.retain(|(name, _)| name == result);
+        program.without_dead_steps()
+    }
+
     /// Keeps only what the results need, in the same order.
     #[must_use]
     pub fn without_dead_steps(&self) -> Self {

@@ -24,17 +24,18 @@ pub mod derive;
 
 pub mod emit;
 
+pub mod stub;
+
 use proc_macro2::TokenStream;
-use quote::quote;
 
 use diagnostics::{Rejected, gate};
 
 /// The expansion of `#[affine_model(args)] item`: parse, gate, check, gate, derive, optimise, emit.
 #[must_use]
 pub fn expand(args: TokenStream, item: TokenStream) -> TokenStream {
-    match model(args, item.clone()) {
+    match model(args.clone(), item.clone()) {
         Ok(tokens) => tokens,
-        Err(rejected) => stub(&item, &rejected),
+        Err(rejected) => stub::stub(args, &item, &rejected),
     }
 }
 
@@ -46,12 +47,4 @@ fn model(args: TokenStream, item: TokenStream) -> Result<TokenStream, Rejected> 
     let positive = spec.require.iter().any(|r| r.value == spec::Requirement::PositiveDefinite);
     let tokens = derive::derive(form, positive).map(|model| emit::emit(&spec, &model));
     Ok(tokens.unwrap_or(spec.item.tokens))
-}
-
-/// What a refused model expands to: the user's item, unchanged, so that its other uses raise no errors of their
-/// own, and the reasons.
-#[must_use]
-pub fn stub(item: &TokenStream, rejected: &Rejected) -> TokenStream {
-    let errors = rejected.compile_errors();
-    quote!(#item #errors)
 }

@@ -31,14 +31,17 @@ const PART_OF_DISPLACEMENT: f64 = 0.1;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorNorm {
     groups: &'static [Group],
+    /// Where `phi` is, if anywhere.
+    phi: Option<(usize, usize)>,
     inertia: [f64; GROUPS],
 }
 
 impl ErrorNorm {
     /// The norm for a state vector that consists of `groups`, one after the other, without inertias.
     #[must_use]
-    pub const fn new(groups: &'static [Group]) -> Self {
-        Self { groups, inertia: [0.0; GROUPS] }
+    pub fn new(groups: &'static [Group]) -> Self {
+        let unplaced = Self { groups, phi: None, inertia: [0.0; GROUPS] };
+        Self { phi: unplaced.range_of("phi").map(|range| (range.start, range.end)), ..unplaced }
     }
 
     /// The norm with the inertias at `(t, y)`, where `f(t, y) = slope`; and the number of evaluations that took,
@@ -118,8 +121,8 @@ impl ErrorNorm {
     /// Size of the placement, and of the position with it where that is asked for.
     fn extent(&self, configuration: Range<usize>, y: &[f64]) -> f64 {
         let own = norm(&y[configuration.clone()]);
-        match self.range_of("phi") {
-            Some(phi) if phi != configuration => own + norm(&y[phi]),
+        match self.phi {
+            Some((start, end)) if start != configuration.start => own + norm(&y[start..end]),
             _ => own,
         }
     }

@@ -7,13 +7,15 @@ use crate::scalar::Real;
 /// Order of the leading term of the error estimate in the step size.
 const ERROR_ORDER: f64 = 8.0;
 
-/// Aim at `SAFETY^8` of the tolerance, so that the next step is accepted although the error grows along the way.
+/// Below 1, so that the next step is accepted although the error grows along the way: steps settle where the error
+/// is `SAFETY^(8/INTEGRAL)`, a third of the tolerance.
 const SAFETY: f64 = 0.9;
 /// A step is at most so many times longer than the one before: the estimate holds only nearby.
 const LARGEST_GROWTH: f64 = 6.0;
 /// And at least so long.
 const LARGEST_CUT: f64 = 0.2;
-/// The integral part of the controller: `h ~ error^(-k/8)`; 1 would be the plain controller.
+/// The integral part of the controller: `h ~ error^(-k/8)`; 1 without a proportional part would be the plain
+/// controller. On the test problems all usual pairs give the same error for the same work, up to a few percent.
 const INTEGRAL: f64 = 0.8;
 /// Its proportional part: `h ~ (previous error / error)^(k/8)`, which damps oscillations of the step size.
 const PROPORTIONAL: f64 = 0.3;
@@ -24,31 +26,31 @@ const SMALLEST_ERROR: f64 = 1e-4;
 /// `h_next = h S error^(-(I + P)/8) previous^(P/8)`, errors relative to the tolerance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Controller {
+    /// Logarithm of the previous error.
     previous: f64,
     rejected: bool,
 }
 
 impl Controller {
     pub(crate) fn new() -> Self {
-        Self { previous: SMALLEST_ERROR, rejected: false }
+        Self { previous: libm::log(SMALLEST_ERROR), rejected: false }
     }
 
     /// Factor of the step size after an accepted step with `error <= 1`.
     pub(crate) fn accept(&mut self, error: f64) -> f64 {
-        let error = if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR };
-        let trend = libm::pow(self.previous / error, PROPORTIONAL / ERROR_ORDER);
-        let factor = SAFETY * libm::pow(error, -INTEGRAL / ERROR_ORDER) * trend;
+        let error = libm::log(if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR });
+        let exponent = (PROPORTIONAL * self.previous - (INTEGRAL + PROPORTIONAL) * error) / ERROR_ORDER;
         // After a rejection the longer step has just been seen to fail.
         let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
         *self = Self { previous: error, rejected: false };
-        factor.clamp(LARGEST_CUT, growth)
+        (SAFETY * libm::exp(exponent)).clamp(LARGEST_CUT, growth)
     }
 
     /// Factor of the step size after a rejected step; NaN stands for numbers that are not finite.
     pub(crate) fn reject(&mut self, error: f64) -> f64 {
         self.rejected = true;
         if error.is_finite() {
-            (SAFETY * libm::pow(error, -1.0 / ERROR_ORDER)).clamp(LARGEST_CUT, SAFETY)
+            (SAFETY * libm::exp(-libm::log(error) / ERROR_ORDER)).clamp(LARGEST_CUT, SAFETY)
         } else {
             LARGEST_CUT
         }

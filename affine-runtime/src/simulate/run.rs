@@ -1,6 +1,6 @@
 //! Running a simulation: checks, the closed form, the integration.
 
-use core::ops::ControlFlow;
+use core::ops::{ControlFlow, Range};
 
 use super::conservation::larger;
 use super::halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
@@ -21,6 +21,9 @@ const CLEARLY_POSITIVE: f64 = 1e-12;
 
 impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     /// Runs the simulation.
+    ///
+    /// Every step and every output is checked: finite, and `det phi > 0`. What happens between two of them is not
+    /// seen: a body without a potential that prevents it may collapse and turn inside out twice in between.
     ///
     /// # Errors
     /// [`Halt`] with the [`Reason`], the time, the step and the trajectory so far; the conversion to
@@ -139,38 +142,53 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             RungeKutta8::new(equations, M::DESCRIPTION.reduced, begin, t_end, self.tolerance)
                 .map_err(|failure| self.reason(failure))?;
         let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
-        let outcome = self.follow(&mut integration, expand, t_end, recorder);
-        recorder.trajectory.statistics = integration.statistics();
+        let mut last = None;
+        let outcome = self.follow(&mut integration, expand, t_end, recorder, &mut last);
+        let trajectory = &mut *recorder.trajectory;
+        trajectory.statistics = integration.statistics();
+        if let Some((t, reduced)) = last.filter(|(t, _)| (t - trajectory.end.0) * (t_end - self.t0) > 0.0) {
+            trajectory.end = (t, expand(t, &reduced));
+        }
         outcome
     }
 
+    /// Steps to the end. A step without output whose reduced state shows that it is good is not expanded: it is
+    /// only left in `last`, for a halt in the next one.
     fn follow<F: Fn(f64, &M::Reduced<f64>) -> M::Reduced<f64>>(
         &mut self,
         integration: &mut RungeKutta8<M::Reduced<f64>, F>,
         expand: impl Fn(f64, &M::Reduced<f64>) -> M::Point<f64>,
         t_end: f64,
         recorder: &mut Recorder<'_, '_, N, M>,
+        last: &mut Option<(f64, M::Reduced<f64>)>,
     ) -> Result<(), Reason> {
+        let placement = placement_in(M::DESCRIPTION.reduced, N);
         while !integration.is_finished() {
             let steps = integration.statistics().steps;
             if steps == self.max_steps {
                 return Err(Reason::StepLimit { limit: self.max_steps });
             }
             integration.advance().map_err(|failure| self.reason(failure))?;
-            let (t, point) = (integration.t(), expand(integration.t(), integration.y()));
+            let (t, reduced) = (integration.t(), *integration.y());
             let mut dense = None;
             while let Some(due) = recorder.schedule.take_through(t, t_end < self.t0) {
                 if due == t {
-                    recorder.record(t, point)?;
+                    recorder.record(t, expand(t, &reduced))?;
                 } else {
                     let dense = dense.get_or_insert_with(|| integration.dense());
                     recorder.record(due, expand(due, &dense.at(due)))?;
                 }
             }
-            recorder.reach(t, point)?;
             if recorder.schedule == Schedule::Steps {
-                recorder.record(t, point)?;
+                recorder.record(t, expand(t, &reduced))?;
+            } else if recorder.trajectory.end.0 != t {
+                let phi =
+                    placement.clone().map(|range| Matrix::<N>::from_row_slice(&reduced.as_ref()[range]));
+                if integration.is_finished() || !phi.is_some_and(|phi| is_clearly_positive(&phi)) {
+                    recorder.reach(t, expand(t, &reduced))?;
+                }
             }
+            *last = Some((t, reduced));
             report(&mut self.progress, Progress { t0: self.t0, t, t_end, steps: steps + 1 })?;
         }
         Ok(())
@@ -267,6 +285,14 @@ fn energy_scale<const N: usize, M: Model<N>>(model: &M, point: &M::Point<f64>, e
     let internal = norm(point.pi().0.0.as_slice()) * norm(velocity.phi_dot.as_slice());
     let translational = norm(point.p().as_slice()) * norm(velocity.x_dot.as_slice());
     larger(energy.abs(), 0.5 * (internal + translational))
+}
+
+/// Components of a reduced state that are the placement, row by row, up to factors of positive determinant that
+/// the expansion restores.
+fn placement_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
+    let k = groups.iter().position(|group| group.name == "phi" && group.len == n * n)?;
+    let start = total(&groups[..k]);
+    Some(start..start + n * n)
 }
 
 const fn total(groups: &[Group]) -> usize {

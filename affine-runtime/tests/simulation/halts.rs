@@ -80,6 +80,18 @@ fn collapse_keeps_what_came_before() {
 }
 
 #[test]
+fn collapse_between_outputs_is_seen_at_the_steps() {
+    // det phi = (cos t - sin t)(1.5 cos t - 0.2 sin t) + ..., negative from about 0.8 to 1.4 and positive at 2.
+    let start = planar::start(-1.0);
+    let simulation = || Simulation::new(&Planar::SPRING, start).tolerance(1e-12);
+    let halt = simulation().until(2.0).output([2.0]).run().unwrap_err();
+    let Reason::Placement { determinant, t } = halt.stop.reason else { panic!("{halt}") };
+    assert!(determinant < 0.0 && (0.75..1.5).contains(&t), "{halt}");
+    assert!(halt.trajectory.is_empty() && halt.stop.t > 0.0 && halt.stop.t < t);
+    assert!(halt.trajectory.end().1.phi().determinant() > 0.0);
+}
+
+#[test]
 fn singular_force_stops_with_the_step() {
     // Pi_11 = 1/(1 - t) - 1 + Pi_11(0): no step passes t = 1.
     let model = Planar { spring: 0.0, singular_at: Some(1.0) };
@@ -138,7 +150,13 @@ fn step_limit_keeps_the_trajectory() {
     assert_eq!(halt.stop.reason, Reason::StepLimit { limit: 7 });
     assert_eq!((halt.stop.steps, halt.trajectory.len()), (7, 8));
     let whole = Simulation::new(&DrunkMissile, drunk_missile::start()).until(10.0).tolerance(1e-12).run();
-    assert_eq!(halt.trajectory.points(), &whole.unwrap().points()[..8], "the same steps");
+    let whole = whole.unwrap();
+    assert_eq!(halt.trajectory.points(), &whole.points()[..8], "the same steps");
+    let sparse = Simulation::new(&DrunkMissile, drunk_missile::start()).until(10.0).output([10.0]);
+    let sparse = sparse.tolerance(1e-12).max_steps(7).run().unwrap_err();
+    assert!(sparse.trajectory.is_empty());
+    assert_eq!(sparse.trajectory.end(), (whole.times()[7], &whole.points()[7]), "the last good point");
+    assert_eq!(sparse.stop.t, whole.times()[7]);
     assert!(halt.to_string().contains("max_steps"), "{halt}");
 }
 

@@ -64,6 +64,7 @@ fn only_the_times_asked_for() {
     let none = simulation().output([]).run().unwrap();
     assert!(none.is_empty() && none.end().0 == 2.0);
     let one = simulation().output([2.0]).run().unwrap();
+    assert_eq!(one.statistics(), simulation().run().unwrap().statistics(), "the end needs no dense output");
     assert_eq!((one.times(), one.points()[0]), (&[2.0][..], *one.end().1));
 }
 

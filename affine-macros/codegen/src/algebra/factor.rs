@@ -90,6 +90,7 @@ pub fn scale_atoms(
         }
     }
     let mut scaled = Vec::new();
+    let mut symbols: BTreeMap<Weight, Vec<(Expr, Expr)>> = BTreeMap::new();
     for (weight, places) in uses {
         let mut hosts: Vec<usize> = places.iter().map(|(k, _)| *k).collect();
         hosts.dedup();
@@ -103,9 +104,12 @@ pub fn scale_atoms(
             product.push(*atom);
             let symbol = arena.symbol(&format!("scaled_{}", scaled.len() + 1));
             scaled.push((symbol, Polynomial::term(product, number.clone())));
-            for polynomial in polynomials.iter_mut() {
-                *polynomial = replace_scaled(polynomial, &weight, *atom, symbol, varies);
-            }
+            symbols.entry(weight.clone()).or_default().push((*atom, symbol));
+        }
+    }
+    if !symbols.is_empty() {
+        for polynomial in polynomials.iter_mut() {
+            *polynomial = replace_scaled(polynomial, &symbols, varies);
         }
     }
     scaled
@@ -144,24 +148,28 @@ fn most_frequent<'a>(monomials: impl Iterator<Item = &'a Monomial>) -> Option<(E
     counts.into_iter().max_by_key(|(atom, count)| (*count, std::cmp::Reverse(*atom)))
 }
 
-/// Writes `symbol` for `weight * atom` in every term with that weight.
+/// Writes the scaled symbol for `weight * atom` in every term with such a weight, the first atom of its list that
+/// the term contains.
 fn replace_scaled(
     polynomial: &Polynomial,
-    weight: &Weight,
-    atom: Expr,
-    symbol: Expr,
+    symbols: &BTreeMap<Weight, Vec<(Expr, Expr)>>,
     varies: &impl Fn(Expr) -> bool,
 ) -> Polynomial {
     let mut result = Polynomial::zero();
     for (monomial, c) in polynomial.terms() {
-        let (this, mut moving) = split(monomial, c, varies);
-        match moving.iter().position(|a| *a == atom) {
-            Some(at) if this == *weight => {
-                moving[at] = symbol;
+        let (weight, mut moving) = split(monomial, c, varies);
+        let replaced = symbols.get(&weight).and_then(|list| {
+            list.iter().find_map(|(atom, symbol)| {
+                moving.iter().position(|a| a == atom).map(|place| (place, *symbol))
+            })
+        });
+        match replaced {
+            Some((place, symbol)) => {
+                moving[place] = symbol;
                 let sign = if c.is_negative() { Rational::MINUS_ONE } else { Rational::ONE };
                 result.add_term(moving, &sign);
             }
-            _ => result.add_term(monomial.clone(), c),
+            None => result.add_term(monomial.clone(), c),
         }
     }
     result

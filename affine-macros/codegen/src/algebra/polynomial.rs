@@ -114,7 +114,15 @@ impl Polynomial {
         if coefficient.is_zero() {
             return;
         }
-        monomial.sort_unstable();
+        // Nearly every monomial arrives sorted, and the macro runs unoptimised.
+        let mut k = 1;
+        while k < monomial.len() {
+            if monomial[k - 1] > monomial[k] {
+                monomial.sort_unstable();
+                break;
+            }
+            k += 1;
+        }
         match self.terms.get_mut(&monomial) {
             None => {
                 self.terms.insert(monomial, coefficient.clone());
@@ -140,7 +148,7 @@ impl Polynomial {
         for (m1, c1) in &left.terms {
             let c1 = c1 * weight;
             for (m2, c2) in &right.terms {
-                self.add_term([m1.as_slice(), m2.as_slice()].concat(), &(&c1 * c2));
+                self.add_term(merged(m1, m2), &(&c1 * c2));
             }
         }
     }
@@ -201,4 +209,20 @@ impl Polynomial {
     pub fn mentions(&self, mut wanted: impl FnMut(Expr) -> bool) -> bool {
         self.terms.keys().flatten().any(|atom| wanted(*atom))
     }
+}
+
+/// The product of two monomials.
+fn merged(a: &[Expr], b: &[Expr]) -> Monomial {
+    let mut product = Vec::with_capacity(a.len() + b.len());
+    let (mut i, mut j) = (0, 0);
+    while i < a.len() || j < b.len() {
+        if j == b.len() || (i < a.len() && a[i] <= b[j]) {
+            product.push(a[i]);
+            i += 1;
+        } else {
+            product.push(b[j]);
+            j += 1;
+        }
+    }
+    product
 }

@@ -80,17 +80,23 @@ impl Diagnostic {
             Self::ExpectedList { key, example } => text(
                 format!("`{key}` has no list"),
                 format!("`{key}` takes a list in parentheses, directly after the name"),
-                format!("write `{example}`"),
+                example.map_or_else(|| format!("remove `{key}`"), |example| format!("write `{example}`")),
             ),
             Self::EmptyList { key, example } => text(
                 format!("`{key}()` is empty"),
                 "an empty list states nothing",
-                format!("write `{example}`, or remove `{key}`"),
+                match example {
+                    Some(example) => format!("write `{example}`, or remove `{key}`"),
+                    None => format!("remove `{key}`"),
+                },
             ),
             Self::UnknownName { role, found, nearest, known } => text(
                 format!("there is no {role} `{found}`"),
-                format!("to choose from: {}", listed(known)),
-                suggestion(*nearest, "use one of these, or remove it"),
+                format!("the specification language has {}", listed(known)),
+                match (nearest, known.as_slice()) {
+                    (None, [only]) => format!("write `{only}`, or remove it"),
+                    _ => suggestion(*nearest, "use one of these, or remove it"),
+                },
             ),
             Self::UnavailableCapability { capability, gives } => text(
                 format!("the capability `{capability}` is not available in this version"),
@@ -197,11 +203,11 @@ impl Diagnostic {
             ),
             Self::DivisionByZero { divisor } => text(
                 format!("division by `{divisor}`, which is zero"),
-                "coefficients are exact: nothing was lost to rounding",
+                "a quotient by zero has no value; coefficients are exact, so that no rounding made this one vanish",
                 "write a divisor that is not zero",
             ),
             Self::TermShape { term, found, takes, instead } => {
-                text(format!("`{term}` has {found}"), format!("`{term}` takes {takes}"), *instead)
+                text(format!("`{term}` is given {found}"), format!("`{term}` takes {takes}"), *instead)
             }
             Self::MatrixSize { term, counted, found, expected, because } => text(
                 format!("the matrix of `{term}` has {found} {counted}, not {expected}"),

@@ -12,14 +12,52 @@ use crate::ir::{Op, Program, Value};
 pub(super) struct Body {
     /// `let` statements.
     pub lets: TokenStream,
-    /// One expression for each result.
+    /// One expression for each result; a name or a number, but for a result that is the only one.
     pub results: Vec<TokenStream>,
+}
+
+impl Body {
+    /// The expression of a program's only result.
+    pub(super) fn result(&self) -> TokenStream {
+        self.results.iter().cloned().collect()
+    }
+}
+
+/// What a body computes with.
+#[derive(Clone, Copy)]
+pub(super) enum Number<'a> {
+    /// A type parameter.
+    Generic(&'a Ident),
+    /// Doubles.
+    Double,
+}
+
+impl Number<'_> {
+    /// The number, to double-double precision where it is generic.
+    fn exact(self, number: &Rational) -> TokenStream {
+        let (hi, lo) = number.to_doubles();
+        match self {
+            Self::Generic(scalar) => {
+                let (hi, lo) = (literal(hi, ""), literal(lo, ""));
+                quote!(#scalar::constant(#hi, #lo))
+            }
+            Self::Double => literal(hi, "f64"),
+        }
+    }
+
+    /// The double that `value` is.
+    pub(super) fn of_double(self, value: TokenStream) -> TokenStream {
+        match self {
+            Self::Generic(scalar) => quote!(#scalar::constant(#value, 0.0)),
+            Self::Double => value,
+        }
+    }
 }
 
 /// How a body names its surroundings.
 pub(super) struct Scope<'a> {
     /// Type of the numbers.
-    pub scalar: &'a TokenStream,
+    pub number: Number<'a>,
     /// Expression of an input.
     pub input: &'a dyn Fn(&str) -> TokenStream,
 }
@@ -77,15 +115,23 @@ impl Writer<'_> {
     fn constants(&mut self) {
         for (value, step) in self.program.steps.iter().enumerate() {
             if let Op::Constant(number) = step
-                && !number.is_zero()
-                && !number.is_one()
+                && !self.ends_with(value)
             {
-                let name = format_ident!("r{}", number.to_string().replace('/', "_").replace('-', "m"));
-                let exact = constant(self.scope.scalar, number);
+                let name = match number {
+                    zero if zero.is_zero() => format_ident!("zero"),
+                    one if one.is_one() => format_ident!("one"),
+                    _ => format_ident!("r{}", number.to_string().replace('/', "_").replace('-', "m")),
+                };
+                let exact = self.scope.number.exact(number);
                 self.lets.extend(quote!(let #name = #exact;));
                 self.bound.insert(value, name);
             }
         }
+    }
+
+    /// Is the value the only result, and nothing else?
+    fn ends_with(&self, value: Value) -> bool {
+        matches!(self.program.outputs.as_slice(), [(_, only)] if *only == value) && self.uses[value] == 1
     }
 
     fn bind(&mut self, value: Value) {
@@ -97,7 +143,8 @@ impl Writer<'_> {
         let result = self.program.outputs.iter().find(|(_, v)| *v == value).map(|(n, _)| n.clone());
         let sign_only = matches!(step, Op::Neg(_));
         let name = match (named, result) {
-            (Some(name), _) | (None, Some(name)) => name,
+            (_, Some(_)) if self.ends_with(value) => return,
+            (_, Some(name)) | (Some(name), None) => name,
             (None, None) if self.uses[value] > 1 && !sign_only => {
                 self.temporaries += 1;
                 format!("t{}", self.temporaries)
@@ -114,11 +161,9 @@ impl Writer<'_> {
         if let Some(name) = self.bound.get(&value) {
             return (quote!(#name), Strength::Atom);
         }
-        let scalar = self.scope.scalar;
         match &self.program.steps[value] {
             Op::Input(name) => ((self.scope.input)(name), Strength::Atom),
-            Op::Constant(number) if number.is_zero() => (zero(scalar), Strength::Atom),
-            Op::Constant(number) => (constant(scalar, number), Strength::Atom),
+            Op::Constant(number) => (self.scope.number.exact(number), Strength::Atom),
             Op::Neg(a) => {
                 let a = self.at_least(*a, Strength::Sign);
                 (quote!(-#a), Strength::Sign)
@@ -127,6 +172,11 @@ impl Writer<'_> {
             Op::Sub(a, b) => self.infix(*a, *b, quote!(-), Strength::Sum, Strength::Product),
             Op::Mul(a, b) => self.infix(*a, *b, quote!(*), Strength::Product, Strength::Product),
             Op::Div(a, b) => self.infix(*a, *b, quote!(/), Strength::Product, Strength::Sign),
+            Op::MulAdd(a, b, c) if matches!(self.scope.number, Number::Double) => {
+                let [a, b] = [*a, *b].map(|factor| self.at_least(factor, Strength::Product));
+                let c = self.expression(*c).0;
+                (quote!(#a * #b + #c), Strength::Sum)
+            }
             Op::MulAdd(a, b, c) => {
                 let a = self.at_least(*a, Strength::Atom);
                 let (b, c) = (self.expression(*b).0, self.expression(*c).0);
@@ -153,23 +203,13 @@ impl Writer<'_> {
     }
 }
 
-fn zero(scalar: &TokenStream) -> TokenStream {
-    quote!(#scalar::constant(0.0, 0.0))
-}
-
-/// The number to double-double precision.
-pub(super) fn constant(scalar: &TokenStream, number: &Rational) -> TokenStream {
-    let (hi, lo) = number.to_doubles();
-    let (hi, lo) = (literal(hi), literal(lo));
-    quote!(#scalar::constant(#hi, #lo))
-}
-
 /// A double with an exponent where that is shorter.
-fn literal(value: f64) -> TokenStream {
+fn literal(value: f64, suffix: &str) -> TokenStream {
     let size = value.abs();
     let plain = size == 0.0 || (1e-4..1e16).contains(&size);
     let digits = if plain { format!("{size:?}") } else { format!("{size:e}") };
     // Both forms are literals of Rust.
-    let digits: Literal = digits.parse().unwrap_or_else(|_| Literal::f64_unsuffixed(size));
+    let digits: Literal =
+        format!("{digits}{suffix}").parse().unwrap_or_else(|_| Literal::f64_unsuffixed(size));
     if value.is_sign_negative() { quote!(-#digits) } else { quote!(#digits) }
 }

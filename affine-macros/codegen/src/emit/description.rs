@@ -8,7 +8,7 @@ use crate::mechanics::conserved::Candidate;
 use crate::mechanics::describe::Formula;
 use crate::mechanics::symmetry::Group;
 
-use super::Context;
+use super::{Context, number};
 
 /// Documentation of the implementation, line by line.
 pub(super) fn docs(context: &Context) -> Vec<String> {
@@ -19,27 +19,23 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         String::new(),
         format!("`{}`", formulas.hamiltonian.text),
         String::new(),
-        "Hamilton's equations:".to_owned(),
-        "```text".to_owned(),
     ];
-    lines.extend(formulas.equations.iter().map(|f| f.text.clone()));
-    lines.push("```".to_owned());
-    lines.push(format!(
-        "{}; reduced: {}.",
-        counts(model.full.program.operations()),
-        counts(model.reduced.program.operations())
-    ));
-    lines.push(String::new());
-    lines.push("Reduced equations:".to_owned());
-    lines.push("```text".to_owned());
-    lines.extend(formulas.reduced.iter().map(|f| f.text.clone()));
-    lines.push("```".to_owned());
+    let system = |title: &str, operations: Operations, formulas: &[Formula]| {
+        let mut lines = vec![format!("{title}, {}:", counts(operations)), "```text".to_owned()];
+        lines.extend(formulas.iter().map(|f| f.text.clone()));
+        lines.push("```".to_owned());
+        lines
+    };
+    lines.extend(system("Hamilton's equations", model.full.program.operations(), &formulas.equations));
+    lines.extend(system("Reduced equations", model.reduced.program.operations(), &formulas.reduced));
     if !formulas.left_out.is_empty() {
-        lines.push(format!("Left out of the state: {}.", formulas.left_out.join("; ")));
+        lines.push("Left out of the state:".to_owned());
+        lines.extend(formulas.left_out.iter().map(|what| format!("- {what}")));
         lines.push(String::new());
     }
     lines.push(match model.signature {
         Some((p, 0)) => format!("The kinetic metric is positive definite, ({p}, 0)."),
+        Some((0, q)) => format!("The kinetic metric is negative definite, (0, {q})."),
         Some((p, q)) => format!("The kinetic metric is indefinite, ({p}, {q})."),
         None => "The signature of the kinetic metric depends on the fields.".to_owned(),
     });
@@ -48,7 +44,7 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
     let group = |g: Group| match g {
         Group::Affine => format!("GL({n})"),
         Group::Metric => format!("O({n})"),
-        Group::Less => format!("less than O({n})"),
+        Group::Less => format!("a proper subgroup of O({n})"),
     };
     lines.push(format!(
         "Invariant under {} in space and {} in the body.",
@@ -58,9 +54,15 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
     lines.push(String::new());
     lines.push(format!("Conserved: {}.", names(&model.conserved)));
     if model.translation.is_some() {
+        lines.push(String::new());
         lines.push(format!("With `p = 0`: {}.", names(&model.conserved_at_rest)));
     }
-    lines
+    lines.into_iter().map(indented).collect()
+}
+
+/// A line of documentation as `///` writes it.
+fn indented(line: String) -> String {
+    if line.is_empty() { line } else { format!(" {line}") }
 }
 
 fn names(list: &[Candidate]) -> String {
@@ -90,7 +92,10 @@ pub(super) fn constant(context: &Context) -> TokenStream {
     let reduced_equations = model.formulas.reduced.iter().map(formula);
     let left_out = &model.formulas.left_out;
     let signature = match model.signature {
-        Some((p, q)) => quote!(::core::option::Option::Some((#p, #q))),
+        Some((p, q)) => {
+            let (p, q) = (number(p), number(q));
+            quote!(::core::option::Option::Some((#p, #q)))
+        }
         None => quote!(::core::option::Option::None),
     };
     let conserved = |list: &[Candidate]| {
@@ -103,14 +108,14 @@ pub(super) fn constant(context: &Context) -> TokenStream {
     let (now, at_rest) = (conserved(&model.conserved), conserved(&model.conserved_at_rest));
     let groups = |groups: &[(&'static str, Vec<String>)]| {
         let entries = groups.iter().map(|(name, components)| {
-            let len = components.len();
+            let len = number(components.len());
             quote!(#rt::Group { name: #name, len: #len })
         });
         quote!(&[#(#entries),*])
     };
     let (full, reduced) = (groups(&model.full.groups), groups(&model.reduced.groups));
     let operations = |o: Operations| {
-        let Operations { mul, add, div } = o;
+        let (mul, add, div) = (number(o.mul), number(o.add), number(o.div));
         quote!(#rt::Operations { mul: #mul, add: #add, div: #div, sqrt: 0, exp: 0, ln: 0 })
     };
     let full_operations = operations(model.full.program.operations());

@@ -37,33 +37,33 @@ fn velocity(context: &Context) -> TokenStream {
     let names = components(context.model.frame.momentum_name(), context.model.dim);
     let used = inputs(&context.model.velocity);
     let rows = names.iter().map(|row| pattern(row, &used));
-    let Body { lets, results } = context.body(&context.model.velocity, &quote!(#t));
+    let Body { lets, results } = context.generic(&context.model.velocity);
     let out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
+    let velocity = quote!(#rt::matrix([#(#out),*]));
     let phi_dot = match context.model.frame {
-        Frame::Body => quote!(phi * affine_velocity),
-        Frame::Space => quote!(affine_velocity * phi),
-        Frame::Flat => quote!(affine_velocity),
+        Frame::Body => quote!(#rt::Phase::phi(point) * #velocity),
+        Frame::Space => quote!(#velocity * #rt::Phase::phi(point)),
+        Frame::Flat => velocity,
     };
     let (mass, x_dot) = match (&context.model.mass, context.model.translation) {
         (Some(program), Some(frame)) => {
-            let Body { lets, results } = context.body(program, &quote!(#t));
-            let inverse_mass = results.first().cloned().unwrap_or_default();
+            let body = context.generic(&program.only("inverse_mass"));
+            let (lets, inverse_mass) = (&body.lets, body.result());
             let x_dot = match frame {
-                Frame::Body => quote!(phi * #rt::Phase::p_hat(point).0.0 * (#inverse_mass)),
-                _ => quote!(#rt::Phase::p(point) * (#inverse_mass)),
+                Frame::Body => quote!(#rt::Phase::phi(point) * #rt::Phase::p_hat(point).0.0 * inverse_mass),
+                _ => quote!(#rt::Phase::p(point) * inverse_mass),
             };
-            (lets, x_dot)
+            (quote!(#lets let inverse_mass = #inverse_mass;), x_dot)
         }
         _ => (TokenStream::new(), quote!(#rt::Vector::<#n, #t>::zeros())),
     };
     quote! {
         fn velocity<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
-            let phi = #rt::Phase::phi(point);
             let [#(#rows),*] = #rt::rows(&#spin);
             #lets
-            let affine_velocity = #rt::matrix([#(#out),*]);
+            let phi_dot = #phi_dot;
             #mass
-            #rt::Velocity { x_dot: #x_dot, phi_dot: #phi_dot }
+            #rt::Velocity { x_dot: #x_dot, phi_dot }
         }
     }
 }
@@ -74,7 +74,9 @@ fn kinetic_energy(context: &Context) -> TokenStream {
     let used = inputs(program);
     let names = components(context.model.frame.velocity_name(), context.model.dim);
     let rows = names.iter().map(|row| pattern(row, &used));
-    let o = affine_velocity(context);
+    let o = affine_velocity(context, &quote!(phi));
+    let reads_phi = context.model.frame != Frame::Flat || context.model.translation == Some(Frame::Body);
+    let phi = if reads_phi { quote!(phi) } else { quote!(_phi) };
     let centre = match context.model.translation {
         None => TokenStream::new(),
         Some(frame) => {
@@ -87,18 +89,19 @@ fn kinetic_energy(context: &Context) -> TokenStream {
             quote!(let #v = #rt::components(&#value);)
         }
     };
-    let Body { lets, results } = context.body(program, &quote!(#t));
+    let body = context.generic(program);
+    let (lets, energy) = (&body.lets, body.result());
     quote! {
         fn kinetic_energy<#t: #rt::Real>(
             &self,
-            phi: &#rt::Matrix<#n, #t>,
+            #phi: &#rt::Matrix<#n, #t>,
             velocity: &#rt::Velocity<#n, #t>,
         ) -> #t {
             let phi_dot = velocity.phi_dot;
             let [#(#rows),*] = #rt::rows(&#o);
             #centre
             #lets
-            #(#results)*
+            #energy
         }
     }
 }
@@ -136,12 +139,13 @@ fn hamiltonian(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.hamiltonian;
     let bound = bind_point(context, program);
-    let Body { lets, results } = context.body(program, &quote!(#t));
+    let body = context.generic(program);
+    let (lets, energy) = (&body.lets, body.result());
     quote! {
         fn hamiltonian<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #t {
             #bound
             #lets
-            #(#results)*
+            #energy
         }
     }
 }
@@ -216,7 +220,7 @@ fn hamilton_equations(context: &Context) -> TokenStream {
     let program = &context.model.full.program;
     let all: Vec<String> = context.model.full.groups.iter().flat_map(|(_, names)| names.clone()).collect();
     let bound = pattern(&all, &inputs(program));
-    let Body { lets, results } = context.body(program, &quote!(#t));
+    let Body { lets, results } = context.generic(program);
     quote! {
         #[inline]
         fn hamilton_equations<#t: #rt::Scalar>(&self, _t: #t, full: &Self::Full<#t>) -> Self::Full<#t> {

@@ -31,10 +31,10 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
         true => ("`(x, phi)`", "`(x_dot, phi_dot)`", "`p` and the affine spin"),
     };
     let at_momentum = format!(
-        "The phase point at the placement {q} with {m}: `Spatial(sigma)`, `Comoving(sigma_hat)` or `TwoPoint(pi)`."
+        " The phase point at the placement {q} with {m}: `Spatial(sigma)`, `Comoving(sigma_hat)` or `TwoPoint(pi)`."
     );
     let at_velocity = format!(
-        "The phase point at the placement {q} with the velocity {v}: the Legendre transformation \
+        " The phase point at the placement {q} with the velocity {v}: the Legendre transformation \
          `X = (dT/dO)^T` (4.6), (4.8)."
     );
     quote! {
@@ -78,9 +78,9 @@ fn legendre(context: &Context) -> TokenStream {
     let components = components(context.model.frame.velocity_name(), context.model.dim);
     let used = inputs(&context.model.legendre);
     let rows = components.iter().map(|row| pattern(row, &used));
-    let Body { lets, results } = context.body(&context.model.legendre, &quote!(#rt::f64));
+    let Body { lets, results } = context.double(&context.model.legendre);
     let rows_out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
-    let velocity = affine_velocity(context);
+    let velocity = affine_velocity(context, &quote!(&phi));
     let wrapper = wrapper(context);
     quote! {
         let [#(#rows),*] = #rt::rows(&#velocity);
@@ -89,12 +89,12 @@ fn legendre(context: &Context) -> TokenStream {
     }
 }
 
-/// The affine velocity of the model's frame from `phi` and `phi_dot`.
-pub(super) fn affine_velocity(context: &Context) -> TokenStream {
+/// The affine velocity of the model's frame from a reference to `phi` and `phi_dot`.
+pub(super) fn affine_velocity(context: &Context, phi: &TokenStream) -> TokenStream {
     let rt = &context.names.rt;
     match context.model.frame {
-        Frame::Body => quote!((#rt::inverse(&phi) * phi_dot)),
-        Frame::Space => quote!((phi_dot * #rt::inverse(&phi))),
+        Frame::Body => quote!((#rt::inverse(#phi) * phi_dot)),
+        Frame::Space => quote!((phi_dot * #rt::inverse(#phi))),
         Frame::Flat => quote!(phi_dot),
     }
 }
@@ -113,16 +113,16 @@ pub(super) fn wrapper(context: &Context) -> TokenStream {
 fn momentum_of_centre(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
     let Some(program) = &context.model.mass else { return TokenStream::new() };
-    let Body { lets, results } = context.body(program, &quote!(#rt::f64));
-    let Some(mass) = results.get(1) else { return TokenStream::new() };
+    let body = context.double(&program.only("mass"));
+    let (lets, mass) = (&body.lets, body.result());
     let p = match context.model.translation {
         Some(Frame::Body) => quote! {
             let to_body = #rt::inverse(&phi);
-            let p = to_body.tr_mul(&(to_body * x_dot)) * (#mass);
+            let p = to_body.tr_mul(&(to_body * x_dot)) * mass;
         },
-        _ => quote!(let p = x_dot * (#mass);),
+        _ => quote!(let p = x_dot * mass;),
     };
-    quote!(#lets #p)
+    quote!(#lets let mass = #mass; #p)
 }
 
 /// Names of the entries of a matrix, row by row.

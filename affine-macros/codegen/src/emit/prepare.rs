@@ -1,13 +1,13 @@
 //! `prepare()`: from values of the fields to a checked model with its coefficients.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::derive::{Condition, NumericBlock};
 use crate::lower::FIELD;
 
-use super::Context;
-use super::body::{Body, Scope, body};
+use super::body::{Body, Number, Scope, body};
+use super::{Context, number};
 use crate::ir::Program;
 
 /// What `prepare()` returns; nothing for a model without fields in its coefficients.
@@ -17,8 +17,8 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
     }
     let (model, prepared) = (&context.names.model, &context.names.prepared);
     let visibility = &context.spec.item.visibility;
-    let count = Literal::usize_unsuffixed(context.model.coefficients.outputs.len());
-    let summary = format!("[`{model}`] with values of its fields that make it well posed.");
+    let count = number(context.model.coefficients.outputs.len());
+    let summary = format!(" [`{model}`] with values of its fields that make it well posed.");
     quote! {
         #[doc = #summary]
         ///
@@ -76,7 +76,7 @@ fn over_fields(program: &Program) -> Body {
             quote!(#name)
         }
     };
-    body(program, &Scope { scalar: &quote!(::core::primitive::f64), input: &input })
+    body(program, &Scope { number: Number::Double, input: &input })
 }
 
 /// Eigenvalues share one threshold, a mass has its own.
@@ -126,8 +126,8 @@ fn condition(condition: &Condition, rt: &Ident) -> TokenStream {
 fn numeric_block(block: &NumericBlock, rt: &Ident) -> TokenStream {
     let Body { lets, results } = over_fields(&block.program);
     let names = block.inverse.iter().map(|name| format_ident!("{name}"));
-    let (size, positive) = (Literal::usize_unsuffixed(block.size), block.positive);
-    let count = Literal::usize_unsuffixed(results.len());
+    let (size, positive) = (number(block.size), block.positive);
+    let count = number(results.len());
     quote! {
         let [#(#names),*]: [::core::primitive::f64; #count] = {
             #lets

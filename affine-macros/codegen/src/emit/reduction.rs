@@ -10,7 +10,7 @@ use crate::mechanics::reduce::{ClosedForm, Commuting, Layout};
 use super::body::Body;
 use super::dynamics::own_spin;
 use super::points::components;
-use super::{Context, identifiers, inputs, pattern};
+use super::{Context, identifiers, inputs, number, pattern};
 
 /// What one trajectory needs besides its reduced state.
 struct Parts {
@@ -24,8 +24,10 @@ struct Parts {
     drift: bool,
     /// The affine momentum is a constant.
     momentum: bool,
-    /// The skew part of the affine momentum is a constant: number of components.
-    skew: usize,
+    /// The affine momentum is split into its symmetric and skew parts.
+    split: bool,
+    /// Components of the affine momentum that are constants while others are state.
+    fixed: Vec<String>,
     /// Generator of the rotation that commutes.
     whirl: Option<Frame>,
     /// Coefficients of the reduced equations.
@@ -35,7 +37,6 @@ struct Parts {
 impl Parts {
     fn of(context: &Context) -> Self {
         let reduction = &context.model.reduction;
-        let n = context.model.dim;
         let whirl = reduction.commuting.iter().find_map(|piece| match piece {
             Commuting::Vorticity(_) => Some(Frame::Body),
             Commuting::Spin(_) => Some(Frame::Space),
@@ -48,7 +49,8 @@ impl Parts {
             linear: context.model.translation.is_some(),
             drift,
             momentum: reduction.layout == Layout::Constant,
-            skew: if reduction.layout == Layout::Symmetric { n * (n - 1) / 2 } else { 0 },
+            split: reduction.layout == Layout::Symmetric,
+            fixed: context.model.fixed.clone(),
             whirl,
             coefficients: context.model.trajectory.outputs.len(),
         }
@@ -63,10 +65,12 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
     let mut fields = TokenStream::new();
     let mut field = |wanted: bool, doc: &str, tokens: TokenStream| {
         if wanted {
+            let doc = format!(" {doc}");
             fields.extend(quote!(#[doc = #doc] pub #tokens,));
         }
     };
-    let (momentum, skew, coefficients) = (&parts.momentum, parts.skew, parts.coefficients);
+    let (fixed, coefficients) = (number(parts.fixed.len()), number(parts.coefficients));
+    let fixed_doc = format!("Conserved components of the affine momentum: {}.", parts.fixed.join(", "));
     field(parts.origin, "Time of the start.", quote!(t0: #t));
     field(
         parts.turn,
@@ -76,24 +80,25 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
     field(parts.linear, "Linear momentum `p`.", quote!(p: #rt::Vector<#n, #t>));
     field(parts.drift, "Centre of mass at the start.", quote!(x0: #rt::Vector<#n, #t>));
     field(parts.drift, "Velocity `p/m` of the centre of mass.", quote!(drift: #rt::Vector<#n, #t>));
-    field(*momentum, "Conserved affine momentum.", quote!(momentum: #rt::Matrix<#n, #t>));
-    field(skew > 0, "Conserved skew part of the affine momentum, row by row.", quote!(skew: [#t; #skew]));
+    field(parts.momentum, "Conserved affine momentum.", quote!(momentum: #rt::Matrix<#n, #t>));
+    field(!parts.fixed.is_empty(), &fixed_doc, quote!(fixed: [#t; #fixed]));
     field(
         parts.whirl.is_some(),
         "Generator of the rotation that commutes with the rest of the motion.",
         quote!(whirl: #rt::Matrix<#n, #t>),
     );
     field(
-        coefficients > 0,
+        parts.coefficients > 0,
         "Coefficients of the reduced equations.",
         quote!(coefficients: [#t; #coefficients]),
     );
-    let doc = format!("What one trajectory of [`{}`] conserves.", context.names.model);
+    let visibility = &context.spec.item.visibility;
+    let doc = format!(" What one trajectory of [`{}`] conserves.", context.names.model);
     let marker = (fields.is_empty()).then(|| quote!(scalar: ::core::marker::PhantomData<#t>));
     quote! {
         #[doc = #doc]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
-        pub struct #name<#t> { #fields #marker }
+        #visibility struct #name<#t> { #fields #marker }
     }
 }
 
@@ -137,7 +142,7 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
         });
     }
     lets.extend(bind_state(context, parts, moving));
-    let body = context.body(&context.model.trajectory, &quote!(#t));
+    let body = context.generic(&context.model.trajectory);
     let (trajectory, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
     let state: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
@@ -148,14 +153,14 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
             fields.extend(quote!(#tokens,));
         }
     };
-    let skew = skew_names(context);
+    let fixed = identifiers(&parts.fixed);
     field(parts.origin, quote!(t0));
     field(parts.turn, quote!(turn));
     field(parts.linear, quote!(p));
     field(parts.drift, quote!(x0: #rt::Phase::x(point)));
     field(parts.drift, quote!(drift));
     field(parts.momentum, quote!(momentum));
-    field(parts.skew > 0, quote!(skew: [#(#skew),*]));
+    field(!parts.fixed.is_empty(), quote!(fixed: [#(#fixed),*]));
     field(parts.whirl.is_some(), quote!(whirl));
     field(parts.coefficients > 0, quote!(coefficients: [#(#results),*]));
     if fields.is_empty() {
@@ -182,8 +187,9 @@ fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
     let chart = &context.model.reduction.chart;
     let mut used: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
     used.extend(inputs(&context.model.trajectory).into_iter().map(str::to_owned));
+    used.extend(parts.fixed.clone());
     // The symmetric and skew parts are formed from the entries.
-    if parts.skew > 0 {
+    if parts.split {
         used.extend(components(chart.momentum.name(), n).concat());
     }
     let used: Vec<&str> = used.iter().map(String::as_str).collect();
@@ -217,7 +223,7 @@ fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
         };
         lets.extend(quote!(let [#(#rows),*] = #rt::rows(&#value);));
     }
-    if parts.skew > 0 {
+    if parts.split {
         lets.extend(split(context));
     }
     lets
@@ -242,22 +248,13 @@ fn split(context: &Context) -> TokenStream {
     lets
 }
 
-fn skew_names(context: &Context) -> Vec<proc_macro2::Ident> {
-    let stem = context.model.reduction.chart.momentum.name();
-    let n = context.model.dim;
-    (1..=n)
-        .flat_map(|a| (a + 1..=n).map(move |b| (a, b)))
-        .map(|(a, b)| format_ident!("{stem}_skew_{a}{b}"))
-        .collect()
-}
-
 /// Generators of what moves in closed form: `-W/mu`, `p/m`.
 fn whirl(context: &Context, parts: &Parts) -> TokenStream {
-    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let rt = &context.names.rt;
     let mut lets = TokenStream::new();
     if let (Some(frame), Some(program)) = (parts.whirl, &context.model.isotropic) {
-        let Body { lets: inner, results } = context.body(program, &quote!(#t));
-        let inverse_mu = results.get(2).cloned().unwrap_or_default();
+        let body = context.generic(&program.only("inverse_mu"));
+        let (inner, inverse_mu) = (&body.lets, body.result());
         let spin = match frame {
             Frame::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
             _ => quote!(#rt::Phase::sigma(point).0.0),
@@ -265,13 +262,14 @@ fn whirl(context: &Context, parts: &Parts) -> TokenStream {
         lets.extend(quote! {
             #inner
             let spin = #spin;
-            let whirl = (spin.transpose() - spin) * (#inverse_mu);
+            let inverse_mu = #inverse_mu;
+            let whirl = (spin.transpose() - spin) * inverse_mu;
         });
     }
     if let (true, Some(program)) = (parts.drift, &context.model.mass) {
-        let Body { lets: inner, results } = context.body(program, &quote!(#t));
-        let inverse_mass = results.first().cloned().unwrap_or_default();
-        lets.extend(quote!(#inner let drift = p * (#inverse_mass);));
+        let body = context.generic(&program.only("inverse_mass"));
+        let (inner, inverse_mass) = (&body.lets, body.result());
+        lets.extend(quote!(#inner let inverse_mass = #inverse_mass; let drift = p * inverse_mass;));
     }
     lets
 }
@@ -289,7 +287,7 @@ fn reduced_equations(context: &Context, parts: &Parts) -> TokenStream {
     let reads_state = all.iter().any(|name| used.contains(&name.as_str()));
     let state = if reads_state { quote!(reduced) } else { quote!(_reduced) };
     let bind = reads_state.then(|| quote!(let #bound = *reduced;));
-    let Body { lets, results } = context.body(program, &quote!(#t));
+    let Body { lets, results } = context.generic(program);
     quote! {
         #[inline]
         fn reduced_equations<#t: #rt::Scalar>(
@@ -355,7 +353,7 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
         false => quote!(#rt::Pinned),
     };
     let time = if parts.origin { quote!(t) } else { quote!(_t) };
-    let reads = parts.origin || parts.turn || parts.linear || parts.momentum || parts.skew > 0;
+    let reads = parts.origin || parts.turn || parts.linear || parts.momentum || !parts.fixed.is_empty();
     let constants = if reads { quote!(constants) } else { quote!(_constants) };
     quote! {
         fn expand<#t: #rt::Real>(
@@ -378,13 +376,13 @@ fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> To
         return quote!(let momentum = constants.momentum;);
     }
     let mut lets = TokenStream::new();
-    if parts.skew > 0 {
+    if !parts.fixed.is_empty() {
+        let fixed = identifiers(&parts.fixed);
+        lets.extend(quote!(let [#(#fixed),*] = constants.fixed;));
+    }
+    if parts.split {
         let stem = chart.momentum.name();
-        let skew = skew_names(context);
-        lets.extend(quote! {
-            let [#(#skew),*] = constants.skew;
-            let half = #t::constant(0.5, 0.0);
-        });
+        lets.extend(quote!(let half = #t::constant(0.5, 0.0);));
         for a in 1..=context.model.dim {
             for b in a + 1..=context.model.dim {
                 let (upper, lower) = (format_ident!("{stem}_{a}{b}"), format_ident!("{stem}_{b}{a}"));
@@ -426,9 +424,9 @@ fn geodesic(context: &Context) -> TokenStream {
     });
     let drift = match (&context.model.mass, parts.drift) {
         (Some(program), true) => {
-            let Body { lets, results } = context.body(program, &f64);
-            let inverse_mass = results.first().cloned().unwrap_or_default();
-            quote!(#lets let drift = #rt::Phase::p(point) * (#inverse_mass);)
+            let body = context.double(&program.only("inverse_mass"));
+            let (lets, inverse_mass) = (&body.lets, body.result());
+            quote!(#lets let inverse_mass = #inverse_mass; let drift = #rt::Phase::p(point) * inverse_mass;)
         }
         _ => quote!(let drift = #rt::Vector::<#n>::zeros();),
     };
@@ -438,7 +436,7 @@ fn geodesic(context: &Context) -> TokenStream {
             let motion = #rt::Motion::straight(#rt::Model::velocity(self, point).phi_dot);
         },
         (affine, Some(program)) => {
-            let Body { lets, results } = context.body(program, &f64);
+            let Body { lets, results } = context.double(program);
             let make = match affine {
                 ClosedForm::Body => quote!(body),
                 _ => quote!(space),

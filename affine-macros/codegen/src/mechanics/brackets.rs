@@ -6,6 +6,7 @@
 use crate::algebra::{Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::equations::gradient;
 
 /// `{a, b}` of two coordinates of a chart.
 #[must_use]
@@ -107,15 +108,7 @@ fn add(sum: &mut Polynomial, delta: bool, chart: &Chart, coordinate: Coordinate,
 /// `{F, G}` of polynomials in the coordinates of a chart.
 #[must_use]
 pub fn poisson(chart: &Chart, f: &Polynomial, g: &Polynomial) -> Polynomial {
-    let gradient = |h: &Polynomial| -> Vec<(Coordinate, Polynomial)> {
-        chart
-            .coordinates()
-            .into_iter()
-            .map(|z| (z, h.derivative(chart.symbol(z))))
-            .filter(|(_, d)| !d.is_zero())
-            .collect()
-    };
-    let (df, dg) = (gradient(f), gradient(g));
+    let (df, dg) = (gradient(chart, f), gradient(chart, g));
     let mut sum = Polynomial::zero();
     for (a, fa) in &df {
         for (b, gb) in &dg {

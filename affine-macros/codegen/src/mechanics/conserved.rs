@@ -6,7 +6,7 @@ use crate::algebra::{Arena, Polynomial, Rational};
 
 use super::brackets::{Generator, generator_bracket};
 use super::charts::{Chart, Coordinate, Momentum};
-use super::equations::{Form, rate, velocities};
+use super::equations::{Form, gradient, rate, velocities};
 
 /// What a model may conserve, named as in the runtime.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,6 +116,7 @@ pub fn rotation_invariant(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> b
 /// A commutative ring.
 trait Ring: Clone {
     fn zero() -> Self;
+    fn vanishes(&self) -> bool;
     fn plus_product(&mut self, a: &Self, b: &Self, weight: &Rational);
     fn plus(&mut self, a: &Self, weight: &Rational);
 }
@@ -123,6 +124,9 @@ trait Ring: Clone {
 impl Ring for Polynomial {
     fn zero() -> Self {
         Polynomial::zero()
+    }
+    fn vanishes(&self) -> bool {
+        self.is_zero()
     }
     fn plus_product(&mut self, a: &Self, b: &Self, weight: &Rational) {
         self.add_product(a, b, weight);
@@ -135,6 +139,9 @@ impl Ring for Polynomial {
 impl Ring for Rational {
     fn zero() -> Self {
         Rational::ZERO
+    }
+    fn vanishes(&self) -> bool {
+        self.is_zero()
     }
     fn plus_product(&mut self, a: &Self, b: &Self, weight: &Rational) {
         *self = &*self + &(&(a * b) * weight);
@@ -167,12 +174,11 @@ impl Flow<Polynomial> {
     fn new(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> Self {
         let n = chart.dim;
         let velocity = velocities(arena, chart, h);
-        let dot = |z: Coordinate| rate(chart, h, &velocity, Form::Expanded, z);
+        let gradient = gradient(chart, h);
+        let dot = |z: Coordinate| rate(chart, &gradient, &velocity, Form::Expanded, z);
         let square = |entry: &dyn Fn(usize, usize) -> Polynomial| -> Square<Polynomial> {
             (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
         };
-        let gradient: Vec<(Coordinate, Polynomial)> =
-            chart.coordinates().into_iter().map(|z| (z, h.derivative(chart.symbol(z)))).collect();
         let generated = |g: Generator| {
             let mut sum = Polynomial::zero();
             for (z, d) in &gradient {
@@ -245,16 +251,22 @@ impl<R: Ring> Flow<R> {
             Candidate::Vorticity => skew(&self.sigma_hat_dot),
             Candidate::VorticityNorm => norm_rate(&self.sigma_hat_up_to_scale(), &self.sigma_hat_dot),
             Candidate::CanonicalMomentum => self.canonical_rate().concat(),
-            Candidate::Casimir1 => power_rate(1, &self.spin(), self.spin_rate()),
-            Candidate::Casimir2 => power_rate(2, &self.spin(), self.spin_rate()),
-            Candidate::Casimir3 => power_rate(3, &self.spin(), self.spin_rate()),
-            Candidate::DeviatorCasimir2 => {
-                power_rate(2, &deviator(&self.spin()), &deviator(self.spin_rate()))
-            }
-            Candidate::DeviatorCasimir3 => {
-                power_rate(3, &deviator(&self.spin()), &deviator(self.spin_rate()))
-            }
+            Candidate::Casimir1 => self.casimir_rate(1, Clone::clone),
+            Candidate::Casimir2 => self.casimir_rate(2, Clone::clone),
+            Candidate::Casimir3 => self.casimir_rate(3, Clone::clone),
+            Candidate::DeviatorCasimir2 => self.casimir_rate(2, deviator),
+            Candidate::DeviatorCasimir3 => self.casimir_rate(3, deviator),
         }
+    }
+
+    /// Rate of the trace of a power of the affine spin or of its deviator. `Sigma` and `Sigma_hat` have the same
+    /// traces, so one of them at rest settles it.
+    fn casimir_rate(&self, k: usize, part: impl Fn(&Square<R>) -> Square<R>) -> Vec<R> {
+        let still = |rate: &Square<R>| rate.iter().flatten().all(Ring::vanishes);
+        if still(&self.sigma_dot) || still(&self.sigma_hat_dot) {
+            return Vec::new();
+        }
+        power_rate(k, &part(&self.spin()), &part(self.spin_rate()))
     }
 
     /// `phi_dot^T p + phi^T p_dot`.

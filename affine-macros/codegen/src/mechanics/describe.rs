@@ -5,7 +5,7 @@ use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
-use super::equations::{Form, System, rate, velocities};
+use super::equations::{Form, System, gradient, rate, velocities};
 use super::hamiltonian::Hamiltonian;
 use super::kinetic::{Coefficient, Frame, Kinetic, TermKind};
 use super::notation::{latex, plain};
@@ -151,7 +151,13 @@ pub fn hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) -> For
 /// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
 pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polynomial) -> Vec<Formula> {
     let velocity = velocities(arena, chart, full);
-    let mut list = vec![affine_velocity(arena, h, chart)];
+    let slopes = gradient(chart, full);
+    let known = known_forms(h, chart, &velocity);
+    // For the canonical momentum the velocity is the rate of phi itself.
+    let mut list = match chart.momentum {
+        Momentum::Canonical => Vec::new(),
+        _ => vec![affine_velocity(arena, h, chart)],
+    };
     let groups: [(&str, &str, Vec<Coordinate>); 4] = [
         ("dx/dt", "\\dot x", (0..chart.x.len()).map(Coordinate::X).collect()),
         ("dphi/dt", "\\dot\\varphi", pairs(chart.dim, Coordinate::Phi)),
@@ -164,8 +170,8 @@ pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polyn
     ];
     for (left, left_latex, coordinates) in groups.into_iter().filter(|(_, _, c)| !c.is_empty()) {
         let derived: Vec<Polynomial> =
-            coordinates.iter().map(|z| rate(chart, full, &velocity, Form::Expanded, *z)).collect();
-        let known = known_forms(h, chart, &velocity).into_iter().find(|k| {
+            coordinates.iter().map(|z| rate(chart, &slopes, &velocity, Form::Expanded, *z)).collect();
+        let known = known.iter().find(|k| {
             k.components.len() == derived.len() && k.components.iter().zip(&derived).all(|(a, b)| a == b)
         });
         match known {
@@ -213,7 +219,7 @@ fn known_forms(h: &Hamiltonian, chart: &Chart, velocity: &[Vec<(Expr, Polynomial
     add("0".into(), "0".into(), vec![Polynomial::zero(); n * n]);
     add(format!("phi {omega}"), format!("\\varphi\\,{omega_latex}"), product(&phi, &o).concat());
     add(format!("{omega} phi"), format!("{omega_latex}\\,\\varphi"), product(&o, &phi).concat());
-    add(omega.into(), omega_latex.into(), o.concat());
+    add("(dH/dPi)^T".into(), "(\\partial H/\\partial \\Pi)^T".into(), o.concat());
     let (xo, ox) = (product(&m, &o), product(&o, &m));
     let body_commutator = difference(&xo, &ox);
     let space_commutator = difference(&ox, &xo);
@@ -275,14 +281,18 @@ fn affine_velocity(arena: &mut Arena, h: &Hamiltonian, chart: &Chart) -> Formula
     }
 }
 
-/// Shared quantities and rates of a system, component by component.
+/// Shared quantities and rates of a system, component by component; what is a rate itself is written there.
 pub fn system(arena: &mut Arena, system: &System) -> Vec<Formula> {
-    let shared: Vec<(Expr, Polynomial, bool)> =
-        system.shared.iter().map(|(s, p)| (*s, p.clone(), false)).collect();
-    let rates = system.rates.iter().map(|(_, s, p)| (*s, p.clone(), true));
-    shared
+    let value_of_rate = |rate: &Polynomial| {
+        system.shared.iter().find(|(s, _)| *rate == Polynomial::atom(*s)).map(|(_, value)| value.clone())
+    };
+    let is_rate = |s: Expr| system.rates.iter().any(|(_, _, rate)| *rate == Polynomial::atom(s));
+    let shared = system.shared.iter().filter(|(s, _)| !is_rate(*s)).map(|(s, p)| (*s, p.clone(), false));
+    let rates =
+        system.rates.iter().map(|(_, s, p)| (*s, value_of_rate(p).unwrap_or_else(|| p.clone()), true));
+    let equations: Vec<(Expr, Polynomial, bool)> = shared.chain(rates).collect();
+    equations
         .into_iter()
-        .chain(rates)
         .map(|(symbol, p, rate)| {
             let form = p.expression(arena);
             let (name, name_latex) = (plain(arena, symbol), latex(arena, symbol));
@@ -353,7 +363,7 @@ fn velocity_names(momentum: Momentum) -> (&'static str, &'static str) {
 }
 
 fn bracketed(name: &str) -> String {
-    if name.contains(' ') { format!("({name})") } else { name.to_owned() }
+    if name.contains("^T") { format!("({name})") } else { name.to_owned() }
 }
 
 fn pairs(n: usize, make: fn(usize, usize) -> Coordinate) -> Vec<Coordinate> {

@@ -38,31 +38,33 @@ pub fn velocities(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> Vec<Vec<(
         .collect()
 }
 
+/// The derivatives of `H` that do not vanish.
+#[must_use]
+pub fn gradient(chart: &Chart, h: &Polynomial) -> Vec<(Coordinate, Polynomial)> {
+    let slope = |z: Coordinate| (z, h.derivative(chart.symbol(z)));
+    chart.coordinates().into_iter().map(slope).filter(|(_, d)| !d.is_zero()).collect()
+}
+
 /// `dz/dt = {z, H} = sum over coordinates y of {z, y} dH/dy`.
+#[must_use]
 pub fn rate(
     chart: &Chart,
-    h: &Polynomial,
+    gradient: &[(Coordinate, Polynomial)],
     velocity: &[Vec<(Expr, Polynomial)>],
     form: Form,
     z: Coordinate,
 ) -> Polynomial {
     let mut sum = Polynomial::zero();
-    for y in chart.coordinates() {
-        let zy = bracket(chart, z, y);
+    for (y, slope) in gradient {
+        let zy = bracket(chart, z, *y);
         if zy.is_zero() {
             continue;
         }
-        match (form, y) {
+        match (form, *y) {
             (Form::ThroughVelocity, Coordinate::M(a, b)) => {
-                let (symbol, value) = &velocity[b][a];
-                if !value.is_zero() {
-                    sum.add_product(&zy, &Polynomial::atom(*symbol), &Rational::ONE);
-                }
+                sum.add_product(&zy, &Polynomial::atom(velocity[b][a].0), &Rational::ONE);
             }
-            (Form::Expanded, Coordinate::M(a, b)) => {
-                sum.add_product(&zy, &velocity[b][a].1, &Rational::ONE);
-            }
-            _ => sum.add_product(&zy, &h.derivative(chart.symbol(y)), &Rational::ONE),
+            _ => sum.add_product(&zy, slope, &Rational::ONE),
         }
     }
     sum
@@ -71,6 +73,7 @@ pub fn rate(
 /// Hamilton's equations of all coordinates: placement through the velocity, momenta in the given form.
 pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form) -> System {
     let velocity = velocities(arena, chart, h);
+    let gradient = gradient(chart, h);
     let rates = chart
         .coordinates()
         .into_iter()
@@ -82,7 +85,7 @@ pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form)
                 Coordinate::X(_) | Coordinate::P(_) if chart.momentum == Momentum::Total => Form::Expanded,
                 Coordinate::X(_) | Coordinate::P(_) => Form::ThroughVelocity,
             };
-            (z, chart.symbol(z), rate(chart, h, &velocity, form, z))
+            (z, chart.symbol(z), rate(chart, &gradient, &velocity, form, z))
         })
         .collect();
     System { shared: velocity.into_iter().flatten().collect(), rates }

@@ -128,6 +128,12 @@ pub struct Translation {
 }
 
 impl Kinetic {
+    /// `n^2`, and `n` more with translation.
+    #[must_use]
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.dim * self.dim + if self.translation.is_some() { self.dim } else { 0 }
+    }
+
     /// Writes the terms in their common frame; the places of two terms that have none, otherwise.
     ///
     /// # Errors

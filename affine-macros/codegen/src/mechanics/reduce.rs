@@ -43,6 +43,8 @@ pub struct Reduction {
     pub turned: bool,
     /// How the affine momentum enters.
     pub layout: Layout,
+    /// Components of the affine momentum that are conserved while others are state, in turned space.
+    pub fixed: Vec<Expr>,
     /// The equations of the state variables.
     pub system: System,
     /// State variables: group name and symbols.
@@ -61,19 +63,20 @@ pub enum ClosedForm {
 }
 
 /// The closed form of the geodesics, and whether it needs `p = 0`.
-#[must_use]
-pub fn closed_form(h: &Hamiltonian, commuting: &[Commuting]) -> Option<(ClosedForm, bool)> {
-    let at_rest = h.translation.is_some() && !commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
-    let rotation_solved = h
-        .isotropic
-        .as_ref()
-        .is_some_and(|iso| iso.skew.is_zero() || commuting.iter().any(|c| !matches!(c, Commuting::Drift(_))));
-    match h.frame {
-        Frame::Flat => Some((ClosedForm::Straight, at_rest)),
-        Frame::Body if rotation_solved => Some((ClosedForm::Body, at_rest)),
-        Frame::Space if rotation_solved => Some((ClosedForm::Space, at_rest)),
-        _ => None,
+pub fn closed_form(arena: &mut Arena, h: &Hamiltonian, moving: &[Commuting]) -> Option<(ClosedForm, bool)> {
+    let at_rest = h.translation.is_some() && !moving.iter().any(|c| matches!(c, Commuting::Drift(_)));
+    if h.frame == Frame::Flat {
+        return Some((ClosedForm::Straight, at_rest));
     }
+    let iso = h.isotropic.as_ref()?;
+    // The translational energy is quadratic in p: at p = 0 its flow stands still, and only the internal pieces have
+    // to commute.
+    let resting = at_rest.then(|| commuting(arena, &Hamiltonian { translation: None, ..h.clone() }));
+    let pieces = resting.as_deref().unwrap_or(moving);
+    if !iso.skew.is_zero() && pieces.iter().all(|c| matches!(c, Commuting::Drift(_))) {
+        return None;
+    }
+    Some((if h.frame == Frame::Body { ClosedForm::Body } else { ClosedForm::Space }, at_rest))
 }
 
 /// The chart of the model's own frame, `p` spatial.
@@ -190,8 +193,19 @@ impl Plan {
                 }
             }
         }
+        let mut fixed: Vec<Expr> = match layout {
+            Layout::Symmetric => split_symmetric(arena, &chart).iter().map(|split| split.skew).collect(),
+            Layout::Constant | Layout::Entries => Vec::new(),
+        };
+        system.rates.retain(|(z, symbol, rate)| {
+            let still = matches!(z, Coordinate::M(..)) && rate.is_zero();
+            if still {
+                fixed.push(*symbol);
+            }
+            !still
+        });
         let states = states(&chart, &system);
-        Reduction { chart, commuting: self.commuting.clone(), turned, layout, system, states }
+        Reduction { chart, commuting: self.commuting.clone(), turned, layout, fixed, system, states }
     }
 }
 

@@ -6,6 +6,23 @@ use crate::scalar::Scalar;
 
 const STAGES: usize = 16;
 
+/// Solution less the embedded solution of order 3.
+const E3: [(usize, f64); B.len()] = {
+    let mut difference = B;
+    let mut k = 0;
+    while k < B.len() {
+        let mut j = 0;
+        while j < B3.len() {
+            if B3[j].0 == B[k].0 {
+                difference[k].1 -= B3[j].1;
+            }
+            j += 1;
+        }
+        k += 1;
+    }
+    difference
+};
+
 /// A step of the method from `(t, y)`: for callers with their own control of the step size, and for measuring the
 /// order.
 #[derive(Clone, Debug)]
@@ -136,12 +153,7 @@ impl<S: StateVector<f64>> Step<S> {
     /// Differences, divided by `h`, of the solution to the embedded ones of orders 5 and 3.
     #[inline]
     pub(super) fn error_slopes(&self) -> (S, S) {
-        let fifth = self.combination(&E5);
-        let mut third = self.combination(&B);
-        for (e, lower) in third.as_mut().iter_mut().zip(self.combination(&B3).as_ref()) {
-            *e -= lower;
-        }
-        (fifth, third)
+        (self.combination(&E5), self.combination(&E3))
     }
 
     /// `k_s = f(t + c_s h, y + h sum_j a_sj k_j)`.

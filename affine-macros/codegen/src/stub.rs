@@ -1,0 +1,124 @@
+//! What a refused model expands to: the reasons, and a stand-in that has what the user's code goes on to call.
+
+use proc_macro2::{Ident, TokenStream, TokenTree};
+use quote::quote;
+use syn::{Data, DeriveInput, Fields};
+
+use crate::diagnostics::{Rejected, gate};
+use crate::spec::{self, Field, Item, Spec};
+use crate::{check, derive, emit};
+
+/// The user's item with the reasons for its refusal. Where the item can be read, it gets the methods of a
+/// well-posed model of the same dimension, with translation and fields as written, so that its uses raise no
+/// errors of their own.
+#[must_use]
+pub fn stub(args: TokenStream, item: &TokenStream, rejected: &Rejected) -> TokenStream {
+    let errors = rejected.compile_errors();
+    let item = stand_in(args, item).unwrap_or_else(|| item.clone());
+    quote!(#item #errors)
+}
+
+fn stand_in(args: TokenStream, item: &TokenStream) -> Option<TokenStream> {
+    let input: DeriveInput = syn::parse2(item.clone()).ok()?;
+    let outline = Outline::of(args)?;
+    let (field, is_unit) = parameters(&input.data, &outline);
+    let prepare = (field.is_none() && !is_unit).then(|| prepare(&input, &outline));
+    let mut spec = outline.well_posed(field.as_ref().map(|field| &field.ident))?;
+    spec.item = Item {
+        tokens: item.clone(),
+        attributes: input.attrs,
+        visibility: input.vis,
+        ident: input.ident,
+        generics: input.generics,
+        fields: field.into_iter().collect(),
+    };
+    let form = gate(|found| check::form(&spec, found)).ok()?;
+    let model = emit::emit(&spec, &derive::derive(form, false)?);
+    Some(quote!(#model #prepare))
+}
+
+/// A field that coefficients name, and whether there is nothing that a model could be prepared from.
+fn parameters(data: &Data, outline: &Outline) -> (Option<Field>, bool) {
+    let Data::Struct(data) = data else { return (None, false) };
+    let named = data.fields.iter().filter_map(|field| {
+        let ident = field.ident.clone()?;
+        Some(Field { span: ident.span().into(), ident, ty: field.ty.clone() })
+    });
+    let coefficient = |field: &Field| field.is_real() && outline.names.contains(&field.ident);
+    (named.filter(coefficient).find(|field| field.ident != "n"), matches!(data.fields, Fields::Unit))
+}
+
+/// `prepare()` where no field can stand for the coefficients; never runs.
+fn prepare(input: &DeriveInput, outline: &Outline) -> TokenStream {
+    let DeriveInput { vis, ident, generics, .. } = input;
+    let (implementation, types, clause) = generics.split_for_impl();
+    let runtime = emit::runtime(outline.runtime.as_ref());
+    quote! {
+        impl #implementation #ident #types #clause {
+            #vis fn prepare(&self) -> #runtime::Result<Self> {
+                loop {}
+            }
+        }
+    }
+}
+
+/// What can be told of a specification that may not parse.
+struct Outline {
+    dim: usize,
+    names: Vec<Ident>,
+    runtime: Option<syn::Path>,
+}
+
+impl Outline {
+    /// `None` where the runtime is not known.
+    fn of(args: TokenStream) -> Option<Self> {
+        let dim = if value_of("dim", &args).to_string() == "2" { 2 } else { 3 };
+        let runtime = value_of("crate", &args);
+        let runtime = if runtime.is_empty() { None } else { Some(syn::parse2(runtime).ok()?) };
+        let mut names = Vec::new();
+        collect_names(args, &mut names);
+        Some(Self { dim, names, runtime })
+    }
+
+    /// A well-posed model that looks alike from outside.
+    fn well_posed(&self, field: Option<&Ident>) -> Option<Spec> {
+        let dim = proc_macro2::Literal::usize_unsuffixed(self.dim);
+        let coefficient = field.map_or_else(|| quote!(1), |field| quote!(#field));
+        let moving = self.names.iter().any(|name| name == "body_translation" || name == "space_translation");
+        let translation = moving.then(|| quote!(, body_translation = 1));
+        let runtime = self.runtime.as_ref().map(|path| quote!(, crate = #path));
+        let args = quote!(dim = #dim, kinetic(casimir2 = #coefficient #translation) #runtime);
+        gate(|found| {
+            spec::parse(
+                args,
+                quote!(
+                    struct StandIn;
+                ),
+                found,
+            )
+        })
+        .ok()
+    }
+}
+
+/// What stands between `key =` and the next comma; nothing where the key is missing.
+fn value_of(key: &str, args: &TokenStream) -> TokenStream {
+    let is_key = |token: &TokenTree| matches!(token, TokenTree::Ident(name) if name == key);
+    let is_comma = |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == ',');
+    args.clone()
+        .into_iter()
+        .skip_while(|token| !is_key(token))
+        .skip(2)
+        .take_while(|token| !is_comma(token))
+        .collect()
+}
+
+fn collect_names(tokens: TokenStream, names: &mut Vec<Ident>) {
+    for token in tokens {
+        match token {
+            TokenTree::Ident(name) => names.push(name),
+            TokenTree::Group(group) => collect_names(group.stream(), names),
+            _ => {}
+        }
+    }
+}

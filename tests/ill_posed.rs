@@ -1,0 +1,53 @@
+//! Models that the compiler refuses, in folders by kind of mistake: one mistake a file, with what the user sees.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use affine_codegen::diagnostics::Diagnostic;
+
+#[test]
+fn refused_models() {
+    trybuild::TestCases::new().compile_fail("tests/ill_posed/*/*.rs");
+}
+
+/// What the compiler says, case by case.
+fn outcomes() -> Vec<(PathBuf, String)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/ill_posed");
+    let entries = |folder: &Path| fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let cases = entries(&folder).flat_map(|kind| entries(&kind).collect::<Vec<_>>());
+    cases
+        .filter(|path| path.extension().is_some_and(|extension| extension == "rs"))
+        .map(|path| {
+            let text = fs::read_to_string(path.with_extension("stderr")).unwrap();
+            (path, text)
+        })
+        .collect()
+}
+
+#[test]
+fn every_mistake_has_a_case() {
+    let outcomes = outcomes();
+    let seen = |name: &str| outcomes.iter().any(|(_, text)| text.contains(&format!(" [{name}]\n")));
+    let missing: BTreeSet<&str> = Diagnostic::NAMES.iter().copied().filter(|name| !seen(name)).collect();
+    assert!(missing.is_empty(), "no case for {missing:?}");
+}
+
+/// Every error is one of ours: a refused model, used or not, raises no others.
+#[test]
+fn nothing_cascades() {
+    for (path, text) in outcomes() {
+        let errors = text.lines().filter(|line| line.starts_with("error") || line.starts_with("warning"));
+        for line in errors {
+            let ours = Diagnostic::NAMES.iter().any(|name| line.ends_with(&format!(" [{name}]")));
+            assert!(ours, "{}: {line}", path.display());
+        }
+    }
+}
+
+#[test]
+fn two_mistakes_arrive_together() {
+    let (_, text) = outcomes().into_iter().find(|(path, _)| path.ends_with("two_mistakes.rs")).unwrap();
+    assert!(text.contains(" [unknown-symbol]\n") && text.contains(" [division-by-zero]\n"), "{text}");
+}

@@ -1,0 +1,8 @@
+use affine_runtime::affine_model;
+
+#[affine_model(dim = 2, kinetic(casimir2 = 1))]
+enum Model {
+    Missile,
+}
+
+fn main() {}

@@ -1,0 +1,18 @@
+//! The mechanics of generated code, through its public interface alone: against the exact oracle, against closed
+//! forms, against the reference solution of the drunk missile.
+//!
+//! One test program for all of it, so that the models of [`families`] are expanded once.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[macro_use]
+mod families;
+mod dual;
+mod integrate;
+mod reference;
+mod tolerances;
+
+mod canonical;
+mod conserved;
+mod drunk_missile;
+mod geodesics;
+mod prepare;

@@ -1,0 +1,99 @@
+//! The exact motion through a phase point, rounded, and comparisons with it.
+
+use affine_oracle::{Expected, Kinetic, Matrix as Exact, State};
+use affine_runtime::prelude::*;
+use affine_runtime::scalar::Real;
+
+/// Exact derivatives at a point, with the sizes that rounding errors of each are measured by.
+pub(crate) struct Reference {
+    pub(crate) expected: Expected,
+    /// Condition of the mass matrix.
+    pub(crate) condition: f64,
+    state: State,
+}
+
+impl Reference {
+    pub(crate) fn new(kinetic: &Kinetic, state: &State) -> Self {
+        Reference {
+            expected: kinetic.expected(state).unwrap(),
+            condition: kinetic.condition(&state.phi).unwrap(),
+            state: state.clone(),
+        }
+    }
+
+    /// The summands' size of `H`.
+    pub(crate) fn energy_size(&self) -> f64 {
+        let (p, pi) = (norm(&self.state.p.to_f64()), norm(&self.state.pi.to_f64()));
+        p * norm(&self.expected.x_dot) + pi * norm(&self.expected.phi_dot)
+    }
+
+    /// The exact derivative of a quantity named as in the layouts, and the size of its summands. Those of the
+    /// momenta are products with `|Omega| <= |phi_dot| |phi^-1|` and the fluxes `p x_dot^T`.
+    pub(crate) fn rate(&self, name: &str) -> (&[f64], f64) {
+        let State { phi, p, pi, .. } = &self.state;
+        let size = |matrix: &Exact| norm(&matrix.to_f64());
+        let expected = &self.expected;
+        let inverse = size(&phi.inverse().unwrap());
+        let (x_dot, phi_dot) = (norm(&expected.x_dot), norm(&expected.phi_dot));
+        let omega = phi_dot * inverse;
+        let p_hat = size(&(&phi.transpose() * p));
+        match name {
+            "x" => (&expected.x_dot, x_dot),
+            "phi" => (&expected.phi_dot, phi_dot),
+            "p" => (&expected.p_dot, 0.0),
+            "p_hat" => (&expected.p_hat_dot, omega * p_hat),
+            "Sigma" => (&expected.sigma_dot, omega * size(&(phi * pi)) + x_dot * size(p)),
+            "Sigma_hat" => (&expected.sigma_hat_dot, omega * size(&(pi * phi)) + inverse * x_dot * p_hat),
+            "Pi" => (&expected.pi_dot, omega * size(pi) + inverse * x_dot * size(p)),
+            other => panic!("no quantity {other}"),
+        }
+    }
+
+    /// Holds the derivative of the named quantity against the exact one.
+    pub(crate) fn assert_rate(&self, name: &str, found: &[f64], tolerance: f64) {
+        let (expected, size) = self.rate(name);
+        assert_close(name, found, expected, size, tolerance * self.condition);
+    }
+}
+
+/// The point as exact rationals, its own affine spin (named as in the layout) taken at its word.
+pub(crate) fn exact_state<const N: usize>(spin: &str, point: &impl Phase<N>) -> State {
+    let (x, p) = (column(&point.x()), column(&point.p()));
+    let phi = square(point.phi());
+    match spin {
+        "Sigma" => State::with_affine_spin(x, phi, p, &square(&point.sigma().0.0)),
+        "Sigma_hat" => State::with_comoving_affine_spin(x, phi, p, &square(&point.sigma_hat().0.0)),
+        _ => State::new(x, phi, p, square(&point.pi().0.0)),
+    }
+    .unwrap()
+}
+
+fn square<const N: usize>(matrix: &Matrix<N>) -> Exact {
+    Exact::from_f64("matrix", N, N, &entries(matrix)).unwrap()
+}
+
+fn column<const N: usize>(vector: &Vector<N>) -> Exact {
+    Exact::from_f64("vector", N, 1, vector.as_slice()).unwrap()
+}
+
+/// `|found - expected| <= tolerance size`.
+pub(crate) fn assert_close(what: &str, found: &[f64], expected: &[f64], size: f64, tolerance: f64) {
+    assert_eq!(found.len(), expected.len(), "{what}: components");
+    let difference: Vec<f64> = found.iter().zip(expected).map(|(f, e)| f - e).collect();
+    let error = norm(&difference);
+    // Written so that NaN fails.
+    assert!(
+        error <= tolerance * size,
+        "{what}: error {error:e} of {size:e}, tolerance {tolerance:e}\n{found:?}\n{expected:?}"
+    );
+}
+
+/// Frobenius norm.
+pub(crate) fn norm(entries: &[f64]) -> f64 {
+    entries.iter().fold(0.0, |length, entry| f64::hypot(length, *entry))
+}
+
+/// Row-major entries.
+pub(crate) fn entries<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Vec<T> {
+    matrix.transpose().as_slice().to_vec()
+}

@@ -1,0 +1,187 @@
+//! What the attribute expands to, pretty-printed and reviewed like source: one snapshot for each family of kinetic
+//! energies in each dimension.
+//!
+//! `tests/expansions` compiles the same snapshots as ordinary code, without warnings.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::collections::BTreeSet;
+
+use affine_codegen::expand;
+use proc_macro2::TokenStream;
+
+fn tokens(text: &str) -> TokenStream {
+    text.parse().expect("tokens")
+}
+
+fn pretty(args: &str, item: &str) -> String {
+    let file = syn::parse2(expand(tokens(args), tokens(item))).expect("an expansion is a list of items");
+    prettyplease::unparse(&file)
+}
+
+/// Compares an expansion with `tests/snapshots/<name>.snap`; the struct is named after the snapshot.
+fn check(name: &str, args: &str, item: &str) {
+    insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true, description => args }, {
+        insta::assert_snapshot!(name, pretty(args, item));
+    });
+}
+
+macro_rules! families {
+    ($($name:ident: $args:literal;)*) => {
+        const NAMES: &[&str] = &[$(stringify!($name)),*];
+
+        $(
+            #[test]
+            fn $name() {
+                check(stringify!($name), $args, &format!("/// A body.\npub struct {};", camel_case(stringify!($name))));
+            }
+        )*
+    };
+}
+
+/// `left_drift_3` to `LeftDrift3`.
+fn camel_case(name: &str) -> String {
+    let capital = |word: &str| {
+        let (first, rest) = word.split_at(1);
+        first.to_uppercase() + rest
+    };
+    name.split('_').map(capital).collect()
+}
+
+// `missile`: translation measured in the body, `drift`: in space.
+families! {
+    left_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)";
+    left_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)";
+    left_missile_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1)";
+    left_missile_3: "dim = 3, symmetry(space = affine, body = metric), \
+        kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1)";
+    left_drift_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, space_translation = 2)";
+    left_drift_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, space_translation = 2)";
+    right_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1)";
+    right_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1)";
+    right_missile_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1, body_translation = 2)";
+    right_missile_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1, body_translation = 2)";
+    right_drift_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1, space_translation = 2)";
+    right_drift_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1, space_translation = 2)";
+    affine_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1)";
+    affine_3: "dim = 3, symmetry(space = affine, body = affine), kinetic(casimir2 = 0.2, casimir1_squared = 0.1)";
+    affine_missile_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_translation = 2)";
+    affine_missile_3: "dim = 3, kinetic(casimir2 = 0.2, body_translation = 2)";
+    affine_drift_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_translation = 2)";
+    affine_drift_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_translation = 2)";
+    dalembert_scalar_2: "dim = 2, kinetic(dalembert = 3)";
+    dalembert_scalar_3: "dim = 3, kinetic(dalembert = 3)";
+    dalembert_scalar_missile_2: "dim = 2, kinetic(dalembert = 3, body_translation = 2)";
+    dalembert_scalar_drift_3: "dim = 3, kinetic(dalembert = 3, space_translation = 2)";
+    dalembert_diagonal_2: "dim = 2, kinetic(dalembert = diag(1, 1.5))";
+    dalembert_diagonal_3: "dim = 3, kinetic(dalembert = diag(1, 1.5, 2))";
+    dalembert_diagonal_drift_2: "dim = 2, kinetic(dalembert = diag(1, 1.5), space_translation = 2)";
+    dalembert_diagonal_missile_3: "dim = 3, kinetic(dalembert = diag(1, 1.5, 2), body_translation = 2)";
+    dalembert_matrix_2: "dim = 2, kinetic(dalembert = [[2, 1], [1, 3]])";
+    dalembert_matrix_3: "dim = 3, kinetic(dalembert = [[2, 1, 0], [1, 3, 1], [0, 1, 4]])";
+    dalembert_matrix_missile_2: "dim = 2, kinetic(dalembert = [[2, 1], [1, 3]], body_translation = 2)";
+    dalembert_matrix_drift_3: "dim = 3, kinetic(dalembert = [[2, 1, 0], [1, 3, 1], [0, 1, 4]], space_translation = 2)";
+    body_tensor_2: "dim = 2, kinetic(casimir2 = 0.2, \
+        body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
+    body_tensor_missile_2: "dim = 2, kinetic(body_translation = 2, \
+        body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
+    body_tensor_3: "dim = 3, kinetic(body_inertia = 1, body_tensor = [\
+        [2, 0, 0, 0, 1, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0, 0, 0, 0], \
+        [0, 0, 0, 1, 0, 0, 0, 0, 0], [1, 0, 0, 0, 3, 0, 0, 0, 0], [0, 0, 0, 0, 0, 1, 0, 0.5, 0], \
+        [0, 0, 0, 0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 0, 0.5, 0, 1, 0], [0, 0, 0, 0, 0, 0, 0, 0, 1]])";
+    space_tensor_2: "dim = 2, kinetic(casimir2 = 0.2, \
+        space_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
+    space_tensor_drift_2: "dim = 2, kinetic(space_translation = 2, \
+        space_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
+    space_tensor_3: "dim = 3, kinetic(space_inertia = 1, space_tensor = [\
+        [2, 0, 0, 0, 1, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0, 0, 0, 0], \
+        [0, 0, 0, 1, 0, 0, 0, 0, 0], [1, 0, 0, 0, 3, 0, 0, 0, 0], [0, 0, 0, 0, 0, 1, 0, 0.5, 0], \
+        [0, 0, 0, 0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 0, 0.5, 0, 1, 0], [0, 0, 0, 0, 0, 0, 0, 0, 1]])";
+}
+
+/// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.
+const SPECIAL: &[(&str, &str, &str)] = &[
+    (
+        "fields_left_missile_3",
+        "dim = 3, require(positive_definite), \
+         kinetic(casimir2 = a, casimir1_squared = b, body_inertia = i, body_translation = m)",
+        "/// A missile with parameters.
+        #[derive(Clone, Debug)]
+        pub struct Missile { a: f64, b: f64, i: f64, m: f64 }",
+    ),
+    (
+        "fields_right_2",
+        "dim = 2, kinetic(casimir2 = a/2, casimir1_squared = 0.1, space_inertia = i^2, space_translation = 1)",
+        "/// A body.
+        pub struct Right { a: f64, i: f64 }",
+    ),
+    (
+        "fields_affine_3",
+        "dim = 3, kinetic(casimir2 = a, casimir1_squared = b)",
+        "/// A body.
+        pub struct Affine { a: f64, b: f64 }",
+    ),
+    (
+        "fields_dalembert_3",
+        "dim = 3, kinetic(dalembert = [[a, b, 0], [b, c, 0], [0, 0, 1]], space_translation = a + c)",
+        "/// A body.
+        pub struct DAlembert { a: f64, b: f64, c: f64 }",
+    ),
+    (
+        "fields_body_tensor_2",
+        "dim = 2, kinetic(casimir2 = a, \
+         body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])",
+        "/// A body.
+        pub struct BodyTensor { a: f64 }",
+    ),
+    (
+        "generics_2",
+        "dim = 2, kinetic(casimir2 = a, casimir1_squared = 0.1)",
+        "/// A body with a label.
+        pub struct Labelled<'l, T: Clone, const N: usize> where T: Sync {
+            a: f64,
+            /// The label.
+            pub label: &'l str,
+            /// Earlier labels.
+            pub history: [T; N],
+        }",
+    ),
+    (
+        "generics_without_coefficients_2",
+        "dim = 2, kinetic(casimir2 = 0.2)",
+        "/// A body with a tag.
+        pub struct Tagged<T> where T: Copy {
+            /// The tag.
+            pub tag: T,
+        }",
+    ),
+    (
+        "runtime_path_2",
+        "dim = 2, crate = crate::renamed::runtime, kinetic(casimir2 = 0.2)",
+        "/// A body.
+        pub struct Renamed;",
+    ),
+];
+
+#[test]
+fn fields_generics_and_runtime_path() {
+    for (name, args, item) in SPECIAL {
+        check(name, args, item);
+    }
+}
+
+/// A snapshot whose model is gone would be compiled, and trusted, for ever.
+#[test]
+fn every_snapshot_has_its_model() {
+    let known: BTreeSet<String> = NAMES
+        .iter()
+        .chain(SPECIAL.iter().map(|(name, ..)| name))
+        .map(|name| format!("{name}.snap"))
+        .collect();
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snapshots");
+    let present: BTreeSet<String> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.ends_with(".snap"))
+        .collect();
+    assert_eq!(present, known);
+}
