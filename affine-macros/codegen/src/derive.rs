@@ -347,13 +347,12 @@ fn trajectory_symbols(reduction: &Reduction) -> Vec<Expr> {
 
 /// `X_ab = dT/dO_ba`.
 fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
-    let energy = kinetic.internal_energy(arena);
+    let energy = kinetic.internal_energy();
     let n = kinetic.dim;
     let mut momenta = vec![vec![Polynomial::zero(); n]; n];
     for (a, row) in kinetic.velocity.0.iter().enumerate() {
         for (b, velocity) in row.iter().enumerate() {
-            let slope = arena.derivative(energy, *velocity);
-            momenta[b][a] = Polynomial::normal_form(arena, slope);
+            momenta[b][a] = energy.derivative(*velocity);
         }
     }
     let names = Matrix::symbols(arena, kinetic.frame.momentum_name(), n);
@@ -368,8 +367,7 @@ fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Ba
 
 /// `T_int(O) + m/2 |v|^2`, with its inputs.
 fn energy_batch(arena: &mut Arena, kinetic: &Kinetic, mut inputs: Vec<Expr>) -> (Batch, Vec<Expr>) {
-    let internal = kinetic.internal_energy(arena);
-    let mut energy = Polynomial::normal_form(arena, internal);
+    let mut energy = kinetic.internal_energy();
     if let Some(t) = kinetic.translation {
         let mass = Polynomial::normal_form(arena, t.mass);
         let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
@@ -390,18 +388,20 @@ fn conditions(
     require_positive: bool,
 ) -> Vec<Condition> {
     let dalembert = kinetic.frame == Frame::Flat;
-    let mut list: Vec<(&'static str, &'static str, bool, Polynomial)> = eigenvalues
-        .into_iter()
-        .map(|(direction, value)| {
-            let (name, directions) = match direction {
-                Direction::Shear => ("I + A", "symmetric traceless velocities (shear)"),
-                Direction::Rotation => ("I - A", "skew velocities (rotation)"),
-                Direction::Dilatation => ("I + A + n B", "multiples of the identity (dilatation)"),
-                Direction::Entry => ("J", "a row of phi_dot"),
-            };
-            (if dalembert { "J" } else { name }, directions, require_positive || dalembert, value)
-        })
-        .collect();
+    let mut list: Vec<(&'static str, &'static str, bool, Polynomial)> = Vec::new();
+    for (direction, value) in eigenvalues {
+        let (name, directions) = match direction {
+            // J has its eigenvalues once for each row of phi_dot, whatever the basis.
+            _ if dalembert => ("J", "a row of phi_dot"),
+            Direction::Shear => ("I + A", "symmetric traceless velocities (shear)"),
+            Direction::Rotation => ("I - A", "skew velocities (rotation)"),
+            Direction::Dilatation => ("I + A + n B", "multiples of the identity (dilatation)"),
+            Direction::Entry => ("K", "one entry of the affine velocity"),
+        };
+        if !list.iter().any(|(known, _, _, same)| *known == name && *same == value) {
+            list.push((name, directions, require_positive || dalembert, value));
+        }
+    }
     if let Some(t) = kinetic.translation
         && arena.as_constant(t.mass).is_none()
     {

@@ -1,6 +1,5 @@
 //! Symmetry groups against brute force: random exact group elements applied to the energy itself.
 
-use affine_codegen::algebra::Arena;
 use affine_codegen::check::Form;
 use affine_codegen::diagnostics::Diagnostic;
 use affine_codegen::mechanics::kinetic::Kinetic as Symbolic;
@@ -94,15 +93,15 @@ fn generators(n: usize, group: Group) -> Vec<Breaker> {
 
 fn check(random: &mut Random, args: &str, terms: &[Term], n: usize) -> [Group; 2] {
     let kinetic = Kinetic::new(n, terms.to_vec()).unwrap();
-    let Form { mut arena, kinetic: symbolic, space_group, body_group, .. } =
+    let Form { kinetic: symbolic, space_group, body_group, .. } =
         form(args, "struct Model;").unwrap_or_else(|_| panic!("{args}"));
     let mut groups = [Group::Less; 2];
     for (k, (side, known)) in [(Side::Space, space_group), (Side::Body, body_group)].into_iter().enumerate() {
-        groups[k] = largest_group(&mut arena, &symbolic, side);
+        groups[k] = largest_group(&symbolic, side);
         assert_eq!(groups[k], by_force(random, &kinetic, side), "{side:?} of {args}");
         assert_eq!(groups[k], known);
         for group in [Group::Affine, Group::Metric] {
-            named(random, (&mut arena, &symbolic), &kinetic, terms, (side, group));
+            named(random, &symbolic, &kinetic, terms, (side, group));
         }
     }
     groups
@@ -111,13 +110,13 @@ fn check(random: &mut Random, args: &str, terms: &[Term], n: usize) -> [Group; 2
 /// The breaker and the term that are named do break the symmetry; all breakers before it do not.
 fn named(
     random: &mut Random,
-    (arena, symbolic): (&mut Arena, &Symbolic),
+    symbolic: &Symbolic,
     kinetic: &Kinetic,
     terms: &[Term],
     (side, group): (Side, Group),
 ) {
     let n = kinetic.dimension();
-    let breaker = broken_by(arena, symbolic, side, group);
+    let breaker = broken_by(symbolic, side, group);
     for generator in generators(n, group) {
         let invariant = is_invariant(random, kinetic, side, &element(n, generator));
         let Some((breaker, place)) = breaker.filter(|(breaker, _)| *breaker == generator) else {
