@@ -88,7 +88,8 @@ impl Hamiltonian {
     }
 
     /// The internal energy in a chart, with its skew part (of isotropic energies) left out on request; `None`
-    /// where it is not a polynomial there.
+    /// where it is not a polynomial there, and for `I(O)` where that is not conserved: `Sigma = I(O) - x p^T` only
+    /// makes it longer.
     #[must_use]
     pub fn internal_in(&self, chart: &Chart, without_skew: bool) -> Option<Polynomial> {
         let spin = spatial_or_own(chart);
@@ -97,15 +98,6 @@ impl Hamiltonian {
                 (chart.momentum != Momentum::Canonical).then(|| iso.casimirs(&spin))
             }
             _ if chart.momentum == Momentum::of(self.frame) => Some(self.internal()),
-            _ if chart.momentum == Momentum::Total && self.frame == Frame::Space => {
-                let index =
-                    |atom: Expr| {
-                        self.momentum.0.iter().enumerate().find_map(|(i, row)| {
-                            row.iter().position(|m| *m == atom).map(|j| spin[i][j].clone())
-                        })
-                    };
-                Some(self.internal().substitute(&index))
-            }
             _ => None,
         }
     }

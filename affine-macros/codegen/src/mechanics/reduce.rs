@@ -6,7 +6,8 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use super::brackets::poisson;
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::conserved::rotation_invariant;
-use super::equations::{Form, System, hamilton};
+use super::equations::{Form, System, gradient, hamilton};
+use super::flow::{Flow, Ring, at_a_point, skew};
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetic::Frame;
 
@@ -139,7 +140,7 @@ pub fn candidates(arena: &mut Arena, h: &Hamiltonian) -> Vec<Reduction> {
             if linear.is_some() {
                 main.add_scaled(&h.translation_in(&chart), &Rational::ONE);
             }
-            let plan = Plan { chart, commuting: commuting.clone(), turn };
+            let plan = Plan { chart, commuting: commuting.clone(), turn, isotropic: h.isotropic.is_some() };
             plan.reduced(arena, &main)
         })
         .collect()
@@ -150,15 +151,18 @@ struct Plan {
     chart: Chart,
     commuting: Vec<Commuting>,
     turn: bool,
+    isotropic: bool,
 }
 
 impl Plan {
     /// Takes the conserved momenta out of the state. Where the affine momentum stays in it, its equations are
-    /// written in both forms.
+    /// written in both forms, unless nothing can cancel in the expanded one.
     fn reduced(self, arena: &mut Arena, h: &Polynomial) -> Vec<Reduction> {
-        let expanded = hamilton(arena, &self.chart, h, Form::Expanded);
-        let layout = layout(&self.chart, &expanded);
-        let mut systems = vec![expanded];
+        let layout = layout(arena, &self.chart, h);
+        let mut systems = Vec::new();
+        if layout != Layout::Entries || self.isotropic {
+            systems.push(hamilton(arena, &self.chart, h, Form::Expanded));
+        }
         if layout == Layout::Entries {
             systems.push(hamilton(arena, &self.chart, h, Form::ThroughVelocity));
         }
@@ -209,16 +213,18 @@ impl Plan {
     }
 }
 
-/// What of the affine momentum an expanded system conserves.
-fn layout(chart: &Chart, system: &System) -> Layout {
-    let rate = |a: usize, b: usize| {
-        let wanted = Coordinate::M(a, b);
-        system.rates.iter().find(|(z, _, _)| *z == wanted).map(|(_, _, rate)| rate)
-    };
-    let pairs = || (0..chart.dim).flat_map(|a| (0..chart.dim).map(move |b| (a, b)));
-    if pairs().all(|(a, b)| rate(a, b).is_none_or(Polynomial::is_zero)) {
+/// What of the affine momentum of a chart `h` conserves.
+fn layout(arena: &Arena, chart: &Chart, h: &Polynomial) -> Layout {
+    let slopes = gradient(chart, h);
+    let (residue, itself) = (at_a_point(arena), Polynomial::clone);
+    let sample = Flow::new(chart, &slopes, &residue).m_dot();
+    if !skew(&sample).iter().all(Ring::vanishes) {
+        return Layout::Entries;
+    }
+    let rates = Flow::new(chart, &slopes, &itself).m_dot();
+    if rates.iter().flatten().all(Ring::vanishes) {
         Layout::Constant
-    } else if pairs().all(|(a, b)| rate(a, b) == rate(b, a)) {
+    } else if skew(&rates).iter().all(Ring::vanishes) {
         Layout::Symmetric
     } else {
         Layout::Entries
