@@ -1,11 +1,17 @@
 //! Small matrices over exact rationals: inverse, inertia, kernel.
+//!
+//! Elimination works on whole numbers over one denominator and stays free of fractions (Bareiss, Math. Comp. 22
+//! (1968) 565): greatest common divisors are what exact arithmetic spends its time on.
+
+use num_bigint::BigInt;
+use num_traits::{One, Signed, Zero};
 
 use super::rational::Rational;
 
 /// A square matrix, row after row.
 pub type Square = Vec<Vec<Rational>>;
 
-/// A congruence `L D L^T` of a symmetric matrix with pairs of equal rows swapped: what it says about the form.
+/// Sylvester's inertia of a symmetric form.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Inertia {
     /// Number of positive squares.
@@ -16,101 +22,132 @@ pub struct Inertia {
     pub kernel: Option<Vec<Rational>>,
 }
 
+/// Whole numbers, row after row.
+type Whole = Vec<Vec<BigInt>>;
+
+/// The matrix as whole numbers over one positive denominator.
+fn whole(matrix: &Square) -> (Whole, BigInt) {
+    let mut denominator = BigInt::one();
+    for value in matrix.iter().flatten() {
+        let (_, below) = value.parts();
+        if !(&denominator % &below).is_zero() {
+            denominator *= below;
+        }
+    }
+    let over = |value: &Rational| {
+        let (above, below) = value.parts();
+        above * (&denominator / below)
+    };
+    (matrix.iter().map(|row| row.iter().map(over).collect()).collect(), denominator)
+}
+
+/// `row <- (pivot row - row[k] pivot_row)/previous`, exactly: every entry is a minor of the matrix.
+fn eliminate(rows: &mut Whole, target: usize, k: usize, previous: &BigInt) {
+    let pivot_row = rows[k].clone();
+    let factor = rows[target][k].clone();
+    for (value, above) in rows[target].iter_mut().zip(&pivot_row) {
+        *value = (&*value * &pivot_row[k] - &factor * above) / previous;
+    }
+}
+
 /// Inverse by Gauss-Jordan elimination; `None` where the matrix is singular.
 #[must_use]
 pub fn inverse(matrix: &Square) -> Option<Square> {
     let n = matrix.len();
-    let mut rows: Square = matrix
-        .iter()
-        .enumerate()
-        .map(|(i, row)| {
-            let unit = (0..n).map(|j| if i == j { Rational::ONE } else { Rational::ZERO });
-            row.iter().cloned().chain(unit).collect()
-        })
-        .collect();
-    for column in 0..n {
-        let pivot = (column..n).find(|r| !rows[*r][column].is_zero())?;
-        rows.swap(column, pivot);
-        let scale = rows[column][column].recip()?;
-        rows[column].iter_mut().for_each(|v| *v = &*v * &scale);
-        for r in 0..n {
-            if r != column && !rows[r][column].is_zero() {
-                let factor = rows[r][column].clone();
-                for k in column..2 * n {
-                    rows[r][k] = &rows[r][k] - &(&factor * &rows[column][k]);
-                }
-            }
-        }
+    let (mut rows, denominator) = whole(matrix);
+    for (i, row) in rows.iter_mut().enumerate() {
+        row.extend((0..n).map(|j| if i == j { denominator.clone() } else { BigInt::zero() }));
     }
-    Some(rows.into_iter().map(|row| row[n..].to_vec()).collect())
+    let mut previous = BigInt::one();
+    for k in 0..n {
+        let pivot = (k..n).find(|r| !rows[*r][k].is_zero())?;
+        rows.swap(k, pivot);
+        for target in (0..n).filter(|target| *target != k) {
+            eliminate(&mut rows, target, k, &previous);
+        }
+        previous = rows[k][k].clone();
+    }
+    // [det 1 | det M^-1 d]
+    let entry = |value: &BigInt| Rational::quotient(value.clone(), previous.clone());
+    rows.iter().map(|row| row[n..].iter().map(entry).collect()).collect()
 }
 
-/// Sylvester's inertia of a symmetric matrix by exact congruence, with a kernel vector where it is degenerate.
+/// Sylvester's inertia of a symmetric matrix by exact congruences, with a kernel vector where it is degenerate.
 #[must_use]
 pub fn inertia(matrix: &Square) -> Inertia {
     let n = matrix.len();
-    let mut form = matrix.clone();
-    // Rows of `basis` are the vectors in which the form has been diagonalised so far.
-    let mut basis: Square = (0..n)
-        .map(|i| (0..n).map(|j| if i == j { Rational::ONE } else { Rational::ZERO }).collect())
-        .collect();
+    let (mut form, _) = whole(matrix);
     let mut result = Inertia { positive: 0, negative: 0, kernel: None };
+    let mut previous = BigInt::one();
     for k in 0..n {
-        let Some(pivot) = choose_pivot(&mut form, &mut basis, k) else {
-            result.kernel = Some(basis[k].clone());
+        if !bring_pivot(&mut form, k) {
+            result.kernel = kernel(matrix);
             return result;
-        };
-        if pivot.is_negative() {
-            result.negative += 1
+        }
+        // The square of this pivot has the sign of the quotient of two leading minors.
+        if form[k][k].is_negative() == previous.is_negative() {
+            result.positive += 1;
         } else {
-            result.positive += 1
+            result.negative += 1;
         }
-        let Some(scale) = pivot.recip() else { return result };
-        for r in k + 1..n {
-            let factor = &form[r][k] * &scale;
-            if !factor.is_zero() {
-                let minus = -&factor;
-                combine(&mut form, r, k, &minus);
-                for c in 0..n {
-                    basis[r][c] = &basis[r][c] + &(&minus * &basis[k][c]);
-                }
-            }
+        for target in k + 1..n {
+            eliminate(&mut form, target, k, &previous);
         }
+        previous = form[k][k].clone();
     }
     result
 }
 
-/// Brings a nonzero square to place `k`; `None` where the rest of the form vanishes.
-fn choose_pivot(form: &mut Square, basis: &mut Square, k: usize) -> Option<Rational> {
+/// Brings a nonzero square to place `k` by congruences; `false` where the rest of the form vanishes.
+fn bring_pivot(form: &mut Whole, k: usize) -> bool {
     let n = form.len();
-    if let Some(d) = (k..n).find(|d| !form[*d][*d].is_zero()) {
-        swap(form, basis, k, d);
-        return Some(form[k][k].clone());
-    }
-    // Only mixed products are left: x y = ((x + y)^2 - (x - y)^2)/4.
-    let (i, j) =
-        (k..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))).find(|(i, j)| !form[*i][*j].is_zero())?;
-    combine(form, i, j, &Rational::ONE);
-    for c in 0..n {
-        basis[i][c] = &basis[i][c] + &basis[j][c];
-    }
-    swap(form, basis, k, i);
-    Some(form[k][k].clone())
+    let square = (k..n).find(|d| !form[*d][*d].is_zero());
+    let mixed =
+        || (k..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))).find(|(i, j)| !form[*i][*j].is_zero());
+    let place = match (square, square.is_none().then(mixed).flatten()) {
+        (Some(d), _) => d,
+        // Only mixed products are left: x y is made a square by x -> x + y.
+        (None, Some((i, j))) => {
+            let row = form[j].clone();
+            form[i].iter_mut().zip(&row).for_each(|(value, more)| *value += more);
+            for row in form.iter_mut() {
+                let more = row[j].clone();
+                row[i] += more;
+            }
+            i
+        }
+        (None, None) => return false,
+    };
+    form.swap(k, place);
+    form.iter_mut().for_each(|row| row.swap(k, place));
+    true
 }
 
-fn swap(form: &mut Square, basis: &mut Square, i: usize, j: usize) {
-    form.swap(i, j);
-    form.iter_mut().for_each(|row| row.swap(i, j));
-    basis.swap(i, j);
-}
-
-/// Congruence: adds `weight` times row and column `source` to row and column `target`.
-fn combine(form: &mut Square, target: usize, source: usize, weight: &Rational) {
-    let n = form.len();
-    for c in 0..n {
-        form[target][c] = &form[target][c] + &(weight * &form[source][c]);
+/// A vector that a singular matrix maps to zero.
+fn kernel(matrix: &Square) -> Option<Vec<Rational>> {
+    let n = matrix.len();
+    let mut rows = matrix.clone();
+    let mut pivots: Vec<usize> = Vec::new();
+    for column in 0..n {
+        let top = pivots.len();
+        let Some(pivot) = (top..n).find(|r| !rows[*r][column].is_zero()) else {
+            // The first column that depends on those before it.
+            let mut vector = vec![Rational::ZERO; n];
+            vector[column] = Rational::ONE;
+            pivots.iter().zip(&rows).for_each(|(p, row)| vector[*p] = -&row[column]);
+            return Some(vector);
+        };
+        rows.swap(top, pivot);
+        let scale = rows[top][column].recip()?;
+        rows[top].iter_mut().for_each(|value| *value = &*value * &scale);
+        let pivot_row = rows[top].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(r, _)| *r != top) {
+            let factor = row[column].clone();
+            for (value, above) in row.iter_mut().zip(&pivot_row) {
+                *value = &*value - &(&factor * above);
+            }
+        }
+        pivots.push(column);
     }
-    for row in form.iter_mut() {
-        row[target] = &row[target] + &(weight * &row[source]);
-    }
+    None
 }

@@ -172,16 +172,28 @@ impl Polynomial {
     /// Derivative with respect to an atom.
     #[must_use]
     pub fn derivative(&self, atom: Expr) -> Self {
-        let mut result = Self::zero();
+        self.gradient(&[atom]).pop().unwrap_or_default()
+    }
+
+    /// Derivatives with respect to several atoms, in one pass.
+    #[must_use]
+    pub fn gradient(&self, atoms: &[Expr]) -> Vec<Self> {
+        let mut slopes = vec![Self::zero(); atoms.len()];
         for (monomial, c) in &self.terms {
-            let Some(at) = monomial.iter().position(|a| *a == atom) else { continue };
-            let power = monomial.iter().filter(|a| **a == atom).count();
-            let mut rest = monomial.clone();
-            rest.remove(at);
-            // Degrees are tiny.
-            result.add_term(rest, &(c * &Rational::from(i64::try_from(power).unwrap_or(i64::MAX))));
+            let mut at = 0;
+            while at < monomial.len() {
+                let power = monomial[at..].iter().take_while(|a| **a == monomial[at]).count();
+                if let Some(k) = atoms.iter().position(|atom| *atom == monomial[at]) {
+                    let mut rest = monomial.clone();
+                    rest.remove(at);
+                    // Degrees are tiny.
+                    let weight = Rational::from(i64::try_from(power).unwrap_or(i64::MAX));
+                    slopes[k].add_term(rest, &(c * &weight));
+                }
+                at += power;
+            }
         }
-        result
+        slopes
     }
 
     /// Replaces atoms by polynomials.

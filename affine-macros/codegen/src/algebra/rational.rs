@@ -144,6 +144,18 @@ impl Rational {
         (hi, lo)
     }
 
+    /// `numerator / denominator`; `None` for a zero denominator.
+    #[must_use]
+    pub fn quotient(numerator: BigInt, denominator: BigInt) -> Option<Self> {
+        (!denominator.is_zero()).then(|| Self::shrink(BigRational::new(numerator, denominator)))
+    }
+
+    /// Numerator and positive denominator in lowest terms.
+    #[must_use]
+    pub fn parts(&self) -> (BigInt, BigInt) {
+        self.to_big().into_raw()
+    }
+
     /// Residues of numerator and denominator, `0 <= r < modulus`.
     #[must_use]
     pub fn residues(&self, modulus: u64) -> (u64, u64) {

@@ -150,7 +150,12 @@ pub fn hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) -> For
 
 /// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
 pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polynomial) -> Vec<Formula> {
-    let velocity = velocities(arena, chart, full);
+    // Where nothing can cancel, the balance laws hold with the velocity as it stands.
+    let form = if h.isotropic.is_some() { Form::Expanded } else { Form::ThroughVelocity };
+    let mut velocity = velocities(arena, chart, full);
+    if form == Form::ThroughVelocity {
+        velocity.iter_mut().flatten().for_each(|(symbol, value)| *value = Polynomial::atom(*symbol));
+    }
     let slopes = gradient(chart, full);
     let known = known_forms(h, chart, &velocity);
     // For the canonical momentum the velocity is the rate of phi itself.
@@ -170,7 +175,7 @@ pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polyn
     ];
     for (left, left_latex, coordinates) in groups.into_iter().filter(|(_, _, c)| !c.is_empty()) {
         let derived: Vec<Polynomial> =
-            coordinates.iter().map(|z| rate(chart, &slopes, &velocity, Form::Expanded, *z)).collect();
+            coordinates.iter().map(|z| rate(chart, &slopes, &velocity, form, *z)).collect();
         let known = known.iter().find(|k| {
             k.components.len() == derived.len() && k.components.iter().zip(&derived).all(|(a, b)| a == b)
         });

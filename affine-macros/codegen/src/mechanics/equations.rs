@@ -41,8 +41,9 @@ pub fn velocities(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> Vec<Vec<(
 /// The derivatives of `H` that do not vanish.
 #[must_use]
 pub fn gradient(chart: &Chart, h: &Polynomial) -> Vec<(Coordinate, Polynomial)> {
-    let slope = |z: Coordinate| (z, h.derivative(chart.symbol(z)));
-    chart.coordinates().into_iter().map(slope).filter(|(_, d)| !d.is_zero()).collect()
+    let coordinates = chart.coordinates();
+    let symbols: Vec<Expr> = coordinates.iter().map(|z| chart.symbol(*z)).collect();
+    coordinates.into_iter().zip(h.gradient(&symbols)).filter(|(_, slope)| !slope.is_zero()).collect()
 }
 
 /// `dz/dt = {z, H} = sum over coordinates y of {z, y} dH/dy`.

@@ -89,9 +89,8 @@ impl Hessian {
     pub fn new(kinetic: &Kinetic) -> Self {
         let energy = kinetic.internal_energy();
         let velocities: Vec<Expr> = kinetic.velocity.0.iter().flatten().copied().collect();
-        let gradient = velocities.iter().map(|v| energy.derivative(*v));
-        let matrix: Vec<Vec<Polynomial>> =
-            gradient.map(|slope| velocities.iter().map(|v| slope.derivative(*v)).collect()).collect();
+        let gradient = energy.gradient(&velocities);
+        let matrix: Vec<Vec<Polynomial>> = gradient.iter().map(|slope| slope.gradient(&velocities)).collect();
         let blocks = [entries(kinetic.dim), invariant(kinetic.dim)]
             .map(|basis| blocks(&matrix, basis))
             .into_iter()

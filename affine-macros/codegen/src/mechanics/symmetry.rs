@@ -96,8 +96,7 @@ struct Energy<'a> {
 
 impl<'a> Energy<'a> {
     fn new(kinetic: &'a Kinetic, form: Polynomial) -> Self {
-        let row = |row: &Vec<Expr>| row.iter().map(|o| form.derivative(*o)).collect();
-        let slopes = kinetic.velocity.0.iter().map(row).collect();
+        let slopes = kinetic.velocity.0.iter().map(|row| form.gradient(row)).collect();
         Self { kinetic, form, slopes }
     }
 
