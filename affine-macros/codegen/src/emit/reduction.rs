@@ -5,10 +5,9 @@ use quote::{format_ident, quote};
 
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::kinetic::Frame;
-use crate::mechanics::reduce::{ClosedForm, Commuting, Layout};
+use crate::mechanics::reduce::{Commuting, Layout};
 
 use super::body::Body;
-use super::dynamics::own_spin;
 use super::points::components;
 use super::{Context, identifiers, inputs, number, pattern};
 
@@ -108,8 +107,7 @@ pub(super) fn methods(context: &Context) -> TokenStream {
     let reduce = reduce(context, &parts);
     let equations = reduced_equations(context, &parts);
     let expand = expand(context, &parts);
-    let geodesic = geodesic(context);
-    quote!(#reduce #equations #expand #geodesic)
+    quote!(#reduce #equations #expand)
 }
 
 /// The affine momentum of the reduced chart at `point`.
@@ -401,55 +399,4 @@ fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> To
     };
     lets.extend(quote!(let momentum = #momentum;));
     lets
-}
-
-fn geodesic(context: &Context) -> TokenStream {
-    let (rt, n) = (&context.names.rt, context.dim());
-    let parts = Parts::of(context);
-    let f64 = quote!(#rt::f64);
-    let none = quote!(::core::option::Option::None);
-    let Some((form, needs_rest)) = context.model.closed_form else {
-        return quote! {
-            fn geodesic(&self, _t0: #f64, _point: &Self::Point<#f64>) -> ::core::option::Option<#rt::Geodesic<#n>> {
-                #none
-            }
-        };
-    };
-    let rest = needs_rest.then(|| {
-        quote! {
-            if #rt::Phase::p(point) != #rt::Vector::<#n>::zeros() {
-                return #none;
-            }
-        }
-    });
-    let drift = match (&context.model.mass, parts.drift) {
-        (Some(program), true) => {
-            let body = context.double(&program.only("inverse_mass"));
-            let (lets, inverse_mass) = (&body.lets, body.result());
-            quote!(#lets let inverse_mass = #inverse_mass; let drift = #rt::Phase::p(point) * inverse_mass;)
-        }
-        _ => quote!(let drift = #rt::Vector::<#n>::zeros();),
-    };
-    let spin = own_spin(context);
-    let motion = match (form, &context.model.isotropic) {
-        (ClosedForm::Straight, _) | (_, None) => quote! {
-            let motion = #rt::Motion::straight(#rt::Model::velocity(self, point).phi_dot);
-        },
-        (affine, Some(program)) => {
-            let Body { lets, results } = context.double(program);
-            let make = match affine {
-                ClosedForm::Body => quote!(body),
-                _ => quote!(space),
-            };
-            quote!(#lets let motion = #rt::Motion::#make(&#spin, [#(#results),*]);)
-        }
-    };
-    quote! {
-        fn geodesic(&self, t0: #f64, point: &Self::Point<#f64>) -> ::core::option::Option<#rt::Geodesic<#n>> {
-            #rest
-            #drift
-            #motion
-            ::core::option::Option::Some(#rt::Geodesic { t0, motion, drift })
-        }
-    }
 }

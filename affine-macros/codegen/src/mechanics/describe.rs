@@ -2,6 +2,7 @@
 //! compared with the derived ones.
 
 use crate::algebra::arena::Node;
+use crate::algebra::ring::{difference, outer, product, times, transpose};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
@@ -368,47 +369,4 @@ fn bracketed(name: &str) -> String {
 
 fn pairs(n: usize, make: fn(usize, usize) -> Coordinate) -> Vec<Coordinate> {
     (0..n).flat_map(|i| (0..n).map(move |j| make(i, j))).collect()
-}
-
-type Square = Vec<Vec<Polynomial>>;
-
-fn transpose(a: &Square) -> Square {
-    (0..a.len()).map(|i| (0..a.len()).map(|j| a[j][i].clone()).collect()).collect()
-}
-
-fn product(a: &Square, b: &Square) -> Square {
-    let columns = transpose(b);
-    a.iter().map(|row| columns.iter().map(|column| dot(row, column)).collect()).collect()
-}
-
-fn times(a: &Square, v: &[Polynomial]) -> Vec<Polynomial> {
-    a.iter().map(|row| dot(row, v)).collect()
-}
-
-fn dot(a: &[Polynomial], b: &[Polynomial]) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    for (x, y) in a.iter().zip(b) {
-        sum.add_product(x, y, &Rational::ONE);
-    }
-    sum
-}
-
-fn outer(a: &[Polynomial], b: &[Polynomial]) -> Square {
-    a.iter().map(|x| b.iter().map(|y| x.mul(y)).collect()).collect()
-}
-
-fn difference(a: &Square, b: &Square) -> Square {
-    a.iter()
-        .zip(b)
-        .map(|(ra, rb)| {
-            ra.iter()
-                .zip(rb)
-                .map(|(x, y)| {
-                    let mut d = x.clone();
-                    d.add_scaled(y, &Rational::MINUS_ONE);
-                    d
-                })
-                .collect()
-        })
-        .collect()
 }
