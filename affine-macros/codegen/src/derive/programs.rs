@@ -78,24 +78,29 @@ fn batch(arena: &Arena, system: &System) -> Batch {
 
 /// The system in symmetric and skew parts of the affine momentum, formed from its entries.
 fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> Batch {
-    let splits = reduce::split_symmetric(arena, chart);
-    let value = |atom: Expr| {
-        splits.iter().find_map(|s| match atom {
-            a if a == s.upper => Some(s.value(1)),
-            a if a == s.lower => Some(s.value(-1)),
-            _ => None,
-        })
-    };
-    let mut result = batch(arena, &system.substitute(&value));
-    for split in &splits {
-        let (upper, lower) = (Polynomial::atom(split.upper), Polynomial::atom(split.lower));
-        let (mut sum, mut difference) = (upper.clone(), upper);
-        sum.add_scaled(&lower, &Rational::ONE);
-        difference.add_scaled(&lower, &Rational::MINUS_ONE);
-        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
-        result.shared.push((split.symmetric, sum.scaled(&half)));
-        result.shared.push((split.skew, difference));
+    let mut replaced: Vec<(Expr, Polynomial)> = Vec::new();
+    let mut shared: Vec<(Expr, Polynomial)> = Vec::new();
+    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+    for (a, b) in (0..chart.dim).flat_map(|a| (a + 1..chart.dim).map(move |b| (a, b))) {
+        let (upper, lower) = (chart.m.0[a][b], chart.m.0[b][a]);
+        let mut symbol =
+            |part: &str| arena.symbol(&format!("{}_{part}_{}{}", chart.momentum.name(), a + 1, b + 1));
+        let (symmetric, skew) = (symbol("sym"), symbol("skew"));
+        // s = (M_ab + M_ba)/2, w = M_ab - M_ba, so M_ab = s + w/2 and M_ba = s - w/2.
+        let combined = |x: Expr, y: Expr, weight: &Rational| {
+            let mut sum = Polynomial::atom(x);
+            sum.add_term(vec![y], weight);
+            sum
+        };
+        replaced.push((upper, combined(symmetric, skew, &half)));
+        replaced.push((lower, combined(symmetric, skew, &-&half)));
+        shared.push((symmetric, combined(upper, lower, &Rational::ONE).scaled(&half)));
+        shared.push((skew, combined(upper, lower, &Rational::MINUS_ONE)));
     }
+    let value =
+        |atom: Expr| replaced.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone());
+    let mut result = batch(arena, &system.substitute(&value));
+    result.shared.extend(shared);
     result
 }
 
@@ -138,7 +143,7 @@ fn trajectory_symbols(reduction: &Reduction) -> Vec<Expr> {
     let chart = &reduction.chart;
     let momentum = match reduction.layout {
         Layout::Constant => chart.m.0.concat(),
-        Layout::Symmetric | Layout::Entries => reduction.fixed.clone(),
+        Layout::Entries => reduction.fixed.clone(),
     };
     [chart.p.clone(), momentum].concat()
 }

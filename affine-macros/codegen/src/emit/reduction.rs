@@ -23,8 +23,6 @@ struct Parts {
     drift: bool,
     /// The affine momentum is a constant.
     momentum: bool,
-    /// The affine momentum is split into its symmetric and skew parts.
-    split: bool,
     /// Components of the affine momentum that are constants while others are state.
     fixed: Vec<String>,
     /// Generator of the rotation that commutes.
@@ -48,7 +46,6 @@ impl Parts {
             linear: context.model.translation.is_some(),
             drift,
             momentum: reduction.layout == Layout::Constant,
-            split: reduction.layout == Layout::Symmetric,
             fixed: context.model.fixed.clone(),
             whirl,
             coefficients: context.model.trajectory.outputs.len(),
@@ -186,10 +183,6 @@ fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
     let mut used: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
     used.extend(inputs(&context.model.trajectory).into_iter().map(str::to_owned));
     used.extend(parts.fixed.clone());
-    // The symmetric and skew parts are formed from the entries.
-    if parts.split {
-        used.extend(components(chart.momentum.name(), n).concat());
-    }
     let used: Vec<&str> = used.iter().map(String::as_str).collect();
     let turned = |value: TokenStream| if parts.turn { quote!((turn * #value)) } else { value };
     let mut lets = TokenStream::new();
@@ -220,28 +213,6 @@ fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
             (true, _) => quote!((turn * momentum * turn.transpose())),
         };
         lets.extend(quote!(let [#(#rows),*] = #rt::rows(&#value);));
-    }
-    if parts.split {
-        lets.extend(split(context));
-    }
-    lets
-}
-
-/// `s = (M_ab + M_ba)/2`, `w = M_ab - M_ba`.
-fn split(context: &Context) -> TokenStream {
-    let t = &context.names.scalar;
-    let stem = context.model.reduction.chart.momentum.name();
-    let n = context.model.dim;
-    let mut lets = quote!(let half = #t::constant(0.5, 0.0););
-    for a in 1..=n {
-        for b in a + 1..=n {
-            let (upper, lower) = (format_ident!("{stem}_{a}{b}"), format_ident!("{stem}_{b}{a}"));
-            let (s, w) = (format_ident!("{stem}_sym_{a}{b}"), format_ident!("{stem}_skew_{a}{b}"));
-            lets.extend(quote! {
-                let #s = half * (#upper + #lower);
-                let #w = #upper - #lower;
-            });
-        }
     }
     lets
 }
@@ -368,7 +339,6 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
 
 /// The affine momentum of the chart, back from turned space.
 fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> TokenStream {
-    let t = &context.names.scalar;
     let chart = &context.model.reduction.chart;
     if parts.momentum {
         return quote!(let momentum = constants.momentum;);
@@ -377,20 +347,6 @@ fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> To
     if !parts.fixed.is_empty() {
         let fixed = identifiers(&parts.fixed);
         lets.extend(quote!(let [#(#fixed),*] = constants.fixed;));
-    }
-    if parts.split {
-        let stem = chart.momentum.name();
-        lets.extend(quote!(let half = #t::constant(0.5, 0.0);));
-        for a in 1..=context.model.dim {
-            for b in a + 1..=context.model.dim {
-                let (upper, lower) = (format_ident!("{stem}_{a}{b}"), format_ident!("{stem}_{b}{a}"));
-                let (s, w) = (format_ident!("{stem}_sym_{a}{b}"), format_ident!("{stem}_skew_{a}{b}"));
-                lets.extend(quote! {
-                    let #upper = #s + half * #w;
-                    let #lower = #s - half * #w;
-                });
-            }
-        }
     }
     let momentum = match (parts.turn, chart.momentum) {
         (false, _) | (_, Momentum::Body) => quote!(#rows),

@@ -331,7 +331,6 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
     let (name, ..) = momentum_names(reduction.chart.momentum);
     match reduction.layout {
         Layout::Constant => list.push(format!("{name}: conserved")),
-        Layout::Symmetric => list.push(format!("the skew part of {name}: conserved")),
         Layout::Entries => {}
     }
     if reduction.chart.linear.is_some() && reduction.turned {

@@ -26,8 +26,6 @@ pub enum Commuting {
 pub enum Layout {
     /// All of it is conserved: a constant of the trajectory.
     Constant,
-    /// Its skew part is conserved; the symmetric part is state.
-    Symmetric,
     /// All entries are state.
     Entries,
 }
@@ -157,15 +155,15 @@ impl Plan {
     /// written in both forms.
     fn reduced(self, arena: &mut Arena, h: &Polynomial) -> Vec<Reduction> {
         let expanded = hamilton(arena, &self.chart, h, Form::Expanded);
-        let layout = layout(&self.chart, &expanded);
+        let layout = layout(&expanded);
         let mut systems = vec![expanded];
         if layout == Layout::Entries {
             systems.push(hamilton(arena, &self.chart, h, Form::ThroughVelocity));
         }
-        systems.into_iter().map(|system| self.state_only(arena, system, layout)).collect()
+        systems.into_iter().map(|system| self.state_only(system, layout)).collect()
     }
 
-    fn state_only(&self, arena: &mut Arena, mut system: System, layout: Layout) -> Reduction {
+    fn state_only(&self, mut system: System, layout: Layout) -> Reduction {
         let chart = self.chart.clone();
         let p_constant =
             system.rates.iter().all(|(z, _, rate)| !matches!(z, Coordinate::P(_)) || rate.is_zero());
@@ -173,30 +171,15 @@ impl Plan {
         system.rates.retain(|(z, _, _)| match z {
             Coordinate::X(_) | Coordinate::Phi(..) => true,
             Coordinate::P(_) => !p_constant,
-            Coordinate::M(a, b) => match layout {
+            Coordinate::M(..) => match layout {
                 Layout::Constant => false,
-                Layout::Symmetric => a <= b,
                 Layout::Entries => true,
             },
         });
-        let symmetric = symmetric_part(arena, &chart, layout);
         let gauge = gauge(&chart, turned, layout);
-        let value = |atom: Expr| {
-            let known = symmetric.iter().chain(&gauge).find(|(symbol, _)| *symbol == atom);
-            known.map(|(_, value)| value.clone())
-        };
+        let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
         system = system.substitute(&value).tidied();
-        if layout == Layout::Symmetric {
-            for (z, symbol, _) in &mut system.rates {
-                if let Coordinate::M(a, b) = *z {
-                    *symbol = stretch_symbol(arena, &chart, a, b);
-                }
-            }
-        }
-        let mut fixed: Vec<Expr> = match layout {
-            Layout::Symmetric => split_symmetric(arena, &chart).iter().map(|split| split.skew).collect(),
-            Layout::Constant | Layout::Entries => Vec::new(),
-        };
+        let mut fixed: Vec<Expr> = Vec::new();
         system.rates.retain(|(z, symbol, rate)| {
             let still = matches!(z, Coordinate::M(..)) && rate.is_zero();
             if still {
@@ -209,20 +192,11 @@ impl Plan {
     }
 }
 
-/// What of the affine momentum an expanded system conserves.
-fn layout(chart: &Chart, system: &System) -> Layout {
-    let rate = |a: usize, b: usize| {
-        let wanted = Coordinate::M(a, b);
-        system.rates.iter().find(|(z, _, _)| *z == wanted).map(|(_, _, rate)| rate)
-    };
-    let pairs = || (0..chart.dim).flat_map(|a| (0..chart.dim).map(move |b| (a, b)));
-    if pairs().all(|(a, b)| rate(a, b).is_none_or(Polynomial::is_zero)) {
-        Layout::Constant
-    } else if pairs().all(|(a, b)| rate(a, b) == rate(b, a)) {
-        Layout::Symmetric
-    } else {
-        Layout::Entries
-    }
+/// Does an expanded system conserve the affine momentum?
+fn layout(system: &System) -> Layout {
+    let still =
+        |(z, _, rate): &(Coordinate, Expr, Polynomial)| !matches!(z, Coordinate::M(..)) || rate.is_zero();
+    if system.rates.iter().all(still) { Layout::Constant } else { Layout::Entries }
 }
 
 /// State variables, grouped.
@@ -243,73 +217,13 @@ fn states(chart: &Chart, system: &System) -> Vec<(&'static str, Vec<Expr>)> {
     .collect()
 }
 
-/// Symbol of an entry of the symmetric part of the momentum.
-fn stretch_symbol(arena: &mut Arena, chart: &Chart, a: usize, b: usize) -> Expr {
-    match a == b {
-        true => chart.m.0[a][b],
-        false => arena.symbol(&format!("{}_sym_{}{}", chart.momentum.name(), a + 1, b + 1)),
-    }
-}
-
-/// `M_ab = s_ab + w_ab/2`, `M_ba = s_ab - w_ab/2` off the diagonal, where the skew part `w` is constant.
-fn symmetric_part(arena: &mut Arena, chart: &Chart, layout: Layout) -> Vec<(Expr, Polynomial)> {
-    if layout != Layout::Symmetric {
-        return Vec::new();
-    }
-    split_symmetric(arena, chart)
-        .into_iter()
-        .flat_map(|split| [(split.upper, split.value(1)), (split.lower, split.value(-1))])
-        .collect()
-}
-
-/// A pair of entries `M_ab`, `M_ba` as symmetric and skew part.
-#[derive(Clone, Copy, Debug)]
-pub struct Split {
-    /// `M_ab`, `a < b`.
-    pub upper: Expr,
-    /// `M_ba`.
-    pub lower: Expr,
-    /// `s = (M_ab + M_ba)/2`
-    pub symmetric: Expr,
-    /// `w = M_ab - M_ba`
-    pub skew: Expr,
-}
-
-impl Split {
-    /// `s + sign w/2`.
-    #[must_use]
-    pub fn value(&self, sign: i64) -> Polynomial {
-        let mut sum = Polynomial::atom(self.symmetric);
-        if let Some(half) = Rational::ratio(sign, 2) {
-            sum.add_term(vec![self.skew], &half);
-        }
-        sum
-    }
-}
-
-/// Symmetric and skew parts of a chart's momentum, pair by pair.
-pub fn split_symmetric(arena: &mut Arena, chart: &Chart) -> Vec<Split> {
-    let mut splits = Vec::new();
-    for a in 0..chart.dim {
-        for b in a + 1..chart.dim {
-            splits.push(Split {
-                upper: chart.m.0[a][b],
-                lower: chart.m.0[b][a],
-                symmetric: stretch_symbol(arena, chart, a, b),
-                skew: arena.symbol(&format!("{}_skew_{}{}", chart.momentum.name(), a + 1, b + 1)),
-            });
-        }
-    }
-    splits
-}
-
 /// Components that vanish once space is turned.
-fn gauge(chart: &Chart, turned: bool, layout: Layout) -> Vec<(Expr, Polynomial)> {
+fn gauge(chart: &Chart, turned: bool, layout: Layout) -> Vec<Expr> {
     let mut zero = Vec::new();
     if turned {
-        zero.extend(chart.p.iter().skip(1).map(|p| (*p, Polynomial::zero())));
+        zero.extend(chart.p.iter().skip(1));
         if chart.momentum == Momentum::Total && layout == Layout::Constant && chart.dim == 3 {
-            zero.push((chart.m.0[0][2], Polynomial::zero()));
+            zero.push(chart.m.0[0][2]);
         }
     }
     zero
