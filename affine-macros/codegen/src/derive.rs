@@ -106,7 +106,7 @@ pub struct Condition {
 
 /// A block to invert numerically.
 pub struct NumericBlock {
-    /// Computes the upper triangle, row after row.
+    /// Computes the upper triangle, row after row, then the terms whose sizes make the threshold.
     pub program: Program,
     /// Names of the entries of the inverse, upper triangle, row after row.
     pub inverse: Vec<String>,
@@ -221,13 +221,12 @@ fn at_rest(arena: &mut Arena, h: &Hamiltonian, moving: &[Candidate]) -> Vec<Cand
 
 /// `X_ab = dT/dO_ba`.
 fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
-    let energy = kinetic.internal_energy(arena);
+    let energy = kinetic.internal_energy();
     let n = kinetic.dim;
     let mut momenta = vec![vec![Polynomial::zero(); n]; n];
     for (a, row) in kinetic.velocity.0.iter().enumerate() {
         for (b, velocity) in row.iter().enumerate() {
-            let slope = arena.derivative(energy, *velocity);
-            momenta[b][a] = Polynomial::normal_form(arena, slope);
+            momenta[b][a] = energy.derivative(*velocity);
         }
     }
     let names = Matrix::symbols(arena, kinetic.frame.momentum_name(), n);
@@ -242,8 +241,7 @@ fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Ba
 
 /// `T_int(O) + m/2 |v|^2`, with its inputs.
 fn energy_batch(arena: &mut Arena, kinetic: &Kinetic, mut inputs: Vec<Expr>) -> (Batch, Vec<Expr>) {
-    let internal = kinetic.internal_energy(arena);
-    let mut energy = Polynomial::normal_form(arena, internal);
+    let mut energy = kinetic.internal_energy();
     if let Some(t) = kinetic.translation {
         let mass = Polynomial::normal_form(arena, t.mass);
         let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);

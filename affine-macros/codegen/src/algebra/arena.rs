@@ -158,6 +158,7 @@ impl Arena {
         for &(base, exponent) in factors {
             self.split_factor(base, exponent, &mut number, &mut bases)?;
         }
+        self.match_reciprocals(&mut number, &mut bases)?;
         bases.sort_by_key(|(base, _)| *base);
         bases.dedup_by(|later, earlier| {
             let same = later.0 == earlier.0;
@@ -191,18 +192,41 @@ impl Arena {
                 self.split_factor(terms[0].0, exponent, number, bases)?;
             }
             // Reciprocals of multiples are multiples of reciprocals: 1/(2a + 2b) and 1/(a + b) share a node.
-            Node::Sum(constant, terms) if exponent < 0 && !terms[0].1.is_one() => {
-                let lead = terms[0].1.clone();
-                let scale = lead.recip()?;
-                let mut summands: Vec<(Expr, Rational)> =
-                    terms.iter().map(|(term, c)| (*term, c * &scale)).collect();
-                let constant = constant * &scale;
-                summands.push((self.constant(constant), Rational::ONE));
-                let monic = self.linear(&summands);
+            Node::Sum(..) if exponent < 0 => {
+                let (lead, monic) = self.monic(base)?;
                 *number = &*number * &lead.pow(exponent)?;
                 bases.push((monic, exponent));
             }
             _ => bases.push((base, exponent)),
+        }
+        Some(())
+    }
+
+    /// A sum as a number times the sum with leading coefficient 1.
+    fn monic(&mut self, base: Expr) -> Option<(Rational, Expr)> {
+        let Node::Sum(constant, terms) = self.node(base).clone() else { return Some((Rational::ONE, base)) };
+        let lead = terms[0].1.clone();
+        if lead.is_one() {
+            return Some((lead, base));
+        }
+        let scale = lead.recip()?;
+        let mut summands: Vec<(Expr, Rational)> = terms.iter().map(|(term, c)| (*term, c * &scale)).collect();
+        summands.push((self.constant(&constant * &scale), Rational::ONE));
+        Some((lead, self.linear(&summands)))
+    }
+
+    /// Writes sums that a reciprocal cancels up to a number as that number times the reciprocal's base.
+    fn match_reciprocals(&mut self, number: &mut Rational, bases: &mut [(Expr, i32)]) -> Option<()> {
+        let below: Vec<Expr> = bases.iter().filter(|(_, e)| *e < 0).map(|(base, _)| *base).collect();
+        if below.is_empty() {
+            return Some(());
+        }
+        for (base, exponent) in bases.iter_mut().filter(|(_, e)| *e > 0) {
+            let (lead, monic) = self.monic(*base)?;
+            if below.contains(&monic) {
+                *number = &*number * &lead.pow(*exponent)?;
+                *base = monic;
+            }
         }
         Some(())
     }

@@ -35,13 +35,13 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         .ok()
         .filter(|k| !k.internal.is_empty())
         .ok_or_else(|| found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy))?;
-    let hessian = Hessian::new(&mut arena, &kinetic);
+    let hessian = Hessian::new(&kinetic);
     invertible(spec, &hessian, found);
     positive(spec, &kinetic, &hessian, found);
-    claims(spec, &mut arena, &kinetic, &places, found);
+    claims(spec, &kinetic, &places, found);
     found.verdict()?;
-    let space_group = largest_group(&mut arena, &kinetic, Side::Space);
-    let body_group = largest_group(&mut arena, &kinetic, Side::Body);
+    let space_group = largest_group(&kinetic, Side::Space);
+    let body_group = largest_group(&kinetic, Side::Body);
     Ok(Form { arena, kinetic, hessian, space_group, body_group })
 }
 
@@ -108,7 +108,7 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
 
 /// A claimed symmetry is a theorem about the form: its derivative along every generator of the group vanishes,
 /// and for O(n) one reflection leaves it unchanged as well.
-fn claims(spec: &Spec, arena: &mut Arena, kinetic: &Kinetic, places: &[usize], found: &mut Diagnostics) {
+fn claims(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mut Diagnostics) {
     let Some(symmetry) = &spec.symmetry else { return };
     for (side, name, claim) in [(Side::Space, "space", symmetry.space), (Side::Body, "body", symmetry.body)] {
         let (group, letters) = match claim.value {
@@ -116,7 +116,7 @@ fn claims(spec: &Spec, arena: &mut Arena, kinetic: &Kinetic, places: &[usize], f
             Claim::Metric => (Group::Metric, "O"),
             Claim::None => continue,
         };
-        let Some((breaker, place)) = broken_by(arena, kinetic, side, group) else { continue };
+        let Some((breaker, place)) = broken_by(kinetic, side, group) else { continue };
         let n = kinetic.dim;
         let term = &spec.kinetic[places[place]];
         let mistake = Diagnostic::ClaimBroken {

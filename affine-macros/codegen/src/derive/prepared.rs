@@ -6,7 +6,7 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::Direction;
-use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::kinetic::{Coefficient, Frame, Kinetic};
 use crate::optimise::{Batch, straight_line};
 
 use super::{Condition, NumericBlock};
@@ -19,18 +19,23 @@ pub(super) fn conditions(
     require_positive: bool,
 ) -> Vec<Condition> {
     let dalembert = kinetic.frame == Frame::Flat;
-    let mut list: Vec<(&'static str, &'static str, bool, Polynomial)> = eigenvalues
-        .into_iter()
-        .map(|(direction, value)| {
-            let (name, directions) = match direction {
-                Direction::Shear => ("I + A", "symmetric traceless velocities (shear)"),
-                Direction::Rotation => ("I - A", "skew velocities (rotation)"),
-                Direction::Dilatation => ("I + A + n B", "multiples of the identity (dilatation)"),
-                Direction::Entry => ("J", "a row of phi_dot"),
-            };
-            (if dalembert { "J" } else { name }, directions, require_positive || dalembert, value)
-        })
-        .collect();
+    let tensor = kinetic.terms.iter().any(|term| matches!(term.value, Coefficient::Matrix(_)));
+    let mut list: Vec<(&'static str, &'static str, bool, Polynomial)> = Vec::new();
+    for (direction, value) in eigenvalues {
+        let (name, directions) = match direction {
+            // J has its eigenvalues once for each row of phi_dot, whatever the basis.
+            _ if dalembert => ("J", "a row of phi_dot"),
+            Direction::Shear => ("I + A", "symmetric traceless velocities (shear)"),
+            Direction::Rotation => ("I - A", "skew velocities (rotation)"),
+            Direction::Dilatation => ("I + A + n B", "multiples of the identity (dilatation)"),
+            Direction::Entry => ("K", "one entry of the affine velocity"),
+        };
+        // A tensor has no I, A and B of its own.
+        let name = if tensor && !dalembert { "the eigenvalue of T" } else { name };
+        if !list.iter().any(|(known, on, _, same)| (*known, *on) == (name, directions) && *same == value) {
+            list.push((name, directions, require_positive || dalembert, value));
+        }
+    }
     if let Some(t) = kinetic.translation
         && arena.as_constant(t.mass).is_none()
     {
@@ -39,12 +44,16 @@ pub(super) fn conditions(
     }
     list.into_iter()
         .map(|(name, directions, positive, value)| {
-            let sizes: Vec<Polynomial> =
-                value.terms().map(|(m, c)| Polynomial::term(m.clone(), c.clone())).collect();
+            let sizes = summands(&value);
             let program = unbound(arena, std::iter::once(value).chain(sizes));
             Condition { name, directions, positive, program }
         })
         .collect()
+}
+
+/// The terms of a sum, each a polynomial: their sizes say how much of it rounding can make.
+fn summands(sum: &Polynomial) -> Vec<Polynomial> {
+    sum.terms().map(|(monomial, c)| Polynomial::term(monomial.clone(), c.clone())).collect()
 }
 
 /// A program over the fields alone.
@@ -72,7 +81,9 @@ pub(super) fn numeric_blocks(arena: &mut Arena, h: &Hamiltonian, positive: bool)
             let upper: Vec<(usize, usize)> = (0..size).flat_map(|i| (i..size).map(move |j| (i, j))).collect();
             let name = |s: Expr| arena.name(s).unwrap_or("inverse").to_owned();
             let inverse = upper.iter().map(|(i, j)| name(block.inverse[*i][*j])).collect();
-            let program = unbound(arena, upper.iter().map(|(i, j)| block.form[*i][*j].clone()));
+            let entries: Vec<Polynomial> = upper.iter().map(|(i, j)| block.form[*i][*j].clone()).collect();
+            let sizes: Vec<Polynomial> = entries.iter().flat_map(summands).collect();
+            let program = unbound(arena, entries.into_iter().chain(sizes));
             NumericBlock { program, inverse, size, positive }
         })
         .collect()

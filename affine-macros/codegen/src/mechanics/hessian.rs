@@ -85,17 +85,13 @@ impl Block {
 
 impl Hessian {
     /// The Hessian of the internal energy.
-    pub fn new(arena: &mut Arena, kinetic: &Kinetic) -> Self {
-        let energy = kinetic.internal_energy(arena);
+    #[must_use]
+    pub fn new(kinetic: &Kinetic) -> Self {
+        let energy = kinetic.internal_energy();
         let velocities: Vec<Expr> = kinetic.velocity.0.iter().flatten().copied().collect();
-        let gradient: Vec<Expr> = velocities.iter().map(|v| arena.derivative(energy, *v)).collect();
-        let matrix: Vec<Vec<Polynomial>> = gradient
-            .iter()
-            .map(|g| {
-                let form = Polynomial::normal_form(arena, *g);
-                velocities.iter().map(|v| form.derivative(*v)).collect()
-            })
-            .collect();
+        let gradient = velocities.iter().map(|v| energy.derivative(*v));
+        let matrix: Vec<Vec<Polynomial>> =
+            gradient.map(|slope| velocities.iter().map(|v| slope.derivative(*v)).collect()).collect();
         let blocks = [entries(kinetic.dim), invariant(kinetic.dim)]
             .map(|basis| blocks(&matrix, basis))
             .into_iter()

@@ -1,6 +1,6 @@
 //! The kinetic energy, term by term, in the velocity of its frame.
 
-use crate::algebra::{Arena, Expr, Matrix, Rational};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 /// A term of the kinetic energy and its coefficient.
 #[derive(Clone, Debug)]
@@ -111,7 +111,7 @@ pub struct Kinetic {
     /// The terms as given.
     pub terms: Vec<Term>,
     /// Energy of each internal term, with its place among the terms.
-    pub internal: Vec<(usize, Expr)>,
+    pub internal: Vec<(usize, Polynomial)>,
     /// Frame and mass of the translational term, with its place among the terms.
     pub translation: Option<Translation>,
 }
@@ -168,9 +168,11 @@ impl Kinetic {
     }
 
     /// The internal energy `T_int`.
-    pub fn internal_energy(&self, arena: &mut Arena) -> Expr {
-        let parts: Vec<_> = self.internal.iter().map(|(_, e)| (*e, Rational::ONE)).collect();
-        arena.linear(&parts)
+    #[must_use]
+    pub fn internal_energy(&self) -> Polynomial {
+        let mut sum = Polynomial::zero();
+        self.internal.iter().for_each(|(_, energy)| sum.add_scaled(energy, &Rational::ONE));
+        sum
     }
 }
 
@@ -191,39 +193,39 @@ fn common(
 }
 
 /// The energy of an internal term at the affine velocity `o` of its frame.
-fn internal_energy(arena: &mut Arena, o: &Matrix, term: &Term) -> Expr {
+fn internal_energy(arena: &mut Arena, o: &Matrix, term: &Term) -> Polynomial {
+    let n = o.dim();
     let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
-    let form = match (&term.value, term.kind) {
-        (Coefficient::Scalar(c), TermKind::Casimir2) => {
-            let trace = o.mul(arena, o).trace(arena);
-            arena.mul(*c, trace)
-        }
-        (Coefficient::Scalar(c), TermKind::Casimir1Squared) => {
-            let trace = o.trace(arena);
-            let square = arena.mul(trace, trace);
-            arena.mul(*c, square)
-        }
-        (Coefficient::Scalar(c), _) => {
-            let trace = o.mul(arena, &o.transpose()).trace(arena);
-            arena.mul(*c, trace)
-        }
-        (Coefficient::Matrix(j), TermKind::Dalembert) => {
-            o.mul(arena, j).mul(arena, &o.transpose()).trace(arena)
-        }
-        (Coefficient::Matrix(k), _) => tensor_form(arena, o, k),
+    let pairs = || (0..n).flat_map(|a| (0..n).map(move |b| (a, b)));
+    let mut energy = Polynomial::zero();
+    let mut add = |left: Expr, coefficient: &Polynomial, right: Expr| {
+        energy.add_product(coefficient, &Polynomial::term(vec![left, right], Rational::ONE), &half);
     };
-    arena.scale(form, &half)
-}
-
-/// `K[nA+B][nC+D] O[A][B] O[C][D]`.
-fn tensor_form(arena: &mut Arena, o: &Matrix, k: &Matrix) -> Expr {
-    let entries: Vec<Expr> = o.0.iter().flatten().copied().collect();
-    let mut sum = Vec::new();
-    for (row, a) in k.0.iter().zip(&entries) {
-        for (coefficient, b) in row.iter().zip(&entries) {
-            let pair = arena.mul(*a, *b);
-            sum.push((arena.mul(*coefficient, pair), Rational::ONE));
+    match &term.value {
+        Coefficient::Scalar(c) => {
+            let c = Polynomial::normal_form(arena, *c);
+            for (a, b) in pairs() {
+                match term.kind {
+                    TermKind::Casimir2 => add(o.0[a][b], &c, o.0[b][a]),
+                    TermKind::Casimir1Squared => add(o.0[a][a], &c, o.0[b][b]),
+                    _ => add(o.0[a][b], &c, o.0[a][b]),
+                }
+            }
+        }
+        Coefficient::Matrix(k) => {
+            // J acts on the second index, K on both.
+            let both = term.kind != TermKind::Dalembert;
+            for (r, row) in k.0.iter().enumerate() {
+                for (s, entry) in row.iter().enumerate() {
+                    let entry = Polynomial::normal_form(arena, *entry);
+                    if both {
+                        add(o.0[r / n][r % n], &entry, o.0[s / n][s % n]);
+                    } else {
+                        (0..n).for_each(|i| add(o.0[i][r], &entry, o.0[i][s]));
+                    }
+                }
+            }
         }
     }
-    arena.linear(&sum)
+    energy
 }

@@ -1,6 +1,6 @@
 //! Invariance of the kinetic energy under the left and right action of the affine group, proved from the form.
 
-use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::algebra::{Expr, Matrix, Polynomial, Rational};
 
 use super::kinetic::{Frame, Kinetic};
 
@@ -37,30 +37,29 @@ pub enum Breaker {
 
 /// The first generator or reflection of `group` on `side` that changes the energy, with the place of a term that
 /// it changes.
-pub fn broken_by(arena: &mut Arena, kinetic: &Kinetic, side: Side, group: Group) -> Option<(Breaker, usize)> {
-    let n = kinetic.dim;
-    for breaker in breakers(n, group) {
-        let total = kinetic.internal_energy(arena);
+#[must_use]
+pub fn broken_by(kinetic: &Kinetic, side: Side, group: Group) -> Option<(Breaker, usize)> {
+    let total = Energy::new(kinetic, kinetic.internal_energy());
+    for breaker in breakers(kinetic.dim, group) {
         let translation_changes = kinetic.translation.filter(|t| changes_translation(t.frame, side, breaker));
         if let Some(t) = translation_changes {
             return Some((breaker, t.place));
         }
-        if !change(arena, kinetic, total, side, breaker).is_zero() {
-            let terms = kinetic.internal.clone();
-            let place = terms
-                .into_iter()
-                .find(|(_, energy)| !change(arena, kinetic, *energy, side, breaker).is_zero())
-                .map_or(0, |(place, _)| place);
-            return Some((breaker, place));
+        if !total.change(side, breaker).is_zero() {
+            let changes =
+                |energy: &Polynomial| !Energy::new(kinetic, energy.clone()).change(side, breaker).is_zero();
+            let term = kinetic.internal.iter().find(|(_, energy)| changes(energy));
+            return Some((breaker, term.map_or(0, |(place, _)| *place)));
         }
     }
     None
 }
 
 /// The largest of the named groups that leaves the energy invariant.
-pub fn largest_group(arena: &mut Arena, kinetic: &Kinetic, side: Side) -> Group {
+#[must_use]
+pub fn largest_group(kinetic: &Kinetic, side: Side) -> Group {
     for group in [Group::Affine, Group::Metric] {
-        if broken_by(arena, kinetic, side, group).is_none() {
+        if broken_by(kinetic, side, group).is_none() {
             return group;
         }
     }
@@ -87,72 +86,76 @@ fn changes_translation(frame: Frame, side: Side, breaker: Breaker) -> bool {
     acts && matches!(breaker, Breaker::Generator(..))
 }
 
-/// Derivative of an energy along a generator, or its difference under a reflection.
-fn change(arena: &mut Arena, kinetic: &Kinetic, energy: Expr, side: Side, breaker: Breaker) -> Polynomial {
-    match breaker {
-        Breaker::Reflection => reflected_difference(arena, kinetic, energy, side),
-        Breaker::Generator(a, b) => along(arena, kinetic, energy, side, &[(a - 1, b - 1, Rational::ONE)]),
-        Breaker::Rotation(a, b) => along(
-            arena,
-            kinetic,
-            energy,
-            side,
-            &[(a - 1, b - 1, Rational::ONE), (b - 1, a - 1, Rational::MINUS_ONE)],
-        ),
-    }
+/// An energy with its derivatives.
+struct Energy<'a> {
+    kinetic: &'a Kinetic,
+    form: Polynomial,
+    /// `dT/dO_ab`.
+    slopes: Vec<Vec<Polynomial>>,
 }
 
-/// `sum of dT/dO_ab (delta O)_ab` for the generator `e`: `delta Om = [e, Om]` on the left, `delta Oh = [Oh, e]`
-/// on the right, `e phi_dot` and `phi_dot e` for flat energies; the other affine velocity does not change.
-fn along(
-    arena: &mut Arena,
-    kinetic: &Kinetic,
-    energy: Expr,
-    side: Side,
-    e: &[(usize, usize, Rational)],
-) -> Polynomial {
-    let o = &kinetic.velocity;
-    let (left, right) = match (kinetic.frame, side) {
-        (Frame::Space, Side::Space) => (1, -1),
-        (Frame::Body, Side::Body) => (-1, 1),
-        (Frame::Flat, Side::Space) => (1, 0),
-        (Frame::Flat, Side::Body) => (0, 1),
-        _ => return Polynomial::zero(),
-    };
-    let mut sum = Polynomial::zero();
-    for (a, b, weight) in e {
-        for k in 0..kinetic.dim {
-            // (e O)_ak = weight O_bk and (O e)_kb = weight O_ka
-            for (target, source, sign) in [((*a, k), (*b, k), left), ((k, *b), (k, *a), right)] {
-                let slope = arena.derivative(energy, o.0[target.0][target.1]);
-                let slope = Polynomial::normal_form(arena, slope);
-                let step = Polynomial::atom(o.0[source.0][source.1]);
-                sum.add_product(&slope, &step, &(weight * &Rational::from(sign)));
-            }
+impl<'a> Energy<'a> {
+    fn new(kinetic: &'a Kinetic, form: Polynomial) -> Self {
+        let row = |row: &Vec<Expr>| row.iter().map(|o| form.derivative(*o)).collect();
+        let slopes = kinetic.velocity.0.iter().map(row).collect();
+        Self { kinetic, form, slopes }
+    }
+
+    /// Derivative of the energy along a generator, or its difference under a reflection.
+    fn change(&self, side: Side, breaker: Breaker) -> Polynomial {
+        let rotation = |a, b| [(a, b, Rational::ONE), (b, a, Rational::MINUS_ONE)];
+        match breaker {
+            Breaker::Reflection => self.reflected_difference(side),
+            Breaker::Generator(a, b) => self.along(side, &[(a - 1, b - 1, Rational::ONE)]),
+            Breaker::Rotation(a, b) => self.along(side, &rotation(a - 1, b - 1)),
         }
     }
-    sum
-}
 
-/// `T(R O R) - T(O)` (affine frames) or `T(R phi_dot) - T(phi_dot)`, for `R = diag(-1, 1, ...)`.
-fn reflected_difference(arena: &mut Arena, kinetic: &Kinetic, energy: Expr, side: Side) -> Polynomial {
-    let acts = match kinetic.frame {
-        Frame::Flat => true,
-        Frame::Space => side == Side::Space,
-        Frame::Body => side == Side::Body,
-    };
-    let form = Polynomial::normal_form(arena, energy);
-    let mut difference = form.substitute(&|atom| {
-        let (a, b) = position(&kinetic.velocity, atom)?;
-        let flips = match (kinetic.frame, side) {
-            (Frame::Flat, Side::Space) => a == 0,
-            (Frame::Flat, Side::Body) => b == 0,
-            _ => (a == 0) != (b == 0),
+    /// `sum of dT/dO_ab (delta O)_ab` for the generator `e`: `delta Om = [e, Om]` on the left, `delta Oh = [Oh, e]`
+    /// on the right, `e phi_dot` and `phi_dot e` for flat energies; the other affine velocity does not change.
+    fn along(&self, side: Side, e: &[(usize, usize, Rational)]) -> Polynomial {
+        let o = &self.kinetic.velocity;
+        let (left, right) = match (self.kinetic.frame, side) {
+            (Frame::Space, Side::Space) => (1, -1),
+            (Frame::Body, Side::Body) => (-1, 1),
+            (Frame::Flat, Side::Space) => (1, 0),
+            (Frame::Flat, Side::Body) => (0, 1),
+            _ => return Polynomial::zero(),
         };
-        (acts && flips).then(|| Polynomial::term(vec![atom], Rational::MINUS_ONE))
-    });
-    difference.add_scaled(&form, &Rational::MINUS_ONE);
-    difference
+        let mut sum = Polynomial::zero();
+        for (a, b, weight) in e {
+            for k in 0..self.kinetic.dim {
+                // (e O)_ak = weight O_bk and (O e)_kb = weight O_ka
+                for (target, source, sign) in [((*a, k), (*b, k), left), ((k, *b), (k, *a), right)] {
+                    let slope = &self.slopes[target.0][target.1];
+                    let step = Polynomial::atom(o.0[source.0][source.1]);
+                    sum.add_product(slope, &step, &(weight * &Rational::from(sign)));
+                }
+            }
+        }
+        sum
+    }
+
+    /// `T(R O R) - T(O)` (affine frames) or `T(R phi_dot) - T(phi_dot)`, for `R = diag(-1, 1, ...)`.
+    fn reflected_difference(&self, side: Side) -> Polynomial {
+        let frame = self.kinetic.frame;
+        let acts = match frame {
+            Frame::Flat => true,
+            Frame::Space => side == Side::Space,
+            Frame::Body => side == Side::Body,
+        };
+        let mut difference = self.form.substitute(&|atom| {
+            let (a, b) = position(&self.kinetic.velocity, atom)?;
+            let flips = match (frame, side) {
+                (Frame::Flat, Side::Space) => a == 0,
+                (Frame::Flat, Side::Body) => b == 0,
+                _ => (a == 0) != (b == 0),
+            };
+            (acts && flips).then(|| Polynomial::term(vec![atom], Rational::MINUS_ONE))
+        });
+        difference.add_scaled(&self.form, &Rational::MINUS_ONE);
+        difference
+    }
 }
 
 fn position(velocity: &Matrix, atom: Expr) -> Option<(usize, usize)> {

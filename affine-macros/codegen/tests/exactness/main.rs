@@ -1,0 +1,18 @@
+//! Everything between a specification and its programs, in exact rational arithmetic: nothing here has a tolerance.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod brackets;
+mod conservation;
+mod derivation;
+mod expressions;
+mod fields;
+mod linear;
+mod models;
+mod passes;
+mod points;
+mod polynomials;
+mod rational;
+mod reduction;
+mod singular;
+mod symmetry;
+mod tensors;

@@ -1,0 +1,202 @@
+//! Reduced equations: the exact motion of the energy that is left when its commuting pieces are split off.
+
+use affine_codegen::algebra::Rational;
+use affine_codegen::derive::Model;
+use affine_codegen::ir::Op;
+use affine_codegen::mechanics::charts::Momentum;
+use affine_codegen::mechanics::kinetic::Frame;
+use affine_codegen::mechanics::reduce::{ClosedForm, Commuting, Layout, Reduction};
+use affine_oracle::{Kinetic, Matrix, Observable, Random, Rational as Exact, State, rational};
+
+use super::derivation::point;
+use super::models::{FAMILIES, Internal, Sample, TRANSLATIONS, Translation};
+use super::points::{Values, coordinates, exact, rates, run};
+
+fn is_skew(piece: &Commuting) -> bool {
+    matches!(piece, Commuting::Vorticity(_) | Commuting::Spin(_))
+}
+
+fn is_drift(piece: &Commuting) -> bool {
+    matches!(piece, Commuting::Drift(_))
+}
+
+/// The energy of the reduced equations.
+pub(crate) fn rest(sample: &Sample, reduction: &Reduction) -> Kinetic {
+    let skew = reduction.commuting.iter().any(is_skew);
+    let drift = reduction.commuting.iter().any(is_drift);
+    assert!(!skew || matches!(sample.internal, Internal::Body | Internal::Space));
+    let mut terms = if skew { sample.without_skew_part() } else { sample.internal_terms() };
+    if !drift {
+        terms.extend(sample.translational_term());
+    }
+    Kinetic::new(sample.n, terms).unwrap()
+}
+
+/// A point that respects the turn of space: `p = (p_1, 0, 0)`, and `I(O)_13 = 0`.
+pub(crate) fn turned(state: State) -> State {
+    let n = state.dimension();
+    let mut p = vec![rational(0, 1); n];
+    p[0] = state.p.entry(0, 0);
+    let p = Matrix::from_rationals(n, 1, &p);
+    let sigma = &state.phi * &state.pi;
+    let mut entries = sigma.entries();
+    // p_3 = 0, so that I(O)_13 = Sigma_13.
+    entries[n - 1] = if n == 3 { rational(0, 1) } else { entries[n - 1].clone() };
+    State::with_affine_spin(state.x, state.phi, p, &Matrix::from_rationals(n, n, &entries)).unwrap()
+}
+
+/// What the split-off pieces contribute to `H`.
+fn split_energy(reduction: &Reduction, kinetic: &Kinetic, state: &State) -> Exact {
+    let norm = |observable: Observable| observable.value(kinetic, state).unwrap().entry(0, 0);
+    let half = rational(1, 2);
+    let mut sum = rational(0, 1);
+    for piece in &reduction.commuting {
+        let (inverse, square) = match piece {
+            Commuting::Vorticity(mu) => (mu, norm(Observable::VorticityNorm)),
+            Commuting::Spin(mu) => (mu, norm(Observable::SpinNorm)),
+            Commuting::Drift(m) => (m, (&state.p.transpose() * &state.p).entry(0, 0)),
+        };
+        sum += exact(&inverse.as_constant().unwrap()) * square * &half;
+    }
+    sum
+}
+
+#[test]
+fn every_family_is_reduced_exactly() {
+    let mut random = Random::new(21);
+    let mut turns = 0;
+    for n in [2, 3] {
+        for internal in FAMILIES {
+            for translation in TRANSLATIONS {
+                let sample = Sample::new(&mut random, n, internal, translation);
+                let model = sample.derived();
+                let rest = rest(&sample, &model.reduction);
+                for _ in 0..2 {
+                    let mut state = point(&mut random, &sample.kinetic);
+                    if model.reduction.turned {
+                        turns += 1;
+                        state = turned(state);
+                    }
+                    let split = split_energy(&model.reduction, &sample.kinetic, &state);
+                    let whole = sample.kinetic.hamiltonian(&state).unwrap().entry(0, 0);
+                    if !rest.has_translation() {
+                        state = state.at_rest();
+                    }
+                    let main = rest.hamiltonian(&state).unwrap().entry(0, 0);
+                    assert_eq!(whole, main + split, "{}", sample.args);
+                    equations(&sample.args, &model, &rest, &state, &Values::new());
+                }
+            }
+        }
+    }
+    assert!(turns > 10);
+}
+
+/// The reduced equations against the motion of `rest`, in a model with these coefficients.
+pub(crate) fn equations(what: &str, model: &Model, rest: &Kinetic, state: &State, coefficients: &Values) {
+    let mut here = coordinates(rest, state);
+    here.extend(coefficients.clone());
+    let mut inputs = run(&model.trajectory, &here);
+    inputs.extend(coefficients.clone());
+    let listed: Vec<&String> = model.reduced.groups.iter().flat_map(|(_, names)| names).collect();
+    for name in &listed {
+        inputs.insert((*name).clone(), here[*name].clone());
+    }
+    let constants = constants(model);
+    let reads = model.trajectory.steps.iter().filter_map(|step| match step {
+        Op::Input(name) => Some(name),
+        _ => None,
+    });
+    for name in reads {
+        assert!(
+            constants.contains(name) || coefficients.contains_key(name),
+            "{what}: the trajectory reads {name}"
+        );
+    }
+    let expected = rates(&rest.motion(state).unwrap());
+    let found = run(&model.reduced.program, &inputs);
+    assert_eq!(found.len(), listed.len());
+    for name in listed {
+        assert_eq!(found[&format!("d_{name}")], expected[name], "{what}: {name}");
+    }
+    // What is not integrated does not move.
+    for name in &constants {
+        assert_eq!(expected[name], Rational::ZERO, "{what}: {name} is a constant of the trajectory");
+    }
+}
+
+/// The momenta that are constants of a trajectory: `p`, and all of the affine momentum or a part.
+fn constants(model: &Model) -> Vec<String> {
+    let n = model.dim;
+    let mut names = Vec::new();
+    if model.reduction.chart.linear.is_some() {
+        names.extend((1..=n).map(|i| format!("p_{i}")));
+    }
+    match model.reduction.layout {
+        Layout::Constant => {
+            let stem = model.reduction.chart.momentum.name();
+            names.extend((1..=n).flat_map(|i| (1..=n).map(move |j| format!("{stem}_{i}{j}"))));
+        }
+        Layout::Symmetric | Layout::Entries => names.extend(model.fixed.clone()),
+    }
+    names
+}
+
+/// The reduction of each family: chart, what is split off, what stays in the state, closed form.
+#[test]
+fn each_family_reduces_as_far_as_it_can() {
+    let mut random = Random::new(22);
+    for n in [2, 3] {
+        for internal in FAMILIES {
+            for translation in TRANSLATIONS {
+                let sample = Sample::new(&mut random, n, internal, translation);
+                let model = sample.derived();
+                let reduction = &model.reduction;
+                let what = &sample.args;
+                let flat = model.frame == Frame::Flat;
+                let isotropic = matches!(internal, Internal::Affine | Internal::Body | Internal::Space);
+                let clash = (internal == Internal::Body && translation == Translation::Space)
+                    || (internal == Internal::Space && translation == Translation::Body);
+                // Spatial translation commutes with everything internal.
+                let drift = translation == Translation::Space;
+                assert_eq!(reduction.commuting.iter().any(is_drift), drift, "{what}");
+                // |S|^2 does not commute with |phi^T p|^2; vorticity is conserved by both translations.
+                let skew = matches!(internal, Internal::Body)
+                    || (internal == Internal::Space && translation != Translation::Body);
+                assert_eq!(reduction.commuting.iter().any(is_skew), skew, "{what}");
+                let split_spin = reduction.commuting.iter().any(|c| matches!(c, Commuting::Spin(_)));
+                assert_eq!(split_spin, skew && internal == Internal::Space, "{what}");
+                let moving = translation == Translation::Body;
+                let turns = moving && !matches!(internal, Internal::SpaceTensor | Internal::SpaceSum);
+                assert_eq!(reduction.turned, turns, "{what}");
+                if (isotropic && !(clash && moving)) || (flat && !moving) {
+                    assert_eq!(reduction.layout, Layout::Constant, "{what}");
+                }
+                let x_in_state = model.reduced.groups.iter().any(|(name, _)| *name == "x");
+                assert_eq!(x_in_state, moving, "{what}");
+                // At p = 0 the skew part of every isotropic energy commutes with the rest.
+                let closed = match (isotropic, model.frame) {
+                    (_, Frame::Flat) => Some(ClosedForm::Straight),
+                    (false, _) => None,
+                    (true, Frame::Body) => Some(ClosedForm::Body),
+                    (true, Frame::Space) => Some(ClosedForm::Space),
+                };
+                assert_eq!(model.closed_form, closed.map(|form| (form, moving)), "{what}");
+            }
+        }
+    }
+}
+
+/// P1 integrates x and phi alone: p and I(O) are constants of the trajectory.
+#[test]
+fn the_drunk_missile_integrates_position_and_placement() {
+    let args =
+        "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1)";
+    let model = super::models::derived(args, "struct Missile;");
+    assert_eq!(model.reduction.chart.momentum, Momentum::Total);
+    let names: Vec<&str> = model.reduced.groups.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["x", "phi"]);
+    let size: usize = model.reduced.groups.iter().map(|(_, components)| components.len()).sum();
+    assert_eq!(size, 12);
+    assert!(model.coefficients.outputs.is_empty());
+}
