@@ -139,7 +139,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
 
     let (full_chart, full_h) = full_chart(arena, &h);
     let full = full_equations(arena, &h, &full_chart, &full_h, &mut coefficients);
-    let (reduction, reduced, trajectory, fixed) = best_reduction(arena, &h, &mut coefficients)?;
+    let rotations = conserved_now.contains(&Candidate::TotalAngularMomentum);
+    let (reduction, reduced, trajectory, fixed) = best_reduction(arena, &h, rotations, &mut coefficients)?;
     let formulas = Formulas {
         kinetic_energy: describe::kinetic_energy(arena, &kinetic),
         hamiltonian: describe::hamiltonian(arena, &h, &full_h),

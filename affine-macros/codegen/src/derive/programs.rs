@@ -35,7 +35,7 @@ pub(super) fn full_equations(
     let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
     let through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
-    if h.isotropic.is_some() || h.frame == Frame::Flat {
+    if !h.is_tensor() {
         let expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
         ways.push(batch(arena, &expanded));
         ways.push(split_batch(arena, chart, &expanded));
@@ -108,10 +108,11 @@ fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> Batch {
 pub(super) fn best_reduction(
     arena: &mut Arena,
     h: &Hamiltonian,
+    rotations: bool,
     coefficients: &mut Constants,
 ) -> Option<(Reduction, Equations, Program, Vec<String>)> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
-    for candidate in reduce::candidates(arena, h) {
+    for candidate in reduce::candidates(arena, h, rotations) {
         let states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
         let mut constants = Constants::new("k");
         let way = batch(arena, &candidate.system);

@@ -2,7 +2,7 @@
 //! identically.
 
 use crate::algebra::evaluate::evaluate_polynomial;
-use crate::algebra::ring::{Ring, Square, adjugate, deviator, product, skew, sum, table};
+use crate::algebra::ring::{Ring, Square, adjugate, deviator, difference, product, skew, sum, table};
 use crate::algebra::{Arena, Polynomial, Rational};
 
 use super::brackets::{Generator, generator_bracket};
@@ -107,13 +107,6 @@ pub fn conserved(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> Vec<Candid
         .collect()
 }
 
-/// Is the model invariant under rotations of space?
-pub fn rotation_invariant(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> bool {
-    let flow = Flow::new(arena, chart, h);
-    let quantity = if chart.linear.is_some() { Candidate::TotalAngularMomentum } else { Candidate::Spin };
-    flow.bracket(quantity).iter().all(Polynomial::is_zero)
-}
-
 /// Coordinates and their rates, as polynomials or at one point.
 struct Flow<R> {
     momentum: Momentum,
@@ -124,7 +117,8 @@ struct Flow<R> {
     x_dot: Vec<R>,
     p_dot: Vec<R>,
     phi_dot: Square<R>,
-    m_dot: Square<R>,
+    /// Rate of `Pi`, where the chart has it.
+    pi_dot: Square<R>,
     /// Rates of `Sigma` and `Sigma_hat`.
     sigma_dot: Square<R>,
     sigma_hat_dot: Square<R>,
@@ -157,7 +151,10 @@ impl Flow<Polynomial> {
             x_dot: (0..moving).map(|i| dot(Coordinate::X(i))).collect(),
             p_dot: (0..moving).map(|i| dot(Coordinate::P(i))).collect(),
             phi_dot: square(&|i, j| dot(Coordinate::Phi(i, j))),
-            m_dot: square(&|i, j| dot(Coordinate::M(i, j))),
+            pi_dot: match chart.momentum {
+                Momentum::Canonical => square(&|i, j| dot(Coordinate::M(i, j))),
+                _ => Vec::new(),
+            },
             sigma_dot: square(&|i, j| generated(Generator::Space(i, j))),
             sigma_hat_dot: square(&|i, j| generated(Generator::Body(i, j))),
             velocity: square(&|i, j| velocity[i][j].1.clone()),
@@ -178,7 +175,7 @@ impl Flow<Polynomial> {
             x_dot: list(&self.x_dot)?,
             p_dot: list(&self.p_dot)?,
             phi_dot: square(&self.phi_dot)?,
-            m_dot: square(&self.m_dot)?,
+            pi_dot: square(&self.pi_dot)?,
             sigma_dot: square(&self.sigma_dot)?,
             sigma_hat_dot: square(&self.sigma_hat_dot)?,
             velocity: square(&self.velocity)?,
@@ -258,20 +255,14 @@ impl<R: Ring> Flow<R> {
 
     /// Rate of `Pi`, times `phi` on the side where that makes it a polynomial.
     fn canonical_rate(&self) -> Square<R> {
-        let mut rate = self.m_dot.clone();
-        let lost = match self.momentum {
+        let (rate, lost) = match self.momentum {
             // Pi_dot phi = d(Pi phi)/dt - Pi phi_dot = Sigma_hat_dot - Sigma_hat Omega_hat
-            Momentum::Body => product(&self.m, &self.velocity),
+            Momentum::Body => (&self.sigma_hat_dot, product(&self.m, &self.velocity)),
             // phi Pi_dot = Sigma_dot - Omega Sigma
-            Momentum::Space | Momentum::Total => product(&self.velocity, &self.m),
-            Momentum::Canonical => return rate,
+            Momentum::Space | Momentum::Total => (&self.sigma_dot, product(&self.velocity, &self.m)),
+            Momentum::Canonical => return self.pi_dot.clone(),
         };
-        for (row, other) in rate.iter_mut().zip(&lost) {
-            for (value, loss) in row.iter_mut().zip(other) {
-                value.plus(loss, &Rational::MINUS_ONE);
-            }
-        }
-        rate
+        difference(rate, &lost)
     }
 
     /// The affine spin whose traces are the Casimirs, in whichever frame is at hand.

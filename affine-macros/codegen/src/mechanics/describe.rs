@@ -153,7 +153,9 @@ pub fn hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) -> For
 pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polynomial) -> Vec<Formula> {
     let velocity = velocities(arena, chart, full);
     let slopes = gradient(chart, full);
-    let known = known_forms(h, chart, &velocity);
+    // A tensor's velocity stays a symbol: written out, nothing in its commutators cancels.
+    let form = if h.is_tensor() { Form::ThroughVelocity } else { Form::Expanded };
+    let known = known_forms(h, chart, &velocity, form);
     // For the canonical momentum the velocity is the rate of phi itself.
     let mut list = match chart.momentum {
         Momentum::Canonical => Vec::new(),
@@ -171,7 +173,7 @@ pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polyn
     ];
     for (left, left_latex, coordinates) in groups.into_iter().filter(|(_, _, c)| !c.is_empty()) {
         let derived: Vec<Polynomial> =
-            coordinates.iter().map(|z| rate(chart, &slopes, &velocity, Form::Expanded, *z)).collect();
+            coordinates.iter().map(|z| rate(chart, &slopes, &velocity, form, *z)).collect();
         let known = known.iter().find(|k| {
             k.components.len() == derived.len() && k.components.iter().zip(&derived).all(|(a, b)| a == b)
         });
@@ -201,14 +203,25 @@ struct Known {
 }
 
 /// Balance laws of section 4 and (3.1), as candidates to compare the derived equations with.
-fn known_forms(h: &Hamiltonian, chart: &Chart, velocity: &[Vec<(Expr, Polynomial)>]) -> Vec<Known> {
+fn known_forms(
+    h: &Hamiltonian,
+    chart: &Chart,
+    velocity: &[Vec<(Expr, Polynomial)>],
+    form: Form,
+) -> Vec<Known> {
     let n = chart.dim;
     let atoms = |rows: &Vec<Vec<Expr>>| -> Vec<Vec<Polynomial>> {
         rows.iter().map(|row| row.iter().map(|e| Polynomial::atom(*e)).collect()).collect()
     };
     let (phi, m) = (atoms(&chart.phi.0), atoms(&chart.m.0));
-    let o: Vec<Vec<Polynomial>> =
-        velocity.iter().map(|row| row.iter().map(|(_, p)| p.clone()).collect()).collect();
+    let written = |symbol: Expr, value: &Polynomial| match form {
+        Form::Expanded => value.clone(),
+        Form::ThroughVelocity => Polynomial::atom(symbol),
+    };
+    let o: Vec<Vec<Polynomial>> = velocity
+        .iter()
+        .map(|row| row.iter().map(|(symbol, value)| written(*symbol, value)).collect())
+        .collect();
     let p: Vec<Polynomial> = chart.p.iter().map(|e| Polynomial::atom(*e)).collect();
     let (x, x_latex, ..) = momentum_names(chart.momentum);
     let (omega, omega_latex) = velocity_names(chart.momentum);

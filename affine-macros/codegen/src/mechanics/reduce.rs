@@ -5,7 +5,6 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::brackets::poisson;
 use super::charts::{Chart, Coordinate, Linear, Momentum};
-use super::conserved::rotation_invariant;
 use super::equations::{Form, System, hamilton};
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetic::Frame;
@@ -114,15 +113,14 @@ pub fn commuting(arena: &mut Arena, h: &Hamiltonian) -> Vec<Commuting> {
     found
 }
 
-/// Every chart in which the rest of `H` is a polynomial, reduced.
-pub fn candidates(arena: &mut Arena, h: &Hamiltonian) -> Vec<Reduction> {
+/// Every chart in which the rest of `H` is a polynomial, reduced; `rotations` tells whether those of space leave `H`
+/// unchanged.
+pub fn candidates(arena: &mut Arena, h: &Hamiltonian, rotations: bool) -> Vec<Reduction> {
     let commuting = commuting(arena, h);
     let drift = commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
     let without_skew = commuting.iter().any(|c| !matches!(c, Commuting::Drift(_)));
     let linear = (h.translation.is_some() && !drift).then_some(Linear::Space);
-    let own = own_chart(arena, h);
-    let full = own_hamiltonian(h, &own);
-    let turn = linear.is_some() && rotation_invariant(arena, &own, &full);
+    let turn = linear.is_some() && rotations;
     let mut momenta = vec![Momentum::of(h.frame)];
     for other in [Momentum::Body, Momentum::Space, Momentum::Total] {
         if !momenta.contains(&other) && (other != Momentum::Total || linear.is_some()) {
@@ -138,7 +136,7 @@ pub fn candidates(arena: &mut Arena, h: &Hamiltonian) -> Vec<Reduction> {
                 main.add_scaled(&h.translation_in(&chart), &Rational::ONE);
             }
             let plan = Plan { chart, commuting: commuting.clone(), turn };
-            plan.reduced(arena, &main)
+            plan.reduced(arena, &main, h.is_tensor())
         })
         .collect()
 }
@@ -152,11 +150,15 @@ struct Plan {
 
 impl Plan {
     /// Takes the conserved momenta out of the state. Where the affine momentum stays in it, its equations are
-    /// written in both forms.
-    fn reduced(self, arena: &mut Arena, h: &Polynomial) -> Vec<Reduction> {
-        let expanded = hamilton(arena, &self.chart, h, Form::Expanded);
-        let layout = layout(&expanded);
-        let mut systems = vec![expanded];
+    /// written in both forms; those of a tensor, in which nothing cancels, only through the velocity.
+    fn reduced(self, arena: &mut Arena, h: &Polynomial, tensor: bool) -> Vec<Reduction> {
+        let mut layout = Layout::Entries;
+        let mut systems = Vec::new();
+        if !tensor {
+            let expanded = hamilton(arena, &self.chart, h, Form::Expanded);
+            layout = conserved_layout(&expanded);
+            systems.push(expanded);
+        }
         if layout == Layout::Entries {
             systems.push(hamilton(arena, &self.chart, h, Form::ThroughVelocity));
         }
@@ -193,7 +195,7 @@ impl Plan {
 }
 
 /// Does an expanded system conserve the affine momentum?
-fn layout(system: &System) -> Layout {
+fn conserved_layout(system: &System) -> Layout {
     let still =
         |(z, _, rate): &(Coordinate, Expr, Polynomial)| !matches!(z, Coordinate::M(..)) || rate.is_zero();
     if system.rates.iter().all(still) { Layout::Constant } else { Layout::Entries }
