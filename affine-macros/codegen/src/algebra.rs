@@ -8,6 +8,7 @@ pub mod linear;
 pub mod matrix;
 pub mod polynomial;
 pub mod rational;
+pub mod residue;
 pub mod ring;
 
 pub use arena::{Arena, Expr};

@@ -5,6 +5,7 @@ pub mod charts;
 pub mod conserved;
 pub mod describe;
 pub mod equations;
+mod flow;
 pub mod hamiltonian;
 pub mod hessian;
 pub mod kinetic;

@@ -144,6 +144,25 @@ impl Rational {
         (hi, lo)
     }
 
+    /// Residues of numerator and denominator, `0 <= r < modulus`.
+    #[must_use]
+    pub fn residues(&self, modulus: u64) -> (u64, u64) {
+        match &self.0 {
+            Repr::Small(n, d) => {
+                let size = n.unsigned_abs() % modulus;
+                let numerator = if *n < 0 && size > 0 { modulus - size } else { size };
+                (numerator, d.unsigned_abs() % modulus)
+            }
+            Repr::Big(b) => {
+                let size = |value: &BigInt| (value.magnitude() % modulus).to_u64().unwrap_or(0);
+                let numerator = size(b.numer());
+                let numerator =
+                    if b.is_negative() && numerator > 0 { modulus - numerator } else { numerator };
+                (numerator, size(b.denom()))
+            }
+        }
+    }
+
     fn to_big(&self) -> BigRational {
         match &self.0 {
             Repr::Small(n, d) => BigRational::new_raw((*n).into(), (*d).into()),

@@ -1,13 +1,15 @@
-//! Small matrices over any commutative ring: exact numbers and polynomials alike.
+//! Small matrices over any commutative ring: polynomials, and numbers modulo a prime.
 
+use super::evaluate::Field;
 use super::polynomial::Polynomial;
 use super::rational::Rational;
+use super::residue::Residue;
 
 /// A commutative ring.
 pub trait Ring: Clone {
     /// 0.
     fn zero() -> Self;
-    /// Is it 0?
+    /// Not proved to be different from 0?
     fn vanishes(&self) -> bool;
     /// Adds `weight * a * b`.
     fn plus_product(&mut self, a: &Self, b: &Self, weight: &Rational);
@@ -30,18 +32,18 @@ impl Ring for Polynomial {
     }
 }
 
-impl Ring for Rational {
+impl Ring for Residue {
     fn zero() -> Self {
-        Rational::ZERO
+        Residue::ZERO
     }
     fn vanishes(&self) -> bool {
-        self.is_zero()
+        !self.is_nonzero()
     }
     fn plus_product(&mut self, a: &Self, b: &Self, weight: &Rational) {
-        *self = &*self + &(&(a * b) * weight);
+        self.plus(&a.mul(b), weight);
     }
     fn plus(&mut self, a: &Self, weight: &Rational) {
-        *self = &*self + &(a * weight);
+        *self = self.add(&a.mul(&Residue::from_rational(weight)));
     }
 }
 

@@ -95,7 +95,8 @@ impl Hamiltonian {
     }
 
     /// The internal energy in a chart, with its skew part (of isotropic energies) left out on request; `None`
-    /// where it is not a polynomial there.
+    /// where it is not a polynomial there, and for `I(O)` where that is not conserved: `Sigma = I(O) - x p^T` only
+    /// makes it longer.
     #[must_use]
     pub fn internal_in(&self, chart: &Chart, without_skew: bool) -> Option<Polynomial> {
         match &self.isotropic {

@@ -1,0 +1,79 @@
+//! Numbers modulo a prime: exact arithmetic in one machine word, however long the fractions are.
+//!
+//! What is not zero here is not zero; what is zero here may still be a multiple of the prime.
+
+use super::evaluate::Field;
+use super::rational::Rational;
+
+/// A residue modulo the Mersenne prime `2^61 - 1`; none for fractions whose denominator it divides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Residue(Option<u64>);
+
+impl Residue {
+    /// The prime.
+    pub const MODULUS: u64 = (1 << 61) - 1;
+    /// 0.
+    pub const ZERO: Self = Self(Some(0));
+    /// Nothing is known.
+    pub const UNKNOWN: Self = Self(None);
+
+    /// A value for an indeterminate that depends on its name alone (FNV-1a).
+    #[must_use]
+    pub fn sample(name: &str) -> Self {
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+        for byte in name.bytes() {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+        Self(Some(hash % Self::MODULUS))
+    }
+
+    /// Proved to be different from zero?
+    #[must_use]
+    pub fn is_nonzero(self) -> bool {
+        self.0.is_some_and(|value| value != 0)
+    }
+}
+
+fn product(a: u64, b: u64) -> u64 {
+    let wide = u128::from(a) * u128::from(b);
+    // 2^61 = 1 modulo the prime; both parts fit 61 bits.
+    let low = (wide & u128::from(Residue::MODULUS)) as u64;
+    let high = (wide >> 61) as u64;
+    (low + high) % Residue::MODULUS
+}
+
+impl Field for Residue {
+    fn from_rational(value: &Rational) -> Self {
+        let (numerator, denominator) = value.residues(Self::MODULUS);
+        let numerator = Self(Some(numerator));
+        match denominator {
+            1 => numerator,
+            _ => Self(Some(denominator)).recip().map_or(Self::UNKNOWN, |inverse| numerator.mul(&inverse)),
+        }
+    }
+
+    fn add(&self, other: &Self) -> Self {
+        let (Some(a), Some(b)) = (self.0, other.0) else { return Self::UNKNOWN };
+        Self(Some((a + b) % Self::MODULUS))
+    }
+
+    fn mul(&self, other: &Self) -> Self {
+        let (Some(a), Some(b)) = (self.0, other.0) else { return Self::UNKNOWN };
+        Self(Some(product(a, b)))
+    }
+
+    /// Fermat: `a^(p-2) = 1/a`.
+    fn recip(&self) -> Option<Self> {
+        let mut square = self.0.filter(|value| *value != 0)?;
+        let mut exponent = Self::MODULUS - 2;
+        let mut power = 1;
+        while exponent > 0 {
+            if exponent & 1 == 1 {
+                power = product(power, square);
+            }
+            square = product(square, square);
+            exponent >>= 1;
+        }
+        Some(Self(Some(power)))
+    }
+}
