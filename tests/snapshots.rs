@@ -1,7 +1,8 @@
 //! What the attribute expands to, pretty-printed and reviewed like source: one snapshot for each family of kinetic
 //! energies in each dimension.
 //!
-//! `tests/expansions` compiles the same snapshots as ordinary code, without warnings.
+//! `tests/expansions` compiles the same snapshots as ordinary code, without warnings. After a change of the macro,
+//! `INSTA_UPDATE=always cargo test --test snapshots` writes them anew; read the difference before committing it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::collections::BTreeSet;

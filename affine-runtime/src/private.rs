@@ -9,7 +9,9 @@ pub use crate::frames::{
 };
 pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Velocity};
-pub use crate::reduction::{Condition, inverse_form, total_affine_momentum, total_size, turn, well_posed};
+pub use crate::reduction::{
+    Condition, finite, inverse_form, total_affine_momentum, total_size, turn, well_posed,
+};
 pub use crate::scalar::{Real, Scalar};
 pub use crate::state::{Centre, Phase, PhasePoint, Pinned};
 

@@ -115,25 +115,49 @@ pub fn well_posed(conditions: &[Condition]) -> Result<()> {
     Ok(())
 }
 
-/// Inverse of a symmetric form given by its upper triangle, as an upper triangle: through its eigenvectors, so
-/// that the smallest eigenvalue is at hand. `M = K (K + 1)/2`.
+/// The coefficients, if all are finite: a value can pass its threshold and still have no reciprocal.
 ///
 /// # Errors
-/// [`Error::IllPosed`] where an eigenvalue is not above `eps` times the largest one, or not positive on demand.
-pub fn inverse_form<const K: usize, const M: usize>(upper: [f64; M], positive: bool) -> Result<[f64; M]> {
+/// [`Error::IllPosed`] with the first coefficient that is not finite.
+pub fn finite<const K: usize>(coefficients: [f64; K]) -> Result<[f64; K]> {
+    match coefficients.iter().find(|c| !c.is_finite()) {
+        None => Ok(coefficients),
+        Some(&value) => Err(Error::IllPosed(IllPosed {
+            condition: "every coefficient is finite",
+            reason: "a coefficient of the inverse Legendre transformation overflows; choose fields nearer to 1, in \
+                     other units",
+            value,
+            threshold: f64::MAX,
+        })),
+    }
+}
+
+/// Inverse of a symmetric form given by its upper triangle, as an upper triangle: through its eigenvectors, so
+/// that the smallest eigenvalue is at hand. `M = K (K + 1)/2`; `size` is that of the terms of all entries.
+///
+/// # Errors
+/// [`Error::IllPosed`] where an eigenvalue is not above `eps` times `size`, or not positive on demand.
+pub fn inverse_form<const K: usize, const M: usize>(
+    upper: [f64; M],
+    size: f64,
+    positive: bool,
+) -> Result<[f64; M]> {
     let at = |i: usize, j: usize| {
         let (a, b) = (i.min(j), i.max(j));
         a * K - a * (a + 1) / 2 + b
     };
     let form = nalgebra::SMatrix::<f64, K, K>::from_fn(|i, j| upper[at(i, j)]);
     let eigen = jacobi::<K>(form);
-    let scale = eigen.values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let threshold = f64::EPSILON * scale;
+    let threshold = f64::EPSILON * size;
     for value in eigen.values {
         let held = if positive { value } else { value.abs() };
         if !(held > threshold && held.is_finite()) {
             return Err(Error::IllPosed(IllPosed {
-                condition: if positive { "every eigenvalue of T > 0" } else { "every eigenvalue of T != 0" },
+                condition: if positive {
+                    "T > 0 on every velocity"
+                } else {
+                    "T != 0 on every principal velocity"
+                },
                 reason: "the quadratic form of the velocities is degenerate to rounding or has the wrong sign; \
                          choose fields that keep its eigenvalues away from zero",
                 value,

@@ -1,20 +1,22 @@
 //! Every tolerance of these tests, with its reason. All are relative, in the Frobenius norm of one quantity.
 
 /// Generated code against exact values, per condition of the mass matrix: some hundred roundings of 1.1e-16 each in
-/// the Legendre transformation, in conversions between the frames and in brackets.
+/// the Legendre transformation, in conversions between the frames and in brackets. The largest error seen is 5e-16.
 pub(crate) const CANONICAL: f64 = 1e-14;
 
 /// A closed form against integration, over a time in which the body turns or stretches by 1.5: errors of the
 /// integrator are eps per step, of the closed form eps times the norm of the exponents, of either times the growth of
-/// the motion.
+/// the motion. The largest error seen is 2e-13.
 pub(crate) const GEODESIC: f64 = 1e-12;
 
-/// Two closed forms of one motion, each a product of two exponentials of matrices of norm up to 1.5.
+/// Two closed forms of one motion, each a product of two exponentials of matrices of norm up to 1.5, the velocity
+/// between them known to eps times the condition of the form. The largest error seen is 2e-13.
 pub(crate) const MARTIN_NEFF: f64 = 1e-12;
 
 /// The drunk missile to t = 10 against 25 digits, x included: the rounding errors of some hundred steps, grown by the
-/// motion.
-pub(crate) const REFERENCE_SOLUTION: f64 = 1e-12;
+/// motion. The largest error seen is 8e-15.
+pub(crate) const REFERENCE_SOLUTION: f64 = 1e-13;
 
-/// Conserved quantities of the same motion, which are taken from the state by conversions between the frames.
-pub(crate) const CONSERVED: f64 = 1e-12;
+/// Conserved quantities of the same motion, which are taken from the state by conversions between the frames. The
+/// largest error seen is 2e-15.
+pub(crate) const CONSERVED: f64 = 3e-14;

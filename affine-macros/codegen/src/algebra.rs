@@ -9,6 +9,7 @@ pub mod matrix;
 pub mod polynomial;
 pub mod rational;
 pub mod residue;
+pub mod ring;
 
 pub use arena::{Arena, Expr};
 pub use matrix::Matrix;

@@ -1,20 +1,24 @@
 //! The derivation of one model: from its quadratic form to straight-line programs, ready to be written down.
 
+mod prepared;
+mod programs;
+
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::check::{Form, eigenvalues, signature};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
-use crate::mechanics::charts::{Chart, Linear, Momentum};
+use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::describe::{self, Formula};
-use crate::mechanics::equations::{self, System, hamilton};
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::hessian::Direction;
 use crate::mechanics::kinetic::{Frame, Kinetic};
-use crate::mechanics::reduce::{self, ClosedForm, Layout, Reduction};
+use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 use crate::optimise::{Batch, straight_line};
+
+use prepared::{coefficient_program, conditions, numeric_blocks};
+use programs::{best_reduction, full_chart, full_equations};
 
 /// Everything that is emitted about a model.
 pub struct Model {
@@ -102,7 +106,7 @@ pub struct Condition {
 
 /// A block to invert numerically.
 pub struct NumericBlock {
-    /// Computes the upper triangle, row after row.
+    /// Computes the upper triangle, row after row, then the terms whose sizes make the threshold.
     pub program: Program,
     /// Names of the entries of the inverse, upper triangle, row after row.
     pub inverse: Vec<String>,
@@ -135,7 +139,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
 
     let (full_chart, full_h) = full_chart(arena, &h);
     let full = full_equations(arena, &h, &full_chart, &full_h, &mut coefficients);
-    let (reduction, reduced, trajectory, fixed) = best_reduction(arena, &h, &mut coefficients)?;
+    let rotations = conserved_now.contains(&Candidate::TotalAngularMomentum);
+    let (reduction, reduced, trajectory, fixed) = best_reduction(arena, &h, rotations, &mut coefficients)?;
     let formulas = Formulas {
         kinetic_energy: describe::kinetic_energy(arena, &kinetic),
         hamiltonian: describe::hamiltonian(arena, &h, &full_h),
@@ -215,136 +220,6 @@ fn at_rest(arena: &mut Arena, h: &Hamiltonian, moving: &[Candidate]) -> Vec<Cand
     conserved(arena, &chart, &h.internal())
 }
 
-/// Chart and Hamiltonian of the equations that users of other codes write down: all momenta in the model's frames.
-fn full_chart(arena: &mut Arena, h: &Hamiltonian) -> (Chart, Polynomial) {
-    let linear = h.translation.as_ref().map(|(frame, _)| match (frame, h.frame) {
-        (Frame::Body, Frame::Body) => Linear::Body,
-        _ => Linear::Space,
-    });
-    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), linear);
-    let full = reduce::own_hamiltonian(h, &chart);
-    (chart, full)
-}
-
-/// The shortest of the ways to write the equations.
-fn full_equations(
-    arena: &mut Arena,
-    h: &Hamiltonian,
-    chart: &Chart,
-    full_h: &Polynomial,
-    coefficients: &mut Constants,
-) -> Equations {
-    let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
-    let through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
-    let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
-    if h.isotropic.is_some() || h.frame == Frame::Flat {
-        let expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
-        ways.push(batch(arena, &expanded));
-        ways.push(split_batch(arena, chart, &expanded));
-    }
-    let (program, chosen) = ways
-        .iter()
-        .map(|way| {
-            let mut constants = coefficients.clone();
-            (straight_line(arena, way, &mut constants, &|a| inputs.contains(&a)), constants)
-        })
-        .min_by_key(|(program, _)| program.operations().weight())
-        .unwrap_or_else(|| (Program::default(), coefficients.clone()));
-    *coefficients = chosen;
-    let name = |symbols: &[Expr]| -> Vec<String> {
-        symbols.iter().filter_map(|s| arena.name(*s).map(str::to_owned)).collect()
-    };
-    let linear_name = if chart.linear == Some(Linear::Body) { "p_hat" } else { "p" };
-    let groups = [
-        ("x", name(&chart.x)),
-        ("phi", name(&chart.phi.0.concat())),
-        (linear_name, name(&chart.p)),
-        (chart.momentum.symbol(), name(&chart.m.0.concat())),
-    ];
-    Equations {
-        groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),
-        program: fuse(&program),
-    }
-}
-
-fn batch(arena: &Arena, system: &System) -> Batch {
-    Batch {
-        shared: system.shared.clone(),
-        results: system
-            .rates
-            .iter()
-            .map(|(_, symbol, rate)| (format!("d_{}", arena.name(*symbol).unwrap_or("state")), rate.clone()))
-            .collect(),
-    }
-}
-
-/// The system in symmetric and skew parts of the affine momentum, formed from its entries.
-fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> Batch {
-    let splits = reduce::split_symmetric(arena, chart);
-    let value = |atom: Expr| {
-        splits.iter().find_map(|s| match atom {
-            a if a == s.upper => Some(s.value(1)),
-            a if a == s.lower => Some(s.value(-1)),
-            _ => None,
-        })
-    };
-    let mut result = batch(arena, &system.substitute(&value));
-    for split in &splits {
-        let (upper, lower) = (Polynomial::atom(split.upper), Polynomial::atom(split.lower));
-        let (mut sum, mut difference) = (upper.clone(), upper);
-        sum.add_scaled(&lower, &Rational::ONE);
-        difference.add_scaled(&lower, &Rational::MINUS_ONE);
-        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
-        result.shared.push((split.symmetric, sum.scaled(&half)));
-        result.shared.push((split.skew, difference));
-    }
-    result
-}
-
-/// The reduction with the shortest equations, and its programs.
-fn best_reduction(
-    arena: &mut Arena,
-    h: &Hamiltonian,
-    coefficients: &mut Constants,
-) -> Option<(Reduction, Equations, Program, Vec<String>)> {
-    let mut best: Option<(usize, Reduction, Program, Constants)> = None;
-    for candidate in reduce::candidates(arena, h) {
-        let states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
-        let mut constants = Constants::new("k");
-        let way = batch(arena, &candidate.system);
-        let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
-        let weight = program.operations().weight() + states.len();
-        if best.as_ref().is_none_or(|(least, ..)| weight < *least) {
-            best = Some((weight, candidate, program, constants));
-        }
-    }
-    let (_, reduction, program, constants) = best?;
-    let inputs: Vec<Expr> = trajectory_symbols(&reduction);
-    let definitions = Batch {
-        shared: Vec::new(),
-        results: constants
-            .entries
-            .iter()
-            .map(|(s, p)| (arena.name(*s).unwrap_or("k").to_owned(), p.clone()))
-            .collect(),
-    };
-    let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
-    let name = |s: &Expr| arena.name(*s).unwrap_or("state").to_owned();
-    let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(name).collect())).collect();
-    let fixed = reduction.fixed.iter().map(name).collect();
-    Some((reduction, Equations { groups, program: fuse(&program) }, trajectory, fixed))
-}
-
-/// What `trajectory` reads: `p` where the state depends on it, and the constant part of the affine momentum.
-fn trajectory_symbols(reduction: &Reduction) -> Vec<Expr> {
-    let chart = &reduction.chart;
-    let momentum = match reduction.layout {
-        Layout::Constant => chart.m.0.concat(),
-        Layout::Symmetric | Layout::Entries => reduction.fixed.clone(),
-    };
-    [chart.p.clone(), momentum].concat()
-}
-
 /// `X_ab = dT/dO_ba`.
 fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
     let energy = kinetic.internal_energy();
@@ -378,73 +253,4 @@ fn energy_batch(arena: &mut Arena, kinetic: &Kinetic, mut inputs: Vec<Expr>) -> 
         }
     }
     (result("energy", energy), inputs)
-}
-
-/// What `prepare()` has to check once the fields have values.
-fn conditions(
-    arena: &mut Arena,
-    kinetic: &Kinetic,
-    eigenvalues: Vec<(Direction, Polynomial)>,
-    require_positive: bool,
-) -> Vec<Condition> {
-    let dalembert = kinetic.frame == Frame::Flat;
-    let mut list: Vec<(&'static str, &'static str, bool, Polynomial)> = Vec::new();
-    for (direction, value) in eigenvalues {
-        let (name, directions) = match direction {
-            // J has its eigenvalues once for each row of phi_dot, whatever the basis.
-            _ if dalembert => ("J", "a row of phi_dot"),
-            Direction::Shear => ("I + A", "symmetric traceless velocities (shear)"),
-            Direction::Rotation => ("I - A", "skew velocities (rotation)"),
-            Direction::Dilatation => ("I + A + n B", "multiples of the identity (dilatation)"),
-            Direction::Entry => ("K", "one entry of the affine velocity"),
-        };
-        if !list.iter().any(|(known, _, _, same)| *known == name && *same == value) {
-            list.push((name, directions, require_positive || dalembert, value));
-        }
-    }
-    if let Some(t) = kinetic.translation
-        && arena.as_constant(t.mass).is_none()
-    {
-        let mass = Polynomial::normal_form(arena, t.mass);
-        list.push(("m", "the velocity of the centre of mass", require_positive || dalembert, mass));
-    }
-    list.into_iter()
-        .map(|(name, directions, positive, value)| {
-            let sizes: Vec<Polynomial> =
-                value.terms().map(|(m, c)| Polynomial::term(m.clone(), c.clone())).collect();
-            let program = unbound(arena, std::iter::once(value).chain(sizes));
-            Condition { name, directions, positive, program }
-        })
-        .collect()
-}
-
-/// A program over the fields alone.
-fn unbound(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
-    let results = values.enumerate().map(|(k, p)| (format!("value_{}", k + 1), p)).collect();
-    let batch = Batch { shared: Vec::new(), results };
-    fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
-}
-
-fn coefficient_program(arena: &mut Arena, coefficients: &Constants) -> Program {
-    let results = coefficients
-        .entries
-        .iter()
-        .map(|(s, p)| (arena.name(*s).unwrap_or("c").to_owned(), p.clone()))
-        .collect();
-    let batch = Batch { shared: Vec::new(), results };
-    fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
-}
-
-fn numeric_blocks(arena: &mut Arena, h: &Hamiltonian, positive: bool) -> Vec<NumericBlock> {
-    h.numeric_blocks
-        .iter()
-        .map(|block| {
-            let size = block.form.len();
-            let upper: Vec<(usize, usize)> = (0..size).flat_map(|i| (i..size).map(move |j| (i, j))).collect();
-            let name = |s: Expr| arena.name(s).unwrap_or("inverse").to_owned();
-            let inverse = upper.iter().map(|(i, j)| name(block.inverse[*i][*j])).collect();
-            let program = unbound(arena, upper.iter().map(|(i, j)| block.form[*i][*j].clone()));
-            NumericBlock { program, inverse, size, positive }
-        })
-        .collect()
 }

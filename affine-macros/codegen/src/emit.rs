@@ -1,6 +1,7 @@
 //! A derived model as Rust items; no algebra here.
 
 mod body;
+mod closed_form;
 mod description;
 mod dynamics;
 mod names;
@@ -166,6 +167,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let description = description::constant(context);
     let dynamics = dynamics::methods(context);
     let reduction = reduction::methods(context);
+    let geodesic = closed_form::geodesic(context);
     quote! {
         #(#[doc = #docs])*
         impl #generics #rt::Model<#n> for #prepared #types #clause {
@@ -176,6 +178,7 @@ fn model_impl(context: &Context) -> TokenStream {
             type Constants<#scalar: #rt::Scalar> = #constants<#scalar>;
             #dynamics
             #reduction
+            #geodesic
         }
     }
 }

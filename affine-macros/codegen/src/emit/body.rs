@@ -77,6 +77,7 @@ pub(super) fn body(program: &Program, scope: &Scope) -> Body {
         program,
         scope,
         uses: program.uses(),
+        depth: vec![0; program.steps.len()],
         bound: HashMap::new(),
         lets: TokenStream::new(),
         temporaries: 0,
@@ -101,10 +102,15 @@ pub(super) fn inputs(program: &Program) -> Vec<&str> {
         .collect()
 }
 
+/// Expressions nested deeper than this are cut by a name.
+const DEEPEST: usize = 4;
+
 struct Writer<'a> {
     program: &'a Program,
     scope: &'a Scope<'a>,
     uses: Vec<usize>,
+    /// How deep the expression of each value is nested.
+    depth: Vec<usize>,
     bound: HashMap<Value, Ident>,
     lets: TokenStream,
     temporaries: usize,
@@ -142,10 +148,13 @@ impl Writer<'_> {
         let named = self.program.names.iter().find(|(v, _)| *v == value).map(|(_, n)| n.clone());
         let result = self.program.outputs.iter().find(|(_, v)| *v == value).map(|(n, _)| n.clone());
         let sign_only = matches!(step, Op::Neg(_));
+        let inner =
+            step.operands().into_iter().filter(|v| !self.bound.contains_key(v)).map(|v| self.depth[v]);
+        self.depth[value] = inner.max().unwrap_or(0) + usize::from(!sign_only);
         let name = match (named, result) {
             (_, Some(_)) if self.ends_with(value) => return,
             (_, Some(name)) | (Some(name), None) => name,
-            (None, None) if self.uses[value] > 1 && !sign_only => {
+            (None, None) if (self.uses[value] > 1 || self.depth[value] >= DEEPEST) && !sign_only => {
                 self.temporaries += 1;
                 format!("t{}", self.temporaries)
             }

@@ -53,12 +53,13 @@ pub(super) fn method(context: &Context) -> TokenStream {
             ///
             /// # Errors
             /// `IllPosed` with the condition, its value and its threshold, where the Legendre transformation
-            /// is degenerate to rounding or a required sign is missing.
+            /// is degenerate to rounding, a required sign is missing, or a coefficient overflows.
             #visibility fn prepare(&self) -> #rt::Result<#prepared> {
                 #conditions
                 #blocks
                 #lets
-                ::core::result::Result::Ok(#prepared { coefficients: [#(#results),*] })
+                let coefficients = #rt::finite([#(#results),*])?;
+                ::core::result::Result::Ok(#prepared { coefficients })
             }
         }
     }
@@ -127,11 +128,12 @@ fn numeric_block(block: &NumericBlock, rt: &Ident) -> TokenStream {
     let Body { lets, results } = over_fields(&block.program);
     let names = block.inverse.iter().map(|name| format_ident!("{name}"));
     let (size, positive) = (number(block.size), block.positive);
-    let count = number(results.len());
+    let count = number(block.inverse.len());
+    let (entries, terms) = results.split_at(block.inverse.len());
     quote! {
         let [#(#names),*]: [::core::primitive::f64; #count] = {
             #lets
-            #rt::inverse_form::<#size, #count>([#(#results),*], #positive)?
+            #rt::inverse_form::<#size, #count>([#(#entries),*], #rt::total_size([#(#terms),*]), #positive)?
         };
     }
 }

@@ -5,10 +5,9 @@ use quote::{format_ident, quote};
 
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::kinetic::Frame;
-use crate::mechanics::reduce::{ClosedForm, Commuting, Layout};
+use crate::mechanics::reduce::{Commuting, Layout};
 
 use super::body::Body;
-use super::dynamics::own_spin;
 use super::points::components;
 use super::{Context, identifiers, inputs, number, pattern};
 
@@ -24,8 +23,6 @@ struct Parts {
     drift: bool,
     /// The affine momentum is a constant.
     momentum: bool,
-    /// The affine momentum is split into its symmetric and skew parts.
-    split: bool,
     /// Components of the affine momentum that are constants while others are state.
     fixed: Vec<String>,
     /// Generator of the rotation that commutes.
@@ -49,7 +46,6 @@ impl Parts {
             linear: context.model.translation.is_some(),
             drift,
             momentum: reduction.layout == Layout::Constant,
-            split: reduction.layout == Layout::Symmetric,
             fixed: context.model.fixed.clone(),
             whirl,
             coefficients: context.model.trajectory.outputs.len(),
@@ -108,8 +104,7 @@ pub(super) fn methods(context: &Context) -> TokenStream {
     let reduce = reduce(context, &parts);
     let equations = reduced_equations(context, &parts);
     let expand = expand(context, &parts);
-    let geodesic = geodesic(context);
-    quote!(#reduce #equations #expand #geodesic)
+    quote!(#reduce #equations #expand)
 }
 
 /// The affine momentum of the reduced chart at `point`.
@@ -188,10 +183,6 @@ fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
     let mut used: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
     used.extend(inputs(&context.model.trajectory).into_iter().map(str::to_owned));
     used.extend(parts.fixed.clone());
-    // The symmetric and skew parts are formed from the entries.
-    if parts.split {
-        used.extend(components(chart.momentum.name(), n).concat());
-    }
     let used: Vec<&str> = used.iter().map(String::as_str).collect();
     let turned = |value: TokenStream| if parts.turn { quote!((turn * #value)) } else { value };
     let mut lets = TokenStream::new();
@@ -222,28 +213,6 @@ fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
             (true, _) => quote!((turn * momentum * turn.transpose())),
         };
         lets.extend(quote!(let [#(#rows),*] = #rt::rows(&#value);));
-    }
-    if parts.split {
-        lets.extend(split(context));
-    }
-    lets
-}
-
-/// `s = (M_ab + M_ba)/2`, `w = M_ab - M_ba`.
-fn split(context: &Context) -> TokenStream {
-    let t = &context.names.scalar;
-    let stem = context.model.reduction.chart.momentum.name();
-    let n = context.model.dim;
-    let mut lets = quote!(let half = #t::constant(0.5, 0.0););
-    for a in 1..=n {
-        for b in a + 1..=n {
-            let (upper, lower) = (format_ident!("{stem}_{a}{b}"), format_ident!("{stem}_{b}{a}"));
-            let (s, w) = (format_ident!("{stem}_sym_{a}{b}"), format_ident!("{stem}_skew_{a}{b}"));
-            lets.extend(quote! {
-                let #s = half * (#upper + #lower);
-                let #w = #upper - #lower;
-            });
-        }
     }
     lets
 }
@@ -370,7 +339,6 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
 
 /// The affine momentum of the chart, back from turned space.
 fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> TokenStream {
-    let t = &context.names.scalar;
     let chart = &context.model.reduction.chart;
     if parts.momentum {
         return quote!(let momentum = constants.momentum;);
@@ -380,20 +348,6 @@ fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> To
         let fixed = identifiers(&parts.fixed);
         lets.extend(quote!(let [#(#fixed),*] = constants.fixed;));
     }
-    if parts.split {
-        let stem = chart.momentum.name();
-        lets.extend(quote!(let half = #t::constant(0.5, 0.0);));
-        for a in 1..=context.model.dim {
-            for b in a + 1..=context.model.dim {
-                let (upper, lower) = (format_ident!("{stem}_{a}{b}"), format_ident!("{stem}_{b}{a}"));
-                let (s, w) = (format_ident!("{stem}_sym_{a}{b}"), format_ident!("{stem}_skew_{a}{b}"));
-                lets.extend(quote! {
-                    let #upper = #s + half * #w;
-                    let #lower = #s - half * #w;
-                });
-            }
-        }
-    }
     let momentum = match (parts.turn, chart.momentum) {
         (false, _) | (_, Momentum::Body) => quote!(#rows),
         (true, Momentum::Canonical) => quote!(#rows * constants.turn),
@@ -401,55 +355,4 @@ fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> To
     };
     lets.extend(quote!(let momentum = #momentum;));
     lets
-}
-
-fn geodesic(context: &Context) -> TokenStream {
-    let (rt, n) = (&context.names.rt, context.dim());
-    let parts = Parts::of(context);
-    let f64 = quote!(#rt::f64);
-    let none = quote!(::core::option::Option::None);
-    let Some((form, needs_rest)) = context.model.closed_form else {
-        return quote! {
-            fn geodesic(&self, _t0: #f64, _point: &Self::Point<#f64>) -> ::core::option::Option<#rt::Geodesic<#n>> {
-                #none
-            }
-        };
-    };
-    let rest = needs_rest.then(|| {
-        quote! {
-            if #rt::Phase::p(point) != #rt::Vector::<#n>::zeros() {
-                return #none;
-            }
-        }
-    });
-    let drift = match (&context.model.mass, parts.drift) {
-        (Some(program), true) => {
-            let body = context.double(&program.only("inverse_mass"));
-            let (lets, inverse_mass) = (&body.lets, body.result());
-            quote!(#lets let inverse_mass = #inverse_mass; let drift = #rt::Phase::p(point) * inverse_mass;)
-        }
-        _ => quote!(let drift = #rt::Vector::<#n>::zeros();),
-    };
-    let spin = own_spin(context);
-    let motion = match (form, &context.model.isotropic) {
-        (ClosedForm::Straight, _) | (_, None) => quote! {
-            let motion = #rt::Motion::straight(#rt::Model::velocity(self, point).phi_dot);
-        },
-        (affine, Some(program)) => {
-            let Body { lets, results } = context.double(program);
-            let make = match affine {
-                ClosedForm::Body => quote!(body),
-                _ => quote!(space),
-            };
-            quote!(#lets let motion = #rt::Motion::#make(&#spin, [#(#results),*]);)
-        }
-    };
-    quote! {
-        fn geodesic(&self, t0: #f64, point: &Self::Point<#f64>) -> ::core::option::Option<#rt::Geodesic<#n>> {
-            #rest
-            #drift
-            #motion
-            ::core::option::Option::Some(#rt::Geodesic { t0, motion, drift })
-        }
-    }
 }

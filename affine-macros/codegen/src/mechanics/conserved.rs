@@ -1,11 +1,12 @@
 //! Conserved quantities by exact brackets: a candidate is listed exactly when its bracket with `H` vanishes
 //! identically.
 
+use crate::algebra::ring::{Ring, Square, deviator, skew, sum};
 use crate::algebra::{Arena, Polynomial};
 
 use super::charts::Chart;
 use super::equations::gradient;
-use super::flow::{Flow, Ring, Square, at_a_point, deviator, norm_rate, power_rate, skew, sum};
+use super::flow::{Flow, at_a_point, norm_rate, power_rate};
 
 /// What a model may conserve, named as in the runtime.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,13 +96,6 @@ impl Candidate {
 pub fn conserved(arena: &Arena, chart: &Chart, h: &Polynomial) -> Vec<Candidate> {
     let exists = |c: &Candidate| c.exists(chart.dim, chart.linear.is_some());
     still(arena, chart, h, Candidate::ALL.into_iter().filter(exists).collect())
-}
-
-/// Is the model invariant under rotations of space?
-#[must_use]
-pub fn rotation_invariant(arena: &Arena, chart: &Chart, h: &Polynomial) -> bool {
-    let quantity = if chart.linear.is_some() { Candidate::TotalAngularMomentum } else { Candidate::Spin };
-    !still(arena, chart, h, vec![quantity]).is_empty()
 }
 
 /// Those of the candidates whose brackets with `h` vanish.

@@ -2,6 +2,7 @@
 //! compared with the derived ones.
 
 use crate::algebra::arena::Node;
+use crate::algebra::ring::{difference, outer, product, times, transpose};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
@@ -157,7 +158,9 @@ pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polyn
         velocity.iter_mut().flatten().for_each(|(symbol, value)| *value = Polynomial::atom(*symbol));
     }
     let slopes = gradient(chart, full);
-    let known = known_forms(h, chart, &velocity);
+    // A tensor's velocity stays a symbol: written out, nothing in its commutators cancels.
+    let form = if h.is_tensor() { Form::ThroughVelocity } else { Form::Expanded };
+    let known = known_forms(h, chart, &velocity, form);
     // For the canonical momentum the velocity is the rate of phi itself.
     let mut list = match chart.momentum {
         Momentum::Canonical => Vec::new(),
@@ -205,14 +208,25 @@ struct Known {
 }
 
 /// Balance laws of section 4 and (3.1), as candidates to compare the derived equations with.
-fn known_forms(h: &Hamiltonian, chart: &Chart, velocity: &[Vec<(Expr, Polynomial)>]) -> Vec<Known> {
+fn known_forms(
+    h: &Hamiltonian,
+    chart: &Chart,
+    velocity: &[Vec<(Expr, Polynomial)>],
+    form: Form,
+) -> Vec<Known> {
     let n = chart.dim;
     let atoms = |rows: &Vec<Vec<Expr>>| -> Vec<Vec<Polynomial>> {
         rows.iter().map(|row| row.iter().map(|e| Polynomial::atom(*e)).collect()).collect()
     };
     let (phi, m) = (atoms(&chart.phi.0), atoms(&chart.m.0));
-    let o: Vec<Vec<Polynomial>> =
-        velocity.iter().map(|row| row.iter().map(|(_, p)| p.clone()).collect()).collect();
+    let written = |symbol: Expr, value: &Polynomial| match form {
+        Form::Expanded => value.clone(),
+        Form::ThroughVelocity => Polynomial::atom(symbol),
+    };
+    let o: Vec<Vec<Polynomial>> = velocity
+        .iter()
+        .map(|row| row.iter().map(|(symbol, value)| written(*symbol, value)).collect())
+        .collect();
     let p: Vec<Polynomial> = chart.p.iter().map(|e| Polynomial::atom(*e)).collect();
     let (x, x_latex, ..) = momentum_names(chart.momentum);
     let (omega, omega_latex) = velocity_names(chart.momentum);
@@ -335,7 +349,6 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
     let (name, ..) = momentum_names(reduction.chart.momentum);
     match reduction.layout {
         Layout::Constant => list.push(format!("{name}: conserved")),
-        Layout::Symmetric => list.push(format!("the skew part of {name}: conserved")),
         Layout::Entries => {}
     }
     if reduction.chart.linear.is_some() && reduction.turned {
@@ -373,47 +386,4 @@ fn bracketed(name: &str) -> String {
 
 fn pairs(n: usize, make: fn(usize, usize) -> Coordinate) -> Vec<Coordinate> {
     (0..n).flat_map(|i| (0..n).map(move |j| make(i, j))).collect()
-}
-
-type Square = Vec<Vec<Polynomial>>;
-
-fn transpose(a: &Square) -> Square {
-    (0..a.len()).map(|i| (0..a.len()).map(|j| a[j][i].clone()).collect()).collect()
-}
-
-fn product(a: &Square, b: &Square) -> Square {
-    let columns = transpose(b);
-    a.iter().map(|row| columns.iter().map(|column| dot(row, column)).collect()).collect()
-}
-
-fn times(a: &Square, v: &[Polynomial]) -> Vec<Polynomial> {
-    a.iter().map(|row| dot(row, v)).collect()
-}
-
-fn dot(a: &[Polynomial], b: &[Polynomial]) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    for (x, y) in a.iter().zip(b) {
-        sum.add_product(x, y, &Rational::ONE);
-    }
-    sum
-}
-
-fn outer(a: &[Polynomial], b: &[Polynomial]) -> Square {
-    a.iter().map(|x| b.iter().map(|y| x.mul(y)).collect()).collect()
-}
-
-fn difference(a: &Square, b: &Square) -> Square {
-    a.iter()
-        .zip(b)
-        .map(|(ra, rb)| {
-            ra.iter()
-                .zip(rb)
-                .map(|(x, y)| {
-                    let mut d = x.clone();
-                    d.add_scaled(y, &Rational::MINUS_ONE);
-                    d
-                })
-                .collect()
-        })
-        .collect()
 }

@@ -5,53 +5,13 @@
 
 use std::cell::OnceCell;
 
-use crate::algebra::evaluate::{Field, evaluate_polynomial};
+use crate::algebra::evaluate::evaluate_polynomial;
 use crate::algebra::residue::Residue;
+use crate::algebra::ring::{Ring, Square, adjugate, product, skew, table};
 use crate::algebra::{Arena, Polynomial, Rational};
 
 use super::brackets::{Generator, bracket, generator_bracket};
 use super::charts::{Chart, Coordinate, Momentum};
-
-/// A commutative ring that polynomials in coordinates map into.
-pub(super) trait Ring: Clone {
-    fn zero() -> Self;
-    /// Not proved to be different from zero?
-    fn vanishes(&self) -> bool;
-    fn plus_product(&mut self, a: &Self, b: &Self, weight: &Rational);
-    fn plus(&mut self, a: &Self, weight: &Rational);
-}
-
-impl Ring for Polynomial {
-    fn zero() -> Self {
-        Polynomial::zero()
-    }
-    fn vanishes(&self) -> bool {
-        self.is_zero()
-    }
-    fn plus_product(&mut self, a: &Self, b: &Self, weight: &Rational) {
-        self.add_product(a, b, weight);
-    }
-    fn plus(&mut self, a: &Self, weight: &Rational) {
-        self.add_scaled(a, weight);
-    }
-}
-
-impl Ring for Residue {
-    fn zero() -> Self {
-        Residue::ZERO
-    }
-    fn vanishes(&self) -> bool {
-        !self.is_nonzero()
-    }
-    fn plus_product(&mut self, a: &Self, b: &Self, weight: &Rational) {
-        self.plus(&a.mul(b), weight);
-    }
-    fn plus(&mut self, a: &Self, weight: &Rational) {
-        *self = self.add(&a.mul(&Residue::from_rational(weight)));
-    }
-}
-
-pub(super) type Square<R> = Vec<Vec<R>>;
 
 /// Coordinates of a chart and their rates under a Hamiltonian.
 pub(super) struct Flow<'a, R> {
@@ -223,55 +183,6 @@ impl<'a, R: Ring> Flow<'a, R> {
     }
 }
 
-fn table<R>(n: usize, entry: impl Fn(usize, usize) -> R) -> Square<R> {
-    (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
-}
-
-pub(super) fn product<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
-    table(a.len(), |i, j| {
-        let mut sum = R::zero();
-        for k in 0..a.len() {
-            sum.plus_product(&a[i][k], &b[k][j], &Rational::ONE);
-        }
-        sum
-    })
-}
-
-pub(super) fn sum<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
-    table(a.len(), |i, j| {
-        let mut value = a[i][j].clone();
-        value.plus(&b[i][j], &Rational::ONE);
-        value
-    })
-}
-
-/// Entries above the diagonal of `m - m^T`.
-pub(super) fn skew<R: Ring>(m: &Square<R>) -> Vec<R> {
-    let n = m.len();
-    (0..n)
-        .flat_map(|a| (a + 1..n).map(move |b| (a, b)))
-        .map(|(a, b)| {
-            let mut value = m[a][b].clone();
-            value.plus(&m[b][a], &Rational::MINUS_ONE);
-            value
-        })
-        .collect()
-}
-
-/// `m - (tr m / n) 1`.
-pub(super) fn deviator<R: Ring>(m: &Square<R>) -> Square<R> {
-    let mut trace = R::zero();
-    (0..m.len()).for_each(|k| trace.plus(&m[k][k], &Rational::ONE));
-    let nth = i64::try_from(m.len()).ok().and_then(|n| Rational::ratio(-1, n)).unwrap_or(Rational::ZERO);
-    table(m.len(), |i, j| {
-        let mut value = m[i][j].clone();
-        if i == j {
-            value.plus(&trace, &nth);
-        }
-        value
-    })
-}
-
 /// Half the rate of the squared norm of the skew part.
 pub(super) fn norm_rate<R: Ring>(m: &Square<R>, m_dot: &Square<R>) -> Vec<R> {
     let mut rate = R::zero();
@@ -290,24 +201,4 @@ pub(super) fn power_rate<R: Ring>(k: usize, m: &Square<R>, m_dot: &Square<R>) ->
     let mut trace = R::zero();
     (0..m.len()).for_each(|a| trace.plus(&power[a][a], &Rational::ONE));
     vec![trace]
-}
-
-/// The transposed cofactors: `m adjugate(m) = det m`.
-fn adjugate<R: Ring>(m: &Square<R>) -> Square<R> {
-    let n = m.len();
-    table(n, |i, j| {
-        let rows: Vec<usize> = (0..n).filter(|r| *r != j).collect();
-        let columns: Vec<usize> = (0..n).filter(|c| *c != i).collect();
-        let sign = if (i + j) % 2 == 0 { Rational::ONE } else { Rational::MINUS_ONE };
-        let mut minor = R::zero();
-        match (rows.as_slice(), columns.as_slice()) {
-            ([r], [c]) => minor.plus(&m[*r][*c], &sign),
-            ([r, s], [c, d]) => {
-                minor.plus_product(&m[*r][*c], &m[*s][*d], &sign);
-                minor.plus_product(&m[*r][*d], &m[*s][*c], &-&sign);
-            }
-            _ => {}
-        }
-        minor
-    })
 }

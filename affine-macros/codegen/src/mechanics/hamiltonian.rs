@@ -87,15 +87,21 @@ impl Hamiltonian {
         sum
     }
 
+    /// Is the energy a general tensor in an affine frame? Then nothing of its own momentum is conserved:
+    /// `[X, O(X)] = 0` for every `X` only where `O` is a multiple of `X` and the identity.
+    #[must_use]
+    pub fn is_tensor(&self) -> bool {
+        self.isotropic.is_none() && self.frame != Frame::Flat
+    }
+
     /// The internal energy in a chart, with its skew part (of isotropic energies) left out on request; `None`
     /// where it is not a polynomial there, and for `I(O)` where that is not conserved: `Sigma = I(O) - x p^T` only
     /// makes it longer.
     #[must_use]
     pub fn internal_in(&self, chart: &Chart, without_skew: bool) -> Option<Polynomial> {
-        let spin = spatial_or_own(chart);
         match &self.isotropic {
             Some(iso) if without_skew || iso.skew.is_zero() => {
-                (chart.momentum != Momentum::Canonical).then(|| iso.casimirs(&spin))
+                (chart.momentum != Momentum::Canonical).then(|| iso.casimirs(&spatial_or_own(chart)))
             }
             _ if chart.momentum == Momentum::of(self.frame) => Some(self.internal()),
             _ => None,

@@ -5,9 +5,7 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::brackets::poisson;
 use super::charts::{Chart, Coordinate, Linear, Momentum};
-use super::conserved::rotation_invariant;
-use super::equations::{Form, System, gradient, hamilton};
-use super::flow::{Flow, Ring, at_a_point, skew};
+use super::equations::{Form, System, hamilton};
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetic::Frame;
 
@@ -27,8 +25,6 @@ pub enum Commuting {
 pub enum Layout {
     /// All of it is conserved: a constant of the trajectory.
     Constant,
-    /// Its skew part is conserved; the symmetric part is state.
-    Symmetric,
     /// All entries are state.
     Entries,
 }
@@ -117,15 +113,14 @@ pub fn commuting(arena: &mut Arena, h: &Hamiltonian) -> Vec<Commuting> {
     found
 }
 
-/// Every chart in which the rest of `H` is a polynomial, reduced.
-pub fn candidates(arena: &mut Arena, h: &Hamiltonian) -> Vec<Reduction> {
+/// Every chart in which the rest of `H` is a polynomial, reduced; `rotations` tells whether those of space leave `H`
+/// unchanged.
+pub fn candidates(arena: &mut Arena, h: &Hamiltonian, rotations: bool) -> Vec<Reduction> {
     let commuting = commuting(arena, h);
     let drift = commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
     let without_skew = commuting.iter().any(|c| !matches!(c, Commuting::Drift(_)));
     let linear = (h.translation.is_some() && !drift).then_some(Linear::Space);
-    let own = own_chart(arena, h);
-    let full = own_hamiltonian(h, &own);
-    let turn = linear.is_some() && rotation_invariant(arena, &own, &full);
+    let turn = linear.is_some() && rotations;
     let mut momenta = vec![Momentum::of(h.frame)];
     for other in [Momentum::Body, Momentum::Space, Momentum::Total] {
         if !momenta.contains(&other) && (other != Momentum::Total || linear.is_some()) {
@@ -140,8 +135,8 @@ pub fn candidates(arena: &mut Arena, h: &Hamiltonian) -> Vec<Reduction> {
             if linear.is_some() {
                 main.add_scaled(&h.translation_in(&chart), &Rational::ONE);
             }
-            let plan = Plan { chart, commuting: commuting.clone(), turn, isotropic: h.isotropic.is_some() };
-            plan.reduced(arena, &main)
+            let plan = Plan { chart, commuting: commuting.clone(), turn };
+            plan.reduced(arena, &main, h.is_tensor())
         })
         .collect()
 }
@@ -151,25 +146,26 @@ struct Plan {
     chart: Chart,
     commuting: Vec<Commuting>,
     turn: bool,
-    isotropic: bool,
 }
 
 impl Plan {
     /// Takes the conserved momenta out of the state. Where the affine momentum stays in it, its equations are
-    /// written in both forms, unless nothing can cancel in the expanded one.
-    fn reduced(self, arena: &mut Arena, h: &Polynomial) -> Vec<Reduction> {
-        let layout = layout(arena, &self.chart, h);
+    /// written in both forms; those of a tensor, in which nothing cancels, only through the velocity.
+    fn reduced(self, arena: &mut Arena, h: &Polynomial, tensor: bool) -> Vec<Reduction> {
+        let mut layout = Layout::Entries;
         let mut systems = Vec::new();
-        if layout != Layout::Entries || self.isotropic {
-            systems.push(hamilton(arena, &self.chart, h, Form::Expanded));
+        if !tensor {
+            let expanded = hamilton(arena, &self.chart, h, Form::Expanded);
+            layout = conserved_layout(&expanded);
+            systems.push(expanded);
         }
         if layout == Layout::Entries {
             systems.push(hamilton(arena, &self.chart, h, Form::ThroughVelocity));
         }
-        systems.into_iter().map(|system| self.state_only(arena, system, layout)).collect()
+        systems.into_iter().map(|system| self.state_only(system, layout)).collect()
     }
 
-    fn state_only(&self, arena: &mut Arena, mut system: System, layout: Layout) -> Reduction {
+    fn state_only(&self, mut system: System, layout: Layout) -> Reduction {
         let chart = self.chart.clone();
         let p_constant =
             system.rates.iter().all(|(z, _, rate)| !matches!(z, Coordinate::P(_)) || rate.is_zero());
@@ -177,30 +173,15 @@ impl Plan {
         system.rates.retain(|(z, _, _)| match z {
             Coordinate::X(_) | Coordinate::Phi(..) => true,
             Coordinate::P(_) => !p_constant,
-            Coordinate::M(a, b) => match layout {
+            Coordinate::M(..) => match layout {
                 Layout::Constant => false,
-                Layout::Symmetric => a <= b,
                 Layout::Entries => true,
             },
         });
-        let symmetric = symmetric_part(arena, &chart, layout);
         let gauge = gauge(&chart, turned, layout);
-        let value = |atom: Expr| {
-            let known = symmetric.iter().chain(&gauge).find(|(symbol, _)| *symbol == atom);
-            known.map(|(_, value)| value.clone())
-        };
+        let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
         system = system.substitute(&value).tidied();
-        if layout == Layout::Symmetric {
-            for (z, symbol, _) in &mut system.rates {
-                if let Coordinate::M(a, b) = *z {
-                    *symbol = stretch_symbol(arena, &chart, a, b);
-                }
-            }
-        }
-        let mut fixed: Vec<Expr> = match layout {
-            Layout::Symmetric => split_symmetric(arena, &chart).iter().map(|split| split.skew).collect(),
-            Layout::Constant | Layout::Entries => Vec::new(),
-        };
+        let mut fixed: Vec<Expr> = Vec::new();
         system.rates.retain(|(z, symbol, rate)| {
             let still = matches!(z, Coordinate::M(..)) && rate.is_zero();
             if still {
@@ -213,22 +194,11 @@ impl Plan {
     }
 }
 
-/// What of the affine momentum of a chart `h` conserves.
-fn layout(arena: &Arena, chart: &Chart, h: &Polynomial) -> Layout {
-    let slopes = gradient(chart, h);
-    let (residue, itself) = (at_a_point(arena), Polynomial::clone);
-    let sample = Flow::new(chart, &slopes, &residue).m_dot();
-    if !skew(&sample).iter().all(Ring::vanishes) {
-        return Layout::Entries;
-    }
-    let rates = Flow::new(chart, &slopes, &itself).m_dot();
-    if rates.iter().flatten().all(Ring::vanishes) {
-        Layout::Constant
-    } else if skew(&rates).iter().all(Ring::vanishes) {
-        Layout::Symmetric
-    } else {
-        Layout::Entries
-    }
+/// Does an expanded system conserve the affine momentum?
+fn conserved_layout(system: &System) -> Layout {
+    let still =
+        |(z, _, rate): &(Coordinate, Expr, Polynomial)| !matches!(z, Coordinate::M(..)) || rate.is_zero();
+    if system.rates.iter().all(still) { Layout::Constant } else { Layout::Entries }
 }
 
 /// State variables, grouped.
@@ -249,73 +219,13 @@ fn states(chart: &Chart, system: &System) -> Vec<(&'static str, Vec<Expr>)> {
     .collect()
 }
 
-/// Symbol of an entry of the symmetric part of the momentum.
-fn stretch_symbol(arena: &mut Arena, chart: &Chart, a: usize, b: usize) -> Expr {
-    match a == b {
-        true => chart.m.0[a][b],
-        false => arena.symbol(&format!("{}_sym_{}{}", chart.momentum.name(), a + 1, b + 1)),
-    }
-}
-
-/// `M_ab = s_ab + w_ab/2`, `M_ba = s_ab - w_ab/2` off the diagonal, where the skew part `w` is constant.
-fn symmetric_part(arena: &mut Arena, chart: &Chart, layout: Layout) -> Vec<(Expr, Polynomial)> {
-    if layout != Layout::Symmetric {
-        return Vec::new();
-    }
-    split_symmetric(arena, chart)
-        .into_iter()
-        .flat_map(|split| [(split.upper, split.value(1)), (split.lower, split.value(-1))])
-        .collect()
-}
-
-/// A pair of entries `M_ab`, `M_ba` as symmetric and skew part.
-#[derive(Clone, Copy, Debug)]
-pub struct Split {
-    /// `M_ab`, `a < b`.
-    pub upper: Expr,
-    /// `M_ba`.
-    pub lower: Expr,
-    /// `s = (M_ab + M_ba)/2`
-    pub symmetric: Expr,
-    /// `w = M_ab - M_ba`
-    pub skew: Expr,
-}
-
-impl Split {
-    /// `s + sign w/2`.
-    #[must_use]
-    pub fn value(&self, sign: i64) -> Polynomial {
-        let mut sum = Polynomial::atom(self.symmetric);
-        if let Some(half) = Rational::ratio(sign, 2) {
-            sum.add_term(vec![self.skew], &half);
-        }
-        sum
-    }
-}
-
-/// Symmetric and skew parts of a chart's momentum, pair by pair.
-pub fn split_symmetric(arena: &mut Arena, chart: &Chart) -> Vec<Split> {
-    let mut splits = Vec::new();
-    for a in 0..chart.dim {
-        for b in a + 1..chart.dim {
-            splits.push(Split {
-                upper: chart.m.0[a][b],
-                lower: chart.m.0[b][a],
-                symmetric: stretch_symbol(arena, chart, a, b),
-                skew: arena.symbol(&format!("{}_skew_{}{}", chart.momentum.name(), a + 1, b + 1)),
-            });
-        }
-    }
-    splits
-}
-
 /// Components that vanish once space is turned.
-fn gauge(chart: &Chart, turned: bool, layout: Layout) -> Vec<(Expr, Polynomial)> {
+fn gauge(chart: &Chart, turned: bool, layout: Layout) -> Vec<Expr> {
     let mut zero = Vec::new();
     if turned {
-        zero.extend(chart.p.iter().skip(1).map(|p| (*p, Polynomial::zero())));
+        zero.extend(chart.p.iter().skip(1));
         if chart.momentum == Momentum::Total && layout == Layout::Constant && chart.dim == 3 {
-            zero.push((chart.m.0[0][2], Polynomial::zero()));
+            zero.push(chart.m.0[0][2]);
         }
     }
     zero

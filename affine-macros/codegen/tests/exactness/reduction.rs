@@ -137,7 +137,7 @@ fn constants(model: &Model) -> Vec<String> {
             let stem = model.reduction.chart.momentum.name();
             names.extend((1..=n).flat_map(|i| (1..=n).map(move |j| format!("{stem}_{i}{j}"))));
         }
-        Layout::Symmetric | Layout::Entries => names.extend(model.fixed.clone()),
+        Layout::Entries => names.extend(model.fixed.clone()),
     }
     names
 }

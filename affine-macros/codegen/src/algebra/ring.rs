@@ -1,0 +1,166 @@
+//! Small matrices over any commutative ring: polynomials, and numbers modulo a prime.
+
+use super::evaluate::Field;
+use super::polynomial::Polynomial;
+use super::rational::Rational;
+use super::residue::Residue;
+
+/// A commutative ring.
+pub trait Ring: Clone {
+    /// 0.
+    fn zero() -> Self;
+    /// Not proved to be different from 0?
+    fn vanishes(&self) -> bool;
+    /// Adds `weight * a * b`.
+    fn plus_product(&mut self, a: &Self, b: &Self, weight: &Rational);
+    /// Adds `weight * a`.
+    fn plus(&mut self, a: &Self, weight: &Rational);
+}
+
+impl Ring for Polynomial {
+    fn zero() -> Self {
+        Polynomial::zero()
+    }
+    fn vanishes(&self) -> bool {
+        self.is_zero()
+    }
+    fn plus_product(&mut self, a: &Self, b: &Self, weight: &Rational) {
+        self.add_product(a, b, weight);
+    }
+    fn plus(&mut self, a: &Self, weight: &Rational) {
+        self.add_scaled(a, weight);
+    }
+}
+
+impl Ring for Residue {
+    fn zero() -> Self {
+        Residue::ZERO
+    }
+    fn vanishes(&self) -> bool {
+        !self.is_nonzero()
+    }
+    fn plus_product(&mut self, a: &Self, b: &Self, weight: &Rational) {
+        self.plus(&a.mul(b), weight);
+    }
+    fn plus(&mut self, a: &Self, weight: &Rational) {
+        *self = self.add(&a.mul(&Residue::from_rational(weight)));
+    }
+}
+
+/// A square matrix, row after row.
+pub type Square<R> = Vec<Vec<R>>;
+
+/// The matrix with the given entries.
+pub fn table<R>(n: usize, entry: impl Fn(usize, usize) -> R) -> Square<R> {
+    (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+}
+
+/// `a b`.
+#[must_use]
+pub fn product<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
+    table(a.len(), |i, j| {
+        let mut sum = R::zero();
+        for k in 0..a.len() {
+            sum.plus_product(&a[i][k], &b[k][j], &Rational::ONE);
+        }
+        sum
+    })
+}
+
+/// `a + b`.
+#[must_use]
+pub fn sum<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
+    table(a.len(), |i, j| {
+        let mut value = a[i][j].clone();
+        value.plus(&b[i][j], &Rational::ONE);
+        value
+    })
+}
+
+/// Entries above the diagonal of `m - m^T`.
+#[must_use]
+pub fn skew<R: Ring>(m: &Square<R>) -> Vec<R> {
+    let n = m.len();
+    (0..n)
+        .flat_map(|a| (a + 1..n).map(move |b| (a, b)))
+        .map(|(a, b)| {
+            let mut value = m[a][b].clone();
+            value.plus(&m[b][a], &Rational::MINUS_ONE);
+            value
+        })
+        .collect()
+}
+
+/// `m - (tr m / n) 1`.
+#[must_use]
+pub fn deviator<R: Ring>(m: &Square<R>) -> Square<R> {
+    let mut trace = R::zero();
+    (0..m.len()).for_each(|k| trace.plus(&m[k][k], &Rational::ONE));
+    let nth = i64::try_from(m.len()).ok().and_then(|n| Rational::ratio(-1, n)).unwrap_or(Rational::ZERO);
+    table(m.len(), |i, j| {
+        let mut value = m[i][j].clone();
+        if i == j {
+            value.plus(&trace, &nth);
+        }
+        value
+    })
+}
+
+/// The transposed cofactors: `m adjugate(m) = det m`.
+#[must_use]
+pub fn adjugate<R: Ring>(m: &Square<R>) -> Square<R> {
+    let n = m.len();
+    table(n, |i, j| {
+        let rows: Vec<usize> = (0..n).filter(|r| *r != j).collect();
+        let columns: Vec<usize> = (0..n).filter(|c| *c != i).collect();
+        let sign = if (i + j) % 2 == 0 { Rational::ONE } else { Rational::MINUS_ONE };
+        let mut minor = R::zero();
+        match (rows.as_slice(), columns.as_slice()) {
+            ([r], [c]) => minor.plus(&m[*r][*c], &sign),
+            ([r, s], [c, d]) => {
+                minor.plus_product(&m[*r][*c], &m[*s][*d], &sign);
+                minor.plus_product(&m[*r][*d], &m[*s][*c], &-&sign);
+            }
+            _ => {}
+        }
+        minor
+    })
+}
+
+/// `a - b`.
+#[must_use]
+pub fn difference<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
+    table(a.len(), |i, j| {
+        let mut value = a[i][j].clone();
+        value.plus(&b[i][j], &Rational::MINUS_ONE);
+        value
+    })
+}
+
+/// The transpose.
+#[must_use]
+pub fn transpose<R: Ring>(a: &Square<R>) -> Square<R> {
+    table(a.len(), |i, j| a[j][i].clone())
+}
+
+/// `a v`.
+#[must_use]
+pub fn times<R: Ring>(a: &Square<R>, v: &[R]) -> Vec<R> {
+    a.iter()
+        .map(|row| {
+            let mut sum = R::zero();
+            row.iter().zip(v).for_each(|(x, y)| sum.plus_product(x, y, &Rational::ONE));
+            sum
+        })
+        .collect()
+}
+
+/// `a b^T`.
+#[must_use]
+pub fn outer<R: Ring>(a: &[R], b: &[R]) -> Square<R> {
+    table(a.len(), |i, j| {
+        let mut value = R::zero();
+        value.plus_product(&a[i], &b[j], &Rational::ONE);
+        value
+    })
+}

@@ -1,0 +1,90 @@
+//! What is computed when the fields have values: conditions, coefficients, inverse blocks.
+
+use crate::algebra::bind::Constants;
+use crate::algebra::{Arena, Expr, Polynomial};
+use crate::ir::Program;
+use crate::ir::fuse::fuse;
+use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::hessian::Direction;
+use crate::mechanics::kinetic::{Coefficient, Frame, Kinetic};
+use crate::optimise::{Batch, straight_line};
+
+use super::{Condition, NumericBlock};
+
+/// What `prepare()` has to check once the fields have values.
+pub(super) fn conditions(
+    arena: &mut Arena,
+    kinetic: &Kinetic,
+    eigenvalues: Vec<(Direction, Polynomial)>,
+    require_positive: bool,
+) -> Vec<Condition> {
+    let dalembert = kinetic.frame == Frame::Flat;
+    let tensor = kinetic.terms.iter().any(|term| matches!(term.value, Coefficient::Matrix(_)));
+    let mut list: Vec<(&'static str, &'static str, bool, Polynomial)> = Vec::new();
+    for (direction, value) in eigenvalues {
+        let (name, directions) = match direction {
+            // J has its eigenvalues once for each row of phi_dot, whatever the basis.
+            _ if dalembert => ("J", "a row of phi_dot"),
+            Direction::Shear => ("I + A", "symmetric traceless velocities (shear)"),
+            Direction::Rotation => ("I - A", "skew velocities (rotation)"),
+            Direction::Dilatation => ("I + A + n B", "multiples of the identity (dilatation)"),
+            Direction::Entry => ("K", "one entry of the affine velocity"),
+        };
+        // A tensor has no I, A and B of its own.
+        let name = if tensor && !dalembert { "the eigenvalue of T" } else { name };
+        if !list.iter().any(|(known, on, _, same)| (*known, *on) == (name, directions) && *same == value) {
+            list.push((name, directions, require_positive || dalembert, value));
+        }
+    }
+    if let Some(t) = kinetic.translation
+        && arena.as_constant(t.mass).is_none()
+    {
+        let mass = Polynomial::normal_form(arena, t.mass);
+        list.push(("m", "the velocity of the centre of mass", require_positive || dalembert, mass));
+    }
+    list.into_iter()
+        .map(|(name, directions, positive, value)| {
+            let sizes = summands(&value);
+            let program = unbound(arena, std::iter::once(value).chain(sizes));
+            Condition { name, directions, positive, program }
+        })
+        .collect()
+}
+
+/// The terms of a sum, each a polynomial: their sizes say how much of it rounding can make.
+fn summands(sum: &Polynomial) -> Vec<Polynomial> {
+    sum.terms().map(|(monomial, c)| Polynomial::term(monomial.clone(), c.clone())).collect()
+}
+
+/// A program over the fields alone.
+fn unbound(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
+    let results = values.enumerate().map(|(k, p)| (format!("value_{}", k + 1), p)).collect();
+    let batch = Batch { shared: Vec::new(), results };
+    fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
+}
+
+pub(super) fn coefficient_program(arena: &mut Arena, coefficients: &Constants) -> Program {
+    let results = coefficients
+        .entries
+        .iter()
+        .map(|(s, p)| (arena.name(*s).unwrap_or("c").to_owned(), p.clone()))
+        .collect();
+    let batch = Batch { shared: Vec::new(), results };
+    fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
+}
+
+pub(super) fn numeric_blocks(arena: &mut Arena, h: &Hamiltonian, positive: bool) -> Vec<NumericBlock> {
+    h.numeric_blocks
+        .iter()
+        .map(|block| {
+            let size = block.form.len();
+            let upper: Vec<(usize, usize)> = (0..size).flat_map(|i| (i..size).map(move |j| (i, j))).collect();
+            let name = |s: Expr| arena.name(s).unwrap_or("inverse").to_owned();
+            let inverse = upper.iter().map(|(i, j)| name(block.inverse[*i][*j])).collect();
+            let entries: Vec<Polynomial> = upper.iter().map(|(i, j)| block.form[*i][*j].clone()).collect();
+            let sizes: Vec<Polynomial> = entries.iter().flat_map(summands).collect();
+            let program = unbound(arena, entries.into_iter().chain(sizes));
+            NumericBlock { program, inverse, size, positive }
+        })
+        .collect()
+}

@@ -1,0 +1,150 @@
+//! Hamilton's equations and the reduced equations in their shortest forms.
+
+use crate::algebra::bind::Constants;
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::ir::Program;
+use crate::ir::fuse::fuse;
+use crate::mechanics::charts::{Chart, Linear, Momentum};
+use crate::mechanics::equations::{self, System, hamilton};
+use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::kinetic::Frame;
+use crate::mechanics::reduce::{self, Layout, Reduction};
+use crate::optimise::{Batch, straight_line};
+
+use super::Equations;
+
+/// Chart and Hamiltonian of the equations that users of other codes write down: all momenta in the model's frames.
+pub(super) fn full_chart(arena: &mut Arena, h: &Hamiltonian) -> (Chart, Polynomial) {
+    let linear = h.translation.as_ref().map(|(frame, _)| match (frame, h.frame) {
+        (Frame::Body, Frame::Body) => Linear::Body,
+        _ => Linear::Space,
+    });
+    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), linear);
+    let full = reduce::own_hamiltonian(h, &chart);
+    (chart, full)
+}
+
+/// The shortest of the ways to write the equations.
+pub(super) fn full_equations(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    chart: &Chart,
+    full_h: &Polynomial,
+    coefficients: &mut Constants,
+) -> Equations {
+    let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
+    let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
+    if !h.is_tensor() {
+        let expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
+        ways.push(batch(arena, &expanded));
+        ways.push(split_batch(arena, chart, &expanded));
+    }
+    let (program, chosen) = ways
+        .iter()
+        .map(|way| {
+            let mut constants = coefficients.clone();
+            (straight_line(arena, way, &mut constants, &|a| inputs.contains(&a)), constants)
+        })
+        .min_by_key(|(program, _)| program.operations().weight())
+        .unwrap_or_else(|| (Program::default(), coefficients.clone()));
+    *coefficients = chosen;
+    let name = |symbols: &[Expr]| -> Vec<String> {
+        symbols.iter().filter_map(|s| arena.name(*s).map(str::to_owned)).collect()
+    };
+    let linear_name = if chart.linear == Some(Linear::Body) { "p_hat" } else { "p" };
+    let groups = [
+        ("x", name(&chart.x)),
+        ("phi", name(&chart.phi.0.concat())),
+        (linear_name, name(&chart.p)),
+        (chart.momentum.symbol(), name(&chart.m.0.concat())),
+    ];
+    Equations {
+        groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),
+        program: fuse(&program),
+    }
+}
+
+fn batch(arena: &Arena, system: &System) -> Batch {
+    Batch {
+        shared: system.shared.clone(),
+        results: system
+            .rates
+            .iter()
+            .map(|(_, symbol, rate)| (format!("d_{}", arena.name(*symbol).unwrap_or("state")), rate.clone()))
+            .collect(),
+    }
+}
+
+/// The system in symmetric and skew parts of the affine momentum, formed from its entries.
+fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> Batch {
+    let mut replaced: Vec<(Expr, Polynomial)> = Vec::new();
+    let mut shared: Vec<(Expr, Polynomial)> = Vec::new();
+    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+    for (a, b) in (0..chart.dim).flat_map(|a| (a + 1..chart.dim).map(move |b| (a, b))) {
+        let (upper, lower) = (chart.m.0[a][b], chart.m.0[b][a]);
+        let mut symbol =
+            |part: &str| arena.symbol(&format!("{}_{part}_{}{}", chart.momentum.name(), a + 1, b + 1));
+        let (symmetric, skew) = (symbol("sym"), symbol("skew"));
+        // s = (M_ab + M_ba)/2, w = M_ab - M_ba, so M_ab = s + w/2 and M_ba = s - w/2.
+        let combined = |x: Expr, y: Expr, weight: &Rational| {
+            let mut sum = Polynomial::atom(x);
+            sum.add_term(vec![y], weight);
+            sum
+        };
+        replaced.push((upper, combined(symmetric, skew, &half)));
+        replaced.push((lower, combined(symmetric, skew, &-&half)));
+        shared.push((symmetric, combined(upper, lower, &Rational::ONE).scaled(&half)));
+        shared.push((skew, combined(upper, lower, &Rational::MINUS_ONE)));
+    }
+    let value =
+        |atom: Expr| replaced.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone());
+    let mut result = batch(arena, &system.substitute(&value));
+    result.shared.extend(shared);
+    result
+}
+
+/// The reduction with the shortest equations, and its programs.
+pub(super) fn best_reduction(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    rotations: bool,
+    coefficients: &mut Constants,
+) -> Option<(Reduction, Equations, Program, Vec<String>)> {
+    let mut best: Option<(usize, Reduction, Program, Constants)> = None;
+    for candidate in reduce::candidates(arena, h, rotations) {
+        let states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
+        let mut constants = Constants::new("k");
+        let way = batch(arena, &candidate.system);
+        let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
+        let weight = program.operations().weight() + states.len();
+        if best.as_ref().is_none_or(|(least, ..)| weight < *least) {
+            best = Some((weight, candidate, program, constants));
+        }
+    }
+    let (_, reduction, program, constants) = best?;
+    let inputs: Vec<Expr> = trajectory_symbols(&reduction);
+    let definitions = Batch {
+        shared: Vec::new(),
+        results: constants
+            .entries
+            .iter()
+            .map(|(s, p)| (arena.name(*s).unwrap_or("k").to_owned(), p.clone()))
+            .collect(),
+    };
+    let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
+    let name = |s: &Expr| arena.name(*s).unwrap_or("state").to_owned();
+    let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(name).collect())).collect();
+    let fixed = reduction.fixed.iter().map(name).collect();
+    Some((reduction, Equations { groups, program: fuse(&program) }, trajectory, fixed))
+}
+
+/// What `trajectory` reads: `p` where the state depends on it, and the constant part of the affine momentum.
+fn trajectory_symbols(reduction: &Reduction) -> Vec<Expr> {
+    let chart = &reduction.chart;
+    let momentum = match reduction.layout {
+        Layout::Constant => chart.m.0.concat(),
+        Layout::Entries => reduction.fixed.clone(),
+    };
+    [chart.p.clone(), momentum].concat()
+}

@@ -1,0 +1,62 @@
+//! Closed forms of geodesics.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::mechanics::reduce::{ClosedForm, Commuting};
+
+use super::Context;
+use super::body::Body;
+use super::dynamics::own_spin;
+
+/// `geodesic`: the closed form where the model and the scene have one.
+pub(super) fn geodesic(context: &Context) -> TokenStream {
+    let (rt, n) = (&context.names.rt, context.dim());
+    let drifts = context.model.reduction.commuting.iter().any(|piece| matches!(piece, Commuting::Drift(_)));
+    let f64 = quote!(#rt::f64);
+    let none = quote!(::core::option::Option::None);
+    let Some((form, needs_rest)) = context.model.closed_form else {
+        return quote! {
+            fn geodesic(&self, _t0: #f64, _point: &Self::Point<#f64>) -> ::core::option::Option<#rt::Geodesic<#n>> {
+                #none
+            }
+        };
+    };
+    let rest = needs_rest.then(|| {
+        quote! {
+            if #rt::Phase::p(point) != #rt::Vector::<#n>::zeros() {
+                return #none;
+            }
+        }
+    });
+    let drift = match (&context.model.mass, drifts) {
+        (Some(program), true) => {
+            let body = context.double(&program.only("inverse_mass"));
+            let (lets, inverse_mass) = (&body.lets, body.result());
+            quote!(#lets let inverse_mass = #inverse_mass; let drift = #rt::Phase::p(point) * inverse_mass;)
+        }
+        _ => quote!(let drift = #rt::Vector::<#n>::zeros();),
+    };
+    let spin = own_spin(context);
+    let motion = match (form, &context.model.isotropic) {
+        (ClosedForm::Straight, _) | (_, None) => quote! {
+            let motion = #rt::Motion::straight(#rt::Model::velocity(self, point).phi_dot);
+        },
+        (affine, Some(program)) => {
+            let Body { lets, results } = context.double(program);
+            let make = match affine {
+                ClosedForm::Body => quote!(body),
+                _ => quote!(space),
+            };
+            quote!(#lets let motion = #rt::Motion::#make(&#spin, [#(#results),*]);)
+        }
+    };
+    quote! {
+        fn geodesic(&self, t0: #f64, point: &Self::Point<#f64>) -> ::core::option::Option<#rt::Geodesic<#n>> {
+            #rest
+            #drift
+            #motion
+            ::core::option::Option::Some(#rt::Geodesic { t0, motion, drift })
+        }
+    }
+}
