@@ -151,12 +151,7 @@ pub fn hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) -> For
 
 /// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
 pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polynomial) -> Vec<Formula> {
-    // Where nothing can cancel, the balance laws hold with the velocity as it stands.
-    let form = if h.isotropic.is_some() { Form::Expanded } else { Form::ThroughVelocity };
-    let mut velocity = velocities(arena, chart, full);
-    if form == Form::ThroughVelocity {
-        velocity.iter_mut().flatten().for_each(|(symbol, value)| *value = Polynomial::atom(*symbol));
-    }
+    let velocity = velocities(arena, chart, full);
     let slopes = gradient(chart, full);
     // A tensor's velocity stays a symbol: written out, nothing in its commutators cancels.
     let form = if h.is_tensor() { Form::ThroughVelocity } else { Form::Expanded };
