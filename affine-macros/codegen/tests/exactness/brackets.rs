@@ -92,12 +92,12 @@ fn jacobi() {
 }
 
 /// Coordinates of any chart as functions on the canonical one.
-struct Canonical {
-    chart: Chart,
+pub(crate) struct Canonical {
+    pub(crate) chart: Chart,
 }
 
 impl Canonical {
-    fn new(arena: &mut Arena, n: usize) -> Self {
+    pub(crate) fn new(arena: &mut Arena, n: usize) -> Self {
         Self { chart: Chart::new(arena, n, Momentum::Canonical, Some(Linear::Space)) }
     }
 
@@ -108,12 +108,12 @@ impl Canonical {
     }
 
     /// `Sigma = phi Pi`.
-    fn sigma(&self, i: usize, j: usize) -> Polynomial {
+    pub(crate) fn sigma(&self, i: usize, j: usize) -> Polynomial {
         self.sum(|a| [self.chart.phi.0[i][a], self.chart.m.0[a][j]])
     }
 
     /// `Sigma_hat = Pi phi`.
-    fn sigma_hat(&self, a: usize, b: usize) -> Polynomial {
+    pub(crate) fn sigma_hat(&self, a: usize, b: usize) -> Polynomial {
         self.sum(|i| [self.chart.m.0[a][i], self.chart.phi.0[i][b]])
     }
 
@@ -138,7 +138,7 @@ impl Canonical {
     }
 
     /// A polynomial in the coordinates of a chart, pulled back.
-    fn pulled_back(&self, of: &Chart, polynomial: &Polynomial) -> Polynomial {
+    pub(crate) fn pulled_back(&self, of: &Chart, polynomial: &Polynomial) -> Polynomial {
         polynomial.substitute(&|symbol| {
             let coordinate = of.coordinates().into_iter().find(|z| of.symbol(*z) == symbol)?;
             Some(self.function(of, coordinate))

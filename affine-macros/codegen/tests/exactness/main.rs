@@ -11,6 +11,7 @@ mod models;
 mod passes;
 mod points;
 mod polynomials;
+mod potentials;
 mod rational;
 mod reduction;
 mod singular;

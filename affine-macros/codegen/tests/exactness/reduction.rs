@@ -108,6 +108,11 @@ pub(crate) fn equations(what: &str, model: &Model, rest: &Kinetic, state: &State
         _ => None,
     });
     for name in reads {
+        // Turned space has p = (p_1, 0, 0).
+        assert!(
+            !model.reduction.turned || !["p_2", "p_3"].contains(&name.as_str()),
+            "{what}: {name} is zero"
+        );
         assert!(
             constants.contains(name) || coefficients.contains_key(name),
             "{what}: the trajectory reads {name}"
