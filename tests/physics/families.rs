@@ -286,7 +286,7 @@ macro_rules! define {
 
         /// A model of this family; it reads those fields that its energy names.
         #[affine_model(dim = $n, kinetic($($spec)*))]
-        #[allow(dead_code)]
+        #[allow(dead_code, reason = "one list of fields serves every family; each reads its own")]
         pub(crate) struct Body {
             i: f64, a: f64, b: f64, m: f64, alpha: f64, mass: f64, small: f64,
             j11: f64, j12: f64, j13: f64, j22: f64, j23: f64, j33: f64,
