@@ -98,36 +98,43 @@ impl One for Counting {
     }
 }
 
+macro_rules! counted_functions {
+    ($($function:ident counts $field:ident;)*) => { $(
+        fn $function(self) -> Self {
+            tick(|done| done.$field += 1);
+            Self(Scalar::$function(self.0))
+        }
+    )* };
+}
+
 impl Scalar for Counting {
     fn constant(hi: f64, _lo: f64) -> Self {
         Self(hi)
+    }
+
+    counted_functions! {
+        sqrt counts sqrt;
+        cbrt counts sqrt;
+        exp counts exp;
+        exp_m1 counts exp;
+        sinh counts exp;
+        cosh counts exp;
+        tanh counts exp;
+        ln counts ln;
+        ln_1p counts ln;
+        sin counts exp;
+        cos counts exp;
+        tan counts exp;
+    }
+
+    fn abs(self) -> Self {
+        Self(Scalar::abs(self.0))
     }
 }
 
 impl Real for Counting {
     const EPSILON: Self = Self(f64::EPSILON);
 
-    fn sqrt(self) -> Self {
-        tick(|done| done.sqrt += 1);
-        Self(Real::sqrt(self.0))
-    }
-    fn exp(self) -> Self {
-        tick(|done| done.exp += 1);
-        Self(Real::exp(self.0))
-    }
-    fn ln(self) -> Self {
-        tick(|done| done.ln += 1);
-        Self(Real::ln(self.0))
-    }
-    fn sin(self) -> Self {
-        Self(Real::sin(self.0))
-    }
-    fn cos(self) -> Self {
-        Self(Real::cos(self.0))
-    }
-    fn abs(self) -> Self {
-        Self(Real::abs(self.0))
-    }
     fn hypot(self, other: Self) -> Self {
         tick(|done| {
             done.mul += 2;

@@ -154,9 +154,9 @@ pub struct Operations {
     pub add: usize,
     /// Divisions.
     pub div: usize,
-    /// Square roots.
+    /// Square and cube roots.
     pub sqrt: usize,
-    /// Exponentials.
+    /// Exponentials, hyperbolic and trigonometric functions.
     pub exp: usize,
     /// Logarithms.
     pub ln: usize,

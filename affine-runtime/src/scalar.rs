@@ -1,8 +1,8 @@
 //! What a number must do.
 //!
-//! Emitted right-hand sides ask for [`Scalar`] alone: ring operations, constants and a multiply-add, so that
-//! SIMD lanes, double-double and dual numbers fit without touching emitted code. Reduction, expansion and
-//! energies ask for [`Real`]: an ordered field with the elementary functions.
+//! Emitted right-hand sides ask for [`Scalar`] alone: arithmetic, constants, a multiply-add and the elementary
+//! functions, so that SIMD lanes, double-double and dual numbers fit without touching emitted code. Reduction,
+//! expansion and energies ask for [`Real`]: an ordered number.
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -39,31 +39,53 @@ pub trait Scalar:
     fn fma(self, factor: Self, term: Self) -> Self {
         self * factor + term
     }
-}
-
-/// An ordered number with the elementary functions, for everything outside right-hand sides.
-pub trait Real: Scalar + PartialOrd {
-    /// The distance from 1 to the next number.
-    const EPSILON: Self;
 
     /// Square root.
     #[must_use]
     fn sqrt(self) -> Self;
+    /// Cube root.
+    #[must_use]
+    fn cbrt(self) -> Self;
     /// Exponential function.
     #[must_use]
     fn exp(self) -> Self;
+    /// `exp(self) - 1` without cancellation.
+    #[must_use]
+    fn exp_m1(self) -> Self;
     /// Natural logarithm.
     #[must_use]
     fn ln(self) -> Self;
+    /// `ln(1 + self)` without cancellation.
+    #[must_use]
+    fn ln_1p(self) -> Self;
     /// Sine.
     #[must_use]
     fn sin(self) -> Self;
     /// Cosine.
     #[must_use]
     fn cos(self) -> Self;
+    /// Tangent.
+    #[must_use]
+    fn tan(self) -> Self;
+    /// Hyperbolic sine.
+    #[must_use]
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    #[must_use]
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    #[must_use]
+    fn tanh(self) -> Self;
     /// Absolute value.
     #[must_use]
     fn abs(self) -> Self;
+}
+
+/// An ordered number, for everything outside right-hand sides.
+pub trait Real: Scalar + PartialOrd {
+    /// The distance from 1 to the next number.
+    const EPSILON: Self;
+
     /// `sqrt(self^2 + other^2)` without overflow in between.
     #[must_use]
     fn hypot(self, other: Self) -> Self;
@@ -80,7 +102,7 @@ pub trait Real: Scalar + PartialOrd {
 }
 
 macro_rules! primitive {
-    ($type:ty, $sqrt:path, $exp:path, $ln:path, $sin:path, $cos:path, $hypot:path) => {
+    ($type:ty, $hypot:path, $($function:ident = $path:path),*) => {
         impl Scalar for $type {
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
@@ -95,29 +117,18 @@ macro_rules! primitive {
                 #[cfg(not(all(feature = "std", target_feature = "fma")))]
                 return self * factor + term;
             }
+
+            $(
+                #[inline(always)]
+                fn $function(self) -> Self {
+                    $path(self)
+                }
+            )*
         }
 
         impl Real for $type {
             const EPSILON: Self = <$type>::EPSILON;
 
-            fn sqrt(self) -> Self {
-                $sqrt(self)
-            }
-            fn exp(self) -> Self {
-                $exp(self)
-            }
-            fn ln(self) -> Self {
-                $ln(self)
-            }
-            fn sin(self) -> Self {
-                $sin(self)
-            }
-            fn cos(self) -> Self {
-                $cos(self)
-            }
-            fn abs(self) -> Self {
-                <$type>::abs(self)
-            }
             fn hypot(self, other: Self) -> Self {
                 $hypot(self, other)
             }
@@ -131,5 +142,37 @@ macro_rules! primitive {
     };
 }
 
-primitive!(f64, libm::sqrt, libm::exp, libm::log, libm::sin, libm::cos, libm::hypot);
-primitive!(f32, libm::sqrtf, libm::expf, libm::logf, libm::sinf, libm::cosf, libm::hypotf);
+primitive!(
+    f64,
+    libm::hypot,
+    sqrt = libm::sqrt,
+    cbrt = libm::cbrt,
+    exp = libm::exp,
+    exp_m1 = libm::expm1,
+    ln = libm::log,
+    ln_1p = libm::log1p,
+    sin = libm::sin,
+    cos = libm::cos,
+    tan = libm::tan,
+    sinh = libm::sinh,
+    cosh = libm::cosh,
+    tanh = libm::tanh,
+    abs = f64::abs
+);
+primitive!(
+    f32,
+    libm::hypotf,
+    sqrt = libm::sqrtf,
+    cbrt = libm::cbrtf,
+    exp = libm::expf,
+    exp_m1 = libm::expm1f,
+    ln = libm::logf,
+    ln_1p = libm::log1pf,
+    sin = libm::sinf,
+    cos = libm::cosf,
+    tan = libm::tanf,
+    sinh = libm::sinhf,
+    cosh = libm::coshf,
+    tanh = libm::tanhf,
+    abs = f32::abs
+);

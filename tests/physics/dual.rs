@@ -104,21 +104,26 @@ impl Scalar for Dual {
     fn constant(hi: f64, _lo: f64) -> Self {
         Dual::fixed(hi)
     }
-}
-
-impl Real for Dual {
-    const EPSILON: Self = Dual { value: f64::EPSILON, slope: 0.0 };
-
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         self.chain(root, 0.5 / root)
+    }
+    fn cbrt(self) -> Self {
+        let root = self.value.cbrt();
+        self.chain(root, 1.0 / (3.0 * root * root))
     }
     fn exp(self) -> Self {
         let value = self.value.exp();
         self.chain(value, value)
     }
+    fn exp_m1(self) -> Self {
+        self.chain(self.value.exp_m1(), self.value.exp())
+    }
     fn ln(self) -> Self {
         self.chain(self.value.ln(), self.value.recip())
+    }
+    fn ln_1p(self) -> Self {
+        self.chain(self.value.ln_1p(), (1.0 + self.value).recip())
     }
     fn sin(self) -> Self {
         self.chain(self.value.sin(), self.value.cos())
@@ -126,9 +131,28 @@ impl Real for Dual {
     fn cos(self) -> Self {
         self.chain(self.value.cos(), -self.value.sin())
     }
+    fn tan(self) -> Self {
+        let tan = self.value.tan();
+        self.chain(tan, 1.0 + tan * tan)
+    }
+    fn sinh(self) -> Self {
+        self.chain(self.value.sinh(), self.value.cosh())
+    }
+    fn cosh(self) -> Self {
+        self.chain(self.value.cosh(), self.value.sinh())
+    }
+    fn tanh(self) -> Self {
+        let tanh = self.value.tanh();
+        self.chain(tanh, 1.0 - tanh * tanh)
+    }
     fn abs(self) -> Self {
         self.chain(self.value.abs(), self.value.signum())
     }
+}
+
+impl Real for Dual {
+    const EPSILON: Self = Dual { value: f64::EPSILON, slope: 0.0 };
+
     fn hypot(self, other: Self) -> Self {
         let value = self.value.hypot(other.value);
         if value == 0.0 {

@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use crate::model::{Group, StateVector};
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// A state vector has at most so many groups with a floor of their own.
 const GROUPS: usize = 8;
@@ -66,7 +66,7 @@ impl ErrorNorm {
                 let changed = f(t, &changed);
                 evaluations += 1;
                 let difference = |i: usize| square(changed.as_ref()[i] - slope.as_ref()[i]);
-                let of_component = Real::sqrt(moved.clone().map(difference).sum::<f64>());
+                let of_component = Scalar::sqrt(moved.clone().map(difference).sum::<f64>());
                 response = if of_component <= response { response } else { of_component };
             }
             let extent = probed.extent(moved, y.as_ref());
@@ -148,7 +148,7 @@ impl ErrorNorm {
 
 /// Euclidean norm.
 pub(crate) fn norm(components: &[f64]) -> f64 {
-    Real::sqrt(sum_of_squares(components))
+    Scalar::sqrt(sum_of_squares(components))
 }
 
 /// Sum of squares.

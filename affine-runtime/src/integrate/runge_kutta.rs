@@ -11,7 +11,7 @@ use super::error_norm::{ErrorNorm, sum_of_squares};
 use super::step_size::{Controller, first_step};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// Adaptive integration of `y' = f(t, y)` from `t0` to `t_end`, in either direction of time, by the method of
 /// Dormand and Prince of order 8.
@@ -163,7 +163,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
         let relative = self.error_norm.largest(self.step.length().abs(), before, after, |range| {
             let fifth = sum_of_squares(&fifth.as_ref()[range.clone()]);
             let third = sum_of_squares(&third.as_ref()[range]);
-            if fifth == 0.0 { 0.0 } else { fifth / Real::sqrt(fifth + 0.01 * third) }
+            if fifth == 0.0 { 0.0 } else { fifth / Scalar::sqrt(fifth + 0.01 * third) }
         });
         self.step.length().abs() * relative / self.tolerance
     }

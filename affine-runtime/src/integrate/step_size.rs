@@ -2,7 +2,7 @@
 
 use super::error_norm::{ErrorNorm, norm};
 use crate::model::StateVector;
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// Order of the leading term of the error estimate in the step size.
 const ERROR_ORDER: f64 = 8.0;
@@ -83,7 +83,7 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     for (i, change) in change.as_mut().iter_mut().enumerate() {
         *change = (slope_after.as_ref()[i] - slope.as_ref()[i]) / trial;
     }
-    let second = Real::sqrt(rate(&end, &change));
+    let second = Scalar::sqrt(rate(&end, &change));
     let fastest = if first.is_finite() && first > second { first } else { second };
     let length = libm::pow(0.01 * tolerance, 1.0 / ERROR_ORDER) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.
