@@ -4,6 +4,7 @@ pub mod arena;
 pub mod bind;
 pub mod evaluate;
 pub mod factor;
+pub mod function;
 pub mod linear;
 pub mod matrix;
 pub mod polynomial;
@@ -12,6 +13,7 @@ pub mod residue;
 pub mod ring;
 
 pub use arena::{Arena, Expr};
+pub use function::Function;
 pub use matrix::Matrix;
 pub use polynomial::Polynomial;
 pub use rational::Rational;
