@@ -1,10 +1,13 @@
 //! From what the user wrote to symbolic terms: the last place where the specification's syntax is known.
 
+mod potential;
+
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 use crate::check::constant;
 use crate::mechanics::kinetic::{Coefficient, Term, TermKind};
-use crate::mechanics::potential::Potential;
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
+
+pub use potential::potential;
 
 /// Stem of the symbols of fields: kept apart from the names that the derivation makes.
 pub const FIELD: &str = "self.";
@@ -92,9 +95,4 @@ pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<
             arena.pow(a, i32::try_from(constant(exponent, n)?.to_i64()?).ok()?)
         }
     }
-}
-
-/// The potential energy, if the model states one; its expression is lowered by the language of potentials.
-pub fn potential(_arena: &mut Arena, _spec: &Spec) -> Option<Potential> {
-    None
 }
