@@ -210,14 +210,14 @@ pub fn equations(
                 text: format!("{left} = {}", k.text),
                 latex: format!("{left_latex} = {}", k.latex),
             }),
-            (Some(k), Some((_, _, text, latex))) => {
+            (Some(k), Some((name, name_latex, ..))) => {
                 let with = |kinetic: &str, force: &str| match kinetic {
                     "0" => force.to_owned(),
                     _ => format!("{kinetic} + {force}"),
                 };
                 list.push(Formula {
-                    text: format!("{left} = {}", with(&k.text, text)),
-                    latex: format!("{left_latex} = {}", with(&k.latex, latex)),
+                    text: format!("{left} = {}", with(&k.text, name)),
+                    latex: format!("{left_latex} = {}", with(&k.latex, name_latex)),
                 });
             }
             (None, Some((name, name_latex, ..))) => {
@@ -250,9 +250,7 @@ pub fn equations(
         }
     }
     for (name, name_latex, text, latex) in forces.into_iter().flatten() {
-        if name != text {
-            list.push(Formula { text: format!("{name} = {text}"), latex: format!("{name_latex} = {latex}") });
-        }
+        list.push(Formula { text: format!("{name} = {text}"), latex: format!("{name_latex} = {latex}") });
     }
     list
 }
