@@ -61,7 +61,8 @@ fn coefficient(arena: &mut Arena, n: usize, value: &Value) -> Option<Coefficient
     })
 }
 
-/// The symbolic value of a coefficient; `None` only for what the checks refuse (division by zero).
+/// The symbolic value of a coefficient; `None` only for what the checks refuse (division by zero) and for the
+/// forms that only potentials have.
 pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<Expr> {
     if let Some(value) = constant(e, n) {
         return Some(arena.constant(value));
@@ -94,5 +95,11 @@ pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<
             let a = of(a)?;
             arena.pow(a, i32::try_from(constant(exponent, n)?.to_i64()?).ok()?)
         }
+        ExpressionKind::Call(..)
+        | ExpressionKind::Trace(_)
+        | ExpressionKind::Entry(..)
+        | ExpressionKind::Component(_)
+        | ExpressionKind::Norm
+        | ExpressionKind::Pairs(_) => None,
     }
 }
