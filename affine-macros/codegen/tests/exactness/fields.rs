@@ -34,7 +34,11 @@ fn every_family_with_fields() {
     for n in [2, 3] {
         for internal in FAMILIES {
             // Tensors have no fields; beside named terms they make blocks that only prepare() can invert.
-            let large = matches!(internal, Internal::BodySum | Internal::SpaceSum) && n == 3;
+            let large = n == 3
+                && matches!(
+                    internal,
+                    Internal::BodySum | Internal::SpaceSum | Internal::BodyMatrix | Internal::SpaceMatrix
+                );
             for translation in TRANSLATIONS {
                 let sample = Sample::new(&mut random, n, internal, translation);
                 let (args, item, fields) = sample.with_fields();
