@@ -10,7 +10,7 @@ use super::points::{Values, exact, own, run};
 use super::reduction::{equations, rest, turned};
 
 /// The coefficients of the prepared model, numeric blocks inverted by the oracle.
-fn prepared(model: &Model, fields: &Values) -> Values {
+pub(crate) fn prepared(model: &Model, fields: &Values) -> Values {
     let mut inputs = fields.clone();
     for NumericBlock { program, inverse, size, .. } in &model.numeric_blocks {
         let values = run(program, fields);
