@@ -11,6 +11,8 @@ pub(crate) struct Parameters {
     isotropic: Isotropic,
     /// Symmetric and positive definite.
     j: Exact,
+    /// Symmetric, of any signature, no two diagonal entries equal.
+    h: Exact,
     /// `T` given by a tensor of order 1 stays regular with this much of `casimir2`.
     small: Rational,
 }
@@ -27,7 +29,8 @@ impl Parameters {
         let scale = rational(1 << random.integer(0, 7), 1 << random.integer(0, 13));
         let j = (&(&stretch * &random.inertia(n)) * &stretch).scaled(&scale);
         let small = rational(random.integer(4, 12) * (1 - 2 * random.integer(0, 1)), 32);
-        Parameters { n, isotropic, j, small }
+        let h = indefinite(n, &isotropic, random);
+        Parameters { n, isotropic, j, h, small }
     }
 
     /// Is `I/2 tr(O^T O) + A/2 tr O^2 + B/2 (tr O)^2` indefinite?
@@ -59,10 +62,11 @@ impl Parameters {
                 }
             }
             "small" => self.small.clone(),
-            "j13" | "j23" | "j33" if self.n == 2 => rational(0, 1),
+            "j13" | "j23" | "j33" | "h13" | "h23" | "h33" if self.n == 2 => rational(0, 1),
             entry => {
                 let place = |k: usize| usize::from(entry.as_bytes()[k] - b'1');
-                self.j.entry(place(1), place(2))
+                let inertia = if entry.starts_with('h') { &self.h } else { &self.j };
+                inertia.entry(place(1), place(2))
             }
         };
         let field = rounded(&value);
@@ -73,6 +77,39 @@ impl Parameters {
     fn rational(&self, name: &str) -> Rational {
         exact(self.field(name)).unwrap()
     }
+}
+
+/// An inertia for an affine frame: the form with `casimir2 = a`, `casimir1_squared = b` has a condition below 1e3, with
+/// its diagonal as well as with all of it.
+fn indefinite(n: usize, isotropic: &Isotropic, random: &mut Random) -> Exact {
+    loop {
+        let mut h = Exact::zeros(n, n);
+        for (a, size) in (0..n).zip([4, 7, 10]) {
+            let sign = 1 - 2 * random.integer(0, 1);
+            let entry = rational(sign * (size + random.integer(0, 2)), 4);
+            h = &h + &Exact::unit(n, a, a).scaled(&entry);
+            for b in 0..a {
+                let both = &Exact::unit(n, a, b) + &Exact::unit(n, b, a);
+                h = &h + &both.scaled(&rational(random.integer(1, 4), 4));
+            }
+        }
+        let h = h.scaled(&(&isotropic.i + &isotropic.a));
+        let condition = |j: Exact| {
+            let casimirs =
+                [Term::Casimir2(isotropic.a.clone()), Term::Casimir1Squared(isotropic.b.clone())];
+            let form = Kinetic::new(n, [vec![Term::BodyInertia(j)], casimirs.to_vec()].concat()).unwrap();
+            form.condition(&Exact::identity(n)).unwrap()
+        };
+        if condition(diagonal(&h)) < 1e3 && condition(h.clone()) < 1e3 {
+            return h;
+        }
+    }
+}
+
+/// The diagonal of a matrix, as a matrix.
+fn diagonal(j: &Exact) -> Exact {
+    let n = j.shape().0;
+    (0..n).fold(Exact::zeros(n, n), |sum, a| &sum + &Exact::unit(n, a, a).scaled(&j.entry(a, a)))
 }
 
 /// The oracle's term of each name.
@@ -99,12 +136,16 @@ terms! {
     body_translation_of_masses = |_n, p| Term::BodyTranslation(p.rational("mass"));
     space_translation_of_masses = |_n, p| Term::SpaceTranslation(p.rational("mass"));
     dalembert_scalar = |n, p| Term::dalembert(n, p.rational("j11"));
-    dalembert_diagonal = |n, p| Term::DAlembert((0..n).fold(Exact::zeros(n, n), |sum, a| {
-        &sum + &Exact::unit(n, a, a).scaled(&p.j.entry(a, a))
-    }));
+    dalembert_diagonal = |_n, p| Term::DAlembert(diagonal(&p.j));
     dalembert_matrix = |_n, p| Term::DAlembert(p.j.clone());
     body_tensor = |n, _p| Term::BodyTensor(tensor(n));
     space_tensor = |n, _p| Term::SpaceTensor(tensor(n));
+    flat_tensor = |n, _p| Term::FlatTensor(tensor(n));
+    dalembert_small = |n, p| Term::dalembert(n, p.rational("small") * p.rational("small"));
+    body_inertia_diagonal = |_n, p| Term::BodyInertia(diagonal(&p.h));
+    body_inertia_matrix = |_n, p| Term::BodyInertia(p.h.clone());
+    space_inertia_diagonal = |_n, p| Term::SpaceInertia(diagonal(&p.h));
+    space_inertia_matrix = |_n, p| Term::SpaceInertia(p.h.clone());
 }
 
 /// When motions are geodesics in closed form.
@@ -238,6 +279,47 @@ space_tensor_body_translation: moving Never [space_tensor casimir2_small body_tr
     (space_tensor = K, casimir2 = small, body_translation = m);
 space_tensor_space_translation: moving Never [space_tensor casimir2_small space_translation]
     (space_tensor = K, casimir2 = small, space_translation = m);
+body_inertia_diagonal: pinned Never [body_inertia_diagonal casimir2 casimir1_squared]
+    (body_inertia = diag(h11, h22), casimir2 = a, casimir1_squared = b)
+    | (body_inertia = diag(h11, h22, h33), casimir2 = a, casimir1_squared = b);
+body_inertia_diagonal_body_translation: moving Never [body_inertia_diagonal casimir2 casimir1_squared body_translation]
+    (body_inertia = diag(h11, h22), casimir2 = a, casimir1_squared = b, body_translation = m)
+    | (body_inertia = diag(h11, h22, h33), casimir2 = a, casimir1_squared = b, body_translation = m);
+body_inertia_diagonal_space_translation: moving Never [body_inertia_diagonal casimir2 casimir1_squared space_translation]
+    (body_inertia = diag(h11, h22), casimir2 = a, casimir1_squared = b, space_translation = m)
+    | (body_inertia = diag(h11, h22, h33), casimir2 = a, casimir1_squared = b, space_translation = m);
+body_inertia_matrix: pinned Never [body_inertia_matrix casimir2 casimir1_squared]
+    (body_inertia = [[h11, h12], [h12, h22]], casimir2 = a, casimir1_squared = b)
+    | (body_inertia = [[h11, h12, h13], [h12, h22, h23], [h13, h23, h33]], casimir2 = a, casimir1_squared = b);
+body_inertia_matrix_body_translation: moving Never [body_inertia_matrix casimir2 casimir1_squared body_translation]
+    (body_inertia = [[h11, h12], [h12, h22]], casimir2 = a, casimir1_squared = b, body_translation = m)
+    | (body_inertia = [[h11, h12, h13], [h12, h22, h23], [h13, h23, h33]], casimir2 = a, casimir1_squared = b, body_translation = m);
+space_inertia_diagonal: pinned Never [space_inertia_diagonal casimir2 casimir1_squared]
+    (space_inertia = diag(h11, h22), casimir2 = a, casimir1_squared = b)
+    | (space_inertia = diag(h11, h22, h33), casimir2 = a, casimir1_squared = b);
+space_inertia_diagonal_body_translation: moving Never [space_inertia_diagonal casimir2 casimir1_squared body_translation]
+    (space_inertia = diag(h11, h22), casimir2 = a, casimir1_squared = b, body_translation = m)
+    | (space_inertia = diag(h11, h22, h33), casimir2 = a, casimir1_squared = b, body_translation = m);
+space_inertia_diagonal_space_translation: moving Never [space_inertia_diagonal casimir2 casimir1_squared space_translation]
+    (space_inertia = diag(h11, h22), casimir2 = a, casimir1_squared = b, space_translation = m)
+    | (space_inertia = diag(h11, h22, h33), casimir2 = a, casimir1_squared = b, space_translation = m);
+space_inertia_matrix: pinned Never [space_inertia_matrix casimir2 casimir1_squared]
+    (space_inertia = [[h11, h12], [h12, h22]], casimir2 = a, casimir1_squared = b)
+    | (space_inertia = [[h11, h12, h13], [h12, h22, h23], [h13, h23, h33]], casimir2 = a, casimir1_squared = b);
+space_inertia_matrix_body_translation: moving Never [space_inertia_matrix casimir2 casimir1_squared body_translation]
+    (space_inertia = [[h11, h12], [h12, h22]], casimir2 = a, casimir1_squared = b, body_translation = m)
+    | (space_inertia = [[h11, h12, h13], [h12, h22, h23], [h13, h23, h33]], casimir2 = a, casimir1_squared = b, body_translation = m);
+body_inertia_diagonal_alone: pinned Never [body_inertia_diagonal]
+    (body_inertia = diag(h11, h22))
+    | (body_inertia = diag(h11, h22, h33));
+flat_tensor: pinned Always [flat_tensor dalembert_small]
+    (flat_tensor = K, dalembert = small^2);
+flat_tensor_space_translation: moving Always [flat_tensor space_translation]
+    (flat_tensor = K, space_translation = m);
+flat_tensor_body_translation: moving AtRest [flat_tensor body_translation]
+    (flat_tensor = K, body_translation = m);
+flat_tensor_dalembert: moving Always [flat_tensor dalembert_small space_translation_of_masses]
+    (flat_tensor = K, dalembert = small^2, space_translation = mass);
     } };
 }
 
@@ -290,6 +372,7 @@ macro_rules! define {
         pub(crate) struct Body {
             i: f64, a: f64, b: f64, m: f64, alpha: f64, mass: f64, small: f64,
             j11: f64, j12: f64, j13: f64, j22: f64, j23: f64, j33: f64,
+            h11: f64, h12: f64, h13: f64, h22: f64, h23: f64, h33: f64,
         }
 
         impl Family<$n> for PreparedBody {
@@ -302,6 +385,8 @@ macro_rules! define {
                     i: field("i"), a: field("a"), b: field("b"), m: field("m"), alpha: field("alpha"),
                     mass: field("mass"), small: field("small"), j11: field("j11"), j12: field("j12"),
                     j13: field("j13"), j22: field("j22"), j23: field("j23"), j33: field("j33"),
+                    h11: field("h11"), h12: field("h12"), h13: field("h13"), h22: field("h22"),
+                    h23: field("h23"), h33: field("h33"),
                 };
                 let kinetic = Kinetic::new($n, vec![$(parameters.$term()),*]).unwrap();
                 (body.prepare().unwrap(), kinetic)

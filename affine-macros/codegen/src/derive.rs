@@ -119,7 +119,7 @@ pub struct NumericBlock {
 
 /// Derives a model; `None` only for forms that the checks refuse.
 pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
-    let signature = match require_positive || form.kinetic.frame == Frame::Flat {
+    let signature = match require_positive || form.kinetic.is_dalembert() {
         // `prepare()` refuses anything else.
         true => Some((form.kinetic.degrees_of_freedom(), 0)),
         false => signature(&form),
@@ -200,7 +200,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         let results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
         inline(arena, Batch { shared: Vec::new(), results }, Vec::new())
     });
-    let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.frame == Frame::Flat);
+    let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
     Some(Model {
         dim: kinetic.dim,
         frame: kinetic.frame,

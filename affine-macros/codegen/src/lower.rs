@@ -39,6 +39,7 @@ fn kind(kind: spec::TermKind) -> TermKind {
         spec::TermKind::Dalembert => TermKind::Dalembert,
         spec::TermKind::BodyTensor => TermKind::BodyTensor,
         spec::TermKind::SpaceTensor => TermKind::SpaceTensor,
+        spec::TermKind::FlatTensor => TermKind::FlatTensor,
     }
 }
 

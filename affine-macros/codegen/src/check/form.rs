@@ -153,7 +153,7 @@ fn frame_of(kind: spec::TermKind) -> Option<Frame> {
     match kind {
         spec::TermKind::BodyInertia | spec::TermKind::BodyTensor => Some(Frame::Body),
         spec::TermKind::SpaceInertia | spec::TermKind::SpaceTensor => Some(Frame::Space),
-        spec::TermKind::Dalembert => Some(Frame::Flat),
+        spec::TermKind::Dalembert | spec::TermKind::FlatTensor => Some(Frame::Flat),
         _ => None,
     }
 }

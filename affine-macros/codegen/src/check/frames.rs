@@ -22,7 +22,7 @@ fn frame(kind: TermKind) -> Frame {
         TermKind::Casimir2 | TermKind::Casimir1Squared => Frame::Both,
         TermKind::BodyInertia | TermKind::BodyTensor | TermKind::BodyTranslation => Frame::Comoving,
         TermKind::SpaceInertia | TermKind::SpaceTensor | TermKind::SpaceTranslation => Frame::Spatial,
-        TermKind::Dalembert => Frame::Flat,
+        TermKind::Dalembert | TermKind::FlatTensor => Frame::Flat,
     }
 }
 

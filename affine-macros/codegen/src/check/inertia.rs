@@ -1,4 +1,4 @@
-//! The inertia J of a d'Alembert energy, and masses. Signs that depend on fields are left to `prepare()`.
+//! The inertia J of 1/2 tr(O J O^T), and masses. Signs that depend on fields are left to `prepare()`.
 
 use super::constant::constant;
 use super::identity::equal;
@@ -23,10 +23,17 @@ pub(super) fn masses(spec: &Spec, found: &mut Diagnostics) {
     }
 }
 
-/// J = J^T: it is the second moment of the mass distribution in the body (2.1). Entries with fields must be
-/// equal whatever the fields are.
+/// J = J^T in every frame: T sees only the symmetric part of J (4.17), which for d'Alembert is the second moment of
+/// the mass distribution in the body (2.1). Entries with fields must be equal whatever the fields are.
 pub(super) fn symmetric(spec: &Spec, found: &mut Diagnostics) {
-    let Some((term, rows)) = matrix(spec) else { return };
+    for term in spec.kinetic.iter().filter(|term| term.kind.value.is_inertia()) {
+        if let Value::Matrix(rows) = &term.value {
+            symmetric_rows(spec, term, rows, found);
+        }
+    }
+}
+
+fn symmetric_rows(spec: &Spec, term: &Term, rows: &[Vec<Expression>], found: &mut Diagnostics) {
     for (i, j) in (0..rows.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
         let (Some(lower), Some(upper)) = (entry(rows, i, j), entry(rows, j, i)) else { continue };
         if equal(upper, lower, spec.dim.value) == Some(false) {
@@ -42,8 +49,9 @@ pub(super) fn symmetric(spec: &Spec, found: &mut Diagnostics) {
     }
 }
 
-/// J > 0: it is a second moment of positive masses, and H = 1/2 Tr(Pi^T J^-1 Pi) (2.2) needs its inverse.
-/// Sylvester: the leading minors are positive, that is, all pivots of J = L D L^T.
+/// J > 0 for d'Alembert: it is a second moment of positive masses, and H = 1/2 Tr(Pi^T J^-1 Pi) (2.2) needs its
+/// inverse. Sylvester: the leading minors are positive, that is, all pivots of J = L D L^T. In an affine frame an
+/// indefinite J is legitimate; whether its form is degenerate depends on the Casimirs beside it.
 pub(super) fn positive(spec: &Spec, found: &mut Diagnostics) {
     let Some(term) = spec.term(TermKind::Dalembert) else { return };
     let n = spec.dim.value;
@@ -92,14 +100,6 @@ fn values(rows: &[Vec<Expression>], n: usize) -> Option<Vec<Vec<Rational>>> {
     let square = values.len() == n && values.iter().all(|row| row.len() == n);
     let symmetric = || (0..n).all(|i| (0..i).all(|j| values[i][j] == values[j][i]));
     (square && symmetric()).then_some(values)
-}
-
-fn matrix(spec: &Spec) -> Option<(&Term, &[Vec<Expression>])> {
-    let term = spec.term(TermKind::Dalembert)?;
-    match &term.value {
-        Value::Matrix(rows) => Some((term, rows)),
-        _ => None,
-    }
 }
 
 fn entry(rows: &[Vec<Expression>], i: usize, j: usize) -> Option<&Expression> {

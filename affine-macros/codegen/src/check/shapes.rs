@@ -3,8 +3,8 @@
 use crate::diagnostics::{Diagnostic, Diagnostics, Region};
 use crate::spec::{Expression, Named, Spec, Term, TermKind, Value};
 
-/// Casimirs and masses are multiples of one invariant form, d'Alembert takes an inertia J of any kind, a tensor
-/// has n^4 entries. Anisotropic affine inertias are written as tensors.
+/// Casimirs and masses are multiples of one invariant form, an inertia J is of any kind (4.17), a tensor has n^4
+/// entries.
 pub(super) fn shapes(spec: &Spec, found: &mut Diagnostics) {
     for term in &spec.kinetic {
         let written = match term.value {
@@ -28,12 +28,6 @@ pub(super) fn shapes(spec: &Spec, found: &mut Diagnostics) {
 fn accepted(term: &Term) -> (bool, &'static str, &'static str) {
     let scalar = matches!(term.value, Value::Scalar(_));
     match term.kind.value {
-        TermKind::BodyInertia => {
-            (scalar, "a scalar I in this version", "write the energy 1/2 tr(Oh J Oh^T) as `body_tensor`")
-        }
-        TermKind::SpaceInertia => {
-            (scalar, "a scalar I in this version", "write the energy 1/2 tr(Om J Om^T) as `space_tensor`")
-        }
         TermKind::Casimir2 | TermKind::Casimir1Squared => (
             scalar,
             "a scalar: it multiplies one invariant of the affine velocity",
@@ -42,16 +36,21 @@ fn accepted(term: &Term) -> (bool, &'static str, &'static str) {
         TermKind::BodyTranslation | TermKind::SpaceTranslation => {
             (scalar, "a scalar, the mass", "write one expression, as in `body_translation = m`")
         }
-        TermKind::Dalembert => (true, "", ""),
+        TermKind::BodyInertia | TermKind::SpaceInertia | TermKind::Dalembert => (true, "", ""),
         TermKind::BodyTensor => (
             matches!(term.value, Value::Matrix(_)),
             "an n^2 x n^2 nested matrix K, the form 1/2 K[(A,B),(C,D)] Oh[A,B] Oh[C,D]",
-            "write `[[...], ...]`, or `body_inertia` for an isotropic form",
+            "write `[[...], ...]`, or `body_inertia` for 1/2 tr(Oh J Oh^T)",
         ),
         TermKind::SpaceTensor => (
             matches!(term.value, Value::Matrix(_)),
             "an n^2 x n^2 nested matrix K, the form 1/2 K[(A,B),(C,D)] Om[A,B] Om[C,D]",
-            "write `[[...], ...]`, or `space_inertia` for an isotropic form",
+            "write `[[...], ...]`, or `space_inertia` for 1/2 tr(Om J Om^T)",
+        ),
+        TermKind::FlatTensor => (
+            matches!(term.value, Value::Matrix(_)),
+            "an n^2 x n^2 nested matrix K, the form 1/2 K[(A,B),(C,D)] phi_dot[A,B] phi_dot[C,D]",
+            "write `[[...], ...]`, or `dalembert` for 1/2 tr(phi_dot J phi_dot^T)",
         ),
     }
 }
@@ -63,7 +62,7 @@ pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
     for term in &spec.kinetic {
         let kind = term.kind.value;
         let (expected, because) = match kind {
-            TermKind::Dalembert => (n, format!("n = {n}")),
+            kind if kind.is_inertia() => (n, format!("n = {n}")),
             kind if kind.is_tensor() => (n * n, format!("n^2 = {}", n * n)),
             _ => continue,
         };

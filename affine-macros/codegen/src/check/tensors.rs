@@ -1,4 +1,4 @@
-//! Tensors `1/2 K[(A,B),(C,D)] O[A,B] O[C,D]` over an affine velocity.
+//! Tensors `1/2 K[(A,B),(C,D)] O[A,B] O[C,D]` over `Oh`, `Om` or `phi_dot`.
 
 use super::identity::equal;
 use super::symbols::has_field;

@@ -1,12 +1,12 @@
 //! What is computed when the fields have values: conditions, coefficients, inverse blocks.
 
 use crate::algebra::bind::Constants;
-use crate::algebra::{Arena, Expr, Polynomial};
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::Direction;
-use crate::mechanics::kinetic::{Coefficient, Frame, Kinetic};
+use crate::mechanics::kinetic::{Coefficient, Kinetic, TermKind};
 use crate::optimise::{Batch, straight_line};
 
 use super::{Condition, NumericBlock};
@@ -18,7 +18,9 @@ pub(super) fn conditions(
     eigenvalues: Vec<(Direction, Polynomial)>,
     require_positive: bool,
 ) -> Vec<Condition> {
-    let dalembert = kinetic.frame == Frame::Flat;
+    let dalembert = kinetic.is_dalembert();
+    // Masses are positive, whatever stands beside their energy.
+    let inertia = kinetic.terms.iter().find(|term| term.kind == TermKind::Dalembert).map(|term| &term.value);
     let tensor = kinetic.terms.iter().any(|term| matches!(term.value, Coefficient::Matrix(_)));
     let mut list: Vec<(&'static str, &'static str, bool, Polynomial)> = Vec::new();
     for (direction, value) in eigenvalues {
@@ -40,7 +42,12 @@ pub(super) fn conditions(
         && arena.as_constant(t.mass).is_none()
     {
         let mass = Polynomial::normal_form(arena, t.mass);
-        list.push(("m", "the velocity of the centre of mass", require_positive || dalembert, mass));
+        let positive = require_positive || inertia.is_some();
+        list.push(("m", "the velocity of the centre of mass", positive, mass));
+    }
+    if let Some(inertia) = inertia.filter(|_| !dalembert) {
+        let minors = leading_minors(arena, inertia).into_iter().filter(|minor| minor.as_constant().is_none());
+        list.extend(minors.map(|minor| ("a leading minor of J", "a row of phi_dot", true, minor)));
     }
     list.into_iter()
         .map(|(name, directions, positive, value)| {
@@ -49,6 +56,32 @@ pub(super) fn conditions(
             Condition { name, directions, positive, program }
         })
         .collect()
+}
+
+/// The leading minors of `J`, all positive iff `J` is (Sylvester); `I` for `J = I 1`.
+fn leading_minors(arena: &mut Arena, inertia: &Coefficient) -> Vec<Polynomial> {
+    match inertia {
+        Coefficient::Scalar(i) => vec![Polynomial::normal_form(arena, *i)],
+        Coefficient::Matrix(j) => {
+            let mut normal_form = |e: &Expr| Polynomial::normal_form(arena, *e);
+            let j: Vec<Vec<Polynomial>> =
+                j.0.iter().map(|row| row.iter().map(&mut normal_form).collect()).collect();
+            let leading = |k: usize| j[..k].iter().map(|row| row[..k].to_vec()).collect();
+            (1..=j.len()).map(|k| determinant(&leading(k))).collect()
+        }
+    }
+}
+
+/// By the first row.
+fn determinant(rows: &Vec<Vec<Polynomial>>) -> Polynomial {
+    let Some((first, below)) = rows.split_first() else { return Polynomial::constant(Rational::ONE) };
+    let mut sum = Polynomial::zero();
+    for (column, value) in first.iter().enumerate() {
+        let without = |row: &Vec<Polynomial>| [&row[..column], &row[column + 1..]].concat();
+        let sign = if column % 2 == 0 { Rational::ONE } else { Rational::MINUS_ONE };
+        sum.add_product(value, &determinant(&below.iter().map(without).collect()), &sign);
+    }
+    sum
 }
 
 /// The terms of a sum, each a polynomial: their sizes say how much of it rounding can make.

@@ -305,7 +305,7 @@ impl Diagnostic {
                     "the inertia of `{term}` is not symmetric: J[{row},{column}] = {value}, \
                      J[{column},{row}] = {transposed}"
                 ),
-                "J is the quadratic moment of the mass distribution, the integral of a a^T (2.1)",
+                "T sees only the symmetric part of J (4.17), the integral of a a^T over the masses in (2.1)",
                 "write the same entry in both places; their mean gives the same energy",
             ),
             Self::InertiaNotPositive { term, defect } => text(
@@ -336,7 +336,7 @@ impl Diagnostic {
             Self::NoKineticEnergy => text(
                 "there is no kinetic energy of the internal motion",
                 "without a term in phi_dot the Legendre transformation has no inverse: Sigma = (dT/dOm)^T = 0",
-                "add `casimir2`, `body_inertia`, `space_inertia`, `dalembert`, `body_tensor` or `space_tensor`",
+                "add `casimir2`, `body_inertia`, `space_inertia`, `dalembert`, `body_tensor`, `space_tensor` or `flat_tensor`",
             ),
             Self::Degenerate { eigenvalue, numbers, directions } => text(
                 format!(

@@ -96,7 +96,7 @@ pub fn kinetic_energy(arena: &mut Arena, kinetic: &Kinetic) -> Formula {
             (_, Coefficient::Scalar(c)) => {
                 (*c, (format!("tr({o} {o}^T)"), format!("\\operatorname{{tr}}({o_latex}{o_latex}^T)")))
             }
-            (TermKind::Dalembert, Coefficient::Matrix(_)) => (
+            (kind, Coefficient::Matrix(_)) if !kind.is_tensor() => (
                 arena.constant(Rational::ONE),
                 (format!("tr({o} J {o}^T)"), format!("\\operatorname{{tr}}({o_latex} J {o_latex}^T)")),
             ),

@@ -27,14 +27,16 @@ pub enum TermKind {
     Casimir2,
     /// `B/2 (tr O)^2`, the same in both frames.
     Casimir1Squared,
-    /// `I/2 tr(Oh Oh^T)`, (4.14).
+    /// `1/2 tr(Oh J Oh^T)`, (4.17); `J = I 1` is (4.14).
     BodyInertia,
-    /// `I/2 tr(Om Om^T)`, (4.15).
+    /// `1/2 tr(Om J Om^T)`, (4.17); `J = I 1` is (4.15).
     SpaceInertia,
     /// `1/2 K[nA+B][nC+D] Oh[A][B] Oh[C][D]`, (4.1).
     BodyTensor,
     /// `1/2 K[nA+B][nC+D] Om[A][B] Om[C][D]`, (4.2).
     SpaceTensor,
+    /// `1/2 K[nA+B][nC+D] phi_dot[A][B] phi_dot[C][D]`, the flat form of section 4.
+    FlatTensor,
     /// `1/2 tr(phi_dot J phi_dot^T)`, (2.1).
     Dalembert,
     /// `m/2 |phi^-1 x_dot|^2`, (4.4).
@@ -83,9 +85,15 @@ impl TermKind {
         match self {
             TermKind::BodyInertia | TermKind::BodyTensor => Some(Frame::Body),
             TermKind::SpaceInertia | TermKind::SpaceTensor => Some(Frame::Space),
-            TermKind::Dalembert => Some(Frame::Flat),
+            TermKind::Dalembert | TermKind::FlatTensor => Some(Frame::Flat),
             _ => None,
         }
+    }
+
+    /// `1/2 K[(A,B),(C,D)] O[A,B] O[C,D]`, a form on pairs of indices?
+    #[must_use]
+    pub fn is_tensor(self) -> bool {
+        matches!(self, TermKind::BodyTensor | TermKind::SpaceTensor | TermKind::FlatTensor)
     }
 
     /// The frame of a translational term.
@@ -132,6 +140,15 @@ impl Kinetic {
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
         self.dim * self.dim + if self.translation.is_some() { self.dim } else { 0 }
+    }
+
+    /// Is the energy that of positive masses alone, `1/2 tr(phi_dot J phi_dot^T)` (2.1)? Every other one may be
+    /// indefinite.
+    #[must_use]
+    pub fn is_dalembert(&self) -> bool {
+        self.terms
+            .iter()
+            .all(|term| term.kind == TermKind::Dalembert || term.kind.translation_frame().is_some())
     }
 
     /// Writes the terms in their common frame; the places of two terms that have none, otherwise.
@@ -214,7 +231,7 @@ fn internal_energy(arena: &mut Arena, o: &Matrix, term: &Term) -> Polynomial {
         }
         Coefficient::Matrix(k) => {
             // J acts on the second index, K on both.
-            let both = term.kind != TermKind::Dalembert;
+            let both = term.kind.is_tensor();
             for (r, row) in k.0.iter().enumerate() {
                 for (s, entry) in row.iter().enumerate() {
                     let entry = Polynomial::normal_form(arena, *entry);

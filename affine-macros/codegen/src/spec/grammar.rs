@@ -24,8 +24,8 @@ enum Key {
 /// Keys of the specification language that later versions read.
 const LATER_KEYS: [&str; 6] = ["hamiltonian", "metrics", "group", "constraint", "dissipation", "forces"];
 
-/// Kinetic terms that later versions read; the last three belong to the momentum side.
-const LATER_TERMS: [&str; 4] = ["flat_tensor", "vorticity_squared", "spin_squared", "casimir3"];
+/// Kinetic terms that later versions read: they belong to the momentum side.
+const LATER_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
 
 impl Named for Key {
     const ALL: &'static [Self] =

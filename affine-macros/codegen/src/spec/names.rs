@@ -109,9 +109,9 @@ pub enum TermKind {
     Casimir2,
     /// `B/2 (tr Om)^2 = B/2 (tr Oh)^2`.
     Casimir1Squared,
-    /// `I/2 tr(Oh Oh^T)`, (4.14).
+    /// `1/2 tr(Oh J Oh^T)`, (4.17); `J = I 1` is (4.14).
     BodyInertia,
-    /// `I/2 tr(Om Om^T)`, (4.15).
+    /// `1/2 tr(Om J Om^T)`, (4.17); `J = I 1` is (4.15).
     SpaceInertia,
     /// `m/2 |phi^-1 x_dot|^2`, (4.4).
     BodyTranslation,
@@ -123,6 +123,8 @@ pub enum TermKind {
     BodyTensor,
     /// `1/2 K[nA+B][nC+D] Om[A][B] Om[C][D]`, (4.2).
     SpaceTensor,
+    /// `1/2 K[nA+B][nC+D] phi_dot[A][B] phi_dot[C][D]`, the flat form of section 4.
+    FlatTensor,
 }
 
 impl Named for TermKind {
@@ -136,6 +138,7 @@ impl Named for TermKind {
         Self::Dalembert,
         Self::BodyTensor,
         Self::SpaceTensor,
+        Self::FlatTensor,
     ];
 
     fn name(self) -> &'static str {
@@ -149,6 +152,7 @@ impl Named for TermKind {
             Self::Dalembert => "dalembert",
             Self::BodyTensor => "body_tensor",
             Self::SpaceTensor => "space_tensor",
+            Self::FlatTensor => "flat_tensor",
         }
     }
 }
@@ -160,10 +164,16 @@ impl TermKind {
         matches!(self, Self::BodyTranslation | Self::SpaceTranslation)
     }
 
-    /// An n^2 x n^2 form over an affine velocity?
+    /// An n^2 x n^2 form over `Oh`, `Om` or `phi_dot`?
     #[must_use]
     pub fn is_tensor(self) -> bool {
-        matches!(self, Self::BodyTensor | Self::SpaceTensor)
+        matches!(self, Self::BodyTensor | Self::SpaceTensor | Self::FlatTensor)
+    }
+
+    /// `1/2 tr(O J O^T)` over `Oh`, `Om` or `phi_dot`, with `J` an n x n inertia or a multiple of the identity?
+    #[must_use]
+    pub fn is_inertia(self) -> bool {
+        matches!(self, Self::BodyInertia | Self::SpaceInertia | Self::Dalembert)
     }
 }
 

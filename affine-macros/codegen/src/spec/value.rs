@@ -19,6 +19,7 @@ pub(super) fn example(kind: TermKind) -> &'static str {
         TermKind::Dalembert => "dalembert = diag(1, 2, 3)",
         TermKind::BodyTensor => "body_tensor = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         TermKind::SpaceTensor => "space_tensor = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
+        TermKind::FlatTensor => "flat_tensor = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
     }
 }
 

@@ -86,8 +86,17 @@ fn well_described(sample: &Sample, model: &Model) {
     assert_eq!(model.dim, sample.n);
     let frame = match sample.internal {
         Internal::Affine if sample.translation == Translation::Space => Frame::Space,
-        Internal::Affine | Internal::Body | Internal::BodyTensor | Internal::BodySum => Frame::Body,
-        Internal::Space | Internal::SpaceTensor | Internal::SpaceSum => Frame::Space,
+        Internal::Affine
+        | Internal::Body
+        | Internal::BodyTensor
+        | Internal::BodySum
+        | Internal::BodyDiagonal
+        | Internal::BodyMatrix => Frame::Body,
+        Internal::Space
+        | Internal::SpaceTensor
+        | Internal::SpaceSum
+        | Internal::SpaceDiagonal
+        | Internal::SpaceMatrix => Frame::Space,
         _ => Frame::Flat,
     };
     assert_eq!(model.frame, frame, "{what}");
@@ -126,7 +135,13 @@ fn isotropic_coefficients() {
 #[test]
 fn only_isotropic_affine_energies_have_isotropic_coefficients() {
     let mut random = Random::new(13);
-    for internal in [Internal::DalembertScalar, Internal::DalembertMatrix, Internal::BodyTensor] {
+    for internal in [
+        Internal::DalembertScalar,
+        Internal::DalembertMatrix,
+        Internal::BodyTensor,
+        Internal::BodyMatrix,
+        Internal::FlatTensor,
+    ] {
         let sample = Sample::new(&mut random, 2, internal, Translation::None);
         assert!(sample.derived().isotropic.is_none(), "{}", sample.args);
     }

@@ -10,7 +10,7 @@ use super::points::{Values, exact, own, run};
 use super::reduction::{equations, rest, turned};
 
 /// The coefficients of the prepared model, numeric blocks inverted by the oracle.
-fn prepared(model: &Model, fields: &Values) -> Values {
+pub(crate) fn prepared(model: &Model, fields: &Values) -> Values {
     let mut inputs = fields.clone();
     for NumericBlock { program, inverse, size, .. } in &model.numeric_blocks {
         let values = run(program, fields);
@@ -34,7 +34,11 @@ fn every_family_with_fields() {
     for n in [2, 3] {
         for internal in FAMILIES {
             // Tensors have no fields; beside named terms they make blocks that only prepare() can invert.
-            let large = matches!(internal, Internal::BodySum | Internal::SpaceSum) && n == 3;
+            let large = n == 3
+                && matches!(
+                    internal,
+                    Internal::BodySum | Internal::SpaceSum | Internal::BodyMatrix | Internal::SpaceMatrix
+                );
             for translation in TRANSLATIONS {
                 let sample = Sample::new(&mut random, n, internal, translation);
                 let (args, item, fields) = sample.with_fields();

@@ -6,6 +6,7 @@ mod conservation;
 mod derivation;
 mod expressions;
 mod fields;
+mod inertia;
 mod linear;
 mod models;
 mod passes;

@@ -27,9 +27,17 @@ pub(crate) enum Internal {
     /// A tensor beside the named terms of its frame.
     BodySum,
     SpaceSum,
+    /// The Casimirs with `body_inertia` or `space_inertia` a diagonal or a matrix of any signature.
+    BodyDiagonal,
+    SpaceDiagonal,
+    BodyMatrix,
+    SpaceMatrix,
+    /// `flat_tensor`, alone or beside `dalembert` with a matrix.
+    FlatTensor,
+    FlatSum,
 }
 
-pub(crate) const FAMILIES: [Internal; 10] = [
+pub(crate) const FAMILIES: [Internal; 16] = [
     Internal::Affine,
     Internal::Body,
     Internal::Space,
@@ -40,6 +48,12 @@ pub(crate) const FAMILIES: [Internal; 10] = [
     Internal::SpaceTensor,
     Internal::BodySum,
     Internal::SpaceSum,
+    Internal::BodyDiagonal,
+    Internal::SpaceDiagonal,
+    Internal::BodyMatrix,
+    Internal::SpaceMatrix,
+    Internal::FlatTensor,
+    Internal::FlatSum,
 ];
 
 /// The translational energy of a family.
@@ -83,6 +97,18 @@ pub(crate) fn matrix_literal(matrix: &Matrix) -> String {
     format!("[{}]", (0..rows).map(|i| format!("[{}]", row(i))).collect::<Vec<_>>().join(", "))
 }
 
+/// `diag(...)`.
+pub(crate) fn diagonal_literal(entries: &[Rational]) -> String {
+    format!("diag({})", entries.iter().map(literal).collect::<Vec<_>>().join(", "))
+}
+
+/// The matrix of these diagonal entries.
+pub(crate) fn diagonal_matrix(entries: &[Rational]) -> Matrix {
+    let n = entries.len();
+    let zero = Matrix::zeros(n, n);
+    entries.iter().enumerate().fold(zero, |sum, (k, value)| &sum + &Matrix::unit(n, k, k).scaled(value))
+}
+
 /// A symmetric matrix of small fractions, with zeros now and then.
 pub(crate) fn symmetric(random: &mut Random, size: usize) -> Matrix {
     let mut entries = vec![rational(0, 1); size * size];
@@ -124,7 +150,15 @@ impl Sample {
         let (mut a, mut b, mut i, mut m) = (zero(), zero(), zero(), zero());
         let named = matches!(
             internal,
-            Internal::Affine | Internal::Body | Internal::Space | Internal::BodySum | Internal::SpaceSum
+            Internal::Affine
+                | Internal::Body
+                | Internal::Space
+                | Internal::BodySum
+                | Internal::SpaceSum
+                | Internal::BodyDiagonal
+                | Internal::SpaceDiagonal
+                | Internal::BodyMatrix
+                | Internal::SpaceMatrix
         );
         if named {
             (a, b) = (fraction(random), fraction(random));
@@ -147,17 +181,28 @@ impl Sample {
             Internal::DalembertDiagonal => {
                 let diagonal: Vec<Rational> =
                     (0..n).map(|_| rational(random.integer(1, 9), random.integer(1, 7))).collect();
-                let mut entries = vec![zero(); n * n];
-                diagonal.iter().enumerate().for_each(|(k, value)| entries[k * (n + 1)] = value.clone());
-                let text = diagonal.iter().map(literal).collect::<Vec<_>>().join(", ");
-                let j = Matrix::from_rationals(n, n, &entries);
-                add("dalembert", format!("diag({text})"), Term::DAlembert(j));
+                add("dalembert", diagonal_literal(&diagonal), Term::DAlembert(diagonal_matrix(&diagonal)));
             }
-            Internal::DalembertMatrix => {
+            Internal::BodyDiagonal | Internal::SpaceDiagonal => {
+                let diagonal: Vec<Rational> = (0..n).map(|_| fraction(random)).collect();
+                let (text, j) = (diagonal_literal(&diagonal), diagonal_matrix(&diagonal));
+                match internal {
+                    Internal::BodyDiagonal => add("body_inertia", text, Term::BodyInertia(j)),
+                    _ => add("space_inertia", text, Term::SpaceInertia(j)),
+                }
+            }
+            Internal::BodyMatrix | Internal::SpaceMatrix => {
+                let j = symmetric(random, n);
+                match internal {
+                    Internal::BodyMatrix => add("body_inertia", matrix_literal(&j), Term::BodyInertia(j)),
+                    _ => add("space_inertia", matrix_literal(&j), Term::SpaceInertia(j)),
+                }
+            }
+            Internal::DalembertMatrix | Internal::FlatSum => {
                 let j = positive(random, n);
                 add("dalembert", matrix_literal(&j), Term::DAlembert(j.clone()));
             }
-            Internal::Affine | Internal::BodyTensor | Internal::SpaceTensor => {}
+            Internal::Affine | Internal::BodyTensor | Internal::SpaceTensor | Internal::FlatTensor => {}
         }
         if matches!(internal, Internal::BodyTensor | Internal::BodySum) {
             let k = symmetric(random, n * n);
@@ -167,11 +212,19 @@ impl Sample {
             let k = symmetric(random, n * n);
             add("space_tensor", matrix_literal(&k), Term::SpaceTensor(k.clone()));
         }
+        if matches!(internal, Internal::FlatTensor | Internal::FlatSum) {
+            let k = symmetric(random, n * n);
+            add("flat_tensor", matrix_literal(&k), Term::FlatTensor(k.clone()));
+        }
         if translation != Translation::None {
             m = rational(random.integer(1, 9), random.integer(1, 7));
-            let dalembert =
-                [Internal::DalembertScalar, Internal::DalembertDiagonal, Internal::DalembertMatrix];
-            if !dalembert.contains(&internal) && random.integer(0, 3) == 0 {
+            let masses = [
+                Internal::DalembertScalar,
+                Internal::DalembertDiagonal,
+                Internal::DalembertMatrix,
+                Internal::FlatSum,
+            ];
+            if !masses.contains(&internal) && random.integer(0, 3) == 0 {
                 m = -m;
             }
         }
@@ -211,7 +264,7 @@ impl Sample {
         let field = |name: &str, value: &String| match name {
             "casimir2" => "a".to_owned(),
             "casimir1_squared" => "b".to_owned(),
-            "body_inertia" | "space_inertia" => "i".to_owned(),
+            "body_inertia" | "space_inertia" if !self.is_anisotropic() => "i".to_owned(),
             "dalembert" if self.internal == Internal::DalembertScalar => "i".to_owned(),
             "body_translation" | "space_translation" => "m".to_owned(),
             _ => value.clone(),
@@ -220,6 +273,14 @@ impl Sample {
         let values = [("a", &self.a), ("b", &self.b), ("i", &self.i), ("m", &self.m)];
         let values = values.map(|(name, value)| (format!("self.{name}"), own(value)));
         (arguments(self.n, &texts), "struct Model { a: f64, b: f64, i: f64, m: f64 }", values.into())
+    }
+
+    /// An inertia `J` that is no multiple of the identity, in an affine frame?
+    pub(crate) fn is_anisotropic(&self) -> bool {
+        matches!(
+            self.internal,
+            Internal::BodyDiagonal | Internal::SpaceDiagonal | Internal::BodyMatrix | Internal::SpaceMatrix
+        )
     }
 
     /// The derivation.

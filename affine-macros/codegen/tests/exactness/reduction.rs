@@ -172,7 +172,16 @@ fn each_family_reduces_as_far_as_it_can() {
                 let split_spin = reduction.commuting.iter().any(|c| matches!(c, Commuting::Spin(_)));
                 assert_eq!(split_spin, skew && internal == Internal::Space, "{what}");
                 let moving = translation == Translation::Body;
-                let turns = moving && !matches!(internal, Internal::SpaceTensor | Internal::SpaceSum);
+                let rotations = !matches!(
+                    internal,
+                    Internal::SpaceTensor
+                        | Internal::SpaceSum
+                        | Internal::SpaceDiagonal
+                        | Internal::SpaceMatrix
+                        | Internal::FlatTensor
+                        | Internal::FlatSum
+                );
+                let turns = moving && rotations;
                 assert_eq!(reduction.turned, turns, "{what}");
                 if (isotropic && !(clash && moving)) || (flat && !moving) {
                     assert_eq!(reduction.layout, Layout::Constant, "{what}");

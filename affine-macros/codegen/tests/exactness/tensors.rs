@@ -22,7 +22,7 @@ pub(crate) fn isotropic(n: usize, i: &Rational, a: &Rational, b: &Rational) -> M
     Matrix::from_rationals(n * n, n * n, &k)
 }
 
-fn programs(model: &Model) -> Vec<(&'static str, &Program)> {
+pub(crate) fn programs(model: &Model) -> Vec<(&'static str, &Program)> {
     let mut list = vec![
         ("full", &model.full.program),
         ("reduced", &model.reduced.program),
