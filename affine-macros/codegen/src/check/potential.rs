@@ -10,18 +10,24 @@ use crate::spec::{Expression, ExpressionKind, MatrixName, Spec, Symbol};
 pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
     const INSTEAD: &str = "write the potential through `q`, `det`, `I1..In` and traces such as `tr(G*G)`, which are \
                            symmetric functions of the stretches";
-    let mut refused = |at, form: String| {
-        found.report(at, Diagnostic::UnavailableForm { form, instead: INSTEAD });
-    };
     let mut pending: Vec<&Expression> = energy(spec).collect();
     while let Some(part) = pending.pop() {
         match &part.kind {
             // What is in it has no meaning elsewhere.
-            ExpressionKind::Pairs(_) => refused(part.span, "pairs".to_owned()),
+            ExpressionKind::Pairs(_) => {
+                let form = "pairs".to_owned();
+                found.report(part.span, Diagnostic::UnavailableForm { form, instead: INSTEAD });
+            }
             ExpressionKind::Symbol(name)
                 if matches!(spec.resolve_in_potential(name), Some(Symbol::Stretch)) =>
             {
-                refused(name.span().into(), name.to_string());
+                let form = name.to_string();
+                found.report(name.span(), Diagnostic::UnavailableForm { form, instead: INSTEAD });
+            }
+            // The energy of a phase point is asked for without a time.
+            ExpressionKind::Symbol(name) if matches!(spec.resolve_in_potential(name), Some(Symbol::Time)) => {
+                let instead = "state a potential of the configuration alone";
+                found.report(name.span(), Diagnostic::UnavailableForm { form: name.to_string(), instead });
             }
             _ => pending.extend(part.operands().into_iter().rev()),
         }
