@@ -20,3 +20,10 @@ pub(crate) const REFERENCE_SOLUTION: f64 = 1e-13;
 /// Conserved quantities of the same motion, which are taken from the state by conversions between the frames. The
 /// largest error seen is 2e-15.
 pub(crate) const CONSERVED: f64 = 3e-14;
+
+/// Vibrating bodies against reference solutions: the errors of some thousand steps of 1e-14 each, and rounding errors
+/// grown by the motion.
+pub(crate) const VIBRATION: f64 = 1e-11;
+
+/// The same per radian of the fastest vibration: ten units of rounding of its phase.
+pub(crate) const VIBRATION_PER_RADIAN: f64 = 10.0 * f64::EPSILON;
