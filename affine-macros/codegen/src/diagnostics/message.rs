@@ -199,7 +199,7 @@ impl Diagnostic {
                 format!(
                     "the macro computes them exactly and stops at degree {limit}, so that a slip cannot stall a build"
                 ),
-                "compute the power and keep it in a field",
+                "write a lower power; a power of fields can be computed beforehand and kept in a field",
             ),
             Self::DivisionByZero { divisor } => text(
                 format!("division by `{divisor}`, which is zero"),
