@@ -242,7 +242,7 @@ impl Diagnostic {
             ),
             Self::Indices { written, indices, example } => text(
                 format!("`{written}` does not name one number"),
-                format!("here it takes {indices}, each a whole number from 1 to n"),
+                format!("it takes {indices} from 1 to n, in digits"),
                 format!("write `{example}`"),
             ),
             Self::IndexRange { written, index, n } => text(
