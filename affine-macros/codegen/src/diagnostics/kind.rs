@@ -240,7 +240,7 @@ pub enum Diagnostic {
     Indices {
         /// The form as written.
         written: String,
-        /// What is due: `two indices, its row and its column`.
+        /// What is due: `a row and a column`.
         indices: &'static str,
         /// How it may look.
         example: String,

@@ -199,7 +199,7 @@ impl Diagnostic {
                 format!(
                     "the macro computes them exactly and stops at degree {limit}, so that a slip cannot stall a build"
                 ),
-                "compute the power and keep it in a field",
+                "write a lower power; a power of fields can be computed beforehand and kept in a field",
             ),
             Self::DivisionByZero { divisor } => text(
                 format!("division by `{divisor}`, which is zero"),
@@ -242,7 +242,7 @@ impl Diagnostic {
             ),
             Self::Indices { written, indices, example } => text(
                 format!("`{written}` does not name one number"),
-                format!("here it takes {indices}, each a whole number from 1 to n"),
+                format!("it takes {indices} from 1 to n, in digits"),
                 format!("write `{example}`"),
             ),
             Self::IndexRange { written, index, n } => text(

@@ -148,9 +148,7 @@ impl Parser<'_> {
             (Some(_), ..) | (None, "x", _) => {
                 let written = shortened(&format!("{name}[{}]", group.stream()));
                 let (indices, example) = match MatrixName::named(name) {
-                    Some(matrix) => {
-                        ("two indices, its row and its column", format!("{}[1,2]", matrix.name()))
-                    }
+                    Some(matrix) => ("a row and a column", format!("{}[1,2]", matrix.name())),
                     None => ("one index", "x[1]".to_owned()),
                 };
                 Err(self.found.report(span, Diagnostic::Indices { written, indices, example }))
