@@ -97,6 +97,16 @@ families! {
         [2, 0, 0, 0, 1, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0, 0, 0, 0], \
         [0, 0, 0, 1, 0, 0, 0, 0, 0], [1, 0, 0, 0, 3, 0, 0, 0, 0], [0, 0, 0, 0, 0, 1, 0, 0.5, 0], \
         [0, 0, 0, 0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 0, 0.5, 0, 1, 0], [0, 0, 0, 0, 0, 0, 0, 0, 1]])";
+    body_inertia_diagonal_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = diag(1, 2))";
+    body_inertia_diagonal_missile_3: "dim = 3, \
+        kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = diag(1, 1.5, 2), body_translation = 1)";
+    body_inertia_matrix_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = [[1, 0.5], [0.5, -2]])";
+    space_inertia_diagonal_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = diag(1, 1.5, 2))";
+    space_inertia_matrix_drift_2: "dim = 2, kinetic(space_inertia = [[1, 0.5], [0.5, 2]], space_translation = 2)";
+    flat_tensor_2: "dim = 2, kinetic(\
+        flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
+    flat_tensor_drift_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2, \
+        flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.
@@ -133,6 +143,12 @@ const SPECIAL: &[(&str, &str, &str)] = &[
          body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])",
         "/// A body.
         pub struct BodyTensor { a: f64 }",
+    ),
+    (
+        "fields_body_inertia_2",
+        "dim = 2, kinetic(casimir2 = a, body_inertia = diag(i, 2*i), body_translation = 1)",
+        "/// A body.
+        pub struct BodyInertia { a: f64, i: f64 }",
     ),
     (
         "generics_2",

@@ -1,6 +1,6 @@
 use affine_runtime::affine_model;
 
-#[affine_model(dim = 2, kinetic(body_inertia = diag(1, 2)))]
+#[affine_model(dim = 2, kinetic(casimir2 = diag(1, 2)))]
 struct Model;
 
 fn main() {}
