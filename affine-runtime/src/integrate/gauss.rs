@@ -270,13 +270,18 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> fmt::Debug for Gauss<S, F> {
 pub(crate) fn step_count(t0: f64, t_end: f64, step: f64) -> Option<u64> {
     let span = (t_end - t0).abs();
     let latest = if t0.abs() > t_end.abs() { t0.abs() } else { t_end.abs() };
+    if span == 0.0 && step > 0.0 {
+        return Some(0);
+    }
     let exact = span / step;
-    if !(step > 0.0 && exact < MOST_STEPS && (span == 0.0 || step > 4.0 * f64::EPSILON * latest)) {
+    if !(step > 0.0 && exact < MOST_STEPS && step > 4.0 * f64::EPSILON * latest) {
         return None;
     }
     let whole = libm::round(exact);
     let near = (exact - whole).abs() <= ROUNDINGS * f64::EPSILON * exact;
-    Some(if near { whole } else { libm::ceil(exact) } as u64)
+    let count = if near { whole } else { libm::ceil(exact) };
+    // One step where it is longer than the interval, infinite steps included.
+    Some(if count > 1.0 { count as u64 } else { 1 })
 }
 
 fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
