@@ -178,12 +178,12 @@ impl Factors {
         }
         for r in 0..dimension {
             for c in 0..r {
-                u[r] = u[r] - self.entries[r][c] * u[c];
+                u[r] -= self.entries[r][c] * u[c];
             }
         }
         for r in (0..dimension).rev() {
             for c in r + 1..dimension {
-                u[r] = u[r] - self.entries[r][c] * u[c];
+                u[r] -= self.entries[r][c] * u[c];
             }
             u[r] /= self.entries[r][r];
         }
