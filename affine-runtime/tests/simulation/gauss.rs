@@ -16,22 +16,24 @@ const fn gauss(stages: usize, step: f64) -> Method {
 
 #[test]
 fn linear_and_quadratic_invariants_of_the_missile_are_kept() {
-    // In x, phi, p_hat, Sigma_hat: H and |Vort|^2 are quadratic and Vort is linear, whatever the step. p = phi^-T p_hat
-    // and I = x p^T + Sigma are neither, and show the error of the step.
+    // In x, phi, p_hat, Sigma_hat: H and |Vort|^2 are quadratic and Vort is linear, whatever the step. So is
+    // p_hat - phi^T p for each p, and p = phi^-T p_hat stays. I = x p^T + Sigma is none of these: it shows the error
+    // of the step.
     for stages in [2, 3] {
         let run =
             Simulation::new(&DrunkMissile, drunk_missile::start()).until(10.0).method(gauss(stages, 0.1));
         let run = run.run().unwrap();
         let conservation = run.conservation();
-        println!("{conservation}");
         let steps = run.statistics().steps as f64;
         assert_eq!(steps, 100.0);
-        for quantity in [Conserved::Energy, Conserved::Vorticity, Conserved::VorticityNorm] {
+        for quantity in
+            [Conserved::Energy, Conserved::LinearMomentum, Conserved::Vorticity, Conserved::VorticityNorm]
+        {
             let drift = conservation.of(quantity).unwrap().relative();
             assert!(drift < 8.0 * f64::EPSILON * steps.sqrt(), "{quantity:?} {drift:e}");
         }
-        let error = conservation.of(Conserved::LinearMomentum).unwrap().relative();
-        assert!(error > 1e-11 && error < 1e-4, "{error:e}");
+        let error = conservation.of(Conserved::TotalAffineMomentum).unwrap().relative();
+        assert!(error > 1e-10 && error < 1e-4, "{error:e}");
     }
 }
 
@@ -57,16 +59,16 @@ fn vibrating(stages: usize, step: f64, t_end: f64) -> Simulation<'static, 3, Vib
 
 #[test]
 fn energy_of_the_vibrating_body_does_not_grow() {
-    for (stages, bound) in [(2, 1e-2), (3, 1e-3)] {
-        let run = vibrating(stages, 0.1, 1000.0).run().unwrap();
-        assert_eq!(run.statistics().steps, 10_000);
+    // Neither quadratic nor canonical: the method is symmetric and the body reversible, and that is all. Errors of
+    // S, which the steps do not keep, may grow; those of the energy oscillate.
+    for (stages, steps, bound) in [(2, 10_000u32, 1e-6), (3, 10_000, 1e-9)] {
+        let run = vibrating(stages, 0.1, 0.1 * f64::from(steps)).run().unwrap();
+        assert_eq!(run.statistics().steps, u64::from(steps));
         let drift = *run.conservation().of(Conserved::Energy).unwrap();
         let drifts = run.relative_drifts(&drift);
         let largest = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
-        let quarters: Vec<f64> = drifts.chunks(2500).map(largest).collect();
-        println!("{stages} stages: {quarters:?}");
-        println!("{}", run.conservation());
-        assert!(quarters[0] > 1e-9, "the energy is no quadratic invariant: {quarters:?}");
+        let quarters: Vec<f64> = drifts[1..].chunks(drifts.len() / 4).map(largest).collect();
+        assert!(quarters[0] > 1e-12, "the energy is no quadratic invariant: {quarters:?}");
         assert!(quarters[3] < 1.1 * quarters[0] && quarters[3] < bound, "{quarters:?}");
     }
 }
@@ -83,8 +85,7 @@ fn outputs_are_hit_and_leave_the_steps_alone() {
     let precise = precise.output(watched.times().to_vec()).run().unwrap();
     for ((t, found), (_, expected)) in watched.iter().zip(precise.iter()) {
         let error = (found.phi() - expected.phi()).norm();
-        println!("{t}: {error:e}");
-        assert!(error < 1e-6, "{t}: {error:e}");
+        assert!(error < 1e-7, "{t}: {error:e}");
     }
     // Without output times: at the steps.
     let steps = vibrating(3, 0.3, 1.0).run().unwrap();
@@ -103,9 +104,8 @@ fn stiff_bodies_take_newton_and_evaluations_are_counted() {
             .unwrap()
     };
     let run = run(gauss(3, 0.01));
-    println!("{:?} {:?} {}", run.statistics(), run.computation().residual, run.conservation());
     assert!(run.computation().residual.unwrap() < 1e-9);
-    assert_eq!(run.statistics(), Statistics { steps: 100, rejected: 0, evaluations: 0 });
+    assert_eq!(run.statistics(), Statistics { steps: 100, rejected: 0, evaluations: 5546 });
 }
 
 #[test]
@@ -127,7 +127,6 @@ fn settings_are_checked() {
 #[test]
 fn steps_without_solution_halt_the_run() {
     let halt = vibrating(3, 1000.0, 1000.0).run().unwrap_err();
-    println!("{}", halt.stop);
     assert!(matches!(halt.stop.reason, Reason::NoSolution { residual, step: 1000.0 } if residual > 1e-10));
     assert_eq!((halt.stop.t, halt.stop.steps), (0.0, 0));
     assert!(halt.to_string().contains("shorten the step"));
