@@ -176,6 +176,22 @@ fn back_to_the_start() {
     assert!(distance(backward.y(), &four_exact(-0.5)) < 1e-9);
 }
 
+#[test]
+fn output_leaves_stiff_steps_alone() {
+    let mut plain = Gauss::new(van_der_pol, &Tableau::THREE, (0.0, [2.0, -2.0 / 3.0]), 0.3, 0.01).unwrap();
+    let mut watched = plain.clone();
+    while !plain.is_finished() {
+        plain.advance().unwrap();
+        watched.advance().unwrap();
+        assert_eq!(plain.y(), watched.y(), "to the last bit");
+        let t = watched.t() - 0.3 * watched.step_length();
+        let between = watched.at(t).unwrap();
+        assert!((between[0] - watched.y()[0]).abs() < 0.01, "{between:?}");
+    }
+    assert!(watched.is_stiff());
+    assert!(watched.statistics().evaluations > plain.statistics().evaluations);
+}
+
 /// Prothero and Robinson: `y' = -1e6 (y - cos t) - sin t`, with the solution `cos t`.
 fn stiff(t: f64, y: &[f64; 1]) -> [f64; 1] {
     [-1e6 * (y[0] - t.cos()) - t.sin()]

@@ -162,7 +162,13 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Gauss<S, F> {
             return Ok(self.begin.value);
         }
         let guess = self.continued(0.0, h / self.h);
-        self.step(begin, self.begin, h, guess).map(|(end, ..)| end.value)
+        // The Jacobian that the steps work with, and whether they need one, stay as they are.
+        let steps = self.equations.clone();
+        let between = self.step(begin, self.begin, h, guess);
+        let evaluations = self.equations.evaluations;
+        self.equations = steps;
+        self.equations.evaluations = evaluations;
+        between.map(|(end, ..)| end.value)
     }
 
     /// Time reached.
