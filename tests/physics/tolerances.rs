@@ -4,6 +4,16 @@
 /// the Legendre transformation, in conversions between the frames and in brackets. The largest error seen is 5e-16.
 pub(crate) const CANONICAL: f64 = 1e-14;
 
+/// Generated code with a potential against exact kinetic parts and gradients by forward differentiation in `f64`, per
+/// condition of the mass matrix: the roundings of [`CANONICAL`], of `ln det phi` and of sums of up to a hundred products
+/// that cancel to a few digits.
+pub(crate) const UNDER_POTENTIAL: f64 = 1e-12;
+
+/// Brackets that vanish but for rounding errors of gradients in `f64`, in numbers of order 1 to 100; and how large,
+/// for data of order 1, one of several samples is at least where a bracket does not vanish.
+pub(crate) const BRACKET_ZERO: f64 = 1e-10;
+pub(crate) const BRACKET_VISIBLE: f64 = 1e-4;
+
 /// A closed form against integration, over a time in which the body turns or stretches by 1.5: errors of the
 /// integrator are eps per step, of the closed form eps times the norm of the exponents, of either times the growth of
 /// the motion. The largest error seen is 2e-13.
