@@ -127,12 +127,12 @@ fn with_potential(potential: TokenStream) -> Spec {
 #[test]
 fn a_potential_of_every_form() {
     let spec = with_potential(quote!(
-        kappa/2*sinh(q)^2 + 0.5*(tr(G)*exp(-2*q) - n) + D^-2/det + I1*I2 - I3 + tr(Ct*phi)*G[1, 3] + m*x[3]*cos(t)
+        kappa/2*sinh(q)^2 + 0.5*(tr(G)*exp(-2*q) - n) + D^-2/det + I1*I2 - I3 + tr(Ct*phi)*G[1, 3] + m*x[3]*cos(q)
             + 4*((kappa/norm(x))^12 - (kappa/norm(x))^6)
     ));
     let energy = spec.potential.expect("a potential").energy.to_string();
     let expected = "kappa/2*sinh(q)^2 + 0.5*(tr(G)*exp(-2*q) - n) + D^-2/det + I1*I2 - I3 + tr(Ct*phi)*G[1,3] \
-                    + m*x[3]*cos(t) + 4*((kappa/norm(x))^12 - (kappa/norm(x))^6)";
+                    + m*x[3]*cos(q) + 4*((kappa/norm(x))^12 - (kappa/norm(x))^6)";
     assert_eq!(energy, expected);
 }
 

@@ -41,7 +41,7 @@ pub(super) fn resolved(spec: &Spec, found: &mut Diagnostics) {
     let Some(potential) = &spec.potential else { return };
     // The symbols that stand by themselves in this version.
     let dimension = spec.dim.value;
-    let standing = ["q", "D", "det", "t"].into_iter().chain(["I1", "I2", "I3"].into_iter().take(dimension));
+    let standing = ["q", "D", "det"].into_iter().chain(["I1", "I2", "I3"].into_iter().take(dimension));
     let standing: Vec<&str> = standing.collect();
     for name in names(&potential.energy) {
         report(name, unresolved(spec, name, spec.resolve_in_potential(name), &standing));
