@@ -95,8 +95,7 @@ fn indefinite(n: usize, isotropic: &Isotropic, random: &mut Random) -> Exact {
         }
         let h = h.scaled(&(&isotropic.i + &isotropic.a));
         let condition = |j: Exact| {
-            let casimirs =
-                [Term::Casimir2(isotropic.a.clone()), Term::Casimir1Squared(isotropic.b.clone())];
+            let casimirs = [Term::Casimir2(isotropic.a.clone()), Term::Casimir1Squared(isotropic.b.clone())];
             let form = Kinetic::new(n, [vec![Term::BodyInertia(j)], casimirs.to_vec()].concat()).unwrap();
             form.condition(&Exact::identity(n)).unwrap()
         };

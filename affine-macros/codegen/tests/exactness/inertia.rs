@@ -183,10 +183,8 @@ fn determinants_and_signs() {
                 }
             }
             if form.is_ok() && energy.diagonal().iter().all(|d| !d.is_zero()) {
-                let required = super::models::form(
-                    &format!("require(positive_definite), {args}"),
-                    "struct Model;",
-                );
+                let required =
+                    super::models::form(&format!("require(positive_definite), {args}"), "struct Model;");
                 assert_eq!(required.is_ok(), energy.is_definite(), "{args}");
                 definite += usize::from(energy.is_definite());
             }
@@ -243,7 +241,11 @@ fn inertias_have_the_programs_of_their_tensors() {
                 same_programs(&args(inertia, &multiple), &scalar);
             }
             let sample = Sample::new(&mut random, n, internal, Translation::None);
-            assert_eq!(sample.derived().numeric_blocks.len(), 0, "numbers are inverted when the model is compiled");
+            assert_eq!(
+                sample.derived().numeric_blocks.len(),
+                0,
+                "numbers are inverted when the model is compiled"
+            );
         }
     }
 }
@@ -281,7 +283,8 @@ fn masses_beside_a_flat_tensor() {
     );
     assert!(model.numeric_blocks.iter().all(|block| !block.positive));
     let minors: Vec<_> = model.conditions.iter().filter(|condition| condition.positive).collect();
-    let fields: Values = [("self.i".to_owned(), own(&rational(5, 1))), ("self.a".to_owned(), own(&rational(2, 1)))].into();
+    let fields: Values =
+        [("self.i".to_owned(), own(&rational(5, 1))), ("self.a".to_owned(), own(&rational(2, 1)))].into();
     let values: Vec<Rational> =
         minors.iter().map(|condition| exact(&run(&condition.program, &fields)["value_1"])).collect();
     assert_eq!(values, [rational(5, 1), rational(11, 1)]);
