@@ -1,17 +1,19 @@
 //! Integrators of `y' = f(t, y)` for fixed-size state vectors. They know nothing of bodies, and do not allocate.
 
 mod error_norm;
+pub mod gauss;
 pub mod runge_kutta;
 mod step_size;
 
 pub use error_norm::ErrorNorm;
 pub(crate) use error_norm::norm;
+pub use gauss::Gauss;
 pub use runge_kutta::RungeKutta8;
 
 use core::fmt;
 
 /// Why an integrator cannot go on. Its last accepted state stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Failure {
     /// The right-hand side, or a step however short, gives numbers that are not finite.
@@ -19,14 +21,26 @@ pub enum Failure {
     /// The error stays above the tolerance however short the step: a singularity, or a tolerance that rounding
     /// does not allow.
     StepUnderflow,
+    /// The equations of an implicit step have no solution, or none that the iteration finds: the step is too long.
+    NoSolution {
+        /// The least defect met, relative to the largest component of the state.
+        residual: f64,
+    },
 }
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Failure::NotFinite => "the equations of motion give numbers that are not finite",
-            Failure::StepUnderflow => "the step size fell below the spacing of floating-point times",
-        })
+        match self {
+            Failure::NotFinite => f.write_str("the equations of motion give numbers that are not finite"),
+            Failure::StepUnderflow => {
+                f.write_str("the step size fell below the spacing of floating-point times")
+            }
+            Failure::NoSolution { residual } => write!(
+                f,
+                "the equations of an implicit step have no solution that the iteration finds: the residual stays \
+                 at {residual:e}"
+            ),
+        }
     }
 }
 

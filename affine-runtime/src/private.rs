@@ -8,6 +8,7 @@ pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,
 };
 pub use crate::geodesic::{Geodesic, Motion};
+pub use crate::kinematics::mean_log_stretch;
 pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Velocity};
 pub use crate::reduction::{
     Condition, finite, inverse_form, total_affine_momentum, total_size, turn, well_posed,

@@ -5,6 +5,7 @@ mod csv;
 mod halt;
 mod output;
 mod run;
+mod stepper;
 mod trajectory;
 mod why;
 
@@ -19,7 +20,7 @@ use crate::model::Model;
 use output::Output;
 
 /// How a trajectory is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
     /// The closed form where model and start have one, else [`Method::RungeKutta8`].
@@ -29,6 +30,18 @@ pub enum Method {
     ClosedForm,
     /// Embedded explicit Runge-Kutta method of order 8, [`RungeKutta8`](crate::integrate::RungeKutta8).
     RungeKutta8,
+    /// Gauss collocation, [`Gauss`](crate::integrate::Gauss): implicit, symmetric, of order `2 stages`, in equal
+    /// steps; the tolerance plays no part. Keeps every linear and quadratic first integral of the reduced equations
+    /// up to rounding, and is symplectic where the reduced variables are canonical, `phi` and `Pi`. With affine spins
+    /// the variables are Lie-Poisson: there the method is no Poisson map, and energy and cubic Casimir invariants
+    /// are kept to its order, unless they are quadratic in the reduced variables. Output times between steps are
+    /// reached by a shorter step from the one before, which leaves the sequence of steps as it is.
+    Gauss {
+        /// Number of stages, 2 or 3.
+        stages: usize,
+        /// Length of a step, positive; the interval is divided into equal steps that are not longer.
+        step: f64,
+    },
 }
 
 /// How far a run has come.

@@ -7,7 +7,7 @@ use affine_runtime::model::Conserved;
 use crate::families::{Family, Parameters};
 
 /// Does the quantity exist for such a model?
-fn exists(quantity: Observable, n: usize, translation: bool) -> bool {
+pub(crate) fn exists(quantity: Observable, n: usize, translation: bool) -> bool {
     use Observable::{
         Casimir3, ComovingLinearMomentum, DeviatorCasimir3, LinearMomentum, OrbitalAngularMomentum,
         TotalAffineMomentum, TotalAngularMomentum,

@@ -11,8 +11,10 @@ mod integrate;
 mod reference;
 mod tolerances;
 
+mod benchmarks;
 mod canonical;
 mod conserved;
 mod drunk_missile;
 mod geodesics;
+mod potentials;
 mod prepare;

@@ -1,6 +1,6 @@
 //! The exact motion through a phase point, rounded, and comparisons with it.
 
-use affine_oracle::{Expected, Kinetic, Matrix as Exact, State};
+use affine_oracle::{Differential, Expected, Kinetic, Matrix as Exact, Place, Slopes, State};
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Real;
 
@@ -10,6 +10,8 @@ pub(crate) struct Reference {
     /// Condition of the mass matrix.
     pub(crate) condition: f64,
     state: State,
+    /// What a potential adds to the sizes; all zero without.
+    potential: Slopes,
 }
 
 impl Reference {
@@ -18,13 +20,29 @@ impl Reference {
             expected: kinetic.expected(state).unwrap(),
             condition: kinetic.condition(&state.phi).unwrap(),
             state: state.clone(),
+            potential: Slopes { value: 0.0, t: 0.0, x: Vec::new(), phi: Vec::new() },
+        }
+    }
+
+    /// The motion under a potential.
+    pub(crate) fn under(
+        kinetic: &Kinetic,
+        state: &State,
+        t: f64,
+        potential: impl Fn(&Place) -> Differential,
+    ) -> Self {
+        let slopes = Slopes::of(&potential, t, &state.x.to_f64(), &state.phi.to_f64());
+        Reference {
+            expected: kinetic.motion(state).unwrap().under(t, potential).unwrap().expected().unwrap(),
+            potential: slopes,
+            ..Reference::new(kinetic, state)
         }
     }
 
     /// The summands' size of `H`.
     pub(crate) fn energy_size(&self) -> f64 {
         let (p, pi) = (norm(&self.state.p.to_f64()), norm(&self.state.pi.to_f64()));
-        p * norm(&self.expected.x_dot) + pi * norm(&self.expected.phi_dot)
+        p * norm(&self.expected.x_dot) + pi * norm(&self.expected.phi_dot) + self.potential.value.abs()
     }
 
     /// The exact derivative of a quantity named as in the layouts, and the size of its summands. Those of the
@@ -37,14 +55,18 @@ impl Reference {
         let (x_dot, phi_dot) = (norm(&expected.x_dot), norm(&expected.phi_dot));
         let omega = phi_dot * inverse;
         let p_hat = size(&(&phi.transpose() * p));
+        let (pull, force) = (norm(&self.potential.x), norm(&self.potential.phi));
         match name {
             "x" => (&expected.x_dot, x_dot),
             "phi" => (&expected.phi_dot, phi_dot),
-            "p" => (&expected.p_dot, 0.0),
-            "p_hat" => (&expected.p_hat_dot, omega * p_hat),
-            "Sigma" => (&expected.sigma_dot, omega * size(&(phi * pi)) + x_dot * size(p)),
-            "Sigma_hat" => (&expected.sigma_hat_dot, omega * size(&(pi * phi)) + inverse * x_dot * p_hat),
-            "Pi" => (&expected.pi_dot, omega * size(pi) + inverse * x_dot * size(p)),
+            "p" => (&expected.p_dot, pull),
+            "p_hat" => (&expected.p_hat_dot, omega * p_hat + size(phi) * pull),
+            "Sigma" => (&expected.sigma_dot, omega * size(&(phi * pi)) + x_dot * size(p) + size(phi) * force),
+            "Sigma_hat" => (
+                &expected.sigma_hat_dot,
+                omega * size(&(pi * phi)) + inverse * x_dot * p_hat + size(phi) * force,
+            ),
+            "Pi" => (&expected.pi_dot, omega * size(pi) + inverse * x_dot * size(p) + force),
             other => panic!("no quantity {other}"),
         }
     }

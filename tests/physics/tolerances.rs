@@ -4,6 +4,16 @@
 /// the Legendre transformation, in conversions between the frames and in brackets. The largest error seen is 5e-16.
 pub(crate) const CANONICAL: f64 = 1e-14;
 
+/// Generated code with a potential against exact kinetic parts and gradients by forward differentiation in `f64`, per
+/// condition of the mass matrix: the roundings of [`CANONICAL`], of `ln det phi` and of sums of up to a hundred products
+/// that cancel to a few digits.
+pub(crate) const UNDER_POTENTIAL: f64 = 1e-12;
+
+/// Brackets that vanish but for rounding errors of gradients in `f64`, in numbers of order 1 to 100; and how large,
+/// for data of order 1, one of several samples is at least where a bracket does not vanish.
+pub(crate) const BRACKET_ZERO: f64 = 1e-10;
+pub(crate) const BRACKET_VISIBLE: f64 = 1e-4;
+
 /// A closed form against integration, over a time in which the body turns or stretches by 1.5: errors of the
 /// integrator are eps per step, of the closed form eps times the norm of the exponents, of either times the growth of
 /// the motion. The largest error seen is 2e-13.
@@ -20,3 +30,10 @@ pub(crate) const REFERENCE_SOLUTION: f64 = 1e-13;
 /// Conserved quantities of the same motion, which are taken from the state by conversions between the frames. The
 /// largest error seen is 2e-15.
 pub(crate) const CONSERVED: f64 = 3e-14;
+
+/// Vibrating bodies against reference solutions: the errors of some thousand steps of 1e-14 each, and rounding errors
+/// grown by the motion.
+pub(crate) const VIBRATION: f64 = 1e-11;
+
+/// The same per radian of the fastest vibration: ten units of rounding of its phase.
+pub(crate) const VIBRATION_PER_RADIAN: f64 = 10.0 * f64::EPSILON;

@@ -11,6 +11,7 @@ mod form;
 mod frames;
 mod identity;
 mod inertia;
+mod potential;
 mod shapes;
 mod symbols;
 mod tensors;
@@ -29,6 +30,10 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     symbols::hidden(spec, found);
     symbols::resolved(spec, found);
     capabilities::available(spec, found);
+    potential::available(spec, found);
+    potential::scalar(spec, found);
+    potential::centre(spec, found);
+    potential::smooth(spec, found);
     frames::internal_motion(spec, found);
     frames::affine_translation(spec, found);
     shapes::shapes(spec, found);
@@ -36,7 +41,9 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     // powers in it are known to be bounded.
     dimension::two_or_three(spec, found)?;
     shapes::sizes(spec, found);
+    potential::indices(spec, found);
     arithmetic::computable(spec, found)?;
+    potential::in_domain(spec, found);
     frames::same_frame(spec, found);
     inertia::masses(spec, found);
     inertia::symmetric(spec, found);

@@ -13,6 +13,7 @@ use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::describe::{self, Formula};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::potential::Base;
 use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 use crate::optimise::{Batch, straight_line};
@@ -125,26 +126,39 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     };
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form);
-    let Form { mut arena, kinetic, hessian, .. } = form;
+    let Form { mut arena, kinetic, hessian, potential, .. } = form;
+    let potential = potential.as_ref();
     let arena = &mut arena;
     let h = Hamiltonian::new(arena, &kinetic, &hessian)?;
     let own = reduce::own_chart(arena, &h);
     let own_h = reduce::own_hamiltonian(&h, &own);
     let mut coefficients = Constants::new("c");
 
-    let conserved_now = conserved(arena, &own, &own_h);
-    let conserved_at_rest = at_rest(arena, &h, &conserved_now);
-    let commuting = reduce::commuting(arena, &h);
-    let closed_form = reduce::closed_form(arena, &h, &commuting);
+    let mut conserved_now = conserved(arena, &own, &own_h);
+    let mut conserved_at_rest = at_rest(arena, &h, &conserved_now);
+    if let Some(u) = potential {
+        conserved_now.retain(|candidate| u.keeps(*candidate));
+        conserved_at_rest.retain(|candidate| u.keeps(*candidate));
+        // A force on the centre of mass does not leave it at rest.
+        if u.moves_the_centre() {
+            conserved_at_rest.clone_from(&conserved_now);
+        }
+    }
+    let commuting = reduce::commuting(arena, &h, potential);
+    let closed_form = match potential {
+        None => reduce::closed_form(arena, &h, &commuting),
+        Some(_) => None,
+    };
 
     let (full_chart, full_h) = full_chart(arena, &h);
-    let full = full_equations(arena, &h, &full_chart, &full_h, &mut coefficients);
+    let full = full_equations(arena, &h, &full_chart, &full_h, potential, &mut coefficients);
     let rotations = conserved_now.contains(&Candidate::TotalAngularMomentum);
-    let (reduction, reduced, trajectory, fixed) = best_reduction(arena, &h, rotations, &mut coefficients)?;
+    let (reduction, reduced, trajectory, fixed) =
+        best_reduction(arena, &h, potential, rotations, &mut coefficients)?;
     let formulas = Formulas {
         kinetic_energy: describe::kinetic_energy(arena, &kinetic),
-        hamiltonian: describe::hamiltonian(arena, &h, &full_h),
-        equations: describe::equations(arena, &h, &full_chart, &full_h),
+        hamiltonian: describe::hamiltonian(arena, &h, &full_h, potential),
+        equations: describe::equations(arena, &h, &full_chart, &full_h, potential),
         reduced: describe::system(arena, &reduction.system),
         left_out: describe::left_out(&h, &reduction, closed_form),
     };
@@ -160,8 +174,15 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let velocity = inline(arena, velocity, momenta);
     let (energy, energy_inputs) = energy_batch(arena, &kinetic, velocities);
     let kinetic_energy = inline(arena, energy, energy_inputs);
-    let points: Vec<Expr> = full_chart.coordinates().into_iter().map(|z| full_chart.symbol(z)).collect();
-    let hamiltonian = inline(arena, result("energy", full_h.clone()), points);
+    let mut points: Vec<Expr> = full_chart.coordinates().into_iter().map(|z| full_chart.symbol(z)).collect();
+    let mut energy = result("energy", full_h.clone());
+    if let Some(u) = potential {
+        let (value, shared) = u.energy_at_a_point(arena, &full_chart);
+        energy.results[0].1.add_scaled(&value, &Rational::ONE);
+        energy.shared = shared;
+        points.push(Base::MeanLogStretch.symbol(arena));
+    }
+    let hamiltonian = inline(arena, energy, points);
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {
         let mass = Polynomial::normal_form(arena, t.mass);
         let batch = Batch {

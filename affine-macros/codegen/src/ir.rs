@@ -5,7 +5,7 @@ pub mod count;
 pub mod fuse;
 pub mod run;
 
-use crate::algebra::Rational;
+use crate::algebra::{Function, Rational};
 
 /// A value: the index of the step that makes it.
 pub type Value = usize;
@@ -29,6 +29,8 @@ pub enum Op {
     Neg(Value),
     /// `a * b + c`
     MulAdd(Value, Value, Value),
+    /// An elementary function of `a`
+    Call(Function, Value),
 }
 
 impl Op {
@@ -37,7 +39,7 @@ impl Op {
     pub fn operands(&self) -> Vec<Value> {
         match *self {
             Op::Input(_) | Op::Constant(_) => Vec::new(),
-            Op::Neg(a) => vec![a],
+            Op::Neg(a) | Op::Call(_, a) => vec![a],
             Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => vec![a, b],
             Op::MulAdd(a, b, c) => vec![a, b, c],
         }
@@ -105,6 +107,7 @@ impl Op {
         match self {
             Op::Input(_) | Op::Constant(_) => self.clone(),
             Op::Neg(a) => Op::Neg(place[*a]),
+            Op::Call(function, a) => Op::Call(*function, place[*a]),
             Op::Add(a, b) => Op::Add(place[*a], place[*b]),
             Op::Sub(a, b) => Op::Sub(place[*a], place[*b]),
             Op::Mul(a, b) => Op::Mul(place[*a], place[*b]),

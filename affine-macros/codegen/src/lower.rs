@@ -1,9 +1,13 @@
 //! From what the user wrote to symbolic terms: the last place where the specification's syntax is known.
 
+mod potential;
+
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 use crate::check::constant;
 use crate::mechanics::kinetic::{Coefficient, Term, TermKind};
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
+
+pub use potential::potential;
 
 /// Stem of the symbols of fields: kept apart from the names that the derivation makes.
 pub const FIELD: &str = "self.";
@@ -58,7 +62,8 @@ fn coefficient(arena: &mut Arena, n: usize, value: &Value) -> Option<Coefficient
     })
 }
 
-/// The symbolic value of a coefficient; `None` only for what the checks refuse (division by zero).
+/// The symbolic value of a coefficient; `None` only for what the checks refuse (division by zero) and for the
+/// forms that only potentials have.
 pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<Expr> {
     if let Some(value) = constant(e, n) {
         return Some(arena.constant(value));
@@ -91,5 +96,11 @@ pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<
             let a = of(a)?;
             arena.pow(a, i32::try_from(constant(exponent, n)?.to_i64()?).ok()?)
         }
+        ExpressionKind::Call(..)
+        | ExpressionKind::Trace(_)
+        | ExpressionKind::Entry(..)
+        | ExpressionKind::Component(_)
+        | ExpressionKind::Norm
+        | ExpressionKind::Pairs(_) => None,
     }
 }

@@ -10,5 +10,6 @@ pub mod hamiltonian;
 pub mod hessian;
 pub mod kinetic;
 mod notation;
+pub mod potential;
 pub mod reduce;
 pub mod symmetry;

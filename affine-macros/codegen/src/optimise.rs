@@ -1,5 +1,7 @@
 //! From derived systems to the shortest straight-line programs.
 
+use std::collections::HashSet;
+
 use crate::algebra::bind::Constants;
 use crate::algebra::factor::{complete_sums, factored, scale_atoms};
 use crate::algebra::{Arena, Expr, Polynomial};
@@ -26,9 +28,14 @@ pub fn straight_line(
     let moving = |atom: Expr| varies(atom) || shared.contains(&atom);
     let mut polynomials: Vec<Polynomial> =
         batch.shared.iter().map(|(_, p)| p).chain(batch.results.iter().map(|(_, p)| p)).cloned().collect();
+    for polynomial in &mut polynomials {
+        *polynomial = constants.bind_inside(arena, polynomial, &moving);
+    }
+    let composite = composite_atoms(arena, &polynomials, &moving);
+    let moving = |atom: Expr| varies(atom) || shared.contains(&atom) || composite.contains(&atom);
     let sums = complete_sums(arena, &mut polynomials, &moving);
     shared.extend(sums.iter().map(|(s, _)| *s));
-    let moving = |atom: Expr| varies(atom) || shared.contains(&atom);
+    let moving = |atom: Expr| varies(atom) || shared.contains(&atom) || composite.contains(&atom);
     for polynomial in &mut polynomials {
         *polynomial = constants.bind(arena, polynomial, &moving);
     }
@@ -41,8 +48,9 @@ pub fn straight_line(
         .collect();
     let mut builder = Builder::new();
     // Definitions in an order in which each uses only what is there already.
-    while let Some(ready) =
-        open.iter().position(|(_, p)| !p.mentions(|atom| open.iter().any(|(symbol, _)| *symbol == atom)))
+    while let Some(ready) = open
+        .iter()
+        .position(|(_, p)| !p.any_symbol(arena, &mut |s| open.iter().any(|(symbol, _)| *symbol == s)))
     {
         let (symbol, polynomial) = open.remove(ready);
         let value = factored(arena, &polynomial);
@@ -53,4 +61,14 @@ pub fn straight_line(
         builder.output(arena, name, value);
     }
     builder.finish()
+}
+
+/// The functions and reciprocals of something that varies.
+fn composite_atoms(
+    arena: &Arena,
+    polynomials: &[Polynomial],
+    varies: &impl Fn(Expr) -> bool,
+) -> HashSet<Expr> {
+    let atoms = polynomials.iter().flat_map(|p| p.terms().flat_map(|(monomial, _)| monomial.iter().copied()));
+    atoms.filter(|atom| arena.name(*atom).is_none() && arena.any_symbol(*atom, &mut |s| varies(s))).collect()
 }

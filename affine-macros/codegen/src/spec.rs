@@ -5,16 +5,21 @@ mod expression;
 mod expression_parser;
 mod grammar;
 mod item;
+mod named_potentials;
 mod names;
+mod symbol;
 mod value;
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 
 use crate::diagnostics::{Diagnostics, Region, Reported};
+use expression_parser::Language;
 
-pub use expression::{Expression, ExpressionKind, Operator};
+pub use expression::{Expression, ExpressionKind, MatrixName, Operator};
 pub use item::{Field, Item};
+pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
 pub use names::{Capability, Claim, Named, Requirement, TermKind, nearest};
+pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
 
 /// Something with its place in the source.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +42,8 @@ pub struct Spec {
     pub kinetic: Vec<Term>,
     /// The key `kinetic`.
     pub kinetic_key: Region,
+    /// `potential = ...`.
+    pub potential: Option<Potential>,
     /// `require(...)`.
     pub require: Vec<Spanned<Requirement>>,
     /// `emit(...)`.
@@ -65,6 +72,17 @@ pub struct Term {
     pub span: Region,
 }
 
+/// The potential energy U(t, x, phi).
+#[derive(Clone, Debug)]
+pub struct Potential {
+    /// The key `potential`.
+    pub key: Region,
+    /// U, with every named potential written out.
+    pub energy: Expression,
+    /// The place of the value.
+    pub span: Region,
+}
+
 /// The coefficients of a term.
 #[derive(Clone, Debug)]
 pub enum Value {
@@ -88,28 +106,7 @@ impl Value {
     }
 }
 
-/// What a name in an expression stands for.
-#[derive(Clone, Copy)]
-pub enum Symbol<'a> {
-    /// `n`.
-    Dimension,
-    /// A field of the struct.
-    Field(&'a Field),
-}
-
-/// The symbols of coefficients besides the fields, with their meaning.
-pub const SYMBOLS: [(&str, &str); 1] = [("n", "the dimension")];
-
 impl Spec {
-    /// What `name` stands for in this model's expressions; symbols go before fields.
-    #[must_use]
-    pub fn resolve(&self, name: &Ident) -> Option<Symbol<'_>> {
-        if name == "n" {
-            return Some(Symbol::Dimension);
-        }
-        self.item.fields.iter().find(|field| field.ident == *name).map(Symbol::Field)
-    }
-
     /// The term of a kind.
     #[must_use]
     pub fn term(&self, kind: TermKind) -> Option<&Term> {
@@ -128,11 +125,27 @@ pub fn parse(args: TokenStream, item: TokenStream, found: &mut Diagnostics) -> R
     Ok(arguments.of(item))
 }
 
-/// Reads one expression, as a coefficient is read.
+/// Reads one expression, as a coefficient of the kinetic energy is read.
 ///
 /// # Errors
 /// [`Reported`] if it is malformed.
 pub fn parse_expression(tokens: TokenStream, found: &mut Diagnostics) -> Result<Expression, Reported> {
+    whole(tokens, Language::Coefficient, found)
+}
+
+/// Reads one expression, as a potential is read.
+///
+/// # Errors
+/// [`Reported`] if it is malformed.
+pub fn parse_potential(tokens: TokenStream, found: &mut Diagnostics) -> Result<Expression, Reported> {
+    whole(tokens, Language::Potential(&[]), found)
+}
+
+fn whole(
+    tokens: TokenStream,
+    language: Language<'_>,
+    found: &mut Diagnostics,
+) -> Result<Expression, Reported> {
     let at = entries::extent(&tokens).unwrap_or_else(|| proc_macro2::Span::call_site().into());
-    expression_parser::parse(tokens.into_iter().collect(), at, found)
+    expression_parser::parse(tokens.into_iter().collect(), at, language, found)
 }

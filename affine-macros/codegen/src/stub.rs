@@ -9,8 +9,8 @@ use crate::spec::{self, Field, Item, Spec};
 use crate::{check, derive, emit};
 
 /// The user's item with the reasons for its refusal. Where the item can be read, it gets the methods of a
-/// well-posed model of the same dimension, with translation and fields as written, so that its uses raise no
-/// errors of their own.
+/// well-posed model of the same dimension, with translation, potential and fields as written, so that its uses
+/// raise no errors of their own.
 #[must_use]
 pub fn stub(args: TokenStream, item: &TokenStream, rejected: &Rejected) -> TokenStream {
     let errors = rejected.compile_errors();
@@ -65,6 +65,7 @@ fn prepare(input: &DeriveInput, outline: &Outline) -> TokenStream {
 /// What can be told of a specification that may not parse.
 struct Outline {
     dim: usize,
+    potential: bool,
     names: Vec<Ident>,
     runtime: Option<syn::Path>,
 }
@@ -75,9 +76,10 @@ impl Outline {
         let dim = if value_of("dim", &args).to_string() == "2" { 2 } else { 3 };
         let runtime = value_of("crate", &args);
         let runtime = if runtime.is_empty() { None } else { Some(syn::parse2(runtime).ok()?) };
+        let potential = !value_of("potential", &args).is_empty();
         let mut names = Vec::new();
         collect_names(args, &mut names);
-        Some(Self { dim, names, runtime })
+        Some(Self { dim, potential, names, runtime })
     }
 
     /// A well-posed model that looks alike from outside.
@@ -86,8 +88,9 @@ impl Outline {
         let coefficient = field.map_or_else(|| quote!(1), |field| quote!(#field));
         let moving = self.names.iter().any(|name| name == "body_translation" || name == "space_translation");
         let translation = moving.then(|| quote!(, body_translation = 1));
+        let potential = self.potential.then(|| quote!(, potential = q^2));
         let runtime = self.runtime.as_ref().map(|path| quote!(, crate = #path));
-        let args = quote!(dim = #dim, kinetic(casimir2 = #coefficient #translation) #runtime);
+        let args = quote!(dim = #dim, kinetic(casimir2 = #coefficient #translation) #potential #runtime);
         gate(|found| {
             spec::parse(
                 args,

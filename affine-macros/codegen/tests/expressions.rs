@@ -1,10 +1,13 @@
 //! Expressions: precedence, exactness, printing.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use affine_codegen::algebra::Rational;
+use affine_codegen::algebra::{Function, Rational};
 use affine_codegen::check::constant;
 use affine_codegen::diagnostics::{Diagnostic, Rejected, gate};
-use affine_codegen::spec::{Expression, ExpressionKind, Operator, parse_expression};
+use affine_codegen::spec::{
+    Expression, ExpressionKind, MatrixName, NAMED_POTENTIALS, Named, Operator, parse_expression,
+    parse_potential,
+};
 use proc_macro2::{Ident, Span, TokenStream};
 use proptest::prelude::*;
 
@@ -31,7 +34,24 @@ fn grouped(expression: &Expression) -> String {
         ExpressionKind::Multiply(left, right) => pair(left, "*", right),
         ExpressionKind::Divide(left, right) => pair(left, "/", right),
         ExpressionKind::Power(left, right) => pair(left, "^", right),
+        ExpressionKind::Call(function, one) => format!("{}({})", function.name(), grouped(one)),
+        ExpressionKind::Trace(factors) => {
+            format!("tr({})", factors.iter().map(|factor| factor.name()).collect::<Vec<_>>().join("*"))
+        }
+        ExpressionKind::Entry(matrix, row, column) => format!("{}[{row},{column}]", matrix.name()),
+        ExpressionKind::Component(index) => format!("x[{index}]"),
+        ExpressionKind::Norm => "norm(x)".to_owned(),
+        ExpressionKind::Pairs(one) => format!("pairs({})", grouped(one)),
     }
+}
+
+fn try_potential(source: &str) -> Result<Expression, Rejected> {
+    let tokens: TokenStream = source.parse().expect("tokens");
+    gate(|found| parse_potential(tokens, found))
+}
+
+fn potential(source: &str) -> Expression {
+    try_potential(source).unwrap_or_else(|rejected| panic!("{source}: {:?}", rejected.diagnostics().next()))
 }
 
 #[test]
@@ -127,6 +147,78 @@ fn printing_is_sparing_with_parentheses() {
 }
 
 #[test]
+fn functions_and_entries_bind_like_names() {
+    let cases = [
+        ("-sinh(q)^2", "(-(sinh(q) ^ 2))"),
+        ("kappa/2*sinh(q)^2", "((kappa / 2) * (sinh(q) ^ 2))"),
+        ("exp(-2*q^2 + t)*tr(G)", "(exp((((-2) * (q ^ 2)) + t)) * tr(G))"),
+        ("tr( G * Ct*phi ) - n", "(tr(G*Ct*phi) - n)"),
+        ("2^G[1,2]", "(2 ^ G[1,2])"),
+        ("phi[2, 1]^2/Ct[1,1]", "((phi[2,1] ^ 2) / Ct[1,1])"),
+        ("m*x[3] - k/norm(x)", "((m * x[3]) - (k / norm(x)))"),
+        ("ln(sqrt(det))^-1", "(ln(sqrt(det)) ^ (-1))"),
+        ("pairs(cosh(d) - 1)/2", "(pairs((cosh(d) - 1)) / 2)"),
+        (
+            "sin(t) + cos(t) + tan(t) + cosh(q) + tanh(q) + abs(q)",
+            "(((((sin(t) + cos(t)) + tan(t)) + cosh(q)) + tanh(q)) + abs(q))",
+        ),
+    ];
+    for (source, expected) in cases {
+        assert_eq!(grouped(&potential(source)), expected, "{source}");
+    }
+    let ExpressionKind::Trace(factors) = potential("tr(phi*G*Ct)").kind else { panic!("a trace") };
+    assert_eq!(factors, [MatrixName::Placement, MatrixName::Green, MatrixName::Finger]);
+}
+
+#[test]
+fn coefficients_have_no_functions() {
+    for source in ["sinh(q)", "tr(G)", "G[1,2]", "x[1]", "norm(x)", "harmonic_dilatation(1)", "1 + pairs(d)"]
+    {
+        let rejected = try_read(source).map(|_| ()).expect_err("a refusal");
+        assert!(matches!(rejected.diagnostics().next(), Some(Diagnostic::FunctionCall { .. })), "{source}");
+    }
+}
+
+#[test]
+fn named_potentials_are_their_formulas() {
+    let cases = [
+        ("hyperbolic_dilatation(kappa)", "kappa/2*sinh(q)^2"),
+        ("harmonic_dilatation(2*k)", "2*k/2*q^2"),
+        ("dissociation(kappa)", "-kappa/2/cosh(q)^2"),
+        ("1 - neo_hookean(c1 + c2)", "1 - (c1 + c2)*(tr(G)*exp(-2*q) - n)"),
+        ("saint_venant_kirchhoff(1, 0.5)", "1/8*(tr(G) - n)^2 + 0.5/4*(tr(G*G) - 2*tr(G) + n)"),
+        ("orthogonality(k)^2", "(k*(tr(G*G) - 2*tr(G) + n))^2"),
+        ("gas(exp(-t))", "exp(-t)*exp(-2*q)"),
+        // The arguments are the user's, whatever they are called.
+        ("saint_venant_kirchhoff(mu, lambda)", "mu/8*(tr(G) - n)^2 + lambda/4*(tr(G*G) - 2*tr(G) + n)"),
+        ("gas(gas(k))", "k*exp(-2*q)*exp(-2*q)"),
+    ];
+    for (source, expected) in cases {
+        assert_eq!(grouped(&potential(source)), grouped(&potential(expected)), "{source}");
+    }
+}
+
+#[test]
+fn every_named_potential_uses_each_parameter_once() {
+    for named in NAMED_POTENTIALS {
+        let marks: Vec<String> = (0..named.parameters.len()).map(|k| format!("mark{k}")).collect();
+        let read = potential(&format!("{}({})", named.name, marks.join(", ")));
+        let mut names = names(&read);
+        names.retain(|name| name != "q" && name != "n");
+        names.sort();
+        assert_eq!(names, marks, "{}: {read}", named.name);
+    }
+}
+
+/// The names in an expression.
+fn names(expression: &Expression) -> Vec<String> {
+    match &expression.kind {
+        ExpressionKind::Symbol(name) => vec![name.to_string()],
+        _ => expression.operands().into_iter().flat_map(names).collect(),
+    }
+}
+
+#[test]
 fn long_and_deep_expressions_are_refused_not_overflowed() {
     let deep = format!("{}1{}", "(".repeat(400), ")".repeat(400));
     let signs = format!("{}1", "-".repeat(5000));
@@ -134,6 +226,14 @@ fn long_and_deep_expressions_are_refused_not_overflowed() {
     let sum = vec!["a"; 5000].join("+");
     for source in [deep, signs, powers, sum] {
         let rejected = try_read(&source).map(|_| ()).expect_err("a refusal");
+        assert!(matches!(rejected.diagnostics().next(), Some(Diagnostic::ExpressionSize { .. })));
+    }
+    let calls = format!("{}1{}", "exp(".repeat(400), ")".repeat(400));
+    let named = format!("{}1{}", "gas(".repeat(400), ")".repeat(400));
+    let trace = format!("tr({})", vec!["G"; 5000].join("*"));
+    let many = vec!["orthogonality(1)"; 60].join("+");
+    for source in [calls, named, trace, many] {
+        let rejected = try_potential(&source).map(|_| ()).expect_err("a refusal");
         assert!(matches!(rejected.diagnostics().next(), Some(Diagnostic::ExpressionSize { .. })));
     }
     assert!(try_read(&vec!["a"; 257].join("+")).is_ok());
@@ -163,6 +263,41 @@ fn any_expression(powers: std::ops::Range<i32>) -> impl Strategy<Value = Express
     })
 }
 
+/// Random trees over the forms of potentials.
+fn any_potential() -> impl Strategy<Value = Expression> {
+    let matrix = prop::sample::select(MatrixName::ALL);
+    let leaf = prop_oneof![
+        any_expression(0..1),
+        prop::collection::vec(matrix.clone(), 1..4).prop_map(|factors| here(ExpressionKind::Trace(factors))),
+        (matrix, 1_usize..4, 1_usize..4).prop_map(|(m, i, j)| here(ExpressionKind::Entry(m, i, j))),
+        (1_usize..4).prop_map(|index| here(ExpressionKind::Component(index))),
+        Just(()).prop_map(|()| here(ExpressionKind::Norm)),
+    ];
+    let functions = vec![
+        Function::Exp,
+        Function::Ln,
+        Function::Sqrt,
+        Function::Abs,
+        Function::Sin,
+        Function::Cos,
+        Function::Tan,
+        Function::Sinh,
+        Function::Cosh,
+        Function::Tanh,
+    ];
+    let operators = vec![Operator::Add, Operator::Multiply, Operator::Divide, Operator::Power];
+    leaf.prop_recursive(3, 12, 2, move |inner| {
+        prop_oneof![
+            3 => (prop::sample::select(functions.clone()), inner.clone())
+                .prop_map(|(function, one)| here(ExpressionKind::Call(function, Box::new(one)))),
+            1 => inner.clone().prop_map(|one| here(ExpressionKind::Pairs(Box::new(one)))),
+            1 => inner.clone().prop_map(|one| here(ExpressionKind::Negate(Box::new(one)))),
+            4 => (prop::sample::select(operators.clone()), inner.clone(), inner)
+                .prop_map(|(operator, left, right)| operator.apply(left, right)),
+        ]
+    })
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
@@ -176,5 +311,11 @@ proptest! {
     fn parentheses_around_every_operation_leave_no_choice(expression in any_expression(0..1)) {
         let text = grouped(&expression);
         prop_assert_eq!(grouped(&read(&text)), text);
+    }
+
+    #[test]
+    fn a_printed_potential_reads_back_as_itself(expression in any_potential()) {
+        let printed = expression.to_string();
+        prop_assert_eq!(grouped(&potential(&printed)), grouped(&expression), "{}", printed);
     }
 }

@@ -33,6 +33,15 @@ const WORDS: &[&str] = &[
     "splitting",
     "potential",
     "casimir3",
+    "q",
+    "x",
+    "G",
+    "tr",
+    "norm",
+    "pairs",
+    "custom",
+    "sinh",
+    "gas",
     "n",
     "a",
     "b",
@@ -179,6 +188,12 @@ proptest! {
     #[test]
     fn on_any_expression(tokens in any_stream()) {
         let args = quote::quote!(dim = 3, kinetic(body_inertia = #tokens));
+        answered(args, "struct Model { a: f64, m: [[f64; 2]; 2] }".parse().expect("an item"))?;
+    }
+
+    #[test]
+    fn on_any_potential(tokens in any_stream()) {
+        let args = quote::quote!(dim = 3, kinetic(casimir2 = 1, body_translation = a), potential = #tokens);
         answered(args, "struct Model { a: f64, m: [[f64; 2]; 2] }".parse().expect("an item"))?;
     }
 

@@ -4,7 +4,7 @@
 use affine_codegen::check;
 use affine_codegen::diagnostics::gate;
 use affine_codegen::expand;
-use affine_codegen::spec::{Claim, Named, Spec, TermKind, Value, parse};
+use affine_codegen::spec::{Claim, Named, POTENTIAL_SYMBOLS, SYMBOLS, Spec, Symbol, TermKind, Value, parse};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 
@@ -108,6 +108,88 @@ fn every_term_is_read_in_both_dimensions() {
             );
             assert!(spec.term(*kind).is_some());
         }
+    }
+}
+
+fn with_potential(potential: TokenStream) -> Spec {
+    read(
+        quote!(dim = 3, potential = #potential, kinetic(casimir2 = 1, body_translation = m)),
+        quote!(
+            struct M {
+                m: f64,
+                kappa: f64,
+                law: Law,
+            }
+        ),
+    )
+}
+
+#[test]
+fn a_potential_of_every_form() {
+    let spec = with_potential(quote!(
+        kappa/2*sinh(q)^2 + 0.5*(tr(G)*exp(-2*q) - n) + D^-2/det + I1*I2 - I3 + tr(Ct*phi)*G[1, 3] + m*x[3]*cos(t)
+            + 4*((kappa/norm(x))^12 - (kappa/norm(x))^6)
+    ));
+    let energy = spec.potential.expect("a potential").energy.to_string();
+    let expected = "kappa/2*sinh(q)^2 + 0.5*(tr(G)*exp(-2*q) - n) + D^-2/det + I1*I2 - I3 + tr(Ct*phi)*G[1,3] \
+                    + m*x[3]*cos(t) + 4*((kappa/norm(x))^12 - (kappa/norm(x))^6)";
+    assert_eq!(energy, expected);
+}
+
+#[test]
+fn names_of_a_potential_mean_what_the_table_says() {
+    let spec = with_potential(quote!(q));
+    let letter = |name: &str| {
+        let name = proc_macro2::Ident::new(name, proc_macro2::Span::call_site());
+        match spec.resolve_in_potential(&name) {
+            None => '?',
+            Some(Symbol::Dimension) => 'n',
+            Some(Symbol::Dilatation) => 'q',
+            Some(Symbol::Scale) => 'D',
+            Some(Symbol::Determinant) => 'd',
+            Some(Symbol::Time) => 't',
+            Some(Symbol::Invariant(index)) => char::from_digit(u32::try_from(index).unwrap(), 10).unwrap(),
+            Some(Symbol::Stretch) => 's',
+            Some(Symbol::Matrix(_)) => 'M',
+            Some(Symbol::Centre) => 'x',
+            Some(Symbol::Field(_)) => 'f',
+        }
+    };
+    let names = "n q D det t x G Ct phi I1 I2 I3 q1 Q3 d kappa law I q12 i1 Phi";
+    assert_eq!(names.split(' ').map(letter).collect::<String>(), "nqDdtxMMM123sssff????");
+    // Every symbol that a field must not hide has a meaning of its own.
+    for (name, _) in SYMBOLS.iter().chain(&POTENTIAL_SYMBOLS) {
+        assert!(!matches!(letter(name), '?' | 'f'), "{name}");
+    }
+}
+
+#[test]
+fn without_a_potential_fields_may_have_the_names_of_its_symbols() {
+    let item = quote!(
+        struct M {
+            q: f64,
+            det: f64,
+            G: f64,
+        }
+    );
+    read(quote!(dim = 2, kinetic(casimir2 = q + det, body_inertia = G)), item.clone());
+    let spec = gate(|found| parse(quote!(dim = 2, kinetic(casimir2 = 1), potential = q), item, found));
+    let rejected =
+        gate(|found| check::as_written(&spec.expect("a specification"), found)).expect_err("refused");
+    assert_eq!(rejected.diagnostics().filter(|one| one.name() == "hidden-symbol").count(), 3);
+}
+
+#[test]
+fn a_refused_model_with_a_potential_has_a_stand_in() {
+    for potential in [quote!(abs(q)), quote!(kapa * q), quote!(custom(law)), quote!(x[1]), quote!(2 q)] {
+        let item = quote!(
+            pub struct Model {
+                pub kappa: f64,
+            }
+        );
+        let args = quote!(dim = 2, kinetic(casimir2 = kappa), potential = #potential);
+        let tokens = expand(args, item).to_string();
+        assert!(tokens.contains("compile_error") && tokens.contains("fn prepare"), "{potential}");
     }
 }
 

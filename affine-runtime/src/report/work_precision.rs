@@ -75,7 +75,8 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
         Self { t0, ..self }
     }
 
-    /// The methods, in this order. A closed form has no tolerance and gives one row.
+    /// The methods, in this order. A closed form has no tolerance and gives one row, and so does Gauss collocation,
+    /// whose accuracy is its step: list it once for each step.
     #[must_use]
     pub fn methods(self, methods: impl IntoIterator<Item = Method>) -> Self {
         Self { methods: methods.into_iter().collect(), ..self }
@@ -153,7 +154,10 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
         let run = match self.attempt(method, tolerance) {
             Ok(run) => run,
             Err(halt) if matches!(halt.stop.reason, Reason::Setting(_)) => return Err(halt.into()),
-            Err(halt) => return Ok(Row { method, tolerance: Some(tolerance), outcome: Err(halt.stop) }),
+            Err(halt) => {
+                let tolerance = has_tolerance(method).then_some(tolerance);
+                return Ok(Row { method, tolerance, outcome: Err(halt.stop) });
+            }
         };
         let method = run.computation().method;
         let times = self.times(method, tolerance);
@@ -164,7 +168,7 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
             repeats: times.len(),
             energy_drift: run.conservation().of(Conserved::Energy).map(|drift| drift.relative()),
         };
-        let tolerance = (method != Method::ClosedForm).then_some(tolerance);
+        let tolerance = has_tolerance(method).then_some(tolerance);
         Ok(Row { method, tolerance, outcome: Ok(measurement) })
     }
 
@@ -205,6 +209,11 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     }
 }
 
+/// Accuracy is set by a tolerance: not by the step, and not exact.
+fn has_tolerance(method: Method) -> bool {
+    !matches!(method, Method::ClosedForm | Method::Gauss { .. })
+}
+
 /// `|a - b|/|b|`, 0 where they agree even in a vanishing reference.
 fn relative_error(a: &[f64], b: &[f64]) -> f64 {
     let differences: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
@@ -237,7 +246,7 @@ pub struct WorkPrecisionReport {
 pub struct Row {
     /// The method that ran.
     pub method: Method,
-    /// Its tolerance; `None` for a closed form.
+    /// Its tolerance; `None` for a closed form and for fixed steps.
     pub tolerance: Option<f64>,
     /// What was measured, or why the run did not reach its end.
     pub outcome: core::result::Result<Measurement, Stop>,

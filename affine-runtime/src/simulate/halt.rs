@@ -49,6 +49,13 @@ pub enum Reason {
         /// The tolerance.
         tolerance: f64,
     },
+    /// The equations of an implicit step have no solution, or none that the iteration finds.
+    NoSolution {
+        /// The least defect met, relative to the largest component of the reduced state.
+        residual: f64,
+        /// The longest step allowed.
+        step: f64,
+    },
     /// The largest number of steps is used up.
     StepLimit {
         /// That number.
@@ -87,6 +94,20 @@ pub enum Setting {
     },
     /// No step is allowed.
     NoSteps,
+    /// Gauss collocation is available with 2 and 3 stages.
+    Stages {
+        /// The number of stages asked for.
+        given: usize,
+    },
+    /// The length of a fixed step is not positive, not finite, or lost in the rounding of times.
+    Step {
+        /// Its value.
+        given: f64,
+        /// Start of the interval.
+        t0: f64,
+        /// End of the interval.
+        t_end: f64,
+    },
     /// The spacing of outputs is not positive, not finite, or much too fine for the interval.
     OutputSpacing {
         /// The spacing.
@@ -134,6 +155,15 @@ impl fmt::Display for Setting {
                  double precision) and below 1; 1e-6 to 1e-13 are common"
             ),
             Setting::NoSteps => f.write_str("max_steps(0) allows no step: give a positive number"),
+            Setting::Stages { given } => write!(
+                f,
+                "Gauss collocation with {given} stages: give 2 stages, of order 4, or 3, of order 6"
+            ),
+            Setting::Step { given, t0, t_end } => write!(
+                f,
+                "a step of {given:e} between {t0} and {t_end}: it is a positive number, coarser than the rounding of \
+                 times; twenty steps to the shortest period are a good start"
+            ),
             Setting::OutputSpacing { dt, t0, t_end } => write!(
                 f,
                 "output every {dt:e} between {t0} and {t_end}: the spacing is a positive number, coarser than the \
@@ -175,6 +205,12 @@ impl fmt::Display for Reason {
                 f,
                 "the error stays above the tolerance {tolerance:e} however short the step: the motion runs into a \
                  singularity, or the tolerance is finer than rounding allows; end the run before, or loosen it"
+            ),
+            Reason::NoSolution { residual, step } => write!(
+                f,
+                "the equations of a step have no solution that the iteration finds, their residual stays at \
+                 {residual:e}: the step {step:e} is too long for the motion, or the motion runs into a singularity; \
+                 shorten the step or end the run before"
             ),
             Reason::StepLimit { limit } => write!(
                 f,

@@ -5,11 +5,13 @@ use core::ops::{ControlFlow, Range};
 use super::conservation::larger;
 use super::halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
 use super::output::{Schedule, without_steps};
+use super::stepper::{Explicit, Stepper};
 use super::trajectory::{Computation, Energies, Trajectory};
 use super::{Method, Observe, Progress, Simulation, Watch};
 use crate::frames::Matrix;
 use crate::geodesic::{Geodesic, Motion};
-use crate::integrate::{Failure, RungeKutta8, Statistics, norm};
+use crate::integrate::gauss::{Tableau, step_count};
+use crate::integrate::{Failure, Gauss, RungeKutta8, Statistics, norm};
 use crate::kinematics::LogDeterminant;
 use crate::model::{Group, Model, StateVector};
 use crate::state::Phase;
@@ -70,6 +72,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 closed_form_exists: false,
                 no_whirl: false,
                 at_rest: self.start.p().iter().all(|p| *p == 0.0),
+                residual: None,
             },
         }
     }
@@ -85,7 +88,9 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             (Method::Automatic | Method::ClosedForm, Some(geodesic)) => {
                 self.evaluate(&geodesic, t_end, &mut recorder)
             }
-            (Method::Automatic, None) | (Method::RungeKutta8, _) => self.integrate(t_end, &mut recorder),
+            (Method::Automatic, None) | (Method::RungeKutta8 | Method::Gauss { .. }, _) => {
+                self.integrate(t_end, &mut recorder)
+            }
         }
     }
 
@@ -101,6 +106,12 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         }
         if self.max_steps == 0 {
             return Err(Setting::NoSteps);
+        }
+        if let Method::Gauss { stages, step } = self.method {
+            Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
+            if !step.is_finite() || step_count(self.t0, t_end, step).is_none() {
+                return Err(Setting::Step { given: step, t0: self.t0, t_end });
+            }
         }
         Ok((t_end, self.output.schedule(self.t0, t_end)?))
     }
@@ -138,12 +149,37 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let (reduced, constants) = model.reduce(self.t0, &self.start);
         let equations = |t: f64, reduced: &M::Reduced<f64>| model.reduced_equations(t, &constants, reduced);
         let begin = (self.t0, reduced);
-        let mut integration =
-            RungeKutta8::new(equations, M::DESCRIPTION.reduced, begin, t_end, self.tolerance)
-                .map_err(|failure| self.reason(failure))?;
-        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
+        match self.method {
+            Method::Gauss { stages, step } => {
+                let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
+                let integration = Gauss::new(equations, tableau, begin, t_end, step);
+                let mut integration = integration.map_err(|failure| self.reason(failure))?;
+                recorder.trajectory.computation.method = self.method;
+                let outcome = self.step_through(&mut integration, &constants, t_end, recorder);
+                recorder.trajectory.computation.residual = Some(integration.residual());
+                outcome
+            }
+            _ => {
+                let groups = M::DESCRIPTION.reduced;
+                let integration = RungeKutta8::new(equations, groups, begin, t_end, self.tolerance);
+                let mut integration = Explicit::new(integration.map_err(|failure| self.reason(failure))?);
+                self.step_through(&mut integration, &constants, t_end, recorder)
+            }
+        }
+    }
+
+    /// Steps to the end with output on the way, and the expansion of the last good step.
+    fn step_through(
+        &mut self,
+        integration: &mut impl Stepper<M::Reduced<f64>>,
+        constants: &M::Constants<f64>,
+        t_end: f64,
+        recorder: &mut Recorder<'_, '_, N, M>,
+    ) -> Result<(), Reason> {
+        let model = self.model;
+        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, constants, reduced);
         let mut last = None;
-        let outcome = self.follow(&mut integration, expand, t_end, recorder, &mut last);
+        let outcome = self.follow(integration, expand, t_end, recorder, &mut last);
         let trajectory = &mut *recorder.trajectory;
         trajectory.statistics = integration.statistics();
         if let Some((t, reduced)) = last.filter(|(t, _)| (t - trajectory.end.0) * (t_end - self.t0) > 0.0) {
@@ -154,9 +190,9 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
 
     /// Steps to the end. A step without output whose reduced state shows that it is good is not expanded: it is
     /// only left in `last`, for a halt in the next one.
-    fn follow<F: Fn(f64, &M::Reduced<f64>) -> M::Reduced<f64>>(
+    fn follow(
         &mut self,
-        integration: &mut RungeKutta8<M::Reduced<f64>, F>,
+        integration: &mut impl Stepper<M::Reduced<f64>>,
         expand: impl Fn(f64, &M::Reduced<f64>) -> M::Point<f64>,
         t_end: f64,
         recorder: &mut Recorder<'_, '_, N, M>,
@@ -170,13 +206,12 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             }
             integration.advance().map_err(|failure| self.reason(failure))?;
             let (t, reduced) = (integration.t(), *integration.y());
-            let mut dense = None;
             while let Some(due) = recorder.schedule.take_through(t, t_end < self.t0) {
                 if due == t {
                     recorder.record(t, expand(t, &reduced))?;
                 } else {
-                    let dense = dense.get_or_insert_with(|| integration.dense());
-                    recorder.record(due, expand(due, &dense.at(due)))?;
+                    let between = integration.between(due).map_err(|failure| self.reason(failure))?;
+                    recorder.record(due, expand(due, &between))?;
                 }
             }
             if recorder.schedule == Schedule::Steps {
@@ -198,6 +233,10 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         match failure {
             Failure::NotFinite => Reason::NotFinite,
             Failure::StepUnderflow => Reason::StepUnderflow { tolerance: self.tolerance },
+            Failure::NoSolution { residual } => {
+                let step = if let Method::Gauss { step, .. } = self.method { step } else { f64::NAN };
+                Reason::NoSolution { residual, step }
+            }
         }
     }
 }

@@ -43,7 +43,46 @@ impl Why {
                     _ => writeln!(f, "the model has no closed form from this start"),
                 }
             }
+            Method::Gauss { stages, step } => self.gauss(f, stages, step),
         }
+    }
+
+    fn gauss(&self, f: &mut fmt::Formatter<'_>, stages: usize, step: f64) -> fmt::Result {
+        write!(
+            f,
+            "Gauss collocation of {stages} stages, order {}, equal steps of at most {step:e}",
+            2 * stages
+        )?;
+        if let Some(residual) = self.computation.residual {
+            write!(f, ", stage equations solved to {residual:.1e}")?;
+        }
+        let rest = if self.computation.closed_form_exists {
+            "; Method::Automatic would take the closed form"
+        } else {
+            ""
+        };
+        writeln!(f, ": as asked for{rest}")?;
+        writeln!(f, "kept up to rounding: linear and quadratic first integrals of the reduced equations")?;
+        if self.is_canonical() {
+            writeln!(
+                f,
+                "symplectic: the reduced variables are canonical; the energy error stays bounded while steps resolve the motion"
+            )
+        } else {
+            writeln!(
+                f,
+                "not a Poisson map: the reduced variables are not all canonical; what else the model conserves is \
+                 kept to the order of the method"
+            )
+        }
+    }
+
+    /// The reduced variables are positions and their momenta, all of them canonical.
+    fn is_canonical(&self) -> bool {
+        let groups = self.description.reduced;
+        let holds = |name: &str| groups.iter().any(|group| group.name == name);
+        let paired = holds("phi") && holds("Pi") && holds("x") == holds("p");
+        paired && groups.iter().all(|group| ["x", "phi", "p", "Pi"].contains(&group.name))
     }
 
     fn scene(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

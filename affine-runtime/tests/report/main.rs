@@ -367,3 +367,19 @@ fn files_are_written() {
     assert_eq!(std::fs::read_to_string(&picture).unwrap(), run.to_svg().unwrap());
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+#[test]
+fn fixed_steps_give_a_row_each() {
+    let steps = [0.4, 0.2, 0.1];
+    let report = missile().methods(steps.map(|step| Method::Gauss { stages: 3, step })).run().unwrap();
+    assert_eq!(report.rows().len(), steps.len(), "tolerances play no part");
+    for (row, step) in report.rows().iter().zip(steps) {
+        assert_eq!((row.method, row.tolerance), (Method::Gauss { stages: 3, step }, None));
+        assert_eq!(row.outcome.as_ref().unwrap().statistics.steps as f64, 10.0 / step);
+    }
+    let errors: Vec<f64> = report.rows().iter().map(|row| report.error(row, "phi").unwrap()).collect();
+    let order = (errors[1] / errors[2]).log2();
+    assert!((order - 6.0).abs() < 0.5, "{errors:?}");
+    let series = report.series("");
+    assert_eq!((series.len(), series[0].name.as_str(), series[0].points.len()), (1, "Gauss 6", steps.len()));
+}

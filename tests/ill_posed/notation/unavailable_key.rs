@@ -1,6 +1,6 @@
 use affine_runtime::affine_model;
 
-#[affine_model(dim = 2, kinetic(casimir2 = 1), potential = q^2)]
+#[affine_model(dim = 2, kinetic(casimir2 = 1), constraint = isochoric)]
 struct Model;
 
 fn main() {}

@@ -8,7 +8,11 @@
 //! * `dH/dP = v` and `dH/dq = -dT/dq` at fixed `v`, the latter by dual numbers through `T` itself;
 //! * `{F, H}` as the derivative of `F` along the canonical vector field, by dual numbers through `F` itself.
 //!
-//! So "conserved" means exactly 0, and the only rounding is the last step to `f64`. Every finite `f64` is a rational
+//! A potential adds forces to the vector field ([`Motion::under`]). Its gradient comes from the plain definition of the
+//! potential by forward differentiation in `f64`, since elementary functions have no exact values; it is then taken as
+//! an exact number.
+//!
+//! So "conserved" means exactly 0 without potential, and the only other rounding is the last step to `f64`. Every finite `f64` is a rational
 //! number: a point given in floating point is taken at its word.
 //!
 //! ```
@@ -27,16 +31,19 @@
 //! # }
 //! ```
 
+mod differential;
 mod error;
 mod kinetic;
 mod linear;
 mod matrix;
 mod motion;
 mod observable;
+mod potential;
 mod random;
 mod ring;
 mod state;
 
+pub use differential::Differential;
 pub use error::Error;
 pub use kinetic::{Kinetic, Term};
 pub use linear::Signature;
@@ -44,6 +51,7 @@ pub use matrix::Matrix;
 pub use motion::{Expected, Motion};
 pub use num_rational::BigRational as Rational;
 pub use observable::Observable;
+pub use potential::{Place, Slopes};
 pub use random::{Isotropic, Random};
 pub use ring::{Dual, Ring, exact, rational, rounded};
 pub use state::State;

@@ -2,11 +2,13 @@
 
 use num_rational::BigRational;
 
+use crate::differential::Differential;
 use crate::error::Error;
 use crate::kinetic::Kinetic;
 use crate::matrix::Matrix;
 use crate::observable::Observable;
-use crate::ring::rounded;
+use crate::potential::{Place, Slopes};
+use crate::ring::{exact, rounded};
 use crate::state::State;
 
 /// The canonical vector field of a kinetic energy at one point.
@@ -60,6 +62,21 @@ impl Kinetic {
 }
 
 impl Motion<'_> {
+    /// The same point with a potential `U(t, x, phi)` added to the energy: `p_dot -= dU/dx`, `Pi_dot -= (dU/dphi)^T`,
+    /// `H += U`. Coordinates and gradient are `f64`, the rest stays exact.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] where the potential or its gradient is.
+    pub fn under(mut self, t: f64, potential: impl Fn(&Place) -> Differential) -> Result<Self, Error> {
+        let n = self.state.dimension();
+        let slopes = Slopes::of(potential, t, &self.state.x.to_f64(), &self.state.phi.to_f64());
+        let force = Matrix::from_f64("dU/dphi", n, n, &slopes.phi)?;
+        self.rate.p = &self.rate.p - &Matrix::from_f64("dU/dx", n, 1, &slopes.x)?;
+        self.rate.pi = &self.rate.pi - &force.transpose();
+        self.energy += exact(slopes.value).ok_or(Error::NotFinite { quantity: "U" })?;
+        Ok(self)
+    }
+
     /// The point.
     pub fn state(&self) -> &State {
         &self.state
@@ -70,12 +87,13 @@ impl Motion<'_> {
         &self.rate
     }
 
-    /// The kinetic energy of the velocities, equal to `H`.
+    /// The kinetic energy of the velocities and the potential, equal to `H`.
     pub fn energy(&self) -> &BigRational {
         &self.energy
     }
 
     /// `{F, H}`, the derivative of `F` along the motion; exactly 0 where `F` is conserved to first order at the point.
+    /// [`Observable::Energy`] is the kinetic energy alone: its derivative under a potential is the power of the forces.
     ///
     /// # Errors
     /// As [`Kinetic::velocity`], for [`Observable::Energy`] only.

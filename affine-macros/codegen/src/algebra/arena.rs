@@ -7,6 +7,7 @@
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
+use super::function::Function;
 use super::rational::Rational;
 
 /// Handle of an expression.
@@ -24,6 +25,8 @@ pub enum Node {
     Sum(Rational, Vec<(Expr, Rational)>),
     /// Product of `base^exponent`; at least two factors or one exponent other than 1.
     Product(Vec<(Expr, i32)>),
+    /// An elementary function; no value that is rational.
+    Function(Function, Expr),
 }
 
 /// Owner of expressions.
@@ -151,6 +154,54 @@ impl Arena {
         self.product(&[(a, 1), (b, -1)])
     }
 
+    /// `function(argument)`, with what is even or odd, inverse or known at 0 and 1 resolved.
+    pub fn apply(&mut self, function: Function, argument: Expr) -> Expr {
+        match (function, self.node(argument)) {
+            (Function::Exp | Function::Cos | Function::Cosh, Node::Constant(zero)) if zero.is_zero() => {
+                return self.constant(Rational::ONE);
+            }
+            (Function::Ln, Node::Constant(one)) if one.is_one() => return self.constant(Rational::ZERO),
+            (Function::Sqrt | Function::Cbrt, Node::Constant(one)) if one.is_one() => return argument,
+            (Function::Ln, _) => {}
+            (_, Node::Constant(zero)) if zero.is_zero() => return argument,
+            _ => {}
+        }
+        match (function, self.node(argument)) {
+            (Function::Exp, Node::Function(Function::Ln, inner))
+            | (Function::Ln, Node::Function(Function::Exp, inner)) => return *inner,
+            _ => {}
+        }
+        let negative = match self.node(argument) {
+            Node::Sum(constant, terms) => {
+                terms.iter().all(|(_, c)| c.is_negative()) && (constant.is_zero() || constant.is_negative())
+            }
+            Node::Constant(value) => value.is_negative(),
+            _ => false,
+        };
+        let even = matches!(function, Function::Cos | Function::Cosh | Function::Abs);
+        let odd = matches!(
+            function,
+            Function::Sin | Function::Sinh | Function::Tan | Function::Tanh | Function::Cbrt
+        );
+        if negative && (even || odd) {
+            let opposite = self.neg(argument);
+            let value = self.apply(function, opposite);
+            return if even { value } else { self.neg(value) };
+        }
+        self.intern(Node::Function(function, argument))
+    }
+
+    /// Does `wanted` hold for any symbol below `expr`?
+    pub fn any_symbol(&self, expr: Expr, wanted: &mut impl FnMut(Expr) -> bool) -> bool {
+        match self.node(expr) {
+            Node::Constant(_) => false,
+            Node::Symbol(_) => wanted(expr),
+            Node::Sum(_, terms) => terms.iter().any(|(term, _)| self.any_symbol(*term, wanted)),
+            Node::Product(factors) => factors.iter().any(|(base, _)| self.any_symbol(*base, wanted)),
+            Node::Function(_, argument) => self.any_symbol(*argument, wanted),
+        }
+    }
+
     /// Product of integer powers; `None` for a negative power of zero.
     pub fn product(&mut self, factors: &[(Expr, i32)]) -> Option<Expr> {
         let mut number = Rational::ONE;
@@ -196,6 +247,13 @@ impl Arena {
                 let (lead, monic) = self.monic(base)?;
                 *number = &*number * &lead.pow(exponent)?;
                 bases.push((monic, exponent));
+            }
+            // sqrt(u)^2 = u wherever the root exists.
+            Node::Function(Function::Sqrt, argument) if exponent >= 2 => {
+                self.split_factor(*argument, exponent / 2, number, bases)?;
+                if exponent % 2 == 1 {
+                    bases.push((base, 1));
+                }
             }
             _ => bases.push((base, exponent)),
         }
@@ -256,6 +314,44 @@ impl Arena {
                 }
                 self.linear(&parts)
             }
+            Node::Function(function, argument) => {
+                let inner = self.derivative(argument, symbol);
+                let outer = self.slope(function, argument);
+                self.mul(outer, inner)
+            }
+        }
+    }
+
+    /// `function'` at an argument.
+    fn slope(&mut self, function: Function, argument: Expr) -> Expr {
+        let one = self.constant(Rational::ONE);
+        let value = self.apply(function, argument);
+        // The reciprocals below are of functions and arguments that are no constants.
+        let reciprocal = |arena: &mut Self, of: Expr, exponent: i32, number: (i64, i64)| {
+            let power = arena.pow(of, exponent).unwrap_or(of);
+            arena.scale(power, &Rational::ratio(number.0, number.1).unwrap_or(Rational::ONE))
+        };
+        match function {
+            Function::Exp => value,
+            Function::Ln => reciprocal(self, argument, -1, (1, 1)),
+            Function::Sqrt => reciprocal(self, value, -1, (1, 2)),
+            Function::Cbrt => reciprocal(self, value, -2, (1, 3)),
+            Function::Abs => self.div(argument, value).unwrap_or(one),
+            Function::Sin => self.apply(Function::Cos, argument),
+            Function::Cos => {
+                let sine = self.apply(Function::Sin, argument);
+                self.neg(sine)
+            }
+            Function::Tan => {
+                let square = self.mul(value, value);
+                self.add(one, square)
+            }
+            Function::Sinh => self.apply(Function::Cosh, argument),
+            Function::Cosh => self.apply(Function::Sinh, argument),
+            Function::Tanh => {
+                let square = self.mul(value, value);
+                self.sub(one, square)
+            }
         }
     }
 
@@ -266,6 +362,7 @@ impl Arena {
             Node::Symbol(name) => visit(name),
             Node::Sum(_, terms) => terms.iter().for_each(|(term, _)| self.for_each_symbol(*term, visit)),
             Node::Product(factors) => factors.iter().for_each(|(b, _)| self.for_each_symbol(*b, visit)),
+            Node::Function(_, argument) => self.for_each_symbol(*argument, visit),
         }
     }
 
@@ -277,6 +374,7 @@ impl Arena {
             Node::Symbol(name) => name.clone(),
             Node::Sum(constant, terms) => self.sum_text(constant, terms),
             Node::Product(factors) => self.product_text(factors),
+            Node::Function(function, argument) => format!("{}({})", function.name(), self.text(*argument)),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::arena::{Arena, Expr};
+use super::arena::{Arena, Expr, Node};
 use super::polynomial::{Monomial, Polynomial};
 use super::rational::Rational;
 
@@ -52,6 +52,55 @@ impl Constants {
             bound.add_term(monomial, &number);
         }
         bound
+    }
+
+    /// Collects inside functions and reciprocals of what varies: `exp(a b q)` becomes `exp(c q)`.
+    pub fn bind_inside(
+        &mut self,
+        arena: &mut Arena,
+        polynomial: &Polynomial,
+        varies: &impl Fn(Expr) -> bool,
+    ) -> Polynomial {
+        let mut bound = Polynomial::zero();
+        for (monomial, c) in polynomial.terms() {
+            let atoms: Vec<Expr> = monomial.iter().map(|atom| self.bind_atom(arena, *atom, varies)).collect();
+            let mut product = Polynomial::constant(c.clone());
+            for atom in atoms {
+                product = product.mul(&Polynomial::normal_form(arena, atom));
+            }
+            bound.add_scaled(&product, &Rational::ONE);
+        }
+        bound
+    }
+
+    fn bind_atom(&mut self, arena: &mut Arena, atom: Expr, varies: &impl Fn(Expr) -> bool) -> Expr {
+        let slow = |arena: &Arena, below: Expr| !arena.any_symbol(below, &mut |s| varies(s));
+        if arena.name(atom).is_some() || slow(arena, atom) {
+            return atom;
+        }
+        let mut inner = |arena: &mut Arena, below: Expr| {
+            let form = Polynomial::normal_form(arena, below);
+            let form = self.bind_inside(arena, &form, varies);
+            let varying = |a: Expr| !slow(arena, a);
+            let fast: Vec<Expr> = form
+                .terms()
+                .flat_map(|(monomial, _)| monomial.iter().copied())
+                .filter(|a| varying(*a))
+                .collect();
+            self.bind(arena, &form, &|a| fast.contains(&a)).expression(arena)
+        };
+        match arena.node(atom).clone() {
+            Node::Function(function, argument) => {
+                let argument = inner(arena, argument);
+                arena.apply(function, argument)
+            }
+            Node::Product(factors) => {
+                let factors: Vec<(Expr, i32)> = factors.iter().map(|(b, e)| (inner(arena, *b), *e)).collect();
+                // A base that varies is not the number zero.
+                arena.product(&factors).unwrap_or(atom)
+            }
+            _ => atom,
+        }
     }
 
     /// The constant of a polynomial, and the sign that restores it.

@@ -3,6 +3,7 @@
 //! It is the oracle of every pass: no sharing, no reordering, no rounding when the field is [`Rational`].
 
 use super::arena::{Arena, Expr, Node};
+use super::function::Function;
 use super::polynomial::Polynomial;
 use super::rational::Rational;
 
@@ -16,6 +17,10 @@ pub trait Field: Clone {
     fn mul(&self, other: &Self) -> Self;
     /// Reciprocal; `None` where there is none.
     fn recip(&self) -> Option<Self>;
+    /// An elementary function; `None` where the field has none.
+    fn apply(&self, _function: Function) -> Option<Self> {
+        None
+    }
 }
 
 impl Field for Rational {
@@ -46,6 +51,21 @@ impl Field for f64 {
     fn recip(&self) -> Option<Self> {
         Some(1.0 / self)
     }
+    fn apply(&self, function: Function) -> Option<Self> {
+        Some(match function {
+            Function::Exp => self.exp(),
+            Function::Ln => self.ln(),
+            Function::Sqrt => self.sqrt(),
+            Function::Cbrt => self.cbrt(),
+            Function::Abs => self.abs(),
+            Function::Sin => self.sin(),
+            Function::Cos => self.cos(),
+            Function::Tan => self.tan(),
+            Function::Sinh => self.sinh(),
+            Function::Cosh => self.cosh(),
+            Function::Tanh => self.tanh(),
+        })
+    }
 }
 
 /// Value of an expression; `None` where a symbol has no value or a reciprocal does not exist.
@@ -53,6 +73,7 @@ pub fn evaluate<F: Field>(arena: &Arena, expr: Expr, value: &impl Fn(&str) -> Op
     match arena.node(expr) {
         Node::Constant(number) => Some(F::from_rational(number)),
         Node::Symbol(name) => value(name),
+        Node::Function(function, argument) => evaluate(arena, *argument, value)?.apply(*function),
         Node::Sum(constant, terms) => {
             let mut sum = F::from_rational(constant);
             for (term, c) in terms {

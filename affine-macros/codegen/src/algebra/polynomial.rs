@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::arena::{Arena, Expr, Node};
+use super::function::Function;
 use super::rational::Rational;
 
 /// A product of atoms, sorted, a power repeated.
@@ -49,6 +50,10 @@ impl Polynomial {
         match arena.node(expr).clone() {
             Node::Constant(value) => Self::constant(value),
             Node::Symbol(_) => Self::atom(expr),
+            Node::Function(function, argument) => {
+                let argument = Self::normal_form(arena, argument).expression(arena);
+                Self::of_value(arena, function, argument)
+            }
             Node::Sum(constant, terms) => {
                 let mut sum = Self::constant(constant);
                 for (term, c) in terms {
@@ -70,6 +75,16 @@ impl Polynomial {
                 }
                 product
             }
+        }
+    }
+
+    /// The polynomial that a function of an expression is: an atom, its opposite, or a number.
+    fn of_value(arena: &mut Arena, function: Function, argument: Expr) -> Self {
+        let value = arena.apply(function, argument);
+        match arena.node(value).clone() {
+            Node::Function(..) | Node::Symbol(_) => Self::atom(value),
+            // A function of the opposite argument, or what an inverse function left.
+            _ => Self::normal_form(arena, value),
         }
     }
 
@@ -215,6 +230,11 @@ impl Polynomial {
             }
         }
         result
+    }
+
+    /// Does any symbol in its atoms, inside functions and reciprocals too, satisfy `wanted`?
+    pub fn any_symbol(&self, arena: &Arena, wanted: &mut impl FnMut(Expr) -> bool) -> bool {
+        self.terms.keys().flatten().any(|atom| arena.any_symbol(*atom, wanted))
     }
 
     /// Does any term contain an atom for which `wanted` holds?

@@ -2,74 +2,133 @@
 
 use super::constant::{LARGEST_POWER, constant, integer};
 use super::identity::vanishes;
-use crate::algebra::Rational;
+use crate::algebra::{Function, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, Reported};
-use crate::spec::{Expression, ExpressionKind, Spec};
+use crate::spec::{Expression, ExpressionKind, Operator, Spec};
 
-/// Every coefficient is a rational function of the fields with exact coefficients.
+/// The largest degree of a potential. Its functions are not multiplied out, so it may be higher than that of a
+/// coefficient; `(sigma/r)^12` has degree 24.
+const LARGEST_POTENTIAL_DEGREE: u64 = 64;
+
+/// Where an expression stands.
+#[derive(Clone, Copy)]
+enum Place {
+    Coefficient,
+    Potential,
+}
+
+impl Place {
+    fn largest_degree(self) -> u64 {
+        match self {
+            Self::Coefficient => LARGEST_POWER,
+            Self::Potential => LARGEST_POTENTIAL_DEGREE,
+        }
+    }
+}
+
+/// Every coefficient is a rational function of the fields with exact coefficients, and a potential is one of
+/// its functions, fields and variables.
 pub(super) fn computable(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> {
     let mut result = Ok(());
-    for expression in spec.kinetic.iter().flat_map(|term| term.value.expressions()) {
-        result = degree(expression, spec.dim.value, found).map(|_| ()).and(result);
+    let coefficients = spec.kinetic.iter().flat_map(|term| term.value.expressions());
+    let placed = coefficients
+        .map(|expression| (expression, Place::Coefficient))
+        .chain(spec.potential.iter().map(|potential| (&potential.energy, Place::Potential)));
+    for (expression, place) in placed {
+        result = degree(expression, place, spec.dim.value, found).map(|_| ()).and(result);
     }
     result
 }
 
-/// The degree of an expression in its numbers and fields, which bounds the digits of its exact value: products
-/// add degrees and powers multiply them. The rules below are applied from the leaves upwards, so that what they
-/// evaluate is bounded already.
-fn degree(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result<u64, Reported> {
+/// The degree of an expression in its numbers, fields and variables, which bounds the digits of its exact
+/// value: products add degrees and powers multiply them, and the value of a function counts as a variable. The
+/// rules below are applied from the leaves upwards, so that what they evaluate is bounded already.
+fn degree(expression: &Expression, place: Place, n: usize, found: &mut Diagnostics) -> Result<u64, Reported> {
     // All operands before the first error is looked for, so that all are reported.
     let degrees: Vec<_> =
-        expression.operands().into_iter().map(|operand| degree(operand, n, found)).collect();
+        expression.operands().into_iter().map(|operand| degree(operand, place, n, found)).collect();
     let degrees: Vec<u64> = degrees.into_iter().collect::<Result<_, _>>()?;
     let degree = match &expression.kind {
         ExpressionKind::Power(base, exponent) => {
-            let power = exponent_is_integer(exponent, n, found)?;
+            let power = exponent_is_integer(base, exponent, place, n, found)?;
+            let base_degree = degrees.first().copied().unwrap_or(1);
             if power < 0 {
-                divisor_is_not_zero(base, n, found)?;
+                divisor_is_not_zero(base, base_degree, n, found)?;
             }
-            degrees.iter().take(1).sum::<u64>() * u64::from(power.unsigned_abs())
+            base_degree * u64::from(power.unsigned_abs())
         }
         ExpressionKind::Divide(_, divisor) => {
-            divisor_is_not_zero(divisor, n, found)?;
+            divisor_is_not_zero(divisor, degrees.last().copied().unwrap_or(1), n, found)?;
             degrees.iter().sum()
         }
         ExpressionKind::Multiply(..) => degrees.iter().sum(),
+        ExpressionKind::Trace(factors) => u64::try_from(factors.len()).unwrap_or(u64::MAX),
+        ExpressionKind::Call(..) | ExpressionKind::Pairs(_) => 1,
         _ => degrees.iter().copied().max().unwrap_or(1),
     };
-    degree_is_bounded(expression, degree, found)
+    degree_is_bounded(expression, degree, place, found)
 }
 
-/// Integer exponents: the inverse of the kinetic energy is derived in rational functions of the coefficients,
-/// and an exponent that is known only at run time would leave its degree open.
-fn exponent_is_integer(exponent: &Expression, n: usize, found: &mut Diagnostics) -> Result<i32, Reported> {
+/// Integer exponents. The inverse of the kinetic energy is derived in rational functions of the coefficients,
+/// and an exponent that is known only at run time would leave its degree open. In a potential a power with any
+/// other exponent exists only for a positive base, as a logarithm or a root, and is to be written as one.
+fn exponent_is_integer(
+    base: &Expression,
+    exponent: &Expression,
+    place: Place,
+    n: usize,
+    found: &mut Diagnostics,
+) -> Result<i32, Reported> {
     if let Some(power) = integer(exponent, n) {
         return Ok(power);
     }
-    let whole = constant(exponent, n).filter(Rational::is_integer);
-    let mistake = match whole {
-        Some(power) => Diagnostic::Degree {
+    let value = constant(exponent, n);
+    let mistake = match (value.as_ref().filter(|value| value.is_integer()), place) {
+        (Some(power), _) => Diagnostic::Degree {
             degree: power.to_i64().map_or(u64::MAX, i64::unsigned_abs),
             limit: LARGEST_POWER,
         },
-        None => Diagnostic::Exponent { exponent: exponent.to_string() },
+        (None, Place::Coefficient) => Diagnostic::Exponent { exponent: exponent.to_string() },
+        (None, Place::Potential) => {
+            let half = Rational::from(1).checked_div(&Rational::from(2));
+            let instead = if value.is_some() && value == half {
+                format!("sqrt({base})")
+            } else {
+                let logarithm = ExpressionKind::Call(Function::Ln, Box::new(base.clone()));
+                let logarithm = Expression { kind: logarithm, span: base.span };
+                format!("exp({})", Operator::Multiply.apply(exponent.clone(), logarithm))
+            };
+            let (base, exponent) = (base.to_string(), exponent.to_string());
+            Diagnostic::PotentialExponent { base, exponent, instead }
+        }
     };
     Err(found.report(exponent.span, mistake))
 }
 
 /// Exact numbers of high degree have more digits than a build has time for.
-fn degree_is_bounded(expression: &Expression, degree: u64, found: &mut Diagnostics) -> Result<u64, Reported> {
-    if degree <= LARGEST_POWER {
+fn degree_is_bounded(
+    expression: &Expression,
+    degree: u64,
+    place: Place,
+    found: &mut Diagnostics,
+) -> Result<u64, Reported> {
+    let limit = place.largest_degree();
+    if degree <= limit {
         return Ok(degree);
     }
-    Err(found.report(expression.span, Diagnostic::Degree { degree, limit: LARGEST_POWER }))
+    Err(found.report(expression.span, Diagnostic::Degree { degree, limit }))
 }
 
 /// A divisor that is zero, as a number or whatever the fields are; one that is zero for some values of the
-/// fields is left to `prepare()`.
-fn divisor_is_not_zero(divisor: &Expression, n: usize, found: &mut Diagnostics) -> Result<(), Reported> {
-    if vanishes(divisor, n) {
+/// fields is left to `prepare()`, and for some states to the run. A divisor is multiplied out only where its
+/// degree is that of a coefficient.
+fn divisor_is_not_zero(
+    divisor: &Expression,
+    degree: u64,
+    n: usize,
+    found: &mut Diagnostics,
+) -> Result<(), Reported> {
+    if degree <= LARGEST_POWER && vanishes(divisor, n) {
         return Err(found.report(divisor.span, Diagnostic::DivisionByZero { divisor: divisor.to_string() }));
     }
     Ok(())

@@ -7,7 +7,8 @@ use crate::spec::{Expression, ExpressionKind};
 /// the fields that the derivation multiplies out grow with this degree.
 pub(super) const LARGEST_POWER: u64 = 16;
 
-/// The exact value of an expression in dimension `n`; `None` where it depends on a field, or has none.
+/// The exact value of an expression in dimension `n`; `None` where it depends on a field or on the
+/// state, or has none.
 #[must_use]
 pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
     let value = |operand: &Expression| constant(operand, n);
@@ -22,6 +23,13 @@ pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
         ExpressionKind::Multiply(left, right) => Some(&value(left)? * &value(right)?),
         ExpressionKind::Divide(left, right) => value(left)?.checked_div(&value(right)?),
         ExpressionKind::Power(base, exponent) => value(base)?.pow(integer(exponent, n)?),
+        // A function of a number has no exact value in general, and the others depend on the state.
+        ExpressionKind::Call(..)
+        | ExpressionKind::Trace(_)
+        | ExpressionKind::Entry(..)
+        | ExpressionKind::Component(_)
+        | ExpressionKind::Norm
+        | ExpressionKind::Pairs(_) => None,
     }
 }
 

@@ -7,6 +7,7 @@ use crate::diagnostics::{Diagnostic, Diagnostics, Directions, Reported};
 use crate::lower;
 use crate::mechanics::hessian::{Block, Direction, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
+use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
 use crate::spec::{self, Claim, Named, Requirement, Spec, Value};
 
@@ -22,6 +23,8 @@ pub struct Form {
     pub space_group: Group,
     /// Likewise for the body.
     pub body_group: Group,
+    /// The potential energy.
+    pub potential: Option<Potential>,
 }
 
 /// Builds the form and holds it against every rule.
@@ -42,7 +45,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     found.verdict()?;
     let space_group = largest_group(&kinetic, Side::Space);
     let body_group = largest_group(&kinetic, Side::Body);
-    Ok(Form { arena, kinetic, hessian, space_group, body_group })
+    let potential = lower::potential(&mut arena, spec);
+    Ok(Form { arena, kinetic, hessian, space_group, body_group, potential })
 }
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic

@@ -6,46 +6,61 @@ use proc_macro2::Ident;
 use quote::ToTokens;
 
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::spec::{Expression, ExpressionKind, SYMBOLS, Spec, Symbol, nearest};
+use crate::spec::{Expression, ExpressionKind, POTENTIAL_SYMBOLS, SYMBOLS, Spec, Symbol, nearest};
 
 /// A field named as a symbol would make every expression with that name ambiguous to its reader, whichever of
-/// the two it meant. This holds for fields of all types.
+/// the two it meant. This holds for fields of all types; the symbols of potentials count where there is one.
 pub(super) fn hidden(spec: &Spec, found: &mut Diagnostics) {
     for field in &spec.item.fields {
-        if let Some((name, meaning)) = SYMBOLS.iter().find(|(name, _)| field.ident == name) {
-            found.report(field.span, Diagnostic::HiddenSymbol { name, meaning });
+        let named = |symbols: &'static [(&'static str, &'static str)]| {
+            symbols.iter().find(|(name, _)| field.ident == name)
+        };
+        let everywhere = named(&SYMBOLS).map(|symbol| (symbol, "in every expression"));
+        let potential = || named(&POTENTIAL_SYMBOLS).map(|symbol| (symbol, "in a potential"));
+        let hidden = everywhere.or_else(|| spec.potential.as_ref().and_then(|_| potential()));
+        if let Some((&(name, meaning), place)) = hidden {
+            found.report(field.span, Diagnostic::HiddenSymbol { name, meaning, place });
         }
     }
 }
 
-/// Every name is `n` or a field of type `f64`: coefficients are real numbers. A name is reported once, where
-/// it stands first.
+/// Every name in a coefficient is `n` or a field of type `f64`: coefficients are real numbers. In a potential
+/// the state and the time have names too. A name is reported once, where it stands first.
 pub(super) fn resolved(spec: &Spec, found: &mut Diagnostics) {
     let mut seen = HashSet::new();
-    for expression in spec.kinetic.iter().flat_map(|term| term.value.expressions()) {
-        visit(expression, &mut |name| {
-            if let Some(mistake) = unresolved(spec, name)
-                && seen.insert(name.to_string())
-            {
-                found.report(name.span(), mistake);
-            }
-        });
+    let mut report = |name: &Ident, mistake: Option<Diagnostic>| {
+        if let Some(mistake) = mistake
+            && seen.insert(name.to_string())
+        {
+            found.report(name.span(), mistake);
+        }
+    };
+    for name in spec.kinetic.iter().flat_map(|term| term.value.expressions()).flat_map(names) {
+        report(name, unresolved(spec, name, spec.resolve(name), &[]));
+    }
+    let Some(potential) = &spec.potential else { return };
+    // The symbols that stand by themselves in this version.
+    let dimension = spec.dim.value;
+    let standing = ["q", "D", "det", "t"].into_iter().chain(["I1", "I2", "I3"].into_iter().take(dimension));
+    let standing: Vec<&str> = standing.collect();
+    for name in names(&potential.energy) {
+        report(name, unresolved(spec, name, spec.resolve_in_potential(name), &standing));
     }
 }
 
-fn unresolved(spec: &Spec, name: &Ident) -> Option<Diagnostic> {
-    match spec.resolve(name) {
-        Some(Symbol::Dimension) => None,
-        Some(Symbol::Field(field)) if field.is_real() => None,
-        Some(Symbol::Field(field)) => {
+fn unresolved(spec: &Spec, name: &Ident, meaning: Option<Symbol<'_>>, more: &[&str]) -> Option<Diagnostic> {
+    match meaning {
+        Some(Symbol::Field(field)) if !field.is_real() => {
             let ty = field.ty.to_token_stream().to_string();
             Some(Diagnostic::FieldType { field: name.to_string(), ty })
         }
+        Some(_) => None,
         None => {
             let reals = spec.item.fields.iter().filter(|field| field.is_real());
             let scope: Vec<String> = reals
                 .map(|field| field.ident.to_string())
                 .chain(SYMBOLS.iter().map(|(name, _)| (*name).to_owned()))
+                .chain(more.iter().map(|name| (*name).to_owned()))
                 .collect();
             let name = name.to_string();
             let nearest = nearest(&name, scope.iter().map(String::as_str)).map(str::to_owned);
@@ -54,18 +69,15 @@ fn unresolved(spec: &Spec, name: &Ident) -> Option<Diagnostic> {
     }
 }
 
-/// Does the expression depend on a field?
-pub(super) fn has_field(spec: &Spec, expression: &Expression) -> bool {
-    let mut has = false;
-    visit(expression, &mut |name| has |= matches!(spec.resolve(name), Some(Symbol::Field(_))));
-    has
+/// Does the coefficient depend on a field?
+pub(super) fn has_field(spec: &Spec, coefficient: &Expression) -> bool {
+    names(coefficient).into_iter().any(|name| matches!(spec.resolve(name), Some(Symbol::Field(_))))
 }
 
-fn visit(expression: &Expression, found: &mut impl FnMut(&Ident)) {
-    if let ExpressionKind::Symbol(name) = &expression.kind {
-        found(name);
-    }
-    for operand in expression.operands() {
-        visit(operand, found);
+/// The names in an expression, from left to right.
+pub(super) fn names(expression: &Expression) -> Vec<&Ident> {
+    match &expression.kind {
+        ExpressionKind::Symbol(name) => vec![name],
+        _ => expression.operands().into_iter().flat_map(names).collect(),
     }
 }

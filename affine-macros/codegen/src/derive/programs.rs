@@ -8,6 +8,7 @@ use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::equations::{self, System, hamilton};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Frame;
+use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::{self, Layout, Reduction};
 use crate::optimise::{Batch, straight_line};
 
@@ -30,13 +31,17 @@ pub(super) fn full_equations(
     h: &Hamiltonian,
     chart: &Chart,
     full_h: &Polynomial,
+    potential: Option<&Potential>,
     coefficients: &mut Constants,
 ) -> Equations {
+    let load = potential.map(|u| u.load(arena, chart)).unwrap_or_default();
     let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
-    let through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
+    let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
+    through_velocity.add(&load);
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
     if !h.is_tensor() {
-        let expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
+        let mut expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
+        expanded.add(&load);
         ways.push(batch(arena, &expanded));
         ways.push(split_batch(arena, chart, &expanded));
     }
@@ -108,11 +113,12 @@ fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> Batch {
 pub(super) fn best_reduction(
     arena: &mut Arena,
     h: &Hamiltonian,
+    potential: Option<&Potential>,
     rotations: bool,
     coefficients: &mut Constants,
 ) -> Option<(Reduction, Equations, Program, Vec<String>)> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
-    for candidate in reduce::candidates(arena, h, rotations) {
+    for candidate in reduce::candidates(arena, h, potential, rotations) {
         let states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
         let mut constants = Constants::new("k");
         let way = batch(arena, &candidate.system);

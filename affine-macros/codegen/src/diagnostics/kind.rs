@@ -177,6 +177,8 @@ pub enum Diagnostic {
         name: &'static str,
         /// What the symbol means.
         meaning: &'static str,
+        /// Where it means that: `in every expression`, `in a potential`.
+        place: &'static str,
     },
     /// An exponent that is no integer known when the model is compiled.
     Exponent {
@@ -194,6 +196,100 @@ pub enum Diagnostic {
     DivisionByZero {
         /// The divisor.
         divisor: String,
+    },
+
+    // ---- the potential ----
+    /// A form of potentials that this version does not have.
+    UnavailableForm {
+        /// The form: `pairs`, `q1`, ...
+        form: String,
+        /// What to write.
+        instead: &'static str,
+    },
+    /// `f(...)` with a name that is no function.
+    UnknownFunction {
+        /// The name.
+        name: String,
+        /// The function probably meant.
+        nearest: Option<&'static str>,
+        /// Everything that can be applied.
+        known: Vec<&'static str>,
+    },
+    /// A function with too few or too many arguments.
+    ArgumentCount {
+        /// The function.
+        name: &'static str,
+        /// Its parameters.
+        parameters: &'static [&'static str],
+        /// How many arguments there are.
+        found: usize,
+    },
+    /// Something in `tr(...)` or `norm(...)` that has no trace or norm.
+    Argument {
+        /// `tr` or `norm`.
+        name: &'static str,
+        /// What stands in the brackets.
+        found: String,
+    },
+    /// `a[1]` for an `a` without indices.
+    NotIndexed {
+        /// The name.
+        name: String,
+    },
+    /// `G[1]`, `x[i]`: other than the literal indices due.
+    Indices {
+        /// The form as written.
+        written: String,
+        /// What is due: `a row and a column`.
+        indices: &'static str,
+        /// How it may look.
+        example: String,
+    },
+    /// An index below 1 or above n.
+    IndexRange {
+        /// The form: `G[1,4]`, `I3`.
+        written: String,
+        /// The index.
+        index: usize,
+        /// The dimension.
+        n: usize,
+    },
+    /// A matrix or a vector where a number should stand.
+    NotScalar {
+        /// The name.
+        name: String,
+        /// `a matrix`, `a vector`.
+        meaning: &'static str,
+        /// What to write.
+        instead: &'static str,
+    },
+    /// The place of the centre in a model without translation.
+    FixedCentre {
+        /// The form: `x[1]`, `norm(x)`.
+        form: String,
+    },
+    /// `abs(...)`.
+    NotSmooth {
+        /// Its argument.
+        argument: String,
+    },
+    /// A logarithm or a root of a number that is not positive.
+    Domain {
+        /// The function.
+        function: &'static str,
+        /// Its argument as written.
+        argument: String,
+        /// Its value.
+        value: String,
+    },
+    /// An exponent in a potential that is no integer known when the model is compiled.
+    PotentialExponent {
+        /// The base.
+        base: String,
+        /// The exponent.
+        exponent: String,
+        /// The same power through a root or a logarithm.
+        instead: String,
     },
 
     // ---- terms ----
@@ -406,6 +502,18 @@ names! {
     Exponent => "exponent",
     Degree => "degree",
     DivisionByZero => "division-by-zero",
+    UnavailableForm => "unavailable-form",
+    UnknownFunction => "unknown-function",
+    ArgumentCount => "argument-count",
+    Argument => "argument",
+    NotIndexed => "not-indexed",
+    Indices => "indices",
+    IndexRange => "index-range",
+    NotScalar => "not-scalar",
+    FixedCentre => "fixed-centre",
+    NotSmooth => "not-smooth",
+    Domain => "domain",
+    PotentialExponent => "potential-exponent",
     TermShape => "term-shape",
     MatrixSize => "matrix-size",
     TensorEntry => "tensor-entry",

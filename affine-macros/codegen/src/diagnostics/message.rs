@@ -184,9 +184,9 @@ impl Diagnostic {
                 "a coefficient is a real number; fields of other types are left alone",
                 format!("write `{field}: f64` in the struct, spelled `f64` and not as an alias"),
             ),
-            Self::HiddenSymbol { name, meaning } => text(
+            Self::HiddenSymbol { name, meaning, place } => text(
                 format!("the field `{name}` hides the symbol `{name}`"),
-                format!("`{name}` means {meaning} in every expression"),
+                format!("`{name}` means {meaning} {place}"),
                 "give the field another name",
             ),
             Self::Exponent { exponent } => text(
@@ -199,12 +199,84 @@ impl Diagnostic {
                 format!(
                     "the macro computes them exactly and stops at degree {limit}, so that a slip cannot stall a build"
                 ),
-                "compute the power and keep it in a field",
+                "write a lower power; a power of fields can be computed beforehand and kept in a field",
             ),
             Self::DivisionByZero { divisor } => text(
                 format!("division by `{divisor}`, which is zero"),
                 "a quotient by zero has no value; coefficients are exact, so that no rounding made this one vanish",
                 "write a divisor that is not zero",
+            ),
+            Self::UnavailableForm { form, instead } => text(
+                format!("`{form}` in `potential` is not available in this version"),
+                format!(
+                    "`{form}` belongs to the specification language, but nothing can be derived from it yet"
+                ),
+                *instead,
+            ),
+            Self::UnknownFunction { name, nearest, known } => text(
+                format!("there is no function `{name}`"),
+                format!("a potential can use {}", listed(known)),
+                suggestion(*nearest, "use one of these; a product has its sign, as in `a*(b + c)`"),
+            ),
+            Self::ArgumentCount { name, parameters, found } => text(
+                format!("`{name}` has {}", arguments(*found)),
+                format!("`{name}` takes {}", arguments(parameters.len())),
+                format!("write `{name}({})`", parameters.join(", ")),
+            ),
+            Self::Argument { name, found } => match *name {
+                "norm" => text(
+                    format!("`norm({found})` is not defined"),
+                    "the norm is that of the place of the centre, `x`",
+                    "write `norm(x)`; that of the placement is `sqrt(tr(G))`",
+                ),
+                _ => text(
+                    format!("`{name}({found})` is not defined"),
+                    "the trace is taken of one of the matrices `G`, `Ct` and `phi`, or of a product with `*`",
+                    "write `tr(G)`, `tr(G*G)`, ...; sums and factors stand outside, as in `tr(G*G) - 2*tr(G) + n`",
+                ),
+            },
+            Self::NotIndexed { name } => text(
+                format!("`{name}` has no indices"),
+                "the matrices `G`, `Ct` and `phi` have entries, as in `G[1,2]`, and `x` has coordinates, as in `x[1]`",
+                "index one of these, or remove the brackets; a field holds one number",
+            ),
+            Self::Indices { written, indices, example } => text(
+                format!("`{written}` does not name one number"),
+                format!("it takes {indices} from 1 to n, in digits"),
+                format!("write `{example}`"),
+            ),
+            Self::IndexRange { written, index, n } => text(
+                format!("`{written}` does not exist: {index} is not between 1 and {n}"),
+                format!("indices count from 1 to the dimension, n = {n}"),
+                format!("write an index from 1 to {n}"),
+            ),
+            Self::NotScalar { name, meaning, instead } => text(
+                format!("`{name}` is {meaning}, not a number"),
+                "a potential energy is a number, and so is every part of it",
+                format!("write {instead}"),
+            ),
+            Self::FixedCentre { form } => text(
+                format!("`{form}` depends on the place of the body, but the model has no translation"),
+                "without a translational kinetic energy the centre is fixed in space, and x is not part of the state",
+                format!(
+                    "add `space_translation = m` or `body_translation = m` to `kinetic(...)`, or remove `{form}`"
+                ),
+            ),
+            Self::NotSmooth { argument } => text(
+                format!("`abs({argument})` is not smooth where its argument is zero"),
+                "the force is the derivative of the potential, and it jumps there; `sqrt(a^2)` is the same function",
+                "use a smooth function, as in `sqrt(a^2 + b^2)` with a constant b, or a power, as in `a^2`",
+            ),
+            Self::Domain { function, argument, value } => text(
+                format!("`{function}({argument})` is taken of {value}, which is not positive"),
+                "real logarithms exist for positive numbers only, and square roots are smooth only there",
+                "write a positive argument",
+            ),
+            Self::PotentialExponent { base, exponent, instead } => text(
+                format!("the exponent `{exponent}` of `{base}` is not an integer known at compile time"),
+                "a real power with another exponent exists for a positive base only: a root or an exponential, \
+                 written as such",
+                format!("write `{instead}`"),
             ),
             Self::TermShape { term, found, takes, instead } => {
                 text(format!("`{term}` is given {found}"), format!("`{term}` takes {takes}"), *instead)
@@ -316,6 +388,11 @@ impl Diagnostic {
             ),
         }
     }
+}
+
+/// `1 argument`, `2 arguments`.
+fn arguments(count: usize) -> String {
+    format!("{count} argument{}", if count == 1 { "" } else { "s" })
 }
 
 /// Would a Rust programmer mean the type of the number, rather than a factor?

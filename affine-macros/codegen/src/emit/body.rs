@@ -177,6 +177,10 @@ impl Writer<'_> {
                 let a = self.at_least(*a, Strength::Sign);
                 (quote!(-#a), Strength::Sign)
             }
+            Op::Call(function, a) => {
+                let (a, name) = (self.at_least(*a, Strength::Atom), format_ident!("{}", function.name()));
+                (quote!(#a.#name()), Strength::Atom)
+            }
             Op::Add(a, b) => self.infix(*a, *b, quote!(+), Strength::Sum, Strength::Sum),
             Op::Sub(a, b) => self.infix(*a, *b, quote!(-), Strength::Sum, Strength::Product),
             Op::Mul(a, b) => self.infix(*a, *b, quote!(*), Strength::Product, Strength::Product),

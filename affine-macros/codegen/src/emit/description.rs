@@ -72,8 +72,15 @@ fn names(list: &[Candidate]) -> String {
 fn counts(operations: Operations) -> String {
     let mut parts =
         vec![format!("{} multiplications", operations.mul), format!("{} additions", operations.add)];
-    if operations.div > 0 {
-        parts.push(format!("{} divisions", operations.div));
+    for (count, what) in [
+        (operations.div, "divisions"),
+        (operations.sqrt, "roots"),
+        (operations.exp, "exponential functions"),
+        (operations.ln, "logarithms"),
+    ] {
+        if count > 0 {
+            parts.push(format!("{count} {what}"));
+        }
     }
     parts.join(", ")
 }
@@ -115,8 +122,8 @@ pub(super) fn constant(context: &Context) -> TokenStream {
     };
     let (full, reduced) = (groups(&model.full.groups), groups(&model.reduced.groups));
     let operations = |o: Operations| {
-        let (mul, add, div) = (number(o.mul), number(o.add), number(o.div));
-        quote!(#rt::Operations { mul: #mul, add: #add, div: #div, sqrt: 0, exp: 0, ln: 0 })
+        let [mul, add, div, sqrt, exp, ln] = [o.mul, o.add, o.div, o.sqrt, o.exp, o.ln].map(number);
+        quote!(#rt::Operations { mul: #mul, add: #add, div: #div, sqrt: #sqrt, exp: #exp, ln: #ln })
     };
     let full_operations = operations(model.full.program.operations());
     let reduced_operations = operations(model.reduced.program.operations());

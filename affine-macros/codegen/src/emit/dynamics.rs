@@ -139,11 +139,15 @@ fn hamiltonian(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.hamiltonian;
     let bound = bind_point(context, program);
+    let stretch = inputs(program)
+        .contains(&"q")
+        .then(|| quote!(let q = #rt::mean_log_stretch(#rt::Phase::phi(point));));
     let body = context.generic(program);
     let (lets, energy) = (&body.lets, body.result());
     quote! {
         fn hamiltonian<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #t {
             #bound
+            #stretch
             #lets
             #energy
         }

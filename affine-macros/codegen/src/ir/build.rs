@@ -73,6 +73,10 @@ impl Builder {
             Node::Symbol(name) => self.step(Op::Input(name.clone())),
             Node::Sum(constant, terms) => self.sum(arena, constant, terms),
             Node::Product(factors) => self.product(arena, factors),
+            Node::Function(function, argument) => {
+                let argument = self.lower(arena, *argument);
+                self.step(Op::Call(*function, argument))
+            }
         };
         self.lowered.insert(expr, value);
         value

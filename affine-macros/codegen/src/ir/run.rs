@@ -18,6 +18,7 @@ impl Program {
                 Op::Sub(a, b) => values[*a].add(&minus.mul(&values[*b])),
                 Op::Mul(a, b) => values[*a].mul(&values[*b]),
                 Op::Div(a, b) => values[*a].mul(&values[*b].recip()?),
+                Op::Call(function, a) => values[*a].apply(*function)?,
                 Op::Neg(a) => minus.mul(&values[*a]),
                 Op::MulAdd(a, b, c) => values[*a].mul(&values[*b]).add(&values[*c]),
             };

@@ -10,6 +10,7 @@ use super::equations::{Form, System, gradient, rate, velocities};
 use super::hamiltonian::Hamiltonian;
 use super::kinetic::{Coefficient, Frame, Kinetic, TermKind};
 use super::notation::{latex, plain};
+use super::potential::Potential;
 use super::reduce::{ClosedForm, Commuting, Layout, Reduction};
 
 /// A formula in both notations.
@@ -114,7 +115,21 @@ pub fn kinetic_energy(arena: &mut Arena, kinetic: &Kinetic) -> Formula {
 }
 
 /// `H`, through the Casimirs where it is isotropic.
-pub fn hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) -> Formula {
+pub fn hamiltonian(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    full: &Polynomial,
+    potential: Option<&Potential>,
+) -> Formula {
+    let mut formula = kinetic_hamiltonian(arena, h, full);
+    if let Some(u) = potential {
+        formula.text += &format!(" + {}", plain(arena, u.energy));
+        formula.latex += &format!(" + {}", latex(arena, u.energy));
+    }
+    formula
+}
+
+fn kinetic_hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) -> Formula {
     let Some(iso) = &h.isotropic else {
         let form = full.expression(arena);
         return Formula {
@@ -150,7 +165,14 @@ pub fn hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) -> For
 }
 
 /// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
-pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polynomial) -> Vec<Formula> {
+/// A potential adds its generalised force, named.
+pub fn equations(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    chart: &Chart,
+    full: &Polynomial,
+    potential: Option<&Potential>,
+) -> Vec<Formula> {
     let velocity = velocities(arena, chart, full);
     let slopes = gradient(chart, full);
     // A tensor's velocity stays a symbol: written out, nothing in its commutators cancels.
@@ -171,18 +193,53 @@ pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polyn
         ),
         (momentum_names(chart.momentum).2, momentum_names(chart.momentum).3, pairs(chart.dim, Coordinate::M)),
     ];
+    let forces = potential.map_or([None, None], |u| force_names(chart, u));
     for (left, left_latex, coordinates) in groups.into_iter().filter(|(_, _, c)| !c.is_empty()) {
         let derived: Vec<Polynomial> =
             coordinates.iter().map(|z| rate(chart, &slopes, &velocity, form, *z)).collect();
         let known = known.iter().find(|k| {
             k.components.len() == derived.len() && k.components.iter().zip(&derived).all(|(a, b)| a == b)
         });
-        match known {
-            Some(k) => list.push(Formula {
+        let force = match coordinates[0] {
+            Coordinate::P(_) => forces[0],
+            Coordinate::M(..) => forces[1],
+            Coordinate::X(_) | Coordinate::Phi(..) => None,
+        };
+        match (known, force) {
+            (Some(k), None) => list.push(Formula {
                 text: format!("{left} = {}", k.text),
                 latex: format!("{left_latex} = {}", k.latex),
             }),
-            None => list.extend(coordinates.iter().zip(&derived).map(|(z, p)| {
+            (Some(k), Some((name, name_latex, ..))) => {
+                let with = |kinetic: &str, force: &str| match kinetic {
+                    "0" => force.to_owned(),
+                    _ => format!("{kinetic} + {force}"),
+                };
+                list.push(Formula {
+                    text: format!("{left} = {}", with(&k.text, name)),
+                    latex: format!("{left_latex} = {}", with(&k.latex, name_latex)),
+                });
+            }
+            (None, Some((name, name_latex, ..))) => {
+                list.extend(coordinates.iter().zip(&derived).map(|(z, p)| {
+                    let symbol = chart.symbol(*z);
+                    let form = p.expression(arena);
+                    let index = index_of(arena, symbol);
+                    Formula {
+                        text: format!(
+                            "d{}/dt = {} + {name}_{index}",
+                            plain(arena, symbol),
+                            plain(arena, form)
+                        ),
+                        latex: format!(
+                            "\\dot{{{}}} = {} + {name_latex}_{{{index}}}",
+                            latex(arena, symbol),
+                            latex(arena, form)
+                        ),
+                    }
+                }));
+            }
+            (None, None) => list.extend(coordinates.iter().zip(&derived).map(|(z, p)| {
                 let symbol = chart.symbol(*z);
                 let form = p.expression(arena);
                 Formula {
@@ -192,7 +249,36 @@ pub fn equations(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, full: &Polyn
             })),
         }
     }
+    for (name, name_latex, text, latex) in forces.into_iter().flatten() {
+        list.push(Formula { text: format!("{name} = {text}"), latex: format!("{name_latex} = {latex}") });
+    }
     list
+}
+
+/// Name and definition, in text and LaTeX, of the generalised forces on the linear and the affine momentum.
+type ForceName = (&'static str, &'static str, &'static str, &'static str);
+
+fn force_names(chart: &Chart, potential: &Potential) -> [Option<ForceName>; 2] {
+    let linear: ForceName = match chart.linear {
+        Some(Linear::Body) => ("F_hat", "\\hat F", "-phi^T dU/dx", "-\\varphi^T \\partial U/\\partial x"),
+        _ => ("F", "F", "-dU/dx", "-\\partial U/\\partial x"),
+    };
+    let affine: ForceName = match chart.momentum {
+        Momentum::Body => {
+            ("Q_hat", "\\hat Q", "-(dU/dphi)^T phi", "-(\\partial U/\\partial\\varphi)^T \\varphi")
+        }
+        Momentum::Space | Momentum::Total => {
+            ("Q", "Q", "-phi (dU/dphi)^T", "-\\varphi (\\partial U/\\partial\\varphi)^T")
+        }
+        Momentum::Canonical => ("N", "N", "-(dU/dphi)^T", "-(\\partial U/\\partial\\varphi)^T"),
+    };
+    [potential.moves_the_centre().then_some(linear), Some(affine)]
+}
+
+/// The index of a component: `12` of `pi_12`.
+fn index_of(arena: &Arena, symbol: Expr) -> String {
+    let name = arena.name(symbol).unwrap_or_default();
+    name.rsplit('_').next().unwrap_or_default().to_owned()
 }
 
 /// A matrix or vector formula with its components.

@@ -14,6 +14,15 @@ pub struct System {
     pub rates: Vec<(Coordinate, Expr, Polynomial)>,
 }
 
+/// What a potential adds to a system.
+#[derive(Clone, Debug, Default)]
+pub struct Load {
+    /// Quantities that the forces share.
+    pub shared: Vec<(Expr, Polynomial)>,
+    /// Coordinates and what their rates gain.
+    pub forces: Vec<(Coordinate, Polynomial)>,
+}
+
 /// How the rate of a coordinate is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
@@ -103,16 +112,28 @@ impl System {
         }
     }
 
+    /// Adds quantities and what they add to the rates.
+    pub fn add(&mut self, load: &Load) {
+        self.shared.extend(load.shared.iter().cloned());
+        for (coordinate, force) in &load.forces {
+            for (_, _, rate) in self.rates.iter_mut().filter(|(z, _, _)| z == coordinate) {
+                rate.add_scaled(force, &Rational::ONE);
+            }
+        }
+    }
+
     /// Drops shared quantities that nothing uses, and puts in place those that are a single constant or atom.
     #[must_use]
-    pub fn tidied(mut self) -> Self {
+    pub fn tidied(mut self, arena: &Arena) -> Self {
         let trivial: Vec<(Expr, Polynomial)> = self
             .shared
             .iter()
             .filter(|(_, p)| {
                 p.terms().len() == 0
                     || (p.terms().len() == 1
-                        && p.terms().all(|(m, c)| m.is_empty() || (m.len() == 1 && c.is_one())))
+                        && p.terms().all(|(m, c)| {
+                            m.is_empty() || (m.len() == 1 && c.is_one() && arena.name(m[0]).is_some())
+                        }))
             })
             .cloned()
             .collect();
@@ -124,7 +145,7 @@ impl System {
                 .iter()
                 .map(|(_, p)| p)
                 .chain(self.rates.iter().map(|(_, _, p)| p))
-                .any(|p| p.mentions(|a| a == symbol))
+                .any(|p| p.any_symbol(arena, &mut |a| a == symbol))
         };
         let keep: Vec<bool> = self.shared.iter().map(|(s, _)| used(*s, &self.shared)).collect();
         let mut keep = keep.into_iter();

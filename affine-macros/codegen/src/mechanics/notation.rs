@@ -1,11 +1,11 @@
 //! Expressions in text and LaTeX.
 
 use crate::algebra::arena::Node;
-use crate::algebra::{Arena, Expr, Rational};
+use crate::algebra::{Arena, Expr, Function, Rational};
 
-/// Text of an expression; fields lose the mark that keeps them apart.
+/// Text of an expression; fields lose the mark that keeps them apart, traces are written out.
 pub(super) fn plain(arena: &Arena, expr: Expr) -> String {
-    arena.text(expr).replace("self.", "")
+    arena.text(expr).replace("self.", "").replace("trace_1", "tr(G)").replace("trace_2", "tr(G^2)")
 }
 
 /// LaTeX of an expression.
@@ -13,6 +13,12 @@ pub(super) fn latex(arena: &Arena, expr: Expr) -> String {
     match arena.node(expr) {
         Node::Constant(value) => number_latex(value),
         Node::Symbol(name) => symbol_latex(name),
+        Node::Function(Function::Sqrt, argument) => format!("\\sqrt{{{}}}", latex(arena, *argument)),
+        Node::Function(Function::Cbrt, argument) => format!("\\sqrt[3]{{{}}}", latex(arena, *argument)),
+        Node::Function(Function::Abs, argument) => format!("\\left|{}\\right|", latex(arena, *argument)),
+        Node::Function(function, argument) => {
+            format!("\\{}\\left({}\\right)", function.name(), latex(arena, *argument))
+        }
         Node::Sum(constant, terms) => {
             let mut text = String::new();
             for (term, c) in terms {
@@ -26,11 +32,12 @@ pub(super) fn latex(arena: &Arena, expr: Expr) -> String {
                 let size = c.abs();
                 let number =
                     if size.is_one() { String::new() } else { format!("{}\\,", number_latex(&size)) };
-                text += &format!(
-                    "{}{sign} {number}{}",
-                    if text.is_empty() { "" } else { " " },
-                    latex(arena, *term)
-                );
+                let body = match arena.node(*term) {
+                    Node::Sum(..) => format!("\\left({}\\right)", latex(arena, *term)),
+                    _ => latex(arena, *term),
+                };
+                let space = if text.is_empty() { "" } else { " " };
+                text += &format!("{space}{sign} {number}{body}");
             }
             if !constant.is_zero() {
                 let sign = if constant.is_negative() { "-" } else { "+" };
@@ -82,6 +89,18 @@ fn symbol_latex(name: &str) -> String {
     if let Some(field) = name.strip_prefix("self.") {
         return format!("\\mathit{{{}}}", field.replace('_', "\\_"));
     }
+    let whole = [
+        ("q", "q"),
+        ("trace_1", "\\operatorname{tr}G"),
+        ("trace_2", "\\operatorname{tr}G^2"),
+        ("det", "\\Delta"),
+        ("dilatation", "D"),
+        ("inverse_dilatation", "r"),
+        ("inverse_det", "\\delta"),
+    ];
+    if let Some((_, latex)) = whole.iter().find(|(known, _)| *known == name) {
+        return (*latex).to_owned();
+    }
     let stems = [
         ("sigma_hat_sym_", "\\hat\\Sigma^{s}"),
         ("sigma_sym_", "\\Sigma^{s}"),
@@ -93,6 +112,8 @@ fn symbol_latex(name: &str) -> String {
         ("sigma_", "\\Sigma"),
         ("total_", "I"),
         ("pi_", "\\Pi"),
+        ("green_", "G"),
+        ("finger_", "\\tilde C"),
         ("phi_dot_", "\\dot\\varphi"),
         ("velocity_", "\\dot\\varphi"),
         ("phi_", "\\varphi"),

@@ -5,9 +5,11 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::brackets::poisson;
 use super::charts::{Chart, Coordinate, Linear, Momentum};
-use super::equations::{Form, System, hamilton};
+use super::conserved::Candidate;
+use super::equations::{Form, Load, System, hamilton};
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetic::Frame;
+use super::potential::Potential;
 
 /// A piece of `H` that commutes with the rest and whose flow is known.
 #[derive(Clone, Debug)]
@@ -68,7 +70,7 @@ pub fn closed_form(arena: &mut Arena, h: &Hamiltonian, moving: &[Commuting]) -> 
     let iso = h.isotropic.as_ref()?;
     // The translational energy is quadratic in p: at p = 0 its flow stands still, and only the internal pieces have
     // to commute.
-    let resting = at_rest.then(|| commuting(arena, &Hamiltonian { translation: None, ..h.clone() }));
+    let resting = at_rest.then(|| commuting(arena, &Hamiltonian { translation: None, ..h.clone() }, None));
     let pieces = resting.as_deref().unwrap_or(moving);
     if !iso.skew.is_zero() && pieces.iter().all(|c| matches!(c, Commuting::Drift(_))) {
         return None;
@@ -90,7 +92,8 @@ pub fn own_hamiltonian(h: &Hamiltonian, chart: &Chart) -> Polynomial {
 }
 
 /// The pieces of `H` that can be split off, each proved to commute with the rest.
-pub fn commuting(arena: &mut Arena, h: &Hamiltonian) -> Vec<Commuting> {
+pub fn commuting(arena: &mut Arena, h: &Hamiltonian, potential: Option<&Potential>) -> Vec<Commuting> {
+    let keeps = |candidate| potential.is_none_or(|u| u.keeps(candidate));
     let chart = own_chart(arena, h);
     let translation = h.translation_in(&chart);
     let mut found = Vec::new();
@@ -98,7 +101,11 @@ pub fn commuting(arena: &mut Arena, h: &Hamiltonian) -> Vec<Commuting> {
         let spin = spatial_or_own(&chart);
         let mut rest = iso.casimirs(&spin);
         rest.add_scaled(&translation, &Rational::ONE);
-        if poisson(&chart, &iso.skew_norm(&spin), &rest).is_zero() {
+        let norm = match h.frame {
+            Frame::Body => Candidate::Vorticity,
+            _ => Candidate::Spin,
+        };
+        if poisson(&chart, &iso.skew_norm(&spin), &rest).is_zero() && keeps(norm) {
             found.push(match h.frame {
                 Frame::Body => Commuting::Vorticity(iso.skew.clone()),
                 _ => Commuting::Spin(iso.skew.clone()),
@@ -107,6 +114,7 @@ pub fn commuting(arena: &mut Arena, h: &Hamiltonian) -> Vec<Commuting> {
     }
     if let Some((Frame::Space, inverse_mass)) = &h.translation
         && poisson(&chart, &translation, &h.internal()).is_zero()
+        && potential.is_none_or(|u| !u.moves_the_centre())
     {
         found.push(Commuting::Drift(inverse_mass.clone()));
     }
@@ -115,8 +123,13 @@ pub fn commuting(arena: &mut Arena, h: &Hamiltonian) -> Vec<Commuting> {
 
 /// Every chart in which the rest of `H` is a polynomial, reduced; `rotations` tells whether those of space leave `H`
 /// unchanged.
-pub fn candidates(arena: &mut Arena, h: &Hamiltonian, rotations: bool) -> Vec<Reduction> {
-    let commuting = commuting(arena, h);
+pub fn candidates(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    potential: Option<&Potential>,
+    rotations: bool,
+) -> Vec<Reduction> {
+    let commuting = commuting(arena, h, potential);
     let drift = commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
     let without_skew = commuting.iter().any(|c| !matches!(c, Commuting::Drift(_)));
     let linear = (h.translation.is_some() && !drift).then_some(Linear::Space);
@@ -135,7 +148,8 @@ pub fn candidates(arena: &mut Arena, h: &Hamiltonian, rotations: bool) -> Vec<Re
             if linear.is_some() {
                 main.add_scaled(&h.translation_in(&chart), &Rational::ONE);
             }
-            let plan = Plan { chart, commuting: commuting.clone(), turn };
+            let load = potential.map(|u| u.load(arena, &chart));
+            let plan = Plan { chart, commuting: commuting.clone(), turn, load };
             plan.reduced(arena, &main, h.is_tensor())
         })
         .collect()
@@ -146,6 +160,8 @@ struct Plan {
     chart: Chart,
     commuting: Vec<Commuting>,
     turn: bool,
+    /// The forces of the potential.
+    load: Option<Load>,
 }
 
 impl Plan {
@@ -155,17 +171,25 @@ impl Plan {
         let mut layout = Layout::Entries;
         let mut systems = Vec::new();
         if !tensor {
-            let expanded = hamilton(arena, &self.chart, h, Form::Expanded);
+            let expanded = self.loaded(hamilton(arena, &self.chart, h, Form::Expanded));
             layout = conserved_layout(&expanded);
             systems.push(expanded);
         }
         if layout == Layout::Entries {
-            systems.push(hamilton(arena, &self.chart, h, Form::ThroughVelocity));
+            systems.push(self.loaded(hamilton(arena, &self.chart, h, Form::ThroughVelocity)));
         }
-        systems.into_iter().map(|system| self.state_only(system, layout)).collect()
+        systems.into_iter().map(|system| self.state_only(arena, system, layout)).collect()
     }
 
-    fn state_only(&self, mut system: System, layout: Layout) -> Reduction {
+    /// The equations with the forces of the potential.
+    fn loaded(&self, mut system: System) -> System {
+        if let Some(load) = &self.load {
+            system.add(load);
+        }
+        system
+    }
+
+    fn state_only(&self, arena: &Arena, mut system: System, layout: Layout) -> Reduction {
         let chart = self.chart.clone();
         let p_constant =
             system.rates.iter().all(|(z, _, rate)| !matches!(z, Coordinate::P(_)) || rate.is_zero());
@@ -180,7 +204,7 @@ impl Plan {
         });
         let gauge = gauge(&chart, turned, layout);
         let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
-        system = system.substitute(&value).tidied();
+        system = system.substitute(&value).tidied(arena);
         let mut fixed: Vec<Expr> = Vec::new();
         system.rates.retain(|(z, symbol, rate)| {
             let still = matches!(z, Coordinate::M(..)) && rate.is_zero();

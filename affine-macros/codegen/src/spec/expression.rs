@@ -4,10 +4,11 @@ use std::fmt;
 
 use proc_macro2::Ident;
 
-use crate::algebra::Rational;
+use super::names::Named;
+use crate::algebra::{Function, Rational};
 use crate::diagnostics::Region;
 
-/// An arithmetic expression; `Display` writes it with the fewest parentheses, and reading that gives it back.
+/// An expression; `Display` writes it with the fewest parentheses, and reading that gives it back.
 #[derive(Clone, Debug)]
 pub struct Expression {
     /// What it is.
@@ -16,7 +17,8 @@ pub struct Expression {
     pub span: Region,
 }
 
-/// The forms of an expression.
+/// The forms of an expression. Coefficients of the kinetic energy are made of the arithmetic forms, down to
+/// [`ExpressionKind::Power`]; only a potential has the others. Indices are those of the paper, from 1.
 #[derive(Clone, Debug)]
 pub enum ExpressionKind {
     /// A decimal literal, exactly.
@@ -35,6 +37,41 @@ pub enum ExpressionKind {
     Divide(Box<Expression>, Box<Expression>),
     /// `a ^ b`.
     Power(Box<Expression>, Box<Expression>),
+    /// `exp(a)`.
+    Call(Function, Box<Expression>),
+    /// `tr(G*Ct)`: the trace of a product, factor by factor.
+    Trace(Vec<MatrixName>),
+    /// `G[1,2]`: row and column.
+    Entry(MatrixName, usize, usize),
+    /// `x[3]`: a coordinate of the centre.
+    Component(usize),
+    /// `norm(x) = sqrt(x . x)`.
+    Norm,
+    /// `pairs(f(d))`: the sum of f(q_a - q_b) over a < b; inside, `d` stands for the difference.
+    Pairs(Box<Expression>),
+}
+
+/// The n x n matrices of a potential.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MatrixName {
+    /// `G = phi^T phi`, the Green deformation tensor.
+    Green,
+    /// `Ct = phi phi^T`, the inverse of the Cauchy deformation tensor (Finger tensor).
+    Finger,
+    /// `phi`, the placement.
+    Placement,
+}
+
+impl Named for MatrixName {
+    const ALL: &'static [Self] = &[Self::Green, Self::Finger, Self::Placement];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Green => "G",
+            Self::Finger => "Ct",
+            Self::Placement => "phi",
+        }
+    }
 }
 
 /// The binary operators.
@@ -84,8 +121,15 @@ impl Expression {
     #[must_use]
     pub fn operands(&self) -> Vec<&Expression> {
         match &self.kind {
-            ExpressionKind::Number(_) | ExpressionKind::Symbol(_) => Vec::new(),
-            ExpressionKind::Negate(one) => vec![one],
+            ExpressionKind::Number(_)
+            | ExpressionKind::Symbol(_)
+            | ExpressionKind::Trace(_)
+            | ExpressionKind::Entry(..)
+            | ExpressionKind::Component(_)
+            | ExpressionKind::Norm => Vec::new(),
+            ExpressionKind::Negate(one) | ExpressionKind::Call(_, one) | ExpressionKind::Pairs(one) => {
+                vec![one]
+            }
             ExpressionKind::Add(left, right)
             | ExpressionKind::Subtract(left, right)
             | ExpressionKind::Multiply(left, right)
@@ -96,7 +140,14 @@ impl Expression {
 
     fn binding(&self) -> Binding {
         match self.kind {
-            ExpressionKind::Number(_) | ExpressionKind::Symbol(_) => Binding::Atom,
+            ExpressionKind::Number(_)
+            | ExpressionKind::Symbol(_)
+            | ExpressionKind::Call(..)
+            | ExpressionKind::Trace(_)
+            | ExpressionKind::Entry(..)
+            | ExpressionKind::Component(_)
+            | ExpressionKind::Norm
+            | ExpressionKind::Pairs(_) => Binding::Atom,
             ExpressionKind::Negate(_) => Binding::Sign,
             ExpressionKind::Add(..) | ExpressionKind::Subtract(..) => Binding::Sum,
             ExpressionKind::Multiply(..) | ExpressionKind::Divide(..) => Binding::Product,
@@ -130,6 +181,15 @@ impl Expression {
             }
             // An exponent takes a sign and further powers without parentheses: 2^-1, 2^3^2 = 2^(3^2).
             ExpressionKind::Power(left, right) => pair(left, "^", right, [Binding::Atom, Binding::Sign], f)?,
+            ExpressionKind::Call(function, one) => write!(f, "{}({one})", function.name())?,
+            ExpressionKind::Trace(factors) => {
+                let names: Vec<&str> = factors.iter().map(|factor| factor.name()).collect();
+                write!(f, "tr({})", names.join("*"))?;
+            }
+            ExpressionKind::Entry(matrix, row, column) => write!(f, "{}[{row},{column}]", matrix.name())?,
+            ExpressionKind::Component(index) => write!(f, "x[{index}]")?,
+            ExpressionKind::Norm => f.write_str("norm(x)")?,
+            ExpressionKind::Pairs(one) => write!(f, "pairs({one})")?,
         }
         if bracketed {
             f.write_str(")")?;

@@ -5,11 +5,15 @@
 //! product = sign (("*" | "/") sign)*
 //! sign    = "-" sign | power
 //! power   = atom ("^" sign)?
-//! atom    = number | name | "(" sum ")"
+//! atom    = number | name | "(" sum ")" | applied
 //! ```
+//!
+//! `applied` is a name with brackets after it; only potentials have it, and a module of its own reads it.
 //!
 //! Hence `^` binds tightest and to the right, above the minus sign: `-q^2` is `-(q^2)`, `2^-1` is one half.
 //! Rust's own precedences are of no use: there `^` is weaker than `+`.
+
+mod applied;
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, TokenTree};
 
@@ -27,13 +31,24 @@ const LARGEST_EXPONENT: u32 = 308;
 /// Digits of a literal: f64 has 17, a double-double 32; exact arithmetic on a page of digits helps nobody.
 const MOST_DIGITS: usize = 320;
 
+/// What an expression may be made of.
+#[derive(Clone, Copy)]
+pub(super) enum Language<'p> {
+    /// Arithmetic over numbers and names.
+    Coefficient,
+    /// With functions, traces and entries. The names bound here stand for expressions: the parameters of a
+    /// named potential.
+    Potential(&'p [(&'static str, Expression)]),
+}
+
 pub(super) fn parse(
     tokens: Vec<TokenTree>,
     at: Region,
+    language: Language<'_>,
     found: &mut Diagnostics,
 ) -> Result<Expression, Reported> {
     let mut effort = Effort { operators: 0, depth: 0 };
-    Parser::new(tokens, at, &mut effort, found).whole()
+    Parser::new(tokens, at, language, &mut effort, found).whole()
 }
 
 /// What an expression has cost so far.
@@ -46,13 +61,20 @@ struct Parser<'p> {
     tokens: std::iter::Peekable<std::vec::IntoIter<TokenTree>>,
     /// The token read last: where something is missing if nothing follows.
     last: Region,
+    language: Language<'p>,
     effort: &'p mut Effort,
     found: &'p mut Diagnostics,
 }
 
 impl<'p> Parser<'p> {
-    fn new(tokens: Vec<TokenTree>, at: Region, effort: &'p mut Effort, found: &'p mut Diagnostics) -> Self {
-        Self { tokens: tokens.into_iter().peekable(), last: at, effort, found }
+    fn new(
+        tokens: Vec<TokenTree>,
+        at: Region,
+        language: Language<'p>,
+        effort: &'p mut Effort,
+        found: &'p mut Diagnostics,
+    ) -> Self {
+        Self { tokens: tokens.into_iter().peekable(), last: at, language, effort, found }
     }
 
     fn whole(mut self) -> Result<Expression, Reported> {
@@ -119,23 +141,43 @@ impl<'p> Parser<'p> {
     }
 
     fn group(&mut self, group: &Group) -> Result<Expression, Reported> {
-        self.deeper(|parser| {
-            let inside = group.stream().into_iter().collect();
-            let at = Region { start: group.span_open(), end: group.span_close() };
-            let inner = Parser::new(inside, at, parser.effort, parser.found).whole()?;
-            Ok(Expression { kind: inner.kind, span: at })
-        })
+        let at = Region { start: group.span_open(), end: group.span_close() };
+        let inner = self.inner(group.stream().into_iter().collect(), at, self.language)?;
+        Ok(Expression { kind: inner.kind, span: at })
     }
 
-    /// A name; brackets directly after it would apply a function or an index.
+    /// A whole expression one level deeper.
+    fn inner(
+        &mut self,
+        tokens: Vec<TokenTree>,
+        at: Region,
+        language: Language<'_>,
+    ) -> Result<Expression, Reported> {
+        self.deeper(|parser| Parser::new(tokens, at, language, parser.effort, parser.found).whole())
+    }
+
+    /// A name; brackets directly after it apply a function or an index.
     fn symbol(&mut self, name: Ident) -> Result<Expression, Reported> {
         let span = Region::from(name.span());
-        if let Some(TokenTree::Group(group)) = self.tokens.peek()
-            && matches!(group.delimiter(), Delimiter::Parenthesis | Delimiter::Bracket)
-        {
-            return Err(self.found.report(span, Diagnostic::FunctionCall { name: name.to_string() }));
-        }
-        Ok(Expression { kind: ExpressionKind::Symbol(name), span })
+        let brackets = self.tokens.next_if(|token| {
+            matches!(token, TokenTree::Group(group)
+                if matches!(group.delimiter(), Delimiter::Parenthesis | Delimiter::Bracket))
+        });
+        let bound = match (self.language, brackets) {
+            (Language::Potential(_), Some(TokenTree::Group(group))) => {
+                self.last = group.span_close().into();
+                return self.applied(&name, &group);
+            }
+            (_, Some(_)) => {
+                return Err(self.found.report(span, Diagnostic::FunctionCall { name: name.to_string() }));
+            }
+            (Language::Potential(bound), None) => bound.iter().find(|(parameter, _)| name == parameter),
+            (Language::Coefficient, None) => None,
+        };
+        Ok(bound.map_or_else(
+            || Expression { kind: ExpressionKind::Symbol(name.clone()), span },
+            |(_, value)| value.clone(),
+        ))
     }
 
     fn number(&mut self, literal: &Literal) -> Result<Expression, Reported> {

@@ -4,8 +4,9 @@ use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::parse::Parser;
 
 use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
+use super::expression_parser::{self, Language};
 use super::names::{Capability, Claim, Named, Requirement, TermKind, nearest};
-use super::{Item, Spanned, Spec, Symmetry, Term, value};
+use super::{Item, Potential, Spanned, Spec, Symmetry, Term, value};
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
 /// The keys of `affine_model(...)`.
@@ -14,27 +15,28 @@ enum Key {
     Dim,
     Symmetry,
     Kinetic,
+    Potential,
     Require,
     Emit,
     Crate,
 }
 
 /// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 7] =
-    ["hamiltonian", "metrics", "group", "constraint", "potential", "dissipation", "forces"];
+const LATER_KEYS: [&str; 6] = ["hamiltonian", "metrics", "group", "constraint", "dissipation", "forces"];
 
 /// Kinetic terms that later versions read: they belong to the momentum side.
 const LATER_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
 
 impl Named for Key {
     const ALL: &'static [Self] =
-        &[Self::Dim, Self::Symmetry, Self::Kinetic, Self::Require, Self::Emit, Self::Crate];
+        &[Self::Dim, Self::Symmetry, Self::Kinetic, Self::Potential, Self::Require, Self::Emit, Self::Crate];
 
     fn name(self) -> &'static str {
         match self {
             Self::Dim => "dim",
             Self::Symmetry => "symmetry",
             Self::Kinetic => "kinetic",
+            Self::Potential => "potential",
             Self::Require => "require",
             Self::Emit => "emit",
             Self::Crate => "crate",
@@ -48,6 +50,7 @@ impl Key {
             Self::Dim => "dim = 3",
             Self::Symmetry => "symmetry(space = affine, body = metric)",
             Self::Kinetic => "kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)",
+            Self::Potential => "potential = kappa/2*sinh(q)^2",
             Self::Require => "require(positive_definite)",
             Self::Emit => "emit(splitting)",
             Self::Crate => "crate = ::affine_runtime",
@@ -78,6 +81,7 @@ pub(super) struct Arguments {
     dim: Spanned<usize>,
     symmetry: Option<Symmetry>,
     kinetic: Spanned<Vec<Term>>,
+    potential: Option<Potential>,
     require: Vec<Spanned<Requirement>>,
     emit: Vec<Spanned<Capability>>,
     runtime: Option<syn::Path>,
@@ -85,13 +89,14 @@ pub(super) struct Arguments {
 
 impl Arguments {
     pub(super) fn of(self, item: Item) -> Spec {
-        let Self { dim, symmetry, kinetic, require, emit, runtime } = self;
+        let Self { dim, symmetry, kinetic, potential, require, emit, runtime } = self;
         Spec {
             item,
             dim,
             symmetry,
             kinetic: kinetic.value,
             kinetic_key: kinetic.span,
+            potential,
             require,
             emit,
             runtime,
@@ -104,12 +109,14 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &LATER_KEYS, found);
     let (mut dim, mut symmetry, mut kinetic, mut runtime) = (None, None, None, None);
     let (mut require, mut emit) = (Vec::new(), Vec::new());
+    let mut energy = None;
     for entry in entries {
         let at = entry.at;
         match entry.key {
             Key::Dim => dim = Some(dimension(expect_value(entry, found), found)),
             Key::Symmetry => symmetry = sides(expect_list(entry, found), at, found),
             Key::Kinetic => kinetic = Some(terms(expect_list(entry, found), at, found)),
+            Key::Potential => energy = potential(expect_value(entry, found), at, found),
             Key::Require => require = members("requirement", expect_list(entry, found), found),
             Key::Emit => emit = members("capability", expect_list(entry, found), found),
             Key::Crate => runtime = path(expect_value(entry, found), found),
@@ -117,7 +124,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     }
     let dim = dim.unwrap_or_else(|| Err(missing(Key::Dim, "the dimension of space and body", here, found)));
     let kinetic = kinetic.unwrap_or_else(|| Err(missing(Key::Kinetic, "the kinetic energy", here, found)));
-    Ok(Arguments { dim: dim?, symmetry, kinetic: kinetic?, require, emit, runtime })
+    Ok(Arguments { dim: dim?, symmetry, kinetic: kinetic?, potential: energy, require, emit, runtime })
 }
 
 fn missing(key: Key, states: &'static str, at: Span, found: &mut Diagnostics) -> Reported {
@@ -218,6 +225,13 @@ fn terms(
         }
     }
     Ok(Spanned { value: terms, span: key.into() })
+}
+
+/// `potential = ...`.
+fn potential(piece: Result<Piece, Reported>, key: Span, found: &mut Diagnostics) -> Option<Potential> {
+    let Piece { tokens, at } = piece.ok()?;
+    let energy = expression_parser::parse(tokens, at, Language::Potential(&[]), found).ok()?;
+    Some(Potential { key: key.into(), energy, span: at })
 }
 
 /// `require(...)` and `emit(...)`: names and nothing else.

@@ -3,7 +3,8 @@
 use proc_macro2::{Delimiter, TokenTree};
 
 use super::entries::{Piece, pieces, unwrapped};
-use super::{Expression, TermKind, Value, expression_parser};
+use super::expression_parser::{self, Language};
+use super::{Expression, TermKind, Value};
 use crate::diagnostics::{Diagnostic, Diagnostics, Reported};
 
 /// How a term may look, in a message.
@@ -37,7 +38,7 @@ pub(super) fn parse(piece: Piece, found: &mut Diagnostics) -> Result<Value, Repo
                 pieces(group.stream(), group.span_close()).into_iter().map(|piece| entry(piece, found));
             all(entries).map(Value::Diagonal)
         }
-        _ => expression_parser::parse(tokens, at, found).map(Value::Scalar),
+        _ => expression_parser::parse(tokens, at, Language::Coefficient, found).map(Value::Scalar),
     }
 }
 
@@ -51,7 +52,7 @@ fn row(piece: Piece, found: &mut Diagnostics) -> Result<Vec<Expression>, Reporte
 }
 
 fn entry(piece: Piece, found: &mut Diagnostics) -> Result<Expression, Reported> {
-    expression_parser::parse(piece.tokens, piece.at, found)
+    expression_parser::parse(piece.tokens, piece.at, Language::Coefficient, found)
 }
 
 /// Everything, or an error; the results are made before the first error is looked for, so that all are reported.

@@ -1,0 +1,117 @@
+//! Rules on the potential energy as written.
+
+use super::symbols::names;
+use crate::algebra::Function;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::spec::{Expression, ExpressionKind, MatrixName, Spec, Symbol};
+
+/// A potential that needs the singular values of phi has to be differentiated through them, also where two of
+/// them coincide; nothing does this yet.
+pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
+    const INSTEAD: &str = "write the potential through `q`, `det`, `I1..In` and traces such as `tr(G*G)`, which are \
+                           symmetric functions of the stretches";
+    let mut pending: Vec<&Expression> = energy(spec).collect();
+    while let Some(part) = pending.pop() {
+        match &part.kind {
+            // What is in it has no meaning elsewhere.
+            ExpressionKind::Pairs(_) => {
+                let form = "pairs".to_owned();
+                found.report(part.span, Diagnostic::UnavailableForm { form, instead: INSTEAD });
+            }
+            ExpressionKind::Symbol(name)
+                if matches!(spec.resolve_in_potential(name), Some(Symbol::Stretch)) =>
+            {
+                let form = name.to_string();
+                found.report(name.span(), Diagnostic::UnavailableForm { form, instead: INSTEAD });
+            }
+            // The energy of a phase point is asked for without a time.
+            ExpressionKind::Symbol(name) if matches!(spec.resolve_in_potential(name), Some(Symbol::Time)) => {
+                let instead = "state a potential of the configuration alone";
+                found.report(name.span(), Diagnostic::UnavailableForm { form: name.to_string(), instead });
+            }
+            _ => pending.extend(part.operands().into_iter().rev()),
+        }
+    }
+}
+
+/// The energy is a number: of a matrix it takes a trace or an entry, of the place of the centre its norm or a
+/// coordinate.
+pub(super) fn scalar(spec: &Spec, found: &mut Diagnostics) {
+    for name in energy(spec).flat_map(names) {
+        let (meaning, instead) = match spec.resolve_in_potential(name) {
+            Some(Symbol::Matrix(MatrixName::Green)) => ("a matrix", "`tr(G)`, `tr(G*G)` or `G[1,2]`"),
+            Some(Symbol::Matrix(MatrixName::Finger)) => ("a matrix", "`tr(Ct)`, `tr(Ct*Ct)` or `Ct[1,2]`"),
+            Some(Symbol::Matrix(MatrixName::Placement)) => ("a matrix", "`tr(phi)` or `phi[1,2]`"),
+            Some(Symbol::Centre) => ("a vector", "`norm(x)` or `x[1]`"),
+            _ => continue,
+        };
+        found.report(name.span(), Diagnostic::NotScalar { name: name.to_string(), meaning, instead });
+    }
+}
+
+/// Rows, columns, coordinates and invariants are counted from 1 to n, as in the paper.
+pub(super) fn indices(spec: &Spec, found: &mut Diagnostics) {
+    let n = spec.dim.value;
+    for part in energy(spec).flat_map(parts) {
+        let (written, indices) = match &part.kind {
+            ExpressionKind::Entry(_, row, column) => (part.to_string(), vec![*row, *column]),
+            ExpressionKind::Component(index) => (part.to_string(), vec![*index]),
+            ExpressionKind::Symbol(name) => match spec.resolve_in_potential(name) {
+                Some(Symbol::Invariant(index)) => (name.to_string(), vec![index]),
+                _ => continue,
+            },
+            _ => continue,
+        };
+        if let Some(index) = indices.into_iter().find(|index| !(1..=n).contains(index)) {
+            found.report(part.span, Diagnostic::IndexRange { written, index, n });
+        }
+    }
+}
+
+/// Without a translational kinetic energy the centre is fixed in space and x is not part of the state.
+pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
+    if spec.kinetic.iter().any(|term| term.kind.value.is_translation()) {
+        return;
+    }
+    for part in energy(spec).flat_map(parts) {
+        if matches!(part.kind, ExpressionKind::Component(_) | ExpressionKind::Norm) {
+            found.report(part.span, Diagnostic::FixedCentre { form: part.to_string() });
+        }
+    }
+}
+
+/// Hamilton's equations contain the derivative of the potential, and their solutions are unique, and methods
+/// keep their order, only if it is smooth.
+pub(super) fn smooth(spec: &Spec, found: &mut Diagnostics) {
+    for part in energy(spec).flat_map(parts) {
+        if let ExpressionKind::Call(Function::Abs, argument) = &part.kind {
+            found.report(part.span, Diagnostic::NotSmooth { argument: argument.to_string() });
+        }
+    }
+}
+
+/// Real logarithms are of positive numbers, and a square root is smooth only there. Arguments that depend on
+/// the state or on fields are left to the run.
+pub(super) fn in_domain(spec: &Spec, found: &mut Diagnostics) {
+    for part in energy(spec).flat_map(parts) {
+        let ExpressionKind::Call(function @ (Function::Ln | Function::Sqrt), argument) = &part.kind else {
+            continue;
+        };
+        let value = super::constant(argument, spec.dim.value);
+        if let Some(value) = value.filter(|value| value.is_zero() || value.is_negative()) {
+            let (function, argument, value) = (function.name(), argument.to_string(), value.to_string());
+            found.report(part.span, Diagnostic::Domain { function, argument, value });
+        }
+    }
+}
+
+fn energy(spec: &Spec) -> impl Iterator<Item = &Expression> {
+    spec.potential.iter().map(|potential| &potential.energy)
+}
+
+/// The expression and everything in it, from left to right.
+fn parts(expression: &Expression) -> Vec<&Expression> {
+    let mut parts = vec![expression];
+    parts.extend(expression.operands().into_iter().flat_map(self::parts));
+    parts
+}

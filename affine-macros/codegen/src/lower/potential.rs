@@ -1,0 +1,131 @@
+//! Potentials as expressions in base functions of the placement.
+
+use crate::algebra::ring::{Square, product};
+use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
+use crate::check::constant;
+use crate::mechanics::potential::{Base, Potential};
+use crate::spec::{Expression, ExpressionKind, MatrixName, Spec};
+
+use super::FIELD;
+
+/// The potential energy, if the model states one.
+pub fn potential(arena: &mut Arena, spec: &Spec) -> Option<Potential> {
+    let written = spec.potential.as_ref()?;
+    let n = spec.dim.value;
+    let energy = energy(arena, n, &written.energy)?;
+    let form = Polynomial::normal_form(arena, energy);
+    // A constant moves nothing and leaves no trace.
+    if form.as_constant().is_some() {
+        return None;
+    }
+    Some(Potential::new(arena, n, energy))
+}
+
+/// The symbolic value; `None` only for what the checks refuse.
+fn energy(arena: &mut Arena, n: usize, e: &Expression) -> Option<Expr> {
+    if let Some(value) = constant(e, n) {
+        return Some(arena.constant(value));
+    }
+    match &e.kind {
+        ExpressionKind::Number(value) => Some(arena.constant(value.clone())),
+        ExpressionKind::Symbol(name) => symbol(arena, n, &name.to_string()),
+        ExpressionKind::Negate(a) => {
+            let a = energy(arena, n, a)?;
+            Some(arena.neg(a))
+        }
+        ExpressionKind::Add(a, b) => {
+            let (a, b) = (energy(arena, n, a)?, energy(arena, n, b)?);
+            Some(arena.add(a, b))
+        }
+        ExpressionKind::Subtract(a, b) => {
+            let (a, b) = (energy(arena, n, a)?, energy(arena, n, b)?);
+            Some(arena.sub(a, b))
+        }
+        ExpressionKind::Multiply(a, b) => {
+            let (a, b) = (energy(arena, n, a)?, energy(arena, n, b)?);
+            Some(arena.mul(a, b))
+        }
+        ExpressionKind::Divide(a, b) => {
+            let (a, b) = (energy(arena, n, a)?, energy(arena, n, b)?);
+            arena.div(a, b)
+        }
+        ExpressionKind::Power(a, exponent) => {
+            let a = energy(arena, n, a)?;
+            arena.pow(a, i32::try_from(constant(exponent, n)?.to_i64()?).ok()?)
+        }
+        ExpressionKind::Call(function, a) => {
+            let a = energy(arena, n, a)?;
+            Some(arena.apply(*function, a))
+        }
+        ExpressionKind::Trace(factors) => trace(arena, n, factors),
+        ExpressionKind::Entry(matrix, row, column) => {
+            Some(entry(*matrix, row.checked_sub(1)?, column.checked_sub(1)?).symbol(arena))
+        }
+        ExpressionKind::Component(index) => Some(Base::Position(index.checked_sub(1)?).symbol(arena)),
+        ExpressionKind::Norm => {
+            let mut squares = Vec::new();
+            for i in 0..n {
+                let x = Base::Position(i).symbol(arena);
+                squares.push((arena.mul(x, x), Rational::ONE));
+            }
+            let square = arena.linear(&squares);
+            Some(arena.apply(Function::Sqrt, square))
+        }
+        ExpressionKind::Pairs(_) => None,
+    }
+}
+
+fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
+    let q = Base::MeanLogStretch.symbol(arena);
+    // exp(k q); det phi = exp(n q), so that one logarithm or one root serves all.
+    let power = |arena: &mut Arena, k: usize| {
+        let argument = arena.scale(q, &Rational::from(i64::try_from(k).ok()?));
+        Some(arena.apply(Function::Exp, argument))
+    };
+    match name {
+        "q" => Some(q),
+        "D" => power(arena, 1),
+        "det" => power(arena, n),
+        "I1" => Some(Base::Trace.symbol(arena)),
+        // e_2 = ((tr G)^2 - tr G^2)/2
+        "I2" if n == 3 => {
+            let (first, second) = (Base::Trace.symbol(arena), Base::TraceOfSquare.symbol(arena));
+            let square = arena.mul(first, first);
+            let half = Rational::ratio(1, 2)?;
+            Some(arena.linear(&[(square, half.clone()), (second, -&half)]))
+        }
+        // e_n = det G
+        "I2" | "I3" => power(arena, 2 * n),
+        field => Some(arena.symbol(&format!("{FIELD}{field}"))),
+    }
+}
+
+fn entry(matrix: MatrixName, row: usize, column: usize) -> Base {
+    match matrix {
+        MatrixName::Green => Base::Green(row.min(column), row.max(column)),
+        MatrixName::Finger => Base::Finger(row.min(column), row.max(column)),
+        MatrixName::Placement => Base::Placement(row, column),
+    }
+}
+
+/// `tr G = tr Ct` and `tr G^2 = tr Ct^2` are base functions; other products are written out.
+fn trace(arena: &mut Arena, n: usize, factors: &[MatrixName]) -> Option<Expr> {
+    let first = *factors.first()?;
+    if first != MatrixName::Placement && factors.iter().all(|factor| *factor == first) {
+        match factors.len() {
+            1 => return Some(Base::Trace.symbol(arena)),
+            2 => return Some(Base::TraceOfSquare.symbol(arena)),
+            _ => {}
+        }
+    }
+    let mut matrix = |name: MatrixName| -> Square<Polynomial> {
+        (0..n).map(|a| (0..n).map(|b| Polynomial::atom(entry(name, a, b).symbol(arena))).collect()).collect()
+    };
+    let mut result = matrix(first);
+    for factor in &factors[1..] {
+        result = product(&result, &matrix(*factor));
+    }
+    let mut sum = Polynomial::zero();
+    (0..n).for_each(|a| sum.add_scaled(&result[a][a], &Rational::ONE));
+    Some(sum.expression(arena))
+}

@@ -1,0 +1,200 @@
+//! Names with brackets after them: functions, traces, entries and named potentials.
+
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
+
+use super::{Language, Parser};
+use crate::algebra::Function;
+use crate::diagnostics::{Diagnostic, Region, Reported};
+use crate::spec::entries::{Piece, describe, pieces, shortened, unwrapped};
+use crate::spec::named_potentials::{NAMED_POTENTIALS, NamedPotential};
+use crate::spec::names::{Named, nearest};
+use crate::spec::{Expression, ExpressionKind, MatrixName};
+
+/// The functions of a potential. `cbrt` is not among them: a power with an exponent of 1/3 is stated through
+/// its logarithm, which shows that the base must be positive.
+const FUNCTIONS: [Function; 10] = [
+    Function::Exp,
+    Function::Ln,
+    Function::Sqrt,
+    Function::Abs,
+    Function::Sin,
+    Function::Cos,
+    Function::Tan,
+    Function::Sinh,
+    Function::Cosh,
+    Function::Tanh,
+];
+
+/// The forms that are applied like functions.
+const FORMS: [&str; 3] = ["tr", "norm", "pairs"];
+
+impl Parser<'_> {
+    /// `name(...)` or `name[...]`.
+    pub(super) fn applied(&mut self, name: &Ident, group: &Group) -> Result<Expression, Reported> {
+        let span = Region { start: name.span(), end: group.span_close() };
+        let text = name.to_string();
+        if group.delimiter() == Delimiter::Bracket {
+            let kind = self.indexed(&text, name.span(), group, span)?;
+            return Ok(Expression { kind, span });
+        }
+        if let Some(potential) = NAMED_POTENTIALS.iter().find(|potential| potential.name == text) {
+            let kind = self.named_potential(potential, name.span(), group, span)?.kind;
+            return Ok(Expression { kind, span });
+        }
+        let kind = match text.as_str() {
+            "tr" => self.trace(group)?,
+            "norm" => self.norm(group)?,
+            "pairs" => ExpressionKind::Pairs(Box::new(self.argument("pairs", group, span)?)),
+            "custom" => {
+                let mistake = Diagnostic::UnavailableForm {
+                    form: text,
+                    instead: "state the potential as an expression",
+                };
+                return Err(self.found.report(name.span(), mistake));
+            }
+            _ => match FUNCTIONS.into_iter().find(|function| function.name() == text) {
+                Some(function) => {
+                    ExpressionKind::Call(function, Box::new(self.argument(function.name(), group, span)?))
+                }
+                None => return Err(self.found.report(name.span(), unknown(&text))),
+            },
+        };
+        Ok(Expression { kind, span })
+    }
+
+    /// The only argument of a function.
+    fn argument(&mut self, name: &'static str, group: &Group, span: Region) -> Result<Expression, Reported> {
+        let parameters = if name == "pairs" { &["f(d)"] } else { &["a"] };
+        let mut arguments = self.arguments(name, parameters, group, span)?;
+        // There are as many arguments as parameters.
+        arguments.pop().ok_or_else(|| self.found.report(span, Diagnostic::MissingOperand))
+    }
+
+    /// As many arguments as there are parameters.
+    fn arguments(
+        &mut self,
+        name: &'static str,
+        parameters: &'static [&'static str],
+        group: &Group,
+        span: Region,
+    ) -> Result<Vec<Expression>, Reported> {
+        let pieces = pieces(group.stream(), group.span_close());
+        if pieces.len() != parameters.len() {
+            let mistake = Diagnostic::ArgumentCount { name, parameters, found: pieces.len() };
+            return Err(self.found.report(span, mistake));
+        }
+        // All arguments before the first error is looked for, so that all are reported.
+        let language = self.language;
+        let read: Vec<_> =
+            pieces.into_iter().map(|Piece { tokens, at }| self.inner(tokens, at, language)).collect();
+        read.into_iter().collect()
+    }
+
+    /// The formula of a named potential, with the arguments for its parameters. Its tokens get the place of the
+    /// name, where a mistake in what it comes to is shown.
+    fn named_potential(
+        &mut self,
+        potential: &NamedPotential,
+        name: Span,
+        group: &Group,
+        span: Region,
+    ) -> Result<Expression, Reported> {
+        let arguments = self.arguments(potential.name, potential.parameters, group, span)?;
+        let bound: Vec<_> = potential.parameters.iter().copied().zip(arguments).collect();
+        // A formula that Rust cannot split into tokens would read as a missing expression; a test reads them all.
+        let formula: TokenStream = potential.formula.parse().unwrap_or_default();
+        self.inner(placed(formula, name).into_iter().collect(), span, Language::Potential(&bound))
+    }
+
+    /// `tr(A*B*...)`.
+    fn trace(&mut self, group: &Group) -> Result<ExpressionKind, Reported> {
+        let inside = unwrapped(group.stream().into_iter().collect());
+        let factors = inside.split(|token| matches!(token, TokenTree::Punct(star) if star.as_char() == '*'));
+        let named: Option<Vec<MatrixName>> = factors.map(matrix).collect();
+        let Some(factors) = named else { return Err(self.malformed("tr", group)) };
+        for _ in 1..factors.len() {
+            self.count(self.last)?;
+        }
+        Ok(ExpressionKind::Trace(factors))
+    }
+
+    /// `norm(x)`.
+    fn norm(&mut self, group: &Group) -> Result<ExpressionKind, Reported> {
+        match unwrapped(group.stream().into_iter().collect()).as_slice() {
+            [TokenTree::Ident(name)] if name == "x" => Ok(ExpressionKind::Norm),
+            _ => Err(self.malformed("norm", group)),
+        }
+    }
+
+    fn malformed(&mut self, name: &'static str, group: &Group) -> Reported {
+        let found = shortened(&group.stream().to_string());
+        let at = Region { start: group.span_open(), end: group.span_close() };
+        self.found.report(at, Diagnostic::Argument { name, found })
+    }
+
+    /// `G[1,2]`, `x[3]`.
+    fn indexed(
+        &mut self,
+        name: &str,
+        at: Span,
+        group: &Group,
+        span: Region,
+    ) -> Result<ExpressionKind, Reported> {
+        let indices: Option<Vec<usize>> =
+            pieces(group.stream(), group.span_close()).into_iter().map(index).collect();
+        match (MatrixName::named(name), name, indices.as_deref()) {
+            (Some(matrix), _, Some(&[row, column])) => Ok(ExpressionKind::Entry(matrix, row, column)),
+            (None, "x", Some(&[index])) => Ok(ExpressionKind::Component(index)),
+            (Some(_), ..) | (None, "x", _) => {
+                let written = shortened(&format!("{name}[{}]", group.stream()));
+                let (indices, example) = match MatrixName::named(name) {
+                    Some(matrix) => ("a row and a column", format!("{}[1,2]", matrix.name())),
+                    None => ("one index", "x[1]".to_owned()),
+                };
+                Err(self.found.report(span, Diagnostic::Indices { written, indices, example }))
+            }
+            _ => Err(self.found.report(at, Diagnostic::NotIndexed { name: shortened(name) })),
+        }
+    }
+}
+
+/// One factor of a trace.
+fn matrix(factor: &[TokenTree]) -> Option<MatrixName> {
+    match unwrapped(factor.to_vec()).as_slice() {
+        [TokenTree::Ident(name)] => MatrixName::named(&name.to_string()),
+        _ => None,
+    }
+}
+
+/// A whole number without sign.
+fn index(piece: Piece) -> Option<usize> {
+    match unwrapped(piece.tokens).as_slice() {
+        [one @ TokenTree::Literal(_)] => describe(one).trim_matches('`').parse().ok(),
+        _ => None,
+    }
+}
+
+fn unknown(name: &str) -> Diagnostic {
+    let known: Vec<&'static str> = FUNCTIONS
+        .into_iter()
+        .map(Function::name)
+        .chain(FORMS)
+        .chain(NAMED_POTENTIALS.iter().map(|potential| potential.name))
+        .collect();
+    let nearest = nearest(name, known.iter().copied());
+    Diagnostic::UnknownFunction { name: shortened(name), nearest, known }
+}
+
+/// The tokens at another place.
+fn placed(tokens: TokenStream, at: Span) -> TokenStream {
+    tokens
+        .into_iter()
+        .map(|mut token| {
+            if let TokenTree::Group(group) = &token {
+                token = Group::new(group.delimiter(), placed(group.stream(), at)).into();
+            }
+            token.set_span(at);
+            token
+        })
+        .collect()
+}

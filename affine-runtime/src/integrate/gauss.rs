@@ -1,0 +1,295 @@
+//! Gauss collocation: implicit, symplectic, symmetric, with a fixed step.
+
+mod coefficients;
+mod equations;
+mod newton;
+
+pub use coefficients::Tableau;
+
+use core::fmt;
+
+use super::{Failure, Statistics};
+use crate::model::StateVector;
+use coefficients::MOST_STAGES;
+use equations::{Equations, Increments, Start, total};
+
+/// Steps are equal and none is longer than asked for; a length that divides the interval up to this many roundings
+/// is taken as it is.
+const ROUNDINGS: f64 = 8.0;
+/// More steps than numbers that a double counts exactly.
+const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
+
+/// Integration of `y' = f(t, y)` from `t0` to `t_end`, in either direction of time, by Gauss collocation of 2 or 3
+/// stages (order 4 or 6) in `n = ceil(|t_end - t0|/step)` equal steps.
+///
+/// The flow of a step is symmetric, symplectic where the components of `y` are canonical variables, and keeps every
+/// linear and quadratic first integral of `f` (Hairer, Lubich, Wanner, Geometric Numerical Integration, Theorems
+/// IV.2.1, VI.4.2 and section V.2). It is no Poisson map of a Lie-Poisson bracket, and keeps no other invariants but
+/// to its order.
+///
+/// The stage equations are iterated to rounding from the continuation of the collocation polynomial of the step
+/// before: by fixed-point iteration, one evaluation for each stage and iteration; from the first step on where that
+/// does not contract, by Newton's iteration with a Jacobian by differences (`1 + dim y` evaluations) that is kept as
+/// long as corrections shrink by ten. That takes states of at most 32 components; larger ones that are stiff are
+/// refused. Solutions are summed with compensation. Nothing allocates; the factors take 32 KiB.
+///
+/// A solution of the stage equations need not be unique where the step is far too long: the one found is the one
+/// the iteration leads to.
+#[derive(Clone)]
+pub struct Gauss<S, F> {
+    f: F,
+    equations: Equations<S>,
+    t0: f64,
+    t_end: f64,
+    h: f64,
+    count: u64,
+    /// Steps taken.
+    taken: u64,
+    begin: Sum<S>,
+    end: Sum<S>,
+    /// Of the last step; before the first, those that the slope at the start gives.
+    increments: Increments<S>,
+    residual: f64,
+    failure: Option<Failure>,
+}
+
+/// `value + carry`, the carry being what rounding left out of the value.
+#[derive(Clone, Copy)]
+struct Sum<S> {
+    value: S,
+    carry: S,
+}
+
+impl<S: StateVector<f64>> Sum<S> {
+    fn plus(&self, rise: &S) -> Self {
+        let mut sum = *self;
+        for (c, (value, carry)) in sum.value.as_mut().iter_mut().zip(sum.carry.as_mut()).enumerate() {
+            let before = *value;
+            let rise = *carry + rise.as_ref()[c];
+            *value = before + rise;
+            *carry = (before - *value) + rise;
+        }
+        sum
+    }
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Gauss<S, F> {
+    /// The integration at its start. One evaluation.
+    ///
+    /// # Errors
+    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite; [`Failure::StepUnderflow`] where `step` is
+    /// not positive, or gives more steps than there are floating-point times.
+    pub fn new(
+        f: F,
+        tableau: &'static Tableau,
+        (t0, y0): (f64, S),
+        t_end: f64,
+        step: f64,
+    ) -> Result<Self, Failure> {
+        let count = step_count(t0, t_end, step).ok_or(Failure::StepUnderflow)?;
+        let h = if count == 0 { 0.0 } else { (t_end - t0) / count as f64 };
+        let slope = f(t0, &y0);
+        if !is_finite(&y0) || !is_finite(&slope) {
+            return Err(Failure::NotFinite);
+        }
+        let mut increments = [S::zeros(); MOST_STAGES];
+        for (increment, weight) in increments.iter_mut().zip(tableau.weights) {
+            for (increment, slope) in increment.as_mut().iter_mut().zip(slope.as_ref()) {
+                *increment = h * weight * slope;
+            }
+        }
+        let start = Sum { value: y0, carry: S::zeros() };
+        let mut equations = Equations::new(tableau);
+        equations.evaluations = 1;
+        let (begin, end) = (start, start);
+        Ok(Self {
+            f,
+            equations,
+            t0,
+            t_end,
+            h,
+            count,
+            taken: 0,
+            begin,
+            end,
+            increments,
+            residual: 0.0,
+            failure: None,
+        })
+    }
+
+    /// Takes one step; does nothing at `t_end`, which the last step hits exactly.
+    ///
+    /// # Errors
+    /// [`Failure::NoSolution`] or [`Failure::NotFinite`], now and ever after; the state stays that of the last step.
+    pub fn advance(&mut self) -> Result<(), Failure> {
+        if let Some(failure) = self.failure {
+            return Err(failure);
+        }
+        if self.is_finished() {
+            return Ok(());
+        }
+        let guess = if self.taken == 0 { self.increments } else { self.continued(1.0, 1.0) };
+        match self.step(self.t(), self.end, self.h, guess) {
+            Ok((end, increments, residual)) => {
+                self.residual = if residual > self.residual { residual } else { self.residual };
+                self.increments = increments;
+                self.begin = self.end;
+                self.end = end;
+                self.taken += 1;
+                Ok(())
+            }
+            Err(failure) => {
+                self.failure = Some(failure);
+                Err(failure)
+            }
+        }
+    }
+
+    /// The state at a time within the last step, by a shorter step of the same method from its beginning: of the
+    /// same order as the steps, which the collocation polynomial is not, and without influence on them. Costs about
+    /// as many evaluations as a step. The state reached where no step has been taken.
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance), but the integration can go on.
+    pub fn at(&mut self, t: f64) -> Result<S, Failure> {
+        if self.taken == 0 || t == self.t() {
+            return Ok(self.end.value);
+        }
+        let begin = self.time(self.taken - 1);
+        let h = t - begin;
+        if h == 0.0 {
+            return Ok(self.begin.value);
+        }
+        let guess = self.continued(0.0, h / self.h);
+        // The Jacobian that the steps work with, and whether they need one, stay as they are.
+        let steps = self.equations.clone();
+        let between = self.step(begin, self.begin, h, guess);
+        let evaluations = self.equations.evaluations;
+        self.equations = steps;
+        self.equations.evaluations = evaluations;
+        between.map(|(end, ..)| end.value)
+    }
+
+    /// Time reached.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.time(self.taken)
+    }
+
+    /// State reached.
+    #[must_use]
+    pub fn y(&self) -> &S {
+        &self.end.value
+    }
+
+    /// `t_end` is reached.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        self.taken == self.count
+    }
+
+    /// Cost so far, with that of [`at`](Self::at). No step is rejected.
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
+        Statistics { steps: self.taken, rejected: 0, evaluations: self.equations.evaluations }
+    }
+
+    /// Length of the steps, negative backward in time.
+    #[must_use]
+    pub fn step_length(&self) -> f64 {
+        self.h
+    }
+
+    /// Largest defect that the iteration left in the stage equations of a step, relative to the largest component of
+    /// state and increments: a few roundings, times the stiffness where there is one.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.residual
+    }
+
+    /// Fixed-point iteration did not contract, and steps take Newton's iteration.
+    #[must_use]
+    pub fn is_stiff(&self) -> bool {
+        self.equations.is_stiff()
+    }
+
+    fn step(
+        &mut self,
+        t: f64,
+        begin: Sum<S>,
+        h: f64,
+        guess: Increments<S>,
+    ) -> Result<(Sum<S>, Increments<S>, f64), Failure> {
+        let start = Start { t, h, y: &begin.value, carry: &begin.carry };
+        match self.equations.solve(&self.f, start, guess) {
+            Ok(solution) => {
+                let end = begin.plus(&total(&solution.increments));
+                if is_finite(&end.value) {
+                    Ok((end, solution.increments, solution.residual))
+                } else {
+                    Err(Failure::NotFinite)
+                }
+            }
+            Err(unsolved) if unsolved.residual.is_finite() => {
+                Err(Failure::NoSolution { residual: unsolved.residual })
+            }
+            Err(_) => Err(Failure::NotFinite),
+        }
+    }
+
+    /// Increments of a step `scale` times as long as the last one that begins at `offset`, in parts of the last one,
+    /// after the beginning of that: by the derivative of the collocation polynomial.
+    fn continued(&self, offset: f64, scale: f64) -> Increments<S> {
+        let tableau = self.equations.tableau;
+        let mut continued = [S::zeros(); MOST_STAGES];
+        for (i, (node, weight)) in tableau.nodes.iter().zip(tableau.weights).enumerate() {
+            let coefficients = tableau.continuation(offset + scale * node, *weight, scale);
+            for (coefficient, increment) in coefficients.iter().zip(&self.increments).take(tableau.stages()) {
+                for (value, increment) in continued[i].as_mut().iter_mut().zip(increment.as_ref()) {
+                    *value += coefficient * increment;
+                }
+            }
+        }
+        continued
+    }
+
+    fn time(&self, taken: u64) -> f64 {
+        if taken == self.count { self.t_end } else { self.t0 + taken as f64 * self.h }
+    }
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> fmt::Debug for Gauss<S, F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Gauss")
+            .field("stages", &self.equations.tableau.stages())
+            .field("t", &self.t())
+            .field("y", self.y())
+            .field("t_end", &self.t_end)
+            .field("step_length", &self.h)
+            .field("statistics", &self.statistics())
+            .finish_non_exhaustive()
+    }
+}
+
+/// `ceil(|t_end - t0|/step)`; `None` where the step is not positive or is lost in the rounding of times.
+pub(crate) fn step_count(t0: f64, t_end: f64, step: f64) -> Option<u64> {
+    let span = (t_end - t0).abs();
+    let latest = if t0.abs() > t_end.abs() { t0.abs() } else { t_end.abs() };
+    if span == 0.0 && step > 0.0 {
+        return Some(0);
+    }
+    let exact = span / step;
+    if !(step > 0.0 && exact < MOST_STEPS && step > 4.0 * f64::EPSILON * latest) {
+        return None;
+    }
+    let whole = libm::round(exact);
+    let near = (exact - whole).abs() <= ROUNDINGS * f64::EPSILON * exact;
+    let count = if near { whole } else { libm::ceil(exact) };
+    // One step where it is longer than the interval, infinite steps included.
+    Some(if count > 1.0 { count as u64 } else { 1 })
+}
+
+fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
+    y.as_ref().iter().all(|v| v.is_finite())
+}

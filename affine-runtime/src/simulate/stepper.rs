@@ -1,0 +1,76 @@
+//! What a simulation asks of an integrator.
+
+use crate::integrate::runge_kutta::Dense;
+use crate::integrate::{Failure, Gauss, RungeKutta8, Statistics};
+use crate::model::StateVector;
+
+/// An integration that goes step by step.
+pub(super) trait Stepper<S> {
+    /// Takes one step.
+    fn advance(&mut self) -> Result<(), Failure>;
+    /// The state at a time within the last step.
+    fn between(&mut self, t: f64) -> Result<S, Failure>;
+    /// Time reached.
+    fn t(&self) -> f64;
+    /// State reached.
+    fn y(&self) -> &S;
+    /// The end is reached.
+    fn is_finished(&self) -> bool;
+    /// Cost so far.
+    fn statistics(&self) -> Statistics;
+}
+
+/// The explicit method with the dense output of its last step, which is formed once for all times in it.
+pub(super) struct Explicit<S, F> {
+    integration: RungeKutta8<S, F>,
+    dense: Option<Dense<S>>,
+}
+
+impl<S, F> Explicit<S, F> {
+    pub(super) fn new(integration: RungeKutta8<S, F>) -> Self {
+        Self { integration, dense: None }
+    }
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Explicit<S, F> {
+    fn advance(&mut self) -> Result<(), Failure> {
+        self.dense = None;
+        self.integration.advance()
+    }
+    fn between(&mut self, t: f64) -> Result<S, Failure> {
+        Ok(self.dense.get_or_insert_with(|| self.integration.dense()).at(t))
+    }
+    fn t(&self) -> f64 {
+        self.integration.t()
+    }
+    fn y(&self) -> &S {
+        self.integration.y()
+    }
+    fn is_finished(&self) -> bool {
+        self.integration.is_finished()
+    }
+    fn statistics(&self) -> Statistics {
+        self.integration.statistics()
+    }
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Gauss<S, F> {
+    fn advance(&mut self) -> Result<(), Failure> {
+        Gauss::advance(self)
+    }
+    fn between(&mut self, t: f64) -> Result<S, Failure> {
+        self.at(t)
+    }
+    fn t(&self) -> f64 {
+        Gauss::t(self)
+    }
+    fn y(&self) -> &S {
+        Gauss::y(self)
+    }
+    fn is_finished(&self) -> bool {
+        Gauss::is_finished(self)
+    }
+    fn statistics(&self) -> Statistics {
+        Gauss::statistics(self)
+    }
+}

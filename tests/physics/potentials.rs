@@ -1,0 +1,285 @@
+//! Generated code with potentials against the oracle: every potential with every kind of kinetic energy, n = 2 and 3,
+//! its coefficient a literal and a field.
+
+use affine_oracle::{Differential, Kinetic, Motion, Observable, Place, Random, State, Term, rational};
+use affine_runtime::prelude::*;
+
+use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
+use crate::conserved::exists;
+use crate::families::{matrix, vector};
+use crate::reference::{Reference, assert_close};
+use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, UNDER_POTENTIAL};
+
+/// States per model.
+const SAMPLES: u64 = 4;
+/// The coefficient of every potential.
+const C: f64 = 1.75;
+
+/// A model under a potential, with both stated a second time for the oracle.
+trait Loaded<const N: usize>: Model<N> + Sized {
+    const TRANSLATION: bool;
+    /// The potential depends on `x`: a body at rest does not stay there.
+    const HELD: bool;
+
+    fn body() -> Self;
+    fn kinetic() -> Kinetic;
+    fn potential(place: &Place) -> Differential;
+    fn at(&self, state: &State) -> Self::Point<f64>;
+
+    fn states() -> impl Iterator<Item = State> {
+        (0..SAMPLES).map(|seed| {
+            let state = Random::new(2003 + seed).state(N);
+            if Self::TRANSLATION { state } else { pinned(&state) }
+        })
+    }
+}
+
+fn pinned(state: &State) -> State {
+    let still = state.at_rest();
+    State { x: still.p.clone(), ..still }
+}
+
+/// Hamiltonian and Hamilton's equations.
+fn agrees_with_the_oracle<const N: usize, M: Loaded<N>>() {
+    let (model, kinetic) = (M::body(), M::kinetic());
+    for state in M::states() {
+        let reference = Reference::under(&kinetic, &state, T0, M::potential);
+        let point = model.at(&state);
+        let tolerance = UNDER_POTENTIAL * reference.condition;
+        let energy = reference.expected.hamiltonian;
+        assert_close("H", &[model.hamiltonian(&point)], &[energy], reference.energy_size(), tolerance);
+        let rates = model.hamilton_equations(T0, &model.flatten(&point));
+        for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
+            reference.assert_rate(name, rate, UNDER_POTENTIAL);
+        }
+    }
+}
+
+/// `expand` undoes `reduce`; its derivative along the reduced equations is the vector field of the oracle. At `p = 0`
+/// too, where a turn of space has nothing to hold on to.
+fn reduction_keeps_the_motion<const N: usize, M: Loaded<N>>() {
+    let (model, kinetic) = (M::body(), M::kinetic());
+    for state in M::states().flat_map(|state| [state.at_rest(), state]) {
+        let point = model.at(&state);
+        let tolerance = UNDER_POTENTIAL * kinetic.condition(&state.phi).unwrap();
+        assert_charts_lead_back(&model, &point, &state, tolerance);
+        assert_reduced_equations_move(&model, &point, UNDER_POTENTIAL, |t, state| {
+            Reference::under(&kinetic, state, t, M::potential)
+        });
+    }
+}
+
+/// The lists of conserved quantities are those whose brackets with `H` vanish: nothing is missing, nothing is claimed.
+fn lists_are_exact<const N: usize, M: Loaded<N>>() {
+    let kinetic = M::kinetic();
+    let description = M::DESCRIPTION;
+    assert_listed::<N, M>(&kinetic, description.conserved, M::states(), M::TRANSLATION);
+    if M::HELD {
+        // No motion keeps p = 0, so nothing can be promised beyond what all motions conserve.
+        for quantity in description.conserved_at_rest {
+            assert!(description.conserved.contains(quantity), "{quantity:?} of a body at rest");
+        }
+    } else {
+        let still = M::states().map(|state| state.at_rest());
+        assert_listed::<N, M>(&kinetic, description.conserved_at_rest, still, false);
+    }
+}
+
+fn assert_listed<const N: usize, M: Loaded<N>>(
+    kinetic: &Kinetic,
+    listed: &[affine_runtime::model::Conserved],
+    states: impl Iterator<Item = State>,
+    translation: bool,
+) {
+    let listed: Vec<Observable> =
+        listed.iter().map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap()).collect();
+    let states: Vec<State> = states.collect();
+    let motions: Vec<Motion> =
+        states.iter().map(|state| kinetic.motion(state).unwrap().under(T0, M::potential).unwrap()).collect();
+    for &observable in Observable::ALL {
+        let expected = if observable == Observable::Energy {
+            // No potential here contains t; the oracle's observable is the kinetic energy alone.
+            true
+        } else if !exists(observable, N, translation) {
+            false
+        } else {
+            let rates = motions.iter().flat_map(|motion| motion.bracket(observable).unwrap().to_f64());
+            let largest = rates.fold(0.0, |largest: f64, rate| largest.max(rate.abs()));
+            assert!(
+                largest <= BRACKET_ZERO || largest > BRACKET_VISIBLE,
+                "{observable:?} undecided: {largest:e}"
+            );
+            largest <= BRACKET_ZERO
+        };
+        assert_eq!(listed.contains(&observable), expected, "{observable:?} listed");
+    }
+}
+
+fn body_inertia(n: usize) -> Term {
+    Term::body_inertia(n, rational(3, 2))
+}
+
+fn space_inertia(n: usize) -> Term {
+    Term::space_inertia(n, rational(3, 2))
+}
+
+fn casimir2(_n: usize) -> Term {
+    Term::Casimir2(rational(1, 4))
+}
+
+fn casimir1_squared(_n: usize) -> Term {
+    Term::Casimir1Squared(rational(1, 8))
+}
+
+fn body_translation(_n: usize) -> Term {
+    Term::BodyTranslation(rational(5, 4))
+}
+
+fn space_translation(_n: usize) -> Term {
+    Term::SpaceTranslation(rational(5, 4))
+}
+
+/// `diag(1, 3/2, 2)`, or its first two rows and columns.
+fn dalembert(n: usize) -> Term {
+    let diagonal = (0..n).fold(affine_oracle::Matrix::zeros(n, n), |sum, a| {
+        &sum + &affine_oracle::Matrix::unit(n, a, a).scaled(&rational(2 + [0, 1, 2][a], 2))
+    });
+    Term::DAlembert(diagonal)
+}
+
+/// Tests of one model.
+macro_rules! loaded {
+    ($n:literal $centre:ident $held:ident $form:ident [$($term:ident)*] ($($kinetic:tt)*) ($($potential:tt)*) $energy:expr) => {
+        #[allow(clippy::wildcard_imports)]
+        use super::super::super::*;
+
+        loaded! { @$form $n ($($kinetic)*) ($($potential)*) }
+
+        impl Loaded<$n> for Form {
+            const TRANSLATION: bool = loaded!(@translation $centre);
+            const HELD: bool = loaded!(@held $held);
+
+            fn body() -> Self {
+                form()
+            }
+            fn kinetic() -> Kinetic {
+                Kinetic::new($n, vec![$($term($n)),*]).unwrap()
+            }
+            fn potential(place: &Place) -> Differential {
+                let energy: fn(&Place) -> Differential = $energy;
+                energy(place) * C
+            }
+            fn at(&self, state: &State) -> Self::Point<f64> {
+                let (phi, pi) = (matrix(&state.phi.to_f64()), TwoPoint(matrix(&state.pi.to_f64())));
+                loaded!(@point $centre self state phi pi)
+            }
+        }
+
+        #[test]
+        fn full_equations() {
+            agrees_with_the_oracle::<$n, Form>();
+        }
+        #[test]
+        fn reduced_equations() {
+            reduction_keeps_the_motion::<$n, Form>();
+        }
+        #[test]
+        fn conserved_quantities() {
+            lists_are_exact::<$n, Form>();
+        }
+    };
+    (@literal $n:literal ($($kinetic:tt)*) ($($potential:tt)*)) => {
+        #[affine_model(dim = $n, kinetic($($kinetic)*), potential = 7/4*($($potential)*))]
+        struct Body;
+        type Form = Body;
+        fn form() -> Form {
+            Body
+        }
+    };
+    (@field $n:literal ($($kinetic:tt)*) ($($potential:tt)*)) => {
+        #[affine_model(dim = $n, kinetic($($kinetic)*), potential = c*($($potential)*))]
+        struct Body {
+            c: f64,
+        }
+        type Form = PreparedBody;
+        fn form() -> Form {
+            Body { c: C }.prepare().unwrap()
+        }
+    };
+    (@translation pinned) => { false };
+    (@translation moving) => { true };
+    (@held free) => { false };
+    (@held held) => { true };
+    (@point pinned $model:ident $state:ident $phi:ident $pi:ident) => {
+        $model.at_momentum($phi, $pi).unwrap()
+    };
+    (@point moving $model:ident $state:ident $phi:ident $pi:ident) => {
+        $model
+            .at_momentum(vector(&$state.x.to_f64()), $phi, vector(&$state.p.to_f64()), $pi)
+            .unwrap()
+    };
+}
+
+/// Every potential with one kind of kinetic energy: fields in the plane, literals in space, and both in both where the
+/// potential is one that everybody uses.
+macro_rules! under_each {
+    ($($kind:ident: $centre:ident $terms:tt $plane:tt $space:tt;)*) => { $(
+        mod $kind {
+            under_each! { @isotropic $centre $terms $plane $space }
+            under_each! { @$centre $terms $plane $space }
+        }
+    )* };
+    (@isotropic $centre:ident $terms:tt $plane:tt $space:tt) => {
+        under_each! { @each $centre free $terms $plane $space
+            hyperbolic_dilatation: field literal (1/2*sinh(q)^2) |place| place.q().sinh().power(2) * 0.5;
+            hyperbolic_dilatation_given: literal field (1/2*sinh(q)^2) |place| place.q().sinh().power(2) * 0.5;
+            neo_hookean: field literal (tr(G)*exp(-2*q) - n)
+                |place| place.trace_green() * (place.q() * -2.0).exp() - place.n();
+            neo_hookean_given: literal field (tr(G)*exp(-2*q) - n)
+                |place| place.trace_green() * (place.q() * -2.0).exp() - place.n();
+            square_of_green: field literal (tr(G*G)) |place| place.trace_green_squared();
+            entries_of_green: field literal (G[1,2]*G[1,1]) |place| place.green(1, 2) * place.green(1, 1);
+            entry_of_finger: field literal (Ct[1,2]^2) |place| place.finger(1, 2).power(2);
+            entry_of_placement: field literal (phi[1,2]^3) |place| place.phi(1, 2).power(3);
+        }
+    };
+    (@pinned $terms:tt $plane:tt $space:tt) => {};
+    (@moving $terms:tt $plane:tt $space:tt) => {
+        under_each! { @each moving held $terms $plane $space
+            oscillator: field literal (norm(x)^2/2) |place| place.distance().power(2) * 0.5;
+            position_and_stretch: field literal (x[1]*tr(G)) |place| place.x(1) * place.trace_green();
+        }
+    };
+    (@each $centre:ident $held:ident $terms:tt $plane:tt $space:tt
+        $($name:ident: $form:ident $form3:ident $potential:tt |$place:ident| $energy:expr;)*) => { $(
+        mod $name {
+            mod plane {
+                loaded! { 2 $centre $held $form $terms $plane $potential |$place| $energy }
+            }
+            mod space {
+                loaded! { 3 $centre $held $form3 $terms $space $potential |$place| $energy }
+            }
+        }
+    )* };
+}
+
+under_each! {
+    left: pinned [body_inertia casimir2 casimir1_squared]
+        (body_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125)
+        (body_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125);
+    right: pinned [space_inertia casimir2 casimir1_squared]
+        (space_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125)
+        (space_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125);
+    affine_affine: pinned [casimir2 casimir1_squared]
+        (casimir2 = 0.25, casimir1_squared = 0.125)
+        (casimir2 = 0.25, casimir1_squared = 0.125);
+    left_body_translation: moving [body_inertia casimir2 casimir1_squared body_translation]
+        (body_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125, body_translation = 1.25)
+        (body_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125, body_translation = 1.25);
+    right_space_translation: moving [space_inertia casimir2 casimir1_squared space_translation]
+        (space_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125, space_translation = 1.25)
+        (space_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125, space_translation = 1.25);
+    dalembert_diagonal: pinned [dalembert]
+        (dalembert = diag(1, 1.5))
+        (dalembert = diag(1, 1.5, 2));
+}
