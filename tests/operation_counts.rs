@@ -89,12 +89,12 @@ pinned! {
         = full (36, 29), reduced (36, 27);
     SpaceTensor2 2 (space_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])
         = full (25, 21), reduced (25, 21);
-    BodyInertia2 2 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = diag(1, 2)) = full (0, 0), reduced (0, 0);
-    BodyInertia3 3 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = diag(1, 1.5, 2)) = full (0, 0), reduced (0, 0);
+    BodyInertia2 2 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = diag(1, 2)) = full (22, 14), reduced (22, 14);
+    BodyInertia3 3 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = diag(1, 1.5, 2)) = full (78, 63), reduced (78, 63);
     BodyInertiaMissile3 3 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = diag(1, 1.5, 2), body_translation = 1)
-        = full (0, 0), reduced (0, 0);
-    BodyInertiaFull2 2 (casimir2 = 0.2, body_inertia = [[1, 0.5], [0.5, 2]]) = full (0, 0), reduced (0, 0);
-    SpaceInertia3 3 (casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = diag(1, 1.5, 2)) = full (0, 0), reduced (0, 0);
+        = full (102, 84), reduced (99, 78);
+    BodyInertiaFull2 2 (casimir2 = 0.2, body_inertia = [[1, 0.5], [0.5, 2]]) = full (30, 22), reduced (30, 22);
+    SpaceInertia3 3 (casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = diag(1, 1.5, 2)) = full (78, 63), reduced (78, 63);
     FlatTensor2 2 (flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])
-        = full (0, 0), reduced (0, 0);
+        = full (11, 11), reduced (0, 0);
 }

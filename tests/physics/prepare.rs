@@ -29,6 +29,15 @@ models! {
     Full2 2 (j k l) (kinetic(dalembert = [[j, k], [k, l]]));
     NoiseScalar2 2 (a b) (kinetic(dalembert = a - b));
     NoiseMatrix2 2 (a b c) (kinetic(dalembert = [[a - b, c], [c, a - b]]));
+    Body2 2 (j k a b) (kinetic(body_inertia = diag(j, k), casimir2 = a, casimir1_squared = b));
+    Space2 2 (j k l) (kinetic(space_inertia = [[j, k], [k, l]]));
+    Flat2 2 (i m) (
+        kinetic(
+            flat_tensor = [[-9, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
+            dalembert = diag(i, 2),
+            space_translation = m,
+        )
+    );
     Tensor2 2 (a) (kinetic(casimir2 = a, body_tensor = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]]));
 }
 
@@ -160,6 +169,46 @@ fn degenerate_tensors_are_refused() {
         assert!(refused.value.abs() <= refused.threshold, "{refused:?}");
         assert!(refused.threshold <= 8.0 * EPS * largest, "{refused:?}");
     }
+}
+
+/// The Hessian of (4.17) has the determinant `(j k - a^2)((j + a)(k + a) + b (j + k + 2 a))`, of either sign.
+#[test]
+fn degenerate_affine_inertias_are_refused() {
+    let body = Body2 { j: 1.0, k: 4.0, a: 0.5, b: 0.25 };
+    for regular in [body, Body2 { k: -4.0, ..body }, Body2 { j: -1.0, k: -4.0, ..body }] {
+        assert!(regular.prepare().is_ok());
+    }
+    // 1*4 - 2^2; (1)(-2) - 2 (1 - 2) = 0; both factors at j = k = -a.
+    for degenerate in [
+        Body2 { a: 2.0, ..body },
+        Body2 { a: -2.0, ..body },
+        Body2 { k: -2.0, a: 0.0, b: -2.0, ..body },
+        Body2 { k: 1.0, a: -1.0, ..body },
+    ] {
+        let refused = defect(degenerate.prepare());
+        assert!(
+            refused.condition.contains("!= 0") && refused.value.abs() <= refused.threshold,
+            "{refused:?}"
+        );
+    }
+    let space = Space2 { j: 1.0, k: 2.0, l: 1.0 };
+    assert!(space.prepare().is_ok());
+    assert!(Space2 { k: 1.0, ..space }.prepare().is_err());
+    for wrong in [f64::NAN, f64::INFINITY] {
+        defect(Body2 { k: wrong, ..body }.prepare());
+        defect(Space2 { k: wrong, ..space }.prepare());
+    }
+}
+
+/// The sum with an indefinite tensor is regular or not by itself; inertia and mass of the masses are positive.
+#[test]
+fn masses_beside_a_flat_tensor_are_positive() {
+    let flat = Flat2 { i: 1.0, m: 2.0 };
+    assert!(flat.prepare().is_ok());
+    // -9 + i = 0.
+    assert!(defect(Flat2 { i: 9.0, ..flat }.prepare()).condition.contains("!= 0"));
+    assert_eq!(defect(Flat2 { i: -2.0, ..flat }.prepare()).condition, "a leading minor of J > 0");
+    assert_refused(Flat2 { m: -1.0, ..flat }.prepare(), "m > 0", -1.0, EPS);
 }
 
 /// What rounding leaves of a vanishing inertia is refused in a matrix as it is in a scalar.

@@ -66,7 +66,8 @@ fn leading_minors(arena: &mut Arena, inertia: &Coefficient) -> Vec<Polynomial> {
             let mut normal_form = |e: &Expr| Polynomial::normal_form(arena, *e);
             let j: Vec<Vec<Polynomial>> =
                 j.0.iter().map(|row| row.iter().map(&mut normal_form).collect()).collect();
-            let leading = |k: usize| j[..k].iter().map(|row| row[..k].to_vec()).collect::<Vec<_>>();
+            let leading =
+                |k: usize| -> Vec<Vec<Polynomial>> { j[..k].iter().map(|row| row[..k].to_vec()).collect() };
             (1..=j.len()).map(|k| determinant(&leading(k))).collect()
         }
     }
@@ -78,8 +79,9 @@ fn determinant(rows: &[Vec<Polynomial>]) -> Polynomial {
     let mut sum = Polynomial::zero();
     for (column, value) in first.iter().enumerate() {
         let without = |row: &Vec<Polynomial>| [&row[..column], &row[column + 1..]].concat();
+        let minor: Vec<Vec<Polynomial>> = below.iter().map(without).collect();
         let sign = if column % 2 == 0 { Rational::ONE } else { Rational::MINUS_ONE };
-        sum.add_product(value, &determinant(&below.iter().map(without).collect::<Vec<_>>()), &sign);
+        sum.add_product(value, &determinant(&minor), &sign);
     }
     sum
 }
