@@ -139,6 +139,10 @@ fn space_translation(_n: usize) -> Term {
     Term::SpaceTranslation(rational(5, 4))
 }
 
+fn dalembert_scalar(n: usize) -> Term {
+    Term::dalembert(n, rational(3, 2))
+}
+
 /// `diag(1, 3/2, 2)`, or its first two rows and columns.
 fn dalembert(n: usize) -> Term {
     let diagonal = (0..n).fold(affine_oracle::Matrix::zeros(n, n), |sum, a| {
@@ -247,6 +251,7 @@ macro_rules! under_each {
     (@moving $terms:tt $plane:tt $space:tt) => {
         under_each! { @each moving held $terms $plane $space
             oscillator: field literal (norm(x)^2/2) |place| place.distance().power(2) * 0.5;
+            coordinates: field literal (x[1]^3 + x[1]*x[2]) |place| place.x(1).power(3) + place.x(1) * place.x(2);
             position_and_stretch: field literal (x[1]*tr(G)) |place| place.x(1) * place.trace_green();
         }
     };
@@ -279,6 +284,15 @@ under_each! {
     right_space_translation: moving [space_inertia casimir2 casimir1_squared space_translation]
         (space_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125, space_translation = 1.25)
         (space_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125, space_translation = 1.25);
+    affine_affine_body_translation: moving [casimir2 casimir1_squared body_translation]
+        (casimir2 = 0.25, casimir1_squared = 0.125, body_translation = 1.25)
+        (casimir2 = 0.25, casimir1_squared = 0.125, body_translation = 1.25);
+    affine_affine_space_translation: moving [casimir2 casimir1_squared space_translation]
+        (casimir2 = 0.25, casimir1_squared = 0.125, space_translation = 1.25)
+        (casimir2 = 0.25, casimir1_squared = 0.125, space_translation = 1.25);
+    dalembert_scalar: moving [dalembert_scalar space_translation]
+        (dalembert = 1.5, space_translation = 1.25)
+        (dalembert = 1.5, space_translation = 1.25);
     dalembert_diagonal: pinned [dalembert]
         (dalembert = diag(1, 1.5))
         (dalembert = diag(1, 1.5, 2));

@@ -31,8 +31,9 @@ pub(crate) const REFERENCE_SOLUTION: f64 = 1e-13;
 /// largest error seen is 2e-15.
 pub(crate) const CONSERVED: f64 = 3e-14;
 
-/// Vibrating bodies against reference solutions: the errors of some thousand steps of 1e-14 each, and rounding errors
-/// grown by the motion.
+/// Vibrating bodies against reference solutions: the errors of some thousand steps of 1e-15 each, and rounding errors
+/// grown by the motion. A plain form of the equations, integrated likewise, has at most 1e-13 in `phi` and, where the
+/// vibration is stiff, 3e-12 in the momentum.
 pub(crate) const VIBRATION: f64 = 1e-11;
 
 /// The same per radian of the fastest vibration: ten units of rounding of its phase.

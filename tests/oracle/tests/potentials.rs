@@ -48,7 +48,7 @@ fn assert_equal(what: &str, found: f64, expected: f64) {
 /// Any `U(q)`: `Q = Q_hat = -(U'(q)/n) 1`; with `U = sh^2(q)/2 = (D^2 + D^-2 - 2)/8`, `-1/(2 ch^2 q)` and `q^2/2`.
 #[test]
 fn dilatational_potentials() {
-    type Function = (fn(&Place) -> Differential, fn(f64) -> f64, fn(f64) -> f64);
+    type Function = (Potential, fn(f64) -> f64, fn(f64) -> f64);
     let functions: [Function; 3] = [
         (
             |place| place.q().sinh().power(2) * 0.5,
@@ -196,8 +196,10 @@ fn models(n: usize) -> Vec<(&'static str, Kinetic)> {
     ]
 }
 
+type Potential = fn(&Place) -> Differential;
+
 /// Classes of potentials.
-const CLASSES: [(&str, fn(&Place) -> Differential); 7] = [
+const CLASSES: [(&str, Potential); 7] = [
     ("U(q)", |place| place.q().sinh().power(2) * 1.5),
     ("U(q_a)", |place| place.trace_green() * (place.q() * -2.0).exp() + place.trace_green_squared()),
     ("U(G)", |place| place.green(1, 2) * place.green(1, 1)),
