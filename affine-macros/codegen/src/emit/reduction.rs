@@ -19,6 +19,8 @@ struct Parts {
     turn: bool,
     /// `p` is a constant.
     linear: bool,
+    /// `p` is state.
+    pushed: bool,
     /// `x0` and `p/m` of a free centre of mass.
     drift: bool,
     /// The affine momentum is a constant.
@@ -39,11 +41,13 @@ impl Parts {
             Commuting::Spin(_) => Some(Frame::Space),
             Commuting::Drift(_) => None,
         });
+        let pushed = context.model.reduced.groups.iter().any(|(name, _)| *name == "p");
         let drift = reduction.commuting.iter().any(|piece| matches!(piece, Commuting::Drift(_)));
         Self {
             origin: whirl.is_some() || drift,
             turn: reduction.turned,
-            linear: context.model.translation.is_some(),
+            linear: context.model.translation.is_some() && !pushed,
+            pushed,
             drift,
             momentum: reduction.layout == Layout::Constant,
             fixed: context.model.fixed.clone(),
@@ -124,7 +128,7 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
     let momentum = chart_momentum(context);
     let moving = chart.linear.is_some();
     let mut lets = TokenStream::new();
-    if parts.linear {
+    if parts.linear || parts.pushed {
         lets.extend(quote!(let p = #rt::Phase::p(point);));
     }
     lets.extend(quote!(let momentum = #momentum;));
@@ -301,13 +305,18 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
     } else if parts.drift {
         lets.extend(quote!(let x = constants.x0 + constants.drift * elapsed;));
     }
+    let p = if parts.pushed { quote!(p) } else { quote!(constants.p) };
+    if parts.pushed {
+        let components = (1..=n).map(|i| format_ident!("p_{i}"));
+        lets.extend(quote!(let p = #rt::vector([#(#components),*]);));
+    }
     lets.extend(expanded_momentum(context, parts, &rows(chart.momentum.name())));
     let spin = match (parts.whirl, chart.momentum) {
         (Some(Frame::Body), Momentum::Body) => quote!(#rt::Comoving(whirl.tr_mul(&momentum) * whirl)),
         (Some(Frame::Space), Momentum::Space) => quote!(#rt::Spatial(whirl * momentum * whirl.transpose())),
         (_, Momentum::Body) => quote!(#rt::Comoving(momentum)),
         (_, Momentum::Space) => quote!(#rt::Spatial(momentum)),
-        (_, Momentum::Total) => quote!(#rt::Spatial(momentum - x * constants.p.transpose())),
+        (_, Momentum::Total) => quote!(#rt::Spatial(momentum - x * #p.transpose())),
         (_, Momentum::Canonical) => quote!(#rt::TwoPoint(momentum)),
     };
     if let Some(frame) = parts.whirl {
@@ -317,9 +326,10 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
             _ => quote!(let phi = whirl * phi;),
         });
     }
-    let centre = match parts.linear {
-        true => quote!(#rt::Centre { x, p: constants.p }),
-        false => quote!(#rt::Pinned),
+    let centre = match (parts.pushed, parts.linear) {
+        (true, _) => quote!(#rt::Centre { x, p }),
+        (false, true) => quote!(#rt::Centre { x, p: constants.p }),
+        (false, false) => quote!(#rt::Pinned),
     };
     let time = if parts.origin { quote!(t) } else { quote!(_t) };
     let reads = parts.origin || parts.turn || parts.linear || parts.momentum || !parts.fixed.is_empty();
