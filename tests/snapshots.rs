@@ -50,6 +50,16 @@ fn camel_case(name: &str) -> String {
 
 // `missile`: translation measured in the body, `drift`: in space.
 families! {
+    vibrating_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1), \
+        potential = hyperbolic_dilatation(10) + neo_hookean(0.5)";
+    vibrating_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1), \
+        potential = hyperbolic_dilatation(10) + neo_hookean(0.5)";
+    vibrating_missile_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, \
+        body_translation = 1), potential = hyperbolic_dilatation(10000) + neo_hookean(0.5)";
+    elastic_dalembert_3: "dim = 3, kinetic(dalembert = diag(1, 1.5, 2)), \
+        potential = hyperbolic_dilatation(10) + neo_hookean(0.5)";
+    orthogonality_2: "dim = 2, kinetic(dalembert = 3, space_translation = 2), potential = orthogonality(5) + x[2]";
+    fibre_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1), potential = (G[1,1] - 1)^2 + Ct[1,2]^2 + q^2/2";
     left_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)";
     left_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)";
     left_missile_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1)";

@@ -10,6 +10,7 @@ use proc_macro::TokenStream;
 /// |---|---|---|
 /// | `dim` | `2`, `3` | dimension; `n` in expressions |
 /// | `kinetic(...)` | terms | the kinetic energy, a sum of the terms below |
+/// | `potential` | expression | the potential energy, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
 /// | `crate` | path | the runtime, where it has another name than `affine_runtime` |
@@ -18,15 +19,31 @@ use proc_macro::TokenStream;
 /// |---|---|
 /// | `casimir2 = A` | `A/2 tr Om^2 = A/2 tr Oh^2` |
 /// | `casimir1_squared = B` | `B/2 (tr Om)^2` |
-/// | `body_inertia = I` | `I/2 tr(Oh Oh^T)`, (4.14) |
-/// | `space_inertia = I` | `I/2 tr(Om Om^T)`, (4.15) |
+/// | `body_inertia = I`, `diag(..)`, `[[..], ..]` | `1/2 tr(Oh J Oh^T)`, (4.14), (4.17) |
+/// | `space_inertia = I`, `diag(..)`, `[[..], ..]` | `1/2 tr(Om J Om^T)`, (4.15) |
 /// | `body_translation = m` | `m/2 \|phi^-1 x_dot\|^2`, (4.4) |
 /// | `space_translation = m` | `m/2 \|x_dot\|^2`, (4.5) |
 /// | `dalembert = I`, `diag(..)`, `[[..], ..]` | `1/2 tr(phi_dot J phi_dot^T)`, (2.1) |
 /// | `body_tensor = [[..], ..]`, `space_tensor = [[..], ..]` | `1/2 K[nA+B][nC+D] O[A][B] O[C][D]`, (4.1), (4.2) |
+/// | `flat_tensor = [[..], ..]` | the same over `phi_dot` |
 ///
 /// `Oh = phi^-1 phi_dot`, `Om = phi_dot phi^-1`. A coefficient is an arithmetic expression over exact decimal literals,
 /// fields and `n`; `^` binds tightest and to the right, above the sign: `-a^2` is `-(a^2)`.
+///
+/// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
+/// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)`, their entries `G[1,2]`, with
+/// translation `x[1]` and `norm(x)`, and the functions `exp ln sqrt sin cos tan sinh cosh tanh`. It is
+/// differentiated symbolically. Named ones are written `name(coefficient, ..)`:
+///
+/// | name | formula |
+/// |---|---|
+/// | `hyperbolic_dilatation(kappa)` | `kappa/2 sinh(q)^2` |
+/// | `dissociation(kappa)` | `-kappa/2 / cosh(q)^2` |
+/// | `harmonic_dilatation(kappa)` | `kappa/2 q^2` |
+/// | `neo_hookean(c)` | `c (tr(G) exp(-2q) - n)` |
+/// | `saint_venant_kirchhoff(lambda, mu)` | `lambda/2 (tr E)^2 + mu tr E^2`, `E = (G - 1)/2` |
+/// | `orthogonality(k)` | `k tr((G - 1)^2)` |
+/// | `gas(k)` | `k exp(-2q)` |
 ///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
 /// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`.

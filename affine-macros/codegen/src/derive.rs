@@ -65,7 +65,9 @@ pub struct Model {
     pub conserved_at_rest: Vec<Candidate>,
     /// Numbers of positive and negative squares.
     pub signature: Option<(usize, usize)>,
-    /// Symmetry groups of space and body.
+    /// Is there a potential?
+    pub has_potential: bool,
+    /// Symmetry groups of space and body that leave the kinetic energy unchanged.
     pub groups: (Group, Group),
     /// `T`, `H`, and the equations.
     pub formulas: Formulas,
@@ -223,6 +225,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         conserved: conserved_now,
         conserved_at_rest,
         signature,
+        has_potential: potential.is_some(),
         groups,
         formulas,
     })

@@ -46,8 +46,9 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         Group::Metric => format!("O({n})"),
         Group::Less => format!("a proper subgroup of O({n})"),
     };
+    let invariant = if model.has_potential { "The kinetic energy is invariant" } else { "Invariant" };
     lines.push(format!(
-        "Invariant under {} in space and {} in the body.",
+        "{invariant} under {} in space and {} in the body.",
         group(model.groups.0),
         group(model.groups.1)
     ));

@@ -140,16 +140,19 @@ impl System {
         let value = |atom: Expr| trivial.iter().find(|(s, _)| *s == atom).map(|(_, p)| p.clone());
         self = self.substitute(&value);
         self.shared.retain(|(s, _)| !trivial.iter().any(|(t, _)| t == s));
-        let used = |symbol: Expr, shared: &[(Expr, Polynomial)]| {
-            shared
-                .iter()
-                .map(|(_, p)| p)
-                .chain(self.rates.iter().map(|(_, _, p)| p))
-                .any(|p| p.any_symbol(arena, &mut |a| a == symbol))
-        };
-        let keep: Vec<bool> = self.shared.iter().map(|(s, _)| used(*s, &self.shared)).collect();
-        let mut keep = keep.into_iter();
-        self.shared.retain(|_| keep.next().unwrap_or(true));
+        loop {
+            let used = |symbol: Expr| {
+                let shared = self.shared.iter().map(|(_, p)| p);
+                shared
+                    .chain(self.rates.iter().map(|(_, _, p)| p))
+                    .any(|p| p.any_symbol(arena, &mut |a| a == symbol))
+            };
+            let idle: Vec<Expr> = self.shared.iter().map(|(s, _)| *s).filter(|s| !used(*s)).collect();
+            if idle.is_empty() {
+                break;
+            }
+            self.shared.retain(|(s, _)| !idle.contains(s));
+        }
         self
     }
 }
