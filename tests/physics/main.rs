@@ -18,3 +18,4 @@ mod drunk_missile;
 mod geodesics;
 mod potentials;
 mod prepare;
+mod undeformed;
