@@ -4,13 +4,16 @@
 //! chain rule does the rest. `Q_hat = -(dU/dphi)^T phi`, `Q = -phi (dU/dphi)^T`, `Q_tr = -dU/dx` (MATH: section 3
 //! of the paper).
 
-use crate::algebra::arena::Node;
-use crate::algebra::ring::{Square, adjugate, deviator, skew, sum, table};
+mod invariance;
+mod rewriting;
+
+use crate::algebra::ring::{Square, adjugate};
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
-use super::conserved::Candidate;
 use super::equations::Load;
+use invariance::Invariance;
+use rewriting::{about_undeformed, through_dilatation};
 
 /// A potential.
 #[derive(Clone, Debug)]
@@ -253,89 +256,6 @@ impl Potential {
         let value = |atom: Expr| moved.iter().find(|(s, _)| *s == atom).map(|(_, v)| v.clone());
         (form.substitute(&value), shared)
     }
-
-    /// Does every motion that conserves the candidate without the potential conserve it with it? The kinetic
-    /// energy is quadratic in the momenta, so that its bracket and that of the potential vanish each for itself.
-    #[must_use]
-    pub fn keeps(&self, candidate: Candidate) -> bool {
-        let invariance = &self.invariance;
-        let vanish = |list: &[Polynomial]| list.iter().all(Polynomial::is_zero);
-        match candidate {
-            Candidate::Energy => true,
-            Candidate::LinearMomentum | Candidate::ComovingLinearMomentum => vanish(&invariance.centre),
-            Candidate::OrbitalAngularMomentum => vanish(&skew(&invariance.orbital)),
-            Candidate::TotalAffineMomentum => vanish(&invariance.total().concat()),
-            Candidate::TotalAngularMomentum => vanish(&skew(&invariance.total())),
-            Candidate::AffineSpin
-            | Candidate::CanonicalMomentum
-            | Candidate::Casimir2
-            | Candidate::Casimir3 => vanish(&invariance.space.concat()),
-            Candidate::ComovingAffineSpin => vanish(&invariance.body.concat()),
-            Candidate::Deviator | Candidate::DeviatorCasimir2 | Candidate::DeviatorCasimir3 => {
-                vanish(&deviator(&invariance.space).concat())
-            }
-            Candidate::ComovingDeviator => vanish(&deviator(&invariance.body).concat()),
-            Candidate::Spin | Candidate::SpinNorm => vanish(&skew(&invariance.space)),
-            Candidate::Vorticity | Candidate::VorticityNorm => vanish(&skew(&invariance.body)),
-            Candidate::Casimir1 => {
-                let mut trace = Polynomial::zero();
-                (0..self.dim).for_each(|i| trace.add_scaled(&invariance.space[i][i], &Rational::ONE));
-                trace.is_zero()
-            }
-        }
-    }
-}
-
-/// Derivatives of `U` along the generators, as polynomials in `phi`, `x` and functions.
-#[derive(Clone, Debug)]
-struct Invariance {
-    space: Square<Polynomial>,
-    body: Square<Polynomial>,
-    centre: Vec<Polynomial>,
-    orbital: Square<Polynomial>,
-}
-
-impl Invariance {
-    fn new(arena: &mut Arena, n: usize, slopes: &[(Base, Expr)]) -> Self {
-        let chart = Chart::new(arena, n, Momentum::Body, Some(Linear::Space));
-        let phi = placement(&chart);
-        let (green, finger) = (table(n, |a, b| green(&phi, a, b)), table(n, |i, j| finger(&phi, i, j)));
-        let definitions = definitions(arena, n, &chart);
-        let value =
-            |atom: Expr| definitions.iter().find(|(symbol, _)| *symbol == atom).map(|(_, p)| p.clone());
-        let slopes: Vec<(Base, Polynomial)> = slopes
-            .iter()
-            .map(|(base, slope)| {
-                // Traces are sums of entries of tensors, tensors are polynomials in phi.
-                let form = Polynomial::normal_form(arena, *slope).substitute(&value).substitute(&value);
-                (*base, form.scaled(&base.weight(n)))
-            })
-            .collect();
-        let tensors = Tensors { phi, green, finger, inverse: Vec::new() };
-        let along = |along: Along| {
-            table(n, |a, b| {
-                let mut sum = Polynomial::zero();
-                for (base, slope) in &slopes {
-                    sum.add_product(slope, &direction(*base, along, &tensors, a, b), &Rational::ONE);
-                }
-                sum
-            })
-        };
-        let position = |i: usize| {
-            let found = slopes.iter().find(|(base, _)| *base == Base::Position(i));
-            found.map_or_else(Polynomial::zero, |(_, slope)| slope.clone())
-        };
-        Self {
-            space: along(Along::Space),
-            body: along(Along::Body),
-            centre: (0..n).map(position).collect(),
-            orbital: table(n, |i, j| Polynomial::atom(chart.x[i]).mul(&position(j))),
-        }
-    }
-
-    fn total(&self) -> Square<Polynomial> {
-        sum(&self.orbital, &self.space)
-    }
 }
 
 /// `tr G - n` and `tr G^2 - n` without cancellation near `phi = 1`: with `H = phi - 1`, a difference without rounding
@@ -492,107 +412,4 @@ fn finger(phi: &Square<Polynomial>, i: usize, j: usize) -> Polynomial {
 /// A parameter of the model: a field.
 fn is_parameter(arena: &Arena, symbol: Expr) -> bool {
     arena.name(symbol).is_some_and(|name| name.starts_with("self."))
-}
-
-/// The integer `k` of `k q`.
-fn multiple_of_q(arena: &Arena, argument: Expr) -> Option<i32> {
-    let is_q = |e: Expr| arena.name(e) == Some("q");
-    if is_q(argument) {
-        return Some(1);
-    }
-    match arena.node(argument) {
-        Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 && is_q(terms[0].0) => {
-            i32::try_from(terms[0].1.to_i64()?).ok()
-        }
-        _ => None,
-    }
-}
-
-/// Functions `exp`, `sinh`, `cosh` of integer multiples of `q` as powers of `D = exp(q)` and `1/D`, which cost one
-/// root instead of a logarithm and an exponential each.
-fn through_dilatation(arena: &mut Arena, expr: Expr) -> Expr {
-    let power = |arena: &mut Arena, k: i32| {
-        let base = arena.symbol(if k > 0 { "dilatation" } else { "inverse_dilatation" });
-        arena.pow(base, i32::try_from(k.unsigned_abs()).unwrap_or(1)).unwrap_or(base)
-    };
-    rewritten(arena, expr, &|arena, function, argument, exponent| {
-        let k = multiple_of_q(arena, argument)?;
-        let half = Rational::ratio(1, 2)?;
-        match function {
-            Function::Exp => Some(power(arena, k.checked_mul(exponent)?)),
-            Function::Sinh | Function::Cosh => {
-                let sign = if function == Function::Sinh { -&half } else { half.clone() };
-                let (up, down) = (power(arena, k), power(arena, -k));
-                let value = arena.linear(&[(up, half), (down, sign)]);
-                arena.pow(value, exponent)
-            }
-            _ => None,
-        }
-    })
-}
-
-/// `exp(u) = 1 + 2 sinh(u/2)^2 + sinh(u)` and `cosh(u) = 1 + 2 sinh(u/2)^2` for `u = k q`.
-fn about_undeformed(arena: &mut Arena, expr: Expr) -> Expr {
-    rewritten(arena, expr, &|arena, function, argument, exponent| {
-        let k = multiple_of_q(arena, argument)?;
-        if !matches!(function, Function::Exp | Function::Cosh) || exponent < 1 && function == Function::Cosh {
-            return None;
-        }
-        let q = arena.symbol("q");
-        // A power of an exponential is one exponential.
-        let (k, exponent) =
-            if function == Function::Exp { (k.checked_mul(exponent)?, 1) } else { (k, exponent) };
-        let whole = arena.scale(q, &Rational::from(i64::from(k)));
-        let half = arena.scale(q, &Rational::ratio(i64::from(k), 2)?);
-        let half = arena.apply(Function::Sinh, half);
-        let square = arena.mul(half, half);
-        let one = arena.constant(Rational::ONE);
-        let mut terms = vec![(one, Rational::ONE), (square, Rational::from(2))];
-        if function == Function::Exp {
-            terms.push((arena.apply(Function::Sinh, whole), Rational::ONE));
-        }
-        let value = arena.linear(&terms);
-        arena.pow(value, exponent)
-    })
-}
-
-/// Replaces powers of functions for which `value(function, argument, exponent)` knows better, from the inside out.
-fn rewritten(
-    arena: &mut Arena,
-    expr: Expr,
-    value: &dyn Fn(&mut Arena, Function, Expr, i32) -> Option<Expr>,
-) -> Expr {
-    match arena.node(expr).clone() {
-        Node::Constant(_) | Node::Symbol(_) => expr,
-        Node::Sum(constant, terms) => {
-            let constant = arena.constant(constant);
-            let mut summands = vec![(constant, Rational::ONE)];
-            for (term, c) in terms {
-                summands.push((rewritten(arena, term, value), c));
-            }
-            arena.linear(&summands)
-        }
-        Node::Product(factors) => {
-            let mut product = Vec::new();
-            for (base, exponent) in factors {
-                let known = match *arena.node(base) {
-                    Node::Function(function, argument) => value(arena, function, argument, exponent),
-                    _ => None,
-                };
-                product.push(match known {
-                    Some(power) => (power, 1),
-                    None => (rewritten(arena, base, value), exponent),
-                });
-            }
-            // The bases were not the number zero, and keep their values.
-            arena.product(&product).unwrap_or(expr)
-        }
-        Node::Function(function, argument) => match value(arena, function, argument, 1) {
-            Some(known) => known,
-            None => {
-                let argument = rewritten(arena, argument, value);
-                arena.apply(function, argument)
-            }
-        },
-    }
 }

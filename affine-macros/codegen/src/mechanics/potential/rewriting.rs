@@ -1,0 +1,107 @@
+//! Functions of `q` in the forms that right-hand sides and energies need.
+
+use crate::algebra::arena::Node;
+use crate::algebra::{Arena, Expr, Function, Rational};
+
+/// The integer `k` of `k q`.
+fn multiple_of_q(arena: &Arena, argument: Expr) -> Option<i32> {
+    let is_q = |e: Expr| arena.name(e) == Some("q");
+    if is_q(argument) {
+        return Some(1);
+    }
+    match arena.node(argument) {
+        Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 && is_q(terms[0].0) => {
+            i32::try_from(terms[0].1.to_i64()?).ok()
+        }
+        _ => None,
+    }
+}
+
+/// Functions `exp`, `sinh`, `cosh` of integer multiples of `q` as powers of `D = exp(q)` and `1/D`, which cost one
+/// root instead of a logarithm and an exponential each.
+pub(super) fn through_dilatation(arena: &mut Arena, expr: Expr) -> Expr {
+    let power = |arena: &mut Arena, k: i32| {
+        let base = arena.symbol(if k > 0 { "dilatation" } else { "inverse_dilatation" });
+        arena.pow(base, i32::try_from(k.unsigned_abs()).unwrap_or(1)).unwrap_or(base)
+    };
+    rewritten(arena, expr, &|arena, function, argument, exponent| {
+        let k = multiple_of_q(arena, argument)?;
+        let half = Rational::ratio(1, 2)?;
+        match function {
+            Function::Exp => Some(power(arena, k.checked_mul(exponent)?)),
+            Function::Sinh | Function::Cosh => {
+                let sign = if function == Function::Sinh { -&half } else { half.clone() };
+                let (up, down) = (power(arena, k), power(arena, -k));
+                let value = arena.linear(&[(up, half), (down, sign)]);
+                arena.pow(value, exponent)
+            }
+            _ => None,
+        }
+    })
+}
+
+/// `exp(u) = 1 + 2 sinh(u/2)^2 + sinh(u)` and `cosh(u) = 1 + 2 sinh(u/2)^2` for `u = k q`.
+pub(super) fn about_undeformed(arena: &mut Arena, expr: Expr) -> Expr {
+    rewritten(arena, expr, &|arena, function, argument, exponent| {
+        let k = multiple_of_q(arena, argument)?;
+        if !matches!(function, Function::Exp | Function::Cosh) || exponent < 1 && function == Function::Cosh {
+            return None;
+        }
+        let q = arena.symbol("q");
+        // A power of an exponential is one exponential.
+        let (k, exponent) =
+            if function == Function::Exp { (k.checked_mul(exponent)?, 1) } else { (k, exponent) };
+        let whole = arena.scale(q, &Rational::from(i64::from(k)));
+        let half = arena.scale(q, &Rational::ratio(i64::from(k), 2)?);
+        let half = arena.apply(Function::Sinh, half);
+        let square = arena.mul(half, half);
+        let one = arena.constant(Rational::ONE);
+        let mut terms = vec![(one, Rational::ONE), (square, Rational::from(2))];
+        if function == Function::Exp {
+            terms.push((arena.apply(Function::Sinh, whole), Rational::ONE));
+        }
+        let value = arena.linear(&terms);
+        arena.pow(value, exponent)
+    })
+}
+
+/// Replaces powers of functions for which `value(function, argument, exponent)` knows better, from the inside out.
+fn rewritten(
+    arena: &mut Arena,
+    expr: Expr,
+    value: &dyn Fn(&mut Arena, Function, Expr, i32) -> Option<Expr>,
+) -> Expr {
+    match arena.node(expr).clone() {
+        Node::Constant(_) | Node::Symbol(_) => expr,
+        Node::Sum(constant, terms) => {
+            let constant = arena.constant(constant);
+            let mut summands = vec![(constant, Rational::ONE)];
+            for (term, c) in terms {
+                summands.push((rewritten(arena, term, value), c));
+            }
+            arena.linear(&summands)
+        }
+        Node::Product(factors) => {
+            let mut product = Vec::new();
+            for (base, exponent) in factors {
+                let known = match *arena.node(base) {
+                    Node::Function(function, argument) => value(arena, function, argument, exponent),
+                    _ => None,
+                };
+                product.push(match known {
+                    Some(power) => (power, 1),
+                    None => (rewritten(arena, base, value), exponent),
+                });
+            }
+            // The bases were not the number zero, and keep their values.
+            arena.product(&product).unwrap_or(expr)
+        }
+        Node::Function(function, argument) => match value(arena, function, argument, 1) {
+            Some(known) => known,
+            None => {
+                let argument = rewritten(arena, argument, value);
+                arena.apply(function, argument)
+            }
+        },
+    }
+}
