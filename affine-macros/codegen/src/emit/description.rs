@@ -73,14 +73,14 @@ fn names(list: &[Candidate]) -> String {
 fn counts(operations: Operations) -> String {
     let mut parts =
         vec![format!("{} multiplications", operations.mul), format!("{} additions", operations.add)];
-    for (count, what) in [
-        (operations.div, "divisions"),
-        (operations.sqrt, "roots"),
-        (operations.exp, "exponential functions"),
-        (operations.ln, "logarithms"),
+    for (count, one, several) in [
+        (operations.div, "division", "divisions"),
+        (operations.sqrt, "root", "roots"),
+        (operations.exp, "exponential function", "exponential functions"),
+        (operations.ln, "logarithm", "logarithms"),
     ] {
         if count > 0 {
-            parts.push(format!("{count} {what}"));
+            parts.push(format!("{count} {}", if count == 1 { one } else { several }));
         }
     }
     parts.join(", ")

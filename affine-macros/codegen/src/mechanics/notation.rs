@@ -3,9 +3,23 @@
 use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function, Rational};
 
-/// Text of an expression; fields lose the mark that keeps them apart, traces are written out.
+/// Text of an expression; fields keep their names, tensors and their traces get those of the specification.
 pub(super) fn plain(arena: &Arena, expr: Expr) -> String {
-    arena.text(expr).replace("self.", "").replace("trace_1", "tr(G)").replace("trace_2", "tr(G^2)")
+    const NAMES: [(&str, &str); 4] =
+        [("trace_1", "tr(G)"), ("trace_2", "tr(G^2)"), ("green_", "G_"), ("finger_", "Ct_")];
+    // A field may have any of these names: only what is none is renamed.
+    let parts = arena.text(expr);
+    let mut written = String::with_capacity(parts.len());
+    for part in parts.split_inclusive(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.')) {
+        written += &match part.strip_prefix("self.") {
+            Some(field) => field.to_owned(),
+            None => match NAMES.iter().find(|(symbol, _)| part.starts_with(symbol)) {
+                Some((symbol, name)) => format!("{name}{}", &part[symbol.len()..]),
+                None => part.to_owned(),
+            },
+        };
+    }
+    written
 }
 
 /// LaTeX of an expression.
