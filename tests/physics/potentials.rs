@@ -251,6 +251,7 @@ macro_rules! under_each {
     (@moving $terms:tt $plane:tt $space:tt) => {
         under_each! { @each moving held $terms $plane $space
             oscillator: field literal (norm(x)^2/2) |place| place.distance().power(2) * 0.5;
+            attraction: field literal (-1/norm(x)) |place| (place.distance().ln() * -1.0).exp() * -1.0;
             coordinates: field literal (x[1]^3 + x[1]*x[2]) |place| place.x(1).power(3) + place.x(1) * place.x(2);
             position_and_stretch: field literal (x[1]*tr(G)) |place| place.x(1) * place.trace_green();
         }
