@@ -15,10 +15,12 @@
 //! of collective and internal modes, Part I*.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+mod breathing;
 pub mod conserved;
 #[cfg(feature = "std")]
 pub mod counting;
 pub mod decompose;
+mod elliptic;
 pub mod error;
 pub mod frames;
 pub mod geodesic;

@@ -2,6 +2,7 @@
 
 pub use core::primitive::f64;
 
+pub use crate::breathing::Breathing;
 pub use crate::decompose::skew_exponential;
 pub use crate::error::Result;
 pub use crate::frames::{
