@@ -131,11 +131,8 @@ fn elliptic<T: Real>(scale: T, squared: T, y: T, v: T) -> Path<T> {
     if energy > T::zero() {
         // y' = v at y = 0; the smaller of v and w over the larger is the complementary modulus.
         let a = energy.sqrt();
-        let (rate, size, m1) = if a >= w {
-            (a, one, squared.abs() / energy)
-        } else {
-            (w, a / w, energy / squared.abs())
-        };
+        let (rate, size, m1) =
+            if a >= w { (a, one, squared.abs() / energy) } else { (w, a / w, energy / squared.abs()) };
         let (sn, cn) = (y / y.hypot(size), size / y.hypot(size));
         let start = argument(sn, cn, m1);
         let rate = if v < T::zero() { -rate } else { rate };
@@ -192,7 +189,8 @@ mod tests {
     fn integrated(q: f64, p: f64, inverse_mass: f64, slope: impl Fn(f64) -> f64) -> [f64; 2] {
         let rates = |_: f64, y: &[f64; 2]| [y[1] * inverse_mass, -slope(y[0])];
         const GROUPS: &[Group] = &[Group { name: "q", len: 1 }, Group { name: "p", len: 1 }];
-        let mut run = RungeKutta8::new(rates, GROUPS, (0.0, [q, p]), T_END, 1e-13).expect("the start is finite");
+        let mut run =
+            RungeKutta8::new(rates, GROUPS, (0.0, [q, p]), T_END, 1e-13).expect("the start is finite");
         while !run.is_finished() {
             run.advance().expect("the motion is smooth");
         }
@@ -241,7 +239,9 @@ mod tests {
     #[test]
     fn start_is_met() {
         for stiffness in [1e6_f64, 1.0, -1.0] {
-            for (q, p) in [(0.0_f64, 0.0_f64), (1e-9, 0.0), (0.0, 1e-9), (0.4, -0.3), (-5.0, 2.0), (20.0, 0.0)] {
+            for (q, p) in
+                [(0.0_f64, 0.0_f64), (1e-9, 0.0), (0.0, 1e-9), (0.4, -0.3), (-5.0, 2.0), (20.0, 0.0)]
+            {
                 let (found, momentum) = Breathing::hyperbolic(1.0, q, p, 0.5, stiffness, 1.0).at(1.0);
                 assert!((found - q).abs() <= 8e-16 * (1.0 + q.abs()), "{stiffness} {q} {p}: {found}");
                 // The momentum is sqrt(stiffness/inverse_mass) times an amplitude.

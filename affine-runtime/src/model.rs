@@ -145,6 +145,13 @@ pub struct Group {
     pub len: usize,
 }
 
+impl Group {
+    /// The placement, or its isochoric part: what momenta move, and what keeps its orientation.
+    pub(crate) fn is_placement(&self) -> bool {
+        matches!(self.name, "phi" | "Psi")
+    }
+}
+
 /// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {

@@ -59,6 +59,8 @@ pub struct Model {
     pub closed_form: Option<(ClosedForm, bool)>,
     /// `1/alpha`, `1/beta`, `1/mu` of an isotropic model.
     pub isotropic: Option<Program>,
+    /// `1/m`, the stiffness and the scale of the dilatational motion, where it is taken out of the state.
+    pub dilatation: Option<Program>,
     /// Conserved quantities.
     pub conserved: Vec<Candidate>,
     /// Conserved quantities of motions with `p = 0`.
@@ -202,6 +204,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         let results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
         inline(arena, Batch { shared: Vec::new(), results }, Vec::new())
     });
+    let dilatation = reduction.separation.as_ref().map(|s| inline(arena, s.batch(), Vec::new()));
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
     Some(Model {
         dim: kinetic.dim,
@@ -222,6 +225,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         fixed,
         closed_form,
         isotropic,
+        dilatation,
         conserved: conserved_now,
         conserved_at_rest,
         signature,

@@ -8,6 +8,7 @@ mod names;
 mod points;
 mod prepare;
 mod reduction;
+mod separated;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};

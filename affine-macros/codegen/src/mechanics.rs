@@ -12,4 +12,5 @@ pub mod kinetic;
 mod notation;
 pub mod potential;
 pub mod reduce;
+pub mod separation;
 pub mod symmetry;

@@ -329,7 +329,7 @@ fn energy_scale<const N: usize, M: Model<N>>(model: &M, point: &M::Point<f64>, e
 /// Components of a reduced state that are the placement, row by row, up to factors of positive determinant that
 /// the expansion restores.
 fn placement_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
-    let k = groups.iter().position(|group| group.name == "phi" && group.len == n * n)?;
+    let k = groups.iter().position(|group| group.is_placement() && group.len == n * n)?;
     let start = total(&groups[..k]);
     Some(start..start + n * n)
 }

@@ -10,6 +10,7 @@ use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::{self, Layout, Reduction};
+use crate::mechanics::separation::{Separation, Slope};
 use crate::optimise::{Batch, straight_line};
 
 use super::Equations;
@@ -67,6 +68,22 @@ pub(super) fn full_equations(
     Equations {
         groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),
         program: fuse(&program),
+    }
+}
+
+impl Separation {
+    /// What the closed form of the dilatation reads: `1/m`, and the stiffness and scale of `U_dil'`.
+    pub(super) fn batch(&self) -> Batch {
+        let mut results = vec![("inverse_dilatational_mass".to_owned(), self.inverse_mass.clone())];
+        match &self.slope {
+            Slope::Zero => {}
+            Slope::Linear(stiffness) => results.push(("stiffness".to_owned(), stiffness.clone())),
+            Slope::Hyperbolic { stiffness, scale } => {
+                results.push(("stiffness".to_owned(), stiffness.clone()));
+                results.push(("scale".to_owned(), Polynomial::constant(scale.clone())));
+            }
+        }
+        Batch { shared: Vec::new(), results }
     }
 }
 

@@ -9,6 +9,7 @@ use crate::mechanics::reduce::{Commuting, Layout};
 
 use super::body::Body;
 use super::points::components;
+use super::separated;
 use super::{Context, identifiers, inputs, number, pattern};
 
 /// What one trajectory needs besides its reduced state.
@@ -29,6 +30,8 @@ struct Parts {
     fixed: Vec<String>,
     /// Generator of the rotation that commutes.
     whirl: Option<Frame>,
+    /// The dilatation moves in closed form.
+    dilatation: bool,
     /// Coefficients of the reduced equations.
     coefficients: usize,
 }
@@ -52,6 +55,7 @@ impl Parts {
             momentum: reduction.layout == Layout::Constant,
             fixed: context.model.fixed.clone(),
             whirl,
+            dilatation: reduction.separation.is_some(),
             coefficients: context.model.trajectory.outputs.len(),
         }
     }
@@ -86,6 +90,11 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
         parts.whirl.is_some(),
         "Generator of the rotation that commutes with the rest of the motion.",
         quote!(whirl: #rt::Matrix<#n, #t>),
+    );
+    field(
+        parts.dilatation,
+        "The motion of `q = ln(det phi)/n` and its momentum `tr Sigma`.",
+        quote!(dilatation: #rt::Breathing<#t>),
     );
     field(
         parts.coefficients > 0,
@@ -140,7 +149,10 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
             _ => quote!(let turn = #rt::turn(&p, ::core::option::Option::None);),
         });
     }
-    lets.extend(bind_state(context, parts, moving));
+    lets.extend(match parts.dilatation {
+        true => separated::split(context),
+        false => bind_state(context, parts, moving),
+    });
     let body = context.generic(&context.model.trajectory);
     let (trajectory, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
@@ -161,11 +173,12 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
     field(parts.momentum, quote!(momentum));
     field(!parts.fixed.is_empty(), quote!(fixed: [#(#fixed),*]));
     field(parts.whirl.is_some(), quote!(whirl));
+    field(parts.dilatation, quote!(dilatation));
     field(parts.coefficients > 0, quote!(coefficients: [#(#results),*]));
     if fields.is_empty() {
         fields = quote!(scalar: ::core::marker::PhantomData);
     }
-    let origin = if parts.origin { quote!(t0) } else { quote!(_t0) };
+    let origin = if parts.origin || parts.dilatation { quote!(t0) } else { quote!(_t0) };
     quote! {
         fn reduce<#t: #rt::Real>(
             &self,
@@ -293,8 +306,12 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
     let back = |value: TokenStream| {
         if parts.turn { quote!(constants.turn.tr_mul(&#value)) } else { value }
     };
-    let phi = back(rows("phi"));
-    lets.extend(quote!(let phi = #phi;));
+    if parts.dilatation {
+        lets.extend(separated::placement(context));
+    } else {
+        let phi = back(rows("phi"));
+        lets.extend(quote!(let phi = #phi;));
+    }
     if parts.origin {
         lets.extend(quote!(let elapsed = t - constants.t0;));
     }
@@ -310,7 +327,10 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
         let components = (1..=n).map(|i| format_ident!("p_{i}"));
         lets.extend(quote!(let p = #rt::vector([#(#components),*]);));
     }
-    lets.extend(expanded_momentum(context, parts, &rows(chart.momentum.name())));
+    lets.extend(match parts.dilatation {
+        true => separated::momentum(context, &parts.fixed),
+        false => expanded_momentum(context, parts, &rows(chart.momentum.name())),
+    });
     let spin = match (parts.whirl, chart.momentum) {
         (Some(Frame::Body), Momentum::Body) => quote!(#rt::Comoving(whirl.tr_mul(&momentum) * whirl)),
         (Some(Frame::Space), Momentum::Space) => quote!(#rt::Spatial(whirl * momentum * whirl.transpose())),
@@ -331,8 +351,13 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
         (false, true) => quote!(#rt::Centre { x, p: constants.p }),
         (false, false) => quote!(#rt::Pinned),
     };
-    let time = if parts.origin { quote!(t) } else { quote!(_t) };
-    let reads = parts.origin || parts.turn || parts.linear || parts.momentum || !parts.fixed.is_empty();
+    let time = if parts.origin || parts.dilatation { quote!(t) } else { quote!(_t) };
+    let reads = parts.origin
+        || parts.dilatation
+        || parts.turn
+        || parts.linear
+        || parts.momentum
+        || !parts.fixed.is_empty();
     let constants = if reads { quote!(constants) } else { quote!(_constants) };
     quote! {
         fn expand<#t: #rt::Real>(

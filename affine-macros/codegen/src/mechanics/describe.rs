@@ -12,6 +12,7 @@ use super::kinetic::{Coefficient, Frame, Kinetic, TermKind};
 use super::notation::{latex, plain};
 use super::potential::Potential;
 use super::reduce::{ClosedForm, Commuting, Layout, Reduction};
+use super::separation::Slope;
 
 /// A formula in both notations.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -428,6 +429,20 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
         .to_owned());
     }
     let (name, ..) = momentum_names(reduction.chart.momentum);
+    if let Some(separation) = &reduction.separation {
+        let path = match separation.slope {
+            Slope::Zero => "moves freely",
+            Slope::Linear(_) => "swings harmonically",
+            Slope::Hyperbolic { .. } => "moves by an elliptic function",
+        };
+        list.push(format!(
+            "the dilatation: phi = e^q Psi with det Psi = 1, and q {path}; the state is Psi with O, the traceless part \
+             of {name} over alpha, in parts O = s + w, symmetric and skew"
+        ));
+        if !reduction.fixed.is_empty() {
+            list.push("w: conserved".to_owned());
+        }
+    }
     match reduction.layout {
         Layout::Constant => list.push(format!("{name}: conserved")),
         Layout::Entries => {}

@@ -4,6 +4,7 @@
 //! chain rule does the rest. `Q_hat = -(dU/dphi)^T phi`, `Q = -phi (dU/dphi)^T`, `Q_tr = -dU/dx` (MATH: section 3
 //! of the paper).
 
+mod dilatation;
 mod invariance;
 mod rewriting;
 

@@ -10,6 +10,7 @@ use super::equations::{Form, Load, System, hamilton};
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetic::Frame;
 use super::potential::Potential;
+use super::separation::{Separation, shear_system};
 
 /// A piece of `H` that commutes with the rest and whose flow is known.
 #[derive(Clone, Debug)]
@@ -44,6 +45,8 @@ pub struct Reduction {
     pub layout: Layout,
     /// Components of the affine momentum that are conserved while others are state, in turned space.
     pub fixed: Vec<Expr>,
+    /// The dilatation, where it is taken out of the state: the system is then that of `Psi` and `sigma/alpha`.
+    pub separation: Option<Separation>,
     /// The equations of the state variables.
     pub system: System,
     /// State variables: group name and symbols.
@@ -140,7 +143,8 @@ pub fn candidates(
             momenta.push(other);
         }
     }
-    momenta
+    let separated = separated(arena, h, potential, &commuting);
+    let entire: Vec<Reduction> = momenta
         .into_iter()
         .flat_map(|momentum| {
             let chart = Chart::new(arena, h.dim, momentum, linear);
@@ -152,7 +156,51 @@ pub fn candidates(
             let plan = Plan { chart, commuting: commuting.clone(), turn, load };
             plan.reduced(arena, &main, h.is_tensor())
         })
+        .collect();
+    separated.into_iter().chain(entire).collect()
+}
+
+/// The reductions that take the dilatation out of the state as well.
+fn separated(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    potential: Option<&Potential>,
+    commuting: &[Commuting],
+) -> Vec<Reduction> {
+    let drifts = commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
+    let turns = commuting.iter().any(|c| !matches!(c, Commuting::Drift(_)));
+    let (Some(iso), Some(u)) = (&h.isotropic, potential) else { return Vec::new() };
+    if (h.translation.is_some() && !drifts) || !(turns || iso.skew.is_zero()) {
+        return Vec::new();
+    }
+    let Some(slope) = u.dilatational_slope(arena) else { return Vec::new() };
+    let inverse_mass = iso.inverse_dilatational_mass(h.dim);
+    let charts = [Momentum::Body, Momentum::Space].map(|momentum| Chart::new(arena, h.dim, momentum, None));
+    charts
+        .into_iter()
+        .filter_map(|chart| {
+            let load = u.load(arena, &chart);
+            let mut system = shear_system(arena, &chart, iso, &load)?;
+            let fixed = take_constants(&mut system);
+            let states = states("Psi", "O", &system);
+            let separation = Some(Separation { slope: slope.clone(), inverse_mass: inverse_mass.clone() });
+            let (commuting, layout) = (commuting.to_vec(), Layout::Entries);
+            Some(Reduction { chart, commuting, turned: false, layout, fixed, separation, system, states })
+        })
         .collect()
+}
+
+/// Takes components of the affine momentum that are conserved out of a system.
+fn take_constants(system: &mut System) -> Vec<Expr> {
+    let mut fixed = Vec::new();
+    system.rates.retain(|(z, symbol, rate)| {
+        let still = matches!(z, Coordinate::M(..)) && rate.is_zero();
+        if still {
+            fixed.push(*symbol);
+        }
+        !still
+    });
+    fixed
 }
 
 /// What is known about a reduction before its equations are.
@@ -205,16 +253,18 @@ impl Plan {
         let gauge = gauge(&chart, turned, layout);
         let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
         system = system.substitute(&value).tidied(arena);
-        let mut fixed: Vec<Expr> = Vec::new();
-        system.rates.retain(|(z, symbol, rate)| {
-            let still = matches!(z, Coordinate::M(..)) && rate.is_zero();
-            if still {
-                fixed.push(*symbol);
-            }
-            !still
-        });
-        let states = states(&chart, &system);
-        Reduction { chart, commuting: self.commuting.clone(), turned, layout, fixed, system, states }
+        let fixed = take_constants(&mut system);
+        let states = states("phi", chart.momentum.symbol(), &system);
+        Reduction {
+            chart,
+            commuting: self.commuting.clone(),
+            turned,
+            layout,
+            fixed,
+            separation: None,
+            system,
+            states,
+        }
     }
 }
 
@@ -226,7 +276,11 @@ fn conserved_layout(system: &System) -> Layout {
 }
 
 /// State variables, grouped.
-fn states(chart: &Chart, system: &System) -> Vec<(&'static str, Vec<Expr>)> {
+fn states(
+    placement: &'static str,
+    momentum: &'static str,
+    system: &System,
+) -> Vec<(&'static str, Vec<Expr>)> {
     let group = |name: &'static str, wanted: fn(&Coordinate) -> bool| {
         let symbols: Vec<Expr> =
             system.rates.iter().filter(|(z, _, _)| wanted(z)).map(|(_, s, _)| *s).collect();
@@ -234,9 +288,9 @@ fn states(chart: &Chart, system: &System) -> Vec<(&'static str, Vec<Expr>)> {
     };
     [
         group("x", |z| matches!(z, Coordinate::X(_))),
-        group("phi", |z| matches!(z, Coordinate::Phi(..))),
+        group(placement, |z| matches!(z, Coordinate::Phi(..))),
         group("p", |z| matches!(z, Coordinate::P(_))),
-        group(chart.momentum.symbol(), |z| matches!(z, Coordinate::M(..))),
+        group(momentum, |z| matches!(z, Coordinate::M(..))),
     ]
     .into_iter()
     .filter(|(_, symbols)| !symbols.is_empty())
