@@ -178,6 +178,7 @@ fn inverse_sinh<T: Real>(y: T) -> T {
 }
 
 #[cfg(test)]
+#[allow(clippy::expect_used)]
 mod tests {
     use super::Breathing;
     use crate::integrate::RungeKutta8;
