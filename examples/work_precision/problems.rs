@@ -151,5 +151,5 @@ pub(crate) fn rows(data: &str) -> [Row; 2] {
         }
     };
     let first = row(lines.next());
-    [first, row(lines.last())]
+    [first, row(lines.next_back())]
 }
