@@ -58,6 +58,13 @@ pub trait Model<const N: usize> {
         reduced: &Self::Reduced<T>,
     ) -> Self::Point<T>;
 
+    /// The reduced state with what is a function of the rest computed anew: `1/D = (det phi)^(-1/n)`, which some
+    /// reduced equations carry along instead of taking a root.
+    #[must_use]
+    fn renewed<T: Real>(&self, reduced: &Self::Reduced<T>) -> Self::Reduced<T> {
+        *reduced
+    }
+
     /// The closed form of the trajectory through `point` at time `t0`, where the model and the scene have one.
     fn geodesic(&self, t0: f64, point: &Self::Point<f64>) -> Option<crate::geodesic::Geodesic<N>>;
     /// The phase point at time `t` on a closed-form trajectory that started at `start`.

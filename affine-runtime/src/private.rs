@@ -9,7 +9,7 @@ pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,
 };
 pub use crate::geodesic::{Geodesic, Motion};
-pub use crate::kinematics::{isochoric_part, mean_log_stretch};
+pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
 pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Velocity};
 pub use crate::reduction::{
     Condition, finite, from_shear_and_turn, inverse_form, shear_and_turn, total_affine_momentum, total_size,

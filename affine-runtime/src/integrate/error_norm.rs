@@ -130,7 +130,7 @@ impl ErrorNorm {
     /// Components of the configuration that a momentum moves; `None` for what is no momentum.
     fn moved_by(&self, group: &Group) -> Option<Range<usize>> {
         match group.name {
-            "x" | "q" => None,
+            "x" | "q" | "1/D" => None,
             _ if group.is_placement() => None,
             "p" | "p_hat" => self.range_of("x"),
             _ => self.placement(),

@@ -152,7 +152,9 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         match self.method {
             Method::Gauss { stages, step } => {
                 let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
-                let integration = Gauss::new(equations, tableau, begin, t_end, step);
+                // What is carried along would spoil the geometry of the method: it is computed from the rest.
+                let closed = |t: f64, reduced: &M::Reduced<f64>| equations(t, &model.renewed(reduced));
+                let integration = Gauss::new(closed, tableau, begin, t_end, step);
                 let mut integration = integration.map_err(|failure| self.reason(failure))?;
                 recorder.trajectory.computation.method = self.method;
                 let outcome = self.step_through(&mut integration, &constants, t_end, recorder);

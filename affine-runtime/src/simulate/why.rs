@@ -82,7 +82,7 @@ impl Why {
         let groups = self.description.reduced;
         let holds = |name: &str| groups.iter().any(|group| group.name == name);
         let paired = holds("phi") && holds("Pi") && holds("x") == holds("p");
-        paired && groups.iter().all(|group| ["x", "phi", "p", "Pi"].contains(&group.name))
+        paired && groups.iter().all(|group| ["x", "phi", "p", "Pi", "1/D"].contains(&group.name))
     }
 
     fn scene(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

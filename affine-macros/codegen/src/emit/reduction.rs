@@ -32,6 +32,8 @@ struct Parts {
     whirl: Option<Frame>,
     /// The dilatation moves in closed form.
     dilatation: bool,
+    /// `1/D` is state.
+    carried: bool,
     /// Coefficients of the reduced equations.
     coefficients: usize,
 }
@@ -56,6 +58,7 @@ impl Parts {
             fixed: context.model.fixed.clone(),
             whirl,
             dilatation: reduction.separation.is_some(),
+            carried: reduction.carried,
             coefficients: context.model.trajectory.outputs.len(),
         }
     }
@@ -117,7 +120,8 @@ pub(super) fn methods(context: &Context) -> TokenStream {
     let reduce = reduce(context, &parts);
     let equations = reduced_equations(context, &parts);
     let expand = expand(context, &parts);
-    quote!(#reduce #equations #expand)
+    let renewed = parts.carried.then(|| renewed(context));
+    quote!(#reduce #equations #expand #renewed)
 }
 
 /// The affine momentum of the reduced chart at `point`.
@@ -153,6 +157,9 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
         true => separated::split(context),
         false => bind_state(context, parts, moving),
     });
+    if parts.carried {
+        lets.extend(quote!(let inverse_dilatation = #t::one() / #rt::dilatation(#rt::Phase::phi(point));));
+    }
     let body = context.generic(&context.model.trajectory);
     let (trajectory, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
@@ -294,8 +301,10 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
     let chart = &context.model.reduction.chart;
     let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
-    let names = identifiers(&all);
-    let mut lets = quote!(let [#(#names),*] = *reduced;);
+    let needed: Vec<&str> =
+        all.iter().map(String::as_str).filter(|name| *name != "inverse_dilatation").collect();
+    let bound = pattern(&all, &needed);
+    let mut lets = quote!(let #bound = *reduced;);
     let rows = |stem: &str| {
         let rows = components(stem, n).into_iter().map(|row| {
             let row = identifiers(&row);
@@ -368,6 +377,28 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
         ) -> Self::Point<#t> {
             #lets
             #rt::point(phi, #spin, #centre)
+        }
+    }
+}
+
+/// The state with `1/D` from its placement.
+fn renewed(context: &Context) -> TokenStream {
+    let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
+    let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let names = identifiers(&all);
+    let rows = components("phi", n).into_iter().map(|row| {
+        let row = identifiers(&row);
+        quote!([#(#row),*])
+    });
+    let kept: Vec<&str> =
+        all.iter().map(String::as_str).filter(|name| *name != "inverse_dilatation").collect();
+    let bound = pattern(&all, &kept);
+    quote! {
+        fn renewed<#t: #rt::Real>(&self, reduced: &Self::Reduced<#t>) -> Self::Reduced<#t> {
+            let #bound = *reduced;
+            let phi = #rt::matrix([#(#rows),*]);
+            let inverse_dilatation = #t::one() / #rt::dilatation(&phi);
+            [#(#names),*]
         }
     }
 }

@@ -56,6 +56,8 @@ pub enum Coordinate {
     P(usize),
     /// Entry of the affine momentum.
     M(usize, usize),
+    /// A function of the others that is integrated beside them.
+    Carried(Expr),
 }
 
 impl Momentum {
@@ -137,6 +139,7 @@ impl Chart {
             Coordinate::Phi(i, a) => self.phi.0[i][a],
             Coordinate::P(i) => self.p[i],
             Coordinate::M(a, b) => self.m.0[a][b],
+            Coordinate::Carried(symbol) => symbol,
         }
     }
 }

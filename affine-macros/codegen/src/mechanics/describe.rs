@@ -204,7 +204,7 @@ pub fn equations(
         let force = match coordinates[0] {
             Coordinate::P(_) => forces[0],
             Coordinate::M(..) => forces[1],
-            Coordinate::X(_) | Coordinate::Phi(..) => None,
+            Coordinate::X(_) | Coordinate::Phi(..) | Coordinate::Carried(_) => None,
         };
         match (known, force) {
             (Some(k), None) => list.push(Formula {
@@ -442,6 +442,9 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
         if !reduction.fixed.is_empty() {
             list.push("w: conserved".to_owned());
         }
+    }
+    if reduction.carried {
+        list.push("the root of det phi: 1/D = (det phi)^(-1/n) is integrated beside phi".to_owned());
     }
     match reduction.layout {
         Layout::Constant => list.push(format!("{name}: conserved")),

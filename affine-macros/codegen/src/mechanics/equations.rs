@@ -93,7 +93,7 @@ pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form)
                 Coordinate::M(..) => momenta,
                 // With I(O) as momentum the velocity of x is a difference that cancels.
                 Coordinate::X(_) | Coordinate::P(_) if chart.momentum == Momentum::Total => Form::Expanded,
-                Coordinate::X(_) | Coordinate::P(_) => Form::ThroughVelocity,
+                Coordinate::X(_) | Coordinate::P(_) | Coordinate::Carried(_) => Form::ThroughVelocity,
             };
             (z, chart.symbol(z), rate(chart, &gradient, &velocity, form, z))
         })

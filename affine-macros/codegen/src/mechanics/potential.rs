@@ -9,7 +9,7 @@ mod invariance;
 mod rewriting;
 
 use crate::algebra::ring::{Square, adjugate};
-use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::equations::Load;
@@ -101,8 +101,8 @@ struct Tensors {
     phi: Square<Polynomial>,
     green: Square<Polynomial>,
     finger: Square<Polynomial>,
-    /// `phi^-1`; only the canonical chart needs it.
-    inverse: Square<Polynomial>,
+    /// `d(det phi)/dphi`; only the canonical chart needs it.
+    cofactors: Square<Polynomial>,
 }
 
 /// The directions of a derivative: the entries of an affine momentum.
@@ -148,13 +148,21 @@ impl Potential {
             // A slope in parameters alone is a coefficient, not a quantity of the motion.
             let moves = form.any_symbol(arena, &mut |s| !is_parameter(arena, s));
             let symbol = arena.symbol(&base.slope_name());
-            weighted.push((*base, if moves { Polynomial::atom(symbol) } else { form.clone() }));
+            let mut slope = if moves { Polynomial::atom(symbol) } else { form.clone() };
             if moves {
                 load.shared.push((symbol, form));
             }
+            // dq/dphi = cof/(n det): the factor that all entries share.
+            if (*base, chart.momentum) == (Base::MeanLogStretch, Momentum::Canonical) {
+                let swelling = arena.symbol("swelling");
+                load.shared.push((swelling, slope.mul(&Polynomial::atom(arena.symbol("inverse_det")))));
+                slope = Polynomial::atom(swelling);
+            }
+            weighted.push((*base, slope));
         }
         load.shared.extend(definitions(arena, self.dim, chart));
-        load.shared.extend(self.dilatation(arena, &placement(chart)));
+        load.shared.extend(cofactors(arena, chart));
+        load.shared.extend(self.dilatation(arena, chart));
         let along = match chart.momentum {
             Momentum::Body => Along::Body,
             Momentum::Space | Momentum::Total => Along::Space,
@@ -189,16 +197,14 @@ impl Potential {
         };
         let (green, finger) = (symbols(Base::Green), symbols(Base::Finger));
         let phi = placement(chart);
-        let inverse_det = Polynomial::atom(arena.symbol("inverse_det"));
-        let inverse = adjugate(&phi)
-            .iter()
-            .map(|row| row.iter().map(|entry| entry.mul(&inverse_det)).collect())
-            .collect();
-        Tensors { phi, green, finger, inverse }
+        let cofactors = Matrix::symbols(arena, "cofactor", n).0;
+        let cofactors =
+            cofactors.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
+        Tensors { phi, green, finger, cofactors }
     }
 
     /// `det`, `D = det^(1/n)`, `1/D`, `1/det`, `q`, with one root.
-    fn dilatation(&self, arena: &mut Arena, phi: &Square<Polynomial>) -> Vec<(Expr, Polynomial)> {
+    fn dilatation(&self, arena: &mut Arena, chart: &Chart) -> Vec<(Expr, Polynomial)> {
         let n = self.dim;
         let [det, inverse_det, d, inverse_d, q] =
             ["det", "inverse_det", "dilatation", "inverse_dilatation", "q"].map(|name| arena.symbol(name));
@@ -215,9 +221,17 @@ impl Potential {
             true => Polynomial::term(vec![inverse_d; n], Rational::ONE),
             false => reciprocal(arena, det),
         };
+        // The forces on Pi contain the cofactors themselves; elsewhere the determinant alone is needed.
+        let first_row: Vec<Polynomial> = match chart.momentum {
+            Momentum::Canonical => {
+                let cofactors = Matrix::symbols(arena, "cofactor", n);
+                cofactors.0[0].iter().map(|cofactor| Polynomial::atom(*cofactor)).collect()
+            }
+            _ => adjugate(&placement(chart)).iter().map(|row| row[0].clone()).collect(),
+        };
         let mut determinant = Polynomial::zero();
-        for (entry, row) in phi[0].iter().zip(adjugate(phi)) {
-            determinant.add_product(entry, &row[0], &Rational::ONE);
+        for (entry, cofactor) in chart.phi.0[0].iter().zip(first_row) {
+            determinant.add_product(&Polynomial::atom(*entry), &cofactor, &Rational::ONE);
         }
         let mut product = vec![inverse_d; n - 1];
         product.push(det);
@@ -322,7 +336,7 @@ fn definitions(arena: &mut Arena, n: usize, chart: &Chart) -> Vec<(Expr, Polynom
 /// The derivative of a base function, divided by the number that its slope carries.
 fn direction(base: Base, along: Along, tensors: &Tensors, a: usize, b: usize) -> Polynomial {
     let one = |holds: bool| Polynomial::constant(if holds { Rational::ONE } else { Rational::ZERO });
-    let Tensors { phi, green, finger, inverse } = tensors;
+    let Tensors { phi, green, finger, cofactors } = tensors;
     let mut sum = Polynomial::zero();
     let mut add = |holds: bool, value: &Polynomial| {
         if holds {
@@ -332,7 +346,7 @@ fn direction(base: Base, along: Along, tensors: &Tensors, a: usize, b: usize) ->
     match (base, along) {
         (Base::Position(_), _) => {}
         (Base::MeanLogStretch, Along::Body | Along::Space) => return one(a == b),
-        (Base::MeanLogStretch, Along::Placement) => return inverse[b][a].clone(),
+        (Base::MeanLogStretch, Along::Placement) => return cofactors[a][b].clone(),
         (Base::Trace, Along::Body) => return green[a][b].clone(),
         (Base::Trace, Along::Space) => return finger[a][b].clone(),
         (Base::Trace, Along::Placement) => return phi[a][b].clone(),
@@ -392,6 +406,12 @@ fn force_on_centre(chart: &Chart, weighted: &[(Base, Polynomial)], i: usize) -> 
         }
     }
     force
+}
+
+/// The cofactors `d(det phi)/dphi_iA`.
+fn cofactors(arena: &mut Arena, chart: &Chart) -> Vec<(Expr, Polynomial)> {
+    let symbols = Matrix::symbols(arena, "cofactor", chart.dim).transpose();
+    symbols.0.concat().into_iter().zip(adjugate(&placement(chart)).concat()).collect()
 }
 
 fn placement(chart: &Chart) -> Square<Polynomial> {

@@ -4,6 +4,7 @@
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::brackets::poisson;
+use super::carried::carrying_the_dilatation;
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::conserved::Candidate;
 use super::equations::{Form, Load, System, hamilton};
@@ -47,6 +48,8 @@ pub struct Reduction {
     pub fixed: Vec<Expr>,
     /// The dilatation, where it is taken out of the state: the system is then that of `Psi` and `sigma/alpha`.
     pub separation: Option<Separation>,
+    /// `1/D = (det phi)^(-1/n)` is state, so that no right-hand side takes a root.
+    pub carried: bool,
     /// The equations of the state variables.
     pub system: System,
     /// State variables: group name and symbols.
@@ -185,7 +188,17 @@ fn separated(
             let states = states("Psi", "O", &system);
             let separation = Some(Separation { slope: slope.clone(), inverse_mass: inverse_mass.clone() });
             let (commuting, layout) = (commuting.to_vec(), Layout::Entries);
-            Some(Reduction { chart, commuting, turned: false, layout, fixed, separation, system, states })
+            Some(Reduction {
+                chart,
+                commuting,
+                turned: false,
+                layout,
+                fixed,
+                separation,
+                carried: false,
+                system,
+                states,
+            })
         })
         .collect()
 }
@@ -226,7 +239,14 @@ impl Plan {
         if layout == Layout::Entries {
             systems.push(self.loaded(hamilton(arena, &self.chart, h, Form::ThroughVelocity)));
         }
-        systems.into_iter().map(|system| self.state_only(arena, system, layout)).collect()
+        let mut reductions = Vec::new();
+        for system in systems {
+            if let Some(rootless) = carrying_the_dilatation(arena, &self.chart, &system) {
+                reductions.push(self.state_only(arena, rootless, layout));
+            }
+            reductions.push(self.state_only(arena, system, layout));
+        }
+        reductions
     }
 
     /// The equations with the forces of the potential.
@@ -243,7 +263,7 @@ impl Plan {
             system.rates.iter().all(|(z, _, rate)| !matches!(z, Coordinate::P(_)) || rate.is_zero());
         let turned = self.turn && p_constant;
         system.rates.retain(|(z, _, _)| match z {
-            Coordinate::X(_) | Coordinate::Phi(..) => true,
+            Coordinate::X(_) | Coordinate::Phi(..) | Coordinate::Carried(_) => true,
             Coordinate::P(_) => !p_constant,
             Coordinate::M(..) => match layout {
                 Layout::Constant => false,
@@ -254,6 +274,7 @@ impl Plan {
         let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
         system = system.substitute(&value).tidied(arena);
         let fixed = take_constants(&mut system);
+        let carried = system.rates.iter().any(|(z, ..)| matches!(z, Coordinate::Carried(_)));
         let states = states("phi", chart.momentum.symbol(), &system);
         Reduction {
             chart,
@@ -262,6 +283,7 @@ impl Plan {
             layout,
             fixed,
             separation: None,
+            carried,
             system,
             states,
         }
@@ -291,6 +313,7 @@ fn states(
         group(placement, |z| matches!(z, Coordinate::Phi(..))),
         group("p", |z| matches!(z, Coordinate::P(_))),
         group(momentum, |z| matches!(z, Coordinate::M(..))),
+        group("1/D", |z| matches!(z, Coordinate::Carried(_))),
     ]
     .into_iter()
     .filter(|(_, symbols)| !symbols.is_empty())

@@ -65,7 +65,7 @@ impl Invariance {
                 (*base, form.scaled(&base.weight(n)))
             })
             .collect();
-        let tensors = Tensors { phi, green, finger, inverse: Vec::new() };
+        let tensors = Tensors { phi, green, finger, cofactors: Vec::new() };
         let along = |along: Along| {
             table(n, |a, b| {
                 let mut sum = Polynomial::zero();
