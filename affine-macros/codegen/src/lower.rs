@@ -1,5 +1,6 @@
 //! From what the user wrote to symbolic terms: the last place where the specification's syntax is known.
 
+mod momentum_side;
 mod potential;
 
 use crate::algebra::{Arena, Expr, Matrix, Rational};
@@ -7,6 +8,7 @@ use crate::check::constant;
 use crate::mechanics::kinetic::{Coefficient, Term, TermKind};
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 
+pub use momentum_side::stated;
 pub use potential::potential;
 
 /// Stem of the symbols of fields: kept apart from the names that the derivation makes.
