@@ -9,7 +9,9 @@ pub use crate::frames::{
 };
 pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::kinematics::mean_log_stretch;
-pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Velocity};
+pub use crate::model::{
+    Conserved, Description, Formula, Group, Model, Operations, Velocity, VelocityDeterminesMomentum,
+};
 pub use crate::reduction::{
     Condition, finite, inverse_form, total_affine_momentum, total_size, turn, well_posed,
 };
@@ -39,6 +41,17 @@ pub fn point<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
     centre: C,
 ) -> PhasePoint<N, F, C, T> {
     PhasePoint::with_momentum(phi, momentum, centre)
+}
+
+/// Stops the compilation of a call of `kinetic_energy`.
+///
+/// # Panics
+/// Always, and only while the compiler evaluates it.
+#[allow(clippy::panic, reason = "evaluated by the compiler alone: the panic is the error message")]
+pub const fn no_kinetic_energy_of_velocities<T>() -> T {
+    panic!(
+        "with `casimir3` several momenta have one velocity, and T is no function of velocities; on momenta it is tr(X O) - H"
+    )
 }
 
 /// The rows of a matrix.

@@ -144,12 +144,7 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
 
 /// A claimed symmetry is a theorem about the form: its derivative along every generator of the group vanishes,
 /// and for O(n) one reflection leaves it unchanged as well.
-fn claims(
-    spec: &Spec,
-    kinetic: &Kinetic,
-    term: impl Fn(usize) -> &'static str,
-    found: &mut Diagnostics,
-) {
+fn claims(spec: &Spec, kinetic: &Kinetic, term: impl Fn(usize) -> &'static str, found: &mut Diagnostics) {
     let Some(symmetry) = &spec.symmetry else { return };
     for (side, name, claim) in [(Side::Space, "space", symmetry.space), (Side::Body, "body", symmetry.body)] {
         let (group, letters) = match claim.value {
@@ -256,6 +251,10 @@ fn matrix_text(n: usize, entries: &[Rational]) -> String {
 /// The numbers of positive and negative squares of a numeric form.
 #[must_use]
 pub fn signature(form: &Form) -> Option<(usize, usize)> {
+    // With a cubic term the metric depends on the momentum.
+    if form.stated.as_ref().is_some_and(Stated::is_cubic) {
+        return None;
+    }
     let mut count = (0, 0);
     for inertia in form.hessian.blocks.iter().map(|b: &Block| b.inertia(form.kinetic.dim)) {
         let inertia = inertia?;

@@ -42,8 +42,12 @@ pub(super) fn one_frame(spec: &Spec, found: &mut Diagnostics) {
         match earlier[usize::from(of_centre)] {
             None => earlier[usize::from(of_centre)] = Some((name, momentum)),
             Some((first, first_velocity)) => {
-                let mistake =
-                    Diagnostic::MixedFrames { first, first_velocity, second: name, second_velocity: momentum };
+                let mistake = Diagnostic::MixedFrames {
+                    first,
+                    first_velocity,
+                    second: name,
+                    second_velocity: momentum,
+                };
                 found.report(term.kind.span, mistake);
             }
         }
@@ -62,10 +66,7 @@ pub(super) fn third_casimir(spec: &Spec, found: &mut Diagnostics) {
 pub(super) fn inverse_masses(spec: &Spec, found: &mut Diagnostics) {
     for term in terms(spec).filter(|term| term.kind.value.is_translation() && is_zero(term, spec.dim.value)) {
         let coefficient = written(term).map(Expression::to_string).unwrap_or_default();
-        found.report(
-            term.span,
-            Diagnostic::ZeroInverseMass { term: term.kind.value.name(), coefficient },
-        );
+        found.report(term.span, Diagnostic::ZeroInverseMass { term: term.kind.value.name(), coefficient });
     }
 }
 
@@ -106,10 +107,8 @@ pub(super) fn positive(spec: &Spec, stated: &Stated, found: &mut Diagnostics) {
     for (direction, _) in stated.eigenvalues().iter().filter(|(_, value)| negative(value)) {
         let (eigenvalue, numbers, _) = eigenvalue(spec, *direction);
         let text = if eigenvalue == numbers { eigenvalue } else { format!("{eigenvalue} = {numbers}") };
-        found.report(
-            required.span,
-            Diagnostic::NotPositiveDefinite { defect: format!("{text} is negative") },
-        );
+        found
+            .report(required.span, Diagnostic::NotPositiveDefinite { defect: format!("{text} is negative") });
     }
     if let Some((place, _, value)) = &stated.translation
         && let (Some(value), Some(term)) = (value.as_constant(), terms(spec).nth(*place))

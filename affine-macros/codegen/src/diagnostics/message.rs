@@ -65,9 +65,13 @@ impl Diagnostic {
             Self::OtherSide { list, key, other } => text(
                 format!("`{key}` does not belong to `{list}(...)`"),
                 if *list == "kinetic" {
-                    format!("`{key}` is a function of the momentum, and `kinetic(...)` states T through velocities")
+                    format!(
+                        "`{key}` is a function of the momentum, and `kinetic(...)` states T through velocities"
+                    )
                 } else {
-                    format!("`{key}` is a form in the velocity, and `hamiltonian(...)` states H through momenta")
+                    format!(
+                        "`{key}` is a form in the velocity, and `hamiltonian(...)` states H through momenta"
+                    )
                 },
                 format!("state all terms in `{other}(...)`, with the coefficients that they have there"),
             ),
@@ -380,7 +384,10 @@ impl Diagnostic {
             Self::DegenerateHamiltonian { eigenvalue, numbers, directions } => {
                 let directions = directions.to_string().replace("velocities", "momenta");
                 text(
-                    format!("the Hamiltonian is degenerate: {} = 0 on {directions}", equated(eigenvalue, numbers)),
+                    format!(
+                        "the Hamiltonian is degenerate: {} = 0 on {directions}",
+                        equated(eigenvalue, numbers)
+                    ),
                     format!(
                         "the velocity O = a X + b tr(X) 1 - c (X - X^T) has the eigenvalue {eigenvalue} there; it does \
                          not determine the momentum X"

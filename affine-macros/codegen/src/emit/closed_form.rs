@@ -48,7 +48,9 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
                 ClosedForm::Body => quote!(body),
                 _ => quote!(space),
             };
-            quote!(#lets let motion = #rt::Motion::#make(&#spin, [#(#results),*]);)
+            let (quadratic, cubic) = results.split_at(3.min(results.len()));
+            let squared = cubic.first().map(|casimir3| quote!(.with_square(&#spin, #casimir3)));
+            quote!(#lets let motion = #rt::Motion::#make(&#spin, [#(#quadratic),*])#squared;)
         }
     };
     quote! {

@@ -3,6 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use crate::derive::VelocitySide;
 use crate::ir::Program;
 use crate::mechanics::charts::Linear;
 use crate::mechanics::kinetic::Frame;
@@ -70,7 +71,17 @@ fn velocity(context: &Context) -> TokenStream {
 
 fn kinetic_energy(context: &Context) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
-    let program = &context.model.kinetic_energy;
+    let Some(VelocitySide { kinetic_energy: program, .. }) = &context.model.velocity_side else {
+        return quote! {
+            fn kinetic_energy<#t: #rt::Real>(
+                &self,
+                _phi: &#rt::Matrix<#n, #t>,
+                _velocity: &#rt::Velocity<#n, #t>,
+            ) -> #t {
+                const { #rt::no_kinetic_energy_of_velocities() }
+            }
+        };
+    };
     let used = inputs(program);
     let names = components(context.model.frame.velocity_name(), context.model.dim);
     let rows = names.iter().map(|row| pattern(row, &used));

@@ -146,7 +146,8 @@ impl Kinetic {
     /// indefinite.
     #[must_use]
     pub fn is_dalembert(&self) -> bool {
-        let masses = |term: &Term| term.kind == TermKind::Dalembert || term.kind.translation_frame().is_some();
+        let masses =
+            |term: &Term| term.kind == TermKind::Dalembert || term.kind.translation_frame().is_some();
         !self.terms.is_empty() && self.terms.iter().all(masses)
     }
 

@@ -65,7 +65,9 @@ impl Key {
             Self::Dim => "dim = 3",
             Self::Symmetry => "symmetry(space = affine, body = metric)",
             Self::Kinetic => "kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)",
-            Self::Hamiltonian => "hamiltonian(casimir2 = 5/6, casimir1_squared = -1/18, vorticity_squared = 25/24)",
+            Self::Hamiltonian => {
+                "hamiltonian(casimir2 = 5/6, casimir1_squared = -1/18, vorticity_squared = 25/24)"
+            }
             Self::Potential => "potential = kappa/2*sinh(q)^2",
             Self::Require => "require(positive_definite)",
             Self::Emit => "emit(splitting)",
@@ -116,18 +118,7 @@ impl Arguments {
             Energy::Kinetic(terms) => (terms.value, None, terms.span),
             Energy::Hamiltonian(terms) => (Vec::new(), Some(terms.value), terms.span),
         };
-        Spec {
-            item,
-            dim,
-            symmetry,
-            kinetic,
-            hamiltonian,
-            kinetic_key,
-            potential,
-            require,
-            emit,
-            runtime,
-        }
+        Spec { item, dim, symmetry, kinetic, hamiltonian, kinetic_key, potential, require, emit, runtime }
     }
 }
 
