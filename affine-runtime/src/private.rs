@@ -45,6 +45,17 @@ pub fn point<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
 
 /// Stops the compilation of a call of `kinetic_energy`.
 ///
+/// ```compile_fail,E0080
+/// use affine_runtime::model::Velocity;
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(dim = 3, hamiltonian(casimir2 = 1, casimir3 = 0.1))]
+/// struct Cubic;
+///
+/// let velocity = Velocity { x_dot: Vector::<3>::zeros(), phi_dot: Matrix::<3>::identity() };
+/// let _ = Cubic.kinetic_energy(&Matrix::<3>::identity(), &velocity);
+/// ```
+///
 /// # Panics
 /// Always, and only while the compiler evaluates it.
 #[allow(clippy::panic, reason = "evaluated by the compiler alone: the panic is the error message")]

@@ -382,12 +382,10 @@ impl Diagnostic {
                 ),
             ),
             Self::DegenerateHamiltonian { eigenvalue, numbers, directions } => {
+                let value = if numbers == "0" { eigenvalue.clone() } else { equated(eigenvalue, numbers) };
                 let directions = directions.to_string().replace("velocities", "momenta");
                 text(
-                    format!(
-                        "the Hamiltonian is degenerate: {} = 0 on {directions}",
-                        equated(eigenvalue, numbers)
-                    ),
+                    format!("the Hamiltonian is degenerate: {value} = 0 on {directions}"),
                     format!(
                         "the velocity O = a X + b tr(X) 1 - c (X - X^T) has the eigenvalue {eigenvalue} there; it does \
                          not determine the momentum X"
