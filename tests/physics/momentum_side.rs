@@ -1,6 +1,8 @@
 //! Hamiltonians stated on the momentum side, against the canonical equations of the same function of `(x, phi; p, Pi)`.
 
-use affine_oracle::{Hamiltonian, Invariant, Matrix as Exact, Observable, Random, Rational, State, rational, rounded};
+use affine_oracle::{
+    Hamiltonian, Invariant, Matrix as Exact, Observable, Random, Rational, State, rational, rounded,
+};
 use affine_runtime::prelude::*;
 
 use crate::canonical::{assert_charts_lead_back, assert_reduced_equations_move, groups};

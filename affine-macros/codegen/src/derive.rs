@@ -195,14 +195,16 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     };
     let velocities: Vec<Expr> = kinetic.velocity.0.iter().flatten().copied().collect();
     let momenta: Vec<Expr> = h.momentum.0.iter().flatten().copied().collect();
-    let velocity_side = cubic.is_none().then(|| {
+    let legendre = cubic.is_none().then(|| {
         let legendre = legendre_batch(arena, &kinetic);
-        let legendre = inline(arena, legendre, velocities.clone());
-        let (energy, inputs) = energy_batch(arena, &kinetic, velocities);
-        VelocitySide { legendre, kinetic_energy: inline(arena, energy, inputs) }
+        inline(arena, legendre, velocities.clone())
     });
     let velocity = matrix_batch(arena, &kinetic.velocity, &h.velocity);
     let velocity = inline(arena, velocity, momenta);
+    let velocity_side = legendre.map(|legendre| {
+        let (energy, inputs) = energy_batch(arena, &kinetic, velocities);
+        VelocitySide { legendre, kinetic_energy: inline(arena, energy, inputs) }
+    });
     let mut points: Vec<Expr> = full_chart.coordinates().into_iter().map(|z| full_chart.symbol(z)).collect();
     let mut energy = result("energy", full_h.clone());
     if let Some(u) = potential {
