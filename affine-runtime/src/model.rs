@@ -3,6 +3,7 @@
 use core::fmt::Debug;
 
 use crate::frames::{Matrix, Vector};
+use crate::metrics::Bases;
 use crate::scalar::{Real, Scalar};
 use crate::state::Phase;
 
@@ -59,6 +60,12 @@ pub trait Model<const N: usize> {
         constants: &Self::Constants<T>,
         reduced: &Self::Reduced<T>,
     ) -> Self::Point<T>;
+
+    /// The bases of space and body in which the model's metrics are the identity, from the user's own; `None` where
+    /// they are the identity there. Plain arrays, reduced states and closed forms stand in them, phase points do not.
+    fn bases(&self) -> Option<Bases<N>> {
+        None
+    }
 
     /// The closed form of the trajectory through `point` at time `t0`, where the model and the scene have one.
     fn geodesic(&self, t0: f64, point: &Self::Point<f64>) -> Option<crate::geodesic::Geodesic<N>>;

@@ -9,6 +9,7 @@ pub use crate::frames::{
 };
 pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::kinematics::mean_log_stretch;
+pub use crate::metrics::Bases;
 pub use crate::model::{
     Conserved, Description, Formula, Group, Model, Operations, Velocity, VelocityDeterminesMomentum,
 };
