@@ -11,6 +11,7 @@ mod form;
 mod frames;
 mod identity;
 mod inertia;
+mod metrics;
 mod momentum_side;
 mod potential;
 mod shapes;
@@ -43,6 +44,7 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     // powers in it are known to be bounded.
     dimension::two_or_three(spec, found)?;
     shapes::sizes(spec, found);
+    metrics::sizes(spec, found);
     potential::indices(spec, found);
     arithmetic::computable(spec, found)?;
     potential::in_domain(spec, found);
@@ -50,6 +52,9 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     momentum_side::one_frame(spec, found);
     momentum_side::third_casimir(spec, found);
     momentum_side::inverse_masses(spec, found);
+    metrics::literal(spec, found);
+    metrics::positive(spec, found);
+    metrics::invariant(spec, found);
     inertia::masses(spec, found);
     inertia::symmetric(spec, found);
     inertia::positive(spec, found);

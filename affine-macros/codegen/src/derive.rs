@@ -14,6 +14,7 @@ use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::describe::{self, Formula};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::metrics::Metrics;
 use crate::mechanics::potential::Base;
 use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
@@ -68,6 +69,8 @@ pub struct Model {
     pub has_potential: bool,
     /// Symmetry groups of space and body that leave the kinetic energy unchanged.
     pub groups: (Group, Group),
+    /// Metrics other than the identity.
+    pub metrics: Option<Metrics>,
     /// `T`, `H`, and the equations.
     pub formulas: Formulas,
 }
@@ -146,7 +149,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     };
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form);
-    let Form { mut arena, kinetic, stated, hessian, potential, .. } = form;
+    let Form { mut arena, kinetic, stated, hessian, potential, metrics, .. } = form;
     let potential = potential.as_ref();
     let arena = &mut arena;
     let cubic = stated.as_ref().filter(|stated| stated.is_cubic());
@@ -260,6 +263,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         signature,
         has_potential: potential.is_some(),
         groups,
+        metrics,
         formulas,
     })
 }

@@ -1,5 +1,6 @@
 //! From what the user wrote to symbolic terms: the last place where the specification's syntax is known.
 
+mod metrics;
 mod momentum_side;
 mod potential;
 
@@ -8,6 +9,7 @@ use crate::check::constant;
 use crate::mechanics::kinetic::{Coefficient, Term, TermKind};
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 
+pub use metrics::metrics;
 pub use momentum_side::stated;
 pub use potential::potential;
 

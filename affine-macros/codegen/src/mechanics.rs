@@ -9,6 +9,7 @@ mod flow;
 pub mod hamiltonian;
 pub mod hessian;
 pub mod kinetic;
+pub mod metrics;
 pub mod momentum_side;
 mod notation;
 pub mod potential;

@@ -46,6 +46,8 @@ pub struct Spec {
     pub hamiltonian: Option<Vec<Term<MomentumKind>>>,
     /// The key `kinetic` or `hamiltonian`.
     pub kinetic_key: Region,
+    /// `metrics(space = g, body = eta)`, in this order.
+    pub metrics: [Option<Metric>; 2],
     /// `potential = ...`.
     pub potential: Option<Potential>,
     /// `require(...)`.
@@ -74,6 +76,25 @@ pub struct Term<K = TermKind> {
     pub value: Value,
     /// The place of the value.
     pub span: Region,
+}
+
+/// A constant metric.
+#[derive(Clone, Debug)]
+pub struct Metric {
+    /// `space` or `body`.
+    pub side: &'static str,
+    /// `g` or `eta`; a scalar is that multiple of the identity.
+    pub value: Value,
+    /// The place of the value.
+    pub span: Region,
+}
+
+impl Metric {
+    /// The paper's letters.
+    #[must_use]
+    pub fn letters(&self) -> &'static str {
+        if self.side == "space" { "g" } else { "eta" }
+    }
 }
 
 /// The potential energy U(t, x, phi).
@@ -117,10 +138,11 @@ impl Spec {
         self.kinetic.iter().find(|term| term.kind.value == kind)
     }
 
-    /// Every coefficient of the kinetic energy or of the Hamiltonian.
+    /// Every coefficient of the kinetic energy or of the Hamiltonian, and every entry of the metrics.
     pub fn coefficients(&self) -> impl Iterator<Item = &Expression> {
         let stated = self.hamiltonian.iter().flatten().flat_map(|term| term.value.expressions());
-        self.kinetic.iter().flat_map(|term| term.value.expressions()).chain(stated)
+        let metrics = self.metrics.iter().flatten().flat_map(|metric| metric.value.expressions());
+        self.kinetic.iter().flat_map(|term| term.value.expressions()).chain(stated).chain(metrics)
     }
 
     /// The name and the place of the first translation term, on either side.

@@ -76,7 +76,8 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
             let distance = |energy: &f64| (energy - self.energies.start).abs();
             return self.energies.outputs.iter().map(distance).map(relative).collect();
         };
-        let distance = |point: &P| self.value(*quantity, point).map_or(0.0, |value| value.distance(&at_start));
+        let distance =
+            |point: &P| self.value(*quantity, point).map_or(0.0, |value| value.distance(&at_start));
         self.points.iter().map(distance).map(relative).collect()
     }
 

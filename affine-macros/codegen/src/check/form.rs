@@ -8,6 +8,7 @@ use crate::diagnostics::{Diagnostic, Diagnostics, Directions, Reported};
 use crate::lower;
 use crate::mechanics::hessian::{Block, Direction, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
+use crate::mechanics::metrics::Metrics;
 use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
@@ -29,6 +30,8 @@ pub struct Form {
     pub body_group: Group,
     /// The potential energy.
     pub potential: Option<Potential>,
+    /// Metrics other than the identity; everything else stands in bases in which they are.
+    pub metrics: Option<Metrics>,
 }
 
 /// Builds the form and holds it against every rule.
@@ -53,7 +56,16 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     let space_group = largest_group(&kinetic, Side::Space);
     let body_group = largest_group(&kinetic, Side::Body);
     let potential = lower::potential(&mut arena, spec);
-    Ok(Form { arena, kinetic, stated: None, hessian, space_group, body_group, potential })
+    Ok(Form {
+        arena,
+        kinetic,
+        stated: None,
+        hessian,
+        space_group,
+        body_group,
+        potential,
+        metrics: lower::metrics(spec),
+    })
 }
 
 /// The same from a stated Hamiltonian. Groups and claims are decided on the form in the momenta.
@@ -78,7 +90,16 @@ fn momentum_form(
     let space_group = largest_group(&on_momenta, Side::Space);
     let body_group = largest_group(&on_momenta, Side::Body);
     let potential = lower::potential(&mut arena, spec);
-    Ok(Form { arena, kinetic, stated: Some(stated), hessian, space_group, body_group, potential })
+    Ok(Form {
+        arena,
+        kinetic,
+        stated: Some(stated),
+        hessian,
+        space_group,
+        body_group,
+        potential,
+        metrics: lower::metrics(spec),
+    })
 }
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic

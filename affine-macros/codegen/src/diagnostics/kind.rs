@@ -407,6 +407,45 @@ pub enum Diagnostic {
     /// Only translation terms, or none.
     NoKineticEnergy,
 
+    // ---- the metrics ----
+    /// An entry of a metric that contains a field.
+    MetricEntry {
+        /// `space` or `body`.
+        side: &'static str,
+        /// The entry.
+        entry: String,
+    },
+    /// `g_ij != g_ji`.
+    MetricNotSymmetric {
+        /// `space` or `body`.
+        side: &'static str,
+        /// The row, 1-based.
+        row: usize,
+        /// The column, 1-based.
+        column: usize,
+        /// The value at (row, column).
+        value: String,
+        /// The value at (column, row).
+        transposed: String,
+    },
+    /// A metric that is not positive definite.
+    MetricNotPositive {
+        /// `space` or `body`.
+        side: &'static str,
+        /// What shows it: `g[2,2] = -1`.
+        defect: String,
+    },
+    /// A matrix or tensor beside a metric.
+    MetricTerm {
+        /// The term.
+        term: &'static str,
+    },
+    /// A form of potentials that depends on the bases.
+    MetricForm {
+        /// The form: `G[1,2]`, `x[1]`, `tr(phi)`.
+        form: String,
+    },
+
     // ---- the quadratic form ----
     /// The isotropic form vanishes on some directions.
     Degenerate {
@@ -557,6 +596,11 @@ names! {
     PlanarCasimir3 => "planar-casimir3",
     MixedFrames => "mixed-frames",
     NoKineticEnergy => "no-kinetic-energy",
+    MetricEntry => "metric-entry",
+    MetricNotSymmetric => "metric-not-symmetric",
+    MetricNotPositive => "metric-not-positive",
+    MetricTerm => "metric-term",
+    MetricForm => "metric-form",
     Degenerate => "degenerate",
     DegenerateHamiltonian => "degenerate-hamiltonian",
     DegenerateTensor => "degenerate-tensor",

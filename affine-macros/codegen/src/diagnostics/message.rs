@@ -367,6 +367,34 @@ impl Diagnostic {
                 "without a term in phi_dot the Legendre transformation has no inverse: Sigma = (dT/dOm)^T = 0",
                 "add `casimir2`, `body_inertia`, `space_inertia`, `dalembert`, `body_tensor`, `space_tensor` or `flat_tensor`",
             ),
+            Self::MetricEntry { side, entry } => text(
+                format!("the entry `{entry}` of the metric `{side}` depends on a field"),
+                "this version finds the orthonormal bases when the model is compiled, which needs numbers",
+                "write numbers",
+            ),
+            Self::MetricNotSymmetric { side, row, column, value, transposed } => text(
+                format!(
+                    "the metric `{side}` is not symmetric: its entry ({row},{column}) is {value}, \
+                     ({column},{row}) is {transposed}"
+                ),
+                "a metric is a scalar product, g(u, v) = g(v, u)",
+                "write the same entry in both places",
+            ),
+            Self::MetricNotPositive { side, defect } => text(
+                format!("the metric `{side}` is not positive definite: {defect}"),
+                "a metric gives every vector but zero a positive length, and has an orthonormal basis only then",
+                "write a symmetric matrix whose leading minors are all positive",
+            ),
+            Self::MetricTerm { term } => text(
+                format!("`{term}` with a matrix does not go with `metrics(...)` in this version"),
+                "equations stand in orthonormal bases of the metrics, in which its entries are in general irrational",
+                "write a scalar, or state the model in orthonormal bases and leave out `metrics(...)`",
+            ),
+            Self::MetricForm { form } => text(
+                format!("`{form}` does not go with `metrics(...)` in this version"),
+                "equations stand in orthonormal bases of the metrics, and this form depends on the bases",
+                "write the potential through `q`, `det`, `I1..In`, `norm(x)` and traces of powers of `G` or of `Ct`",
+            ),
             Self::Degenerate { eigenvalue, numbers, directions } => text(
                 format!(
                     "the kinetic energy is degenerate: {} = 0 on {directions}",

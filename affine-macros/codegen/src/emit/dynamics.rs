@@ -58,13 +58,20 @@ fn velocity(context: &Context) -> TokenStream {
         }
         _ => (TokenStream::new(), quote!(#rt::Vector::<#n, #t>::zeros())),
     };
+    let inward = context.inward();
+    let velocity = quote!(#rt::Velocity { x_dot: #x_dot, phi_dot });
+    let velocity = match context.model.metrics {
+        Some(_) => quote!(bases::<#t>().reversed().velocity(&#velocity)),
+        None => velocity,
+    };
     quote! {
         fn velocity<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
+            #inward
             let [#(#rows),*] = #rt::rows(&#spin);
             #lets
             let phi_dot = #phi_dot;
             #mass
-            #rt::Velocity { x_dot: #x_dot, phi_dot }
+            #velocity
         }
     }
 }
@@ -102,12 +109,19 @@ fn kinetic_energy(context: &Context) -> TokenStream {
     };
     let body = context.generic(program);
     let (lets, energy) = (&body.lets, body.result());
+    let inward = context.with_metrics(quote! {
+        let velocity = &bases::<#t>().velocity(velocity);
+    });
+    let phi_inward = (reads_phi && context.model.metrics.is_some())
+        .then(|| quote!(let phi = &bases::<#t>().placement(phi);));
+    let inward = quote!(#inward #phi_inward);
     quote! {
         fn kinetic_energy<#t: #rt::Real>(
             &self,
             #phi: &#rt::Matrix<#n, #t>,
             velocity: &#rt::Velocity<#n, #t>,
         ) -> #t {
+            #inward
             let phi_dot = velocity.phi_dot;
             let [#(#rows),*] = #rt::rows(&#o);
             #centre
@@ -155,8 +169,10 @@ fn hamiltonian(context: &Context) -> TokenStream {
         .then(|| quote!(let q = #rt::mean_log_stretch(#rt::Phase::phi(point));));
     let body = context.generic(program);
     let (lets, energy) = (&body.lets, body.result());
+    let inward = context.inward();
     quote! {
         fn hamiltonian<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #t {
+            #inward
             #bound
             #stretch
             #lets
@@ -215,8 +231,11 @@ fn flat(context: &Context) -> TokenStream {
             quote!(let centre = #rt::Centre { x: #x, p: #rt::inverse(&phi).tr_mul(&#p_hat) };)
         }
     };
+    let inward = context.inward();
+    let point = context.outward(&quote!(#t), quote!(#rt::point(phi, #wrap(#own), centre)));
     quote! {
         fn flatten<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> Self::Full<#t> {
+            #inward
             #bound
             [#(#names),*]
         }
@@ -225,7 +244,7 @@ fn flat(context: &Context) -> TokenStream {
             let [#(#names),*] = *full;
             let phi = #phi;
             #centre
-            #rt::point(phi, #wrap(#own), centre)
+            #point
         }
     }
 }

@@ -38,6 +38,15 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
         Some(VelocitySide { legendre: program, .. }) => {
             let legendre = legendre(context, program);
             let momentum_of_centre = momentum_of_centre(context);
+            let inward_centre =
+                moving.then(|| quote!(let (x, x_dot) = (bases.space * x, bases.space * x_dot);));
+            let inward = context.with_metrics(quote! {
+                let bases = bases::<#rt::f64>();
+                #inward_centre
+                let (phi, phi_dot) = (bases.placement(&phi), bases.placement(&phi_dot));
+            });
+            let outward = context
+                .with_metrics(quote!(.map(|point: #point| #rt::Phase::rebased(&point, &bases.reversed()))));
             let doc = format!(
                 " The phase point at the placement {q} with the velocity {v}: the Legendre transformation \
                  `X = (dT/dO)^T` (4.6), (4.8)."
@@ -54,9 +63,10 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
                     #x_dot
                     phi_dot: #rt::Matrix<#n>,
                 ) -> #rt::Result<#point> {
+                    #inward
                     #legendre
                     #momentum_of_centre
-                    #rt::phase_point(phi, spin, #centre)
+                    #rt::phase_point(phi, spin, #centre)#outward
                 }
             }
         }

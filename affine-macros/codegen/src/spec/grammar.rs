@@ -7,7 +7,7 @@ use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, u
 use super::expression_parser::{self, Language};
 use super::momentum_side::{self, MomentumKind};
 use super::names::{Capability, Claim, Named, Requirement, TermKind, nearest};
-use super::{Item, Potential, Spanned, Spec, Symmetry, Term, value};
+use super::{Item, Metric, Potential, Spanned, Spec, Symmetry, Term, value};
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
 /// The keys of `affine_model(...)`.
@@ -17,6 +17,7 @@ enum Key {
     Symmetry,
     Kinetic,
     Hamiltonian,
+    Metrics,
     Potential,
     Require,
     Emit,
@@ -24,7 +25,7 @@ enum Key {
 }
 
 /// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 5] = ["metrics", "group", "constraint", "dissipation", "forces"];
+const LATER_KEYS: [&str; 4] = ["group", "constraint", "dissipation", "forces"];
 
 /// Terms that `hamiltonian(...)` has and `kinetic(...)` has not.
 const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
@@ -39,6 +40,7 @@ impl Named for Key {
         Self::Symmetry,
         Self::Kinetic,
         Self::Hamiltonian,
+        Self::Metrics,
         Self::Potential,
         Self::Require,
         Self::Emit,
@@ -51,6 +53,7 @@ impl Named for Key {
             Self::Symmetry => "symmetry",
             Self::Kinetic => "kinetic",
             Self::Hamiltonian => "hamiltonian",
+            Self::Metrics => "metrics",
             Self::Potential => "potential",
             Self::Require => "require",
             Self::Emit => "emit",
@@ -68,6 +71,7 @@ impl Key {
             Self::Hamiltonian => {
                 "hamiltonian(casimir2 = 5/6, casimir1_squared = -1/18, vorticity_squared = 25/24)"
             }
+            Self::Metrics => "metrics(space = diag(1, 1, 2), body = [[2, 1, 0], [1, 2, 0], [0, 0, 1]])",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
             Self::Require => "require(positive_definite)",
             Self::Emit => "emit(splitting)",
@@ -99,6 +103,7 @@ pub(super) struct Arguments {
     dim: Spanned<usize>,
     symmetry: Option<Symmetry>,
     energy: Energy,
+    metrics: [Option<Metric>; 2],
     potential: Option<Potential>,
     require: Vec<Spanned<Requirement>>,
     emit: Vec<Spanned<Capability>>,
@@ -113,12 +118,24 @@ enum Energy {
 
 impl Arguments {
     pub(super) fn of(self, item: Item) -> Spec {
-        let Self { dim, symmetry, energy, potential, require, emit, runtime } = self;
+        let Self { dim, symmetry, energy, metrics, potential, require, emit, runtime } = self;
         let (kinetic, hamiltonian, kinetic_key) = match energy {
             Energy::Kinetic(terms) => (terms.value, None, terms.span),
             Energy::Hamiltonian(terms) => (Vec::new(), Some(terms.value), terms.span),
         };
-        Spec { item, dim, symmetry, kinetic, hamiltonian, kinetic_key, potential, require, emit, runtime }
+        Spec {
+            item,
+            dim,
+            symmetry,
+            kinetic,
+            hamiltonian,
+            kinetic_key,
+            metrics,
+            potential,
+            require,
+            emit,
+            runtime,
+        }
     }
 }
 
@@ -127,6 +144,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &LATER_KEYS, found);
     let (mut dim, mut symmetry, mut kinetic, mut runtime) = (None, None, None, None);
     let mut hamiltonian = None;
+    let mut metric = [None, None];
     let (mut require, mut emit) = (Vec::new(), Vec::new());
     let mut energy = None;
     for entry in entries {
@@ -140,6 +158,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
             Key::Hamiltonian => {
                 hamiltonian = Some((at, terms(HAMILTONIAN, expect_list(entry, found), at, found)));
             }
+            Key::Metrics => metric = metrics(expect_list(entry, found), found),
             Key::Potential => energy = potential(expect_value(entry, found), at, found),
             Key::Require => require = members("requirement", expect_list(entry, found), found),
             Key::Emit => emit = members("capability", expect_list(entry, found), found),
@@ -153,7 +172,16 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
         (None, Some((_, terms))) => terms.map(Energy::Hamiltonian),
         (Some(_), Some((at, _))) => Err(found.report(at, Diagnostic::TwoStatements)),
     };
-    Ok(Arguments { dim: dim?, symmetry, energy: stated?, potential: energy, require, emit, runtime })
+    Ok(Arguments {
+        dim: dim?,
+        symmetry,
+        energy: stated?,
+        metrics: metric,
+        potential: energy,
+        require,
+        emit,
+        runtime,
+    })
 }
 
 fn missing(key: Key, states: &'static str, at: Span, found: &mut Diagnostics) -> Reported {
@@ -267,6 +295,30 @@ fn terms<K: Named + PartialEq>(
         }
     }
     Ok(Spanned { value: terms, span: key.into() })
+}
+
+/// `metrics(...)`; an omitted side is the identity.
+fn metrics(list: Result<Group, Reported>, found: &mut Diagnostics) -> [Option<Metric>; 2] {
+    let mut metrics = [None, None];
+    let Ok(list) = list else { return metrics };
+    for entry in entries::<Side>("metrics", list.stream(), list.span_close(), &[], found) {
+        let (place, example) = match entry.key {
+            Side::Space => (0, "space = diag(1, 1, 2)"),
+            Side::Body => (1, "body = [[2, 1, 0], [1, 2, 0], [0, 0, 1]]"),
+        };
+        let side = entry.key.name();
+        match entry.body {
+            Body::Value(piece) if !piece.tokens.is_empty() => {
+                let span = piece.at;
+                metrics[place] = value::parse(piece, found).ok().map(|value| Metric { side, value, span });
+            }
+            Body::Refused(_) => {}
+            _ => {
+                found.report(entry.at, Diagnostic::ExpectedValue { key: side, example });
+            }
+        }
+    }
+    metrics
 }
 
 /// `potential = ...`.
