@@ -122,6 +122,9 @@ families! {
     hamiltonian_cubic_3: "dim = 3, hamiltonian(casimir3 = 0.1)";
     hamiltonian_cubic_missile_3: "dim = 3, symmetry(space = affine, body = metric), \
         hamiltonian(casimir2 = 5/6, vorticity_squared = 25/24, casimir3 = 0.1, body_translation = 1/2)";
+    metrics_left_missile_2: "dim = 2, metrics(space = [[2, 0.5], [0.5, 1.5]], body = diag(4, 1)), \
+        kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 2)";
+    metrics_dalembert_3: "dim = 3, metrics(body = diag(1, 2, 4)), kinetic(dalembert = 3)";
     flat_tensor_drift_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2, \
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
 }
