@@ -44,7 +44,8 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
     };
     let stated = (context.model.metrics.is_some() && form == ClosedForm::Straight)
         .then(|| quote!(let stated = point;));
-    let inward = context.inward();
+    // A straight line reads the velocity alone, and the momentum of a free centre.
+    let inward = (form != ClosedForm::Straight || drifts).then(|| context.inward());
     let on_geodesic = context.with_metrics(quote! {
         fn on_geodesic(
             &self,

@@ -25,6 +25,7 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
     let [a, a_inverse, b, b_inverse] =
         [&space.matrix, &space.inverse, &body.matrix, &body.inverse].map(matrix);
     let function = quote! {
+        #[allow(clippy::approx_constant)]
         fn bases<#t: #rt::Real>() -> #rt::Bases<#n, #t> {
             #rt::Bases { space: #a, space_inverse: #a_inverse, body: #b, body_inverse: #b_inverse }
         }
