@@ -10,6 +10,8 @@ use proc_macro::TokenStream;
 /// |---|---|---|
 /// | `dim` | `2`, `3` | dimension; `n` in expressions |
 /// | `kinetic(...)` | terms | the kinetic energy, a sum of the terms below |
+/// | `hamiltonian(...)` | terms | instead of `kinetic(...)`: the same, stated through momenta, below |
+/// | `metrics(space = g, body = eta)` | matrices of numbers | constant metrics other than the identity, below |
 /// | `potential` | expression | the potential energy, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
@@ -29,6 +31,23 @@ use proc_macro::TokenStream;
 ///
 /// `Oh = phi^-1 phi_dot`, `Om = phi_dot phi^-1`. A coefficient is an arithmetic expression over exact decimal literals,
 /// fields and `n`; `^` binds tightest and to the right, above the sign: `-a^2` is `-(a^2)`.
+///
+/// On the momentum side, `X = Sigma = phi Pi` or `Sigma_hat = Pi phi`, `|W|^2` the sum over `a < b` of `W_ab^2`:
+///
+/// | term of `hamiltonian(...)` | energy |
+/// |---|---|
+/// | `casimir2 = a` | `a/2 tr X^2` |
+/// | `casimir1_squared = b` | `b/2 (tr X)^2` |
+/// | `vorticity_squared = c`, or `spin_squared = c` | `c/2 \|Vort\|^2`, `c/2 \|S\|^2` |
+/// | `body_translation = k` | `k/2 \|phi^T p\|^2`, `k = 1/m` |
+/// | `space_translation = k` | `k/2 \|p\|^2`, `k = 1/m` |
+/// | `casimir3 = d` | `d/3 tr X^3`, n = 3; no `at_velocity` and no kinetic energy of velocities, which do not determine the momentum |
+///
+/// `I + A = 1/a`, `I - A = 1/(2c - a)`, `I + A + n B = 1/(a + n b)` is the same model on the velocity side.
+///
+/// With `metrics(...)`, `g` and `eta` symmetric and positive definite, every transpose and norm is the metric one
+/// (`g^-1 Y^T g` in space, `eta^-1 X^T eta` in the body), and `det phi`, `q` are those of orthonormal bases. Points have
+/// the user's coordinates; equations, reduced states and plain arrays those of orthonormal bases.
 ///
 /// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
 /// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)`, their entries `G[1,2]`, with

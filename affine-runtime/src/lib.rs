@@ -26,6 +26,7 @@ pub mod frames;
 pub mod geodesic;
 pub mod integrate;
 pub mod kinematics;
+pub mod metrics;
 pub mod model;
 mod reduction;
 #[cfg(feature = "report")]

@@ -3,6 +3,7 @@
 use core::fmt::Debug;
 
 use crate::frames::{Matrix, Vector};
+use crate::metrics::Bases;
 use crate::scalar::{Real, Scalar};
 use crate::state::Phase;
 
@@ -29,7 +30,9 @@ pub trait Model<const N: usize> {
 
     /// The velocities `(x_dot, phi_dot)` of a phase point: the inverse Legendre transformation.
     fn velocity<T: Real>(&self, point: &Self::Point<T>) -> Velocity<N, T>;
-    /// The kinetic energy `T` of velocities at the placement `phi`.
+    /// The kinetic energy `T` of velocities at the placement `phi`. With `casimir3` in `hamiltonian(...)` there is no
+    /// such function, for several momenta have one velocity: `T = tr(X O) + p.v - H_kin` is one of the momenta, and a
+    /// call of this method does not compile.
     fn kinetic_energy<T: Real>(&self, phi: &Matrix<N, T>, velocity: &Velocity<N, T>) -> T;
     /// The Hamiltonian `H` of a phase point.
     fn hamiltonian<T: Real>(&self, point: &Self::Point<T>) -> T;
@@ -65,6 +68,12 @@ pub trait Model<const N: usize> {
         *reduced
     }
 
+    /// The bases of space and body in which the model's metrics are the identity, from the user's own; `None` where
+    /// they are the identity there. Plain arrays, reduced states and closed forms stand in them, phase points do not.
+    fn bases(&self) -> Option<Bases<N>> {
+        None
+    }
+
     /// The closed form of the trajectory through `point` at time `t0`, where the model and the scene have one.
     fn geodesic(&self, t0: f64, point: &Self::Point<f64>) -> Option<crate::geodesic::Geodesic<N>>;
     /// The phase point at time `t` on a closed-form trajectory that started at `start`.
@@ -85,6 +94,19 @@ pub struct Velocity<const N: usize, T: Real = f64> {
     pub x_dot: Vector<N, T>,
     /// `phi_dot`.
     pub phi_dot: Matrix<N, T>,
+}
+
+/// A model whose momenta are a function of the velocities, as the `at_velocity` of a model with `C(3)` in its
+/// Hamiltonian asks of it in vain; nothing implements it.
+#[diagnostic::on_unimplemented(
+    message = "the velocity does not determine the momentum of `{Self}`",
+    label = "no Legendre transformation from velocities",
+    note = "with `casimir3` the velocity is quadratic in the momentum: several momenta, or none, have a given velocity",
+    note = "use `at_momentum`; `velocity()` gives the velocity of a phase point"
+)]
+pub trait VelocityDeterminesMomentum {
+    /// What follows from it.
+    fn never<T>(&self) -> T;
 }
 
 /// A fixed-size vector of numbers that integrators step.

@@ -57,6 +57,16 @@ impl<const N: usize> Motion<N> {
         Motion::Space { stretch, whirl }
     }
 
+    /// The same with `C(3)/3` in the Hamiltonian, `X^2` in the velocity: it commutes with `X` and adds `casimir3 X^2`
+    /// to the stretch.
+    #[must_use]
+    pub fn with_square(mut self, spin: &Matrix<N>, casimir3: f64) -> Self {
+        if let Motion::Body { stretch, .. } | Motion::Space { stretch, .. } = &mut self {
+            *stretch += spin * spin * casimir3;
+        }
+        self
+    }
+
     /// The straight line with the velocity `phi_dot0`.
     #[must_use]
     pub fn straight(velocity: Matrix<N>) -> Self {

@@ -16,6 +16,7 @@ mod canonical;
 mod conserved;
 mod drunk_missile;
 mod geodesics;
+mod momentum_side;
 mod potentials;
 mod prepare;
 mod undeformed;

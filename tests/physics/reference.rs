@@ -16,12 +16,13 @@ pub(crate) struct Reference {
 
 impl Reference {
     pub(crate) fn new(kinetic: &Kinetic, state: &State) -> Self {
-        Reference {
-            expected: kinetic.expected(state).unwrap(),
-            condition: kinetic.condition(&state.phi).unwrap(),
-            state: state.clone(),
-            potential: Slopes { value: 0.0, t: 0.0, x: Vec::new(), phi: Vec::new() },
-        }
+        Self::of(kinetic.expected(state).unwrap(), kinetic.condition(&state.phi).unwrap(), state)
+    }
+
+    /// Exact derivatives from elsewhere, with the factor by which rounding errors of the velocity are amplified.
+    pub(crate) fn of(expected: Expected, condition: f64, state: &State) -> Self {
+        let potential = Slopes { value: 0.0, t: 0.0, x: Vec::new(), phi: Vec::new() };
+        Reference { expected, condition, state: state.clone(), potential }
     }
 
     /// The motion under a potential.

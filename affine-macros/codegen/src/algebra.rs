@@ -11,6 +11,7 @@ pub mod polynomial;
 pub mod rational;
 pub mod residue;
 pub mod ring;
+pub mod root;
 
 pub use arena::{Arena, Expr};
 pub use function::Function;

@@ -2,6 +2,7 @@
 
 mod prepared;
 mod programs;
+mod stated;
 
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
@@ -13,6 +14,7 @@ use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::describe::{self, Formula};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::metrics::Metrics;
 use crate::mechanics::potential::Base;
 use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
@@ -35,14 +37,12 @@ pub struct Model {
     pub numeric_blocks: Vec<NumericBlock>,
     /// What `prepare()` must find different from zero.
     pub conditions: Vec<Condition>,
-    /// `O -> X`.
-    pub legendre: Program,
+    /// What starts from velocities; `None` where they do not determine the momentum.
+    pub velocity_side: Option<VelocitySide>,
     /// `X -> O`.
     pub velocity: Program,
     /// `1/m` and `m` of the translation.
     pub mass: Option<Program>,
-    /// `(O, v) -> T`.
-    pub kinetic_energy: Program,
     /// Point -> `H`.
     pub hamiltonian: Program,
     /// Hamilton's equations in the model's own frames.
@@ -57,7 +57,7 @@ pub struct Model {
     pub fixed: Vec<String>,
     /// Closed form of the geodesics; whether it needs `p = 0`.
     pub closed_form: Option<(ClosedForm, bool)>,
-    /// `1/alpha`, `1/beta`, `1/mu` of an isotropic model.
+    /// `1/alpha`, `1/beta`, `1/mu` of an isotropic model, and the coefficient of `C(3)/3` where there is one.
     pub isotropic: Option<Program>,
     /// `1/m`, the stiffness and the scale of the dilatational motion, where it is taken out of the state.
     pub dilatation: Option<Program>,
@@ -71,8 +71,18 @@ pub struct Model {
     pub has_potential: bool,
     /// Symmetry groups of space and body that leave the kinetic energy unchanged.
     pub groups: (Group, Group),
+    /// Metrics other than the identity.
+    pub metrics: Option<Metrics>,
     /// `T`, `H`, and the equations.
     pub formulas: Formulas,
+}
+
+/// The Legendre transformation and the energy in velocities.
+pub struct VelocitySide {
+    /// `O -> X`.
+    pub legendre: Program,
+    /// `(O, v) -> T`.
+    pub kinetic_energy: Program,
 }
 
 /// The derivation as formulas.
@@ -101,12 +111,23 @@ pub struct Equations {
 pub struct Condition {
     /// `I + A`.
     pub name: &'static str,
-    /// Which velocities lose their momentum.
+    /// Which velocities lose their momentum, or which momenta their velocity.
     pub directions: &'static str,
+    /// What it multiplies.
+    pub relation: Relation,
     /// Must it be positive?
     pub positive: bool,
     /// Computes the value, then the terms whose sizes make the threshold.
     pub program: Program,
+}
+
+/// What an eigenvalue is a factor of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// The momentum is the eigenvalue times the velocity.
+    MomentumOfVelocity,
+    /// The velocity is the eigenvalue times the momentum.
+    VelocityOfMomentum,
 }
 
 /// A block to invert numerically.
@@ -130,10 +151,14 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     };
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form);
-    let Form { mut arena, kinetic, hessian, potential, .. } = form;
+    let Form { mut arena, kinetic, stated, hessian, potential, metrics, .. } = form;
     let potential = potential.as_ref();
     let arena = &mut arena;
-    let h = Hamiltonian::new(arena, &kinetic, &hessian)?;
+    let cubic = stated.as_ref().filter(|stated| stated.is_cubic());
+    let h = match cubic {
+        None => Hamiltonian::new(arena, &kinetic, &hessian)?,
+        Some(stated) => stated.hamiltonian(arena),
+    };
     let own = reduce::own_chart(arena, &h);
     let own_h = reduce::own_hamiltonian(&h, &own);
     let mut coefficients = Constants::new("c");
@@ -160,7 +185,10 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let (reduction, reduced, trajectory, fixed) =
         best_reduction(arena, &h, potential, rotations, &mut coefficients)?;
     let formulas = Formulas {
-        kinetic_energy: describe::kinetic_energy(arena, &kinetic),
+        kinetic_energy: match cubic {
+            None => describe::kinetic_energy(arena, &kinetic),
+            Some(_) => describe::kinetic_energy_of_momenta(arena, &h),
+        },
         hamiltonian: describe::hamiltonian(arena, &h, &full_h, potential),
         equations: describe::equations(arena, &h, &full_chart, &full_h, potential),
         reduced: describe::system(arena, &reduction.system),
@@ -172,12 +200,16 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     };
     let velocities: Vec<Expr> = kinetic.velocity.0.iter().flatten().copied().collect();
     let momenta: Vec<Expr> = h.momentum.0.iter().flatten().copied().collect();
-    let legendre = legendre_batch(arena, &kinetic);
-    let legendre = inline(arena, legendre, velocities.clone());
+    let legendre = cubic.is_none().then(|| {
+        let legendre = legendre_batch(arena, &kinetic);
+        inline(arena, legendre, velocities.clone())
+    });
     let velocity = matrix_batch(arena, &kinetic.velocity, &h.velocity);
     let velocity = inline(arena, velocity, momenta);
-    let (energy, energy_inputs) = energy_batch(arena, &kinetic, velocities);
-    let kinetic_energy = inline(arena, energy, energy_inputs);
+    let velocity_side = legendre.map(|legendre| {
+        let (energy, inputs) = energy_batch(arena, &kinetic, velocities);
+        VelocitySide { legendre, kinetic_energy: inline(arena, energy, inputs) }
+    });
     let mut points: Vec<Expr> = full_chart.coordinates().into_iter().map(|z| full_chart.symbol(z)).collect();
     let mut energy = result("energy", full_h.clone());
     if let Some(u) = potential {
@@ -188,12 +220,11 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     }
     let hamiltonian = inline(arena, energy, points);
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {
-        let mass = Polynomial::normal_form(arena, t.mass);
-        let batch = Batch {
-            shared: Vec::new(),
-            results: vec![("inverse_mass".into(), inverse.clone()), ("mass".into(), mass)],
-        };
-        inline(arena, batch, Vec::new())
+        let mut results = vec![("inverse_mass".into(), inverse.clone())];
+        if cubic.is_none() {
+            results.push(("mass".into(), Polynomial::normal_form(arena, t.mass)));
+        }
+        inline(arena, Batch { shared: Vec::new(), results }, Vec::new())
     });
     let isotropic = h.isotropic.as_ref().map(|iso| {
         let named = [
@@ -201,7 +232,10 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
             ("inverse_beta", &iso.casimir1_squared),
             ("inverse_mu", &iso.skew),
         ];
-        let results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
+        let mut results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
+        if !iso.casimir3.is_zero() {
+            results.push(("casimir3".to_owned(), iso.casimir3.clone()));
+        }
         inline(arena, Batch { shared: Vec::new(), results }, Vec::new())
     });
     let dilatation = reduction.separation.as_ref().map(|s| inline(arena, s.batch(), Vec::new()));
@@ -210,13 +244,15 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         dim: kinetic.dim,
         frame: kinetic.frame,
         translation: kinetic.translation.map(|t| t.frame),
-        conditions: conditions(arena, &kinetic, eigenvalues, require_positive),
+        conditions: match &stated {
+            None => conditions(arena, &kinetic, eigenvalues, require_positive),
+            Some(stated) => stated::conditions(arena, stated, require_positive),
+        },
         coefficients: coefficient_program(arena, &coefficients),
         numeric_blocks,
-        legendre,
+        velocity_side,
         velocity,
         mass,
-        kinetic_energy,
         hamiltonian,
         full,
         reduced,
@@ -231,6 +267,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         signature,
         has_potential: potential.is_some(),
         groups,
+        metrics,
         formulas,
     })
 }

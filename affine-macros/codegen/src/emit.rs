@@ -4,6 +4,7 @@ mod body;
 mod closed_form;
 mod description;
 mod dynamics;
+mod metrics;
 mod names;
 mod points;
 mod prepare;
@@ -34,12 +35,14 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let constants = reduction::constants_type(&context);
     let implementation = model_impl(&context);
     let points = points::inherent(&context);
+    let (bases, _) = metrics::bases(&context);
     quote! {
         #item
         #prepared_type
         const _: () = {
             use #runtime::__private as #rt;
             #prepare
+            #bases
             #constants
             #implementation
             #points
@@ -169,6 +172,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let dynamics = dynamics::methods(context);
     let reduction = reduction::methods(context);
     let geodesic = closed_form::geodesic(context);
+    let (_, bases) = metrics::bases(context);
     quote! {
         #(#[doc = #docs])*
         impl #generics #rt::Model<#n> for #prepared #types #clause {
@@ -177,6 +181,7 @@ fn model_impl(context: &Context) -> TokenStream {
             type Full<#scalar: #rt::Scalar> = [#scalar; #full];
             type Reduced<#scalar: #rt::Scalar> = [#scalar; #reduced];
             type Constants<#scalar: #rt::Scalar> = #constants<#scalar>;
+            #bases
             #dynamics
             #reduction
             #geodesic

@@ -1,5 +1,7 @@
 //! From what the user wrote to symbolic terms: the last place where the specification's syntax is known.
 
+mod metrics;
+mod momentum_side;
 mod potential;
 
 use crate::algebra::{Arena, Expr, Matrix, Rational};
@@ -7,6 +9,8 @@ use crate::check::constant;
 use crate::mechanics::kinetic::{Coefficient, Term, TermKind};
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 
+pub use metrics::metrics;
+pub use momentum_side::stated;
 pub use potential::potential;
 
 /// Stem of the symbols of fields: kept apart from the names that the derivation makes.

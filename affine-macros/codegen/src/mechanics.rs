@@ -10,6 +10,8 @@ mod flow;
 pub mod hamiltonian;
 pub mod hessian;
 pub mod kinetic;
+pub mod metrics;
+pub mod momentum_side;
 mod notation;
 pub mod potential;
 pub mod reduce;

@@ -54,6 +54,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let energy = self.model.hamiltonian(&self.start);
         Trajectory {
             description: M::DESCRIPTION,
+            bases: self.model.bases(),
             start: (self.t0, self.start),
             end: (self.t0, self.start),
             times: Vec::new(),

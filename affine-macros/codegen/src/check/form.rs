@@ -2,11 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::momentum_side;
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, Directions, Reported};
 use crate::lower;
 use crate::mechanics::hessian::{Block, Direction, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
+use crate::mechanics::metrics::Metrics;
+use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
 use crate::spec::{self, Claim, Named, Requirement, Spec, Value};
@@ -17,6 +20,8 @@ pub struct Form {
     pub arena: Arena,
     /// The energy.
     pub kinetic: Kinetic,
+    /// The Hamiltonian, where it is what the user stated; `kinetic` follows from it.
+    pub stated: Option<Stated>,
     /// Its Hessian on the affine velocities.
     pub hessian: Hessian,
     /// The largest of GL(n), O(n) that acts on space without changing the energy.
@@ -25,6 +30,8 @@ pub struct Form {
     pub body_group: Group,
     /// The potential energy.
     pub potential: Option<Potential>,
+    /// Metrics other than the identity; everything else stands in bases in which they are.
+    pub metrics: Option<Metrics>,
 }
 
 /// Builds the form and holds it against every rule.
@@ -33,6 +40,9 @@ pub struct Form {
 /// [`Reported`] if any rule is broken; all broken ones are in the bag.
 pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     let mut arena = Arena::new();
+    if let Some(stated) = lower::stated(&mut arena, spec) {
+        return momentum_form(arena, spec, stated, found);
+    }
     let (places, terms): (Vec<usize>, Vec<Term>) = lower::terms(&mut arena, spec).into_iter().unzip();
     let kinetic = Kinetic::new(&mut arena, spec.dim.value, &terms)
         .ok()
@@ -41,12 +51,55 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     let hessian = Hessian::new(&kinetic);
     invertible(spec, &hessian, found);
     positive(spec, &kinetic, &hessian, found);
-    claims(spec, &kinetic, &places, found);
+    claims(spec, &kinetic, |place| spec.kinetic[places[place]].kind.value.name(), found);
     found.verdict()?;
     let space_group = largest_group(&kinetic, Side::Space);
     let body_group = largest_group(&kinetic, Side::Body);
     let potential = lower::potential(&mut arena, spec);
-    Ok(Form { arena, kinetic, hessian, space_group, body_group, potential })
+    Ok(Form {
+        arena,
+        kinetic,
+        stated: None,
+        hessian,
+        space_group,
+        body_group,
+        potential,
+        metrics: lower::metrics(spec),
+    })
+}
+
+/// The same from a stated Hamiltonian. Groups and claims are decided on the form in the momenta.
+fn momentum_form(
+    mut arena: Arena,
+    spec: &Spec,
+    stated: Stated,
+    found: &mut Diagnostics,
+) -> Result<Form, Reported> {
+    momentum_side::invertible(spec, &stated, found);
+    momentum_side::positive(spec, &stated, found);
+    let on_momenta = stated.on_momenta(&mut arena);
+    let name = |place: usize| {
+        spec.hamiltonian.iter().flatten().nth(place).map_or("hamiltonian", |term| term.kind.value.name())
+    };
+    claims(spec, &on_momenta, name, found);
+    found.verdict()?;
+    let kinetic = stated
+        .kinetic(&mut arena)
+        .ok_or_else(|| found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy))?;
+    let hessian = Hessian::new(&kinetic);
+    let space_group = largest_group(&on_momenta, Side::Space);
+    let body_group = largest_group(&on_momenta, Side::Body);
+    let potential = lower::potential(&mut arena, spec);
+    Ok(Form {
+        arena,
+        kinetic,
+        stated: Some(stated),
+        hessian,
+        space_group,
+        body_group,
+        potential,
+        metrics: lower::metrics(spec),
+    })
 }
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic
@@ -112,7 +165,7 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
 
 /// A claimed symmetry is a theorem about the form: its derivative along every generator of the group vanishes,
 /// and for O(n) one reflection leaves it unchanged as well.
-fn claims(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mut Diagnostics) {
+fn claims(spec: &Spec, kinetic: &Kinetic, term: impl Fn(usize) -> &'static str, found: &mut Diagnostics) {
     let Some(symmetry) = &spec.symmetry else { return };
     for (side, name, claim) in [(Side::Space, "space", symmetry.space), (Side::Body, "body", symmetry.body)] {
         let (group, letters) = match claim.value {
@@ -122,12 +175,11 @@ fn claims(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mut Diagnost
         };
         let Some((breaker, place)) = broken_by(kinetic, side, group) else { continue };
         let n = kinetic.dim;
-        let term = &spec.kinetic[places[place]];
         let mistake = Diagnostic::ClaimBroken {
             side: name,
             claim: claim.value.name(),
             group: format!("{letters}({n})"),
-            term: term.kind.value.name(),
+            term: term(place),
             transformation: match breaker {
                 Breaker::Generator(a, b) => format!("the generator E[{a},{b}]"),
                 Breaker::Rotation(a, b) => format!("the generator E[{a},{b}] - E[{b},{a}]"),
@@ -220,6 +272,10 @@ fn matrix_text(n: usize, entries: &[Rational]) -> String {
 /// The numbers of positive and negative squares of a numeric form.
 #[must_use]
 pub fn signature(form: &Form) -> Option<(usize, usize)> {
+    // With a cubic term the metric depends on the momentum.
+    if form.stated.as_ref().is_some_and(Stated::is_cubic) {
+        return None;
+    }
     let mut count = (0, 0);
     for inertia in form.hessian.blocks.iter().map(|b: &Block| b.inertia(form.kinetic.dim)) {
         let inertia = inertia?;

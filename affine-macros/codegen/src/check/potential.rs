@@ -70,7 +70,7 @@ pub(super) fn indices(spec: &Spec, found: &mut Diagnostics) {
 
 /// Without a translational kinetic energy the centre is fixed in space and x is not part of the state.
 pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
-    if spec.kinetic.iter().any(|term| term.kind.value.is_translation()) {
+    if spec.translation().is_some() {
         return;
     }
     for part in energy(spec).flat_map(parts) {

@@ -38,6 +38,17 @@ pub enum Diagnostic {
         /// The key.
         key: &'static str,
     },
+    /// A term of `kinetic(...)` in `hamiltonian(...)`, or the other way round.
+    OtherSide {
+        /// The list it stands in.
+        list: &'static str,
+        /// The term.
+        key: &'static str,
+        /// The list it belongs to.
+        other: &'static str,
+    },
+    /// `kinetic(...)` beside `hamiltonian(...)`.
+    TwoStatements,
     /// A key given twice.
     RepeatedKey {
         /// The list it stands in.
@@ -373,6 +384,15 @@ pub enum Diagnostic {
         /// Its value.
         value: String,
     },
+    /// An inverse mass that is exactly zero.
+    ZeroInverseMass {
+        /// The translation term of `hamiltonian(...)`.
+        term: &'static str,
+        /// The coefficient as written.
+        coefficient: String,
+    },
+    /// `casimir3` for n = 2.
+    PlanarCasimir3,
     /// Two terms whose sum has a mass matrix that depends on the placement.
     MixedFrames {
         /// One term.
@@ -387,6 +407,45 @@ pub enum Diagnostic {
     /// Only translation terms, or none.
     NoKineticEnergy,
 
+    // ---- the metrics ----
+    /// An entry of a metric that contains a field.
+    MetricEntry {
+        /// `space` or `body`.
+        side: &'static str,
+        /// The entry.
+        entry: String,
+    },
+    /// `g_ij != g_ji`.
+    MetricNotSymmetric {
+        /// `space` or `body`.
+        side: &'static str,
+        /// The row, 1-based.
+        row: usize,
+        /// The column, 1-based.
+        column: usize,
+        /// The value at (row, column).
+        value: String,
+        /// The value at (column, row).
+        transposed: String,
+    },
+    /// A metric that is not positive definite.
+    MetricNotPositive {
+        /// `space` or `body`.
+        side: &'static str,
+        /// What shows it: `g[2,2] = -1`.
+        defect: String,
+    },
+    /// A matrix or tensor beside a metric.
+    MetricTerm {
+        /// The term.
+        term: &'static str,
+    },
+    /// A form of potentials that depends on the bases.
+    MetricForm {
+        /// The form: `G[1,2]`, `x[1]`, `tr(phi)`.
+        form: String,
+    },
+
     // ---- the quadratic form ----
     /// The isotropic form vanishes on some directions.
     Degenerate {
@@ -395,6 +454,15 @@ pub enum Diagnostic {
         /// The same in the user's numbers: `1 + 2 + 3*(-1)`.
         numbers: String,
         /// The directions.
+        directions: Directions,
+    },
+    /// A stated Hamiltonian whose velocity vanishes on some momenta.
+    DegenerateHamiltonian {
+        /// The eigenvalue: `2 vorticity_squared - casimir2`.
+        eigenvalue: String,
+        /// The same in the user's numbers: `2*0.1 - 0.2`.
+        numbers: String,
+        /// The momenta.
         directions: Directions,
     },
     /// A tensor, or a sum of terms with one, that has a kernel.
@@ -476,6 +544,8 @@ names! {
     MalformedItem => "malformed-item",
     UnknownKey => "unknown-key",
     UnavailableKey => "unavailable-key",
+    OtherSide => "other-side",
+    TwoStatements => "two-statements",
     RepeatedKey => "repeated-key",
     MissingKey => "missing-key",
     ExpectedValue => "expected-value",
@@ -522,9 +592,17 @@ names! {
     InertiaNotPositive => "inertia-not-positive",
     ZeroMass => "zero-mass",
     NegativeMass => "negative-mass",
+    ZeroInverseMass => "zero-inverse-mass",
+    PlanarCasimir3 => "planar-casimir3",
     MixedFrames => "mixed-frames",
     NoKineticEnergy => "no-kinetic-energy",
+    MetricEntry => "metric-entry",
+    MetricNotSymmetric => "metric-not-symmetric",
+    MetricNotPositive => "metric-not-positive",
+    MetricTerm => "metric-term",
+    MetricForm => "metric-form",
     Degenerate => "degenerate",
+    DegenerateHamiltonian => "degenerate-hamiltonian",
     DegenerateTensor => "degenerate-tensor",
     NotPositiveDefinite => "not-positive-definite",
     ClaimBroken => "claim-broken",

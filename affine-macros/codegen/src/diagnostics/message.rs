@@ -62,6 +62,24 @@ impl Diagnostic {
                 ),
                 format!("state the model without `{key}`"),
             ),
+            Self::OtherSide { list, key, other } => text(
+                format!("`{key}` does not belong to `{list}(...)`"),
+                if *list == "kinetic" {
+                    format!(
+                        "`{key}` is a function of the momentum, and `kinetic(...)` states T through velocities"
+                    )
+                } else {
+                    format!(
+                        "`{key}` is a form in the velocity, and `hamiltonian(...)` states H through momenta"
+                    )
+                },
+                format!("state all terms in `{other}(...)`, with the coefficients that they have there"),
+            ),
+            Self::TwoStatements => text(
+                "the kinetic energy is stated twice, in `kinetic(...)` and in `hamiltonian(...)`",
+                "each determines the other: T by the velocities, H by the momenta",
+                "keep one of them, and state all terms there",
+            ),
             Self::RepeatedKey { list, key } => text(
                 format!("`{key}` stands twice in `{list}(...)`"),
                 "an item is given once; two values would contradict each other or hide a slip",
@@ -325,6 +343,17 @@ impl Diagnostic {
                 "`dalembert` is the kinetic energy of positive masses (2.1), and these are the same masses",
                 "write a positive mass",
             ),
+            Self::ZeroInverseMass { term, coefficient } => text(
+                format!("`{term} = {coefficient}` is zero"),
+                "in `hamiltonian(...)` it is the inverse mass, the velocity is that times the momentum, and does not \
+                 determine it",
+                format!("write `{term} = 1/m`, or remove `{term}`: the body is then fixed in space"),
+            ),
+            Self::PlanarCasimir3 => text(
+                "`casimir3` is for `dim = 3`",
+                "for n = 2, tr X^3 = (3 tr X tr X^2 - (tr X)^3)/2 (Cayley and Hamilton) is no invariant of its own",
+                "remove `casimir3`, or write `dim = 3`",
+            ),
             Self::MixedFrames { first, first_velocity, second, second_velocity } => text(
                 format!("`{first}` and `{second}` do not go together in this version"),
                 format!(
@@ -337,6 +366,34 @@ impl Diagnostic {
                 "there is no kinetic energy of the internal motion",
                 "without a term in phi_dot the Legendre transformation has no inverse: Sigma = (dT/dOm)^T = 0",
                 "add `casimir2`, `body_inertia`, `space_inertia`, `dalembert`, `body_tensor`, `space_tensor` or `flat_tensor`",
+            ),
+            Self::MetricEntry { side, entry } => text(
+                format!("the entry `{entry}` of the metric `{side}` depends on a field"),
+                "this version finds the orthonormal bases when the model is compiled, which needs numbers",
+                "write numbers",
+            ),
+            Self::MetricNotSymmetric { side, row, column, value, transposed } => text(
+                format!(
+                    "the metric `{side}` is not symmetric: its entry ({row},{column}) is {value}, \
+                     ({column},{row}) is {transposed}"
+                ),
+                "a metric is a scalar product, g(u, v) = g(v, u)",
+                "write the same entry in both places",
+            ),
+            Self::MetricNotPositive { side, defect } => text(
+                format!("the metric `{side}` is not positive definite: {defect}"),
+                "a metric gives every vector but zero a positive length, and has an orthonormal basis only then",
+                "write a symmetric matrix whose leading minors are all positive",
+            ),
+            Self::MetricTerm { term } => text(
+                format!("`{term}` with a matrix does not go with `metrics(...)` in this version"),
+                "equations stand in orthonormal bases of the metrics, in which its entries are in general irrational",
+                "write a scalar, or state the model in orthonormal bases and leave out `metrics(...)`",
+            ),
+            Self::MetricForm { form } => text(
+                format!("`{form}` does not go with `metrics(...)` in this version"),
+                "equations stand in orthonormal bases of the metrics, and this form depends on the bases",
+                "write the potential through `q`, `det`, `I1..In`, `norm(x)` and traces of powers of `G` or of `Ct`",
             ),
             Self::Degenerate { eigenvalue, numbers, directions } => text(
                 format!(
@@ -352,6 +409,21 @@ impl Diagnostic {
                      A is `casimir2`, B is `casimir1_squared`"
                 ),
             ),
+            Self::DegenerateHamiltonian { eigenvalue, numbers, directions } => {
+                let value = if numbers == "0" { eigenvalue.clone() } else { equated(eigenvalue, numbers) };
+                let directions = directions.to_string().replace("velocities", "momenta");
+                text(
+                    format!("the Hamiltonian is degenerate: {value} = 0 on {directions}"),
+                    format!(
+                        "the velocity O = a X + b tr(X) 1 - c (X - X^T) has the eigenvalue {eigenvalue} there; it does \
+                         not determine the momentum X"
+                    ),
+                    format!(
+                        "change a coefficient so that {eigenvalue} is not zero; a is `casimir2`, b `casimir1_squared`, \
+                         c `vorticity_squared` or `spin_squared`"
+                    ),
+                )
+            }
             Self::DegenerateTensor { terms, velocity, kernel } => text(
                 format!("the kinetic energy is degenerate: `{terms}` vanishes on {velocity} = {kernel}"),
                 "the Legendre transformation X[B,A] = K[(A,B),(C,D)] O[C,D] (4.6), (4.8) gives zero momentum \

@@ -35,13 +35,9 @@ pub(super) enum Number<'a> {
 impl Number<'_> {
     /// The number, to double-double precision where it is generic.
     fn exact(self, number: &Rational) -> TokenStream {
-        let (hi, lo) = number.to_doubles();
         match self {
-            Self::Generic(scalar) => {
-                let (hi, lo) = (literal(hi, ""), literal(lo, ""));
-                quote!(#scalar::constant(#hi, #lo))
-            }
-            Self::Double => literal(hi, "f64"),
+            Self::Generic(scalar) => exact(scalar, number),
+            Self::Double => literal(number.to_doubles().0, "f64"),
         }
     }
 
@@ -52,6 +48,13 @@ impl Number<'_> {
             Self::Double => value,
         }
     }
+}
+
+/// A number to double-double precision.
+pub(super) fn exact(scalar: &Ident, number: &Rational) -> TokenStream {
+    let (hi, lo) = number.to_doubles();
+    let (hi, lo) = (literal(hi, ""), literal(lo, ""));
+    quote!(#scalar::constant(#hi, #lo))
 }
 
 /// How a body names its surroundings.

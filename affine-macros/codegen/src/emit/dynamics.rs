@@ -3,6 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use crate::derive::VelocitySide;
 use crate::ir::Program;
 use crate::mechanics::charts::Linear;
 use crate::mechanics::kinetic::Frame;
@@ -57,20 +58,37 @@ fn velocity(context: &Context) -> TokenStream {
         }
         _ => (TokenStream::new(), quote!(#rt::Vector::<#n, #t>::zeros())),
     };
+    let inward = context.inward();
+    let velocity = quote!(#rt::Velocity { x_dot: #x_dot, phi_dot });
+    let velocity = match context.model.metrics {
+        Some(_) => quote!(bases::<#t>().reversed().velocity(&#velocity)),
+        None => velocity,
+    };
     quote! {
         fn velocity<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
+            #inward
             let [#(#rows),*] = #rt::rows(&#spin);
             #lets
             let phi_dot = #phi_dot;
             #mass
-            #rt::Velocity { x_dot: #x_dot, phi_dot }
+            #velocity
         }
     }
 }
 
 fn kinetic_energy(context: &Context) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
-    let program = &context.model.kinetic_energy;
+    let Some(VelocitySide { kinetic_energy: program, .. }) = &context.model.velocity_side else {
+        return quote! {
+            fn kinetic_energy<#t: #rt::Real>(
+                &self,
+                _phi: &#rt::Matrix<#n, #t>,
+                _velocity: &#rt::Velocity<#n, #t>,
+            ) -> #t {
+                const { #rt::no_kinetic_energy_of_velocities() }
+            }
+        };
+    };
     let used = inputs(program);
     let names = components(context.model.frame.velocity_name(), context.model.dim);
     let rows = names.iter().map(|row| pattern(row, &used));
@@ -91,12 +109,19 @@ fn kinetic_energy(context: &Context) -> TokenStream {
     };
     let body = context.generic(program);
     let (lets, energy) = (&body.lets, body.result());
+    let inward = context.with_metrics(quote! {
+        let velocity = &bases::<#t>().velocity(velocity);
+    });
+    let phi_inward = (reads_phi && context.model.metrics.is_some())
+        .then(|| quote!(let phi = &bases::<#t>().placement(phi);));
+    let inward = quote!(#inward #phi_inward);
     quote! {
         fn kinetic_energy<#t: #rt::Real>(
             &self,
             #phi: &#rt::Matrix<#n, #t>,
             velocity: &#rt::Velocity<#n, #t>,
         ) -> #t {
+            #inward
             let phi_dot = velocity.phi_dot;
             let [#(#rows),*] = #rt::rows(&#o);
             #centre
@@ -144,8 +169,10 @@ fn hamiltonian(context: &Context) -> TokenStream {
         .then(|| quote!(let q = #rt::mean_log_stretch(#rt::Phase::phi(point));));
     let body = context.generic(program);
     let (lets, energy) = (&body.lets, body.result());
+    let inward = context.inward();
     quote! {
         fn hamiltonian<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #t {
+            #inward
             #bound
             #stretch
             #lets
@@ -204,8 +231,11 @@ fn flat(context: &Context) -> TokenStream {
             quote!(let centre = #rt::Centre { x: #x, p: #rt::inverse(&phi).tr_mul(&#p_hat) };)
         }
     };
+    let inward = context.inward();
+    let point = context.outward(&quote!(#t), quote!(#rt::point(phi, #wrap(#own), centre)));
     quote! {
         fn flatten<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> Self::Full<#t> {
+            #inward
             #bound
             [#(#names),*]
         }
@@ -214,7 +244,7 @@ fn flat(context: &Context) -> TokenStream {
             let [#(#names),*] = *full;
             let phi = #phi;
             #centre
-            #rt::point(phi, #wrap(#own), centre)
+            #point
         }
     }
 }

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::derive::{Condition, NumericBlock};
+use crate::derive::{Condition, NumericBlock, Relation};
 use crate::lower::FIELD;
 
 use super::body::{Body, Number, Scope, body};
@@ -82,7 +82,7 @@ fn over_fields(program: &Program) -> Body {
 
 /// Eigenvalues share one threshold, a mass has its own.
 fn conditions(context: &Context, rt: &Ident) -> TokenStream {
-    let is_mass = |c: &&Condition| c.name == "m";
+    let is_mass = |c: &&Condition| matches!(c.name, "m" | "1/m");
     let list = |conditions: Vec<&Condition>| {
         if conditions.is_empty() {
             return TokenStream::new();
@@ -98,16 +98,17 @@ fn conditions(context: &Context, rt: &Ident) -> TokenStream {
 fn condition(condition: &Condition, rt: &Ident) -> TokenStream {
     let positive = condition.positive;
     let text = format!("{} {} 0", condition.name, if positive { ">" } else { "!=" });
-    let reason = format!(
-        "on {} the momentum is {} times the velocity; {}",
-        condition.directions,
-        condition.name,
-        if positive {
-            "choose fields that make it positive"
-        } else {
-            "choose fields that keep it away from zero, or the momentum does not determine the velocity"
-        }
-    );
+    let (given, sought) = match condition.relation {
+        Relation::MomentumOfVelocity => ("velocity", "momentum"),
+        Relation::VelocityOfMomentum => ("momentum", "velocity"),
+    };
+    let remedy = if positive {
+        "choose fields that make it positive".to_owned()
+    } else {
+        format!("choose fields that keep it away from zero, or the {sought} does not determine the {given}")
+    };
+    let reason =
+        format!("on {} the {sought} is {} times the {given}; {remedy}", condition.directions, condition.name);
     let Body { lets, results } = over_fields(&condition.program);
     let (value, sizes) = results.split_first().map_or((quote!(0.0), &[][..]), |(v, s)| (v.clone(), s));
     quote! {

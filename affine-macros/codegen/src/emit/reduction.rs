@@ -186,12 +186,14 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
         fields = quote!(scalar: ::core::marker::PhantomData);
     }
     let origin = if parts.origin || parts.dilatation { quote!(t0) } else { quote!(_t0) };
+    let inward = context.inward();
     quote! {
         fn reduce<#t: #rt::Real>(
             &self,
             #origin: #t,
             point: &Self::Point<#t>,
         ) -> (Self::Reduced<#t>, Self::Constants<#t>) {
+            #inward
             #lets
             #trajectory
             #whirl
@@ -368,6 +370,7 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
         || parts.momentum
         || !parts.fixed.is_empty();
     let constants = if reads { quote!(constants) } else { quote!(_constants) };
+    let point = context.outward(&quote!(#t), quote!(#rt::point(phi, #spin, #centre)));
     quote! {
         fn expand<#t: #rt::Real>(
             &self,
@@ -376,7 +379,7 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
             reduced: &Self::Reduced<#t>,
         ) -> Self::Point<#t> {
             #lets
-            #rt::point(phi, #spin, #centre)
+            #point
         }
     }
 }

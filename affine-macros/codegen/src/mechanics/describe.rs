@@ -115,6 +115,17 @@ pub fn kinetic_energy(arena: &mut Arena, kinetic: &Kinetic) -> Formula {
     sum.finish()
 }
 
+/// `T = tr(X O) - H` of a Hamiltonian with `C(3)`, on momenta: the cubic term counts twice (Euler).
+pub fn kinetic_energy_of_momenta(arena: &mut Arena, h: &Hamiltonian) -> Formula {
+    let mut doubled = h.clone();
+    if let Some(iso) = &mut doubled.isotropic {
+        iso.casimir3 = iso.casimir3.scaled(&Rational::from(2));
+    }
+    let Formula { text, latex } = kinetic_hamiltonian(arena, &doubled, &Polynomial::zero());
+    let named = |formula: String| formula.replacen('H', "T", 1);
+    Formula { text: named(text), latex: named(latex) }
+}
+
 /// `H`, through the Casimirs where it is isotropic.
 pub fn hamiltonian(
     arena: &mut Arena,
@@ -155,6 +166,12 @@ fn kinetic_hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) ->
         (&format!("(tr {x})^2"), &format!("(\\operatorname{{tr}}{hat})^2")),
     );
     sum.add(arena, &iso.skew.scaled(&half), skew);
+    let third = Rational::ratio(1, 3).unwrap_or(Rational::ONE);
+    sum.add(
+        arena,
+        &iso.casimir3.scaled(&third),
+        (&format!("tr({x}^3)"), &format!("\\operatorname{{tr}}{hat}^3")),
+    );
     if let Some((frame, inverse_mass)) = &h.translation {
         let body = match frame {
             Frame::Body => ("|phi^T p|^2", "|\\varphi^T p|^2"),
@@ -373,6 +390,7 @@ fn affine_velocity(arena: &mut Arena, h: &Hamiltonian, chart: &Chart) -> Formula
                 &iso.skew.scaled(&Rational::MINUS_ONE),
                 (&format!("({x} - {x}^T)"), &format!("({x_latex} - {x_latex}^T)")),
             );
+            sum.add(arena, &iso.casimir3, (&format!("{x}^2"), &format!("{x_latex}^2")));
             sum.finish()
         }
         None => Formula {

@@ -15,9 +15,9 @@ pub struct Hamiltonian {
     pub frame: Frame,
     /// The affine spin of that frame.
     pub momentum: Matrix,
-    /// The affine velocity as a linear function of the affine spin: `O = (dH/dX)^T`.
+    /// The affine velocity as a function of the affine spin: `O = (dH/dX)^T`, linear without `C(3)`.
     pub velocity: Vec<Vec<Polynomial>>,
-    /// `C(2)/(2 alpha) + C(1)^2/(2 beta) + |W|^2/(2 mu)`, where the energy is isotropic.
+    /// `C(2)/(2 alpha) + C(1)^2/(2 beta) + |W|^2/(2 mu)`, where the energy is isotropic, and what is stated of `C(3)`.
     pub isotropic: Option<Isotropic>,
     /// Frame and `1/m` of the translational energy.
     pub translation: Option<(Frame, Polynomial)>,
@@ -34,6 +34,8 @@ pub struct Isotropic {
     pub casimir1_squared: Polynomial,
     /// `1/mu`, of `|W|^2/2` with `W = X - X^T`, `|W|^2` the sum over `a < b` of `W_ab^2`.
     pub skew: Polynomial,
+    /// Of `C(3)/3`, for Hamiltonians stated with it.
+    pub casimir3: Polynomial,
 }
 
 impl Hamiltonian {
@@ -74,9 +76,15 @@ impl Hamiltonian {
         })
     }
 
-    /// `1/2 tr(X O(X))` in the frame's own affine spin.
+    /// `1/2 tr(X O(X))` in the frame's own affine spin, for a quadratic form; `H_int` itself with `C(3)`.
     #[must_use]
     pub fn internal(&self) -> Polynomial {
+        if let Some(iso) = self.isotropic.as_ref().filter(|iso| !iso.casimir3.is_zero()) {
+            let spin = self.momentum.0.iter();
+            let spin: Vec<Vec<Polynomial>> =
+                spin.map(|row| row.iter().map(|x| Polynomial::atom(*x)).collect()).collect();
+            return iso.energy(&spin);
+        }
         let mut sum = Polynomial::zero();
         for (a, row) in self.velocity.iter().enumerate() {
             for (b, o) in row.iter().enumerate() {
@@ -125,7 +133,22 @@ impl Hamiltonian {
 }
 
 impl Isotropic {
-    /// `C(2)/(2 alpha) + C(1)^2/(2 beta)` of an affine spin.
+    /// `H = 0`.
+    #[must_use]
+    pub fn zero() -> Self {
+        let [casimir2, casimir1_squared, skew, casimir3] = std::array::from_fn(|_| Polynomial::zero());
+        Self { casimir2, casimir1_squared, skew, casimir3 }
+    }
+
+    /// `H` of an affine spin.
+    #[must_use]
+    pub fn energy(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
+        let mut sum = self.casimirs(spin);
+        sum.add_scaled(&self.skew_norm(spin), &Rational::ONE);
+        sum
+    }
+
+    /// `C(2)/(2 alpha) + C(1)^2/(2 beta)` of an affine spin, and what there is of `C(3)`.
     #[must_use]
     pub fn casimirs(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
         let (mut c1, mut c2) = (Polynomial::zero(), Polynomial::zero());
@@ -138,6 +161,10 @@ impl Isotropic {
         let mut sum = Polynomial::zero();
         sum.add_product(&c2, &self.casimir2, &half());
         sum.add_product(&c1.mul(&c1), &self.casimir1_squared, &half());
+        if !self.casimir3.is_zero() {
+            let third = Rational::ratio(1, 3).unwrap_or(Rational::ONE);
+            sum.add_product(&cubed_trace(spin), &self.casimir3, &third);
+        }
         sum
     }
 
@@ -154,6 +181,16 @@ impl Isotropic {
         }
         norm.mul(&self.skew)
     }
+}
+
+/// `tr X^3`.
+fn cubed_trace(spin: &[Vec<Polynomial>]) -> Polynomial {
+    let n = spin.len();
+    let mut trace = Polynomial::zero();
+    for (a, b, c) in (0..n).flat_map(|a| (0..n).flat_map(move |b| (0..n).map(move |c| (a, b, c)))) {
+        trace.add_product(&spin[a][b].mul(&spin[b][c]), &spin[c][a], &Rational::ONE);
+    }
+    trace
 }
 
 /// `p_hat = phi^T p`.
@@ -221,5 +258,6 @@ fn isotropic(arena: &mut Arena, hessian: &Hessian, n: usize) -> Option<Isotropic
         casimir2: shear,
         casimir1_squared: casimir1_squared.scaled(&nth),
         skew: skew.scaled(&half()),
+        casimir3: Polynomial::zero(),
     })
 }

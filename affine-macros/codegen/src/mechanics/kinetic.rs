@@ -146,9 +146,9 @@ impl Kinetic {
     /// indefinite.
     #[must_use]
     pub fn is_dalembert(&self) -> bool {
-        self.terms
-            .iter()
-            .all(|term| term.kind == TermKind::Dalembert || term.kind.translation_frame().is_some())
+        let masses =
+            |term: &Term| term.kind == TermKind::Dalembert || term.kind.translation_frame().is_some();
+        !self.terms.is_empty() && self.terms.iter().all(masses)
     }
 
     /// Writes the terms in their common frame; the places of two terms that have none, otherwise.

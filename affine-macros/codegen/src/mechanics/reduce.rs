@@ -173,7 +173,8 @@ fn separated(
     let drifts = commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
     let turns = commuting.iter().any(|c| !matches!(c, Commuting::Drift(_)));
     let (Some(iso), Some(u)) = (&h.isotropic, potential) else { return Vec::new() };
-    if (h.translation.is_some() && !drifts) || !(turns || iso.skew.is_zero()) {
+    // With C(3) the velocity is no multiple of the traceless momentum.
+    if (h.translation.is_some() && !drifts) || !(turns || iso.skew.is_zero()) || !iso.casimir3.is_zero() {
         return Vec::new();
     }
     let Some(slope) = u.dilatational_slope(arena) else { return Vec::new() };
