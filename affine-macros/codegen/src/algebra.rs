@@ -5,6 +5,7 @@ pub mod bind;
 pub mod evaluate;
 pub mod factor;
 pub mod function;
+pub mod kernel;
 pub mod linear;
 pub mod matrix;
 pub mod polynomial;
@@ -14,6 +15,7 @@ pub mod ring;
 
 pub use arena::{Arena, Expr};
 pub use function::Function;
+pub use kernel::Kernel;
 pub use matrix::Matrix;
 pub use polynomial::Polynomial;
 pub use rational::Rational;

@@ -188,8 +188,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {
         let mass = Polynomial::normal_form(arena, t.mass);
         let batch = Batch {
-            shared: Vec::new(),
             results: vec![("inverse_mass".into(), inverse.clone()), ("mass".into(), mass)],
+            ..Batch::default()
         };
         inline(arena, batch, Vec::new())
     });
@@ -200,7 +200,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
             ("inverse_mu", &iso.skew),
         ];
         let results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
-        inline(arena, Batch { shared: Vec::new(), results }, Vec::new())
+        inline(arena, Batch { results, ..Batch::default() }, Vec::new())
     });
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
     Some(Model {
@@ -232,7 +232,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
 }
 
 fn result(name: &str, polynomial: Polynomial) -> Batch {
-    Batch { shared: Vec::new(), results: vec![(name.to_owned(), polynomial)] }
+    Batch { results: vec![(name.to_owned(), polynomial)], ..Batch::default() }
 }
 
 /// The list for `p = 0`: translation dropped, and with it what it alone makes meaningful.
@@ -261,7 +261,7 @@ fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
 fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Batch {
     let name = |s: &Expr| arena.name(*s).unwrap_or("entry").to_owned();
     let results = names.0.concat().iter().map(name).zip(values.concat()).collect();
-    Batch { shared: Vec::new(), results }
+    Batch { results, ..Batch::default() }
 }
 
 /// `T_int(O) + m/2 |v|^2`, with its inputs.

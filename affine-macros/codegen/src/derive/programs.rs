@@ -73,6 +73,7 @@ pub(super) fn full_equations(
 fn batch(arena: &Arena, system: &System) -> Batch {
     Batch {
         shared: system.shared.clone(),
+        kernels: system.kernels.clone(),
         results: system
             .rates
             .iter()
@@ -131,12 +132,12 @@ pub(super) fn best_reduction(
     let (_, reduction, program, constants) = best?;
     let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {
-        shared: Vec::new(),
         results: constants
             .entries
             .iter()
             .map(|(s, p)| (arena.name(*s).unwrap_or("k").to_owned(), p.clone()))
             .collect(),
+        ..Batch::default()
     };
     let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
     let name = |s: &Expr| arena.name(*s).unwrap_or("state").to_owned();
