@@ -12,6 +12,7 @@ pub mod polynomial;
 pub mod rational;
 pub mod residue;
 pub mod ring;
+pub mod substitute;
 
 pub use arena::{Arena, Expr};
 pub use function::Function;

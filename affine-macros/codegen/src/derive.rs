@@ -183,6 +183,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         energy.results[0].1.add_scaled(&value, &Rational::ONE);
         energy.shared = shared;
         points.push(Base::MeanLogStretch.symbol(arena));
+        points.extend((0..kinetic.dim).map(|a| Base::LogStretch(a).symbol(arena)));
+        points.extend(u.time());
     }
     let hamiltonian = inline(arena, energy, points);
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {

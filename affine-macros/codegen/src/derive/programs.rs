@@ -35,7 +35,8 @@ pub(super) fn full_equations(
     coefficients: &mut Constants,
 ) -> Equations {
     let load = potential.map(|u| u.load(arena, chart)).unwrap_or_default();
-    let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    inputs.extend(potential.and_then(Potential::time));
     let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
     through_velocity.add(&load);
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
@@ -120,7 +121,8 @@ pub(super) fn best_reduction(
 ) -> Option<(Reduction, Equations, Program, Vec<String>)> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
     for candidate in reduce::candidates(arena, h, potential, rotations) {
-        let states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
+        let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
+        states.extend(potential.and_then(Potential::time));
         let mut constants = Constants::new("k");
         let way = batch(arena, &candidate.system);
         let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
