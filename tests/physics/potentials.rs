@@ -47,7 +47,7 @@ fn agrees_with_the_oracle<const N: usize, M: Loaded<N>>() {
         let point = model.at(&state);
         let tolerance = UNDER_POTENTIAL * reference.condition;
         let energy = reference.expected.hamiltonian;
-        assert_close("H", &[model.hamiltonian(&point)], &[energy], reference.energy_size(), tolerance);
+        assert_close("H", &[model.hamiltonian(T0, &point)], &[energy], reference.energy_size(), tolerance);
         let rates = model.hamilton_equations(T0, &model.flatten(&point));
         for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
             reference.assert_rate(name, rate, UNDER_POTENTIAL);

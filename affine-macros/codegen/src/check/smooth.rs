@@ -10,7 +10,7 @@ use crate::algebra::{Arena, Expr, Function};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::lower::{self, FIELD};
 use crate::mechanics::potential::stretches::{
-    canonical, exchanged, singular_at_coincidence, vanishes_at_coincidence,
+    canonical, exchanged, is_stretched, singular_at_coincidence, vanishes_at_coincidence,
 };
 use crate::spec::{Expression, ExpressionKind, Spec};
 
@@ -19,8 +19,12 @@ pub(super) fn potential(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics)
     let n = spec.dim.value;
     for written in energy(spec) {
         let Some(value) = lower::energy(arena, n, written, None) else { continue };
-        let value = canonical(arena, n, value);
-        if !(even_in_differences(arena, spec, found) && symmetric(arena, n, written, value, found)) {
+        // Without single stretches there is nothing to exchange, and traces stay as they are written.
+        let stretched = is_stretched(arena, n, value);
+        let value = if stretched { canonical(arena, n, value) } else { value };
+        if stretched
+            && !(even_in_differences(arena, spec, found) && symmetric(arena, n, written, value, found))
+        {
             continue;
         }
         let absolute = absolute_value(arena, value);

@@ -41,12 +41,18 @@ pub(super) fn written<E>(group: &Group<E>, entry: impl Fn(&E) -> TokenStream) ->
     }
 }
 
-/// The pattern of a result; what nothing reads is not bound.
-pub(super) fn bound(name: &str, read: &[&str]) -> TokenStream {
-    if read.contains(&name) {
-        let name = format_ident!("{name}");
-        quote!(#name)
-    } else {
-        quote!(_)
+/// The pattern of a group of results; what nothing reads is not bound.
+pub(super) fn bound(group: &Group<String>, read: &[&str]) -> TokenStream {
+    let is_read = |name: &String| read.contains(&name.as_str());
+    if !group.entries().into_iter().any(is_read) {
+        return quote!(_);
     }
+    written(group, |name| {
+        if is_read(name) {
+            let name = format_ident!("{name}");
+            quote!(#name)
+        } else {
+            quote!(_)
+        }
+    })
 }

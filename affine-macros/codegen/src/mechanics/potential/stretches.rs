@@ -12,7 +12,7 @@ use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function, Rational};
 
 use super::Base;
-use form::{Form, Key};
+use form::Form;
 
 /// The function in canonical form.
 pub fn canonical(arena: &mut Arena, n: usize, energy: Expr) -> Expr {
@@ -73,7 +73,7 @@ pub fn vanishes_at_coincidence(arena: &mut Arena, n: usize, function: Expr, a: u
 
 /// The first argument of a root, a logarithm or a quotient in `energy` that vanishes where two stretches coincide.
 pub fn singular_at_coincidence(arena: &mut Arena, n: usize, energy: Expr) -> Option<(Expr, (usize, usize))> {
-    let mut vanishing = |arena: &mut Arena, argument: Expr| {
+    let vanishing = |arena: &mut Arena, argument: Expr| {
         let pairs = (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b)));
         pairs.into_iter().find(|(a, b)| vanishes_at_coincidence(arena, n, argument, *a, *b))
     };
