@@ -16,6 +16,8 @@ mod canonical;
 mod conserved;
 mod drunk_missile;
 mod geodesics;
+#[macro_use]
 mod potentials;
 mod prepare;
+mod stretches;
 mod undeformed;
