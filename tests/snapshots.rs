@@ -127,6 +127,9 @@ families! {
     metrics_dalembert_3: "dim = 3, metrics(body = diag(1, 2, 4)), kinetic(dalembert = 3)";
     flat_tensor_drift_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2, \
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
+    hencky_3: "dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), potential = q1^2 + q2^2 + q3^2";
+    biot_driven_2: "dim = 2, kinetic(casimir2 = 0.2, space_inertia = 1), potential = cos(t)*(Q1 + Q2)";
+    wells_dalembert_2: "dim = 2, kinetic(dalembert = 1), potential = pairs(cos(d))";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.

@@ -34,8 +34,8 @@ pub trait Model<const N: usize> {
     /// such function, for several momenta have one velocity: `T = tr(X O) + p.v - H_kin` is one of the momenta, and a
     /// call of this method does not compile.
     fn kinetic_energy<T: Real>(&self, phi: &Matrix<N, T>, velocity: &Velocity<N, T>) -> T;
-    /// The Hamiltonian `H` of a phase point.
-    fn hamiltonian<T: Real>(&self, point: &Self::Point<T>) -> T;
+    /// The Hamiltonian `H` of a phase point at time `t`, which only a potential that contains the time reads.
+    fn hamiltonian<T: Real>(&self, t: T, point: &Self::Point<T>) -> T;
 
     /// The point as a plain array.
     fn flatten<T: Real>(&self, point: &Self::Point<T>) -> Self::Full<T>;

@@ -3,7 +3,7 @@
 pub use core::primitive::f64;
 
 pub use crate::breathing::Breathing;
-pub use crate::decompose::skew_exponential;
+pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
 pub use crate::error::Result;
 pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,

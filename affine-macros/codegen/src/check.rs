@@ -15,6 +15,7 @@ mod metrics;
 mod momentum_side;
 mod potential;
 mod shapes;
+mod smooth;
 mod symbols;
 mod tensors;
 
@@ -32,10 +33,9 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     symbols::hidden(spec, found);
     symbols::resolved(spec, found);
     capabilities::available(spec, found);
-    potential::available(spec, found);
+    potential::differences(spec, found);
     potential::scalar(spec, found);
     potential::centre(spec, found);
-    potential::smooth(spec, found);
     frames::internal_motion(spec, found);
     frames::affine_translation(spec, found);
     shapes::shapes(spec, found);

@@ -217,6 +217,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         energy.results[0].1.add_scaled(&value, &Rational::ONE);
         energy.shared = shared;
         points.push(Base::MeanLogStretch.symbol(arena));
+        points.extend((0..kinetic.dim).map(|a| Base::LogStretch(a).symbol(arena)));
+        points.extend(u.time());
     }
     let hamiltonian = inline(arena, energy, points);
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {
@@ -224,7 +226,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         if cubic.is_none() {
             results.push(("mass".into(), Polynomial::normal_form(arena, t.mass)));
         }
-        inline(arena, Batch { shared: Vec::new(), results }, Vec::new())
+        inline(arena, Batch { results, ..Batch::default() }, Vec::new())
     });
     let isotropic = h.isotropic.as_ref().map(|iso| {
         let named = [
@@ -236,7 +238,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         if !iso.casimir3.is_zero() {
             results.push(("casimir3".to_owned(), iso.casimir3.clone()));
         }
-        inline(arena, Batch { shared: Vec::new(), results }, Vec::new())
+        inline(arena, Batch { results, ..Batch::default() }, Vec::new())
     });
     let dilatation = reduction.separation.as_ref().map(|s| inline(arena, s.batch(), Vec::new()));
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
@@ -273,7 +275,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
 }
 
 fn result(name: &str, polynomial: Polynomial) -> Batch {
-    Batch { shared: Vec::new(), results: vec![(name.to_owned(), polynomial)] }
+    Batch { results: vec![(name.to_owned(), polynomial)], ..Batch::default() }
 }
 
 /// The list for `p = 0`: translation dropped, and with it what it alone makes meaningful.
@@ -302,7 +304,7 @@ fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
 fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Batch {
     let name = |s: &Expr| arena.name(*s).unwrap_or("entry").to_owned();
     let results = names.0.concat().iter().map(name).zip(values.concat()).collect();
-    Batch { shared: Vec::new(), results }
+    Batch { results, ..Batch::default() }
 }
 
 /// `T_int(O) + m/2 |v|^2`, with its inputs.

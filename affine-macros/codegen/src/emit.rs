@@ -4,6 +4,7 @@ mod body;
 mod closed_form;
 mod description;
 mod dynamics;
+mod kernel;
 mod metrics;
 mod names;
 mod points;
@@ -121,7 +122,7 @@ impl Context<'_> {
             let name = format_ident!("{name}");
             quote!(#name)
         };
-        let Body { lets, results } = body(program, &Scope { number, input: &input });
+        let Body { lets, results } = body(program, &Scope { number, input: &input, rt: &self.names.rt });
         let coefficients = inputs(program).into_iter().filter_map(|name| {
             let (index, name) = (coefficient_index(name)?, format_ident!("{name}"));
             let value = number.of_double(quote!(self.coefficients[#index]));

@@ -12,6 +12,7 @@ use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 pub use metrics::metrics;
 pub use momentum_side::stated;
 pub use potential::potential;
+pub(crate) use potential::{difference_of, energy};
 
 /// Stem of the symbols of fields: kept apart from the names that the derivation makes.
 pub const FIELD: &str = "self.";

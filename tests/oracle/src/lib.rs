@@ -45,6 +45,7 @@ mod potential;
 mod random;
 mod ring;
 mod state;
+mod stretches;
 
 pub use differential::Differential;
 pub use error::Error;

@@ -36,7 +36,8 @@ pub(super) fn full_equations(
     coefficients: &mut Constants,
 ) -> Equations {
     let load = potential.map(|u| u.load(arena, chart)).unwrap_or_default();
-    let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    inputs.extend(potential.and_then(Potential::time));
     let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
     through_velocity.add(&load);
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
@@ -83,13 +84,14 @@ impl Separation {
                 results.push(("scale".to_owned(), Polynomial::constant(scale.clone())));
             }
         }
-        Batch { shared: Vec::new(), results }
+        Batch { results, ..Batch::default() }
     }
 }
 
 fn batch(arena: &Arena, system: &System) -> Batch {
     Batch {
         shared: system.shared.clone(),
+        kernels: system.kernels.clone(),
         results: system
             .rates
             .iter()
@@ -136,7 +138,8 @@ pub(super) fn best_reduction(
 ) -> Option<(Reduction, Equations, Program, Vec<String>)> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
     for candidate in reduce::candidates(arena, h, potential, rotations) {
-        let states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
+        let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
+        states.extend(potential.and_then(Potential::time));
         let mut constants = Constants::new("k");
         let way = batch(arena, &candidate.system);
         let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
@@ -155,12 +158,12 @@ pub(super) fn best_reduction(
     let (_, reduction, program, constants) = best?;
     let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {
-        shared: Vec::new(),
         results: constants
             .entries
             .iter()
             .map(|(s, p)| (arena.name(*s).unwrap_or("k").to_owned(), p.clone()))
             .collect(),
+        ..Batch::default()
     };
     let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
     let name = |s: &Expr| arena.name(*s).unwrap_or("state").to_owned();

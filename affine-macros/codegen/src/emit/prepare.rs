@@ -46,7 +46,7 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let conditions = conditions(context, rt);
     let blocks: TokenStream =
         context.model.numeric_blocks.iter().map(|block| numeric_block(block, rt)).collect();
-    let Body { lets, results } = over_fields(&context.model.coefficients);
+    let Body { lets, results } = over_fields(rt, &context.model.coefficients);
     quote! {
         impl #generics #model #types #clause {
             /// Checks the values of the fields and computes the coefficients of the equations.
@@ -66,7 +66,7 @@ pub(super) fn method(context: &Context) -> TokenStream {
 }
 
 /// A program over the fields, and over inverse blocks computed before.
-fn over_fields(program: &Program) -> Body {
+fn over_fields(rt: &Ident, program: &Program) -> Body {
     let input = |name: &str| match name.strip_prefix(FIELD) {
         Some(field) => {
             let field = format_ident!("{field}");
@@ -77,7 +77,7 @@ fn over_fields(program: &Program) -> Body {
             quote!(#name)
         }
     };
-    body(program, &Scope { number: Number::Double, input: &input })
+    body(program, &Scope { number: Number::Double, input: &input, rt })
 }
 
 /// Eigenvalues share one threshold, a mass has its own.
@@ -109,7 +109,7 @@ fn condition(condition: &Condition, rt: &Ident) -> TokenStream {
     };
     let reason =
         format!("on {} the {sought} is {} times the {given}; {remedy}", condition.directions, condition.name);
-    let Body { lets, results } = over_fields(&condition.program);
+    let Body { lets, results } = over_fields(rt, &condition.program);
     let (value, sizes) = results.split_first().map_or((quote!(0.0), &[][..]), |(v, s)| (v.clone(), s));
     quote! {
         {
@@ -126,7 +126,7 @@ fn condition(condition: &Condition, rt: &Ident) -> TokenStream {
 }
 
 fn numeric_block(block: &NumericBlock, rt: &Ident) -> TokenStream {
-    let Body { lets, results } = over_fields(&block.program);
+    let Body { lets, results } = over_fields(rt, &block.program);
     let names = block.inverse.iter().map(|name| format_ident!("{name}"));
     let (size, positive) = (number(block.size), block.positive);
     let count = number(block.inverse.len());

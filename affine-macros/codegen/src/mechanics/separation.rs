@@ -15,6 +15,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use super::charts::{Chart, Coordinate, Momentum};
 use super::equations::{Load, System};
 use super::hamiltonian::Isotropic;
+use super::potential::is_parameter;
 
 /// The motion of `q` with its momentum `p = tr Sigma`.
 #[derive(Clone, Debug)]
@@ -59,7 +60,8 @@ impl Slope {
         }
         powers.retain(|(_, coefficient)| !coefficient.is_zero());
         powers.sort_by_key(|(key, _)| *key);
-        if powers.iter().any(|(_, c)| c.any_symbol(arena, &mut |s| [q, up, down].contains(&s))) {
+        // Not time, nor q inside other functions.
+        if powers.iter().any(|(_, c)| c.any_symbol(arena, &mut |s| !is_parameter(arena, s))) {
             return None;
         }
         match powers.as_slice() {
@@ -91,7 +93,7 @@ pub(super) fn shear_system(
     let psi = Matrix::symbols(arena, "psi", n);
     let velocity = velocity(arena, n);
     let forces = forces(arena, chart, &psi, load);
-    let mut system = System { shared: forces.shared, rates: Vec::new() };
+    let mut system = System { shared: forces.shared, ..System::default() };
     let o = Matrix::symbols(arena, "isochoric", n);
     for (a, b) in pairs(n) {
         system.shared.push((o.0[a][b], velocity[a][b].clone()));
@@ -158,6 +160,7 @@ fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
             .map(|(symbol, p)| (*symbol, p.substitute(&value)))
             .collect(),
         forces: load.forces.iter().map(|(z, p)| (*z, p.substitute(&value))).collect(),
+        ..Load::default()
     }
 }
 

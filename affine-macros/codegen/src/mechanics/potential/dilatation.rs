@@ -22,7 +22,8 @@ impl Potential {
                 }
                 Base::TraceOfSquare => slope.add_product(&partial, &symbol, &Rational::from(4)),
                 Base::Placement(..) => slope.add_product(&partial, &symbol, &Rational::ONE),
-                Base::Position(_) => return None,
+                // The axes of single stretches are those of phi, not of Psi.
+                Base::Position(_) | Base::LogStretch(_) => return None,
             }
         }
         let others: Vec<_> = Base::all(self.dim)
