@@ -3,9 +3,11 @@
 pub mod brackets;
 pub mod charts;
 pub mod conserved;
+pub mod constraint;
 pub mod describe;
 pub mod equations;
 mod flow;
+mod group_point;
 pub mod hamiltonian;
 pub mod hessian;
 pub mod kinetic;

@@ -65,7 +65,8 @@ pub enum ClosedForm {
 pub fn closed_form(arena: &mut Arena, h: &Hamiltonian, moving: &[Commuting]) -> Option<(ClosedForm, bool)> {
     let at_rest = h.translation.is_some() && !moving.iter().any(|c| matches!(c, Commuting::Drift(_)));
     if h.frame == Frame::Flat {
-        return Some((ClosedForm::Straight, at_rest));
+        // The multiplier of a constraint bends the line.
+        return h.constraint.is_none().then_some((ClosedForm::Straight, at_rest));
     }
     let iso = h.isotropic.as_ref()?;
     // The translational energy is quadratic in p: at p = 0 its flow stands still, and only the internal pieces have
@@ -80,7 +81,8 @@ pub fn closed_form(arena: &mut Arena, h: &Hamiltonian, moving: &[Commuting]) -> 
 
 /// The chart of the model's own frame, `p` spatial.
 pub fn own_chart(arena: &mut Arena, h: &Hamiltonian) -> Chart {
-    Chart::new(arena, h.dim, Momentum::of(h.frame), h.translation.as_ref().map(|_| Linear::Space))
+    let linear = h.translation.as_ref().map(|_| Linear::Space);
+    Chart::new(arena, h.dim, Momentum::of(h.frame), linear).under(h.confined())
 }
 
 /// `H` in the chart of the model's own frame.
@@ -143,13 +145,14 @@ pub fn candidates(
     momenta
         .into_iter()
         .flat_map(|momentum| {
-            let chart = Chart::new(arena, h.dim, momentum, linear);
+            let chart = Chart::new(arena, h.dim, momentum, linear).under(h.confined());
             let Some(mut main) = h.internal_in(&chart, without_skew) else { return Vec::new() };
             if linear.is_some() {
                 main.add_scaled(&h.translation_in(&chart), &Rational::ONE);
             }
             let load = potential.map(|u| u.load(arena, &chart));
-            let plan = Plan { chart, commuting: commuting.clone(), turn, load };
+            let multiplier = h.constraint.is_some() && h.confined().is_none();
+            let plan = Plan { chart, commuting: commuting.clone(), turn, load, multiplier };
             plan.reduced(arena, &main, h.is_tensor())
         })
         .collect()
@@ -162,6 +165,8 @@ struct Plan {
     turn: bool,
     /// The forces of the potential.
     load: Option<Load>,
+    /// Does the multiplier of a constraint act besides? Then no affine momentum is taken for conserved.
+    multiplier: bool,
 }
 
 impl Plan {
@@ -172,7 +177,9 @@ impl Plan {
         let mut systems = Vec::new();
         if !tensor {
             let expanded = self.loaded(hamilton(arena, &self.chart, h, Form::Expanded));
-            layout = conserved_layout(&expanded);
+            if !self.multiplier {
+                layout = conserved_layout(&expanded);
+            }
             systems.push(expanded);
         }
         if layout == Layout::Entries {
@@ -207,7 +214,7 @@ impl Plan {
         system = system.substitute(&value).tidied(arena);
         let mut fixed: Vec<Expr> = Vec::new();
         system.rates.retain(|(z, symbol, rate)| {
-            let still = matches!(z, Coordinate::M(..)) && rate.is_zero();
+            let still = matches!(z, Coordinate::M(..)) && rate.is_zero() && !self.multiplier;
             if still {
                 fixed.push(*symbol);
             }
