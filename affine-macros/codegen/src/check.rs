@@ -6,6 +6,7 @@
 mod arithmetic;
 mod capabilities;
 mod constant;
+mod constraint;
 mod dimension;
 mod form;
 mod frames;
@@ -50,5 +51,6 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     inertia::positive(spec, found);
     tensors::literal(spec, found);
     tensors::symmetric(spec, found);
+    constraint::constant_mass_matrix(spec, found);
     found.verdict()
 }

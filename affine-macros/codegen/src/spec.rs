@@ -18,7 +18,7 @@ use expression_parser::Language;
 pub use expression::{Expression, ExpressionKind, MatrixName, Operator};
 pub use item::{Field, Item};
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
-pub use names::{Capability, Claim, Named, Requirement, TermKind, nearest};
+pub use names::{Capability, Claim, Constraint, Named, Requirement, TermKind, nearest};
 pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
 
 /// Something with its place in the source.
@@ -42,6 +42,8 @@ pub struct Spec {
     pub kinetic: Vec<Term>,
     /// The key `kinetic`.
     pub kinetic_key: Region,
+    /// `constraint = ...`.
+    pub constraint: Option<Spanned<Constraint>>,
     /// `potential = ...`.
     pub potential: Option<Potential>,
     /// `require(...)`.

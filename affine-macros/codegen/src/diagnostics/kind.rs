@@ -387,6 +387,35 @@ pub enum Diagnostic {
     /// Only translation terms, or none.
     NoKineticEnergy,
 
+    // ---- the constraint ----
+    /// A term that is zero wherever the constraint holds.
+    VanishingTerm {
+        /// The term.
+        term: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+        /// What velocities are under it: `traceless`, `skew`.
+        velocities: &'static str,
+    },
+    /// An energy in `phi_dot` whose mass matrix depends on the placement under the constraint.
+    ConstrainedMassMatrix {
+        /// The term.
+        term: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+        /// The group: `phi = e^q R with a rotation R`.
+        group: &'static str,
+    },
+    /// A potential that is constant, or has no value, wherever the constraint holds.
+    ConstrainedPotential {
+        /// `is constant`, `has no value`.
+        defect: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+        /// The group: `det phi = 1`.
+        group: &'static str,
+    },
+
     // ---- the quadratic form ----
     /// The isotropic form vanishes on some directions.
     Degenerate {
@@ -524,6 +553,9 @@ names! {
     NegativeMass => "negative-mass",
     MixedFrames => "mixed-frames",
     NoKineticEnergy => "no-kinetic-energy",
+    VanishingTerm => "vanishing-term",
+    ConstrainedMassMatrix => "constrained-mass-matrix",
+    ConstrainedPotential => "constrained-potential",
     Degenerate => "degenerate",
     DegenerateTensor => "degenerate-tensor",
     NotPositiveDefinite => "not-positive-definite",

@@ -338,6 +338,32 @@ impl Diagnostic {
                 "without a term in phi_dot the Legendre transformation has no inverse: Sigma = (dT/dOm)^T = 0",
                 "add `casimir2`, `body_inertia`, `space_inertia`, `dalembert`, `body_tensor`, `space_tensor` or `flat_tensor`",
             ),
+            Self::VanishingTerm { term, constraint, velocities } => text(
+                format!("`{term}` is zero under `constraint = {constraint}`"),
+                format!("affine velocities are {velocities} there, and it is zero on all of them"),
+                format!("remove `{term}` or the constraint"),
+            ),
+            Self::ConstrainedMassMatrix { term, constraint, group } => text(
+                format!("`{term}` has no constant mass matrix under `constraint = {constraint}`"),
+                format!(
+                    "{group}: velocities there are phi Oh, and a form of phi_dot = phi Oh depends on phi; an energy of \
+                     phi_dot goes with a constraint as `dalembert` that is `rigid`, where it is `body_inertia`, or \
+                     `isochoric`, where a multiplier keeps det phi = 1"
+                ),
+                format!("write `body_inertia` or `space_inertia` for `{term}`, or remove the constraint"),
+            ),
+            Self::ConstrainedPotential { defect, constraint, group } => text(
+                format!("this potential {defect} under `constraint = {constraint}`"),
+                match *constraint {
+                    "rigid" => format!("{group}: q = 0, det phi = 1, and G and Ct are the identity"),
+                    "conformal" => format!("{group}: G and Ct are exp(2q) times the identity"),
+                    _ => format!("{group}: q = 0 and D = 1"),
+                },
+                match *defect {
+                    "is constant" => "remove the potential or the constraint",
+                    _ => "write a potential that is finite there, or remove the constraint",
+                },
+            ),
             Self::Degenerate { eigenvalue, numbers, directions } => text(
                 format!(
                     "the kinetic energy is degenerate: {} = 0 on {directions}",

@@ -5,14 +5,18 @@
 //! of the paper).
 
 mod invariance;
+mod restriction;
 mod rewriting;
 
-use crate::algebra::ring::{Square, adjugate};
+use crate::algebra::ring::{Square, adjugate, table};
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::constraint::Constraint;
+use super::conserved::Candidate;
 use super::equations::Load;
-use invariance::Invariance;
+use invariance::Evidence;
+use restriction::restricted;
 use rewriting::{about_undeformed, through_dilatation};
 
 /// A potential.
@@ -22,7 +26,7 @@ pub struct Potential {
     /// `U` as an expression in base functions and parameters.
     pub energy: Expr,
     slopes: Vec<(Base, Expr)>,
-    invariance: Invariance,
+    invariance: Evidence,
 }
 
 /// Functions of the placement and the position that potentials are written in, indices from 0.
@@ -118,6 +122,26 @@ enum Along {
 impl Potential {
     /// The potential `energy`, an expression in base functions, parameters and numbers.
     pub fn new(arena: &mut Arena, dim: usize, energy: Expr) -> Self {
+        let slopes = Self::slopes(arena, dim, energy);
+        let invariance = Evidence::identities(arena, dim, &slopes);
+        Self { dim, energy, slopes, invariance }
+    }
+
+    /// The potential on the group of a constraint; `None` where it has no value there.
+    pub fn under(arena: &mut Arena, dim: usize, energy: Expr, group: Constraint) -> Option<Self> {
+        let energy = restricted(arena, dim, energy, group)?;
+        let slopes = Self::slopes(arena, dim, energy);
+        let invariance = Evidence::on_the_group(arena, dim, &slopes, group);
+        Some(Self { dim, energy, slopes, invariance })
+    }
+
+    /// Does it change along no velocity that the constraint leaves free?
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        self.keeps(Candidate::LinearMomentum) && self.invariance.moves_no_placement()
+    }
+
+    fn slopes(arena: &mut Arena, dim: usize, energy: Expr) -> Vec<(Base, Expr)> {
         let mut slopes = Vec::new();
         for base in Base::all(dim) {
             let symbol = base.symbol(arena);
@@ -126,8 +150,7 @@ impl Potential {
                 slopes.push((base, slope));
             }
         }
-        let invariance = Invariance::new(arena, dim, &slopes);
-        Self { dim, energy, slopes, invariance }
+        slopes
     }
 
     /// Does it depend on the position of the centre of mass?
@@ -159,7 +182,7 @@ impl Potential {
             Momentum::Space | Momentum::Total => Along::Space,
             Momentum::Canonical => Along::Placement,
         };
-        for (a, b) in (0..self.dim).flat_map(|a| (0..self.dim).map(move |b| (a, b))) {
+        let mut forces = table(self.dim, |a, b| {
             let mut force = Polynomial::zero();
             for (base, slope) in &weighted {
                 let entry = match along {
@@ -173,7 +196,13 @@ impl Potential {
                     force.add_product(slope, &Polynomial::atom(chart.x[a]), &Rational::ONE);
                 }
             }
-            load.forces.push((Coordinate::M(a, b), force));
+            force
+        });
+        if let Some(group) = chart.confined {
+            forces = group.projected(&forces);
+        }
+        for (a, row) in forces.into_iter().enumerate() {
+            load.forces.extend(row.into_iter().enumerate().map(|(b, force)| (Coordinate::M(a, b), force)));
         }
         for i in 0..chart.p.len() {
             load.forces.push((Coordinate::P(i), force_on_centre(chart, &weighted, i)));
