@@ -16,6 +16,7 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 
 pub mod conserved;
+mod constraint;
 #[cfg(feature = "std")]
 pub mod counting;
 pub mod decompose;

@@ -2,6 +2,7 @@
 
 pub use core::primitive::f64;
 
+pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::decompose::skew_exponential;
 pub use crate::error::Result;
 pub use crate::frames::{
@@ -9,7 +10,7 @@ pub use crate::frames::{
 };
 pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::kinematics::mean_log_stretch;
-pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Velocity};
+pub use crate::model::{Conserved, Constraint, Description, Formula, Group, Model, Operations, Velocity};
 pub use crate::reduction::{
     Condition, finite, inverse_form, total_affine_momentum, total_size, turn, well_posed,
 };

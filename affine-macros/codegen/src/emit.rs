@@ -77,6 +77,22 @@ impl Context<'_> {
         }
     }
 
+    /// The constraint, as an expression.
+    fn constraint(&self) -> Option<TokenStream> {
+        let rt = &self.names.rt;
+        let group = self.model.constraint?;
+        let group = format_ident!("{}", format!("{group:?}"));
+        Some(quote!(#rt::Constraint::#group))
+    }
+
+    /// `let` statements for the entries of the affine momentum that are linear in components of an array.
+    fn dependent(&self, equations: &Equations) -> TokenStream {
+        let program = &equations.dependent;
+        let Body { lets, results } = self.generic(program);
+        let names = program.outputs.iter().map(|(name, _)| format_ident!("{name}"));
+        quote!(#lets #(let #names = #results;)*)
+    }
+
     /// Type of the centre of mass over a scalar.
     fn centre(&self, scalar: &TokenStream) -> TokenStream {
         let (rt, n) = (&self.names.rt, self.dim());

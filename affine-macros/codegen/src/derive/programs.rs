@@ -5,6 +5,7 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
+use crate::mechanics::constraint::Constraint;
 use crate::mechanics::equations::{self, System, hamilton};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Frame;
@@ -43,7 +44,10 @@ pub(super) fn full_equations(
         let mut expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
         expanded.add(&load);
         ways.push(batch(arena, &expanded));
-        ways.push(split_batch(arena, chart, &expanded));
+        // Symmetric and skew parts are entries already where a constraint leaves only one of them.
+        if chart.confined.is_none_or(|group| group == Constraint::Isochoric) {
+            ways.push(split_batch(arena, chart, &expanded));
+        }
     }
     let (program, chosen) = ways
         .iter()

@@ -126,6 +126,10 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         let [mul, add, div, sqrt, exp, ln] = [o.mul, o.add, o.div, o.sqrt, o.exp, o.ln].map(number);
         quote!(#rt::Operations { mul: #mul, add: #add, div: #div, sqrt: #sqrt, exp: #exp, ln: #ln })
     };
+    let constraint = match context.constraint() {
+        Some(group) => quote!(::core::option::Option::Some(#group)),
+        None => quote!(::core::option::Option::None),
+    };
     let full_operations = operations(model.full.program.operations());
     let reduced_operations = operations(model.reduced.program.operations());
     quote! {
@@ -142,6 +146,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
             reduced: #reduced,
             full_operations: #full_operations,
             reduced_operations: #reduced_operations,
+            constraint: #constraint,
             left_out: &[#(#left_out),*],
         }
     }
