@@ -117,6 +117,16 @@ families! {
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
     flat_tensor_drift_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2, \
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
+    isochoric_left_3: "dim = 3, constraint = isochoric, kinetic(casimir2 = 0.2, body_inertia = 1)";
+    isochoric_missile_2: "dim = 2, constraint = isochoric, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), \
+        potential = neo_hookean(0.5)";
+    isochoric_dalembert_3: "dim = 3, constraint = isochoric, kinetic(dalembert = diag(1, 1.5, 2)), potential = tr(G)/2";
+    rigid_left_3: "dim = 3, constraint = rigid, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 2)";
+    rigid_top_3: "dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 1.5, 2)), potential = 0.7*phi[3,3]";
+    conformal_right_2: "dim = 2, constraint = conformal, \
+        kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1, body_translation = 2)";
+    conformal_body_inertia_3: "dim = 3, constraint = conformal, kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5, 2)), \
+        potential = hyperbolic_dilatation(10) + 0.5*phi[3,3]";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.
