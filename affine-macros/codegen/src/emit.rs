@@ -89,8 +89,11 @@ impl Context<'_> {
     fn dependent(&self, equations: &Equations) -> TokenStream {
         let program = &equations.dependent;
         let Body { lets, results } = self.generic(program);
-        let names = program.outputs.iter().map(|(name, _)| format_ident!("{name}"));
-        quote!(#lets #(let #names = #results;)*)
+        let names = identifiers(&program.outputs.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>());
+        // A result with a step of its own is bound to its name already.
+        let lets_of = names.iter().zip(&results).filter(|(name, result)| name.to_string() != result.to_string());
+        let rest = lets_of.map(|(name, result)| quote!(let #name = #result;));
+        quote!(#lets #(#rest)*)
     }
 
     /// Type of the centre of mass over a scalar.

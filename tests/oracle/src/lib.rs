@@ -48,7 +48,7 @@ pub use error::Error;
 pub use kinetic::{Kinetic, Term};
 pub use linear::Signature;
 pub use matrix::Matrix;
-pub use motion::{Expected, Motion};
+pub use motion::{Constraint, Expected, Motion};
 pub use num_rational::BigRational as Rational;
 pub use observable::Observable;
 pub use potential::{Place, Slopes};
