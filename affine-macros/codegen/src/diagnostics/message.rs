@@ -346,11 +346,13 @@ impl Diagnostic {
             Self::ConstrainedMassMatrix { term, constraint, group } => text(
                 format!("`{term}` has no constant mass matrix under `constraint = {constraint}`"),
                 format!(
-                    "{group}: velocities there are phi Oh, and a form of phi_dot = phi Oh depends on phi; an energy of \
-                     phi_dot goes with a constraint as `dalembert` that is `rigid`, where it is `body_inertia`, or \
-                     `isochoric`, where a multiplier keeps det phi = 1"
+                    "phi_dot = phi Oh with {group}: as a form of Oh it depends on phi; only `dalembert` that is `rigid`, \
+                     where phi drops out, or `isochoric`, where a multiplier keeps det phi = 1, goes with a constraint"
                 ),
-                format!("write `body_inertia` or `space_inertia` for `{term}`, or remove the constraint"),
+                match *term {
+                    "flat_tensor" => "write `body_tensor`, which is constant in Oh, or remove the constraint",
+                    _ => "write `body_inertia`, which is constant in Oh, or remove the constraint",
+                },
             ),
             Self::ConstrainedPotential { defect, constraint, group } => text(
                 format!("this potential {defect} under `constraint = {constraint}`"),
