@@ -2,7 +2,8 @@
 //! energy, with and without potential and translation, n = 2 and 3.
 
 use affine_oracle::{
-    Constraint, Differential, Kinetic, Matrix as Exact, Motion, Observable, Place, Random, Slopes, State, Term, rational,
+    Constraint, Differential, Kinetic, Matrix as Exact, Motion, Observable, Place, Random, Slopes, State,
+    Term, rational,
 };
 use affine_runtime::Error;
 use affine_runtime::frames::inverse;
@@ -29,8 +30,12 @@ trait Confined<const N: usize>: Model<N> + Sized {
     fn kinetic() -> Kinetic;
     fn potential(place: &Place) -> Differential;
     fn at_spin(&self, start: &Start<N>) -> affine_runtime::Result<Self::Point<f64>>;
-    fn at_speed(&self, point: &Self::Point<f64>, x_dot: Vector<N>, phi_dot: Matrix<N>)
-    -> affine_runtime::Result<Self::Point<f64>>;
+    fn at_speed(
+        &self,
+        point: &Self::Point<f64>,
+        x_dot: Vector<N>,
+        phi_dot: Matrix<N>,
+    ) -> affine_runtime::Result<Self::Point<f64>>;
 
     /// Points on the group with momenta in the dual of its algebra; every other one at `p = 0`.
     fn points(&self) -> Vec<Self::Point<f64>> {
@@ -206,18 +211,21 @@ fn assert_listed<const N: usize, M: Confined<N>>(
 ) {
     let listed: Vec<Observable> =
         listed.iter().map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap()).collect();
-    let motion =
-        |state| kinetic.constrained_motion(M::CONSTRAINT, state, T0, M::potential).unwrap();
+    let motion = |state| kinetic.constrained_motion(M::CONSTRAINT, state, T0, M::potential).unwrap();
     let motions: Vec<Motion> = states.iter().map(motion).collect();
     for &observable in Observable::ALL {
         if observable == Observable::Energy {
             assert!(listed.contains(&observable));
             continue;
         }
-        let named = exists(observable, N, translation) && !has_another_name(M::CONSTRAINT, M::MULTIPLIER, observable);
+        let named =
+            exists(observable, N, translation) && !has_another_name(M::CONSTRAINT, M::MULTIPLIER, observable);
         let rates = motions.iter().flat_map(|motion| motion.bracket(observable).unwrap().to_f64());
         let largest = rates.fold(0.0, |largest: f64, rate| largest.max(rate.abs()));
-        assert!(largest <= BRACKET_ZERO || largest > BRACKET_VISIBLE, "{observable:?} undecided: {largest:e}");
+        assert!(
+            largest <= BRACKET_ZERO || largest > BRACKET_VISIBLE,
+            "{observable:?} undecided: {largest:e}"
+        );
         assert_eq!(listed.contains(&observable), named && largest <= BRACKET_ZERO, "{observable:?} listed");
     }
 }
@@ -230,14 +238,9 @@ fn has_another_name(constraint: Constraint, multiplier: bool, observable: Observ
         // Nothing of Pi but its part in the dual of the algebra is known to this comparison.
         Constraint::Isochoric if multiplier => &[O::Casimir1],
         Constraint::Isochoric => &[O::Casimir1],
-        Constraint::Rigid => &[
-            O::AffineSpin,
-            O::ComovingAffineSpin,
-            O::Casimir1,
-            O::Casimir2,
-            O::Casimir3,
-            O::VorticityNorm,
-        ],
+        Constraint::Rigid => {
+            &[O::AffineSpin, O::ComovingAffineSpin, O::Casimir1, O::Casimir2, O::Casimir3, O::VorticityNorm]
+        }
         Constraint::Conformal => &[O::VorticityNorm],
     };
     deviators.contains(&observable) || more.contains(&observable)

@@ -91,7 +91,8 @@ impl Context<'_> {
         let Body { lets, results } = self.generic(program);
         let names = identifiers(&program.outputs.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>());
         // A result with a step of its own is bound to its name already.
-        let lets_of = names.iter().zip(&results).filter(|(name, result)| name.to_string() != result.to_string());
+        let lets_of =
+            names.iter().zip(&results).filter(|(name, result)| name.to_string() != result.to_string());
         let rest = lets_of.map(|(name, result)| quote!(let #name = #result;));
         quote!(#lets #(#rest)*)
     }

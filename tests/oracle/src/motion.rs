@@ -35,12 +35,7 @@ impl Kinetic {
         let (x_dot, phi_dot) = self.velocity(state)?;
         let energy = self.energy(&state.phi, &x_dot, &phi_dot)?.entry(0, 0);
         let pi_dot = self.slope_of_placement(&state.phi, &x_dot, &phi_dot)?;
-        let rate = State {
-            x: x_dot,
-            phi: phi_dot,
-            p: Matrix::zeros(n, 1),
-            pi: pi_dot,
-        };
+        let rate = State { x: x_dot, phi: phi_dot, p: Matrix::zeros(n, 1), pi: pi_dot };
         Ok(Motion { kinetic: self, state: state.clone(), rate, energy })
     }
 

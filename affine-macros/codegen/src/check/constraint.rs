@@ -29,7 +29,9 @@ pub(super) fn constant_mass_matrix(spec: &Spec, found: &mut Diagnostics) {
 /// The terms that are not exactly zero.
 fn terms(spec: &Spec) -> impl Iterator<Item = &Term> {
     let zero = |term: &Term| {
-        term.value.expressions().all(|entry| constant(entry, spec.dim.value).is_some_and(|value| value.is_zero()))
+        term.value
+            .expressions()
+            .all(|entry| constant(entry, spec.dim.value).is_some_and(|value| value.is_zero()))
     };
     spec.kinetic.iter().filter(move |term| !zero(term))
 }

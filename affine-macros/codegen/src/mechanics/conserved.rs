@@ -6,8 +6,8 @@ use crate::algebra::ring::{Ring, Square, deviator, skew, sum};
 use crate::algebra::{Arena, Polynomial};
 
 use super::charts::Chart;
-use super::equations::gradient;
 use super::constraint::Constraint;
+use super::equations::gradient;
 use super::flow::{Flow, at_a_point, norm_rate, power_rate};
 use super::group_point::GroupPoint;
 

@@ -24,6 +24,16 @@ pub enum Constraint {
 }
 
 impl Constraint {
+    /// Name of the group.
+    #[must_use]
+    pub fn name(self, n: usize) -> String {
+        match self {
+            Self::Isochoric => format!("SL({n})"),
+            Self::Rigid => format!("SO({n})"),
+            Self::Conformal => format!("R+ SO({n})"),
+        }
+    }
+
     /// Does `g` contain the invariant directions of this kind?
     #[must_use]
     pub fn leaves_free(self, kind: Direction) -> bool {
@@ -124,7 +134,9 @@ impl Constraint {
             Self::Conformal => list.extend((1..n).map(|a| (m.0[a][a], Polynomial::atom(m.0[0][0])))),
         }
         if self != Self::Isochoric {
-            list.extend((0..n).flat_map(|a| (0..a).map(move |b| (a, b))).map(|(a, b)| (m.0[a][b], minus(m.0[b][a]))));
+            list.extend(
+                (0..n).flat_map(|a| (0..a).map(move |b| (a, b))).map(|(a, b)| (m.0[a][b], minus(m.0[b][a]))),
+            );
         }
         list
     }

@@ -291,7 +291,10 @@ fn under_constraint(h: &Hamiltonian, group: Constraint, mut list: Vec<Formula>) 
         // [X, O] of a momentum that is projected and a velocity in the algebra is projected already.
         } else if text.contains(" + ") || text.contains(" - ") || !text.contains('[') && text != "0" {
             projects = true;
-            *formula = Formula { text: format!("{left}P({text})"), latex: format!("{left_latex}P\\left({latex}\\right)") };
+            *formula = Formula {
+                text: format!("{left}P({text})"),
+                latex: format!("{left_latex}P\\left({latex}\\right)"),
+            };
         }
     }
     let (text, latex) = match (h.confined().is_none(), projects) {

@@ -99,7 +99,8 @@ pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form)
             (z, chart.symbol(z), rate(chart, &gradient, &velocity, form, z))
         })
         .collect();
-    let symbols = Matrix(velocity.iter().map(|row| row.iter().map(|(symbol, _)| *symbol).collect()).collect());
+    let symbols =
+        Matrix(velocity.iter().map(|row| row.iter().map(|(symbol, _)| *symbol).collect()).collect());
     let system = System { shared: velocity.into_iter().flatten().collect(), rates };
     system.confined(chart, &symbols)
 }

@@ -152,7 +152,10 @@ impl Kinetic {
     #[must_use]
     pub fn is_dalembert(&self) -> bool {
         self.frame == Frame::Flat
-            && self.terms.iter().all(|term| term.kind == TermKind::Dalembert || term.kind.translation_frame().is_some())
+            && self
+                .terms
+                .iter()
+                .all(|term| term.kind == TermKind::Dalembert || term.kind.translation_frame().is_some())
     }
 
     /// The constraint, where velocities and momenta are projected for it. With `phi_dot` and `Pi` they are not, since
@@ -193,8 +196,15 @@ impl Kinetic {
             return Err((flat.min(affine), flat.max(affine)));
         }
         let velocity = Matrix::symbols(arena, frame.velocity_name(), dim);
-        let mut kinetic =
-            Self { dim, constraint, frame, velocity, terms: terms.to_vec(), internal: Vec::new(), translation: None };
+        let mut kinetic = Self {
+            dim,
+            constraint,
+            frame,
+            velocity,
+            terms: terms.to_vec(),
+            internal: Vec::new(),
+            translation: None,
+        };
         for (place, term) in terms.iter().enumerate() {
             match (form(term.kind).translation_frame(), &term.value) {
                 (Some(frame), Coefficient::Scalar(mass)) => {

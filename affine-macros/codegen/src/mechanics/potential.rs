@@ -12,8 +12,8 @@ use crate::algebra::ring::{Square, adjugate, table};
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
-use super::constraint::Constraint;
 use super::conserved::Candidate;
+use super::constraint::Constraint;
 use super::equations::Load;
 use invariance::Evidence;
 use restriction::restricted;

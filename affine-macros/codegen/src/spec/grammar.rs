@@ -29,17 +29,16 @@ const LATER_KEYS: [&str; 5] = ["hamiltonian", "metrics", "group", "dissipation",
 const LATER_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
 
 impl Named for Key {
-    const ALL: &'static [Self] =
-        &[
-            Self::Dim,
-            Self::Symmetry,
-            Self::Kinetic,
-            Self::Constraint,
-            Self::Potential,
-            Self::Require,
-            Self::Emit,
-            Self::Crate,
-        ];
+    const ALL: &'static [Self] = &[
+        Self::Dim,
+        Self::Symmetry,
+        Self::Kinetic,
+        Self::Constraint,
+        Self::Potential,
+        Self::Require,
+        Self::Emit,
+        Self::Crate,
+    ];
 
     fn name(self) -> &'static str {
         match self {

@@ -37,9 +37,7 @@ impl Constraint {
         let above = || (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b)));
         let list: Vec<Matrix<R>> = match self {
             Constraint::Isochoric => vec![determinant(phi)],
-            Constraint::Rigid => {
-                (0..n).map(|a| (a, a)).chain(above()).map(|(a, b)| entry(a, b)).collect()
-            }
+            Constraint::Rigid => (0..n).map(|a| (a, a)).chain(above()).map(|(a, b)| entry(a, b)).collect(),
             Constraint::Conformal => {
                 let differences = (1..n).map(|a| &entry(a, a) - &entry(0, 0));
                 differences.chain(above().map(|(a, b)| entry(a, b))).collect()
@@ -129,11 +127,7 @@ impl Kinetic {
     }
 
     /// `M v = P + Dc^T mu`, `Dc v = 0`, as `(x_dot, phi_dot)`.
-    fn constrained_velocity(
-        &self,
-        constraint: Constraint,
-        state: &State,
-    ) -> Result<(Matrix, Matrix), Error> {
+    fn constrained_velocity(&self, constraint: Constraint, state: &State) -> Result<(Matrix, Matrix), Error> {
         let mass = self.mass_matrix(&state.phi)?;
         let momentum = self.joined(&state.p, &state.pi.transpose());
         let gradient = constraint.gradient(&state.phi);
