@@ -437,9 +437,9 @@ macro_rules! conditions {
 
 // Only the directions that the constraint leaves free count.
 conditions! {
-    isochoric_conditions: 3 isochoric (body_inertia = i, casimir2 = a + 0*b)
+    isochoric_conditions: 3 isochoric (body_inertia = i, casimir2 = a + b)
         [[1.0, 0.5, 0.0]] [[1.0, -1.0, 0.0] => "I + A != 0", [1.0, 1.0, 0.0] => "I - A != 0"];
-    rigid_conditions: 3 rigid (body_inertia = i, casimir2 = a + 0*b)
+    rigid_conditions: 3 rigid (body_inertia = i, casimir2 = a + b)
         [[1.0, 0.5, 0.0], [1.0, -1.0, 0.0]] [[1.0, 1.0, 0.0] => "I - A != 0"];
     conformal_conditions: 2 conformal (body_inertia = i, casimir2 = a, casimir1_squared = b)
         [[1.0, 0.5, 0.25], [1.0, -1.0, 0.5]]
