@@ -130,6 +130,16 @@ families! {
     hencky_3: "dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), potential = q1^2 + q2^2 + q3^2";
     biot_driven_2: "dim = 2, kinetic(casimir2 = 0.2, space_inertia = 1), potential = cos(t)*(Q1 + Q2)";
     wells_dalembert_2: "dim = 2, kinetic(dalembert = 1), potential = pairs(cos(d))";
+    isochoric_left_3: "dim = 3, constraint = isochoric, kinetic(casimir2 = 0.2, body_inertia = 1)";
+    isochoric_missile_2: "dim = 2, constraint = isochoric, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), \
+        potential = neo_hookean(0.5)";
+    isochoric_dalembert_3: "dim = 3, constraint = isochoric, kinetic(dalembert = diag(1, 1.5, 2)), potential = tr(G)/2";
+    rigid_left_3: "dim = 3, constraint = rigid, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 2)";
+    rigid_top_3: "dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 1.5, 2)), potential = 0.7*phi[3,3]";
+    conformal_right_2: "dim = 2, constraint = conformal, \
+        kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1, body_translation = 2)";
+    conformal_body_inertia_3: "dim = 3, constraint = conformal, kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5, 2)), \
+        potential = hyperbolic_dilatation(10) + 0.5*phi[3,3]";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.

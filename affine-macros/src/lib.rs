@@ -12,6 +12,7 @@ use proc_macro::TokenStream;
 /// | `kinetic(...)` | terms | the kinetic energy, a sum of the terms below |
 /// | `hamiltonian(...)` | terms | instead of `kinetic(...)`: the same, stated through momenta, below |
 /// | `metrics(space = g, body = eta)` | matrices of numbers | constant metrics other than the identity, below |
+/// | `constraint` | `isochoric`, `rigid`, `conformal` | motion confined to SL(n), SO(n), R+ SO(n), below; without it GL+(n) |
 /// | `potential` | expression | the potential energy, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
@@ -71,6 +72,15 @@ use proc_macro::TokenStream;
 /// | `saint_venant_kirchhoff(lambda, mu)` | `lambda/2 (tr E)^2 + mu tr E^2`, `E = (G - 1)/2` |
 /// | `orthogonality(k)` | `k tr((G - 1)^2)` |
 /// | `gas(k)` | `k exp(-2q)` |
+///
+/// A constraint confines `phi` to a group and affine velocities to its Lie algebra: traceless, skew, or skew plus multiples
+/// of the identity. The energy is inverted there, the affine spin is the part of it that acts there (a matrix of the
+/// same kind), and only the eigenvalues on the directions left free have to differ from zero: `I+A`, `I-A` (isochoric),
+/// `I-A` (rigid), `I-A`, `I+A+nB` (conformal). `dalembert` goes with `rigid`, where it is `body_inertia`, and with
+/// `isochoric`: there Hamilton's equations are those of `(phi, Pi)` without the force of the multiplier. A term that
+/// vanishes on the group and a potential that is constant there are mistakes; a symmetry is claimed of the energy
+/// without the constraint. Starting points off the constraint by more than 32 roundings times the condition of `phi`
+/// are refused with their defect.
 ///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
 /// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`.

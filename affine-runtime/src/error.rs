@@ -21,6 +21,18 @@ pub enum Error {
         /// The quantity, as the paper names it.
         quantity: &'static str,
     },
+    /// A placement, velocity or momentum violates the constraint of the model by more than rounding.
+    OffConstraint {
+        /// The constraint.
+        constraint: crate::model::Constraint,
+        /// The quantity, as the paper names it.
+        quantity: &'static str,
+        /// Its distance from what the constraint allows, in the Frobenius norm; `|det phi - 1|` for an isochoric
+        /// placement.
+        defect: f64,
+        /// The largest distance that is taken for rounding.
+        threshold: f64,
+    },
     /// A simulation did not reach its end, or could not begin.
     #[cfg(feature = "std")]
     Stopped(crate::simulate::Stop),
@@ -65,6 +77,11 @@ impl fmt::Display for Error {
             Error::NotFinite { quantity } => {
                 write!(f, "{quantity} is not finite; give finite numbers")
             }
+            Error::OffConstraint { constraint, quantity, defect, threshold } => write!(
+                f,
+                "{quantity} violates the {constraint} constraint by {defect:e} (threshold {threshold:e}): {}",
+                constraint.asks()
+            ),
             #[cfg(feature = "std")]
             Error::Stopped(stop) => stop.fmt(f),
             #[cfg(feature = "report")]

@@ -17,6 +17,7 @@
 
 mod breathing;
 pub mod conserved;
+mod constraint;
 #[cfg(feature = "std")]
 pub mod counting;
 pub mod decompose;

@@ -3,6 +3,7 @@
 pub use core::primitive::f64;
 
 pub use crate::breathing::Breathing;
+pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
 pub use crate::error::Result;
 pub use crate::frames::{
@@ -12,7 +13,8 @@ pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
 pub use crate::metrics::Bases;
 pub use crate::model::{
-    Conserved, Description, Formula, Group, Model, Operations, Velocity, VelocityDeterminesMomentum,
+    Conserved, Constraint, Description, Formula, Group, Model, Operations, Velocity,
+    VelocityDeterminesMomentum,
 };
 pub use crate::reduction::{
     Condition, finite, from_shear_and_turn, inverse_form, shear_and_turn, total_affine_momentum, total_size,

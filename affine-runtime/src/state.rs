@@ -153,6 +153,13 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> PhasePoint<N, F, C
     }
 }
 
+impl<const N: usize, F, C: Copy, T: Real> PhasePoint<N, F, C, T> {
+    /// The point with another affine spin of its own frame.
+    pub(crate) fn respinned(self, spin: impl FnOnce(&Matrix<N, T>) -> Result<Matrix<N, T>>) -> Result<Self> {
+        Ok(Self { spin: spin(&self.spin)?, ..self })
+    }
+}
+
 /// A [`Momentum`] brought to another frame.
 pub(crate) trait MomentumIn<const N: usize, T: Real>: Momentum<N, T> + Sized {
     /// The matrix in the frame `F`.

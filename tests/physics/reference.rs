@@ -1,6 +1,6 @@
 //! The exact motion through a phase point, rounded, and comparisons with it.
 
-use affine_oracle::{Differential, Expected, Kinetic, Matrix as Exact, Place, Slopes, State};
+use affine_oracle::{Constraint, Differential, Expected, Kinetic, Matrix as Exact, Place, Slopes, State};
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Real;
 
@@ -37,6 +37,23 @@ impl Reference {
             expected: kinetic.motion(state).unwrap().under(t, potential).unwrap().expected().unwrap(),
             potential: slopes,
             ..Reference::new(kinetic, state)
+        }
+    }
+
+    /// The motion under a constraint and a potential.
+    pub(crate) fn confined(
+        kinetic: &Kinetic,
+        constraint: Constraint,
+        state: &State,
+        t: f64,
+        potential: impl Fn(&Place) -> Differential,
+    ) -> Self {
+        let motion = kinetic.constrained_motion(constraint, state, t, &potential).unwrap();
+        Reference {
+            expected: motion.expected().unwrap(),
+            condition: kinetic.constrained_condition(constraint, &state.phi).unwrap(),
+            state: state.clone(),
+            potential: Slopes::of(&potential, t, &state.x.to_f64(), &state.phi.to_f64()),
         }
     }
 

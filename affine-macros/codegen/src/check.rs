@@ -6,6 +6,7 @@
 mod arithmetic;
 mod capabilities;
 mod constant;
+mod constraint;
 mod dimension;
 mod form;
 mod frames;
@@ -33,6 +34,7 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     symbols::hidden(spec, found);
     symbols::resolved(spec, found);
     capabilities::available(spec, found);
+    constraint::stands_alone(spec, found);
     potential::differences(spec, found);
     potential::scalar(spec, found);
     potential::centre(spec, found);
@@ -60,5 +62,6 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     inertia::positive(spec, found);
     tensors::literal(spec, found);
     tensors::symmetric(spec, found);
+    constraint::constant_mass_matrix(spec, found);
     found.verdict()
 }

@@ -11,11 +11,12 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
+use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{self, Formula};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::mechanics::metrics::Metrics;
-use crate::mechanics::potential::Base;
+use crate::mechanics::potential::{Base, Potential};
 use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 use crate::optimise::{Batch, straight_line};
@@ -27,6 +28,10 @@ use programs::{best_reduction, full_chart, full_equations};
 pub struct Model {
     /// Dimension of space.
     pub dim: usize,
+    /// The group that the motion is confined to; `None` for GL+(n).
+    pub constraint: Option<Constraint>,
+    /// Is the affine momentum projected for it? Otherwise the constraint acts through its multiplier.
+    pub projected: bool,
     /// Frame of the internal motion.
     pub frame: Frame,
     /// Frame of the translational energy.
@@ -103,6 +108,8 @@ pub struct Formulas {
 pub struct Equations {
     /// Groups of the array: name and component symbols.
     pub groups: Vec<(&'static str, Vec<String>)>,
+    /// Entries of the affine momentum that are linear in components of the array.
+    pub dependent: Program,
     /// Array -> its rate.
     pub program: Program,
 }
@@ -165,6 +172,10 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
 
     let mut conserved_now = conserved(arena, &own, &own_h);
     let mut conserved_at_rest = at_rest(arena, &h, &conserved_now);
+    if let Some(forces) = multiplier(arena, &h) {
+        conserved_now.retain(|candidate| forces.keeps(*candidate));
+        conserved_at_rest.retain(|candidate| forces.keeps(*candidate));
+    }
     if let Some(u) = potential {
         conserved_now.retain(|candidate| u.keeps(*candidate));
         conserved_at_rest.retain(|candidate| u.keeps(*candidate));
@@ -204,14 +215,19 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         let legendre = legendre_batch(arena, &kinetic);
         inline(arena, legendre, velocities.clone())
     });
-    let velocity = matrix_batch(arena, &kinetic.velocity, &h.velocity);
+    let dependent = own.dependent();
+    let projected =
+        |atom: Expr| dependent.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone());
+    let velocities_of: Vec<Vec<Polynomial>> =
+        h.velocity.iter().map(|row| row.iter().map(|o| o.substitute(&projected)).collect()).collect();
+    let velocity = matrix_batch(arena, &kinetic.velocity, &velocities_of);
     let velocity = inline(arena, velocity, momenta);
     let velocity_side = legendre.map(|legendre| {
         let (energy, inputs) = energy_batch(arena, &kinetic, velocities);
         VelocitySide { legendre, kinetic_energy: inline(arena, energy, inputs) }
     });
     let mut points: Vec<Expr> = full_chart.coordinates().into_iter().map(|z| full_chart.symbol(z)).collect();
-    let mut energy = result("energy", full_h.clone());
+    let mut energy = result("energy", full_h.substitute(&projected));
     if let Some(u) = potential {
         let (value, shared) = u.energy_at_a_point(arena, &full_chart);
         energy.results[0].1.add_scaled(&value, &Rational::ONE);
@@ -244,6 +260,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
     Some(Model {
         dim: kinetic.dim,
+        constraint: kinetic.constraint,
+        projected: kinetic.confined().is_some(),
         frame: kinetic.frame,
         translation: kinetic.translation.map(|t| t.frame),
         conditions: match &stated {
@@ -283,11 +301,21 @@ fn at_rest(arena: &mut Arena, h: &Hamiltonian, moving: &[Candidate]) -> Vec<Cand
     if h.translation.is_none() {
         return moving.to_vec();
     }
-    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), None);
+    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), None).under(h.confined());
     conserved(arena, &chart, &h.internal())
 }
 
-/// `X_ab = dT/dO_ba`.
+/// The force of the multiplier of a constraint that acts through one: it has the directions of that of a potential in
+/// `q`, and no other is known of it.
+fn multiplier(arena: &mut Arena, h: &Hamiltonian) -> Option<Potential> {
+    let acts = h.constraint.is_some() && h.confined().is_none();
+    acts.then(|| {
+        let q = Base::MeanLogStretch.symbol(arena);
+        Potential::new(arena, h.dim, q)
+    })
+}
+
+/// `X_ab = dT/dO_ba`, projected under a constraint.
 fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
     let energy = kinetic.internal_energy();
     let n = kinetic.dim;
@@ -296,6 +324,9 @@ fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
         for (b, velocity) in row.iter().enumerate() {
             momenta[b][a] = energy.derivative(*velocity);
         }
+    }
+    if let Some(group) = kinetic.confined() {
+        momenta = group.projected(&momenta);
     }
     let names = Matrix::symbols(arena, kinetic.frame.momentum_name(), n);
     matrix_batch(arena, &names, &momenta)

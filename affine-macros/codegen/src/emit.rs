@@ -82,6 +82,26 @@ impl Context<'_> {
         }
     }
 
+    /// The constraint, as an expression.
+    fn constraint(&self) -> Option<TokenStream> {
+        let rt = &self.names.rt;
+        let group = self.model.constraint?;
+        let group = format_ident!("{}", format!("{group:?}"));
+        Some(quote!(#rt::Constraint::#group))
+    }
+
+    /// `let` statements for the entries of the affine momentum that are linear in components of an array.
+    fn dependent(&self, equations: &Equations) -> TokenStream {
+        let program = &equations.dependent;
+        let Body { lets, results } = self.generic(program);
+        let names = identifiers(&program.outputs.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>());
+        // A result with a step of its own is bound to its name already.
+        let lets_of =
+            names.iter().zip(&results).filter(|(name, result)| name.to_string() != result.to_string());
+        let rest = lets_of.map(|(name, result)| quote!(let #name = #result;));
+        quote!(#lets #(#rest)*)
+    }
+
     /// Type of the centre of mass over a scalar.
     fn centre(&self, scalar: &TokenStream) -> TokenStream {
         let (rt, n) = (&self.names.rt, self.dim());

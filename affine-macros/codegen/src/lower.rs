@@ -6,6 +6,7 @@ mod potential;
 
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 use crate::check::constant;
+use crate::mechanics::constraint::Constraint;
 use crate::mechanics::kinetic::{Coefficient, Term, TermKind};
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 
@@ -31,6 +32,16 @@ pub fn terms(arena: &mut Arena, spec: &Spec) -> Vec<(usize, Term)> {
             Some((place, Term { kind: kind(term.kind.value), value }))
         })
         .collect()
+}
+
+/// The group that the motion is confined to.
+#[must_use]
+pub fn constraint(constraint: spec::Constraint) -> Constraint {
+    match constraint {
+        spec::Constraint::Isochoric => Constraint::Isochoric,
+        spec::Constraint::Rigid => Constraint::Rigid,
+        spec::Constraint::Conformal => Constraint::Conformal,
+    }
 }
 
 fn kind(kind: spec::TermKind) -> TermKind {

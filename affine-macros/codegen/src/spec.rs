@@ -20,7 +20,7 @@ pub use expression::{Expression, ExpressionKind, MatrixName, Operator};
 pub use item::{Field, Item};
 pub use momentum_side::MomentumKind;
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
-pub use names::{Capability, Claim, Named, Requirement, TermKind, nearest};
+pub use names::{Capability, Claim, Constraint, Named, Requirement, TermKind, nearest};
 pub(crate) use symbol::numbered;
 pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
 
@@ -49,6 +49,8 @@ pub struct Spec {
     pub kinetic_key: Region,
     /// `metrics(space = g, body = eta)`, in this order.
     pub metrics: [Option<Metric>; 2],
+    /// `constraint = ...`.
+    pub constraint: Option<Spanned<Constraint>>,
     /// `potential = ...`.
     pub potential: Option<Potential>,
     /// `require(...)`.
@@ -137,6 +139,12 @@ impl Spec {
     #[must_use]
     pub fn term(&self, kind: TermKind) -> Option<&Term> {
         self.kinetic.iter().find(|term| term.kind.value == kind)
+    }
+
+    /// Is a metric stated?
+    #[must_use]
+    pub fn has_metrics(&self) -> bool {
+        self.metrics.iter().any(Option::is_some)
     }
 
     /// Every coefficient of the kinetic energy or of the Hamiltonian, and every entry of the metrics.

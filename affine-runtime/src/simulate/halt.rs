@@ -142,6 +142,14 @@ pub enum Setting {
         /// Name of the model.
         model: &'static str,
     },
+    /// The motion is confined to a group, has no closed form from this start, and there is no method that stays on the
+    /// group.
+    NoConstrainedMethod {
+        /// Name of the model.
+        model: &'static str,
+        /// Its constraint.
+        constraint: crate::model::Constraint,
+    },
 }
 
 impl fmt::Display for Setting {
@@ -178,6 +186,11 @@ impl fmt::Display for Setting {
                 f,
                 "output time {t} (number {index} of the list, from 0) does not come after {before}: list each time \
                  once, in the direction of the run"
+            ),
+            Setting::NoConstrainedMethod { model, constraint } => write!(
+                f,
+                "{model} is {constraint} and has no closed form from this start: the methods of this version step \
+                 components and would leave the constraint; integrate its equations by a method on the group"
             ),
             Setting::NoClosedForm { model } => write!(
                 f,

@@ -143,6 +143,10 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
 
     /// Reduction, integration with output on the way, expansion.
     fn integrate(&mut self, t_end: f64, recorder: &mut Recorder<'_, '_, N, M>) -> Result<(), Reason> {
+        // These methods step components: none of them keeps the placement on a group.
+        if let Some(constraint) = M::DESCRIPTION.constraint {
+            return Err(Setting::NoConstrainedMethod { model: M::DESCRIPTION.name, constraint }.into());
+        }
         let model = self.model;
         if recorder.schedule == Schedule::Steps || recorder.schedule.take_through(self.t0, false).is_some() {
             recorder.record(self.t0, self.start)?;

@@ -287,12 +287,12 @@ impl Kinetic {
         Ok((momentum, velocity))
     }
 
-    fn joined<R: Ring>(&self, vector: &Matrix<R>, matrix: &Matrix<R>) -> Matrix<R> {
+    pub(crate) fn joined<R: Ring>(&self, vector: &Matrix<R>, matrix: &Matrix<R>) -> Matrix<R> {
         let column = matrix.clone().reshaped(self.n * self.n, 1);
         if self.has_translation() { vector.above(&column) } else { column }
     }
 
-    fn split<R: Ring>(&self, column: &Matrix<R>) -> (Matrix<R>, Matrix<R>) {
+    pub(crate) fn split<R: Ring>(&self, column: &Matrix<R>) -> (Matrix<R>, Matrix<R>) {
         let square = self.n * self.n;
         let vector = if self.has_translation() { column.rows(0, self.n) } else { Matrix::zeros(self.n, 1) };
         let matrix = column.rows(column.shape().0 - square, square).reshaped(self.n, self.n);

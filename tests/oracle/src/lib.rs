@@ -53,7 +53,7 @@ pub use hamiltonian::{Hamiltonian, Invariant};
 pub use kinetic::{Kinetic, Term};
 pub use linear::Signature;
 pub use matrix::Matrix;
-pub use motion::{Expected, Motion};
+pub use motion::{Constraint, Expected, Motion};
 pub use num_rational::BigRational as Rational;
 pub use observable::Observable;
 pub use potential::{Place, Slopes};

@@ -6,6 +6,7 @@ use super::momentum_side;
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, Directions, Reported};
 use crate::lower;
+use crate::mechanics::constraint::Constraint;
 use crate::mechanics::hessian::{Block, Direction, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
 use crate::mechanics::metrics::Metrics;
@@ -48,16 +49,21 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         .ok()
         .filter(|k| !k.internal.is_empty())
         .ok_or_else(|| found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy))?;
+    let free = kinetic;
+    let kinetic = confined(&mut arena, spec, &free, &terms);
     let hessian = Hessian::new(&kinetic);
+    nothing_vanishes(spec, &kinetic, &places, found);
     invertible(spec, &hessian, found);
     positive(spec, &kinetic, &hessian, found);
-    claims(spec, &kinetic, |place| spec.kinetic[places[place]].kind.value.name(), found);
+    // Symmetries are those of the energy as stated, on all of GL(n).
+    claims(spec, &free, |place| spec.kinetic[places[place]].kind.value.name(), found);
     found.verdict()?;
-    let space_group = largest_group(&kinetic, Side::Space);
-    let body_group = largest_group(&kinetic, Side::Body);
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
-    let potential = lower::potential(&mut arena, spec);
+    let potential = potential(&mut arena, spec, kinetic.constraint, found);
+    found.verdict()?;
+    let space_group = largest_group(&free, Side::Space);
+    let body_group = largest_group(&free, Side::Body);
     Ok(Form {
         arena,
         kinetic,
@@ -85,13 +91,16 @@ fn momentum_form(
     };
     claims(spec, &on_momenta, name, found);
     found.verdict()?;
+    super::smooth::potential(&mut arena, spec, found);
+    found.verdict()?;
     let kinetic = stated
         .kinetic(&mut arena)
         .ok_or_else(|| found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy))?;
     let hessian = Hessian::new(&kinetic);
     let space_group = largest_group(&on_momenta, Side::Space);
     let body_group = largest_group(&on_momenta, Side::Body);
-    let potential = lower::potential(&mut arena, spec);
+    let potential = potential(&mut arena, spec, None, found);
+    found.verdict()?;
     Ok(Form {
         arena,
         kinetic,
@@ -102,6 +111,55 @@ fn momentum_form(
         potential,
         metrics: lower::metrics(spec),
     })
+}
+
+/// The energy of a motion that is confined to a group.
+fn confined(arena: &mut Arena, spec: &Spec, free: &Kinetic, terms: &[Term]) -> Kinetic {
+    let group = spec.constraint.map(|constraint| lower::constraint(constraint.value));
+    // What has constant coefficients on GL(n) has them on a subgroup.
+    Kinetic::under(arena, free.dim, terms, group).unwrap_or_else(|_| free.clone())
+}
+
+/// Every term says something about the velocities that the constraint leaves free: `(tr Om)^2` is zero where they are
+/// traceless, and would be read by nobody.
+fn nothing_vanishes(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mut Diagnostics) {
+    let Some(constraint) = spec.constraint else { return };
+    for (place, energy) in &kinetic.internal {
+        let alone = Kinetic { internal: vec![(*place, energy.clone())], ..kinetic.clone() };
+        let blocks = Hessian::new(&alone).blocks;
+        if blocks.iter().flat_map(|block| block.form.concat()).all(|entry| entry.is_zero()) {
+            let kind = spec.kinetic[places[*place]].kind;
+            let mistake = Diagnostic::VanishingTerm {
+                term: kind.value.name(),
+                constraint: constraint.value.name(),
+                velocities: constraint.value.velocities(),
+            };
+            found.report(kind.span, mistake);
+        }
+    }
+}
+
+/// The potential on the group that is left: one that is constant there moves nothing, and one without a value there is
+/// none.
+fn potential(
+    arena: &mut Arena,
+    spec: &Spec,
+    group: Option<Constraint>,
+    found: &mut Diagnostics,
+) -> Option<Potential> {
+    let energy = lower::potential(arena, spec)?;
+    let (Some(group), Some(constraint), Some(written)) = (group, spec.constraint, &spec.potential) else {
+        return Some(Potential::new(arena, spec.dim.value, energy));
+    };
+    let left = Potential::under(arena, spec.dim.value, energy, group);
+    let defect = match &left {
+        None => "has no value",
+        Some(left) if left.is_constant() => "is constant",
+        Some(_) => return left,
+    };
+    let (constraint, group) = (constraint.value.name(), constraint.value.group());
+    found.report(written.span, Diagnostic::ConstrainedPotential { defect, constraint, group });
+    None
 }
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic

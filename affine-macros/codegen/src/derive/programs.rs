@@ -4,7 +4,8 @@ use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
-use crate::mechanics::charts::{Chart, Linear, Momentum};
+use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
+use crate::mechanics::constraint::Constraint;
 use crate::mechanics::equations::{self, System, hamilton};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Frame;
@@ -21,7 +22,7 @@ pub(super) fn full_chart(arena: &mut Arena, h: &Hamiltonian) -> (Chart, Polynomi
         (Frame::Body, Frame::Body) => Linear::Body,
         _ => Linear::Space,
     });
-    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), linear);
+    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), linear).under(h.confined());
     let full = reduce::own_hamiltonian(h, &chart);
     (chart, full)
 }
@@ -45,7 +46,10 @@ pub(super) fn full_equations(
         let mut expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
         expanded.add(&load);
         ways.push(batch(arena, &expanded));
-        ways.push(split_batch(arena, chart, &expanded));
+        // Symmetric and skew parts are entries already where a constraint leaves only one of them.
+        if chart.confined.is_none_or(|group| group == Constraint::Isochoric) {
+            ways.push(split_batch(arena, chart, &expanded));
+        }
     }
     let (program, chosen) = ways
         .iter()
@@ -64,10 +68,11 @@ pub(super) fn full_equations(
         ("x", name(&chart.x)),
         ("phi", name(&chart.phi.0.concat())),
         (linear_name, name(&chart.p)),
-        (chart.momentum.symbol(), name(&chart.m.0.concat())),
+        (chart.momentum.symbol(), name(&independent_momenta(chart))),
     ];
     Equations {
         groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),
+        dependent: dependent(arena, chart),
         program: fuse(&program),
     }
 }
@@ -86,6 +91,19 @@ impl Separation {
         }
         Batch { results, ..Batch::default() }
     }
+}
+
+fn independent_momenta(chart: &Chart) -> Vec<Expr> {
+    let momenta = chart.independent().into_iter().filter(|z| matches!(z, Coordinate::M(..)));
+    momenta.map(|z| chart.symbol(z)).collect()
+}
+
+/// Entries of the affine momentum that a constraint makes linear in others.
+fn dependent(arena: &mut Arena, chart: &Chart) -> Program {
+    let results = chart.dependent().into_iter();
+    let results = results.map(|(symbol, value)| (arena.name(symbol).unwrap_or("entry").to_owned(), value));
+    let batch = Batch { results: results.collect(), ..Batch::default() };
+    fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
 }
 
 fn batch(arena: &Arena, system: &System) -> Batch {
@@ -169,7 +187,11 @@ pub(super) fn best_reduction(
     let name = |s: &Expr| arena.name(*s).unwrap_or("state").to_owned();
     let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(name).collect())).collect();
     let fixed = reduction.fixed.iter().map(name).collect();
-    Some((reduction, Equations { groups, program: fuse(&program) }, trajectory, fixed))
+    let dependent = match reduction.layout {
+        Layout::Constant => Program::default(),
+        Layout::Entries => dependent(arena, &reduction.chart),
+    };
+    Some((reduction, Equations { groups, dependent, program: fuse(&program) }, trajectory, fixed))
 }
 
 /// What `trajectory` reads: `p` where the state depends on it, and the constant part of the affine momentum.

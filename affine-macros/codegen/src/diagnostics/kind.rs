@@ -468,6 +468,39 @@ pub enum Diagnostic {
         /// The form: `G[1,2]`, `x[1]`, `tr(phi)`.
         form: String,
     },
+    // ---- the constraint ----
+    /// A constraint beside a key that does not go with it.
+    ConstraintBeside {
+        /// The other key.
+        key: &'static str,
+    },
+    /// A term that is zero wherever the constraint holds.
+    VanishingTerm {
+        /// The term.
+        term: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+        /// What velocities are under it: `traceless`, `skew`.
+        velocities: &'static str,
+    },
+    /// An energy in `phi_dot` whose mass matrix depends on the placement under the constraint.
+    ConstrainedMassMatrix {
+        /// The term.
+        term: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+        /// The group: `phi = e^q R with a rotation R`.
+        group: &'static str,
+    },
+    /// A potential that is constant, or has no value, wherever the constraint holds.
+    ConstrainedPotential {
+        /// `is constant`, `has no value`.
+        defect: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+        /// The group: `det phi = 1`.
+        group: &'static str,
+    },
 
     // ---- the quadratic form ----
     /// The isotropic form vanishes on some directions.
@@ -628,6 +661,10 @@ names! {
     MetricNotPositive => "metric-not-positive",
     MetricTerm => "metric-term",
     MetricForm => "metric-form",
+    ConstraintBeside => "constraint-beside",
+    VanishingTerm => "vanishing-term",
+    ConstrainedMassMatrix => "constrained-mass-matrix",
+    ConstrainedPotential => "constrained-potential",
     Degenerate => "degenerate",
     DegenerateHamiltonian => "degenerate-hamiltonian",
     DegenerateTensor => "degenerate-tensor",

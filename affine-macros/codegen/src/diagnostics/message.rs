@@ -423,6 +423,47 @@ impl Diagnostic {
                 "equations stand in orthonormal bases of the metrics, and this form depends on the bases",
                 "write the potential through `q`, `det`, `I1..In`, `norm(x)` and traces of powers of `G` or of `Ct`",
             ),
+            Self::ConstraintBeside { key } => text(
+                format!("`constraint` does not go with `{key}` in this version"),
+                match *key {
+                    "metrics(...)" => {
+                        "the group of a constraint is that of orthonormal bases, and points stand in others"
+                    }
+                    _ => "under a constraint momenta are restricted, and T is known only from velocities",
+                },
+                match *key {
+                    "metrics(...)" => "state the model in orthonormal bases and leave out `metrics(...)`",
+                    _ => "state the energy in `kinetic(...)`",
+                },
+            ),
+            Self::VanishingTerm { term, constraint, velocities } => text(
+                format!("`{term}` is zero under `constraint = {constraint}`"),
+                format!("affine velocities are {velocities} there, and it is zero on all of them"),
+                format!("remove `{term}` or the constraint"),
+            ),
+            Self::ConstrainedMassMatrix { term, constraint, group } => text(
+                format!("`{term}` has no constant mass matrix under `constraint = {constraint}`"),
+                format!(
+                    "phi_dot = phi Oh with {group}: as a form of Oh it depends on phi; only `dalembert` that is `rigid`, \
+                     where phi drops out, or `isochoric`, where a multiplier keeps det phi = 1, goes with a constraint"
+                ),
+                match *term {
+                    "flat_tensor" => "write `body_tensor`, which is constant in Oh, or remove the constraint",
+                    _ => "write `body_inertia`, which is constant in Oh, or remove the constraint",
+                },
+            ),
+            Self::ConstrainedPotential { defect, constraint, group } => text(
+                format!("this potential {defect} under `constraint = {constraint}`"),
+                match *constraint {
+                    "rigid" => format!("{group}: q = 0, det phi = 1, and G and Ct are the identity"),
+                    "conformal" => format!("{group}: G and Ct are exp(2q) times the identity"),
+                    _ => format!("{group}: q = 0 and D = 1"),
+                },
+                match *defect {
+                    "is constant" => "remove the potential or the constraint",
+                    _ => "write a potential that is finite there, or remove the constraint",
+                },
+            ),
             Self::Degenerate { eigenvalue, numbers, directions } => text(
                 format!(
                     "the kinetic energy is degenerate: {} = 0 on {directions}",

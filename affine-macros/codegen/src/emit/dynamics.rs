@@ -137,7 +137,6 @@ fn bind_point(context: &Context, program: &Program) -> TokenStream {
     let rt = &context.names.rt;
     let used = inputs(program);
     let spin = own_spin(context);
-    let n = context.model.dim;
     let mut lets = TokenStream::new();
     for (group, names) in &context.model.full.groups {
         if !names.iter().any(|name| used.contains(&name.as_str())) {
@@ -150,15 +149,31 @@ fn bind_point(context: &Context, program: &Program) -> TokenStream {
             "p_hat" => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
             _ => quote!(#rt::rows(&#spin)),
         };
-        lets.extend(if names.len() == n {
-            let bound = pattern(names, &used);
-            quote!(let #bound = #value;)
-        } else {
-            let rows = names.chunks(n).map(|row| pattern(row, &used));
-            quote!(let [#(#rows),*] = #value;)
-        });
+        lets.extend(bind_group(context, group, names, &used, &value));
     }
     lets
+}
+
+/// Binds the components of a vector or a matrix that are both in a group of the array and used.
+fn bind_group(
+    context: &Context,
+    group: &str,
+    names: &[String],
+    used: &[&str],
+    value: &TokenStream,
+) -> TokenStream {
+    let stem = match group {
+        "x" | "p" | "p_hat" => {
+            let bound = pattern(names, used);
+            return quote!(let #bound = #value;);
+        }
+        "phi" => "phi",
+        _ => context.model.frame.momentum_name(),
+    };
+    let used: Vec<&str> = used.iter().copied().filter(|name| names.iter().any(|n| n == name)).collect();
+    let rows = components(stem, context.model.dim);
+    let rows = rows.iter().map(|row| pattern(row, &used));
+    quote!(let [#(#rows),*] = #value;)
 }
 
 fn hamiltonian(context: &Context) -> TokenStream {
@@ -210,13 +225,8 @@ fn flat(context: &Context) -> TokenStream {
             "p_hat" => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
             _ => quote!(#rt::rows(&#spin)),
         };
-        let names = identifiers(names);
-        bound.extend(if names.len() == n {
-            quote!(let [#(#names),*] = #value;)
-        } else {
-            let rows = names.chunks(n).map(|row| quote!([#(#row),*]));
-            quote!(let [#(#rows),*] = #value;)
-        });
+        let used: Vec<&str> = names.iter().map(String::as_str).collect();
+        bound.extend(bind_group(context, group, names, &used, &value));
     }
     let rows = |stem: &str| {
         let rows = components(stem, n).into_iter().map(|row| {
@@ -230,6 +240,7 @@ fn flat(context: &Context) -> TokenStream {
         quote!(#rt::vector([#(#names),*]))
     };
     let (phi, own, wrap) = (rows("phi"), rows(context.model.frame.momentum_name()), wrapper(context));
+    let dependent = context.dependent(&context.model.full);
     let linear = context.model.full.groups.iter().any(|(name, _)| *name == "p_hat");
     let linear = if linear { Linear::Body } else { Linear::Space };
     let centre = match (context.model.translation, linear) {
@@ -254,6 +265,7 @@ fn flat(context: &Context) -> TokenStream {
 
         fn unflatten<#t: #rt::Real>(&self, full: &Self::Full<#t>) -> Self::Point<#t> {
             let [#(#names),*] = *full;
+            #dependent
             let phi = #phi;
             #centre
             #point

@@ -30,6 +30,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
         false => ("`phi`", "`phi_dot`", "the affine spin"),
         true => ("`(x, phi)`", "`(x_dot, phi_dot)`", "`p` and the affine spin"),
     };
+    let Confinement { off, from_momentum, tangent, from_velocity } = confinement(context, &centre);
     let at_momentum = format!(
         " The phase point at the placement {q} with {m}: `Spatial(sigma)`, `Comoving(sigma_hat)` or `TwoPoint(pi)`."
     );
@@ -56,6 +57,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
                 ///
                 /// # Errors
                 /// `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a velocity.
+                #off
                 #visibility fn at_velocity(
                     &self,
                     #x
@@ -64,9 +66,10 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
                     phi_dot: #rt::Matrix<#n>,
                 ) -> #rt::Result<#point> {
                     #inward
+                    #tangent
                     #legendre
                     #momentum_of_centre
-                    #rt::phase_point(phi, spin, #centre)#outward
+                    #from_velocity #outward
                 }
             }
         }
@@ -77,6 +80,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
             ///
             /// # Errors
             /// `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a momentum.
+            #off
             #visibility fn at_momentum(
                 &self,
                 #x
@@ -84,7 +88,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
                 #p
                 spin: impl #rt::Momentum<#n, #rt::f64>,
             ) -> #rt::Result<#point> {
-                #rt::phase_point(phi, spin, #centre)
+                #from_momentum
             }
 
             #at_velocity
@@ -122,6 +126,50 @@ fn without_velocity(context: &Context, point: &TokenStream) -> TokenStream {
             #rt::VelocityDeterminesMomentum::never(self)
         }
     }
+}
+
+/// How points are made and what a constraint asks of them.
+struct Confinement {
+    /// A line of documentation.
+    off: TokenStream,
+    /// The point with the momentum `spin`.
+    from_momentum: TokenStream,
+    /// What has to hold before a velocity is looked at.
+    tangent: TokenStream,
+    /// The point with the momentum of a velocity.
+    from_velocity: TokenStream,
+}
+
+fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
+    let rt = &context.names.rt;
+    let free = quote!(#rt::phase_point(phi, spin, #centre));
+    let Some(group) = context.constraint() else {
+        return Confinement {
+            off: TokenStream::new(),
+            from_momentum: free.clone(),
+            tangent: TokenStream::new(),
+            from_velocity: free,
+        };
+    };
+    let tangent = quote! {
+        #rt::on_the_group(#group, &phi)?;
+        #rt::in_the_algebra(#group, &phi, &phi_dot)?;
+    };
+    let off = quote! {
+        ///
+        /// `OffConstraint` where placement, velocity or momentum violates the constraint by more than rounding.
+    };
+    if context.model.projected {
+        let confined = quote!(#rt::confined_point(#group, phi, spin, #centre));
+        return Confinement { off, from_momentum: confined.clone(), tangent, from_velocity: confined };
+    }
+    let from_momentum = quote! {
+        #rt::on_the_group(#group, &phi)?;
+        let point = #free?;
+        #rt::in_the_algebra(#group, &phi, &#rt::Model::velocity(self, &point).phi_dot)?;
+        ::core::result::Result::Ok(point)
+    };
+    Confinement { off, from_momentum, tangent, from_velocity: free }
 }
 
 /// `O -> X` in the model's frame.

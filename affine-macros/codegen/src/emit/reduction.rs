@@ -131,8 +131,17 @@ fn chart_momentum(context: &Context) -> TokenStream {
     match context.model.reduction.chart.momentum {
         Momentum::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
         Momentum::Space => quote!(#rt::Phase::sigma(point).0.0),
-        Momentum::Total => quote!(#rt::total_affine_momentum(point)),
+        Momentum::Total => projected(context, quote!(#rt::total_affine_momentum(point))),
         Momentum::Canonical => quote!(#rt::Phase::pi(point).0.0),
+    }
+}
+
+/// A momentum, projected under a constraint.
+fn projected(context: &Context, momentum: TokenStream) -> TokenStream {
+    let rt = &context.names.rt;
+    match context.constraint().filter(|_| context.model.projected) {
+        Some(group) => quote!(#rt::projected(#group, &(#momentum))),
+        None => momentum,
     }
 }
 
@@ -349,7 +358,10 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
         (Some(Frame::Space), Momentum::Space) => quote!(#rt::Spatial(whirl * momentum * whirl.transpose())),
         (_, Momentum::Body) => quote!(#rt::Comoving(momentum)),
         (_, Momentum::Space) => quote!(#rt::Spatial(momentum)),
-        (_, Momentum::Total) => quote!(#rt::Spatial(momentum - x * #p.transpose())),
+        (_, Momentum::Total) => {
+            let spin = projected(context, quote!(momentum - x * #p.transpose()));
+            quote!(#rt::Spatial(#spin))
+        }
         (_, Momentum::Canonical) => quote!(#rt::TwoPoint(momentum)),
     };
     if let Some(frame) = parts.whirl {
@@ -419,6 +431,7 @@ fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> To
         let fixed = identifiers(&parts.fixed);
         lets.extend(quote!(let [#(#fixed),*] = constants.fixed;));
     }
+    lets.extend(context.dependent(&context.model.reduced));
     let momentum = match (parts.turn, chart.momentum) {
         (false, _) | (_, Momentum::Body) => quote!(#rows),
         (true, Momentum::Canonical) => quote!(#rows * constants.turn),

@@ -4,13 +4,13 @@ use crate::algebra::ring::{Square, product};
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::check::constant;
 use crate::mechanics::potential::stretches::{canonical, is_stretched};
-use crate::mechanics::potential::{Base, Potential, TIME};
+use crate::mechanics::potential::{Base, TIME};
 use crate::spec::{Expression, ExpressionKind, MatrixName, Spec, numbered};
 
 use super::FIELD;
 
-/// The potential energy, if the model states one.
-pub fn potential(arena: &mut Arena, spec: &Spec) -> Option<Potential> {
+/// The potential energy, if the model states one that is not constant: an expression in the symbols of [`Base`].
+pub fn potential(arena: &mut Arena, spec: &Spec) -> Option<Expr> {
     let written = spec.potential.as_ref()?;
     let n = spec.dim.value;
     let mut energy = energy(arena, n, &written.energy, None)?;
@@ -19,10 +19,7 @@ pub fn potential(arena: &mut Arena, spec: &Spec) -> Option<Potential> {
     }
     let form = Polynomial::normal_form(arena, energy);
     // A constant moves nothing and leaves no trace.
-    if form.as_constant().is_some() {
-        return None;
-    }
-    Some(Potential::new(arena, n, energy))
+    (form.as_constant().is_none()).then_some(energy)
 }
 
 /// The symbolic value, with `difference` for `d`; `None` only for what the checks refuse.

@@ -6,8 +6,9 @@ use crate::algebra::ring::{difference, outer, product, times, transpose};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::constraint::Constraint;
 use super::equations::{Form, System, gradient, rate, velocities};
-use super::hamiltonian::Hamiltonian;
+use super::hamiltonian::{Hamiltonian, Isotropic};
 use super::kinetic::{Coefficient, Frame, Kinetic, TermKind};
 use super::notation::{latex, plain};
 use super::potential::Potential;
@@ -133,7 +134,9 @@ pub fn hamiltonian(
     full: &Polynomial,
     potential: Option<&Potential>,
 ) -> Formula {
-    let mut formula = kinetic_hamiltonian(arena, h, full);
+    let dependent = h.confined().map_or_else(Vec::new, |group| group.dependent(&h.momentum));
+    let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
+    let mut formula = kinetic_hamiltonian(arena, h, &full.substitute(&value));
     if let Some(u) = potential {
         formula.text += &format!(" + {}", plain(arena, u.energy));
         formula.latex += &format!(" + {}", latex(arena, u.energy));
@@ -162,7 +165,7 @@ fn kinetic_hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) ->
     );
     sum.add(
         arena,
-        &iso.casimir1_squared.scaled(&half),
+        &trace_coefficient(h, iso).scaled(&half),
         (&format!("(tr {x})^2"), &format!("(\\operatorname{{tr}}{hat})^2")),
     );
     sum.add(arena, &iso.skew.scaled(&half), skew);
@@ -180,6 +183,14 @@ fn kinetic_hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) ->
         sum.add(arena, &inverse_mass.scaled(&half), body);
     }
     sum.finish()
+}
+
+/// The coefficient of the trace of the affine spin, which is zero where a constraint makes it traceless.
+fn trace_coefficient(h: &Hamiltonian, iso: &Isotropic) -> Polynomial {
+    match h.confined().is_some_and(Constraint::is_traceless) {
+        true => Polynomial::zero(),
+        false => iso.casimir1_squared.clone(),
+    }
 }
 
 /// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
@@ -270,6 +281,46 @@ pub fn equations(
     for (name, name_latex, text, latex) in forces.into_iter().flatten() {
         list.push(Formula { text: format!("{name} = {text}"), latex: format!("{name_latex} = {latex}") });
     }
+    match h.constraint {
+        Some(group) => under_constraint(h, group, list),
+        None => list,
+    }
+}
+
+/// The equations with what a constraint makes of the rate of the affine momentum: a projection, or a multiplier.
+fn under_constraint(h: &Hamiltonian, group: Constraint, mut list: Vec<Formula>) -> Vec<Formula> {
+    let momentum = Momentum::of(h.frame);
+    let (_, _, rate, rate_latex) = momentum_names(momentum);
+    let (left, left_latex) = (format!("{rate} = "), format!("{rate_latex} = "));
+    let mut projects = false;
+    for formula in &mut list {
+        let (Some(text), Some(latex)) =
+            (formula.text.strip_prefix(&left), formula.latex.strip_prefix(&left_latex))
+        else {
+            continue;
+        };
+        if h.confined().is_none() {
+            let (text, latex) = if text == "0" { ("", "") } else { (text, latex) };
+            let plus = if text.is_empty() { "" } else { " + " };
+            *formula = Formula {
+                text: format!("{left}{text}{plus}lambda phi^-1"),
+                latex: format!("{left_latex}{latex}{plus}\\lambda\\,\\varphi^{{-1}}"),
+            };
+        // [X, O] of a momentum that is projected and a velocity in the algebra is projected already.
+        } else if text.contains(" + ") || text.contains(" - ") || !text.contains('[') && text != "0" {
+            projects = true;
+            *formula = Formula {
+                text: format!("{left}P({text})"),
+                latex: format!("{left_latex}P\\left({latex}\\right)"),
+            };
+        }
+    }
+    let (text, latex) = match (h.confined().is_none(), projects) {
+        (true, _) => ("lambda: the multiplier of det phi = 1, left to the method", "\\det\\varphi = 1"),
+        (false, true) => group.projection(),
+        (false, false) => return list,
+    };
+    list.push(Formula { text: text.to_owned(), latex: latex.to_owned() });
     list
 }
 
@@ -382,7 +433,7 @@ fn affine_velocity(arena: &mut Arena, h: &Hamiltonian, chart: &Chart) -> Formula
             sum.add(arena, &iso.casimir2, (x, x_latex));
             sum.add(
                 arena,
-                &iso.casimir1_squared,
+                &trace_coefficient(h, iso),
                 (&format!("tr({x}) 1"), &format!("\\operatorname{{tr}}({x_latex})\\,1")),
             );
             sum.add(

@@ -1,6 +1,7 @@
 //! Hamilton's equations of a chart from its brackets.
 
-use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
+use crate::algebra::ring::table;
+use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 
 use super::brackets::bracket;
 use super::charts::{Chart, Coordinate, Momentum};
@@ -102,10 +103,37 @@ pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form)
             (z, chart.symbol(z), rate(chart, &gradient, &velocity, form, z))
         })
         .collect();
-    System { shared: velocity.into_iter().flatten().collect(), kernels: Vec::new(), rates }
+    let symbols =
+        Matrix(velocity.iter().map(|row| row.iter().map(|(symbol, _)| *symbol).collect()).collect());
+    let system = System { shared: velocity.into_iter().flatten().collect(), kernels: Vec::new(), rates };
+    system.confined(chart, &symbols)
 }
 
 impl System {
+    /// Under a constraint: rates of the affine momentum projected, and entries of momentum and velocity that are linear
+    /// in others written through those.
+    fn confined(mut self, chart: &Chart, velocity: &Matrix) -> Self {
+        let Some(group) = chart.confined else { return self };
+        let rate = |a, b| {
+            let found = self.rates.iter().find(|(z, _, _)| *z == Coordinate::M(a, b));
+            found.map_or_else(Polynomial::zero, |(_, _, rate)| rate.clone())
+        };
+        let projected = group.projected(&table(chart.dim, rate));
+        for (z, _, rate) in &mut self.rates {
+            if let Coordinate::M(a, b) = z {
+                *rate = projected[*a][*b].clone();
+            }
+        }
+        let (momenta, velocities) = (chart.dependent(), group.dependent(velocity));
+        let listed = |list: &[(Expr, Polynomial)], symbol: Expr| list.iter().any(|(s, _)| *s == symbol);
+        self.rates.retain(|(_, symbol, _)| !listed(&momenta, *symbol));
+        self.shared.retain(|(symbol, _)| !listed(&velocities, *symbol));
+        let value = |atom: Expr| {
+            momenta.iter().chain(&velocities).find(|(s, _)| *s == atom).map(|(_, value)| value.clone())
+        };
+        self.substitute(&value)
+    }
+
     /// Replaces atoms by polynomials in every definition and every rate.
     #[must_use]
     pub fn substitute(&self, value: &impl Fn(Expr) -> Option<Polynomial>) -> Self {

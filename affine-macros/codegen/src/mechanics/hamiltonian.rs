@@ -3,6 +3,7 @@
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Linear, Momentum};
+use super::constraint::Constraint;
 use super::hessian::{Direction, Hessian, NumericBlock};
 use super::kinetic::{Frame, Kinetic};
 
@@ -11,6 +12,8 @@ use super::kinetic::{Frame, Kinetic};
 pub struct Hamiltonian {
     /// Dimension of space.
     pub dim: usize,
+    /// The group that the motion is confined to; `None` for GL+(n).
+    pub constraint: Option<Constraint>,
     /// Frame in which the internal energy has constant coefficients.
     pub frame: Frame,
     /// The affine spin of that frame.
@@ -63,13 +66,14 @@ impl Hamiltonian {
         };
         Some(Self {
             dim: n,
+            constraint: kinetic.constraint,
             frame: kinetic.frame,
             momentum,
             velocity: flat.chunks(n).map(<[Polynomial]>::to_vec).collect(),
             isotropic: match kinetic.frame {
                 // The Casimirs of the affine group are no functions of Pi alone.
                 Frame::Flat => None,
-                Frame::Body | Frame::Space => isotropic(arena, hessian, n),
+                Frame::Body | Frame::Space => isotropic(arena, kinetic.confined(), hessian, n),
             },
             translation,
             numeric_blocks: inverse.numeric_blocks,
@@ -99,7 +103,15 @@ impl Hamiltonian {
     /// `[X, O(X)] = 0` for every `X` only where `O` is a multiple of `X` and the identity.
     #[must_use]
     pub fn is_tensor(&self) -> bool {
-        self.isotropic.is_none() && self.frame != Frame::Flat
+        // The few momenta of a rigid or conformal motion make short equations whatever their coefficients.
+        let small = matches!(self.constraint, Some(Constraint::Rigid | Constraint::Conformal));
+        self.isotropic.is_none() && self.frame != Frame::Flat && !small
+    }
+
+    /// The constraint, where velocities and momenta are projected for it; see [`Kinetic::confined`].
+    #[must_use]
+    pub fn confined(&self) -> Option<Constraint> {
+        self.constraint.filter(|_| self.frame != Frame::Flat)
     }
 
     /// The internal energy in a chart, with its skew part (of isotropic energies) left out on request; `None`
@@ -229,9 +241,18 @@ fn half() -> Rational {
     Rational::ratio(1, 2).unwrap_or(Rational::ONE)
 }
 
-/// The isotropic coefficients, where shear, rotation and dilatation each have one eigenvalue.
-fn isotropic(arena: &mut Arena, hessian: &Hessian, n: usize) -> Option<Isotropic> {
+/// The isotropic coefficients, where shear, rotation and dilatation each have one eigenvalue, or are not free.
+fn isotropic(
+    arena: &mut Arena,
+    constraint: Option<Constraint>,
+    hessian: &Hessian,
+    n: usize,
+) -> Option<Isotropic> {
     let mut common = |kind: Direction| {
+        // No momentum moves the body in a direction that is not free.
+        if constraint.is_some_and(|group| !group.leaves_free(kind)) {
+            return Some(Polynomial::zero());
+        }
         let mut found: Option<Polynomial> = None;
         for block in hessian.blocks.iter().filter(|b| b.basis[0].kind == kind) {
             let eigenvalue = block.eigenvalue()?;

@@ -64,6 +64,7 @@ impl Stated {
         let rows = atoms(&spin);
         let internal = self.parts.iter().map(|(place, part)| (*place, part.energy(&rows))).collect();
         Kinetic {
+            constraint: None,
             dim: self.dim,
             frame: self.frame,
             velocity: spin,
@@ -78,6 +79,7 @@ impl Stated {
     pub fn kinetic(&self, arena: &mut Arena) -> Option<Kinetic> {
         if self.is_cubic() {
             return Some(Kinetic {
+                constraint: None,
                 dim: self.dim,
                 frame: self.frame,
                 velocity: Matrix::symbols(arena, self.frame.velocity_name(), self.dim),
@@ -128,6 +130,7 @@ impl Stated {
         // O = (dH/dX)^T
         let velocity = momentum.transpose().0.iter().map(|row| energy.gradient(row)).collect();
         Hamiltonian {
+            constraint: None,
             dim: self.dim,
             frame: self.frame,
             momentum,

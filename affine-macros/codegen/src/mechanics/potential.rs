@@ -7,16 +7,20 @@
 mod dilatation;
 mod invariance;
 mod principal;
+mod restriction;
 mod rewriting;
 pub mod stretches;
 
-use crate::algebra::ring::{Square, adjugate};
+use crate::algebra::ring::{Square, adjugate, table};
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::conserved::Candidate;
+use super::constraint::Constraint;
 use super::equations::Load;
-use invariance::Invariance;
+use invariance::Evidence;
 use principal::Principal;
+use restriction::restricted;
 use rewriting::{about_undeformed, through_dilatation};
 
 /// A potential.
@@ -27,7 +31,7 @@ pub struct Potential {
     pub energy: Expr,
     slopes: Vec<(Base, Expr)>,
     time: Option<Expr>,
-    invariance: Invariance,
+    invariance: Evidence,
 }
 
 /// Functions of the placement and the position that potentials are written in, indices from 0.
@@ -133,6 +137,28 @@ enum Along {
 impl Potential {
     /// The potential `energy`, an expression in base functions, parameters and numbers.
     pub fn new(arena: &mut Arena, dim: usize, energy: Expr) -> Self {
+        let slopes = Self::slopes(arena, dim, energy);
+        let invariance = Evidence::identities(arena, dim, &slopes);
+        let time = Self::time_in(arena, energy);
+        Self { dim, energy, slopes, time, invariance }
+    }
+
+    /// The potential on the group of a constraint; `None` where it has no value there.
+    pub fn under(arena: &mut Arena, dim: usize, energy: Expr, group: Constraint) -> Option<Self> {
+        let energy = restricted(arena, dim, energy, group)?;
+        let slopes = Self::slopes(arena, dim, energy);
+        let invariance = Evidence::on_the_group(arena, dim, &slopes, group);
+        let time = Self::time_in(arena, energy);
+        Some(Self { dim, energy, slopes, time, invariance })
+    }
+
+    /// Does it change along no velocity that the constraint leaves free?
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        self.keeps(Candidate::LinearMomentum) && self.invariance.moves_no_placement()
+    }
+
+    fn slopes(arena: &mut Arena, dim: usize, energy: Expr) -> Vec<(Base, Expr)> {
         let mut slopes = Vec::new();
         for base in Base::all(dim) {
             let symbol = base.symbol(arena);
@@ -141,10 +167,13 @@ impl Potential {
                 slopes.push((base, slope));
             }
         }
-        let invariance = Invariance::new(arena, dim, &slopes);
+        slopes
+    }
+
+    /// The time, where the energy depends on it.
+    fn time_in(arena: &mut Arena, energy: Expr) -> Option<Expr> {
         let time = arena.symbol(TIME);
-        let time = arena.any_symbol(energy, &mut |symbol| symbol == time).then_some(time);
-        Self { dim, energy, slopes, time, invariance }
+        arena.any_symbol(energy, &mut |symbol| symbol == time).then_some(time)
     }
 
     /// Does it depend on the time?
@@ -179,6 +208,46 @@ impl Potential {
             Momentum::Space | Momentum::Total => Along::Space,
             Momentum::Canonical => Along::Placement,
         };
+        let weighted = self.weighted(arena, chart, along, &mut load);
+        load.shared.extend(definitions(arena, self.dim, chart));
+        load.shared.extend(cofactors(arena, chart));
+        load.shared.extend(self.dilatation(arena, chart));
+        let mut forces = table(self.dim, |a, b| {
+            let mut force = Polynomial::zero();
+            for (base, slope) in &weighted {
+                let entry = match along {
+                    Along::Placement => direction(*base, along, &tensors, b, a),
+                    _ => direction(*base, along, &tensors, a, b),
+                };
+                force.add_product(slope, &entry, &Rational::ONE);
+                if let (Momentum::Total, Base::Position(j)) = (chart.momentum, base)
+                    && *j == b
+                {
+                    force.add_product(slope, &Polynomial::atom(chart.x[a]), &Rational::ONE);
+                }
+            }
+            force
+        });
+        if let Some(group) = chart.confined {
+            forces = group.projected(&forces);
+        }
+        for (a, row) in forces.into_iter().enumerate() {
+            load.forces.extend(row.into_iter().enumerate().map(|(b, force)| (Coordinate::M(a, b), force)));
+        }
+        for i in 0..chart.p.len() {
+            load.forces.push((Coordinate::P(i), force_on_centre(chart, &weighted, i)));
+        }
+        load
+    }
+
+    /// The slopes with the numbers that they carry in a force, named where they move.
+    fn weighted(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        along: Along,
+        load: &mut Load,
+    ) -> Vec<(Base, Polynomial)> {
         let mut weighted: Vec<(Base, Polynomial)> = Vec::new();
         for (base, slope) in &self.slopes {
             let form = through_dilatation(arena, *slope);
@@ -203,29 +272,7 @@ impl Potential {
             }
             weighted.push((*base, slope));
         }
-        load.shared.extend(definitions(arena, self.dim, chart));
-        load.shared.extend(cofactors(arena, chart));
-        load.shared.extend(self.dilatation(arena, chart));
-        for (a, b) in (0..self.dim).flat_map(|a| (0..self.dim).map(move |b| (a, b))) {
-            let mut force = Polynomial::zero();
-            for (base, slope) in &weighted {
-                let entry = match along {
-                    Along::Placement => direction(*base, along, &tensors, b, a),
-                    _ => direction(*base, along, &tensors, a, b),
-                };
-                force.add_product(slope, &entry, &Rational::ONE);
-                if let (Momentum::Total, Base::Position(j)) = (chart.momentum, base)
-                    && *j == b
-                {
-                    force.add_product(slope, &Polynomial::atom(chart.x[a]), &Rational::ONE);
-                }
-            }
-            load.forces.push((Coordinate::M(a, b), force));
-        }
-        for i in 0..chart.p.len() {
-            load.forces.push((Coordinate::P(i), force_on_centre(chart, &weighted, i)));
-        }
-        load
+        weighted
     }
 
     fn tensors(&self, arena: &mut Arena, chart: &Chart) -> Tensors {

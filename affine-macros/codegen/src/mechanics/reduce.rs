@@ -71,7 +71,8 @@ pub enum ClosedForm {
 pub fn closed_form(arena: &mut Arena, h: &Hamiltonian, moving: &[Commuting]) -> Option<(ClosedForm, bool)> {
     let at_rest = h.translation.is_some() && !moving.iter().any(|c| matches!(c, Commuting::Drift(_)));
     if h.frame == Frame::Flat {
-        return Some((ClosedForm::Straight, at_rest));
+        // The multiplier of a constraint bends the line.
+        return h.constraint.is_none().then_some((ClosedForm::Straight, at_rest));
     }
     let iso = h.isotropic.as_ref()?;
     // The translational energy is quadratic in p: at p = 0 its flow stands still, and only the internal pieces have
@@ -86,7 +87,8 @@ pub fn closed_form(arena: &mut Arena, h: &Hamiltonian, moving: &[Commuting]) -> 
 
 /// The chart of the model's own frame, `p` spatial.
 pub fn own_chart(arena: &mut Arena, h: &Hamiltonian) -> Chart {
-    Chart::new(arena, h.dim, Momentum::of(h.frame), h.translation.as_ref().map(|_| Linear::Space))
+    let linear = h.translation.as_ref().map(|_| Linear::Space);
+    Chart::new(arena, h.dim, Momentum::of(h.frame), linear).under(h.confined())
 }
 
 /// `H` in the chart of the model's own frame.
@@ -150,13 +152,14 @@ pub fn candidates(
     let entire: Vec<Reduction> = momenta
         .into_iter()
         .flat_map(|momentum| {
-            let chart = Chart::new(arena, h.dim, momentum, linear);
+            let chart = Chart::new(arena, h.dim, momentum, linear).under(h.confined());
             let Some(mut main) = h.internal_in(&chart, without_skew) else { return Vec::new() };
             if linear.is_some() {
                 main.add_scaled(&h.translation_in(&chart), &Rational::ONE);
             }
             let load = potential.map(|u| u.load(arena, &chart));
-            let plan = Plan { chart, commuting: commuting.clone(), turn, load };
+            let multiplier = h.constraint.is_some() && h.confined().is_none();
+            let plan = Plan { chart, commuting: commuting.clone(), turn, load, multiplier };
             plan.reduced(arena, &main, h.is_tensor())
         })
         .collect();
@@ -174,6 +177,9 @@ fn separated(
     let turns = commuting.iter().any(|c| !matches!(c, Commuting::Drift(_)));
     let (Some(iso), Some(u)) = (&h.isotropic, potential) else { return Vec::new() };
     // With C(3) the velocity is no multiple of the traceless momentum.
+    if h.constraint.is_some() {
+        return Vec::new();
+    }
     if (h.translation.is_some() && !drifts) || !(turns || iso.skew.is_zero()) || !iso.casimir3.is_zero() {
         return Vec::new();
     }
@@ -224,6 +230,8 @@ struct Plan {
     turn: bool,
     /// The forces of the potential.
     load: Option<Load>,
+    /// Does the multiplier of a constraint act besides? Then no affine momentum is taken for conserved.
+    multiplier: bool,
 }
 
 impl Plan {
@@ -234,7 +242,9 @@ impl Plan {
         let mut systems = Vec::new();
         if !tensor {
             let expanded = self.loaded(hamilton(arena, &self.chart, h, Form::Expanded));
-            layout = conserved_layout(&expanded);
+            if !self.multiplier {
+                layout = conserved_layout(&expanded);
+            }
             systems.push(expanded);
         }
         if layout == Layout::Entries {
@@ -242,7 +252,10 @@ impl Plan {
         }
         let mut reductions = Vec::new();
         for system in systems {
-            if let Some(rootless) = carrying_the_dilatation(arena, &self.chart, &system) {
+            let free = !self.multiplier && self.chart.confined.is_none();
+            if let Some(rootless) =
+                free.then(|| carrying_the_dilatation(arena, &self.chart, &system)).flatten()
+            {
                 reductions.push(self.state_only(arena, rootless, layout));
             }
             reductions.push(self.state_only(arena, system, layout));
@@ -274,7 +287,7 @@ impl Plan {
         let gauge = gauge(&chart, turned, layout);
         let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
         system = system.substitute(&value).tidied(arena);
-        let fixed = take_constants(&mut system);
+        let fixed = if self.multiplier { Vec::new() } else { take_constants(&mut system) };
         let carried = system.rates.iter().any(|(z, ..)| matches!(z, Coordinate::Carried(_)));
         let states = states("phi", chart.momentum.symbol(), &system);
         Reduction {

@@ -6,7 +6,7 @@ use syn::parse::Parser;
 use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
 use super::expression_parser::{self, Language};
 use super::momentum_side::{self, MomentumKind};
-use super::names::{Capability, Claim, Named, Requirement, TermKind, nearest};
+use super::names::{Capability, Claim, Constraint, Named, Requirement, TermKind, nearest};
 use super::{Item, Metric, Potential, Spanned, Spec, Symmetry, Term, value};
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
@@ -18,6 +18,7 @@ enum Key {
     Kinetic,
     Hamiltonian,
     Metrics,
+    Constraint,
     Potential,
     Require,
     Emit,
@@ -25,7 +26,7 @@ enum Key {
 }
 
 /// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 4] = ["group", "constraint", "dissipation", "forces"];
+const LATER_KEYS: [&str; 3] = ["group", "dissipation", "forces"];
 
 /// Terms that `hamiltonian(...)` has and `kinetic(...)` has not.
 const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
@@ -41,6 +42,7 @@ impl Named for Key {
         Self::Kinetic,
         Self::Hamiltonian,
         Self::Metrics,
+        Self::Constraint,
         Self::Potential,
         Self::Require,
         Self::Emit,
@@ -54,6 +56,7 @@ impl Named for Key {
             Self::Kinetic => "kinetic",
             Self::Hamiltonian => "hamiltonian",
             Self::Metrics => "metrics",
+            Self::Constraint => "constraint",
             Self::Potential => "potential",
             Self::Require => "require",
             Self::Emit => "emit",
@@ -72,6 +75,7 @@ impl Key {
                 "hamiltonian(casimir2 = 5/6, casimir1_squared = -1/18, vorticity_squared = 25/24)"
             }
             Self::Metrics => "metrics(space = diag(1, 1, 2), body = [[2, 1, 0], [1, 2, 0], [0, 0, 1]])",
+            Self::Constraint => "constraint = isochoric",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
             Self::Require => "require(positive_definite)",
             Self::Emit => "emit(splitting)",
@@ -104,6 +108,7 @@ pub(super) struct Arguments {
     symmetry: Option<Symmetry>,
     energy: Energy,
     metrics: [Option<Metric>; 2],
+    constraint: Option<Spanned<Constraint>>,
     potential: Option<Potential>,
     require: Vec<Spanned<Requirement>>,
     emit: Vec<Spanned<Capability>>,
@@ -118,7 +123,7 @@ enum Energy {
 
 impl Arguments {
     pub(super) fn of(self, item: Item) -> Spec {
-        let Self { dim, symmetry, energy, metrics, potential, require, emit, runtime } = self;
+        let Self { dim, symmetry, energy, metrics, constraint, potential, require, emit, runtime } = self;
         let (kinetic, hamiltonian, kinetic_key) = match energy {
             Energy::Kinetic(terms) => (terms.value, None, terms.span),
             Energy::Hamiltonian(terms) => (Vec::new(), Some(terms.value), terms.span),
@@ -131,6 +136,7 @@ impl Arguments {
             hamiltonian,
             kinetic_key,
             metrics,
+            constraint,
             potential,
             require,
             emit,
@@ -146,7 +152,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     let mut hamiltonian = None;
     let mut metric = [None, None];
     let (mut require, mut emit) = (Vec::new(), Vec::new());
-    let mut energy = None;
+    let (mut constraint, mut energy) = (None, None);
     for entry in entries {
         let at = entry.at;
         match entry.key {
@@ -159,6 +165,10 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
                 hamiltonian = Some((at, terms(HAMILTONIAN, expect_list(entry, found), at, found)));
             }
             Key::Metrics => metric = metrics(expect_list(entry, found), found),
+            Key::Constraint => {
+                let piece = expect_value(entry, found).ok();
+                constraint = piece.and_then(|Piece { tokens, at }| member("constraint", tokens, at, found));
+            }
             Key::Potential => energy = potential(expect_value(entry, found), at, found),
             Key::Require => require = members("requirement", expect_list(entry, found), found),
             Key::Emit => emit = members("capability", expect_list(entry, found), found),
@@ -177,6 +187,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
         symmetry,
         energy: stated?,
         metrics: metric,
+        constraint,
         potential: energy,
         require,
         emit,
