@@ -2,12 +2,15 @@
 
 mod error_norm;
 pub mod gauss;
+pub mod lie;
+pub mod rattle;
 pub mod runge_kutta;
 mod step_size;
 
 pub use error_norm::ErrorNorm;
 pub(crate) use error_norm::norm;
 pub use gauss::Gauss;
+
 pub use runge_kutta::RungeKutta8;
 
 use core::fmt;

@@ -95,6 +95,17 @@ impl<T: Scalar, const D: usize> StateVector<T> for [T; D] {
     }
 }
 
+/// The group to which a motion is confined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Constraint {
+    /// SL(n): `det phi = 1`.
+    Isochoric,
+    /// SO(n): `phi^T phi = 1`.
+    Rigid,
+    /// R+ SO(n): `phi^T phi` is a multiple of 1.
+    Conformal,
+}
+
 /// What was derived about a model; made by the macro alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Description {
@@ -123,6 +134,8 @@ pub struct Description {
     pub full_operations: Operations,
     /// Operations of the reduced equations.
     pub reduced_operations: Operations,
+    /// The group to which the motion is confined; `None` for all of GL+(n).
+    pub constraint: Option<Constraint>,
     /// What was taken out of the state, in words.
     pub left_out: &'static [&'static str],
 }

@@ -62,6 +62,7 @@ const fn description(name: &'static str) -> Description {
         reduced: &[],
         full_operations: NOTHING,
         reduced_operations: NOTHING,
+        constraint: None,
         left_out: &[],
     }
 }
