@@ -4,6 +4,7 @@
 mod chart;
 
 pub use chart::Chart;
+pub(crate) use chart::adjugate;
 
 use crate::model::StateVector;
 

@@ -3,8 +3,7 @@
 use affine_runtime::frames::Matrix;
 use affine_runtime::model::Constraint;
 
-pub(crate) const GROUPS: [Constraint; 3] =
-    [Constraint::Isochoric, Constraint::Rigid, Constraint::Conformal];
+pub(crate) const GROUPS: [Constraint; 3] = [Constraint::Isochoric, Constraint::Rigid, Constraint::Conformal];
 
 /// A matrix function of time with its derivative.
 #[derive(Clone, Copy)]
@@ -62,11 +61,8 @@ fn swing(w: f64, a: f64, t: f64) -> (f64, f64) {
 /// The curve on the group of `constraint` that the equations below have for a solution.
 pub(crate) fn exact<const N: usize>(constraint: Constraint, t: f64) -> Moving<N> {
     let last = N - 1;
-    let turn = Moving::rotation(0, 1, swing(1.3, 0.2, t)).times(&Moving::rotation(
-        0,
-        last,
-        (0.4 * t * t, 0.8 * t),
-    ));
+    let turn =
+        Moving::rotation(0, 1, swing(1.3, 0.2, t)).times(&Moving::rotation(0, last, (0.4 * t * t, 0.8 * t)));
     match constraint {
         Constraint::Rigid => turn,
         Constraint::Conformal => turn.times(&Moving::dilatation(swing(0.9, 0.1, t))),

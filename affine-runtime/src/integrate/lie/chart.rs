@@ -220,7 +220,7 @@ pub(crate) fn adjugate<const N: usize>(a: &Matrix<N>) -> Matrix<N> {
 }
 
 /// `det A`, by the first row.
-pub(crate) fn determinant<const N: usize>(a: &Matrix<N>) -> f64 {
+fn determinant<const N: usize>(a: &Matrix<N>) -> f64 {
     let cofactors = adjugate(a);
     (0..N).map(|k| a[(0, k)] * cofactors[(k, 0)]).sum()
 }

@@ -129,7 +129,15 @@ impl<S: StateVector<f64>> Step<S> {
             }
         }
         let base = Sum::of(self.y);
-        Dense { t: self.t, t_end: self.t_trial, y: self.y, y_end: self.y_trial, coefficients, coordinates: Flat, base }
+        Dense {
+            t: self.t,
+            t_end: self.t_trial,
+            y: self.y,
+            y_end: self.y_trial,
+            coefficients,
+            coordinates: Flat,
+            base,
+        }
     }
 
     /// Time at the end of the step as far as it is accepted.
