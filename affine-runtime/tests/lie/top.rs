@@ -78,10 +78,8 @@ fn errors(t: f64, y: &[f64; 12]) -> [f64; 3] {
     // The angle of the first axis about L, from the node of e_1 at the start.
     let axis = vector(&begin[9..]) / SQUARE.sqrt();
     let across = |e: affine_runtime::frames::Vector<3>| e - axis * axis.dot(&e);
-    let (from, to) = (
-        across(affine_runtime::frames::Vector::<3>::new(1.0, 0.0, 0.0)),
-        across(phi.column(0).into_owned()),
-    );
+    let (from, to) =
+        (across(affine_runtime::frames::Vector::<3>::new(1.0, 0.0, 0.0)), across(phi.column(0).into_owned()));
     let found = axis.dot(&from.cross(&to)).atan2(from.dot(&to));
     let angle = precession(t);
     let turns = ((found - angle) / core::f64::consts::TAU).round();
@@ -104,9 +102,7 @@ fn precession(t: f64) -> f64 {
     let panels = (20.0 * t).ceil();
     let h = t / panels;
     (0..panels as usize)
-        .map(|k| {
-            NODES.iter().map(|(x, w)| w * rate(h * (k as f64 + 0.5 + 0.5 * x))).sum::<f64>() * 0.5 * h
-        })
+        .map(|k| NODES.iter().map(|(x, w)| w * rate(h * (k as f64 + 0.5 + 0.5 * x))).sum::<f64>() * 0.5 * h)
         .sum()
 }
 
@@ -123,7 +119,10 @@ fn order_8_follows_the_elliptic_functions() {
         }
         assert!(defect(Constraint::Rigid, &Matrix::<3>::from_row_slice(&run.y()[..9])) < 1e-14);
     }
-    println!("free top to t = {t_end}: body {:e}, L in space {:e}, precession {:e}", worst[0], worst[1], worst[2]);
+    println!(
+        "free top to t = {t_end}: body {:e}, L in space {:e}, precession {:e}",
+        worst[0], worst[1], worst[2]
+    );
     // Roundings of some hundred steps, grown linearly by the error of the frequency.
     assert!(worst.iter().all(|error| *error < 3e-12), "{worst:?}");
 }
