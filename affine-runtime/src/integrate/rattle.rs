@@ -3,8 +3,12 @@
 mod composition;
 mod constraint;
 mod layout;
+#[cfg(feature = "std")]
+mod reaction;
 
 pub use composition::Composition;
+#[cfg(feature = "std")]
+pub(crate) use reaction::Reaction;
 
 use core::fmt;
 
@@ -33,6 +37,9 @@ const START: f64 = 1e-10;
 /// iterated to rounding by Newton's method, and `nu` is linear: both constraints hold to rounding at each step, whatever
 /// the number of steps. Multipliers change neither spin nor vorticity, whose conservation is that of the free steps:
 /// exact up to rounding where `U` is invariant. States are summed with compensation.
+///
+/// Where a step is far too long for the motion, `mu` need not be unique: the one found is the one that the iteration leads
+/// to from the multiplier of the step before.
 ///
 /// The equations are those of the body without constraint: the state holds the groups `phi` and `Pi`, with `x` and `p`
 /// or without, and its time derivative is `T'(Pi)` and the force. A multiple of `adj(phi)` in the force is immaterial.

@@ -12,7 +12,7 @@ use crate::frames::Matrix;
 use crate::geodesic::{Geodesic, Motion};
 use crate::integrate::gauss::{Tableau, step_count};
 use crate::integrate::lie::{Chart, Coordinates, Flat};
-use crate::integrate::rattle::Composition;
+use crate::integrate::rattle::{Composition, Reaction};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics, norm};
 use crate::kinematics::LogDeterminant;
 use crate::model::{Constraint, Group, Model, StateVector};
@@ -92,6 +92,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             }
             (Method::Automatic, None) | (Method::RungeKutta8 | Method::Gauss { .. }, _) => {
                 match chart::<N, M>() {
+                    Some(_) if is_canonical::<N, M>() => self.integrate_with_reaction(t_end, &mut recorder),
                     Some(chart) => self.integrate(chart, t_end, &mut recorder),
                     None => self.integrate(Flat, t_end, &mut recorder),
                 }
@@ -171,8 +172,44 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let (reduced, constants) = model.reduce(self.t0, &self.start);
         let equations = |t: f64, reduced: &M::Reduced<f64>| model.reduced_equations(t, &constants, reduced);
         let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
-        let groups = M::DESCRIPTION.reduced;
-        let begin = (self.t0, reduced);
+        let state = (M::DESCRIPTION.reduced, reduced);
+        self.integrate_in(coordinates, equations, state, expand, t_end, recorder)
+    }
+
+    /// The phase point of a separable isochoric body on SL(n): its equations are the free ones, to which the multiplier is
+    /// added.
+    fn integrate_with_reaction(
+        &mut self,
+        t_end: f64,
+        recorder: &mut Recorder<'_, '_, N, M>,
+    ) -> Result<(), Reason> {
+        let model = self.model;
+        recorder.begin(self.t0, self.start)?;
+        let groups = M::DESCRIPTION.full;
+        let free = |t: f64, full: &M::Full<f64>| model.hamilton_equations(t, full);
+        let start = model.flatten(&self.start);
+        let reaction = Reaction::<N>::of(groups, &free, (self.t0, &start));
+        let reaction = reaction.map_err(|failure| self.reason(failure))?;
+        let placement =
+            placement_in(groups, N).ok_or(Setting::NotSeparable { model: M::DESCRIPTION.name })?;
+        let chart = Chart::<N>::new(Constraint::Isochoric, placement.start);
+        let equations = |t: f64, full: &M::Full<f64>| reaction.rates(&free, t, full);
+        let expand = |_: f64, full: &M::Full<f64>| model.unflatten(&reaction.with_momentum(full));
+        let state = (groups, reaction.with_velocity(&start));
+        self.integrate_in(chart, equations, state, expand, t_end, recorder)
+    }
+
+    /// Integration of a state by the method asked for.
+    fn integrate_in<S: StateVector<f64>>(
+        &mut self,
+        coordinates: impl Coordinates<S>,
+        equations: impl Fn(f64, &S) -> S,
+        (groups, start): (&'static [Group], S),
+        expand: impl Fn(f64, &S) -> M::Point<f64>,
+        t_end: f64,
+        recorder: &mut Recorder<'_, '_, N, M>,
+    ) -> Result<(), Reason> {
+        let begin = (self.t0, start);
         match self.method {
             Method::Gauss { stages, step } => {
                 let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
@@ -383,6 +420,11 @@ fn energy_scale<const N: usize, M: Model<N>>(model: &M, point: &M::Point<f64>, e
 fn chart<const N: usize, M: Model<N>>() -> Option<Chart<N>> {
     let placement = placement_in(M::DESCRIPTION.reduced, N)?;
     Some(Chart::new(M::DESCRIPTION.constraint?, placement.start))
+}
+
+/// The reduced equations are those of the body without constraint, over `phi` and `Pi`.
+fn is_canonical<const N: usize, M: Model<N>>() -> bool {
+    M::DESCRIPTION.reduced.iter().any(|group| group.name == "Pi")
 }
 
 /// Components of a state that are the placement, row by row, up to factors of positive determinant that
