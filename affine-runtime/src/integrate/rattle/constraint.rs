@@ -10,8 +10,11 @@ use crate::integrate::norm;
 const MOST_ITERATIONS: u32 = 30;
 /// Roundings of the products in a determinant.
 const ROUNDINGS: f64 = 4.0;
-/// What an iteration that no longer gains may leave.
+/// What an iteration that no longer gains may leave, relative to the products.
 const SOLVED: f64 = 1e-13;
+/// What it may leave of `det phi - 1` itself: where the products are so large that their rounding is more than that, the
+/// placement is lost, and with it the constraint.
+const RESOLVED: f64 = 1e-8;
 /// Corrections of the momentum: the first leaves the rounding of what it takes away, the second that of what is left.
 const CORRECTIONS: u32 = 2;
 
@@ -23,40 +26,42 @@ pub(super) struct Motion<const N: usize> {
     pub(super) along: Matrix<N>,
 }
 
-/// A multiplier, and what it leaves of `det phi - 1`, relative to the products in the determinant.
+/// A multiplier, and what it leaves of `det phi - 1`: relative to the products in the determinant, and itself.
 pub(super) struct Found {
     pub(super) value: f64,
     pub(super) residual: f64,
+    defect: f64,
 }
 
 /// `mu` with `det phi(mu) = 1`, by Newton's iteration from `guess`: on a polynomial of degree n.
 pub(super) fn multiplier<const N: usize>(motion: &Motion<N>, guess: f64) -> Result<Found, Failure> {
     let mut value = guess;
-    let mut best = Found { value, residual: f64::INFINITY };
+    let mut best = Found { value, residual: f64::INFINITY, defect: f64::INFINITY };
     for _ in 0..MOST_ITERATIONS {
         let phi = motion.phi + (motion.carry + motion.free + motion.along * value);
         let cofactors = adjugate(&phi);
         let products = |k: usize| phi[(0, k)] * cofactors[(k, 0)];
         let determinant: f64 = (0..N).map(products).sum();
         let size: f64 = (0..N).map(|k| products(k).abs()).sum();
-        let residual = (determinant - 1.0).abs() / size;
+        let defect = (determinant - 1.0).abs();
+        let residual = defect / size;
         if residual.is_nan() {
             break;
         }
         // At rounding, another iteration may gain or lose a rounding.
         let gains = residual < best.residual;
         if gains {
-            best = Found { value, residual };
+            best = Found { value, residual, defect };
         }
         if best.residual <= ROUNDINGS * f64::EPSILON || (!gains && best.residual <= SOLVED) {
             break;
         }
         value -= (determinant - 1.0) / pairing(&cofactors, &motion.along);
     }
-    if best.residual <= SOLVED {
+    if best.residual <= SOLVED && best.defect <= RESOLVED {
         Ok(best)
-    } else if best.residual.is_finite() {
-        Err(Failure::NoSolution { residual: best.residual })
+    } else if best.defect.is_finite() {
+        Err(Failure::NoSolution { residual: best.defect })
     } else {
         Err(Failure::NotFinite)
     }
