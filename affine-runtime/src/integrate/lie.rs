@@ -62,7 +62,7 @@ pub trait Coordinates<S: StateVector<f64>>: Copy {
     fn middle(&self, base: &Sum<S>, rise: &S) -> Sum<S>;
 
     /// The coordinates around [`middle`](Self::middle) of the point `z` as counted from the beginning of the step.
-    fn from_middle(&self, z: &S, rise: &S) -> S;
+    fn centred(&self, z: &S, rise: &S) -> S;
 
     /// The end of a step of total increment `rise`: from `base` to the middle and once more as far.
     fn end(&self, base: &Sum<S>, rise: &S) -> Sum<S>;
@@ -94,7 +94,7 @@ impl<S: StateVector<f64>> Coordinates<S> for Flat {
         *base
     }
     #[inline(always)]
-    fn from_middle(&self, z: &S, _rise: &S) -> S {
+    fn centred(&self, z: &S, _rise: &S) -> S {
         *z
     }
     #[inline(always)]

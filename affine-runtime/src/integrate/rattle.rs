@@ -3,12 +3,10 @@
 mod composition;
 mod constraint;
 mod layout;
-#[cfg(feature = "std")]
 mod reaction;
 
 pub use composition::Composition;
-#[cfg(feature = "std")]
-pub(crate) use reaction::Reaction;
+pub use reaction::Reaction;
 
 use core::fmt;
 

@@ -45,7 +45,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Field<'_, S, F
     fn over(&self, rise: S) -> impl Fn(f64, &S) -> S + '_ {
         let middle = self.coordinates.middle(self.base, &rise);
         move |t, z| {
-            let z = self.coordinates.from_middle(z, &rise);
+            let z = self.coordinates.centred(z, &rise);
             let state = self.coordinates.state(&middle, &z).value;
             self.coordinates.velocity(&state, &z, &(self.f)(t, &state))
         }

@@ -148,7 +148,7 @@ impl<const N: usize, S: StateVector<f64>> Coordinates<S> for Chart<N> {
         self.placed(base, *base, &self.displacement(&(self.read(rise) * 0.5)))
     }
 
-    fn from_middle(&self, z: &S, rise: &S) -> S {
+    fn centred(&self, z: &S, rise: &S) -> S {
         let mut centred = *z;
         self.write(&mut centred, &(self.read(z) - self.read(rise) * 0.5));
         centred

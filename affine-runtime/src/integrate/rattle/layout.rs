@@ -13,7 +13,7 @@ const MOST: usize = 12;
 const ROUNDING: f64 = 1e-12;
 
 /// Components of a canonical state.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(super) struct Layout<const N: usize> {
     phi: Range<usize>,
     pi: Range<usize>,

@@ -15,8 +15,8 @@ use crate::model::{Group, StateVector};
 ///
 /// The hidden constraint is `tr Oh = 0`, linear with constant coefficients: every Runge-Kutta method keeps it up to
 /// rounding, as it keeps `det phi = 1` in a chart of SL(n).
-#[derive(Clone)]
-pub(crate) struct Reaction<const N: usize> {
+#[derive(Clone, Debug)]
+pub struct Reaction<const N: usize> {
     layout: Layout<N>,
 }
 
@@ -25,7 +25,7 @@ impl<const N: usize> Reaction<N> {
     ///
     /// # Errors
     /// [`Failure::NotSeparable`], [`Failure::NotFinite`].
-    pub(crate) fn of<S: StateVector<f64>>(
+    pub fn of<S: StateVector<f64>>(
         groups: &[Group],
         f: &impl Fn(f64, &S) -> S,
         (t, y): (f64, &S),
@@ -34,20 +34,22 @@ impl<const N: usize> Reaction<N> {
     }
 
     /// The state with `Oh` in the place of `Pi`.
-    pub(crate) fn with_velocity<S: StateVector<f64>>(&self, state: &S) -> S {
+    #[must_use]
+    pub fn with_velocity<S: StateVector<f64>>(&self, state: &S) -> S {
         let velocity = self.layout.placement(&self.layout.drift(state, 1.0));
         let oh = without_trace(&(adjugate(&self.layout.placement(state)) * velocity));
         self.layout.with_momentum(state, &oh)
     }
 
     /// The state with `Pi` again.
-    pub(crate) fn with_momentum<S: StateVector<f64>>(&self, state: &S) -> S {
+    #[must_use]
+    pub fn with_momentum<S: StateVector<f64>>(&self, state: &S) -> S {
         let velocity = self.layout.placement(state) * self.layout.momentum_of(state);
         self.layout.with_momentum(state, &self.layout.legendre(&velocity))
     }
 
     /// The time derivative of a state with `Oh`.
-    pub(crate) fn rates<S: StateVector<f64>>(&self, f: &impl Fn(f64, &S) -> S, t: f64, state: &S) -> S {
+    pub fn rates<S: StateVector<f64>>(&self, f: &impl Fn(f64, &S) -> S, t: f64, state: &S) -> S {
         let free = f(t, &self.with_momentum(state));
         let oh = self.layout.momentum_of(state);
         let inverse = adjugate(&self.layout.placement(state));
