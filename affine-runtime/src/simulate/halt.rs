@@ -99,6 +99,26 @@ pub enum Setting {
         /// The number of stages asked for.
         given: usize,
     },
+    /// RATTLE is available with the orders 2, 4, 6 and 8.
+    Order {
+        /// The order asked for.
+        given: usize,
+    },
+    /// RATTLE was asked for, and the model is not isochoric.
+    NotIsochoric {
+        /// Name of the model.
+        model: &'static str,
+    },
+    /// RATTLE was asked for, and the Hamiltonian is not `T(Pi) + U(phi)`.
+    NotSeparable {
+        /// Name of the model.
+        model: &'static str,
+    },
+    /// The start is off the constraint `det phi = 1` or its velocity off `tr(phi^-1 phi_dot) = 0`.
+    OffConstraint {
+        /// The larger of the two relative defects.
+        defect: f64,
+    },
     /// The length of a fixed step is not positive, not finite, or lost in the rounding of times.
     Step {
         /// Its value.
@@ -142,14 +162,6 @@ pub enum Setting {
         /// Name of the model.
         model: &'static str,
     },
-    /// The motion is confined to a group, has no closed form from this start, and there is no method that stays on the
-    /// group.
-    NoConstrainedMethod {
-        /// Name of the model.
-        model: &'static str,
-        /// Its constraint.
-        constraint: crate::model::Constraint,
-    },
 }
 
 impl fmt::Display for Setting {
@@ -166,6 +178,24 @@ impl fmt::Display for Setting {
             Setting::Stages { given } => write!(
                 f,
                 "Gauss collocation with {given} stages: give 2 stages, of order 4, or 3, of order 6"
+            ),
+            Setting::Order { given } => {
+                write!(f, "RATTLE of order {given}: its compositions have the orders 2, 4, 6 and 8")
+            }
+            Setting::NotIsochoric { model } => write!(
+                f,
+                "{model} is not confined to det phi = 1, the constraint that RATTLE keeps: use Method::Automatic, or \
+                 say `constraint = isochoric`"
+            ),
+            Setting::NotSeparable { model } => write!(
+                f,
+                "the Hamiltonian of {model} is not T(Pi) + U(phi) with T quadratic, as in the model of d'Alembert: use \
+                 Method::Gauss or Method::Automatic, which take steps on the group"
+            ),
+            Setting::OffConstraint { defect } => write!(
+                f,
+                "the start is off det phi = 1, or its velocity off tr(phi^-1 phi_dot) = 0, by {defect:e}: scale phi by \
+                 det(phi)^(-1/n), and take the part of the velocity along phi away"
             ),
             Setting::Step { given, t0, t_end } => write!(
                 f,
@@ -186,11 +216,6 @@ impl fmt::Display for Setting {
                 f,
                 "output time {t} (number {index} of the list, from 0) does not come after {before}: list each time \
                  once, in the direction of the run"
-            ),
-            Setting::NoConstrainedMethod { model, constraint } => write!(
-                f,
-                "{model} is {constraint} and has no closed form from this start: the methods of this version step \
-                 components and would leave the constraint; integrate its equations by a method on the group"
             ),
             Setting::NoClosedForm { model } => write!(
                 f,

@@ -1,7 +1,9 @@
 //! Models written by hand, as the macro would write them but for the reduction.
 
 pub(crate) mod drunk_missile;
+pub(crate) mod incompressible_disc;
 pub(crate) mod planar;
+pub(crate) mod top;
 pub(crate) mod vibrating_body;
 
 use affine_runtime::frames::{Matrix, Vector};
