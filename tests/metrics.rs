@@ -52,7 +52,7 @@ fn agrees<const N: usize, M: Model<N>>(
         let velocity = model.velocity(&point);
         close("x_dot", velocity.x_dot.as_slice(), &expected.x_dot, 1.0);
         close("phi_dot", &rows(&velocity.phi_dot), &expected.phi_dot, 1.0);
-        close("H", &[model.hamiltonian(&point)], &[expected.hamiltonian], 10.0);
+        close("H", &[model.hamiltonian(0.0, &point)], &[expected.hamiltonian], 10.0);
         close("T", &[model.kinetic_energy(point.phi(), &velocity)], &[expected.hamiltonian], 10.0);
         let again = back(&point, &velocity);
         close("Pi", &rows(&again.pi().0.0), &state.pi.to_f64(), 1.0);
@@ -242,7 +242,7 @@ fn motions() {
     let q = 0.25 * green.determinant().ln();
     let potential = q.sinh().powi(2) + 0.5 * (green.trace() * (-2.0 * q).exp() - 2.0);
     let free = Free.at_momentum(phi, spin).unwrap();
-    close("U", &[Vibrating.hamiltonian(&start) - Free.hamiltonian(&free)], &[potential], 1.0);
+    close("U", &[Vibrating.hamiltonian(0.0, &start) - Free.hamiltonian(0.0, &free)], &[potential], 1.0);
 
     let geodesic = Free.geodesic(0.0, &free).expect("a closed form");
     let later = Free.on_geodesic(&geodesic, 2.0, &free);

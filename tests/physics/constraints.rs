@@ -111,7 +111,7 @@ fn agrees_with_the_oracle<const N: usize, M: Confined<N>>() {
         reference.assert_rate("phi", &entries(&velocity.phi_dot), UNDER_POTENTIAL);
         let energy = reference.expected.hamiltonian;
         let tolerance = UNDER_POTENTIAL * reference.condition;
-        assert_close("H", &[model.hamiltonian(&point)], &[energy], reference.energy_size(), tolerance);
+        assert_close("H", &[model.hamiltonian(0.0, &point)], &[energy], reference.energy_size(), tolerance);
         let potential = Slopes::of(M::potential, T0, point.x().as_slice(), &entries(point.phi())).value;
         let kinetic = model.kinetic_energy(point.phi(), &velocity);
         assert_close("T", &[kinetic], &[energy - potential], reference.energy_size(), tolerance);

@@ -94,7 +94,7 @@ fn agrees_with_the_oracle<const N: usize, S: Statement<N>>() {
         let velocity = model.velocity(&point);
         at_point.assert_rate("x", velocity.x_dot.as_slice(), CANONICAL);
         at_point.assert_rate("phi", &entries(&velocity.phi_dot), CANONICAL);
-        let (found, expected) = (model.hamiltonian(&point), at_point.expected.hamiltonian);
+        let (found, expected) = (model.hamiltonian(0.0, &point), at_point.expected.hamiltonian);
         let size = at_point.energy_size() * at_point.condition;
         assert_close("H", &[found], &[expected], size, CANONICAL);
 
@@ -258,7 +258,7 @@ fn velocities_lead_back() {
         let tolerance = CANONICAL * 128.0 * phi.norm() * phi.try_inverse().unwrap().norm();
         assert_close("p", back.p().as_slice(), p.as_slice(), p.norm(), tolerance);
         assert_close("Pi", &entries(&back.pi().0.0), &entries(&pi), pi.norm(), tolerance);
-        let (t, h) = (model.kinetic_energy(&phi, &velocity), model.hamiltonian(&point));
+        let (t, h) = (model.kinetic_energy(&phi, &velocity), model.hamiltonian(0.0, &point));
         let size = p.norm() * velocity.x_dot.norm() + pi.norm() * velocity.phi_dot.norm();
         assert_close("T", &[t], &[h], size, tolerance);
     }

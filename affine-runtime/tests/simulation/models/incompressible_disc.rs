@@ -28,8 +28,8 @@ impl Model<2> for IncompressibleDisc {
     fn kinetic_energy<T: Real>(&self, phi: &Matrix<2, T>, velocity: &Velocity<2, T>) -> T {
         Planar::SPRING.kinetic_energy(phi, velocity)
     }
-    fn hamiltonian<T: Real>(&self, point: &Disc<T>) -> T {
-        Planar::SPRING.hamiltonian(point)
+    fn hamiltonian<T: Real>(&self, t: T, point: &Disc<T>) -> T {
+        Planar::SPRING.hamiltonian(t, point)
     }
     fn flatten<T: Real>(&self, point: &Disc<T>) -> [T; 8] {
         Planar::SPRING.flatten(point)

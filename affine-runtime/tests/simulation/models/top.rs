@@ -46,7 +46,7 @@ impl Model<3> for Top {
         let weighted = Matrix::<3, T>::from_fn(|a, b| oh[(a, b)] * T::constant(0.5 * J[b], 0.0));
         weighted.dot(&oh)
     }
-    fn hamiltonian<T: Real>(&self, point: &Body3<T>) -> T {
+    fn hamiltonian<T: Real>(&self, _t: T, point: &Body3<T>) -> T {
         let spin = point.sigma_hat().0.0;
         spin.transpose().dot(&affine_velocity(&spin)) * T::constant(0.5, 0.0)
     }
