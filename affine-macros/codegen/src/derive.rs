@@ -8,6 +8,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::check::{Form, eigenvalues, signature};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::ir::taylor::Recurrence;
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::describe::{self, Formula};
@@ -17,6 +18,7 @@ use crate::mechanics::potential::Base;
 use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 use crate::optimise::{Batch, straight_line};
+use crate::spec::{Capability, Spanned};
 
 use prepared::{coefficient_program, conditions, numeric_blocks};
 use programs::{best_reduction, full_chart, full_equations};
@@ -71,6 +73,8 @@ pub struct Model {
     pub groups: (Group, Group),
     /// `T`, `H`, and the equations.
     pub formulas: Formulas,
+    /// Taylor coefficients of the reduced equations, if asked for.
+    pub taylor: Option<Recurrence>,
 }
 
 /// The derivation as formulas.
@@ -228,7 +232,23 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         has_potential: potential.is_some(),
         groups,
         formulas,
+        taylor: None,
     })
+}
+
+impl Model {
+    /// Derives what `emit(...)` asks for.
+    #[must_use]
+    pub fn with(mut self, capabilities: &[Spanned<Capability>]) -> Self {
+        for capability in capabilities {
+            if capability.value == Capability::Taylor {
+                let states: Vec<String> =
+                    self.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect();
+                self.taylor = Some(Recurrence::of(&self.reduced.program, &states));
+            }
+        }
+        self
+    }
 }
 
 fn result(name: &str, polynomial: Polynomial) -> Batch {

@@ -8,6 +8,7 @@ mod names;
 mod points;
 mod prepare;
 mod reduction;
+mod taylor;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -33,6 +34,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let constants = reduction::constants_type(&context);
     let implementation = model_impl(&context);
     let points = points::inherent(&context);
+    let taylor = taylor::taylor_impl(&context);
     quote! {
         #item
         #prepared_type
@@ -42,6 +44,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #constants
             #implementation
             #points
+            #taylor
         };
     }
 }
@@ -168,6 +171,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let dynamics = dynamics::methods(context);
     let reduction = reduction::methods(context);
     let geodesic = closed_form::geodesic(context);
+    let taylor = taylor::capability(context);
     quote! {
         #(#[doc = #docs])*
         impl #generics #rt::Model<#n> for #prepared #types #clause {
@@ -179,6 +183,7 @@ fn model_impl(context: &Context) -> TokenStream {
             #dynamics
             #reduction
             #geodesic
+            #taylor
         }
     }
 }

@@ -4,6 +4,7 @@ pub mod build;
 pub mod count;
 pub mod fuse;
 pub mod run;
+pub mod taylor;
 
 use crate::algebra::{Function, Rational};
 
