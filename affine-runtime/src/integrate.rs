@@ -4,11 +4,13 @@ mod error_norm;
 pub mod gauss;
 pub mod runge_kutta;
 mod step_size;
+pub mod taylor;
 
 pub use error_norm::ErrorNorm;
 pub(crate) use error_norm::norm;
 pub use gauss::Gauss;
 pub use runge_kutta::RungeKutta8;
+pub use taylor::Taylor;
 
 use core::fmt;
 

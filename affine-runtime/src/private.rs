@@ -2,12 +2,16 @@
 
 pub use core::primitive::f64;
 
+pub use crate::capability::{Emitted, Taylor};
 pub use crate::decompose::skew_exponential;
 pub use crate::error::Result;
 pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,
 };
 pub use crate::geodesic::{Geodesic, Motion};
+pub use crate::integrate::taylor::{
+    Series, add_multiple, add_products, subtract_multiple, subtract_products,
+};
 pub use crate::kinematics::mean_log_stretch;
 pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Velocity};
 pub use crate::reduction::{

@@ -23,13 +23,19 @@ use output::Output;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
-    /// The closed form where model and start have one, else [`Method::RungeKutta8`].
+    /// The closed form where model and start have one; else [`Method::Taylor`] where `emit(taylor)` asked for it and
+    /// the tolerance is at most [`TAYLOR_TOLERANCE`]; else [`Method::RungeKutta8`].
     #[default]
     Automatic,
     /// The closed form; an error where there is none.
     ClosedForm,
     /// Embedded explicit Runge-Kutta method of order 8, [`RungeKutta8`](crate::integrate::RungeKutta8).
     RungeKutta8,
+    /// Taylor series, [`Taylor`](crate::integrate::Taylor), of a model with `emit(taylor)`; an error for others.
+    Taylor {
+        /// The order, 2 to 32; `None`: the one that suits the tolerance.
+        order: Option<usize>,
+    },
     /// Gauss collocation, [`Gauss`](crate::integrate::Gauss): implicit, symmetric, of order `2 stages`, in equal
     /// steps; the tolerance plays no part. Keeps every linear and quadratic first integral of the reduced equations
     /// up to rounding, and is symplectic where the reduced variables are canonical, `phi` and `Pi`. With affine spins
@@ -68,6 +74,8 @@ impl Progress {
 
 /// Tolerance of a simulation that names none.
 pub const DEFAULT_TOLERANCE: f64 = 1e-10;
+/// [`Method::Automatic`] takes Taylor series from this tolerance down, where they were emitted: there they win.
+pub const TAYLOR_TOLERANCE: f64 = 1e-8;
 /// Steps of a simulation that names no limit.
 pub const DEFAULT_MAX_STEPS: u64 = 1_000_000;
 

@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::trajectory::Trajectory;
 use crate::error::Error;
+use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER};
 use crate::state::Phase;
 
 /// A run that did not reach its end: the stop, and the trajectory up to there.
@@ -99,6 +100,18 @@ pub enum Setting {
         /// The number of stages asked for.
         given: usize,
     },
+    /// A Taylor polynomial is of order 2 to 32.
+    Order {
+        /// The order asked for.
+        given: usize,
+    },
+    /// The method needs a capability that the model was not given.
+    NotEmitted {
+        /// Name of the model.
+        model: &'static str,
+        /// What `emit(...)` should list.
+        key: &'static str,
+    },
     /// The length of a fixed step is not positive, not finite, or lost in the rounding of times.
     Step {
         /// Its value.
@@ -158,6 +171,16 @@ impl fmt::Display for Setting {
             Setting::Stages { given } => write!(
                 f,
                 "Gauss collocation with {given} stages: give 2 stages, of order 4, or 3, of order 6"
+            ),
+            Setting::Order { given } => write!(
+                f,
+                "Taylor series of order {given}: give an order from {LOWEST_ORDER} to {HIGHEST_ORDER}, or `None` for \
+                 the one that suits the tolerance"
+            ),
+            Setting::NotEmitted { model, key } => write!(
+                f,
+                "{model} was not given `{key}`: write `emit({key})` in its `#[affine_model(...)]`, or use \
+                 Method::Automatic, which takes what there is"
             ),
             Setting::Step { given, t0, t_end } => write!(
                 f,

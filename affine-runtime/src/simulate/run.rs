@@ -7,10 +7,11 @@ use super::halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
 use super::output::{Schedule, without_steps};
 use super::stepper::{Explicit, Stepper};
 use super::trajectory::{Computation, Energies, Trajectory};
-use super::{Method, Observe, Progress, Simulation, Watch};
+use super::{Method, Observe, Progress, Simulation, TAYLOR_TOLERANCE, Watch};
 use crate::frames::Matrix;
 use crate::geodesic::{Geodesic, Motion};
 use crate::integrate::gauss::{Tableau, step_count};
+use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER, Taylor};
 use crate::integrate::{Failure, Gauss, RungeKutta8, Statistics, norm};
 use crate::kinematics::LogDeterminant;
 use crate::model::{Group, Model, StateVector};
@@ -72,6 +73,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 closed_form_exists: false,
                 no_whirl: false,
                 at_rest: self.start.p().iter().all(|p| *p == 0.0),
+                missing: None,
                 residual: None,
             },
         }
@@ -88,7 +90,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             (Method::Automatic | Method::ClosedForm, Some(geodesic)) => {
                 self.evaluate(&geodesic, t_end, &mut recorder)
             }
-            (Method::Automatic, None) | (Method::RungeKutta8 | Method::Gauss { .. }, _) => {
+            (Method::Automatic, None)
+            | (Method::RungeKutta8 | Method::Taylor { .. } | Method::Gauss { .. }, _) => {
                 self.integrate(t_end, &mut recorder)
             }
         }
@@ -106,6 +109,11 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         }
         if self.max_steps == 0 {
             return Err(Setting::NoSteps);
+        }
+        if let Method::Taylor { order: Some(given) } = self.method
+            && !(LOWEST_ORDER..=HIGHEST_ORDER).contains(&given)
+        {
+            return Err(Setting::Order { given });
         }
         if let Method::Gauss { stages, step } = self.method {
             Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
@@ -146,26 +154,51 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         if recorder.schedule == Schedule::Steps || recorder.schedule.take_through(self.t0, false).is_some() {
             recorder.record(self.t0, self.start)?;
         }
+        let method = self.chosen(&mut recorder.trajectory.computation);
         let (reduced, constants) = model.reduce(self.t0, &self.start);
+        let groups = M::DESCRIPTION.reduced;
         let equations = |t: f64, reduced: &M::Reduced<f64>| model.reduced_equations(t, &constants, reduced);
         let begin = (self.t0, reduced);
-        match self.method {
+        match method {
+            Method::Taylor { order } => {
+                let series = model.taylor();
+                let series = series.ok_or(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "taylor" })?;
+                let integration =
+                    Taylor::new((series, constants), groups, begin, t_end, self.tolerance, order);
+                let mut integration = integration.map_err(|failure| self.reason(failure))?;
+                self.step_through(&mut integration, &constants, t_end, recorder)
+            }
             Method::Gauss { stages, step } => {
                 let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
                 let integration = Gauss::new(equations, tableau, begin, t_end, step);
                 let mut integration = integration.map_err(|failure| self.reason(failure))?;
-                recorder.trajectory.computation.method = self.method;
                 let outcome = self.step_through(&mut integration, &constants, t_end, recorder);
                 recorder.trajectory.computation.residual = Some(integration.residual());
                 outcome
             }
             _ => {
-                let groups = M::DESCRIPTION.reduced;
                 let integration = RungeKutta8::new(equations, groups, begin, t_end, self.tolerance);
                 let mut integration = Explicit::new(integration.map_err(|failure| self.reason(failure))?);
                 self.step_through(&mut integration, &constants, t_end, recorder)
             }
         }
+    }
+
+    /// The integrator to take, noted with what was missing for a better one.
+    fn chosen(&self, computation: &mut Computation) -> Method {
+        computation.method = match self.method {
+            Method::Automatic if self.tolerance <= TAYLOR_TOLERANCE => {
+                if self.model.taylor().is_some() {
+                    Method::Taylor { order: None }
+                } else {
+                    computation.missing = Some("taylor");
+                    Method::RungeKutta8
+                }
+            }
+            Method::Automatic => Method::RungeKutta8,
+            asked => asked,
+        };
+        computation.method
     }
 
     /// Steps to the end with output on the way, and the expansion of the last good step.

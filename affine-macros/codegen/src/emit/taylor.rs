@@ -20,7 +20,7 @@ pub(super) fn taylor_impl(context: &Context) -> TokenStream {
     let (generics, types, clause) = context.generics();
     let t = &context.names.scalar;
     let slots = number(recurrence.row.len());
-    let writer = Writer { context, recurrence };
+    let mut writer = Writer { context, recurrence, fixed: Vec::new() };
     let (start, next) = (writer.start(), writer.next());
     quote! {
         impl #generics #rt::Taylor<#n> for #prepared #types #clause {
@@ -49,6 +49,8 @@ pub(super) fn capability(context: &Context) -> TokenStream {
 struct Writer<'a> {
     context: &'a Context<'a>,
     recurrence: &'a Recurrence,
+    /// Values that do not move and that rules read, with their expressions.
+    fixed: Vec<(Value, TokenStream)>,
 }
 
 impl Writer<'_> {
@@ -119,6 +121,7 @@ impl Writer<'_> {
         quote! {
             fn start<#t: #rt::Scalar>(
                 &self,
+                _t: #t,
                 #constants: &Self::Constants<#t>,
                 #state: &Self::Reduced<#t>,
                 row: &mut Self::Row<#t>,
@@ -133,11 +136,13 @@ impl Writer<'_> {
     }
 
     /// `next`: one order more.
-    fn next(&self) -> TokenStream {
+    fn next(&mut self) -> TokenStream {
         let (rt, t) = (&self.context.names.rt, &self.context.names.scalar);
-        let fixed = self.with_results(self.fixed().into_iter());
+        let values = self.values_read_fixed();
+        let fixed = self.with_results(values.iter().copied());
         let (read, constants) = self.constants(&fixed);
-        let Body { lets, .. } = self.context.generic(&fixed);
+        let Body { lets, results } = self.context.generic(&fixed);
+        self.fixed = values.into_iter().zip(results).collect();
         let states = self.used_states();
         let used: Vec<&str> = states.iter().map(String::as_str).collect();
         let (bind, coefficient) = self.bind(&used, "coefficient");
@@ -155,14 +160,13 @@ impl Writer<'_> {
             }
             false => quote!(#t::zero()),
         });
-        let early_store = (!early_slots.is_empty())
-            .then(|| quote!(if let [_, .., row] = rows { #early_slots }));
-        let late_store = (!late_slots.is_empty())
-            .then(|| quote!(if let [_, .., row] = rows { #late_slots }));
+        let store = |slots: TokenStream| (!slots.is_empty()).then(|| quote!(if let [.., row] = rows { #slots }));
+        let (early_store, late_store) = (store(early_slots), store(late_slots));
+        let zeros = number(self.states().len());
         let middle = if self.recurrence.inner.is_empty() { quote!(..) } else { quote!(middle @ ..) };
         let first = if self.reads_first() { quote!(first) } else { quote!(_) };
         let open = (!self.recurrence.inner.is_empty() || self.reads_first()).then(|| {
-            quote!(let [#first, #middle, _] = &*rows else { return [#t::zero(); _] };)
+            quote!(let [#first, #middle, _] = &*rows else { return [#t::zero(); #zeros] };)
         });
         let order = if self.reads_order() { quote!(order) } else { quote!(_order) };
         quote! {
@@ -189,7 +193,7 @@ impl Writer<'_> {
     }
 
     /// Values that do not move and that rules read.
-    fn fixed(&self) -> Vec<Value> {
+    fn values_read_fixed(&self) -> Vec<Value> {
         let mut fixed: Vec<Value> = Vec::new();
         for (_, rule) in &self.recurrence.rules {
             let Rule::Sum(terms) = rule else { continue };
@@ -394,21 +398,9 @@ impl Writer<'_> {
         sum.unwrap_or_else(|| quote!(#t::zero()))
     }
 
-    /// A value that does not move: a number by its name, like everything else.
+    /// The expression of a value that does not move.
     fn fixed_value(&self, value: Value) -> TokenStream {
-        let program = self.with_results(std::iter::once(value));
-        match program.steps.as_slice() {
-            [Op::Constant(_)] => {
-                let fixed = self.fixed();
-                let all = self.context.generic(&self.with_results(fixed.iter().copied()));
-                let index = fixed.iter().position(|v| *v == value).unwrap_or(0);
-                all.results.get(index).cloned().unwrap_or_default()
-            }
-            _ => {
-                let name = self.ident(value);
-                quote!(#name)
-            }
-        }
+        self.fixed.iter().find(|(v, _)| *v == value).map(|(_, tokens)| tokens.clone()).unwrap_or_default()
     }
 
     /// The differential equation of each function, solved for the coefficient of order `k`.
