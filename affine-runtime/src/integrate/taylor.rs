@@ -103,7 +103,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             t_end,
             coefficients: [y0; HIGHEST_ORDER + 1],
             rows: [R::Row::zeros(); HIGHEST_ORDER],
-            length: 0.0,
+            length: (t_end - t0).abs(),
             failure: None,
             statistics: Statistics { evaluations: probes + 1, ..Statistics::default() },
             series,
@@ -169,7 +169,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             if last <= before || last.is_nan() { last } else { before }
         };
         let safety = libm::exp(-0.7 / (self.order - 1) as f64);
-        // Momenta may err the less, the longer the step.
+        // Momenta may err the less, the longer the step: one that is longer than guessed is measured again.
         let length = safety * within(self.length);
         if length > self.length { safety * within(length) } else { length }
     }

@@ -17,21 +17,25 @@ pub(super) struct Packed {
     pub places: Vec<(Place, bool)>,
 }
 
-/// The shorter of the ways to use vectors of two and of four lanes.
+/// How full multiplications have to be, round after round: widths of vectors, and least numbers of products.
+const WAYS: [(usize, &[usize]); 3] = [(4, &[4, 3, 2]), (4, &[2]), (2, &[2])];
+
+/// The cheapest of several greedy ways.
 pub(super) fn pack(products: &[Product], kept: &[Series]) -> Packed {
-    let two = pack_into(2, products, kept);
-    let four = pack_into(4, products, kept);
-    let cost = |packed: &Packed| packed.lanes * (packed.full.len() + packed.inner.len());
-    // As many multiplications in fewer instructions, or hardly more.
-    if 4 * cost(&four) <= 5 * cost(&two) { four } else { two }
+    let packed = WAYS.map(|(lanes, fills)| pack_into(lanes, fills, products, kept));
+    // For each order, a multiplication is done some ten times and a slot is filled once; vectors of four lanes take
+    // one instruction where the target has them, and two elsewhere.
+    let cost = |packed: &Packed| (2 + packed.lanes) * 10 * (packed.full.len() + packed.inner.len()) + 6 * packed.row.len();
+    let [first, rest @ ..] = packed;
+    rest.into_iter().fold(first, |best, other| if cost(&other) < cost(&best) { other } else { best })
 }
 
-fn pack_into(lanes: usize, products: &[Product], kept: &[Series]) -> Packed {
+fn pack_into(lanes: usize, fills: &[usize], products: &[Product], kept: &[Series]) -> Packed {
     let mut row = Row { lanes, vectors: Vec::new() };
     let mut drafts = [Vec::new(), Vec::new()];
     for (full, draft) in [(true, 0), (false, 1)] {
         let group: Vec<usize> = (0..products.len()).filter(|p| products[*p].full == full).collect();
-        drafts[draft] = cover(products, &group, &mut row);
+        drafts[draft] = cover(products, &group, fills, &mut row);
     }
     let slots = row.slots(&drafts, products, kept);
     let mut places = vec![(Place { full: true, sum: 0, lane: 0 }, false); products.len()];
@@ -123,16 +127,18 @@ impl Row {
 }
 
 /// Multiplications that form all products of a group.
-fn cover(products: &[Product], group: &[usize], row: &mut Row) -> Vec<Multiplication> {
+fn cover(products: &[Product], group: &[usize], fills: &[usize], row: &mut Row) -> Vec<Multiplication> {
     let mut open: Vec<usize> = group.to_vec();
     let mut chosen = Vec::new();
-    // Vectors that stand there already may serve this group as well.
-    for known in 0..row.vectors.len() {
-        take(products, &mut open, row, known, &mut chosen);
-    }
-    while let Some(best) = best_vector(products, &open, row) {
-        let vector = row.vector(best);
-        take(products, &mut open, row, vector, &mut chosen);
+    for &fill in fills {
+        // Vectors that stand there already may serve this group as well.
+        for known in 0..row.vectors.len() {
+            take(products, &mut open, row, (known, fill), &mut chosen);
+        }
+        while let Some(best) = best_vector(products, &open, fill, row) {
+            let vector = row.vector(best);
+            take(products, &mut open, row, (vector, fill), &mut chosen);
+        }
     }
     gather(products, &open, row, &mut chosen);
     chosen
@@ -163,12 +169,12 @@ fn lanes_with(
     vector.iter().enumerate().map(&mut lane).collect()
 }
 
-/// Takes every multiplication by `vector` that forms at least two open products.
+/// Takes every multiplication by `vector` that forms at least `fill` open products.
 fn take(
     products: &[Product],
     open: &mut Vec<usize>,
     row: &Row,
-    vector: usize,
+    (vector, fill): (usize, usize),
     chosen: &mut Vec<Multiplication>,
 ) {
     loop {
@@ -176,7 +182,7 @@ fn take(
             .into_iter()
             .max_by_key(|m| m.products.iter().flatten().count());
         match best {
-            Some(best) if best.products.iter().flatten().count() > 1 => {
+            Some(best) if best.products.iter().flatten().count() >= fill => {
                 open.retain(|p| !best.products.contains(&Some(*p)));
                 chosen.push(best);
             }
@@ -218,7 +224,7 @@ fn partners(products: &[Product], open: &[usize], members: &[Series]) -> Vec<Ser
 }
 
 /// The new vector that saves most multiplications, if any does.
-fn best_vector(products: &[Product], open: &[usize], row: &Row) -> Option<Vec<Series>> {
+fn best_vector(products: &[Product], open: &[usize], fill: usize, row: &Row) -> Option<Vec<Series>> {
     let mut factors: Vec<Series> = open.iter().flat_map(|p| products[*p].factors).collect();
     factors.sort_unstable();
     factors.dedup();
@@ -232,7 +238,7 @@ fn best_vector(products: &[Product], open: &[usize], row: &Row) -> Option<Vec<Se
         .collect();
     let mut candidates: Vec<Vec<Series>> = Vec::new();
     let mut propose = |set: Vec<Series>| {
-        for chunk in set.chunks(row.lanes).filter(|chunk| chunk.len() > 1) {
+        for chunk in set.chunks(row.lanes).filter(|chunk| chunk.len() >= fill) {
             if !candidates.iter().any(|known| known == chunk) {
                 candidates.push(chunk.to_vec());
             }
@@ -249,12 +255,12 @@ fn best_vector(products: &[Product], open: &[usize], row: &Row) -> Option<Vec<Se
         let vector = row.vector(candidate.clone());
         let mut open = open.to_vec();
         let mut chosen = Vec::new();
-        take(products, &mut open, &row, vector, &mut chosen);
+        take(products, &mut open, &row, (vector, fill), &mut chosen);
         chosen.iter().map(|m| m.products.iter().flatten().count() - 1).sum::<usize>()
     };
     let best = candidates.into_iter().rev().max_by_key(saving)?;
-    // Two products in one multiplication pay for the vector only if it serves more than once.
-    (saving(&best) > 1).then_some(best)
+    // A vector pays only if it serves more than once.
+    (saving(&best) >= fill).then_some(best)
 }
 
 /// Products that share nothing, side by side in vectors of their own.
