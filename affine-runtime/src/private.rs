@@ -10,7 +10,7 @@ pub use crate::frames::{
 };
 pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::integrate::taylor::{
-    Series, add_multiple, add_products, subtract_multiple, subtract_products,
+    Series, add_multiple, add_products, lanes, subtract_multiple, subtract_products,
 };
 pub use crate::kinematics::mean_log_stretch;
 pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Velocity};

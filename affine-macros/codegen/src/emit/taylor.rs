@@ -286,11 +286,8 @@ impl Writer<'_> {
         let rt = &self.context.names.rt;
         let sum = self.sum(stem, pass.sum);
         let vector = |row: TokenStream, slot: usize| {
-            let entries = (slot..slot + self.recurrence.lanes).map(|slot| {
-                let slot = number(slot);
-                quote!(#row[#slot])
-            });
-            quote!([#(#entries),*])
+            let slot = number(slot);
+            quote!(#rt::lanes(#row, #slot))
         };
         let left = vector(quote!(left), pass.left);
         let right = match pass.right {
