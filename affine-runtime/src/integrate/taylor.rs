@@ -159,19 +159,19 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     /// The longest step that the last two coefficients allow.
     fn longest(&self) -> f64 {
         let within = |h: f64| {
-            let longest = |j: usize| {
-                let (y, term) = (&self.coefficients[0], &self.coefficients[j]);
-                let error = self.error_norm.largest(h, y.as_ref(), y.as_ref(), |r| norm(&term.as_ref()[r]));
-                // No error, no bound; NaN stays.
-                if error == 0.0 { f64::INFINITY } else { libm::exp(libm::log(self.tolerance / error) / j as f64) }
+            // The logarithm of `(tolerance/|y_j|)^(1/j)`; no error is no bound, and NaN stays.
+            let logarithm = |j: usize| {
+                let (y, term) = (self.coefficients[0].as_ref(), self.coefficients[j].as_ref());
+                let error = self.error_norm.largest(h, y, y, |r| norm(&term[r]));
+                libm::log(self.tolerance / error) / j as f64
             };
-            let (last, before) = (longest(self.order), longest(self.order - 1));
-            if last <= before || last.is_nan() { last } else { before }
+            let (last, before) = (logarithm(self.order), logarithm(self.order - 1));
+            let least = if last <= before || last.is_nan() { last } else { before };
+            libm::exp(least - 0.7 / (self.order - 1) as f64)
         };
-        let safety = libm::exp(-0.7 / (self.order - 1) as f64);
+        let length = within(self.length);
         // Momenta may err the less, the longer the step: one that is longer than guessed is measured again.
-        let length = safety * within(self.length);
-        if length > self.length { safety * within(length) } else { length }
+        if length > self.length { within(length) } else { length }
     }
 
     /// `sum_(k > 0) y_k h^k`.

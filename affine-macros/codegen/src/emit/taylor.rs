@@ -150,9 +150,10 @@ impl Writer<'_> {
             self.recurrence.rules.iter().partition(|(value, _)| self.recurrence.ready[*value]);
         let early = ready.iter().map(|(value, rule)| self.statement(*value, rule));
         let late = late.iter().map(|(value, rule)| self.statement(*value, rule));
-        let (early_slots, late_slots) = (self.store(true), self.store(false));
-        let full = self.loops("full", &self.recurrence.full, &quote!(rows));
-        let inner = self.loops("inner", &self.recurrence.inner, &quote!(middle));
+        let (early_vectors, late_vectors) = (self.vectors(true), self.vectors(false));
+        let stored = self.stored();
+        let middle = self.loops();
+        let ends = self.recurrence.full.iter().map(|pass| self.ends(pass));
         let rates = self.recurrence.program.outputs.iter().map(|(_, v)| match self.recurrence.moving[*v] {
             true => {
                 let rate = self.ident(*v);
@@ -160,14 +161,10 @@ impl Writer<'_> {
             }
             false => quote!(#t::zero()),
         });
-        let store = |slots: TokenStream| (!slots.is_empty()).then(|| quote!(if let [.., row] = rows { #slots }));
-        let (early_store, late_store) = (store(early_slots), store(late_slots));
         let zeros = number(self.states().len());
-        let middle = if self.recurrence.inner.is_empty() { quote!(..) } else { quote!(middle @ ..) };
-        let first = if self.reads_first() { quote!(first) } else { quote!(_) };
-        let open = (!self.recurrence.inner.is_empty() || self.reads_first()).then(|| {
-            quote!(let [#first, #middle, _] = &*rows else { return [#t::zero(); #zeros] };)
-        });
+        let open = (!self.recurrence.row.is_empty())
+            .then(|| quote!(let [first, middle @ .., row] = rows else { return [#t::zero(); #zeros] };));
+        let rows = if self.recurrence.row.is_empty() { quote!(_rows) } else { quote!(rows) };
         let order = if self.reads_order() { quote!(order) } else { quote!(_order) };
         quote! {
             fn next<#t: #rt::Scalar>(
@@ -175,18 +172,19 @@ impl Writer<'_> {
                 #order: #t,
                 #constants: &Self::Constants<#t>,
                 #coefficient: &Self::Reduced<#t>,
-                rows: &mut [Self::Row<#t>],
+                #rows: &mut [Self::Row<#t>],
             ) -> Self::Reduced<#t> {
                 #read
                 #lets
+                #open
+                #middle
                 #bind
                 #(#early)*
-                #early_store
-                #full
-                #open
-                #inner
+                #early_vectors
+                #(#ends)*
                 #(#late)*
-                #late_store
+                #late_vectors
+                #stored
                 [#(#rates),*]
             }
         }
@@ -232,13 +230,6 @@ impl Writer<'_> {
             .collect()
     }
 
-    fn reads_first(&self) -> bool {
-        self.recurrence.rules.iter().any(|(_, rule)| match rule {
-            Rule::Sum(terms) => terms.iter().any(|(_, term)| matches!(term, Term::Ends(..))),
-            Rule::Quotient { .. } | Rule::Function { .. } => true,
-        })
-    }
-
     fn reads_order(&self) -> bool {
         let weighted = |rule: &Rule| {
             matches!(rule, Rule::Function { function, .. } if !matches!(function, Function::Sqrt | Function::Abs))
@@ -247,30 +238,72 @@ impl Writer<'_> {
             || self.recurrence.row.iter().flatten().any(|s| s.rate)
     }
 
-    /// Fills the slots of ready series, or of the others.
-    fn store(&self, ready: bool) -> TokenStream {
-        let slots = self.recurrence.row.iter().enumerate();
-        let kept = slots.filter_map(|(slot, series)| series.map(|s| (slot, s)));
-        kept.filter(|(_, s)| (self.recurrence.ready[s.value] && !s.rate) == ready)
-            .map(|(slot, series)| {
-                let (slot, value) = (number(slot), self.ident(series.value));
-                if series.rate { quote!(row[#slot] = #value * order;) } else { quote!(row[#slot] = #value;) }
+    /// A series at order `k`.
+    fn current(&self, series: Series) -> TokenStream {
+        let value = self.ident(series.value);
+        if series.rate { quote!(#value * order) } else { quote!(#value) }
+    }
+
+    /// The vectors of ready series, or the others: all lanes of a row that begin at `slot`.
+    fn vectors(&self, ready: bool) -> TokenStream {
+        let t = &self.context.names.scalar;
+        let is_ready = |series: &Option<Series>| series.is_none_or(|s| self.recurrence.ready[s.value] && !s.rate);
+        let vectors = self.recurrence.row[..self.recurrence.vectors].chunks(self.recurrence.lanes).enumerate();
+        vectors
+            .filter(|(_, vector)| vector.iter().all(is_ready) == ready)
+            .map(|(index, vector)| {
+                let name = self.vector(index * self.recurrence.lanes);
+                let entries = vector.iter().map(|series| match series {
+                    Some(series) => self.current(*series),
+                    None => quote!(#t::zero()),
+                });
+                quote!(let #name = [#(#entries),*];)
             })
             .collect()
     }
 
-    /// The loops of a list of convolutions over `rows`.
-    fn loops(&self, stem: &str, passes: &[Pass], rows: &TokenStream) -> TokenStream {
+    fn vector(&self, slot: usize) -> Ident {
+        format_ident!("lanes_{}", slot / self.recurrence.lanes + 1)
+    }
+
+    /// Fills the row of order `k`.
+    fn stored(&self) -> TokenStream {
+        let Recurrence { row, vectors, lanes, .. } = self.recurrence;
+        if row.is_empty() {
+            return TokenStream::new();
+        }
+        let names = (0..*vectors).step_by(*lanes).map(|slot| self.vector(slot));
+        let singles = row[*vectors..].iter().flatten().map(|series| self.current(*series));
+        let entries = names
+            .flat_map(|name| {
+                (0..*lanes).map(move |lane| {
+                    let lane = number(lane);
+                    quote!(#name[#lane])
+                })
+            })
+            .chain(singles);
+        quote!(*row = [#(#entries),*];)
+    }
+
+    /// The terms `j = 1..k` of all convolutions.
+    fn loops(&self) -> TokenStream {
         let t = &self.context.names.scalar;
         let lanes = number(self.recurrence.lanes);
-        let all: Vec<usize> = (0..sums(passes)).collect();
-        let blocks = all.chunks(SUMS_PER_LOOP).map(|block| {
-            let names: Vec<Ident> = block.iter().map(|sum| self.sum(stem, *sum)).collect();
-            let own = passes.iter().filter(|pass| block.contains(&pass.sum));
-            let statements = own.map(|pass| self.pass(stem, pass));
+        let all = [("full", &self.recurrence.full), ("inner", &self.recurrence.inner)];
+        let sums: Vec<(&str, usize)> =
+            all.iter().flat_map(|(stem, passes)| (0..sums(passes)).map(move |sum| (*stem, sum))).collect();
+        let passes: Vec<(&str, &Pass)> =
+            all.iter().flat_map(|(stem, passes)| passes.iter().map(move |pass| (*stem, pass))).collect();
+        let blocks = sums.chunks(SUMS_PER_LOOP).map(|block| {
+            let names = block.iter().map(|(stem, sum)| self.sum(stem, *sum));
+            let own = passes.iter().filter(|(stem, pass)| block.contains(&(*stem, pass.sum)));
+            let statements = own.map(|(stem, pass)| {
+                let (left, right) = self.factors(pass, &quote!(left), &quote!(right));
+                self.pass(stem, pass, &left, &right)
+            });
             quote! {
                 #(let mut #names = [#t::zero(); #lanes];)*
-                for (left, right) in #rows.iter().zip(#rows.iter().rev()) {
+                for (left, right) in middle.iter().zip(middle.iter().rev()) {
                     #(#statements)*
                 }
             }
@@ -278,25 +311,48 @@ impl Writer<'_> {
         blocks.collect()
     }
 
+    /// The terms `j = 0` and `j = k` of a full convolution.
+    fn ends(&self, pass: &Pass) -> TokenStream {
+        let (first_left, first_right) = self.factors(pass, &quote!(first), &quote!(first));
+        let left = self.vector(pass.left);
+        let right = match pass.right {
+            Factor::Vector(slot) => {
+                let right = self.vector(slot);
+                quote!(#right)
+            }
+            Factor::Slot(slot) => {
+                self.recurrence.row[slot].map(|series| self.current(series)).unwrap_or_default()
+            }
+        };
+        let one = self.pass("full", pass, &first_left, &right);
+        let other = self.pass("full", pass, &quote!(#left), &first_right);
+        quote!(#one #other)
+    }
+
     fn sum(&self, stem: &str, sum: usize) -> Ident {
         format_ident!("{stem}_{}", sum + 1)
     }
 
-    fn pass(&self, stem: &str, pass: &Pass) -> TokenStream {
+    /// The factors of a multiplication from two rows.
+    fn factors(&self, pass: &Pass, left: &TokenStream, right: &TokenStream) -> (TokenStream, TokenStream) {
         let rt = &self.context.names.rt;
-        let sum = self.sum(stem, pass.sum);
-        let vector = |row: TokenStream, slot: usize| {
+        let vector = |row: &TokenStream, slot: usize| {
             let slot = number(slot);
             quote!(#rt::lanes(#row, #slot))
         };
-        let left = vector(quote!(left), pass.left);
         let right = match pass.right {
-            Factor::Vector(slot) => vector(quote!(right), slot),
+            Factor::Vector(slot) => vector(right, slot),
             Factor::Slot(slot) => {
                 let slot = number(slot);
-                quote!(right[#slot])
+                quote!(#right[#slot])
             }
         };
+        (vector(left, pass.left), right)
+    }
+
+    fn pass(&self, stem: &str, pass: &Pass, left: &TokenStream, right: &TokenStream) -> TokenStream {
+        let rt = &self.context.names.rt;
+        let sum = self.sum(stem, pass.sum);
         let name = match (pass.negative, pass.right) {
             (false, Factor::Vector(_)) => "add_products",
             (true, Factor::Vector(_)) => "subtract_products",
@@ -324,7 +380,9 @@ impl Writer<'_> {
         self.first(Series { value, rate: false })
     }
 
+    /// The rule as a `let`. Divisors are known long before: their reciprocals are not waited for.
     fn statement(&self, value: Value, rule: &Rule) -> TokenStream {
+        let t = &self.context.names.scalar;
         let name = self.ident(value);
         let expression = match rule {
             Rule::Sum(terms) => self.summed(terms),
@@ -335,9 +393,9 @@ impl Writer<'_> {
                 match numerator {
                     Some(a) => {
                         let a = self.ident(*a);
-                        quote!((#a - #rest) / #b0)
+                        quote!((#a - #rest) * (#t::one() / #b0))
                     }
-                    None => quote!(-#rest / #b0),
+                    None => quote!(-#rest * (#t::one() / #b0)),
                 }
             }
             Rule::Function { function, argument, companion, inner } => {
@@ -417,13 +475,13 @@ impl Writer<'_> {
             // y' = y u'
             (Function::Exp, [m], _) => quote!(#u.fma(#y0, #m / order)),
             // u y' = u'
-            (Function::Ln, [m], _) => quote!((#u - #m / order) / #u0),
+            (Function::Ln, [m], _) => quote!((#u - #m / order) * (#t::one() / #u0)),
             // y^2 = u
-            (Function::Sqrt, [m], _) => quote!((#u - #m) / (#y0 + #y0)),
+            (Function::Sqrt, [m], _) => quote!((#u - #m) * (#t::one() / (#y0 + #y0))),
             // 3 u y' = y u'
             (Function::Cbrt, [m, weighted], _) => {
                 let (three, four) = (quote!(#t::constant(3.0, 0.0)), quote!(#t::constant(4.0, 0.0)));
-                quote!(((#u.fma(#y0, #m)) * order - #weighted * #four) / (#u0 * order * #three))
+                quote!((#u.fma(#y0, #m) * order - #weighted * #four) * (#t::one() / (#u0 * order * #three)))
             }
             // y' = z u' or y' = -z u'
             (function, [m], Some(other)) => {

@@ -51,6 +51,8 @@ pub struct Recurrence {
     pub lanes: usize,
     /// What is kept of each order; `None` fills up the vectors.
     pub row: Vec<Option<Series>>,
+    /// So many slots at the beginning stand in vectors.
+    pub vectors: usize,
     /// Convolutions `j = 0..=k` of ready values.
     pub full: Vec<Pass>,
     /// Convolutions `j = 1..k` of the others.
@@ -138,9 +140,9 @@ impl Recurrence {
     pub fn of(program: &Program, states: &[String]) -> Self {
         let program = companions::completed(program);
         let draft = rules::Draft::of(&program, states);
-        let Packed { lanes, row, full, inner, places } = lanes::pack(&draft.products, draft.kept());
+        let Packed { lanes, row, vectors, full, inner, places } = lanes::pack(&draft.products, draft.kept());
         let rules = draft.rules(&places);
-        Self { moving: draft.moving, ready: draft.ready, rules, lanes, row, full, inner, program }
+        Self { moving: draft.moving, ready: draft.ready, rules, lanes, row, vectors, full, inner, program }
     }
 
     /// The slot that holds a series.

@@ -11,6 +11,7 @@ use super::{Factor, Pass, Place, Series};
 pub(super) struct Packed {
     pub lanes: usize,
     pub row: Vec<Option<Series>>,
+    pub vectors: usize,
     pub full: Vec<Pass>,
     pub inner: Vec<Pass>,
     /// Where each product is found, and whether it is subtracted there.
@@ -66,7 +67,7 @@ fn pack_into(lanes: usize, fills: &[usize], products: &[Product], kept: &[Series
         passes.sort_by_key(|pass| pass.sum);
         passes
     });
-    Packed { lanes, row: slots, full, inner, places }
+    Packed { lanes, row: slots, vectors: row.vectors.len() * lanes, full, inner, places }
 }
 
 /// A multiplication of vectors.
