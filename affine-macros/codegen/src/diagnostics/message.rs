@@ -100,7 +100,7 @@ impl Diagnostic {
             ),
             Self::UnavailableCapability { capability, gives } => text(
                 format!("the capability `{capability}` is not available in this version"),
-                format!("it will give {gives}; this version emits the default: Hamilton's equations"),
+                format!("it will give {gives}; this version emits the default, Hamilton's equations, and `taylor`"),
                 format!("remove `{capability}` from `emit(...)`"),
             ),
             Self::Dimension { found } => text(

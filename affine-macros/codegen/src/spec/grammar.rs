@@ -52,7 +52,7 @@ impl Key {
             Self::Kinetic => "kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
             Self::Require => "require(positive_definite)",
-            Self::Emit => "emit(splitting)",
+            Self::Emit => "emit(taylor)",
             Self::Crate => "crate = ::affine_runtime",
         }
     }
