@@ -41,13 +41,10 @@ impl Series<[f64; 2], ()> for Pair {
         let time = |k: usize| [t, 1.0].get(k).copied().unwrap_or(0.0);
         let mut y = vec![coefficients[0].map(|y| y / self.metre)];
         for k in 0..order {
-            let excess =
-                |k: usize| product(k, |j| y[j][0], |j| y[j][0]) - product(k, sine, sine);
+            let excess = |k: usize| product(k, |j| y[j][0], |j| y[j][0]) - product(k, sine, sine);
             let square = |k: usize| product(k, |j| y[j][1], |j| y[j][1]);
-            let rates = [
-                cosine(k) + product(k, excess, |j| y[j][1]),
-                -2.0 * product(k, time, square) + excess(k),
-            ];
+            let rates =
+                [cosine(k) + product(k, excess, |j| y[j][1]), -2.0 * product(k, time, square) + excess(k)];
             y.push(rates.map(|rate| rate / (k as f64 + 1.0)));
             coefficients[k + 1] = y[k + 1].map(|c| c * self.metre / self.second.powi(k as i32 + 1));
         }
@@ -109,7 +106,8 @@ fn measured_orders() {
     for order in [2, 3, 4, 6, 8, 10] {
         let coarse = 1e-4f64;
         let fine = coarse * 3.0f64.powi(-(order as i32));
-        let (first, last) = (run(pair(0.0, 3.0, coarse, Some(order))), run(pair(0.0, 3.0, fine, Some(order))));
+        let (first, last) =
+            (run(pair(0.0, 3.0, coarse, Some(order))), run(pair(0.0, 3.0, fine, Some(order))));
         assert!(last.0 > 1e-13, "rounding hides the order: {last:?}");
         let ratio = (last.2.steps as f64 / first.2.steps as f64).ln();
         let (at_steps, between) = ((first.0 / last.0).ln() / ratio, (first.1 / last.1).ln() / ratio);
@@ -169,8 +167,7 @@ fn nothing_to_do_costs_one_evaluation() {
 }
 
 fn until_failure(edge: f64, t_end: f64) -> (Failure, Taylor<[f64; 1], (), Pole>) {
-    let mut integration =
-        Taylor::new((Pole { edge }, ()), ONE, (0.0, [1.0]), t_end, 1e-12, None).unwrap();
+    let mut integration = Taylor::new((Pole { edge }, ()), ONE, (0.0, [1.0]), t_end, 1e-12, None).unwrap();
     loop {
         if let Err(failure) = integration.advance() {
             return (failure, integration);

@@ -89,7 +89,8 @@ fn assert_is_the_motion<M: Model<3>>(
 /// The reference with its start, which the file has in words.
 fn drunk_missile() -> String {
     let data = include_str!("../data/p1.csv");
-    let start = "0,0,0,0,1.1,0.2,-0.1,0.05,0.9,0.15,-0.2,0.1,1.05,0,0,0,0.1,0.4,-0.3,-0.2,-0.15,0.25,0.35,-0.1,0.05";
+    let start =
+        "0,0,0,0,1.1,0.2,-0.1,0.05,0.9,0.15,-0.2,0.1,1.05,0,0,0,0.1,0.4,-0.3,-0.2,-0.15,0.25,0.35,-0.1,0.05";
     let names = data.lines().position(|line| line.starts_with('t')).unwrap();
     let mut lines: Vec<&str> = data.lines().collect();
     lines.insert(names + 1, start);
@@ -129,7 +130,8 @@ fn start() -> <Vibrating as Model<3>>::Point<f64> {
 #[test]
 fn forth_and_back() {
     let there = Simulation::new(&Vibrating, start()).until(10.0).tolerance(1e-15).run().unwrap();
-    let back = Simulation::new(&Vibrating, *there.end().1).from(10.0).until(0.0).tolerance(1e-15).run().unwrap();
+    let back =
+        Simulation::new(&Vibrating, *there.end().1).from(10.0).until(0.0).tolerance(1e-15).run().unwrap();
     let error = (back.end().1.phi() - start().phi()).norm();
     assert!(error < MOTION, "{error:e}");
 }
@@ -174,9 +176,13 @@ fn what_runs_and_why() {
 #[test]
 fn orders_out_of_range_are_refused() {
     for order in [0, 1, 33] {
-        let run = Simulation::new(&Vibrating, start()).until(1.0).method(Method::Taylor { order: Some(order) });
+        let run =
+            Simulation::new(&Vibrating, start()).until(1.0).method(Method::Taylor { order: Some(order) });
         let halt = run.run().unwrap_err().to_string();
-        assert!(halt.contains(&format!("Taylor series of order {order}: give an order from 2 to 32")), "{halt}");
+        assert!(
+            halt.contains(&format!("Taylor series of order {order}: give an order from 2 to 32")),
+            "{halt}"
+        );
     }
 }
 

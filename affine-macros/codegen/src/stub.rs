@@ -91,7 +91,8 @@ impl Outline {
         let potential = self.potential.then(|| quote!(, potential = q^2));
         let runtime = self.runtime.as_ref().map(|path| quote!(, crate = #path));
         let taylor = self.names.iter().any(|name| name == "taylor").then(|| quote!(, emit(taylor)));
-        let args = quote!(dim = #dim, kinetic(casimir2 = #coefficient #translation) #potential #taylor #runtime);
+        let args =
+            quote!(dim = #dim, kinetic(casimir2 = #coefficient #translation) #potential #taylor #runtime);
         gate(|found| {
             spec::parse(
                 args,

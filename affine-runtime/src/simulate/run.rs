@@ -162,7 +162,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         match method {
             Method::Taylor { order } => {
                 let series = model.taylor();
-                let series = series.ok_or(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "taylor" })?;
+                let series =
+                    series.ok_or(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "taylor" })?;
                 let integration =
                     Taylor::new((series, constants), groups, begin, t_end, self.tolerance, order);
                 let mut integration = integration.map_err(|failure| self.reason(failure))?;

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::{Method, TAYLOR_TOLERANCE};
 use super::trajectory::{Computation, Trajectory};
+use super::{Method, TAYLOR_TOLERANCE};
 use crate::integrate::taylor::order_for;
 use crate::model::Description;
 use crate::state::Phase;

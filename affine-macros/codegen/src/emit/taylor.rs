@@ -231,9 +231,7 @@ impl Writer<'_> {
     }
 
     fn reads_order(&self) -> bool {
-        let weighted = |rule: &Rule| {
-            matches!(rule, Rule::Function { function, .. } if !matches!(function, Function::Sqrt | Function::Abs))
-        };
+        let weighted = |rule: &Rule| matches!(rule, Rule::Function { function, .. } if !matches!(function, Function::Sqrt | Function::Abs));
         self.recurrence.rules.iter().any(|(_, rule)| weighted(rule))
             || self.recurrence.row.iter().flatten().any(|s| s.rate)
     }
@@ -247,8 +245,10 @@ impl Writer<'_> {
     /// The vectors of ready series, or the others: all lanes of a row that begin at `slot`.
     fn vectors(&self, ready: bool) -> TokenStream {
         let t = &self.context.names.scalar;
-        let is_ready = |series: &Option<Series>| series.is_none_or(|s| self.recurrence.ready[s.value] && !s.rate);
-        let vectors = self.recurrence.row[..self.recurrence.vectors].chunks(self.recurrence.lanes).enumerate();
+        let is_ready =
+            |series: &Option<Series>| series.is_none_or(|s| self.recurrence.ready[s.value] && !s.rate);
+        let vectors =
+            self.recurrence.row[..self.recurrence.vectors].chunks(self.recurrence.lanes).enumerate();
         vectors
             .filter(|(_, vector)| vector.iter().all(is_ready) == ready)
             .map(|(index, vector)| {

@@ -29,8 +29,7 @@ pub(super) fn completed(program: &Program) -> Program {
         } else if let Function::Tan | Function::Tanh = function {
             let one = push(&mut result, Op::Constant(Rational::ONE));
             let square = push(&mut result, Op::Mul(value, value));
-            let slope =
-                if function == Function::Tan { Op::Add(one, square) } else { Op::Sub(one, square) };
+            let slope = if function == Function::Tan { Op::Add(one, square) } else { Op::Sub(one, square) };
             push(&mut result, slope);
         }
     }

@@ -26,7 +26,9 @@ pub(super) fn pack(products: &[Product], kept: &[Series]) -> Packed {
     let packed = WAYS.map(|(lanes, fills)| pack_into(lanes, fills, products, kept));
     // For each order, a multiplication is done some ten times and a slot is filled once; vectors of four lanes take
     // one instruction where the target has them, and two elsewhere.
-    let cost = |packed: &Packed| (2 + packed.lanes) * 10 * (packed.full.len() + packed.inner.len()) + 6 * packed.row.len();
+    let cost = |packed: &Packed| {
+        (2 + packed.lanes) * 10 * (packed.full.len() + packed.inner.len()) + 6 * packed.row.len()
+    };
     let [first, rest @ ..] = packed;
     rest.into_iter().fold(first, |best, other| if cost(&other) < cost(&best) { other } else { best })
 }
@@ -270,9 +272,7 @@ fn gather(products: &[Product], open: &[usize], row: &mut Row, chosen: &mut Vec<
         let left = row.vector(chunk.iter().map(|p| products[*p].factors[0]).collect());
         let right = match chunk {
             [only] => Right::Series(products[*only].factors[1]),
-            several => {
-                Right::Vector(row.vector(several.iter().map(|p| products[*p].factors[1]).collect()))
-            }
+            several => Right::Vector(row.vector(several.iter().map(|p| products[*p].factors[1]).collect())),
         };
         chosen.push(Multiplication { left, right, products: chunk.iter().copied().map(Some).collect() });
     }

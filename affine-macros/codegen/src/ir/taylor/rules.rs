@@ -95,11 +95,9 @@ impl Draft {
     pub(super) fn rules(&self, places: &[(Place, bool)]) -> Vec<(Value, Rule)> {
         let rule = |outline: &Outline| match outline {
             Outline::Sum(parts) => Rule::Sum(self.terms(parts, places)),
-            Outline::Quotient { numerator, denominator, product } => Rule::Quotient {
-                numerator: *numerator,
-                denominator: *denominator,
-                inner: places[*product].0,
-            },
+            Outline::Quotient { numerator, denominator, product } => {
+                Rule::Quotient { numerator: *numerator, denominator: *denominator, inner: places[*product].0 }
+            }
             Outline::Function { function, argument, companion, products } => Rule::Function {
                 function: *function,
                 argument: *argument,
