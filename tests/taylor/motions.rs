@@ -16,7 +16,7 @@ struct Missile;
     dim = 3,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
     potential = hyperbolic_dilatation(10) + neo_hookean(0.5),
-    emit(taylor)
+    emit(taylor),
 )]
 struct Vibrating;
 
@@ -24,7 +24,7 @@ struct Vibrating;
     dim = 3,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1),
     potential = hyperbolic_dilatation(10) + neo_hookean(0.5),
-    emit(taylor)
+    emit(taylor),
 )]
 struct Mirrored;
 
@@ -32,7 +32,7 @@ struct Mirrored;
     dim = 3,
     kinetic(dalembert = diag(1, 1.5, 2)),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
-    emit(taylor)
+    emit(taylor),
 )]
 struct Elastic {
     kappa: f64,

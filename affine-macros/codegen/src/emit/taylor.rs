@@ -434,7 +434,7 @@ impl Writer<'_> {
                 Term::Ends(a, b) => {
                     let (a0, ak) = (self.of_order_zero(a), self.ident(a));
                     if a == b {
-                        sum = Some(product(sum, *negative, quote!(#ak), quote!((#a0 + #a0))));
+                        sum = Some(product(sum, *negative, quote!((#a0 + #a0)), quote!(#ak)));
                         continue;
                     }
                     let (b0, bk) = (self.of_order_zero(b), self.ident(b));
