@@ -11,6 +11,7 @@ mod points;
 mod prepare;
 mod reduction;
 mod separated;
+mod taylor;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -37,6 +38,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let implementation = model_impl(&context);
     let points = points::inherent(&context);
     let (bases, _) = metrics::bases(&context);
+    let taylor = taylor::taylor_impl(&context);
     quote! {
         #item
         #prepared_type
@@ -47,6 +49,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #constants
             #implementation
             #points
+            #taylor
         };
     }
 }
@@ -194,6 +197,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let reduction = reduction::methods(context);
     let geodesic = closed_form::geodesic(context);
     let (_, bases) = metrics::bases(context);
+    let taylor = taylor::capability(context);
     quote! {
         #(#[doc = #docs])*
         impl #generics #rt::Model<#n> for #prepared #types #clause {
@@ -206,6 +210,7 @@ fn model_impl(context: &Context) -> TokenStream {
             #dynamics
             #reduction
             #geodesic
+            #taylor
         }
     }
 }
