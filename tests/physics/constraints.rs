@@ -9,7 +9,6 @@ use affine_runtime::Error;
 use affine_runtime::frames::inverse;
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
-use affine_runtime::simulate::{Reason, Setting};
 
 use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
 use crate::conserved::exists;
