@@ -26,6 +26,7 @@ pub mod integrate;
 pub mod kinematics;
 pub mod model;
 mod reduction;
+mod regularity;
 #[cfg(feature = "report")]
 pub mod report;
 pub mod scalar;

@@ -3,6 +3,7 @@
 use core::fmt::Debug;
 
 use crate::frames::{Matrix, Vector};
+pub use crate::regularity::Regularity;
 use crate::scalar::{Real, Scalar};
 use crate::state::Phase;
 
@@ -57,6 +58,12 @@ pub trait Model<const N: usize> {
         constants: &Self::Constants<T>,
         reduced: &Self::Reduced<T>,
     ) -> Self::Point<T>;
+
+    /// Signs and weakest pivot of the mass matrix at a placement, for a model whose kinetic energy has a mass matrix
+    /// that depends on it and is not known to be definite; `None` for every other one, which is regular everywhere.
+    fn regularity(&self, _phi: &Matrix<N>) -> Option<Regularity> {
+        None
+    }
 
     /// The closed form of the trajectory through `point` at time `t0`, where the model and the scene have one.
     fn geodesic(&self, t0: f64, point: &Self::Point<f64>) -> Option<crate::geodesic::Geodesic<N>>;

@@ -9,10 +9,11 @@ pub use crate::frames::{
 };
 pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::kinematics::mean_log_stretch;
-pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Velocity};
+pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Regularity, Velocity};
 pub use crate::reduction::{
     Condition, finite, inverse_form, total_affine_momentum, total_size, turn, well_posed,
 };
+pub use crate::regularity::regular;
 pub use crate::scalar::{Real, Scalar};
 pub use crate::state::{Centre, Phase, PhasePoint, Pinned};
 

@@ -11,6 +11,7 @@ mod form;
 mod frames;
 mod identity;
 mod inertia;
+mod mixed;
 mod potential;
 mod shapes;
 mod symbols;
@@ -20,7 +21,8 @@ use crate::diagnostics::{Diagnostics, Reported};
 use crate::spec::Spec;
 
 pub use constant::constant;
-pub use form::{Form, eigenvalues, form, signature};
+pub use form::{Form, Quantities, eigenvalues, form, signature};
+pub use mixed::{MixedForm, Positive};
 
 /// The rules that need only what the user wrote.
 ///
@@ -44,11 +46,35 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     potential::indices(spec, found);
     arithmetic::computable(spec, found)?;
     potential::in_domain(spec, found);
-    frames::same_frame(spec, found);
     inertia::masses(spec, found);
     inertia::symmetric(spec, found);
     inertia::positive(spec, found);
     tensors::literal(spec, found);
     tensors::symmetric(spec, found);
     found.verdict()
+}
+
+/// A kinetic energy, with a potential, that passed all rules.
+pub enum Energy {
+    /// Its mass matrix is constant in one frame.
+    Constant(Box<Form>),
+    /// Its mass matrix depends on the placement.
+    Mixed(Box<MixedForm>),
+}
+
+impl From<Form> for Energy {
+    fn from(form: Form) -> Self {
+        Self::Constant(Box::new(form))
+    }
+}
+
+/// The rules on the kinetic energy as a quadratic form.
+///
+/// # Errors
+/// [`Reported`] if any rule is broken; all broken ones are in the bag.
+pub fn energy(spec: &Spec, found: &mut Diagnostics) -> Result<Energy, Reported> {
+    match frames::are_mixed(spec) {
+        false => form(spec, found).map(Energy::from),
+        true => mixed::form(spec, found).map(|form| Energy::Mixed(Box::new(form))),
+    }
 }

@@ -4,9 +4,11 @@ mod body;
 mod closed_form;
 mod description;
 mod dynamics;
+mod mixed;
 mod names;
 mod points;
 mod prepare;
+mod quantities;
 mod reduction;
 
 use proc_macro2::{Ident, Literal, TokenStream};

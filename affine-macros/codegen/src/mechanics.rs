@@ -9,6 +9,8 @@ mod flow;
 pub mod hamiltonian;
 pub mod hessian;
 pub mod kinetic;
+pub mod metric;
+pub mod mixed;
 mod notation;
 pub mod potential;
 pub mod reduce;

@@ -9,7 +9,7 @@ use crate::mechanics::hessian::{Block, Direction, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
-use crate::spec::{self, Claim, Named, Requirement, Spec, Value};
+use crate::spec::{self, Capability, Claim, Named, Requirement, Spec, Value};
 
 /// A kinetic energy that passed all rules that can be decided before its fields have values.
 pub struct Form {
@@ -25,6 +25,24 @@ pub struct Form {
     pub body_group: Group,
     /// The potential energy.
     pub potential: Option<Potential>,
+    /// What else is emitted.
+    pub quantities: Quantities,
+}
+
+/// Quantities that are emitted when asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Quantities {
+    /// The configuration metric and its inverse.
+    pub metric: bool,
+    /// The acceleration of the centre of mass.
+    pub acceleration: bool,
+}
+
+impl Quantities {
+    pub(super) fn of(spec: &Spec) -> Self {
+        let asked = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
+        Self { metric: asked(Capability::Metric), acceleration: asked(Capability::Acceleration) }
+    }
 }
 
 /// Builds the form and holds it against every rule.
@@ -46,12 +64,13 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     let space_group = largest_group(&kinetic, Side::Space);
     let body_group = largest_group(&kinetic, Side::Body);
     let potential = lower::potential(&mut arena, spec);
-    Ok(Form { arena, kinetic, hessian, space_group, body_group, potential })
+    let quantities = Quantities::of(spec);
+    Ok(Form { arena, kinetic, hessian, space_group, body_group, potential, quantities })
 }
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic
 /// form is zero, and a tensor has no kernel. Blocks with fields are left to `prepare()`.
-fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics) {
+pub(super) fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics) {
     let mut reported = Vec::new();
     for block in &hessian.blocks {
         let kind = block.basis[0].kind;
@@ -112,7 +131,7 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
 
 /// A claimed symmetry is a theorem about the form: its derivative along every generator of the group vanishes,
 /// and for O(n) one reflection leaves it unchanged as well.
-fn claims(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mut Diagnostics) {
+pub(super) fn claims(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mut Diagnostics) {
     let Some(symmetry) = &spec.symmetry else { return };
     for (side, name, claim) in [(Side::Space, "space", symmetry.space), (Side::Body, "body", symmetry.body)] {
         let (group, letters) = match claim.value {
@@ -238,9 +257,9 @@ pub fn signature(form: &Form) -> Option<(usize, usize)> {
 
 /// The eigenvalues that decide whether a model with fields is well posed: condition, reason, value.
 #[must_use]
-pub fn eigenvalues(form: &Form) -> Vec<(Direction, Polynomial)> {
+pub fn eigenvalues(hessian: &Hessian) -> Vec<(Direction, Polynomial)> {
     let mut list: Vec<(Direction, Polynomial)> = Vec::new();
-    for block in &form.hessian.blocks {
+    for block in &hessian.blocks {
         if let Some(value) = block.eigenvalue() {
             let kind = block.basis[0].kind;
             if value.as_constant().is_none() && !list.contains(&(kind, value.clone())) {

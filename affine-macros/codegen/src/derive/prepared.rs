@@ -59,7 +59,7 @@ pub(super) fn conditions(
 }
 
 /// The leading minors of `J`, all positive iff `J` is (Sylvester); `I` for `J = I 1`.
-fn leading_minors(arena: &mut Arena, inertia: &Coefficient) -> Vec<Polynomial> {
+pub(super) fn leading_minors(arena: &mut Arena, inertia: &Coefficient) -> Vec<Polynomial> {
     match inertia {
         Coefficient::Scalar(i) => vec![Polynomial::normal_form(arena, *i)],
         Coefficient::Matrix(j) => {
@@ -87,12 +87,12 @@ fn determinant(rows: &[Vec<Polynomial>]) -> Polynomial {
 }
 
 /// The terms of a sum, each a polynomial: their sizes say how much of it rounding can make.
-fn summands(sum: &Polynomial) -> Vec<Polynomial> {
+pub(super) fn summands(sum: &Polynomial) -> Vec<Polynomial> {
     sum.terms().map(|(monomial, c)| Polynomial::term(monomial.clone(), c.clone())).collect()
 }
 
 /// A program over the fields alone.
-fn unbound(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
+pub(super) fn unbound(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
     let results = values.enumerate().map(|(k, p)| (format!("value_{}", k + 1), p)).collect();
     let batch = Batch { shared: Vec::new(), results };
     fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))

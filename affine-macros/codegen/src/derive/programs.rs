@@ -35,7 +35,6 @@ pub(super) fn full_equations(
     coefficients: &mut Constants,
 ) -> Equations {
     let load = potential.map(|u| u.load(arena, chart)).unwrap_or_default();
-    let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
     let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
     through_velocity.add(&load);
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
@@ -45,6 +44,17 @@ pub(super) fn full_equations(
         ways.push(batch(arena, &expanded));
         ways.push(split_batch(arena, chart, &expanded));
     }
+    shortest(arena, chart, &ways, coefficients)
+}
+
+/// Equations over the coordinates of a chart, in the shortest of several ways.
+pub(super) fn shortest(
+    arena: &mut Arena,
+    chart: &Chart,
+    ways: &[Batch],
+    coefficients: &mut Constants,
+) -> Equations {
+    let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
     let (program, chosen) = ways
         .iter()
         .map(|way| {
@@ -70,7 +80,7 @@ pub(super) fn full_equations(
     }
 }
 
-fn batch(arena: &Arena, system: &System) -> Batch {
+pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
     Batch {
         shared: system.shared.clone(),
         results: system
@@ -117,8 +127,18 @@ pub(super) fn best_reduction(
     rotations: bool,
     coefficients: &mut Constants,
 ) -> Option<(Reduction, Equations, Program, Vec<String>)> {
+    let candidates = reduce::candidates(arena, h, potential, rotations);
+    shortest_reduction(arena, candidates, coefficients)
+}
+
+/// The reduction of several with the shortest equations, and its programs.
+pub(super) fn shortest_reduction(
+    arena: &mut Arena,
+    candidates: Vec<Reduction>,
+    coefficients: &mut Constants,
+) -> Option<(Reduction, Equations, Program, Vec<String>)> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
-    for candidate in reduce::candidates(arena, h, potential, rotations) {
+    for candidate in candidates {
         let states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
         let mut constants = Constants::new("k");
         let way = batch(arena, &candidate.system);

@@ -373,17 +373,6 @@ pub enum Diagnostic {
         /// Its value.
         value: String,
     },
-    /// Two terms whose sum has a mass matrix that depends on the placement.
-    MixedFrames {
-        /// One term.
-        first: &'static str,
-        /// The velocity in which it has constant coefficients.
-        first_velocity: &'static str,
-        /// The other term.
-        second: &'static str,
-        /// The velocity in which that one has constant coefficients.
-        second_velocity: &'static str,
-    },
     /// Only translation terms, or none.
     NoKineticEnergy,
 
@@ -405,6 +394,11 @@ pub enum Diagnostic {
         velocity: &'static str,
         /// A velocity on which it vanishes.
         kernel: String,
+    },
+    /// A sum of terms of different frames that is degenerate at every placement.
+    DegenerateSum {
+        /// The terms, joined by `+`.
+        terms: String,
     },
     /// `require(positive_definite)` fails.
     NotPositiveDefinite {
@@ -522,10 +516,10 @@ names! {
     InertiaNotPositive => "inertia-not-positive",
     ZeroMass => "zero-mass",
     NegativeMass => "negative-mass",
-    MixedFrames => "mixed-frames",
     NoKineticEnergy => "no-kinetic-energy",
     Degenerate => "degenerate",
     DegenerateTensor => "degenerate-tensor",
+    DegenerateSum => "degenerate-sum",
     NotPositiveDefinite => "not-positive-definite",
     ClaimBroken => "claim-broken",
     AffineTranslation => "affine-translation",

@@ -325,14 +325,6 @@ impl Diagnostic {
                 "`dalembert` is the kinetic energy of positive masses (2.1), and these are the same masses",
                 "write a positive mass",
             ),
-            Self::MixedFrames { first, first_velocity, second, second_velocity } => text(
-                format!("`{first}` and `{second}` do not go together in this version"),
-                format!(
-                    "`{first}` is a constant form in {first_velocity}, `{second}` in {second_velocity}: \
-                     their sum has a mass matrix that depends on phi"
-                ),
-                format!("keep `{first}` or `{second}`"),
-            ),
             Self::NoKineticEnergy => text(
                 "there is no kinetic energy of the internal motion",
                 "without a term in phi_dot the Legendre transformation has no inverse: Sigma = (dT/dOm)^T = 0",
@@ -357,6 +349,13 @@ impl Diagnostic {
                 "the Legendre transformation X[B,A] = K[(A,B),(C,D)] O[C,D] (4.6), (4.8) gives zero momentum \
                  there; the momentum does not determine the velocity",
                 "change a coefficient, or add a term that is not zero on this velocity",
+            ),
+            Self::DegenerateSum { terms } => text(
+                format!("the kinetic energy `{terms}` is degenerate at every placement"),
+                "its terms have constant coefficients in different velocities, so that the mass matrix over phi_dot \
+                 depends on phi; its determinant is zero for all phi, and the momentum Pi = (dT/dphi_dot)^T does not \
+                 determine the velocity",
+                "add a term that is not zero on any velocity, such as `dalembert` or `body_inertia`",
             ),
             Self::NotPositiveDefinite { defect } => text(
                 format!("the kinetic energy is not positive definite: {defect}"),

@@ -37,6 +37,11 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         Some((p, 0)) => format!("The kinetic metric is positive definite, ({p}, 0)."),
         Some((0, q)) => format!("The kinetic metric is negative definite, (0, {q})."),
         Some((p, q)) => format!("The kinetic metric is indefinite, ({p}, {q})."),
+        None if model.regularity.is_some() => {
+            "The signature of the kinetic metric depends on the placement: it is checked at every start and kept along \
+             every motion."
+                .to_owned()
+        }
         None => "The signature of the kinetic metric depends on the fields.".to_owned(),
     });
     lines.push(String::new());

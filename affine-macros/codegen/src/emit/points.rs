@@ -6,7 +6,7 @@ use quote::quote;
 use crate::mechanics::kinetic::Frame;
 
 use super::body::Body;
-use super::{Context, inputs, pattern};
+use super::{Context, inputs, mixed, pattern, quantities};
 
 /// `at_momentum` and `at_velocity`.
 pub(super) fn inherent(context: &Context) -> TokenStream {
@@ -30,6 +30,9 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
         false => ("`phi`", "`phi_dot`", "the affine spin"),
         true => ("`(x, phi)`", "`(x_dot, phi_dot)`", "`p` and the affine spin"),
     };
+    let refusal = mixed::refusal(context);
+    let checked_point = mixed::regular(context, quote!(#rt::phase_point(phi, spin, #centre)));
+    let quantities = quantities::inherent(context);
     let at_momentum = format!(
         " The phase point at the placement {q} with {m}: `Spatial(sigma)`, `Comoving(sigma_hat)` or `TwoPoint(pi)`."
     );
@@ -37,12 +40,16 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
         " The phase point at the placement {q} with the velocity {v}: the Legendre transformation \
          `X = (dT/dO)^T` (4.6), (4.8)."
     );
+    let errors = |of: &str| {
+        format!(" `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a {of}{refusal}.")
+    };
+    let (momentum_errors, velocity_errors) = (errors("momentum"), errors("velocity"));
     quote! {
         impl #generics #prepared #types #clause {
             #[doc = #at_momentum]
             ///
             /// # Errors
-            /// `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a momentum.
+            #[doc = #momentum_errors]
             #visibility fn at_momentum(
                 &self,
                 #x
@@ -50,13 +57,13 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
                 #p
                 spin: impl #rt::Momentum<#n, #rt::f64>,
             ) -> #rt::Result<#point> {
-                #rt::phase_point(phi, spin, #centre)
+                #checked_point
             }
 
             #[doc = #at_velocity]
             ///
             /// # Errors
-            /// `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a velocity.
+            #[doc = #velocity_errors]
             #visibility fn at_velocity(
                 &self,
                 #x
@@ -66,8 +73,10 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
             ) -> #rt::Result<#point> {
                 #legendre
                 #momentum_of_centre
-                #rt::phase_point(phi, spin, #centre)
+                #checked_point
             }
+
+            #quantities
         }
     }
 }
@@ -82,8 +91,10 @@ fn legendre(context: &Context) -> TokenStream {
     let rows_out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
     let velocity = affine_velocity(context, &quote!(&phi));
     let wrapper = wrapper(context);
+    let placement = mixed::placement(context, &context.model.legendre, &quote!(&phi));
     quote! {
         let [#(#rows),*] = #rt::rows(&#velocity);
+        #placement
         #lets
         let spin = #wrapper(#rt::matrix([#(#rows_out),*]));
     }
@@ -112,7 +123,7 @@ pub(super) fn wrapper(context: &Context) -> TokenStream {
 /// `p = m x_dot` or `p = m C x_dot`, (4.7).
 fn momentum_of_centre(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
-    let Some(program) = &context.model.mass else { return TokenStream::new() };
+    let Some(program) = &context.model.mass else { return mixed::momentum_of_centre(context) };
     let body = context.double(&program.only("mass"));
     let (lets, mass) = (&body.lets, body.result());
     let p = match context.model.translation {

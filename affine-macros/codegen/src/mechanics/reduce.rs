@@ -155,6 +155,12 @@ pub fn candidates(
         .collect()
 }
 
+/// A system whose affine momentum is state, reduced: `p` leaves it where it is conserved, and space is turned on
+/// demand.
+pub fn reduced(arena: &Arena, chart: Chart, commuting: Vec<Commuting>, turn: bool, system: System) -> Reduction {
+    Plan { chart, commuting, turn, load: None }.state_only(arena, system, Layout::Entries)
+}
+
 /// What is known about a reduction before its equations are.
 struct Plan {
     chart: Chart,
