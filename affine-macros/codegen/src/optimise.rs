@@ -17,6 +17,26 @@ pub struct Batch {
     pub results: Vec<(String, Polynomial)>,
 }
 
+impl Batch {
+    /// Without the shared quantities that no result needs.
+    #[must_use]
+    pub fn pruned(self, arena: &Arena) -> Self {
+        let Self { shared, results } = self;
+        let mut needed: HashSet<Expr> = HashSet::new();
+        let mut open: Vec<&Polynomial> = results.iter().map(|(_, p)| p).collect();
+        while let Some(polynomial) = open.pop() {
+            polynomial.any_symbol(arena, &mut |symbol| {
+                if needed.insert(symbol) {
+                    open.extend(shared.iter().filter(|(s, _)| *s == symbol).map(|(_, p)| p));
+                }
+                false
+            });
+        }
+        let kept = shared.iter().filter(|(symbol, _)| needed.contains(symbol)).cloned().collect();
+        Self { shared: kept, results }
+    }
+}
+
 /// A program for the batch: slow coefficients become `constants`, the rest is factored.
 pub fn straight_line(
     arena: &mut Arena,

@@ -473,7 +473,7 @@ impl Body<'_> {
                     block.diagonal().into_iter().map(|entry| size(arena, entry)).collect();
                 let values = block.upper.iter().chain(&sizes).enumerate();
                 let results = values.map(|(k, p)| (format!("value_{}", k + 1), p.clone())).collect();
-                let batch = Batch { shared: shared.clone(), results };
+                let batch = Batch { shared: shared.clone(), results }.pruned(arena);
                 let program = fuse(&straight_line(arena, &batch, coefficients, &|a| phi.contains(&a)));
                 blocks.extend(std::iter::repeat_n((program, block.size), count));
             }
@@ -532,10 +532,13 @@ fn comoving(arena: &mut Arena, x_dot: &[Expr]) -> Definitions {
 /// The sum of the sizes of the terms of a polynomial.
 fn size(arena: &mut Arena, polynomial: &Polynomial) -> Polynomial {
     let mut sum = Polynomial::zero();
-    for term in summands(polynomial) {
-        let value = term.expression(arena);
-        let size = arena.apply(Function::Abs, value);
-        sum.add_scaled(&Polynomial::normal_form(arena, size), &Rational::ONE);
+    for (monomial, c) in polynomial.terms() {
+        let value = Polynomial::term(monomial.clone(), Rational::ONE).expression(arena);
+        let size = match monomial.is_empty() {
+            true => value,
+            false => arena.apply(Function::Abs, value),
+        };
+        sum.add_scaled(&Polynomial::normal_form(arena, size), &c.abs());
     }
     sum
 }

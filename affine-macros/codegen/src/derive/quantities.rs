@@ -96,10 +96,13 @@ fn inverse(arena: &mut Arena, entries: &Square<Polynomial>, mut shared: Definiti
         .map(|column| {
             let mut unit = vec![Polynomial::zero(); size];
             unit[column] = Polynomial::constant(Rational::ONE);
-            factorisation.solve(arena, &format!("{}_", column + 1), &unit, &mut shared)
+            let column = column + 1;
+            let solution: Vec<Expr> = (1..=size).map(|row| arena.symbol(&format!("inverse_{row}_{column}"))).collect();
+            factorisation.solve(arena, &format!("{column}_"), &unit, &solution, &mut shared);
+            solution.into_iter().map(Polynomial::atom).collect()
         })
         .collect();
-    Some(Batch { shared, results: numbered(&columns) })
+    Some(Batch { shared, results: numbered(&columns) }.pruned(arena))
 }
 
 fn numbered(entries: &[Vec<Polynomial>]) -> Vec<(String, Polynomial)> {
@@ -125,7 +128,7 @@ pub(super) fn acceleration(
         .collect();
     let shared = system.shared.iter().cloned().chain(flow.definitions).collect();
     let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
-    let batch = Batch { shared, results };
+    let batch = Batch { shared, results }.pruned(arena);
     fuse(&straight_line(arena, &batch, coefficients, &|a| inputs.contains(&a)))
 }
 

@@ -8,6 +8,7 @@ mod expressions;
 mod fields;
 mod inertia;
 mod linear;
+mod mixed;
 mod models;
 mod passes;
 mod points;

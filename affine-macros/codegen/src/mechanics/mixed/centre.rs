@@ -92,18 +92,17 @@ impl Masses {
             shared.push((*symbol, along(arena, n, |i| ((i, a), p[i]))));
         }
         let p_hat: Vec<Polynomial> = p_hat.into_iter().map(Polynomial::atom).collect();
-        let values = match (self.body, self.are_mixed()) {
+        match (self.body, self.are_mixed()) {
             (Some(mass), false) => {
                 let reciprocal = reciprocal(arena, mass)?;
-                p_hat.iter().map(|p| p.mul(&reciprocal)).collect()
+                shared.extend(v_hat.iter().zip(&p_hat).map(|(v, p)| (*v, p.mul(&reciprocal))));
             }
             _ => {
                 let (factorisation, definitions) = self.factorised(arena)?;
                 shared.extend(definitions);
-                factorisation.solve(arena, "centre_", &p_hat, &mut shared)
+                factorisation.solve(arena, "centre_", &p_hat, &v_hat, &mut shared);
             }
-        };
-        shared.extend(v_hat.iter().copied().zip(values));
+        }
         for (i, symbol) in x_dot.iter().enumerate() {
             shared.push((*symbol, along(arena, n, |a| ((i, a), v_hat[a]))));
         }

@@ -8,7 +8,7 @@
 use crate::algebra::evaluate::Field;
 use crate::algebra::residue::Residue;
 use crate::algebra::ring::Square;
-use crate::algebra::{Arena, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::metric::Definitions;
 
 use super::sample::Sample;
@@ -75,7 +75,7 @@ impl Factorisation {
             blocks.push(match known {
                 Some(block) => Block { basis, ..block },
                 None => {
-                    let stem = format!("{stem}{}", (b'a' + u8::try_from(blocks.len()).ok()?) as char);
+                    let stem = format!("{stem}{}", letter(blocks.len()));
                     factorised(arena, &stem, basis, form, shared)?
                 }
             });
@@ -101,29 +101,35 @@ impl Factorisation {
         list
     }
 
-    /// The solution of `matrix v = right`; its definitions, with names that begin with `stem`, are added to `shared`.
+    /// Defines the symbols of `solution` as that of `matrix solution = right`, with what leads there; the names of that
+    /// begin with `stem`.
     pub fn solve(
         &self,
         arena: &mut Arena,
         stem: &str,
         right: &[Polynomial],
+        solution: &[Expr],
         shared: &mut Definitions,
-    ) -> Vec<Polynomial> {
-        let mut solution = vec![Polynomial::zero(); right.len()];
+    ) {
+        let mut sums = vec![Polynomial::zero(); right.len()];
         for (which, block) in self.blocks.iter().enumerate() {
-            let stem = format!("{stem}{}", (b'a' + u8::try_from(which).unwrap_or(0)) as char);
+            let stem = format!("{stem}{}", letter(which));
             let along = |direction: &Direction| {
                 let mut sum = Polynomial::zero();
                 direction.iter().for_each(|(k, weight)| sum.add_scaled(&right[*k], weight));
                 sum
             };
             let right: Vec<Polynomial> = block.basis.iter().map(along).collect();
-            let values = block.solve(arena, &stem, &right, shared);
+            let values = block.solve(arena, &stem, &right, solution, shared);
             for (direction, value) in block.basis.iter().zip(&values) {
-                direction.iter().for_each(|(k, weight)| solution[*k].add_scaled(value, weight));
+                direction.iter().for_each(|(k, weight)| sums[*k].add_scaled(value, weight));
             }
         }
-        solution
+        for (symbol, sum) in solution.iter().zip(sums) {
+            if sum != Polynomial::atom(*symbol) {
+                shared.push((*symbol, sum));
+            }
+        }
     }
 }
 
@@ -134,6 +140,7 @@ impl Block {
         arena: &mut Arena,
         stem: &str,
         right: &[Polynomial],
+        solution: &[Expr],
         shared: &mut Definitions,
     ) -> Vec<Polynomial> {
         let size = right.len();
@@ -145,16 +152,32 @@ impl Block {
             }
             forward.push(quantity(arena, &format!("forward_{stem}_{}", k + 1), value, shared));
         }
-        let mut solution = vec![Polynomial::zero(); size];
+        let mut values = vec![Polynomial::zero(); size];
         for k in (0..size).rev() {
             let mut value = forward[k].mul(&self.inverse_pivots[k]);
-            for (j, later) in solution.iter().enumerate().skip(k + 1) {
+            for (j, later) in values.iter().enumerate().skip(k + 1) {
                 value.add_product(&self.lower[j][k], later, &Rational::MINUS_ONE);
             }
-            solution[k] = quantity(arena, &format!("backward_{stem}_{}", k + 1), value, shared);
+            let name = match self.basis[k].as_slice() {
+                // The direction of one entry alone has the value of that entry.
+                [(place, _)] if self.is_alone(*place) => arena.name(solution[*place]).map(str::to_owned),
+                _ => None,
+            };
+            let name = name.unwrap_or_else(|| format!("backward_{stem}_{}", k + 1));
+            values[k] = quantity(arena, &name, value, shared);
         }
-        solution
+        values
     }
+
+    /// Does only one direction of the basis contain the entry?
+    fn is_alone(&self, place: usize) -> bool {
+        self.basis.iter().flatten().filter(|(k, _)| *k == place).count() == 1
+    }
+}
+
+/// Blocks are lettered.
+fn letter(block: usize) -> char {
+    u8::try_from(block).map_or('z', |block| (b'a' + block) as char)
 }
 
 /// A sum of several products gets a name; anything less stands for itself.

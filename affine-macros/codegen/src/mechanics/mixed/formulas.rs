@@ -56,11 +56,20 @@ pub fn internal_equations(mixed: &Mixed, masses: &Masses, potential: Option<&Pot
     let has = |frame: Frame| mixed.internal.iter().any(|part| part.frame == frame);
     let mut parts: Vec<(&str, &str)> = Vec::new();
     let mut rate: Vec<(String, String)> = Vec::new();
+    let mut momenta: Vec<(&str, &str)> = Vec::new();
     if has(Frame::Body) {
+        momenta.push((
+            "Sigma_hat = (dT_body/dOmega_hat)^T",
+            "\\hat\\Sigma = (\\partial T_{body}/\\partial\\hat\\Omega)^T",
+        ));
         parts.push(("Sigma_hat phi^-1", "\\hat\\Sigma\\varphi^{-1}"));
         rate.push(("- Omega_hat Sigma_hat phi^-1".into(), "- \\hat\\Omega\\hat\\Sigma\\varphi^{-1}".into()));
     }
     if has(Frame::Space) {
+        momenta.push((
+            "Sigma = (dT_space/dOmega)^T",
+            "\\Sigma = (\\partial T_{space}/\\partial\\Omega)^T",
+        ));
         parts.push(("phi^-1 Sigma", "\\varphi^{-1}\\Sigma"));
         rate.push(("- phi^-1 Sigma Omega".into(), "- \\varphi^{-1}\\Sigma\\,\\Omega".into()));
     }
@@ -77,10 +86,11 @@ pub fn internal_equations(mixed: &Mixed, masses: &Masses, potential: Option<&Pot
     if potential.is_some() {
         rate.push(("+ N".into(), "+ N".into()));
     }
-    let mut list = vec![formula(
+    let mut list: Vec<Formula> = momenta.into_iter().map(|(text, latex)| formula(text, latex)).collect();
+    list.push(formula(
         format!("Pi = {}, solved for dphi/dt by L D L^T", parts.iter().map(|p| p.0).collect::<Vec<_>>().join(" + ")),
         format!("\\Pi = {}", parts.iter().map(|p| p.1).collect::<Vec<_>>().join(" + ")),
-    )];
+    ));
     let joined = |rate: Vec<String>| rate.join(" ").trim_start_matches("+ ").replacen("- ", "-", 1);
     let (text, tex): (Vec<String>, Vec<String>) = rate.into_iter().unzip();
     list.push(formula(format!("dPi/dt = {}", joined(text)), format!("\\dot\\Pi = {}", joined(tex))));

@@ -69,9 +69,8 @@ impl Internal {
         // The momentum conjugate to phi_dot_iA is Pi_Ai.
         let momentum = Matrix::symbols(arena, Frame::Flat.momentum_name(), n).transpose();
         let right: Vec<Polynomial> = momentum.0.concat().into_iter().map(Polynomial::atom).collect();
-        let solution = factorisation.solve(arena, "", &right, &mut shared);
         let velocity = Matrix::symbols(arena, Frame::Flat.velocity_name(), n);
-        shared.extend(velocity.0.concat().into_iter().zip(solution));
+        factorisation.solve(arena, "", &right, &velocity.0.concat(), &mut shared);
         Some(Self { shared, velocity, factorisation })
     }
 
