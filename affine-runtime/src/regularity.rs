@@ -46,7 +46,8 @@ impl Regularity {
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         // NaN stays.
-        let weakest = if self.weakest <= other.weakest || self.weakest.is_nan() { self.weakest } else { other.weakest };
+        let weakest =
+            if self.weakest <= other.weakest || self.weakest.is_nan() { self.weakest } else { other.weakest };
         Self { negative: self.negative + other.negative, weakest }
     }
 

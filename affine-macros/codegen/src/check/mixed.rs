@@ -48,7 +48,8 @@ pub struct Positive {
 pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Reported> {
     let mut arena = Arena::new();
     let (places, terms): (Vec<usize>, Vec<Term>) = lower::terms(&mut arena, spec).into_iter().unzip();
-    let mut sums = [Frame::Body, Frame::Space].map(|casimirs| Mixed::new(&mut arena, spec.dim.value, &terms, casimirs));
+    let mut sums =
+        [Frame::Body, Frame::Space].map(|casimirs| Mixed::new(&mut arena, spec.dim.value, &terms, casimirs));
     let hessian = match sums[0].internal.as_slice() {
         [one] => {
             let hessian = Hessian::new(one);
@@ -119,9 +120,10 @@ fn is_positive(mixed: &Mixed) -> bool {
 fn unproved(spec: &Spec, mixed: &Mixed, found: &mut Diagnostics) {
     let required = spec.require.iter().find(|r| r.value == Requirement::PositiveDefinite);
     let Some(required) = required else { return };
-    let has_fields = mixed.internal.iter().any(|part| {
-        Hessian::new(part).blocks.iter().any(|block| block.numbers().is_none())
-    });
+    let has_fields = mixed
+        .internal
+        .iter()
+        .any(|part| Hessian::new(part).blocks.iter().any(|block| block.numbers().is_none()));
     if !has_fields {
         let defect = "its parts in Oh, in Om and in phi_dot are not all free of negative squares, so that the sum has \
                       its sign at some placements only, if at any"

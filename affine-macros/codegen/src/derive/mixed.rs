@@ -21,8 +21,8 @@ use crate::optimise::{Batch, straight_line};
 use super::prepared::{coefficient_program, conditions, leading_minors, numeric_blocks, summands, unbound};
 use super::programs::{batch, shortest, shortest_reduction};
 use super::{
-    Condition, Formulas, MixedMasses, Model, NumericBlock, Regularity, legendre_batch, matrix_batch, quantities,
-    result,
+    Condition, Formulas, MixedMasses, Model, NumericBlock, Regularity, legendre_batch, matrix_batch,
+    quantities, result,
 };
 
 /// The internal motion: of one frame, or of several.
@@ -35,7 +35,8 @@ enum Inner {
 
 /// Derives a model; `None` only for energies that the checks refuse.
 pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
-    let MixedForm { mut arena, mixed, hessian, positive, space_group, body_group, potential, quantities } = form;
+    let MixedForm { mut arena, mixed, hessian, positive, space_group, body_group, potential, quantities } =
+        form;
     let arena = &mut arena;
     let inner = Inner::new(arena, &mixed, hessian.as_ref())?;
     let body = Body { inner, masses: Masses::of(&mixed), potential: potential.as_ref(), mixed: &mixed };
@@ -56,8 +57,9 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         true => Some(quantities::metric(arena, &mixed.parts(), None, &mut coefficients)?),
         false => None,
     };
-    let acceleration =
-        quantities.acceleration.then(|| quantities::acceleration(arena, &chart, &systems[0], &mut coefficients));
+    let acceleration = quantities
+        .acceleration
+        .then(|| quantities::acceleration(arena, &chart, &systems[0], &mut coefficients));
     let definite = require_positive || (positive.internal && positive.centre);
     Some(Model {
         dim: mixed.dim,
@@ -266,12 +268,19 @@ impl Body<'_> {
         if !reduction.commuting.is_empty() {
             left_out.push("x and p: the centre of mass moves freely, x = x0 + t p/m".to_owned());
         } else if reduction.turned {
-            left_out.push("p: conserved; space is turned so that only its first component is left".to_owned());
+            left_out
+                .push("p: conserved; space is turned so that only its first component is left".to_owned());
         }
         if closed.is_some() {
             left_out.push("integration of motions with p = 0: they have a closed form".to_owned());
         }
-        Formulas { kinetic_energy: mixed::energy(arena, self.mixed), hamiltonian, equations, reduced, left_out }
+        Formulas {
+            kinetic_energy: mixed::energy(arena, self.mixed),
+            hamiltonian,
+            equations,
+            reduced,
+            left_out,
+        }
     }
 
     fn programs(&self, arena: &mut Arena, chart: &Chart, coefficients: &mut Constants) -> Option<Programs> {
@@ -332,8 +341,7 @@ impl Body<'_> {
                     let (_, shared) = self.masses.velocity(arena)?;
                     let momentum = self.centre_momentum(arena, &x_dot);
                     let named = |arena: &Arena, s: &Expr| arena.name(*s).unwrap_or("x_dot").to_owned();
-                    let results =
-                        x_dot.iter().map(|s| (named(arena, s), Polynomial::atom(*s))).collect();
+                    let results = x_dot.iter().map(|s| (named(arena, s), Polynomial::atom(*s))).collect();
                     Some(MixedMasses {
                         momentum: inline(arena, &momentum, &x_dot),
                         velocity: inline(arena, &Batch { shared, results }, &p),
@@ -429,8 +437,10 @@ impl Body<'_> {
         let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
         let join = |batch: &mut Batch, value: &Polynomial, shared: Definitions| {
             batch.results[0].1.add_scaled(value, &Rational::ONE);
-            let fresh: Definitions =
-                shared.into_iter().filter(|(s, _)| !batch.shared.iter().any(|(known, _)| known == s)).collect();
+            let fresh: Definitions = shared
+                .into_iter()
+                .filter(|(s, _)| !batch.shared.iter().any(|(known, _)| known == s))
+                .collect();
             batch.shared.extend(fresh);
         };
         if !self.masses.are_none() {

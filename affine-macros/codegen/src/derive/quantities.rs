@@ -97,7 +97,8 @@ fn inverse(arena: &mut Arena, entries: &Square<Polynomial>, mut shared: Definiti
             let mut unit = vec![Polynomial::zero(); size];
             unit[column] = Polynomial::constant(Rational::ONE);
             let column = column + 1;
-            let solution: Vec<Expr> = (1..=size).map(|row| arena.symbol(&format!("inverse_{row}_{column}"))).collect();
+            let solution: Vec<Expr> =
+                (1..=size).map(|row| arena.symbol(&format!("inverse_{row}_{column}"))).collect();
             factorisation.solve(arena, &format!("{column}_"), &unit, &solution, &mut shared);
             solution.into_iter().map(Polynomial::atom).collect()
         })
@@ -107,7 +108,9 @@ fn inverse(arena: &mut Arena, entries: &Square<Polynomial>, mut shared: Definiti
 
 fn numbered(entries: &[Vec<Polynomial>]) -> Vec<(String, Polynomial)> {
     let name = |(row, values): (usize, &Vec<Polynomial>)| {
-        let entry = |(column, value): (usize, &Polynomial)| (format!("entry_{}_{}", row + 1, column + 1), value.clone());
+        let entry = |(column, value): (usize, &Polynomial)| {
+            (format!("entry_{}_{}", row + 1, column + 1), value.clone())
+        };
         values.iter().enumerate().map(entry).collect::<Vec<_>>()
     };
     entries.iter().enumerate().flat_map(name).collect()

@@ -41,7 +41,9 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
          `X = (dT/dO)^T` (4.6), (4.8)."
     );
     let errors = |of: &str| {
-        format!(" `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a {of}{refusal}.")
+        format!(
+            " `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a {of}{refusal}."
+        )
     };
     let (momentum_errors, velocity_errors) = (errors("momentum"), errors("velocity"));
     quote! {

@@ -106,7 +106,11 @@ impl PullBack<'_> {
         let psi = &self.inverse.0;
         let mut sum = Polynomial::zero();
         for (c, d) in (0..n).flat_map(|c| (0..n).map(move |d| (c, d))) {
-            sum.add_product(&h[c][d], &Polynomial::term(vec![psi[c][i], psi[d][j]], Rational::ONE), &Rational::ONE);
+            sum.add_product(
+                &h[c][d],
+                &Polynomial::term(vec![psi[c][i], psi[d][j]], Rational::ONE),
+                &Rational::ONE,
+            );
         }
         sum
     }
@@ -124,7 +128,11 @@ impl PullBack<'_> {
         let (a, b) = if named { (a.min(b), a.max(b)) } else { (a, b) };
         let mut sum = Polynomial::zero();
         for (k, l) in (0..n).flat_map(|k| (0..n).map(move |l| (k, l))) {
-            sum.add_product(&h[k][l], &Polynomial::term(vec![psi[a][k], psi[b][l]], Rational::ONE), &Rational::ONE);
+            sum.add_product(
+                &h[k][l],
+                &Polynomial::term(vec![psi[a][k], psi[b][l]], Rational::ONE),
+                &Rational::ONE,
+            );
         }
         match named {
             true => self.named(&format!("space_inertia_{}{}", a + 1, b + 1), sum),

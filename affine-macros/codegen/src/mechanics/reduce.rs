@@ -157,7 +157,13 @@ pub fn candidates(
 
 /// A system whose affine momentum is state, reduced: `p` leaves it where it is conserved, and space is turned on
 /// demand.
-pub fn reduced(arena: &Arena, chart: Chart, commuting: Vec<Commuting>, turn: bool, system: System) -> Reduction {
+pub fn reduced(
+    arena: &Arena,
+    chart: Chart,
+    commuting: Vec<Commuting>,
+    turn: bool,
+    system: System,
+) -> Reduction {
     Plan { chart, commuting, turn, load: None }.state_only(arena, system, Layout::Entries)
 }
 

@@ -51,7 +51,8 @@ impl Masses {
     /// `m_body 1 + m_space G`.
     fn matrix(&self, arena: &mut Arena) -> Square<Polynomial> {
         let green = green(arena, self.dim);
-        let mut mass = |mass: Option<Expr>| mass.map_or_else(Polynomial::zero, |m| Polynomial::normal_form(arena, m));
+        let mut mass =
+            |mass: Option<Expr>| mass.map_or_else(Polynomial::zero, |m| Polynomial::normal_form(arena, m));
         let (body, space) = (mass(self.body), mass(self.space));
         table(self.dim, |a, b| {
             let mut entry = if a == b { body.clone() } else { Polynomial::zero() };

@@ -182,7 +182,8 @@ fn letter(block: usize) -> char {
 
 /// A sum of several products gets a name; anything less stands for itself.
 fn quantity(arena: &mut Arena, name: &str, value: Polynomial, shared: &mut Definitions) -> Polynomial {
-    let short = value.terms().len() == 0 || (value.terms().len() == 1 && value.terms().all(|(m, _)| m.len() <= 1));
+    let short =
+        value.terms().len() == 0 || (value.terms().len() == 1 && value.terms().all(|(m, _)| m.len() <= 1));
     if short {
         return value;
     }

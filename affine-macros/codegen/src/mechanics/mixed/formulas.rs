@@ -31,7 +31,12 @@ pub fn energy(arena: &mut Arena, mixed: &Mixed) -> Formula {
 }
 
 /// `H` through the velocities.
-pub fn hamiltonian(arena: &Arena, internal: Formula, masses: &Masses, potential: Option<&Potential>) -> Formula {
+pub fn hamiltonian(
+    arena: &Arena,
+    internal: Formula,
+    masses: &Masses,
+    potential: Option<&Potential>,
+) -> Formula {
     let mut sum = internal;
     if !masses.are_none() {
         sum.text += " + 1/2 p^T dx/dt";
@@ -66,10 +71,7 @@ pub fn internal_equations(mixed: &Mixed, masses: &Masses, potential: Option<&Pot
         rate.push(("- Omega_hat Sigma_hat phi^-1".into(), "- \\hat\\Omega\\hat\\Sigma\\varphi^{-1}".into()));
     }
     if has(Frame::Space) {
-        momenta.push((
-            "Sigma = (dT_space/dOmega)^T",
-            "\\Sigma = (\\partial T_{space}/\\partial\\Omega)^T",
-        ));
+        momenta.push(("Sigma = (dT_space/dOmega)^T", "\\Sigma = (\\partial T_{space}/\\partial\\Omega)^T"));
         parts.push(("phi^-1 Sigma", "\\varphi^{-1}\\Sigma"));
         rate.push(("- phi^-1 Sigma Omega".into(), "- \\varphi^{-1}\\Sigma\\,\\Omega".into()));
     }
@@ -78,9 +80,14 @@ pub fn internal_equations(mixed: &Mixed, masses: &Masses, potential: Option<&Pot
     }
     if masses.body.is_some() {
         rate.push((
-            "- phi^-1 dx/dt (p - m dx/dt)^T".replace(" - m dx/dt", if masses.are_mixed() { " - m dx/dt" } else { "" }),
-            if masses.are_mixed() { "- \\varphi^{-1}\\dot x (p - m\\dot x)^T" } else { "- \\varphi^{-1}\\dot x\\,p^T" }
-                .into(),
+            "- phi^-1 dx/dt (p - m dx/dt)^T"
+                .replace(" - m dx/dt", if masses.are_mixed() { " - m dx/dt" } else { "" }),
+            if masses.are_mixed() {
+                "- \\varphi^{-1}\\dot x (p - m\\dot x)^T"
+            } else {
+                "- \\varphi^{-1}\\dot x\\,p^T"
+            }
+            .into(),
         ));
     }
     if potential.is_some() {
@@ -88,7 +95,10 @@ pub fn internal_equations(mixed: &Mixed, masses: &Masses, potential: Option<&Pot
     }
     let mut list: Vec<Formula> = momenta.into_iter().map(|(text, latex)| formula(text, latex)).collect();
     list.push(formula(
-        format!("Pi = {}, solved for dphi/dt by L D L^T", parts.iter().map(|p| p.0).collect::<Vec<_>>().join(" + ")),
+        format!(
+            "Pi = {}, solved for dphi/dt by L D L^T",
+            parts.iter().map(|p| p.0).collect::<Vec<_>>().join(" + ")
+        ),
         format!("\\Pi = {}", parts.iter().map(|p| p.1).collect::<Vec<_>>().join(" + ")),
     ));
     let joined = |rate: Vec<String>| rate.join(" ").trim_start_matches("+ ").replacen("- ", "-", 1);

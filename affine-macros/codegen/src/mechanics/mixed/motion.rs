@@ -166,8 +166,14 @@ fn define_all(shared: &mut Definitions, symbols: &Matrix, values: Square<Polynom
 }
 
 /// A matrix of quantities `stem_11`, `stem_12`, ...; one whose entries are symbols already stays as it is.
-fn named(arena: &mut Arena, shared: &mut Definitions, stem: &str, values: Square<Polynomial>) -> Square<Polynomial> {
-    let is_symbol = |p: &Polynomial| p.terms().len() == 1 && p.terms().all(|(m, c)| m.len() == 1 && c.is_one());
+fn named(
+    arena: &mut Arena,
+    shared: &mut Definitions,
+    stem: &str,
+    values: Square<Polynomial>,
+) -> Square<Polynomial> {
+    let is_symbol =
+        |p: &Polynomial| p.terms().len() == 1 && p.terms().all(|(m, c)| m.len() == 1 && c.is_one());
     if values.iter().flatten().all(is_symbol) {
         return values;
     }

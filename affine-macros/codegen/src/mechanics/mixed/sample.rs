@@ -30,7 +30,9 @@ impl Sample {
 
     fn of_name(&self, name: &str) -> Residue {
         match name.strip_prefix("phi_").map(str::as_bytes) {
-            Some([i, a]) if self.undeformed => Residue::from_rational(if i == a { &Rational::ONE } else { &Rational::ZERO }),
+            Some([i, a]) if self.undeformed => {
+                Residue::from_rational(if i == a { &Rational::ONE } else { &Rational::ZERO })
+            }
             _ => Residue::sample(&format!("{}{name}", self.point)),
         }
     }
