@@ -32,6 +32,7 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     symbols::hidden(spec, found);
     symbols::resolved(spec, found);
     capabilities::available(spec, found);
+    capabilities::centre(spec, found);
     potential::available(spec, found);
     potential::scalar(spec, found);
     potential::centre(spec, found);

@@ -15,3 +15,13 @@ pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
         );
     }
 }
+
+/// Where the centre of mass is fixed it has no acceleration.
+pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
+    let moves = spec.kinetic.iter().any(|term| term.kind.value.is_translation());
+    let asked = spec.emit.iter().find(|capability| capability.value == Capability::Acceleration);
+    if let Some(acceleration) = asked.filter(|_| !moves) {
+        let form = acceleration.value.name().to_owned();
+        found.report(acceleration.span, Diagnostic::FixedCentre { form });
+    }
+}

@@ -65,15 +65,15 @@ pub enum Diagnostic {
     ExpectedList {
         /// The key.
         key: &'static str,
-        /// How it may look, if this version accepts any list.
-        example: Option<&'static str>,
+        /// How it may look.
+        example: &'static str,
     },
     /// `key()`.
     EmptyList {
         /// The key.
         key: &'static str,
-        /// How it may look, if this version accepts any list.
-        example: Option<&'static str>,
+        /// How it may look.
+        example: &'static str,
     },
     /// A claim, requirement or capability that does not exist.
     UnknownName {

@@ -80,15 +80,12 @@ impl Diagnostic {
             Self::ExpectedList { key, example } => text(
                 format!("`{key}` has no list"),
                 format!("`{key}` takes a list in parentheses, directly after the name"),
-                example.map_or_else(|| format!("remove `{key}`"), |example| format!("write `{example}`")),
+                format!("write `{example}`"),
             ),
             Self::EmptyList { key, example } => text(
                 format!("`{key}()` is empty"),
                 "an empty list states nothing",
-                match example {
-                    Some(example) => format!("write `{example}`, or remove `{key}`"),
-                    None => format!("remove `{key}`"),
-                },
+                format!("write `{example}`, or remove `{key}`"),
             ),
             Self::UnknownName { role, found, nearest, known } => text(
                 format!("there is no {role} `{found}`"),
