@@ -117,6 +117,10 @@ families! {
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
     flat_tensor_drift_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2, \
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
+    mixed_flat_affine_2: "dim = 2, kinetic(dalembert = 2, casimir2 = 0.2, space_translation = 1)";
+    mixed_body_space_3: "dim = 3, kinetic(body_inertia = 1, space_inertia = diag(1, 1.5, 2))";
+    mixed_masses_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1, space_translation = 2), \
+        emit(metric, acceleration)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.

@@ -16,6 +16,8 @@ mod canonical;
 mod conserved;
 mod drunk_missile;
 mod geodesics;
+mod mixed;
 mod potentials;
 mod prepare;
+mod quantities;
 mod undeformed;

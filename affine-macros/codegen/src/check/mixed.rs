@@ -125,9 +125,10 @@ fn unproved(spec: &Spec, mixed: &Mixed, found: &mut Diagnostics) {
         .iter()
         .any(|part| Hessian::new(part).blocks.iter().any(|block| block.numbers().is_none()));
     if !has_fields {
-        let defect = "a sum over different velocities is so at every placement where its parts in Oh, in Om and in \
+        let defect =
+            "a sum over different velocities is so at every placement where its parts in Oh, in Om and in \
                       phi_dot have no negative squares, and one of these has"
-            .to_owned();
+                .to_owned();
         found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
     }
 }
