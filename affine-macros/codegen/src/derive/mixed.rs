@@ -60,7 +60,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
     let acceleration = quantities
         .acceleration
         .then(|| quantities::acceleration(arena, &chart, &systems[0], &mut coefficients));
-    let definite = require_positive || (positive.internal && positive.centre);
+    let signature = body.signature(hessian.as_ref(), positive, require_positive);
     Some(Model {
         dim: mixed.dim,
         frame: body.inner.frame(),
@@ -86,7 +86,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         isotropic: programs.isotropic,
         conserved,
         conserved_at_rest,
-        signature: definite.then(|| (mixed.degrees_of_freedom(), 0)),
+        signature,
         has_potential: potential.is_some(),
         groups: (space_group, body_group),
         formulas,
@@ -489,6 +489,23 @@ impl Body<'_> {
             }
         }
         Some(Some(Regularity { blocks, positive: required }))
+    }
+
+    /// Numbers of positive and negative squares, where they are the same at every placement that a motion reaches.
+    fn signature(
+        &self,
+        hessian: Option<&Hessian>,
+        positive: Positive,
+        required: bool,
+    ) -> Option<(usize, usize)> {
+        if required || (positive.internal && positive.centre) {
+            return Some((self.mixed.degrees_of_freedom(), 0));
+        }
+        let blocks = hessian.filter(|_| positive.centre)?.blocks.iter();
+        let inertias: Vec<_> = blocks.map(|block| block.inertia(self.mixed.dim)).collect::<Option<_>>()?;
+        let squares = self.mixed.degrees_of_freedom();
+        let negative: usize = inertias.iter().map(|inertia| inertia.negative).sum();
+        Some((squares - negative, negative))
     }
 
     /// What `prepare()` has to check: masses, the inertia of d'Alembert's energy, and a constant mass matrix.

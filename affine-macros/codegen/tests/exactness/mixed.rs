@@ -250,4 +250,9 @@ fn sums_of_squares_are_positive_definite() {
         regular("casimir2 = 0.5, body_inertia = 1, body_translation = 1, space_translation = -2"),
         (None, true)
     );
+    // Only the translation mixes frames, and its masses are positive.
+    assert_eq!(
+        regular("casimir2 = 2, body_inertia = 1, body_translation = 1, space_translation = 2"),
+        (Some((5, 1)), false)
+    );
 }
