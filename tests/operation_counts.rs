@@ -108,7 +108,7 @@ fn mixed_sums() {
     let counted = counts::<2, FlatAffine>(&FlatAffine, &sample::<2, FlatAffine>(&FlatAffine));
     assert_eq!(counted, [(76, 41), (76, 41)]);
     let counted = counts::<3, BodySpace>(&BodySpace, &sample::<3, BodySpace>(&BodySpace));
-    assert_eq!(counted, [(510, 390), (510, 390)]);
+    assert_eq!(counted, [(381, 281), (381, 281)]);
     let counted = counts::<3, FlatBody>(&FlatBody, &sample::<3, FlatBody>(&FlatBody));
     assert_eq!(counted, [(145, 93), (145, 93)]);
 }
