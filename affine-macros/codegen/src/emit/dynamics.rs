@@ -48,7 +48,7 @@ fn velocity(context: &Context) -> TokenStream {
     };
     let placement = mixed::placement(context, &context.model.velocity, &quote!(#rt::Phase::phi(point)));
     let (mass, x_dot) = match (&context.model.mass, context.model.translation) {
-        (None, Some(_)) => (mixed::velocity_of_centre(context), quote!(x_dot)),
+        (None, Some(_)) => mixed::velocity_of_centre(context),
         (Some(program), Some(frame)) => {
             let body = context.generic(&program.only("inverse_mass"));
             let (lets, inverse_mass) = (&body.lets, body.result());

@@ -28,14 +28,14 @@ fn vector(context: &Context, program: &Program, stem: &str, value: &TokenStream)
     quote!(let #bound = #rt::components(&#value);)
 }
 
-/// `x_dot` of a point from `phi` and `p`.
-pub(super) fn velocity_of_centre(context: &Context) -> TokenStream {
-    let Some(masses) = &context.model.mixed_masses else { return TokenStream::new() };
+/// `x_dot` of a point from `phi` and `p`: statements, and the vector.
+pub(super) fn velocity_of_centre(context: &Context) -> (TokenStream, TokenStream) {
+    let Some(masses) = &context.model.mixed_masses else { return Default::default() };
     let (rt, program) = (&context.names.rt, &masses.velocity);
     let placement = placement(context, program, &quote!(#rt::Phase::phi(point)));
     let p = vector(context, program, "p", &quote!(#rt::Phase::p(point)));
     let Body { lets, results } = context.generic(program);
-    quote!(#placement #p #lets let x_dot = #rt::vector([#(#results),*]);)
+    (quote!(#placement #p #lets), quote!(#rt::vector([#(#results),*])))
 }
 
 /// `p` from `phi` and `x_dot`.
