@@ -1,29 +1,26 @@
 //! The derivation of a model whose mass matrix depends on the placement.
 
+mod checks;
+mod programs;
+
 use crate::algebra::bind::Constants;
-use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
-use crate::check::{MixedForm, Positive, eigenvalues};
-use crate::ir::Program;
-use crate::ir::fuse::fuse;
+use crate::algebra::{Arena, Expr, Polynomial};
+use crate::check::MixedForm;
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::describe;
 use crate::mechanics::equations::{self, System, gradient, hamilton};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::Hessian;
-use crate::mechanics::kinetic::{Frame, Kinetic, TermKind};
-use crate::mechanics::metric::{Definitions, inverse_placement};
-use crate::mechanics::mixed::{self, Factorisation, Internal, Legendre, Masses, Mixed};
-use crate::mechanics::potential::{Base, Potential};
+use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::mixed::{self, Internal, Masses, Mixed};
+use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::{self, ClosedForm, Commuting, Reduction};
-use crate::optimise::{Batch, straight_line};
+use crate::optimise::Batch;
 
-use super::prepared::{coefficient_program, conditions, leading_minors, numeric_blocks, summands, unbound};
+use super::prepared::coefficient_program;
 use super::programs::{batch, shortest, shortest_reduction};
-use super::{
-    Condition, Formulas, MixedMasses, Model, NumericBlock, Regularity, legendre_batch, matrix_batch,
-    quantities, result,
-};
+use super::{Formulas, Model, quantities};
 
 /// The internal motion: of one frame, or of several.
 enum Inner {
@@ -110,17 +107,6 @@ impl Inner {
             Self::Varying(_) => Frame::Flat,
         }
     }
-}
-
-/// The programs of one placement.
-struct Programs {
-    legendre: Program,
-    velocity: Program,
-    mass: Option<Program>,
-    mixed_masses: Option<MixedMasses>,
-    kinetic_energy: Program,
-    hamiltonian: Program,
-    isotropic: Option<Program>,
 }
 
 /// What the equations are derived from.
@@ -282,290 +268,4 @@ impl Body<'_> {
             left_out,
         }
     }
-
-    fn programs(&self, arena: &mut Arena, chart: &Chart, coefficients: &mut Constants) -> Option<Programs> {
-        let n = self.mixed.dim;
-        let phi = chart.phi.0.concat();
-        let mut inline = |arena: &mut Arena, batch: &Batch, inputs: &[Expr]| {
-            fuse(&straight_line(arena, batch, coefficients, &|a| inputs.contains(&a) || phi.contains(&a)))
-        };
-        let vector = |arena: &mut Arena, stem: &str| -> Vec<Expr> {
-            (1..=n).map(|i| arena.symbol(&format!("{stem}_{i}"))).collect()
-        };
-        let velocities = Matrix::symbols(arena, self.inner.frame().velocity_name(), n);
-        let momenta = Matrix::symbols(arena, self.inner.frame().momentum_name(), n);
-        let (mut legendre, mut velocity, mut energy) = match &self.inner {
-            Inner::Constant(kinetic, h) => (
-                legendre_batch(arena, kinetic),
-                matrix_batch(arena, &velocities, &h.velocity),
-                result("energy", kinetic.internal_energy()),
-            ),
-            Inner::Varying(internal) => {
-                let Legendre { shared, momentum, energy } = Legendre::new(arena, self.mixed);
-                let values: Vec<Vec<Polynomial>> = internal
-                    .velocity
-                    .0
-                    .iter()
-                    .map(|row| row.iter().map(|symbol| Polynomial::atom(*symbol)).collect())
-                    .collect();
-                (
-                    matrix_batch(arena, &momenta, &momentum),
-                    matrix_batch(arena, &velocities, &values),
-                    Batch { shared, ..result("energy", energy) },
-                )
-            }
-        };
-        if let Inner::Varying(internal) = &self.inner {
-            legendre.shared.clone_from(&energy.shared);
-            velocity.shared.clone_from(&internal.shared);
-        }
-        let v = vector(arena, "v");
-        self.centre_energy(arena, &v, &mut energy);
-        let inputs = [velocities.0.concat(), v].concat();
-        Some(Programs {
-            legendre: inline(arena, &legendre, &inputs),
-            velocity: inline(arena, &velocity, &momenta.0.concat()),
-            kinetic_energy: inline(arena, &energy, &inputs),
-            mass: match (self.masses.body, self.masses.space) {
-                (Some(mass), None) | (None, Some(mass)) => {
-                    let reciprocal = arena.pow(mass, -1)?;
-                    let [inverse, mass] = [reciprocal, mass].map(|m| Polynomial::normal_form(arena, m));
-                    let results = vec![("inverse_mass".into(), inverse), ("mass".into(), mass)];
-                    Some(inline(arena, &Batch { shared: Vec::new(), results }, &[]))
-                }
-                _ => None,
-            },
-            mixed_masses: match self.masses.are_mixed() {
-                true => {
-                    let (x_dot, p) = (vector(arena, "x_dot"), vector(arena, "p"));
-                    let (_, shared) = self.masses.velocity(arena)?;
-                    let momentum = self.centre_momentum(arena, &x_dot);
-                    let named = |arena: &Arena, s: &Expr| arena.name(*s).unwrap_or("x_dot").to_owned();
-                    let results = x_dot.iter().map(|s| (named(arena, s), Polynomial::atom(*s))).collect();
-                    Some(MixedMasses {
-                        momentum: inline(arena, &momentum, &x_dot),
-                        velocity: inline(arena, &Batch { shared, results }, &p),
-                    })
-                }
-                false => None,
-            },
-            hamiltonian: {
-                let (batch, inputs) = self.hamiltonian(arena, chart)?;
-                inline(arena, &batch, &inputs)
-            },
-            isotropic: match &self.inner {
-                Inner::Constant(_, h) => h.isotropic.as_ref().map(|iso| {
-                    let named = [
-                        ("inverse_alpha", &iso.casimir2),
-                        ("inverse_beta", &iso.casimir1_squared),
-                        ("inverse_mu", &iso.skew),
-                    ];
-                    let results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
-                    inline(arena, &Batch { shared: Vec::new(), results }, &[])
-                }),
-                Inner::Varying(_) => None,
-            },
-        })
-    }
-
-    /// Adds `m/2 |v|^2` in the frame of the translation; with two masses `v = x_dot`.
-    fn centre_energy(&self, arena: &mut Arena, v: &[Expr], energy: &mut Batch) {
-        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
-        let mixed = self.masses.are_mixed();
-        let mut squares = |mass: Option<Expr>, symbols: &[Expr]| {
-            let Some(mass) = mass else { return };
-            let mass = Polynomial::normal_form(arena, mass);
-            for s in symbols {
-                let square = Polynomial::term(vec![*s, *s], Rational::ONE);
-                energy.results[0].1.add_product(&square, &mass, &half);
-            }
-        };
-        squares(self.masses.space, v);
-        if !mixed {
-            squares(self.masses.body, v);
-            return;
-        }
-        let v_hat: Vec<Expr> = (1..=v.len()).map(|a| arena.symbol(&format!("v_hat_{a}"))).collect();
-        let mut squares = |arena: &mut Arena, mass: Expr| {
-            let mass = Polynomial::normal_form(arena, mass);
-            for s in &v_hat {
-                let square = Polynomial::term(vec![*s, *s], Rational::ONE);
-                energy.results[0].1.add_product(&square, &mass, &half);
-            }
-        };
-        if let Some(mass) = self.masses.body {
-            squares(arena, mass);
-        }
-        let comoving = comoving(arena, v);
-        let known = |symbol: Expr| energy.shared.iter().any(|(s, _)| *s == symbol);
-        let fresh: Definitions = comoving.into_iter().filter(|(s, _)| !known(*s)).collect();
-        energy.shared.extend(fresh);
-    }
-
-    /// `p = m_space x_dot + m_body phi^-T phi^-1 x_dot`.
-    fn centre_momentum(&self, arena: &mut Arena, x_dot: &[Expr]) -> Batch {
-        let n = x_dot.len();
-        let inverse = Matrix::symbols(arena, "inverse_phi", n).0;
-        let shared = comoving(arena, x_dot);
-        let mass = |arena: &mut Arena, mass: Option<Expr>| {
-            mass.map_or_else(Polynomial::zero, |m| Polynomial::normal_form(arena, m))
-        };
-        let (body, space) = (mass(arena, self.masses.body), mass(arena, self.masses.space));
-        let results = (0..n)
-            .map(|i| {
-                let mut pulled = Polynomial::zero();
-                for (a, row) in inverse.iter().enumerate() {
-                    let v_hat = arena.symbol(&format!("v_hat_{}", a + 1));
-                    pulled.add_term(vec![row[i], v_hat], &Rational::ONE);
-                }
-                let mut momentum = space.mul(&Polynomial::atom(x_dot[i]));
-                momentum.add_product(&body, &pulled, &Rational::ONE);
-                (format!("p_{}", i + 1), momentum)
-            })
-            .collect();
-        Batch { shared, results }
-    }
-
-    /// `H` at a point, with its inputs.
-    fn hamiltonian(&self, arena: &mut Arena, chart: &Chart) -> Option<(Batch, Vec<Expr>)> {
-        let mut batch = match &self.inner {
-            Inner::Varying(internal) => {
-                Batch { shared: internal.shared.clone(), ..result("energy", internal.energy(chart)) }
-            }
-            Inner::Constant(_, h) => result("energy", h.internal()),
-        };
-        let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
-        let join = |batch: &mut Batch, value: &Polynomial, shared: Definitions| {
-            batch.results[0].1.add_scaled(value, &Rational::ONE);
-            let fresh: Definitions = shared
-                .into_iter()
-                .filter(|(s, _)| !batch.shared.iter().any(|(known, _)| known == s))
-                .collect();
-            batch.shared.extend(fresh);
-        };
-        if !self.masses.are_none() {
-            let (_, shared) = self.masses.velocity(arena)?;
-            join(&mut batch, &self.masses.energy(arena, chart), shared);
-        }
-        if let Some(u) = self.potential {
-            let (value, shared) = u.energy_at_a_point(arena, chart);
-            join(&mut batch, &value, shared);
-            inputs.push(Base::MeanLogStretch.symbol(arena));
-        }
-        Some((batch, inputs))
-    }
-
-    /// What tells at a placement whether the mass matrix is regular, where that is not known for all.
-    fn regularity(
-        &self,
-        arena: &mut Arena,
-        positive: Positive,
-        required: bool,
-        coefficients: &mut Constants,
-    ) -> Option<Option<Regularity>> {
-        let mut parts: Vec<(Factorisation, Definitions)> = Vec::new();
-        if let Inner::Varying(internal) = &self.inner
-            && !positive.internal
-        {
-            parts.push((internal.factorisation.clone(), internal.shared.clone()));
-        }
-        if self.masses.are_mixed() && !positive.centre {
-            parts.push(self.masses.factorised(arena)?);
-        }
-        if parts.is_empty() {
-            return Some(None);
-        }
-        let phi = Matrix::symbols(arena, "phi", self.mixed.dim).0.concat();
-        let mut blocks = Vec::new();
-        for (factorisation, shared) in parts {
-            for (block, count) in factorisation.blocks() {
-                let sizes: Vec<Polynomial> =
-                    block.diagonal().into_iter().map(|entry| size(arena, entry)).collect();
-                let values = block.upper.iter().chain(&sizes).enumerate();
-                let results = values.map(|(k, p)| (format!("value_{}", k + 1), p.clone())).collect();
-                let batch = Batch { shared: shared.clone(), results }.pruned(arena);
-                let program = fuse(&straight_line(arena, &batch, coefficients, &|a| phi.contains(&a)));
-                blocks.extend(std::iter::repeat_n((program, block.size), count));
-            }
-        }
-        Some(Some(Regularity { blocks, positive: required }))
-    }
-
-    /// Numbers of positive and negative squares, where they are the same at every placement that a motion reaches.
-    fn signature(
-        &self,
-        hessian: Option<&Hessian>,
-        positive: Positive,
-        required: bool,
-    ) -> Option<(usize, usize)> {
-        if required || (positive.internal && positive.centre) {
-            return Some((self.mixed.degrees_of_freedom(), 0));
-        }
-        let blocks = hessian.filter(|_| positive.centre)?.blocks.iter();
-        let inertias: Vec<_> = blocks.map(|block| block.inertia(self.mixed.dim)).collect::<Option<_>>()?;
-        let squares = self.mixed.degrees_of_freedom();
-        let negative: usize = inertias.iter().map(|inertia| inertia.negative).sum();
-        Some((squares - negative, negative))
-    }
-
-    /// What `prepare()` has to check: masses, the inertia of d'Alembert's energy, and a constant mass matrix.
-    fn conditions(&self, arena: &mut Arena, hessian: Option<&Hessian>, required: bool) -> Vec<Condition> {
-        let mut list = match (&self.inner, hessian) {
-            (Inner::Constant(kinetic, _), Some(hessian)) => {
-                conditions(arena, kinetic, eigenvalues(hessian), required)
-            }
-            _ => Vec::new(),
-        };
-        let mut add = |arena: &mut Arena, name, directions, positive, value: Polynomial| {
-            if value.as_constant().is_none() {
-                let sizes = summands(&value);
-                let program = unbound(arena, std::iter::once(value).chain(sizes));
-                list.push(Condition { name, directions, positive, program });
-            }
-        };
-        let terms = self.mixed.internal.iter().flat_map(|part| &part.terms);
-        let inertia = terms.filter(|term| term.kind == TermKind::Dalembert).map(|term| &term.value).next();
-        if let (Inner::Varying(_), Some(inertia)) = (&self.inner, inertia) {
-            for minor in leading_minors(arena, inertia) {
-                add(arena, "a leading minor of J", "a row of phi_dot", true, minor);
-            }
-        }
-        for mass in [self.masses.body, self.masses.space].into_iter().flatten() {
-            let mass = Polynomial::normal_form(arena, mass);
-            add(arena, "m", "the velocity of the centre of mass", required || inertia.is_some(), mass);
-        }
-        list
-    }
-
-    fn numeric_blocks(&self, arena: &mut Arena, required: bool) -> Vec<NumericBlock> {
-        match &self.inner {
-            Inner::Constant(kinetic, h) => numeric_blocks(arena, h, required || kinetic.is_dalembert()),
-            Inner::Varying(_) => Vec::new(),
-        }
-    }
-}
-
-/// `v_hat = phi^-1 x_dot`, with what leads there.
-fn comoving(arena: &mut Arena, x_dot: &[Expr]) -> Definitions {
-    let (inverse, mut shared) = inverse_placement(arena, x_dot.len());
-    for (a, row) in inverse.0.iter().enumerate() {
-        let mut value = Polynomial::zero();
-        row.iter().zip(x_dot).for_each(|(psi, v)| value.add_term(vec![*psi, *v], &Rational::ONE));
-        shared.push((arena.symbol(&format!("v_hat_{}", a + 1)), value));
-    }
-    shared
-}
-
-/// The sum of the sizes of the terms of a polynomial.
-fn size(arena: &mut Arena, polynomial: &Polynomial) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    for (monomial, c) in polynomial.terms() {
-        let value = Polynomial::term(monomial.clone(), Rational::ONE).expression(arena);
-        let size = match monomial.is_empty() {
-            true => value,
-            false => arena.apply(Function::Abs, value),
-        };
-        sum.add_scaled(&Polynomial::normal_form(arena, size), &c.abs());
-    }
-    sum
 }
