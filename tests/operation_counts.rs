@@ -111,6 +111,28 @@ fn stretches() {
     assert_eq!(counts::<3, Traced>(&Traced, &sample::<3, Traced>(&Traced)), [(81, 60), (60, 30)]);
 }
 
+/// Mass matrices that depend on the placement: a factorisation, with one division for each pivot and one for `det phi`.
+#[test]
+fn mixed_sums() {
+    #[affine_model(dim = 2, kinetic(dalembert = 2, casimir2 = 0.2, casimir1_squared = 0.1))]
+    struct FlatAffine;
+    #[affine_model(dim = 3, kinetic(body_inertia = 1, space_inertia = diag(1, 1.5, 2)))]
+    struct BodySpace;
+    #[affine_model(dim = 3, kinetic(dalembert = 2, body_inertia = 1))]
+    struct FlatBody;
+    let divisions = |o: Operations| (o.div, o.sqrt, o.exp, o.ln);
+    assert_eq!(divisions(FlatAffine::DESCRIPTION.full_operations), (5, 0, 0, 0));
+    assert_eq!(divisions(BodySpace::DESCRIPTION.full_operations), (10, 0, 0, 0));
+    // Three equal blocks are factorised once.
+    assert_eq!(divisions(FlatBody::DESCRIPTION.full_operations), (4, 0, 0, 0));
+    let counted = counts::<2, FlatAffine>(&FlatAffine, &sample::<2, FlatAffine>(&FlatAffine));
+    assert_eq!(counted, [(76, 41), (76, 41)]);
+    let counted = counts::<3, BodySpace>(&BodySpace, &sample::<3, BodySpace>(&BodySpace));
+    assert_eq!(counted, [(381, 281), (381, 281)]);
+    let counted = counts::<3, FlatBody>(&FlatBody, &sample::<3, FlatBody>(&FlatBody));
+    assert_eq!(counted, [(145, 93), (145, 93)]);
+}
+
 // (multiplications, additions); 0.2, 0.1, 1 are the coefficients of problem P1.
 pinned! {
     Left2 2 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1) = full (19, 11), reduced (8, 4);

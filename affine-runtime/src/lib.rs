@@ -31,6 +31,7 @@ pub mod kinematics;
 pub mod metrics;
 pub mod model;
 mod reduction;
+mod regularity;
 #[cfg(feature = "report")]
 pub mod report;
 pub mod scalar;

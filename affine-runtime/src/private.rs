@@ -17,13 +17,14 @@ pub use crate::integrate::taylor::{
 pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
 pub use crate::metrics::Bases;
 pub use crate::model::{
-    Conserved, Constraint, Description, Formula, Group, Model, Operations, Velocity,
+    Conserved, Constraint, Description, Formula, Group, Model, Operations, Regularity, Velocity,
     VelocityDeterminesMomentum,
 };
 pub use crate::reduction::{
     Condition, finite, from_shear_and_turn, inverse_form, shear_and_turn, total_affine_momentum, total_size,
     turn, well_posed,
 };
+pub use crate::regularity::regular;
 pub use crate::scalar::{Real, Scalar};
 pub use crate::state::{Centre, Phase, PhasePoint, Pinned};
 

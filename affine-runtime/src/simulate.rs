@@ -5,6 +5,7 @@ mod csv;
 mod halt;
 mod output;
 mod run;
+mod signature;
 mod stepper;
 mod trajectory;
 mod why;

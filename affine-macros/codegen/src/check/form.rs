@@ -13,7 +13,7 @@ use crate::mechanics::metrics::Metrics;
 use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
-use crate::spec::{self, Claim, Named, Requirement, Spec, Value};
+use crate::spec::{self, Capability, Claim, Named, Requirement, Spec, Value};
 
 /// A kinetic energy that passed all rules that can be decided before its fields have values.
 pub struct Form {
@@ -33,6 +33,24 @@ pub struct Form {
     pub potential: Option<Potential>,
     /// Metrics other than the identity; everything else stands in bases in which they are.
     pub metrics: Option<Metrics>,
+    /// What else is emitted.
+    pub quantities: Quantities,
+}
+
+/// Quantities that are emitted when asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Quantities {
+    /// The configuration metric and its inverse.
+    pub metric: bool,
+    /// The acceleration of the centre of mass.
+    pub acceleration: bool,
+}
+
+impl Quantities {
+    pub(super) fn of(spec: &Spec) -> Self {
+        let asked = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
+        Self { metric: asked(Capability::Metric), acceleration: asked(Capability::Acceleration) }
+    }
 }
 
 /// Builds the form and holds it against every rule.
@@ -74,6 +92,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         body_group,
         potential,
         metrics: lower::metrics(spec),
+        quantities: Quantities::of(spec),
     })
 }
 
@@ -112,6 +131,7 @@ fn momentum_form(
         body_group,
         potential,
         metrics: lower::metrics(spec),
+        quantities: Quantities::of(spec),
     })
 }
 
@@ -143,7 +163,7 @@ fn nothing_vanishes(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mu
 
 /// The potential on the group that is left: one that is constant there moves nothing, and one without a value there is
 /// none.
-fn potential(
+pub(super) fn potential(
     arena: &mut Arena,
     spec: &Spec,
     group: Option<Constraint>,
@@ -166,7 +186,7 @@ fn potential(
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic
 /// form is zero, and a tensor has no kernel. Blocks with fields are left to `prepare()`.
-fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics) {
+pub(super) fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics) {
     let mut reported = Vec::new();
     for block in &hessian.blocks {
         let kind = block.basis[0].kind;
@@ -227,7 +247,12 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
 
 /// A claimed symmetry is a theorem about the form: its derivative along every generator of the group vanishes,
 /// and for O(n) one reflection leaves it unchanged as well.
-fn claims(spec: &Spec, kinetic: &Kinetic, term: impl Fn(usize) -> &'static str, found: &mut Diagnostics) {
+pub(super) fn claims(
+    spec: &Spec,
+    kinetic: &Kinetic,
+    term: impl Fn(usize) -> &'static str,
+    found: &mut Diagnostics,
+) {
     let Some(symmetry) = &spec.symmetry else { return };
     for (side, name, claim) in [(Side::Space, "space", symmetry.space), (Side::Body, "body", symmetry.body)] {
         let (group, letters) = match claim.value {
@@ -356,9 +381,9 @@ pub fn signature(form: &Form) -> Option<(usize, usize)> {
 
 /// The eigenvalues that decide whether a model with fields is well posed: condition, reason, value.
 #[must_use]
-pub fn eigenvalues(form: &Form) -> Vec<(Direction, Polynomial)> {
+pub fn eigenvalues(hessian: &Hessian) -> Vec<(Direction, Polynomial)> {
     let mut list: Vec<(Direction, Polynomial)> = Vec::new();
-    for block in &form.hessian.blocks {
+    for block in &hessian.blocks {
         if let Some(value) = block.eigenvalue() {
             let kind = block.basis[0].kind;
             if value.as_constant().is_none() && !list.contains(&(kind, value.clone())) {

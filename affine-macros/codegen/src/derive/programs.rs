@@ -37,8 +37,6 @@ pub(super) fn full_equations(
     coefficients: &mut Constants,
 ) -> Equations {
     let load = potential.map(|u| u.load(arena, chart)).unwrap_or_default();
-    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
-    inputs.extend(potential.and_then(Potential::time));
     let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
     through_velocity.add(&load);
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
@@ -51,6 +49,19 @@ pub(super) fn full_equations(
             ways.push(split_batch(arena, chart, &expanded));
         }
     }
+    shortest(arena, chart, &ways, potential.and_then(Potential::time), coefficients)
+}
+
+/// Equations over the coordinates of a chart, in the shortest of several ways.
+pub(super) fn shortest(
+    arena: &mut Arena,
+    chart: &Chart,
+    ways: &[Batch],
+    time: Option<Expr>,
+    coefficients: &mut Constants,
+) -> Equations {
+    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    inputs.extend(time);
     let (program, chosen) = ways
         .iter()
         .map(|way| {
@@ -106,7 +117,7 @@ fn dependent(arena: &mut Arena, chart: &Chart) -> Program {
     fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
 }
 
-fn batch(arena: &Arena, system: &System) -> Batch {
+pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
     Batch {
         shared: system.shared.clone(),
         kernels: system.kernels.clone(),
@@ -154,10 +165,21 @@ pub(super) fn best_reduction(
     rotations: bool,
     coefficients: &mut Constants,
 ) -> Option<(Reduction, Equations, Program, Vec<String>)> {
+    let candidates = reduce::candidates(arena, h, potential, rotations);
+    shortest_reduction(arena, candidates, potential.and_then(Potential::time), coefficients)
+}
+
+/// The reduction of several with the shortest equations, and its programs.
+pub(super) fn shortest_reduction(
+    arena: &mut Arena,
+    candidates: Vec<Reduction>,
+    time: Option<Expr>,
+    coefficients: &mut Constants,
+) -> Option<(Reduction, Equations, Program, Vec<String>)> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
-    for candidate in reduce::candidates(arena, h, potential, rotations) {
+    for candidate in candidates {
         let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
-        states.extend(potential.and_then(Potential::time));
+        states.extend(time);
         let mut constants = Constants::new("k");
         let way = batch(arena, &candidate.system);
         let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));

@@ -476,6 +476,11 @@ pub enum Diagnostic {
         form: String,
     },
     // ---- the constraint ----
+    /// A sum of energies of different frames beside a key that does not go with it.
+    SumBeside {
+        /// The other key.
+        key: &'static str,
+    },
     /// A constraint beside a key that does not go with it.
     ConstraintBeside {
         /// The other key.
@@ -536,6 +541,11 @@ pub enum Diagnostic {
         velocity: &'static str,
         /// A velocity on which it vanishes.
         kernel: String,
+    },
+    /// A sum of terms of different frames that is degenerate at every placement.
+    DegenerateSum {
+        /// The terms, joined by `+`.
+        terms: String,
     },
     /// `require(positive_definite)` fails.
     NotPositiveDefinite {
@@ -670,12 +680,14 @@ names! {
     MetricTerm => "metric-term",
     MetricForm => "metric-form",
     ConstraintBeside => "constraint-beside",
+    SumBeside => "sum-beside",
     VanishingTerm => "vanishing-term",
     ConstrainedMassMatrix => "constrained-mass-matrix",
     ConstrainedPotential => "constrained-potential",
     Degenerate => "degenerate",
     DegenerateHamiltonian => "degenerate-hamiltonian",
     DegenerateTensor => "degenerate-tensor",
+    DegenerateSum => "degenerate-sum",
     NotPositiveDefinite => "not-positive-definite",
     ClaimBroken => "claim-broken",
     AffineTranslation => "affine-translation",

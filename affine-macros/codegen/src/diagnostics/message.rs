@@ -429,6 +429,11 @@ impl Diagnostic {
                 "equations stand in orthonormal bases of the metrics, and this form depends on the bases",
                 "write the potential through `q`, `det`, `I1..In`, `norm(x)` and traces of powers of `G` or of `Ct`",
             ),
+            Self::SumBeside { key } => text(
+                format!("`{key}` does not go with terms of different frames in this version"),
+                "their sum has a mass matrix that depends on phi, and is derived on all of GL(n) in orthonormal bases",
+                format!("keep the terms of one frame, or remove `{key}`"),
+            ),
             Self::ConstraintBeside { key } => text(
                 format!("`constraint` does not go with `{key}` in this version"),
                 match *key {
@@ -504,6 +509,13 @@ impl Diagnostic {
                 "the Legendre transformation X[B,A] = K[(A,B),(C,D)] O[C,D] (4.6), (4.8) gives zero momentum \
                  there; the momentum does not determine the velocity",
                 "change a coefficient, or add a term that is not zero on this velocity",
+            ),
+            Self::DegenerateSum { terms } => text(
+                format!("the kinetic energy `{terms}` is degenerate at every placement"),
+                "its terms have constant coefficients in different velocities, so that the mass matrix over phi_dot \
+                 depends on phi; its determinant is zero for all phi, and the momentum Pi = (dT/dphi_dot)^T does not \
+                 determine the velocity",
+                "add a term that is not zero on any velocity, such as `dalembert` or `body_inertia`",
             ),
             Self::NotPositiveDefinite { defect } => text(
                 format!("the kinetic energy is not positive definite: {defect}"),

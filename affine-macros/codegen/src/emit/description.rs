@@ -42,6 +42,11 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
             depends on the momentum, and is singular on a hypersurface of it."
                 .to_owned()
         }
+        None if model.regularity.is_some() => {
+            "The signature of the kinetic metric depends on the placement: it is checked at every start and kept along \
+             every motion."
+                .to_owned()
+        }
         None => "The signature of the kinetic metric depends on the fields.".to_owned(),
     });
     lines.push(String::new());

@@ -117,10 +117,22 @@ pub enum Capability {
     Tangent,
     /// SIMD lanes.
     Lanes,
+    /// The configuration metric and its inverse.
+    Metric,
+    /// The acceleration of the centre of mass.
+    Acceleration,
 }
 
 impl Named for Capability {
-    const ALL: &'static [Self] = &[Self::Splitting, Self::Taylor, Self::TwoPolar, Self::Tangent, Self::Lanes];
+    const ALL: &'static [Self] = &[
+        Self::Splitting,
+        Self::Taylor,
+        Self::TwoPolar,
+        Self::Tangent,
+        Self::Lanes,
+        Self::Metric,
+        Self::Acceleration,
+    ];
 
     fn name(self) -> &'static str {
         match self {
@@ -129,6 +141,8 @@ impl Named for Capability {
             Self::TwoPolar => "two_polar",
             Self::Tangent => "tangent",
             Self::Lanes => "lanes",
+            Self::Metric => "metric",
+            Self::Acceleration => "acceleration",
         }
     }
 }
@@ -143,6 +157,8 @@ impl Capability {
             Self::TwoPolar => "the lattice form (q, p, M, N)",
             Self::Tangent => "the variational equations",
             Self::Lanes => "evaluation over SIMD lanes",
+            Self::Metric => "the configuration metric and its inverse",
+            Self::Acceleration => "the acceleration of the centre of mass",
         }
     }
 }
