@@ -1,5 +1,8 @@
 //! Factorisations and functions of `2x2` and `3x3` matrices.
 
 mod exponential;
+mod jacobi;
+mod two_polar;
 
 pub use exponential::{exponential, skew_exponential};
+pub use two_polar::{Polar, TwoPolar, polar, two_polar};
