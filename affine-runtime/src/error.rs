@@ -21,6 +21,8 @@ pub enum Error {
         /// The quantity, as the paper names it.
         quantity: &'static str,
     },
+    /// Two stretches of a lattice are equal: its variables do not determine the momentum there.
+    CoincidentStretches,
     /// A simulation did not reach its end, or could not begin.
     #[cfg(feature = "std")]
     Stopped(crate::simulate::Stop),
@@ -65,6 +67,10 @@ impl fmt::Display for Error {
             Error::NotFinite { quantity } => {
                 write!(f, "{quantity} is not finite; give finite numbers")
             }
+            Error::CoincidentStretches => f.write_str(
+                "two stretches are equal, where (q, p, M, N) do not determine the momentum: M vanishes with their \
+                 difference; give the phase point itself",
+            ),
             #[cfg(feature = "std")]
             Error::Stopped(stop) => stop.fmt(f),
             #[cfg(feature = "report")]

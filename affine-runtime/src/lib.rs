@@ -24,6 +24,7 @@ pub mod frames;
 pub mod geodesic;
 pub mod integrate;
 pub mod kinematics;
+pub mod lattice;
 pub mod model;
 mod reduction;
 #[cfg(feature = "report")]

@@ -9,6 +9,10 @@ pub use crate::frames::{
 };
 pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::kinematics::mean_log_stretch;
+pub use crate::lattice::{
+    Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, MetricSide, PotentialClass,
+    TwoPolarForm, Variables,
+};
 pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Velocity};
 pub use crate::reduction::{
     Condition, finite, inverse_form, total_affine_momentum, total_size, turn, well_posed,
@@ -59,4 +63,26 @@ pub fn components<const N: usize, T: Real>(vector: &Vector<N, T>) -> [T; N] {
 /// The vector with the given components.
 pub fn vector<const N: usize, T: Real>(components: [T; N]) -> Vector<N, T> {
     Vector::from(components)
+}
+
+/// The lattice of a placement and its affine spin in the frame `F`, with labels and frames nearest to those before.
+///
+/// # Errors
+/// [`Error::Placement`](crate::Error::Placement) where the stretches cannot be told from zero.
+pub fn lattice_of<const N: usize, F: LatticeFrame>(
+    phi: &Matrix<N>,
+    spin: &Matrix<N>,
+    before: Option<&Lattice<N>>,
+) -> Result<Lattice<N>> {
+    crate::lattice::lattice_of::<N, F>(phi, spin, before)
+}
+
+/// The placement of a lattice and its affine spin in the frame `F`.
+///
+/// # Errors
+/// [`Error::CoincidentStretches`](crate::Error::CoincidentStretches) where two stretches are equal.
+pub fn placement_and_spin<const N: usize, F: LatticeFrame>(
+    lattice: &Lattice<N>,
+) -> Result<(Matrix<N>, Matrix<N>)> {
+    crate::lattice::placement_and_spin::<N, F>(lattice)
 }

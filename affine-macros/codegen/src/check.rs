@@ -15,6 +15,7 @@ mod potential;
 mod shapes;
 mod symbols;
 mod tensors;
+mod two_polar;
 
 use crate::diagnostics::{Diagnostics, Reported};
 use crate::spec::Spec;

@@ -1,5 +1,6 @@
 //! The derivation of one model: from its quadratic form to straight-line programs, ready to be written down.
 
+mod lattice;
 mod prepared;
 mod programs;
 
@@ -18,6 +19,7 @@ use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 use crate::optimise::{Batch, straight_line};
 
+pub use lattice::TwoPolar;
 use prepared::{coefficient_program, conditions, numeric_blocks};
 use programs::{best_reduction, full_chart, full_equations};
 
@@ -71,6 +73,8 @@ pub struct Model {
     pub groups: (Group, Group),
     /// `T`, `H`, and the equations.
     pub formulas: Formulas,
+    /// The two-polar form, where it is asked for.
+    pub two_polar: Option<TwoPolar>,
 }
 
 /// The derivation as formulas.
@@ -128,7 +132,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     };
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form);
-    let Form { mut arena, kinetic, hessian, potential, .. } = form;
+    let Form { mut arena, kinetic, hessian, potential, two_polar, .. } = form;
     let potential = potential.as_ref();
     let arena = &mut arena;
     let h = Hamiltonian::new(arena, &kinetic, &hessian)?;
@@ -202,6 +206,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         let results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
         inline(arena, Batch { shared: Vec::new(), results }, Vec::new())
     });
+    let two_polar = two_polar.then(|| lattice::two_polar(arena, &h, potential, &mut coefficients));
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
     Some(Model {
         dim: kinetic.dim,
@@ -228,6 +233,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         has_potential: potential.is_some(),
         groups,
         formulas,
+        two_polar,
     })
 }
 

@@ -8,6 +8,7 @@ mod names;
 mod points;
 mod prepare;
 mod reduction;
+mod two_polar;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -33,6 +34,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let constants = reduction::constants_type(&context);
     let implementation = model_impl(&context);
     let points = points::inherent(&context);
+    let two_polar = two_polar::implementations(&context);
     quote! {
         #item
         #prepared_type
@@ -42,6 +44,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #constants
             #implementation
             #points
+            #two_polar
         };
     }
 }

@@ -13,3 +13,4 @@ mod notation;
 pub mod potential;
 pub mod reduce;
 pub mod symmetry;
+pub mod two_polar;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::two_polar;
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, Directions, Reported};
 use crate::lower;
@@ -25,6 +26,8 @@ pub struct Form {
     pub body_group: Group,
     /// The potential energy.
     pub potential: Option<Potential>,
+    /// Is the two-polar form asked for?
+    pub two_polar: bool,
 }
 
 /// Builds the form and holds it against every rule.
@@ -46,7 +49,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     let space_group = largest_group(&kinetic, Side::Space);
     let body_group = largest_group(&kinetic, Side::Body);
     let potential = lower::potential(&mut arena, spec);
-    Ok(Form { arena, kinetic, hessian, space_group, body_group, potential })
+    let two_polar = two_polar::asked(spec, &kinetic, &places, potential.as_ref(), found)?;
+    Ok(Form { arena, kinetic, hessian, space_group, body_group, potential, two_polar })
 }
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic

@@ -93,6 +93,20 @@ pub enum Diagnostic {
         /// What it will give.
         gives: &'static str,
     },
+    /// `two_polar` for a model that rotations of space or body change.
+    NotDoublyIsotropic {
+        /// What they change: a term, or the potential.
+        part: String,
+        /// `space` or `body`.
+        side: &'static str,
+        /// The rotation or reflection.
+        transformation: String,
+    },
+    /// `two_polar` for a model with a moving centre.
+    LatticeWithCentre {
+        /// The translational term.
+        term: &'static str,
+    },
     /// A dimension other than the literals 2 and 3.
     Dimension {
         /// What is written.
@@ -483,6 +497,8 @@ names! {
     EmptyList => "empty-list",
     UnknownName => "unknown-name",
     UnavailableCapability => "unavailable-capability",
+    NotDoublyIsotropic => "not-doubly-isotropic",
+    LatticeWithCentre => "lattice-with-centre",
     Dimension => "dimension",
     RuntimePath => "runtime-path",
     ItemKind => "item-kind",

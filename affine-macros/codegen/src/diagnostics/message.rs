@@ -103,6 +103,21 @@ impl Diagnostic {
                 format!("it will give {gives}; this version emits the default: Hamilton's equations"),
                 format!("remove `{capability}` from `emit(...)`"),
             ),
+            Self::NotDoublyIsotropic { part, side, transformation } => text(
+                format!("`two_polar` needs a doubly isotropic model, and {part} is not isotropic in {side}"),
+                format!(
+                    "{transformation} of {side} changes it: the motion of the stretches in phi = L D R^T then depends \
+                     on the frames L and R, and (q, p, M, N) do not form a system of their own, (6.2) to (6.5)"
+                ),
+                format!(
+                    "remove `two_polar` from `emit(...)`, or state a model that rotations of {side} do not change"
+                ),
+            ),
+            Self::LatticeWithCentre { term } => text(
+                format!("`two_polar` with `{term}`: the lattice has no centre of mass"),
+                "(q, p, M, N) of (6.2) to (6.5) describe the internal motion alone",
+                format!("state the internal motion as a model of its own, without `{term}`"),
+            ),
             Self::Dimension { found } => text(
                 format!("`dim = {found}`: the dimension is 2 or 3"),
                 "the equations are written out component by component for GL(2) and GL(3)",

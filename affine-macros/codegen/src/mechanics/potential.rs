@@ -4,6 +4,7 @@
 //! chain rule does the rest. `Q_hat = -(dU/dphi)^T phi`, `Q = -phi (dU/dphi)^T`, `Q_tr = -dU/dx` (MATH: section 3
 //! of the paper).
 
+mod axes;
 mod invariance;
 mod rewriting;
 
@@ -12,6 +13,7 @@ use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::equations::Load;
+pub use axes::OnAxes;
 use invariance::Invariance;
 use rewriting::{about_undeformed, through_dilatation};
 

@@ -43,8 +43,8 @@ impl Potential {
 /// Derivatives of `U` along the generators, as polynomials in `phi`, `x` and functions.
 #[derive(Clone, Debug)]
 pub(super) struct Invariance {
-    space: Square<Polynomial>,
-    body: Square<Polynomial>,
+    pub(super) space: Square<Polynomial>,
+    pub(super) body: Square<Polynomial>,
     centre: Vec<Polynomial>,
     orbital: Square<Polynomial>,
 }

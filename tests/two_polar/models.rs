@@ -1,0 +1,44 @@
+//! Doubly isotropic models: affine-affine, spatially affine (6.3), materially affine (6.4), d'Alembert's (6.5); in the
+//! plane and in space; geodesic, with a potential of the dilatation, and with one of all stretches.
+
+use affine_runtime::prelude::*;
+
+/// `kappa = 2`, `c1 = 0.3`, and a quartic well in the strain.
+macro_rules! models {
+    ($dim:literal: $($geodesic:ident $dilated:ident $sheared:ident = ($($kinetic:tt)*);)*) => { $(
+        #[affine_model(dim = $dim, kinetic($($kinetic)*), emit(two_polar))]
+        pub(crate) struct $geodesic;
+        #[affine_model(
+            dim = $dim,
+            kinetic($($kinetic)*),
+            potential = hyperbolic_dilatation(2),
+            emit(two_polar)
+        )]
+        pub(crate) struct $dilated;
+        #[affine_model(
+            dim = $dim,
+            kinetic($($kinetic)*),
+            potential = 2/2*sinh(q)^2 + 0.3*(tr(G)*exp(-2*q) - n) + 0.01*tr(G*G) + 0.005*tr(G*G*G),
+            emit(two_polar)
+        )]
+        pub(crate) struct $sheared;
+    )* };
+}
+
+models! { 2:
+    AffineAffine2 AffineAffineDilated2 AffineAffineSheared2 = (casimir2 = 1.2, casimir1_squared = 0.1);
+    SpatiallyAffine2 SpatiallyAffineDilated2 SpatiallyAffineSheared2
+        = (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1);
+    MateriallyAffine2 MateriallyAffineDilated2 MateriallyAffineSheared2
+        = (casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1);
+    Dalembert2 DalembertDilated2 DalembertSheared2 = (dalembert = 1.5);
+}
+
+models! { 3:
+    AffineAffine3 AffineAffineDilated3 AffineAffineSheared3 = (casimir2 = 1.2, casimir1_squared = 0.1);
+    SpatiallyAffine3 SpatiallyAffineDilated3 SpatiallyAffineSheared3
+        = (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1);
+    MateriallyAffine3 MateriallyAffineDilated3 MateriallyAffineSheared3
+        = (casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1);
+    Dalembert3 DalembertDilated3 DalembertSheared3 = (dalembert = 1.5);
+}
