@@ -21,7 +21,7 @@ mod flow;
 pub use classify::{Class, Dilatation, Growth, classify};
 pub use conversion::LatticeFrame;
 pub(crate) use conversion::{lattice_of, placement_and_spin};
-pub use flow::{LatticeFlow, LatticeStop};
+pub use flow::{LatticeFlow, LatticeStop, StopReason};
 
 use core::fmt::Debug;
 

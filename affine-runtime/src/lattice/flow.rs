@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::{Lattice, LatticeForm, TwoPolarForm, Variables};
 use crate::error::Error;
+use crate::frames::Matrix;
 use crate::integrate::{Failure, RungeKutta8};
 use crate::model::Group;
 
@@ -11,6 +12,12 @@ use crate::model::Group;
 const NEAR: f64 = 0.05;
 /// Back on the lattice once they are further apart than this: no change to and fro.
 const APART: f64 = 0.1;
+
+/// Cosine of the angle by which axes may turn from one decomposition to the next: 37 degrees, less than the half right
+/// angle beyond which another axis is nearer.
+const NEARLY_PARALLEL: f64 = 0.8;
+/// A step is halved at most so often: axes that turn faster cross, within what rounding can tell.
+const DEPTH: u32 = 24;
 
 /// The motion of a lattice by the Runge-Kutta method of order 8 with adaptive steps.
 ///
@@ -22,6 +29,9 @@ const APART: f64 = 0.1;
 /// (the model's reduced equations) until the gap is above 0.1, with labels and frames that follow
 /// through crossings. A motion that stays there, all stretches nearly equal, is integrated in that form to the end. Nothing
 /// is lost by it but the form: tolerances are the same.
+///
+/// *Collapse.* A stretch of d'Alembert's model may reach zero in finite time; the motion then stops there, with
+/// [`Error::Placement`] and the time of the collapse.
 #[derive(Clone, Debug)]
 pub struct LatticeFlow<'a, const N: usize, M: TwoPolarForm<N>> {
     model: &'a M,
@@ -86,15 +96,15 @@ impl<'a, const N: usize, M: TwoPolarForm<N>> LatticeFlow<'a, N, M> {
     /// Moves to the time `t`, forward or backward, and stands there exactly.
     ///
     /// # Errors
-    /// [`LatticeStop`] with the last good state.
+    /// [`LatticeStop`] with the last good state, now and ever after.
     pub fn advance_to(&mut self, t: f64) -> Result<&Lattice<N>, LatticeStop<N>> {
+        let mut near = self.lattice.gap() < NEAR;
         while self.t != t {
-            let before = (self.t, self.lattice);
-            let outcome = match self.lattice.gap() < NEAR {
-                true => self.placement_until_apart(t),
-                false => self.lattice_until_near(t),
+            let outcome = match near {
+                true => self.placement_until_apart(t).map(|()| false),
+                false => self.lattice_until_near(t).map(|()| true),
             };
-            outcome.map_err(|reason| LatticeStop { t: before.0, lattice: before.1, reason })?;
+            near = outcome.map_err(|reason| LatticeStop { t: self.t, lattice: self.lattice, reason })?;
         }
         Ok(&self.lattice)
     }
@@ -111,19 +121,28 @@ impl<'a, const N: usize, M: TwoPolarForm<N>> LatticeFlow<'a, N, M> {
             steps.advance().map_err(StopReason::Integration)?;
             self.steps += 1;
             let now = Lattice::from_framed::<M>(&couplings, steps.y());
-            // Near or past it: a step may have jumped across.
-            if now.gap() < NEAR || now.descending() != crate::frames::Matrix::<N>::identity() {
-                self.t = steps.t();
-                self.lattice = now.relabelled(&sorting.transpose());
+            if !is_finite(&now) {
+                let (begin, end, dense) = (self.t, steps.t(), steps.dense());
+                let at = |time: f64| {
+                    let lattice = Lattice::from_framed::<M>(&couplings, &dense.at(time));
+                    is_finite(&lattice).then(|| lattice.relabelled(&sorting.transpose()))
+                };
+                return Err(self.collapsed(begin, end, at, Error::Placement { determinant: 0.0 }));
+            }
+            if now.descending() != Matrix::<N>::identity() {
+                // The step went past a coincidence, and with it past a pole: its begin stands.
+                return Ok(());
+            }
+            self.t = steps.t();
+            self.lattice = now.relabelled(&sorting.transpose());
+            if now.gap() < NEAR {
                 return Ok(());
             }
         }
-        self.t = steps.t();
-        self.lattice = Lattice::from_framed::<M>(&couplings, steps.y()).relabelled(&sorting.transpose());
         Ok(())
     }
 
-    /// The model's reduced equations until `t`, or until the stretches are apart.
+    /// The model's reduced equations until `t`, or until the stretches are apart and parting.
     fn placement_until_apart(&mut self, t: f64) -> Result<(), StopReason> {
         let point = self.model.at_lattice(&self.lattice).map_err(StopReason::Conversion)?;
         let (state, constants) = self.model.reduce(self.t, &point);
@@ -135,15 +154,84 @@ impl<'a, const N: usize, M: TwoPolarForm<N>> LatticeFlow<'a, N, M> {
             steps.advance().map_err(StopReason::Integration)?;
             self.steps += 1;
             self.placements += 1;
-            let point = self.model.expand(steps.t(), &constants, steps.y());
-            self.lattice = self.model.lattice_after(&point, &self.lattice).map_err(StopReason::Conversion)?;
-            self.t = steps.t();
-            if self.lattice.gap() > APART {
+            let (begin, end, dense) = (self.t, steps.t(), steps.dense());
+            let point = |time: f64| self.model.expand(time, &constants, &dense.at(time));
+            let before = self.lattice;
+            match self.followed(&point, before, (begin, end), DEPTH) {
+                Ok(next) => self.lattice = next,
+                Err(error) => {
+                    let at = |time: f64| self.followed(&point, before, (begin, time), DEPTH).ok();
+                    let (t, lattice) = last_good(begin, end, at).unwrap_or((begin, before));
+                    (self.t, self.lattice) = (t, lattice);
+                    return Err(StopReason::Conversion(error));
+                }
+            }
+            self.t = end;
+            if self.lattice.gap() > APART && self.lattice.gap() > before.gap() {
                 return Ok(());
             }
         }
         Ok(())
     }
+
+    /// Stands at the last good state of a step that left the phase space.
+    fn collapsed(
+        &mut self,
+        begin: f64,
+        end: f64,
+        at: impl Fn(f64) -> Option<Lattice<N>>,
+        error: Error,
+    ) -> StopReason {
+        if let Some((t, lattice)) = last_good(begin, end, at) {
+            (self.t, self.lattice) = (t, lattice);
+        }
+        StopReason::Conversion(error)
+    }
+
+    /// The lattice at the end of an interval, from that at its start: halved where the axes turn too far to tell
+    /// which is which, and where stretches change their order, since seen from afar two that bounce while their axes
+    /// turn by a right angle look like two that cross.
+    fn followed(
+        &self,
+        point: &impl Fn(f64) -> M::Point<f64>,
+        before: Lattice<N>,
+        (begin, end): (f64, f64),
+        depth: u32,
+    ) -> crate::Result<Lattice<N>> {
+        let next = self.model.lattice_after(&point(end), &before)?;
+        let turned = |a: usize| {
+            next.left.column(a).dot(&before.left.column(a)) < NEARLY_PARALLEL
+                || next.right.column(a).dot(&before.right.column(a)) < NEARLY_PARALLEL
+        };
+        let crossed = next.descending() != before.descending();
+        if depth == 0 || !(crossed || (0..N).any(turned)) {
+            return Ok(next);
+        }
+        let middle = 0.5 * (begin + end);
+        let halfway = self.followed(point, before, (begin, middle), depth - 1)?;
+        self.followed(point, halfway, (middle, end), depth - 1)
+    }
+}
+
+/// The last time between two at which there is a lattice, and that lattice.
+fn last_good<const N: usize>(
+    begin: f64,
+    end: f64,
+    at: impl Fn(f64) -> Option<Lattice<N>>,
+) -> Option<(f64, Lattice<N>)> {
+    let (mut good, mut bad, mut last) = (begin, end, None);
+    for _ in 0..64 {
+        let middle = 0.5 * (good + bad);
+        match at(middle) {
+            Some(lattice) => (good, last) = (middle, Some((middle, lattice))),
+            None => bad = middle,
+        }
+    }
+    last
+}
+
+fn is_finite<const N: usize>(lattice: &Lattice<N>) -> bool {
+    lattice.q.iter().chain(lattice.p.iter()).all(|value| value.is_finite())
 }
 
 /// The layout for the error norm: momenta and couplings together, since any of them may vanish; angles against 1 as
