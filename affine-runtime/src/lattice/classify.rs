@@ -92,7 +92,10 @@ pub fn classify<const N: usize, M: TwoPolarForm<N>>(model: &M, point: &M::Point<
     let n = N as f64;
     let dilatation = match M::LATTICE.potential {
         PotentialClass::Stretches => return None,
-        PotentialClass::None if p_dil == 0.0 => Dilatation::Still,
+        // To rounding: the momentum may have come from another frame.
+        PotentialClass::None if p_dil.abs() <= ROUNDING * f64::EPSILON * point.mixed_spin().norm() => {
+            Dilatation::Still
+        }
         PotentialClass::None => {
             Dilatation::Uniform { rate: p_dil * (isotropic.inverse_alpha / n + isotropic.inverse_beta) }
         }

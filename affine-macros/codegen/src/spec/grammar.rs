@@ -52,7 +52,7 @@ impl Key {
             Self::Kinetic => "kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
             Self::Require => "require(positive_definite)",
-            Self::Emit => "emit(splitting)",
+            Self::Emit => "emit(two_polar)",
             Self::Crate => "crate = ::affine_runtime",
         }
     }
@@ -145,8 +145,7 @@ fn expect_value(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Piece, Rep
 
 /// The list of an entry; a missing or empty one is reported.
 fn expect_list(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Group, Reported> {
-    // No capability is available in this version.
-    let example = (entry.key != Key::Emit).then(|| entry.key.example());
+    let example = Some(entry.key.example());
     let key = entry.key.name();
     match entry.body {
         // An empty sum is a model without kinetic energy, which a rule of its own refuses.
