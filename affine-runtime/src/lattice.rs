@@ -14,10 +14,12 @@
 //!
 //! Where two stretches coincide the equations have a pole although the motion has none: see [`LatticeFlow`].
 
+mod circle;
 mod classify;
 mod conversion;
 mod flow;
 
+pub use circle::CircleFlow;
 pub use classify::{Class, Dilatation, Growth, classify};
 pub use conversion::LatticeFrame;
 pub(crate) use conversion::{lattice_of, placement_and_spin};
@@ -56,6 +58,8 @@ pub enum Variables {
     LogStretches,
     /// `Q_a = exp(q_a)` and `P_a = p_a/Q_a`.
     Stretches,
+    /// Angles `q_a` of `D = diag(exp(i q_a))`, and `p_a`: U(n).
+    Angles,
 }
 
 /// What a potential on the lattice depends on.

@@ -7,3 +7,5 @@ mod closed_form;
 #[allow(dead_code)]
 mod models;
 mod reduced_flow;
+mod sutherland;
+mod unitary;

@@ -16,6 +16,7 @@ mod shapes;
 mod symbols;
 mod tensors;
 mod two_polar;
+mod unitary;
 
 use crate::diagnostics::{Diagnostics, Reported};
 use crate::spec::Spec;
@@ -31,6 +32,7 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     symbols::hidden(spec, found);
     symbols::resolved(spec, found);
     capabilities::available(spec, found);
+    unitary::casimirs_alone(spec, found);
     potential::available(spec, found);
     potential::scalar(spec, found);
     potential::centre(spec, found);

@@ -132,7 +132,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     };
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form);
-    let Form { mut arena, kinetic, hessian, potential, two_polar, .. } = form;
+    let Form { mut arena, kinetic, hessian, potential, two_polar, unitary, .. } = form;
     let potential = potential.as_ref();
     let arena = &mut arena;
     let h = Hamiltonian::new(arena, &kinetic, &hessian)?;
@@ -206,7 +206,11 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         let results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
         inline(arena, Batch { shared: Vec::new(), results }, Vec::new())
     });
-    let two_polar = two_polar.then(|| lattice::two_polar(arena, &h, potential, &mut coefficients));
+    if unitary {
+        // Nothing but the lattice is emitted: no other coefficient is computed.
+        coefficients = Constants::new("c");
+    }
+    let two_polar = two_polar.then(|| lattice::two_polar(arena, &h, potential, unitary, &mut coefficients));
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
     Some(Model {
         dim: kinetic.dim,

@@ -31,6 +31,18 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let rt = &names.rt;
     let prepared_type = prepare::prepared_type(&context);
     let prepare = prepare::method(&context);
+    if spec.group.is_some() {
+        let lattice = two_polar::lattice_of_circle(&context);
+        return quote! {
+            #item
+            #prepared_type
+            const _: () = {
+                use #runtime::__private as #rt;
+                #prepare
+                #lattice
+            };
+        };
+    }
     let constants = reduction::constants_type(&context);
     let implementation = model_impl(&context);
     let points = points::inherent(&context);

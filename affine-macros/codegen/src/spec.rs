@@ -18,7 +18,7 @@ use expression_parser::Language;
 pub use expression::{Expression, ExpressionKind, MatrixName, Operator};
 pub use item::{Field, Item};
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
-pub use names::{Capability, Claim, Named, Requirement, TermKind, nearest};
+pub use names::{Capability, Claim, Named, PlacementGroup, Requirement, TermKind, nearest};
 pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
 
 /// Something with its place in the source.
@@ -44,6 +44,8 @@ pub struct Spec {
     pub kinetic_key: Region,
     /// `potential = ...`.
     pub potential: Option<Potential>,
+    /// `group = ...`; GL(n, R) without it.
+    pub group: Option<Spanned<PlacementGroup>>,
     /// `require(...)`.
     pub require: Vec<Spanned<Requirement>>,
     /// `emit(...)`.

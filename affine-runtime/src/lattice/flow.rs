@@ -58,6 +58,11 @@ pub struct LatticeStop<const N: usize> {
 pub enum StopReason {
     /// The integrator cannot go on.
     Integration(Failure),
+    /// Two angles of U(n) coincide or are opposite, where the equations have a pole.
+    Coincidence {
+        /// `|sin x_ab|` or `|cos x_ab|` where the motion was going, `x_ab = (q_a - q_b)/2`.
+        distance: f64,
+    },
     /// The state is no phase point any more: stretches beyond the range of doubles, or not to be told from zero.
     Conversion(Error),
 }
@@ -236,7 +241,7 @@ fn is_finite<const N: usize>(lattice: &Lattice<N>) -> bool {
 
 /// The layout for the error norm: momenta and couplings together, since any of them may vanish; angles against 1 as
 /// logarithms are.
-fn groups<const N: usize, M: LatticeForm<N>>() -> &'static [Group] {
+pub(super) fn groups<const N: usize, M: LatticeForm<N>>() -> &'static [Group] {
     const fn group(name: &'static str, len: usize) -> Group {
         Group { name, len }
     }
@@ -249,9 +254,9 @@ fn groups<const N: usize, M: LatticeForm<N>>() -> &'static [Group] {
         [group("Q", 3), group("momenta", 9), group("L", 9), group("R", 9)],
     ];
     match (N, M::LATTICE.variables) {
-        (2, Variables::LogStretches) => &PLANE[0],
+        (2, Variables::LogStretches | Variables::Angles) => &PLANE[0],
         (2, Variables::Stretches) => &PLANE[1],
-        (_, Variables::LogStretches) => &SPACE[0],
+        (_, Variables::LogStretches | Variables::Angles) => &SPACE[0],
         (_, Variables::Stretches) => &SPACE[1],
     }
 }
@@ -266,6 +271,10 @@ impl fmt::Display for StopReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             StopReason::Integration(failure) => failure.fmt(f),
+            StopReason::Coincidence { distance } => write!(
+                f,
+                "two angles coincide or are opposite, to {distance:e}, where (q, p, M, N) are no coordinates"
+            ),
             StopReason::Conversion(error) => error.fmt(f),
         }
     }

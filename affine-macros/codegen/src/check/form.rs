@@ -28,6 +28,8 @@ pub struct Form {
     pub potential: Option<Potential>,
     /// Is the two-polar form asked for?
     pub two_polar: bool,
+    /// Are the placements those of U(n)?
+    pub unitary: bool,
 }
 
 /// Builds the form and holds it against every rule.
@@ -49,8 +51,9 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     let space_group = largest_group(&kinetic, Side::Space);
     let body_group = largest_group(&kinetic, Side::Body);
     let potential = lower::potential(&mut arena, spec);
-    let two_polar = two_polar::asked(spec, &kinetic, &places, potential.as_ref(), found)?;
-    Ok(Form { arena, kinetic, hessian, space_group, body_group, potential, two_polar })
+    let unitary = spec.group.is_some();
+    let two_polar = unitary || two_polar::asked(spec, &kinetic, &places, potential.as_ref(), found)?;
+    Ok(Form { arena, kinetic, hessian, space_group, body_group, potential, two_polar, unitary })
 }
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic

@@ -37,9 +37,10 @@ pub(super) fn two_polar(
     arena: &mut Arena,
     h: &Hamiltonian,
     potential: Option<&Potential>,
+    unitary: bool,
     coefficients: &mut Constants,
 ) -> TwoPolar {
-    let lattice = Lattice::of(arena, h);
+    let lattice = Lattice::of(arena, h, unitary);
     let mut equations = lattice.equations(arena, h);
     let formulas = two_polar::formulas(arena, &equations, potential);
     let on_axes = potential.map(|u| u.on_axes(arena, &lattice));
@@ -50,7 +51,7 @@ pub(super) fn two_polar(
     let name = |arena: &Arena, s: &Expr| arena.name(*s).unwrap_or("place").to_owned();
     let names = |arena: &Arena, symbols: &[Expr]| symbols.iter().map(|s| name(arena, s)).collect::<Vec<_>>();
     let (place, momentum) = match lattice.variables {
-        Variables::LogStretches => ("q", "p"),
+        Variables::LogStretches | Variables::Angles => ("q", "p"),
         Variables::Stretches => ("Q", "P"),
     };
     let mut state = vec![(place, names(arena, &lattice.q)), (momentum, names(arena, &lattice.p))];

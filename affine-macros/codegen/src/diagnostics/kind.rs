@@ -102,6 +102,11 @@ pub enum Diagnostic {
         /// The rotation or reflection.
         transformation: String,
     },
+    /// A part that U(n) does not have.
+    UnitaryTerm {
+        /// A term, `potential`, or a capability.
+        part: &'static str,
+    },
     /// `two_polar` for a model with a moving centre.
     LatticeWithCentre {
         /// The translational term.
@@ -498,6 +503,7 @@ names! {
     UnknownName => "unknown-name",
     UnavailableCapability => "unavailable-capability",
     NotDoublyIsotropic => "not-doubly-isotropic",
+    UnitaryTerm => "unitary-term",
     LatticeWithCentre => "lattice-with-centre",
     Dimension => "dimension",
     RuntimePath => "runtime-path",

@@ -113,6 +113,12 @@ impl Diagnostic {
                     "remove `two_polar` from `emit(...)`, or state a model that rotations of {side} do not change"
                 ),
             ),
+            Self::UnitaryTerm { part } => text(
+                format!("`{part}` has no place beside `group = unitary`"),
+                "on U(n) the energy is -A/2 tr Om^2 - B/2 (tr Om)^2 (89), which U(n) leaves unchanged from both sides; it is \
+                 emitted as its lattice on the circle and nothing else",
+                format!("remove `{part}`, and keep `casimir2` and `casimir1_squared`"),
+            ),
             Self::LatticeWithCentre { term } => text(
                 format!("`two_polar` with `{term}`: the lattice has no centre of mass"),
                 "(q, p, M, N) of (6.2) to (6.5) describe the internal motion alone",

@@ -22,6 +22,11 @@ pub(super) fn implementations(context: &Context) -> TokenStream {
     quote!(#lattice #conversions)
 }
 
+/// The lattice of U(n), which has no real phase points to convert to.
+pub(super) fn lattice_of_circle(context: &Context) -> TokenStream {
+    context.model.two_polar.as_ref().map(|form| lattice(context, form)).unwrap_or_default()
+}
+
 fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
     let (prepared, rt, t, n) =
         (&context.names.prepared, &context.names.rt, &context.names.scalar, context.dim());
@@ -161,6 +166,7 @@ fn description(context: &Context, form: &TwoPolar) -> TokenStream {
     let variables = match form.variables {
         Variables::LogStretches => format_ident!("LogStretches"),
         Variables::Stretches => format_ident!("Stretches"),
+        Variables::Angles => format_ident!("Angles"),
     };
     let potential = match (context.model.has_potential, form.dilatation_only) {
         (false, _) => format_ident!("None"),

@@ -28,6 +28,8 @@ pub enum Variables {
     LogStretches,
     /// `Q_a = D_aa`: d'Alembert's model, (6.5).
     Stretches,
+    /// `q_a`, `D_aa = exp(i q_a)`: U(n), (89).
+    Angles,
 }
 
 /// The phase space of the lattice and its symbols.
@@ -75,9 +77,10 @@ pub struct Equations {
 
 impl Lattice {
     /// The lattice of a model: stretches for energies with constant coefficients in `phi_dot`, their logarithms for those
-    /// in an affine velocity.
-    pub fn of(arena: &mut Arena, h: &Hamiltonian) -> Self {
+    /// in an affine velocity, angles for U(n).
+    pub fn of(arena: &mut Arena, h: &Hamiltonian, unitary: bool) -> Self {
         let (variables, stem) = match h.frame {
+            _ if unitary => (Variables::Angles, "q"),
             Frame::Flat => (Variables::Stretches, "stretch"),
             Frame::Body | Frame::Space => (Variables::LogStretches, "q"),
         };
@@ -163,6 +166,19 @@ impl Lattice {
     /// energy is invariant under rotations of space and body.
     pub fn hamiltonian(&self, arena: &mut Arena, h: &Hamiltonian) -> Polynomial {
         match &h.isotropic {
+            // (89): Z is Hermitian, Z_ab = (M_ab/sin x_ab + i N_ab/cos x_ab)/4.
+            Some(iso) if self.variables == Variables::Angles => {
+                let mut places = vec![vec![Polynomial::zero(); self.dim]; self.dim];
+                (0..self.dim).for_each(|a| places[a][a] = Polynomial::atom(self.p[a]));
+                let mut sum = iso.casimirs(&places);
+                for (a, b) in self.pairs() {
+                    let [m, n] = self.coupled(arena, a, b);
+                    for z in [m, n] {
+                        sum.add_product(&z.mul(&z), &iso.casimir2, &(&quarter() * &quarter()));
+                    }
+                }
+                sum
+            }
             Some(iso) => {
                 let z = self.momentum_on_axes(arena, &quarter());
                 let mut sum = iso.casimirs(&z);
@@ -185,11 +201,7 @@ impl Lattice {
     fn momentum_on_axes(&self, arena: &mut Arena, weight: &Rational) -> Vec<Vec<Polynomial>> {
         let mut rows = vec![vec![Polynomial::zero(); self.dim]; self.dim];
         for (a, b) in self.pairs() {
-            let [odd, even] = self.couplings(arena, a, b);
-            // Functions of symbols are not the number zero.
-            let [odd, even] = [odd, even].map(|e| Polynomial::atom(arena.pow(e, -1).unwrap_or(e)));
-            let m = self.skew(Coordinate::M, a, b).mul(&odd);
-            let n = self.skew(Coordinate::N, a, b).mul(&even);
+            let [m, n] = self.coupled(arena, a, b);
             rows[a][b].add_scaled(&n, weight);
             rows[a][b].add_scaled(&m, &-weight);
             // M and the odd function change their signs, N alone changes its own.
@@ -202,14 +214,24 @@ impl Lattice {
         rows
     }
 
-    /// `sh x_ab` and `ch x_ab`, or `Q_a - Q_b` and `Q_a + Q_b`, `a < b`.
+    /// `M_ab/odd_ab` and `N_ab/even_ab`.
+    fn coupled(&self, arena: &mut Arena, a: usize, b: usize) -> [Polynomial; 2] {
+        // Functions of symbols are not the number zero.
+        let [odd, even] =
+            self.couplings(arena, a, b).map(|e| Polynomial::atom(arena.pow(e, -1).unwrap_or(e)));
+        [self.skew(Coordinate::M, a, b).mul(&odd), self.skew(Coordinate::N, a, b).mul(&even)]
+    }
+
+    /// `sh x_ab` and `ch x_ab`, `sin x_ab` and `cos x_ab`, or `Q_a - Q_b` and `Q_a + Q_b`, `a < b`.
     fn couplings(&self, arena: &mut Arena, a: usize, b: usize) -> [Expr; 2] {
         let (qa, qb) = (self.q[a], self.q[b]);
+        let mut of_half = |functions: [Function; 2]| {
+            let x = arena.linear(&[(qa, half()), (qb, -&half())]);
+            functions.map(|function| arena.apply(function, x))
+        };
         match self.variables {
-            Variables::LogStretches => {
-                let x = arena.linear(&[(qa, half()), (qb, -&half())]);
-                [Function::Sinh, Function::Cosh].map(|function| arena.apply(function, x))
-            }
+            Variables::LogStretches => of_half([Function::Sinh, Function::Cosh]),
+            Variables::Angles => of_half([Function::Sin, Function::Cos]),
             Variables::Stretches => [arena.sub(qa, qb), arena.add(qa, qb)],
         }
     }

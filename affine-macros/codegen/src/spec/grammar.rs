@@ -5,7 +5,7 @@ use syn::parse::Parser;
 
 use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
 use super::expression_parser::{self, Language};
-use super::names::{Capability, Claim, Named, Requirement, TermKind, nearest};
+use super::names::{Capability, Claim, Named, PlacementGroup, Requirement, TermKind, nearest};
 use super::{Item, Potential, Spanned, Spec, Symmetry, Term, value};
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
@@ -15,6 +15,7 @@ enum Key {
     Dim,
     Symmetry,
     Kinetic,
+    Group,
     Potential,
     Require,
     Emit,
@@ -22,20 +23,29 @@ enum Key {
 }
 
 /// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 6] = ["hamiltonian", "metrics", "group", "constraint", "dissipation", "forces"];
+const LATER_KEYS: [&str; 5] = ["hamiltonian", "metrics", "constraint", "dissipation", "forces"];
 
 /// Kinetic terms that later versions read: they belong to the momentum side.
 const LATER_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
 
 impl Named for Key {
-    const ALL: &'static [Self] =
-        &[Self::Dim, Self::Symmetry, Self::Kinetic, Self::Potential, Self::Require, Self::Emit, Self::Crate];
+    const ALL: &'static [Self] = &[
+        Self::Dim,
+        Self::Symmetry,
+        Self::Kinetic,
+        Self::Group,
+        Self::Potential,
+        Self::Require,
+        Self::Emit,
+        Self::Crate,
+    ];
 
     fn name(self) -> &'static str {
         match self {
             Self::Dim => "dim",
             Self::Symmetry => "symmetry",
             Self::Kinetic => "kinetic",
+            Self::Group => "group",
             Self::Potential => "potential",
             Self::Require => "require",
             Self::Emit => "emit",
@@ -50,6 +60,7 @@ impl Key {
             Self::Dim => "dim = 3",
             Self::Symmetry => "symmetry(space = affine, body = metric)",
             Self::Kinetic => "kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)",
+            Self::Group => "group = unitary",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
             Self::Require => "require(positive_definite)",
             Self::Emit => "emit(two_polar)",
@@ -81,6 +92,7 @@ pub(super) struct Arguments {
     dim: Spanned<usize>,
     symmetry: Option<Symmetry>,
     kinetic: Spanned<Vec<Term>>,
+    group: Option<Spanned<PlacementGroup>>,
     potential: Option<Potential>,
     require: Vec<Spanned<Requirement>>,
     emit: Vec<Spanned<Capability>>,
@@ -89,13 +101,14 @@ pub(super) struct Arguments {
 
 impl Arguments {
     pub(super) fn of(self, item: Item) -> Spec {
-        let Self { dim, symmetry, kinetic, potential, require, emit, runtime } = self;
+        let Self { dim, symmetry, kinetic, group, potential, require, emit, runtime } = self;
         Spec {
             item,
             dim,
             symmetry,
             kinetic: kinetic.value,
             kinetic_key: kinetic.span,
+            group,
             potential,
             require,
             emit,
@@ -109,7 +122,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &LATER_KEYS, found);
     let (mut dim, mut symmetry, mut kinetic, mut runtime) = (None, None, None, None);
     let (mut require, mut emit) = (Vec::new(), Vec::new());
-    let mut energy = None;
+    let (mut energy, mut group) = (None, None);
     for entry in entries {
         let at = entry.at;
         match entry.key {
@@ -117,6 +130,11 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
             Key::Symmetry => symmetry = sides(expect_list(entry, found), at, found),
             Key::Kinetic => kinetic = Some(terms(expect_list(entry, found), at, found)),
             Key::Potential => energy = potential(expect_value(entry, found), at, found),
+            Key::Group => {
+                group = expect_value(entry, found)
+                    .ok()
+                    .and_then(|Piece { tokens, at }| member("group", tokens, at, found));
+            }
             Key::Require => require = members("requirement", expect_list(entry, found), found),
             Key::Emit => emit = members("capability", expect_list(entry, found), found),
             Key::Crate => runtime = path(expect_value(entry, found), found),
@@ -124,7 +142,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     }
     let dim = dim.unwrap_or_else(|| Err(missing(Key::Dim, "the dimension of space and body", here, found)));
     let kinetic = kinetic.unwrap_or_else(|| Err(missing(Key::Kinetic, "the kinetic energy", here, found)));
-    Ok(Arguments { dim: dim?, symmetry, kinetic: kinetic?, potential: energy, require, emit, runtime })
+    Ok(Arguments { dim: dim?, symmetry, kinetic: kinetic?, group, potential: energy, require, emit, runtime })
 }
 
 fn missing(key: Key, states: &'static str, at: Span, found: &mut Diagnostics) -> Reported {

@@ -135,7 +135,8 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
     list.push((Base::TraceOfSquare.symbol(arena), of_square));
     let [q, d, inverse_d] = ["q", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
     match lattice.variables {
-        Variables::LogStretches => {
+        // U(n) has no potentials.
+        Variables::LogStretches | Variables::Angles => {
             let mut mean = Polynomial::zero();
             for (place, stretch) in lattice.q.iter().zip(stretches) {
                 mean.add_term(vec![*place], &nth);
@@ -170,7 +171,7 @@ fn counted_from_undeformed(
     for (a, place) in lattice.q.iter().enumerate() {
         let strain = arena.symbol(&format!("strain_{}", a + 1));
         let value = match lattice.variables {
-            Variables::LogStretches => {
+            Variables::LogStretches | Variables::Angles => {
                 let twice = arena.scale(*place, &Rational::from(2));
                 Polynomial::atom(arena.apply(Function::ExpM1, twice))
             }

@@ -38,7 +38,7 @@ struct Pair {
 enum Replacement {
     /// `1/sh^2 = 4 odd`, `1/ch^2 = 4 even`, and the quotients.
     Decaying { odd: Expr, even: Expr, coth: Expr, tanh: Expr },
-    /// `1/(Q_a - Q_b)`, `1/(Q_a + Q_b)`.
+    /// `1/(Q_a - Q_b)`, `1/(Q_a + Q_b)`, or `1/sin x`, `1/cos x`.
     Reciprocals { odd: Expr, even: Expr },
 }
 
@@ -51,7 +51,7 @@ impl Stable {
             let [recip_odd, recip_even] = [odd, even].map(|e| arena.pow(e, -1).unwrap_or(e));
             let replacement = match lattice.variables {
                 Variables::LogStretches => stable.decaying(arena, lattice, a, b),
-                Variables::Stretches => stable.reciprocals(arena, [odd, even], a, b),
+                Variables::Stretches | Variables::Angles => stable.reciprocals(arena, [odd, even], a, b),
             };
             stable.pairs.push(Pair { odd, even, recip_odd, recip_even, replacement });
         }
