@@ -40,7 +40,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut levels = Vec::new();
     for k in 0..14 {
         let x = 0.3 + 0.1 * f64::from(k);
-        let start = at(x, 0.35);
+        // Moving inwards, so that motions that escape are seen to come and go.
+        let start = at(x, -0.35);
         let point = PlanarBody.at_lattice(&start)?;
         let class = classify(&PlanarBody, &point).map(|class| class.shear);
         let category = match class {

@@ -155,6 +155,17 @@ fn collapse_is_an_outcome_with_its_time() {
 }
 
 #[test]
+fn times_that_are_no_numbers_are_refused() {
+    for t in [f64::NAN, f64::INFINITY] {
+        let stop = LatticeFlow::new(&AffineAffine3, 0.0, start()).advance_to(t).unwrap_err();
+        assert_eq!(stop.reason, StopReason::Conversion(Error::NotFinite { quantity: "t" }));
+    }
+    let mut lattice = start::<3>();
+    lattice.q[1] = f64::NAN;
+    assert!(LatticeFlow::new(&AffineAffine3, 0.0, lattice).advance_to(1.0).is_err());
+}
+
+#[test]
 fn coincident_stretches_are_no_lattice() {
     let mut lattice = start::<3>();
     lattice.q[1] = lattice.q[0];

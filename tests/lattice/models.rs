@@ -42,3 +42,26 @@ models! { 3:
         = (casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1);
     Dalembert3 DalembertDilated3 DalembertSheared3 = (dalembert = 1.5);
 }
+
+/// The same coefficients as fields.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = a, casimir1_squared = b, body_inertia = i),
+    potential = kappa/2*sinh(q)^2 + c*(tr(G)*exp(-2*q) - n),
+    emit(two_polar)
+)]
+pub(crate) struct Family3 {
+    pub(crate) a: f64,
+    pub(crate) b: f64,
+    pub(crate) i: f64,
+    pub(crate) kappa: f64,
+    pub(crate) c: f64,
+}
+
+/// d'Alembert's inertia and well as fields.
+#[affine_model(dim = 2, kinetic(dalembert = i), potential = kappa/2*q^2 + c*orthogonality(1/2), emit(two_polar))]
+pub(crate) struct Family2 {
+    pub(crate) i: f64,
+    pub(crate) kappa: f64,
+    pub(crate) c: f64,
+}

@@ -101,6 +101,15 @@ same_motion! {
     dalembert_dilated from growing: DalembertDilated3;
 }
 
+/// Coefficients of fields are computed in `prepare()`, those of the lattice among them.
+#[test]
+fn families_of_models() {
+    let space = Family3 { a: 0.2, b: 0.1, i: 1.0, kappa: 2.0, c: 0.3 }.prepare().unwrap();
+    assert_same_motion(&space, start());
+    let plane = Family2 { i: 1.5, kappa: 2.0, c: 0.3 }.prepare().unwrap();
+    assert_same_motion(&plane, start());
+}
+
 /// One motion of the stretches for three models: affine-affine with `A = 1.2`, and `I = 1`, `A = 0.2` in the body or in
 /// space. The frames differ.
 fn assert_shared<const N: usize>(models: [&dyn Fn(Lattice<N>) -> Lattice<N>; 3]) {

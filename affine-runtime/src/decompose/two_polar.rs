@@ -35,7 +35,7 @@ pub struct Polar<const N: usize> {
 ///
 /// Error of every stretch: a few units of rounding of the largest one. Relative to itself a few units of rounding for
 /// `n = 2`, whatever the matrix, and for `n = 3` where `phi` is a well-conditioned matrix with rescaled rows, or with
-/// rescaled columns; stretches may differ by a factor of `1e280`. `L`, `R` are orthogonal to a few units of rounding
+/// rescaled columns; stretches may differ by a factor of `1e250`. `L`, `R` are orthogonal to a few units of rounding
 /// also where stretches coincide, exactly or nearly.
 ///
 /// Method: for `n = 2` in closed form, with a determinant that is exact to rounding; for `n = 3` rotations of the columns

@@ -4,6 +4,7 @@ use core::f64::consts::PI;
 
 use super::flow::groups;
 use super::{Lattice, LatticeForm, LatticeStop, StopReason};
+use crate::error::Error;
 use crate::frames::Matrix;
 use crate::integrate::RungeKutta8;
 
@@ -48,6 +49,10 @@ impl<'a, const N: usize, M: LatticeForm<N>> CircleFlow<'a, N, M> {
     /// [`LatticeStop`] with the last good state.
     pub fn advance_to(&mut self, t: f64) -> Result<&Lattice<N>, LatticeStop<N>> {
         let stop = |t: f64, lattice: &Lattice<N>, reason| LatticeStop { t, lattice: *lattice, reason };
+        if !t.is_finite() {
+            let reason = StopReason::Conversion(Error::NotFinite { quantity: "t" });
+            return Err(stop(self.t, &self.lattice, reason));
+        }
         let (couplings, state) = self.lattice.framed::<M>();
         let rates = |_: f64, state: &M::Framed<f64>| self.model.framed_equations(&couplings, state);
         let mut steps = RungeKutta8::new(rates, groups::<N, M>(), (self.t, state), t, self.tolerance)

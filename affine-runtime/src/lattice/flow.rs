@@ -103,6 +103,10 @@ impl<'a, const N: usize, M: TwoPolarForm<N>> LatticeFlow<'a, N, M> {
     /// # Errors
     /// [`LatticeStop`] with the last good state, now and ever after.
     pub fn advance_to(&mut self, t: f64) -> Result<&Lattice<N>, LatticeStop<N>> {
+        if !t.is_finite() {
+            let reason = StopReason::Conversion(Error::NotFinite { quantity: "t" });
+            return Err(LatticeStop { t: self.t, lattice: self.lattice, reason });
+        }
         let mut near = self.lattice.gap() < NEAR;
         while self.t != t {
             let outcome = match near {

@@ -2,7 +2,7 @@
 
 Entries of phi are doubles, taken exactly; the stretches are its singular values, descending, each as the sum of two
 doubles. Squares of stretches are roots of the characteristic polynomial of phi^T phi, by mpmath's symmetric
-eigenvalues with 1400 digits, which is enough for stretches that differ by a factor of 1e280.
+eigenvalues with 1400 digits, which is enough for stretches that differ by a factor of 1e260.
 """
 
 import random
