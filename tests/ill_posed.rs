@@ -12,6 +12,12 @@ fn refused_models() {
     trybuild::TestCases::new().compile_fail("tests/ill_posed/*/*.rs");
 }
 
+/// Well-posed models, and calls that they have no answer to.
+#[test]
+fn refused_calls() {
+    trybuild::TestCases::new().compile_fail("tests/refused_calls/*.rs");
+}
+
 /// What the compiler says, case by case.
 fn outcomes() -> Vec<(PathBuf, String)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/ill_posed");

@@ -33,6 +33,35 @@ fn names_of(args: &str) -> BTreeSet<String> {
     found
 }
 
+/// A Hamiltonian and the kinetic energy that it belongs to are one model: `I + A = 1/a`, `I - A = 1/(2c - a)`,
+/// `I + A + n B = 1/(a + n b)`.
+#[test]
+fn statements_on_both_sides_are_the_same_tokens() {
+    for (kinetic, hamiltonian) in [
+        (
+            "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 2)",
+            "dim = 3, hamiltonian(casimir2 = 5/6, casimir1_squared = -1/18, vorticity_squared = 25/24, \
+             body_translation = 1/2)",
+        ),
+        (
+            "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = -1, space_translation = 2)",
+            "dim = 2, hamiltonian(casimir2 = -5/4, casimir1_squared = -5/24, spin_squared = -25/24, \
+             space_translation = 1/2)",
+        ),
+        ("dim = 2, kinetic(casimir2 = 0.2)", "dim = 2, hamiltonian(casimir2 = 5)"),
+        (
+            "dim = 3, kinetic(casimir2 = 0.2, body_translation = 2)",
+            "dim = 3, hamiltonian(casimir2 = 5, spin_squared = 0, casimir3 = 0, body_translation = 0.5)",
+        ),
+        (
+            "dim = 3, kinetic(body_inertia = 2), potential = (tr(G) - n)^2",
+            "dim = 3, hamiltonian(casimir2 = 0.5, vorticity_squared = 0.5), potential = (tr(G) - n)^2",
+        ),
+    ] {
+        assert_eq!(expansion(kinetic).to_string(), expansion(hamiltonian).to_string(), "{hamiltonian}");
+    }
+}
+
 /// Bodies of all functions of an expansion, by name.
 fn bodies(args: &str) -> BTreeMap<String, String> {
     let file: syn::File = syn::parse2(expansion(args)).unwrap();

@@ -115,8 +115,31 @@ families! {
     space_inertia_matrix_drift_2: "dim = 2, kinetic(space_inertia = [[1, 0.5], [0.5, 2]], space_translation = 2)";
     flat_tensor_2: "dim = 2, kinetic(\
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
+    hamiltonian_vorticity_missile_2: "dim = 2, hamiltonian(casimir2 = 5/6, casimir1_squared = -1/18, \
+        vorticity_squared = 25/24, body_translation = 1/2)";
+    hamiltonian_spin_3: "dim = 3, symmetry(space = metric, body = affine), \
+        hamiltonian(casimir2 = 5/6, casimir1_squared = -1/18, spin_squared = 25/24)";
+    hamiltonian_cubic_3: "dim = 3, hamiltonian(casimir3 = 0.1)";
+    hamiltonian_cubic_missile_3: "dim = 3, symmetry(space = affine, body = metric), \
+        hamiltonian(casimir2 = 5/6, vorticity_squared = 25/24, casimir3 = 0.1, body_translation = 1/2)";
+    metrics_left_missile_2: "dim = 2, metrics(space = [[2, 0.5], [0.5, 1.5]], body = diag(4, 1)), \
+        kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 2)";
+    metrics_dalembert_3: "dim = 3, metrics(body = diag(1, 2, 4)), kinetic(dalembert = 3)";
     flat_tensor_drift_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2, \
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
+    hencky_3: "dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), potential = q1^2 + q2^2 + q3^2";
+    biot_driven_2: "dim = 2, kinetic(casimir2 = 0.2, space_inertia = 1), potential = cos(t)*(Q1 + Q2)";
+    wells_dalembert_2: "dim = 2, kinetic(dalembert = 1), potential = pairs(cos(d))";
+    isochoric_left_3: "dim = 3, constraint = isochoric, kinetic(casimir2 = 0.2, body_inertia = 1)";
+    isochoric_missile_2: "dim = 2, constraint = isochoric, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), \
+        potential = neo_hookean(0.5)";
+    isochoric_dalembert_3: "dim = 3, constraint = isochoric, kinetic(dalembert = diag(1, 1.5, 2)), potential = tr(G)/2";
+    rigid_left_3: "dim = 3, constraint = rigid, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 2)";
+    rigid_top_3: "dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 1.5, 2)), potential = 0.7*phi[3,3]";
+    conformal_right_2: "dim = 2, constraint = conformal, \
+        kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1, body_translation = 2)";
+    conformal_body_inertia_3: "dim = 3, constraint = conformal, kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5, 2)), \
+        potential = hyperbolic_dilatation(10) + 0.5*phi[3,3]";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.
@@ -159,6 +182,18 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "dim = 2, kinetic(casimir2 = a, body_inertia = diag(i, 2*i), body_translation = 1)",
         "/// A body.
         pub struct BodyInertia { a: f64, i: f64 }",
+    ),
+    (
+        "fields_hamiltonian_2",
+        "dim = 2, hamiltonian(casimir2 = a, casimir1_squared = b, spin_squared = 2*c, space_translation = k)",
+        "/// A body.
+        pub struct Hamiltonian { a: f64, b: f64, c: f64, k: f64 }",
+    ),
+    (
+        "fields_hamiltonian_cubic_3",
+        "dim = 3, hamiltonian(casimir2 = a, casimir3 = d, vorticity_squared = 1, space_translation = k)",
+        "/// A body.
+        pub struct Cubic { a: f64, d: f64, k: f64 }",
     ),
     (
         "generics_2",

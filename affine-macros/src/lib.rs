@@ -11,6 +11,9 @@ use proc_macro::TokenStream;
 /// | `dim` | `2`, `3` | dimension; `n` in expressions |
 /// | `kinetic(...)` | terms | the kinetic energy, a sum of the terms below |
 /// | `group` | `unitary` | placements in U(n) instead of GL(n, R): `-A/2 tr Om^2 - B/2 (tr Om)^2`, emitted as its lattice on the circle |
+/// | `hamiltonian(...)` | terms | instead of `kinetic(...)`: the same, stated through momenta, below |
+/// | `metrics(space = g, body = eta)` | matrices of numbers | constant metrics other than the identity, below |
+/// | `constraint` | `isochoric`, `rigid`, `conformal` | motion confined to SL(n), SO(n), R+ SO(n), below; without it GL+(n) |
 /// | `potential` | expression | the potential energy, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
@@ -32,10 +35,35 @@ use proc_macro::TokenStream;
 /// `Oh = phi^-1 phi_dot`, `Om = phi_dot phi^-1`. A coefficient is an arithmetic expression over exact decimal literals,
 /// fields and `n`; `^` binds tightest and to the right, above the sign: `-a^2` is `-(a^2)`.
 ///
+/// On the momentum side, `X = Sigma = phi Pi` or `Sigma_hat = Pi phi`, `|W|^2` the sum over `a < b` of `W_ab^2`:
+///
+/// | term of `hamiltonian(...)` | energy |
+/// |---|---|
+/// | `casimir2 = a` | `a/2 tr X^2` |
+/// | `casimir1_squared = b` | `b/2 (tr X)^2` |
+/// | `vorticity_squared = c`, or `spin_squared = c` | `c/2 \|Vort\|^2`, `c/2 \|S\|^2` |
+/// | `body_translation = k` | `k/2 \|phi^T p\|^2`, `k = 1/m` |
+/// | `space_translation = k` | `k/2 \|p\|^2`, `k = 1/m` |
+/// | `casimir3 = d` | `d/3 tr X^3`, n = 3; no `at_velocity` and no kinetic energy of velocities, which do not determine the momentum |
+///
+/// `I + A = 1/a`, `I - A = 1/(2c - a)`, `I + A + n B = 1/(a + n b)` is the same model on the velocity side.
+///
+/// With `metrics(...)`, `g` and `eta` symmetric and positive definite, every transpose and norm is the metric one
+/// (`g^-1 Y^T g` in space, `eta^-1 X^T eta` in the body), and `det phi`, `q` are those of orthonormal bases. Points have
+/// the user's coordinates; equations, reduced states and plain arrays those of orthonormal bases.
+///
 /// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
 /// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)`, their entries `G[1,2]`, with
-/// translation `x[1]` and `norm(x)`, and the functions `exp ln sqrt sin cos tan sinh cosh tanh`. It is
-/// differentiated symbolically. Named ones are written `name(coefficient, ..)`:
+/// translation `x[1]` and `norm(x)`, the time `t`, and the functions `exp ln sqrt abs sin cos tan sinh cosh tanh`. It is
+/// differentiated symbolically.
+///
+/// The log-stretches `q1..qn`, the stretches `Q1..Qn = exp(q1)..exp(qn)` (singular values of `phi`), and
+/// `pairs(f(d))`, the sum of an even `f(q_a - q_b)` over `a < b`, make isotropic potentials. Exchanging two stretches must
+/// change nothing, and no root, logarithm or quotient may vanish where two coincide; what is a function of `q`, `tr(G)` and
+/// `tr(G*G)` is written through these. `abs` is for what keeps its sign, for fields, and inside even functions such as
+/// `abs(q)^2`. With `t` the energy is not conserved.
+///
+/// Named potentials are written `name(coefficient, ..)`:
 ///
 /// | name | formula |
 /// |---|---|
@@ -46,6 +74,15 @@ use proc_macro::TokenStream;
 /// | `saint_venant_kirchhoff(lambda, mu)` | `lambda/2 (tr E)^2 + mu tr E^2`, `E = (G - 1)/2` |
 /// | `orthogonality(k)` | `k tr((G - 1)^2)` |
 /// | `gas(k)` | `k exp(-2q)` |
+///
+/// A constraint confines `phi` to a group and affine velocities to its Lie algebra: traceless, skew, or skew plus multiples
+/// of the identity. The energy is inverted there, the affine spin is the part of it that acts there (a matrix of the
+/// same kind), and only the eigenvalues on the directions left free have to differ from zero: `I+A`, `I-A` (isochoric),
+/// `I-A` (rigid), `I-A`, `I+A+nB` (conformal). `dalembert` goes with `rigid`, where it is `body_inertia`, and with
+/// `isochoric`: there Hamilton's equations are those of `(phi, Pi)` without the force of the multiplier. A term that
+/// vanishes on the group and a potential that is constant there are mistakes; a symmetry is claimed of the energy
+/// without the constraint. Starting points off the constraint by more than 32 roundings times the condition of `phi`
+/// are refused with their defect.
 ///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
 /// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`.

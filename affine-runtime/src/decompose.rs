@@ -2,7 +2,9 @@
 
 mod exponential;
 mod jacobi;
+mod stretches;
 mod two_polar;
 
 pub use exponential::{exponential, skew_exponential};
+pub use stretches::{log_stretches, principal_stretches};
 pub use two_polar::{Polar, TwoPolar, polar, two_polar};

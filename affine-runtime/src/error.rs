@@ -23,6 +23,18 @@ pub enum Error {
     },
     /// Two stretches of a lattice are equal: its variables do not determine the momentum there.
     CoincidentStretches,
+    /// A placement, velocity or momentum violates the constraint of the model by more than rounding.
+    OffConstraint {
+        /// The constraint.
+        constraint: crate::model::Constraint,
+        /// The quantity, as the paper names it.
+        quantity: &'static str,
+        /// Its distance from what the constraint allows, in the Frobenius norm; `|det phi - 1|` for an isochoric
+        /// placement.
+        defect: f64,
+        /// The largest distance that is taken for rounding.
+        threshold: f64,
+    },
     /// A simulation did not reach its end, or could not begin.
     #[cfg(feature = "std")]
     Stopped(crate::simulate::Stop),
@@ -70,6 +82,11 @@ impl fmt::Display for Error {
             Error::CoincidentStretches => f.write_str(
                 "two stretches are equal, where (q, p, M, N) do not determine the momentum: M vanishes with their \
                  difference; give the phase point itself",
+            ),
+            Error::OffConstraint { constraint, quantity, defect, threshold } => write!(
+                f,
+                "{quantity} violates the {constraint} constraint by {defect:e} (threshold {threshold:e}): {}",
+                constraint.asks()
             ),
             #[cfg(feature = "std")]
             Error::Stopped(stop) => stop.fmt(f),

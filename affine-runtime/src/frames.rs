@@ -4,6 +4,7 @@
 //! not compile. Index conventions: `phi[(i, A)]` with the space index first; the canonical momentum
 //! `Pi[(A, i)]` is conjugate to `phi[(i, A)]`, so that the pairing is `tr(Pi phi_dot)`.
 
+use crate::metrics::Bases;
 use crate::scalar::Real;
 
 /// An `N` by `N` matrix.
@@ -50,6 +51,8 @@ pub trait Frame:
     fn to_mixed<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T>;
     /// The affine spin of this frame from that of another.
     fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T>;
+    /// The affine spin of this frame in other bases: `A Sigma A^-1`, `B Sigma_hat B^-1`, `B Pi A^-1`.
+    fn rebased<const N: usize, T: Real>(bases: &Bases<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T>;
 }
 
 mod sealed {
@@ -89,6 +92,9 @@ impl Frame for Space {
     fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         F::to_space(phi, spin)
     }
+    fn rebased<const N: usize, T: Real>(bases: &Bases<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
+        bases.space * spin * bases.space_inverse
+    }
 }
 
 impl Frame for Body {
@@ -109,6 +115,9 @@ impl Frame for Body {
     fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         F::to_body(phi, spin)
     }
+    fn rebased<const N: usize, T: Real>(bases: &Bases<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
+        bases.body * spin * bases.body_inverse
+    }
 }
 
 impl Frame for Canonical {
@@ -128,6 +137,9 @@ impl Frame for Canonical {
     }
     fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
         F::to_canonical(phi, spin)
+    }
+    fn rebased<const N: usize, T: Real>(bases: &Bases<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
+        bases.body * spin * bases.space_inverse
     }
 }
 

@@ -25,7 +25,7 @@ pub enum Motion<const N: usize> {
     /// `phi(t) = phi0 exp(t stretch) exp(t whirl)`: spatially affine models; `whirl` is skew, `None` where it
     /// vanishes.
     Body {
-        /// `Sigma_hat0/alpha + tr(Sigma_hat0)/beta`.
+        /// `Sigma_hat0/alpha + tr(Sigma_hat0)/beta`, and `c Sigma_hat0^2` for `c/3 C(3)` in the Hamiltonian.
         stretch: Matrix<N>,
         /// `-Vort/mu`.
         whirl: Option<Matrix<N>>,
@@ -33,7 +33,7 @@ pub enum Motion<const N: usize> {
     /// `phi(t) = exp(t whirl) exp(t stretch) phi0`: materially affine models; `whirl` is skew, `None` where it
     /// vanishes.
     Space {
-        /// `Sigma0/alpha + tr(Sigma0)/beta`.
+        /// `Sigma0/alpha + tr(Sigma0)/beta`, and `c Sigma0^2` for `c/3 C(3)` in the Hamiltonian.
         stretch: Matrix<N>,
         /// `-S/mu`.
         whirl: Option<Matrix<N>>,

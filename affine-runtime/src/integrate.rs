@@ -2,12 +2,16 @@
 
 mod error_norm;
 pub mod gauss;
+pub mod lie;
+pub mod rattle;
 pub mod runge_kutta;
 mod step_size;
 
 pub use error_norm::ErrorNorm;
 pub(crate) use error_norm::norm;
 pub use gauss::Gauss;
+pub use rattle::Rattle;
+
 pub use runge_kutta::RungeKutta8;
 
 use core::fmt;
@@ -26,6 +30,14 @@ pub enum Failure {
         /// The least defect met, relative to the largest component of the state.
         residual: f64,
     },
+    /// The velocities are not linear in the momenta, or depend on the placement, or the state is not canonical: the
+    /// method is for `H = T(Pi) + U(phi)`.
+    NotSeparable,
+    /// The start is off the constraint `det phi = 1`, or its velocity off `tr(phi^-1 phi_dot) = 0`.
+    OffConstraint {
+        /// The larger of the two relative defects.
+        defect: f64,
+    },
 }
 
 impl fmt::Display for Failure {
@@ -39,6 +51,13 @@ impl fmt::Display for Failure {
                 f,
                 "the equations of an implicit step have no solution that the iteration finds: the residual stays \
                  at {residual:e}"
+            ),
+            Failure::NotSeparable => f.write_str(
+                "the Hamiltonian is not T(Pi) + U(phi) in the variables phi and Pi, with T quadratic",
+            ),
+            Failure::OffConstraint { defect } => write!(
+                f,
+                "the start is off det phi = 1, or its velocity off tr(phi^-1 phi_dot) = 0, by {defect:e}"
             ),
         }
     }

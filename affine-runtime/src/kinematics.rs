@@ -88,7 +88,7 @@ pub use deformation::{
     CauchyTensor, GreenTensor, InertialQuadrupole, InverseCauchyTensor, InverseGreenTensor, Strain,
     characteristic_invariants,
 };
-pub(crate) use dilatation::LogDeterminant;
+pub(crate) use dilatation::{LogDeterminant, integer};
 pub use dilatation::{dilatation, isochoric_part, mean_log_stretch};
 pub use momenta::{AffineMomentum, AngularMomentum, LinearMomentum, Vorticity};
 pub use velocities::LinearVelocity;

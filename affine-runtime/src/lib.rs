@@ -15,16 +15,20 @@
 //! of collective and internal modes, Part I*.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+mod breathing;
 pub mod conserved;
+mod constraint;
 #[cfg(feature = "std")]
 pub mod counting;
 pub mod decompose;
+mod elliptic;
 pub mod error;
 pub mod frames;
 pub mod geodesic;
 pub mod integrate;
 pub mod kinematics;
 pub mod lattice;
+pub mod metrics;
 pub mod model;
 mod reduction;
 #[cfg(feature = "report")]

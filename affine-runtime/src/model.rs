@@ -3,6 +3,7 @@
 use core::fmt::Debug;
 
 use crate::frames::{Matrix, Vector};
+use crate::metrics::Bases;
 use crate::scalar::{Real, Scalar};
 use crate::state::Phase;
 
@@ -29,10 +30,12 @@ pub trait Model<const N: usize> {
 
     /// The velocities `(x_dot, phi_dot)` of a phase point: the inverse Legendre transformation.
     fn velocity<T: Real>(&self, point: &Self::Point<T>) -> Velocity<N, T>;
-    /// The kinetic energy `T` of velocities at the placement `phi`.
+    /// The kinetic energy `T` of velocities at the placement `phi`. With `casimir3` in `hamiltonian(...)` there is no
+    /// such function, for several momenta have one velocity: `T = tr(X O) + p.v - H_kin` is one of the momenta, and a
+    /// call of this method does not compile.
     fn kinetic_energy<T: Real>(&self, phi: &Matrix<N, T>, velocity: &Velocity<N, T>) -> T;
-    /// The Hamiltonian `H` of a phase point.
-    fn hamiltonian<T: Real>(&self, point: &Self::Point<T>) -> T;
+    /// The Hamiltonian `H` of a phase point at time `t`, which only a potential that contains the time reads.
+    fn hamiltonian<T: Real>(&self, t: T, point: &Self::Point<T>) -> T;
 
     /// The point as a plain array.
     fn flatten<T: Real>(&self, point: &Self::Point<T>) -> Self::Full<T>;
@@ -58,6 +61,19 @@ pub trait Model<const N: usize> {
         reduced: &Self::Reduced<T>,
     ) -> Self::Point<T>;
 
+    /// The reduced state with what is a function of the rest computed anew: `1/D = (det phi)^(-1/n)`, which some
+    /// reduced equations carry along instead of taking a root.
+    #[must_use]
+    fn renewed<T: Real>(&self, reduced: &Self::Reduced<T>) -> Self::Reduced<T> {
+        *reduced
+    }
+
+    /// The bases of space and body in which the model's metrics are the identity, from the user's own; `None` where
+    /// they are the identity there. Plain arrays, reduced states and closed forms stand in them, phase points do not.
+    fn bases(&self) -> Option<Bases<N>> {
+        None
+    }
+
     /// The closed form of the trajectory through `point` at time `t0`, where the model and the scene have one.
     fn geodesic(&self, t0: f64, point: &Self::Point<f64>) -> Option<crate::geodesic::Geodesic<N>>;
     /// The phase point at time `t` on a closed-form trajectory that started at `start`.
@@ -80,6 +96,19 @@ pub struct Velocity<const N: usize, T: Real = f64> {
     pub phi_dot: Matrix<N, T>,
 }
 
+/// A model whose momenta are a function of the velocities, as the `at_velocity` of a model with `C(3)` in its
+/// Hamiltonian asks of it in vain; nothing implements it.
+#[diagnostic::on_unimplemented(
+    message = "the velocity does not determine the momentum of `{Self}`",
+    label = "no Legendre transformation from velocities",
+    note = "with `casimir3` the velocity is quadratic in the momentum: several momenta, or none, have a given velocity",
+    note = "use `at_momentum`; `velocity()` gives the velocity of a phase point"
+)]
+pub trait VelocityDeterminesMomentum {
+    /// What follows from it.
+    fn never<T>(&self) -> T;
+}
+
 /// A fixed-size vector of numbers that integrators step.
 pub trait StateVector<T>: Copy + Debug + PartialEq + AsRef<[T]> + AsMut<[T]> + Send + Sync {
     /// Number of components.
@@ -93,6 +122,17 @@ impl<T: Scalar, const D: usize> StateVector<T> for [T; D] {
     fn zeros() -> Self {
         [T::zero(); D]
     }
+}
+
+/// The group to which a motion is confined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Constraint {
+    /// SL(n): `det phi = 1`.
+    Isochoric,
+    /// SO(n): `phi^T phi = 1`.
+    Rigid,
+    /// R+ SO(n): `phi^T phi` is a multiple of 1.
+    Conformal,
 }
 
 /// What was derived about a model; made by the macro alone.
@@ -123,6 +163,8 @@ pub struct Description {
     pub full_operations: Operations,
     /// Operations of the reduced equations.
     pub reduced_operations: Operations,
+    /// The group to which the motion is confined; `None` for all of GL+(n).
+    pub constraint: Option<Constraint>,
     /// What was taken out of the state, in words.
     pub left_out: &'static [&'static str],
 }
@@ -143,6 +185,13 @@ pub struct Group {
     pub name: &'static str,
     /// Number of components, row-major.
     pub len: usize,
+}
+
+impl Group {
+    /// The placement, or its isochoric part: what momenta move, and what keeps its orientation.
+    pub(crate) fn is_placement(&self) -> bool {
+        matches!(self.name, "phi" | "Psi")
+    }
 }
 
 /// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.

@@ -2,20 +2,27 @@
 
 pub use core::primitive::f64;
 
-pub use crate::decompose::skew_exponential;
+pub use crate::breathing::Breathing;
+pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
+pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
 pub use crate::error::Result;
 pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,
 };
 pub use crate::geodesic::{Geodesic, Motion};
-pub use crate::kinematics::mean_log_stretch;
+pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
 pub use crate::lattice::{
     Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, MetricSide, PotentialClass,
     TwoPolarForm, Variables,
 };
-pub use crate::model::{Conserved, Description, Formula, Group, Model, Operations, Velocity};
+pub use crate::metrics::Bases;
+pub use crate::model::{
+    Conserved, Constraint, Description, Formula, Group, Model, Operations, Velocity,
+    VelocityDeterminesMomentum,
+};
 pub use crate::reduction::{
-    Condition, finite, inverse_form, total_affine_momentum, total_size, turn, well_posed,
+    Condition, finite, from_shear_and_turn, inverse_form, shear_and_turn, total_affine_momentum, total_size,
+    turn, well_posed,
 };
 pub use crate::scalar::{Real, Scalar};
 pub use crate::state::{Centre, Phase, PhasePoint, Pinned};
@@ -43,6 +50,28 @@ pub fn point<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
     centre: C,
 ) -> PhasePoint<N, F, C, T> {
     PhasePoint::with_momentum(phi, momentum, centre)
+}
+
+/// Stops the compilation of a call of `kinetic_energy`.
+///
+/// ```compile_fail,E0080
+/// use affine_runtime::model::Velocity;
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(dim = 3, hamiltonian(casimir2 = 1, casimir3 = 0.1))]
+/// struct Cubic;
+///
+/// let velocity = Velocity { x_dot: Vector::<3>::zeros(), phi_dot: Matrix::<3>::identity() };
+/// let _ = Cubic.kinetic_energy(&Matrix::<3>::identity(), &velocity);
+/// ```
+///
+/// # Panics
+/// Always, and only while the compiler evaluates it.
+#[allow(clippy::panic, reason = "evaluated by the compiler alone: the panic is the error message")]
+pub const fn no_kinetic_energy_of_velocities<T>() -> T {
+    panic!(
+        "with `casimir3` several momenta have one velocity, and T is no function of velocities; on momenta it is tr(X O) - H"
+    )
 }
 
 /// The rows of a matrix.

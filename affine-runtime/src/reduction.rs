@@ -57,6 +57,16 @@ impl<const N: usize> Motion<N> {
         Motion::Space { stretch, whirl }
     }
 
+    /// The same with `C(3)/3` in the Hamiltonian, `X^2` in the velocity: it commutes with `X` and adds `casimir3 X^2`
+    /// to the stretch.
+    #[must_use]
+    pub fn with_square(mut self, spin: &Matrix<N>, casimir3: f64) -> Self {
+        if let Motion::Body { stretch, .. } | Motion::Space { stretch, .. } = &mut self {
+            *stretch += spin * spin * casimir3;
+        }
+        self
+    }
+
     /// The straight line with the velocity `phi_dot0`.
     #[must_use]
     pub fn straight(velocity: Matrix<N>) -> Self {
@@ -217,4 +227,35 @@ fn jacobi<const K: usize>(mut form: nalgebra::SMatrix<f64, K, K>) -> Eigen<K> {
         }
     }
     Eigen { values: core::array::from_fn(|k| form[(k, k)]), vectors }
+}
+
+/// The traceless part of an affine spin times `1/alpha`, in parts: its symmetric part on and above the diagonal, its
+/// skew part `(X_ba - X_ab)/2`, `b < a`, below.
+pub fn shear_and_turn<const N: usize, T: Real>(spin: &Matrix<N, T>, inverse_alpha: T) -> [[T; N]; N] {
+    let half = T::from_f64(0.5);
+    let mean = spin.trace() / crate::kinematics::integer(N);
+    core::array::from_fn(|a| {
+        core::array::from_fn(|b| {
+            let part = match a.cmp(&b) {
+                core::cmp::Ordering::Less => half * (spin[(a, b)] + spin[(b, a)]),
+                core::cmp::Ordering::Equal => spin[(a, a)] - mean,
+                core::cmp::Ordering::Greater => half * (spin[(b, a)] - spin[(a, b)]),
+            };
+            part * inverse_alpha
+        })
+    })
+}
+
+/// The affine spin with these parts and this trace.
+pub fn from_shear_and_turn<const N: usize, T: Real>(
+    parts: [[T; N]; N],
+    inverse_alpha: T,
+    trace: T,
+) -> Matrix<N, T> {
+    let mean = trace / crate::kinematics::integer(N);
+    Matrix::from_fn(|a, b| match a.cmp(&b) {
+        core::cmp::Ordering::Less => (parts[a][b] + parts[b][a]) / inverse_alpha,
+        core::cmp::Ordering::Equal => parts[a][a] / inverse_alpha + mean,
+        core::cmp::Ordering::Greater => (parts[b][a] - parts[a][b]) / inverse_alpha,
+    })
 }

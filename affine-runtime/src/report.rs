@@ -62,6 +62,10 @@ fn method_name(method: Method) -> &'static str {
         Method::RungeKutta8 => "Runge-Kutta 8",
         Method::Gauss { stages: 2, .. } => "Gauss 4",
         Method::Gauss { .. } => "Gauss 6",
+        Method::Rattle { order: 2, .. } => "RATTLE",
+        Method::Rattle { order: 4, .. } => "RATTLE 4",
+        Method::Rattle { order: 6, .. } => "RATTLE 6",
+        Method::Rattle { .. } => "RATTLE 8",
     }
 }
 

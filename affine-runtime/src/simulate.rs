@@ -23,7 +23,9 @@ use output::Output;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
-    /// The closed form where model and start have one, else [`Method::RungeKutta8`].
+    /// The closed form where model and start have one, else [`Method::RungeKutta8`]. The motion of a body under a
+    /// constraint is integrated in charts of its group, see [`Chart`](crate::integrate::lie::Chart), by this method and
+    /// by Gauss collocation: the placement stays on the group up to rounding.
     #[default]
     Automatic,
     /// The closed form; an error where there is none.
@@ -42,6 +44,26 @@ pub enum Method {
         /// Length of a step, positive; the interval is divided into equal steps that are not longer.
         step: f64,
     },
+    /// [`Rattle`](crate::integrate::Rattle), for isochoric bodies with `H = T(Pi) + U(phi)`: explicit but for its
+    /// multiplier, symmetric, in equal steps; the tolerance plays no part. Keeps both constraints, and spin and vorticity
+    /// where they are conserved, up to rounding, and is symplectic on the constrained phase space. Output times between
+    /// steps are reached by a shorter step from the one before.
+    Rattle {
+        /// Order of the composition, 2, 4, 6 or 8: of 1, 5, 9 or 17 steps.
+        order: usize,
+        /// Length of a step, positive; the interval is divided into equal steps that are not longer.
+        step: f64,
+    },
+}
+
+impl Method {
+    /// Length of the equal steps, where that is what the method takes.
+    pub(crate) fn step(self) -> Option<f64> {
+        match self {
+            Method::Gauss { step, .. } | Method::Rattle { step, .. } => Some(step),
+            Method::Automatic | Method::ClosedForm | Method::RungeKutta8 => None,
+        }
+    }
 }
 
 /// How far a run has come.

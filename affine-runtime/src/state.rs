@@ -5,6 +5,7 @@ use core::fmt::Debug;
 use crate::error::{Error, Result};
 use crate::frames::{AffineSpin, Comoving, Frame, Matrix, Momentum, Spatial, TwoPoint, Vector};
 use crate::kinematics::{LinearMomentum, LogDeterminant};
+use crate::metrics::Bases;
 use crate::scalar::Real;
 
 /// What a phase point carries besides placement and affine spin: nothing ([`Pinned`]) or the centre of mass
@@ -17,6 +18,9 @@ pub trait Translation<const N: usize, T: Real>: Copy + Debug + PartialEq {
     /// The same momentum at another position; a pinned body stays.
     #[must_use]
     fn moved(&self, x: Vector<N, T>) -> Self;
+    /// The same in another basis of space: `x' = A x`, `p' = A^-T p`; a pinned body stays.
+    #[must_use]
+    fn rebased(&self, bases: &Bases<N, T>) -> Self;
 }
 
 /// No translation: the model has neither `x` nor `p`.
@@ -31,6 +35,9 @@ impl<const N: usize, T: Real> Translation<N, T> for Pinned {
         Vector::<N, T>::zeros()
     }
     fn moved(&self, _x: Vector<N, T>) -> Self {
+        *self
+    }
+    fn rebased(&self, _bases: &Bases<N, T>) -> Self {
         *self
     }
 }
@@ -53,6 +60,9 @@ impl<const N: usize, T: Real> Translation<N, T> for Centre<N, T> {
     }
     fn moved(&self, x: Vector<N, T>) -> Self {
         Self { x, p: self.p }
+    }
+    fn rebased(&self, bases: &Bases<N, T>) -> Self {
+        Self { x: bases.space * self.x, p: bases.space_inverse.tr_mul(&self.p) }
     }
 }
 
@@ -98,6 +108,9 @@ pub trait Phase<const N: usize, T: Real = f64>: Copy + Debug + PartialEq {
         phi: Matrix<N, T>,
         spin: impl FnOnce(&Matrix<N, T>) -> Matrix<N, T>,
     ) -> Self;
+    /// The same point in other bases of space and body.
+    #[must_use]
+    fn rebased(&self, bases: &Bases<N, T>) -> Self;
     /// Placement, momentum and centre of mass are finite.
     fn is_finite(&self) -> bool;
 }
@@ -140,6 +153,13 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> PhasePoint<N, F, C
     }
 }
 
+impl<const N: usize, F, C: Copy, T: Real> PhasePoint<N, F, C, T> {
+    /// The point with another affine spin of its own frame.
+    pub(crate) fn respinned(self, spin: impl FnOnce(&Matrix<N, T>) -> Result<Matrix<N, T>>) -> Result<Self> {
+        Ok(Self { spin: spin(&self.spin)?, ..self })
+    }
+}
+
 /// A [`Momentum`] brought to another frame.
 pub(crate) trait MomentumIn<const N: usize, T: Real>: Momentum<N, T> + Sized {
     /// The matrix in the frame `F`.
@@ -179,6 +199,9 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> Phase<N, T> for Ph
         spin: impl FnOnce(&Matrix<N, T>) -> Matrix<N, T>,
     ) -> Self {
         Self::new(phi, spin(&self.spin), self.centre.moved(x))
+    }
+    fn rebased(&self, bases: &Bases<N, T>) -> Self {
+        Self::new(bases.placement(&self.phi), F::rebased(bases, &self.spin), self.centre.rebased(bases))
     }
     fn is_finite(&self) -> bool {
         is_finite(self.phi.as_slice())

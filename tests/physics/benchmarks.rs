@@ -104,7 +104,7 @@ fn assert_is_the_motion<M: Model<3>>(
 ) {
     let (rows, spin) = rows(data);
     let start = start(&rows[0]);
-    let largest = (2.0 * scale.inertia * model.hamiltonian(&start)).sqrt();
+    let largest = (2.0 * scale.inertia * model.hamiltonian(0.0, &start)).sqrt();
     let wanted: Vec<&Row> = rows[1..].iter().filter(|row| row.t <= until).collect();
     assert_eq!(wanted.last().unwrap().t, until, "a row at the end");
     let run = Simulation::new(model, start)
@@ -206,10 +206,9 @@ fn stiff_dilatation() {
     assert_stiff(1e4, 0.5, dilatational_frequency(1e4, 0.0), include_str!("../data/p5_1e4.csv"), 10.0);
 }
 
-/// To the first row only: a thousand vibrations take long in an unoptimised build.
 #[test]
 fn very_stiff_dilatation() {
-    assert_stiff(1e6, 0.5, dilatational_frequency(1e6, 0.0), include_str!("../data/p5_1e6.csv"), 1.0);
+    assert_stiff(1e6, 0.5, dilatational_frequency(1e6, 0.0), include_str!("../data/p5_1e6.csv"), 10.0);
 }
 
 /// The start has `q` = 0.3, ten times that of the others.

@@ -9,7 +9,7 @@ use crate::reference::{assert_close, entries, norm};
 use crate::tolerances::{GEODESIC, MARTIN_NEFF};
 
 const SAMPLES: u64 = 6;
-const T0: f64 = 0.25;
+pub(crate) const T0: f64 = 0.25;
 /// Steps to a time by which the body has turned or stretched by an angle or factor of order 1.
 const STEPS: u32 = 48;
 
@@ -35,7 +35,8 @@ fn are_the_motion<const N: usize, F: Family<N>>() {
     }
 }
 
-fn assert_motion<const N: usize, F: Family<N>>(
+/// A closed form against the integrated full equations.
+pub(crate) fn assert_motion<const N: usize, F: Model<N>>(
     model: &F,
     start: &F::Point<f64>,
     closed: impl Fn(f64) -> F::Point<f64>,

@@ -14,8 +14,13 @@ mod tolerances;
 mod benchmarks;
 mod canonical;
 mod conserved;
+mod constraints;
+mod driven;
 mod drunk_missile;
 mod geodesics;
+mod momentum_side;
+#[macro_use]
 mod potentials;
 mod prepare;
+mod stretches;
 mod undeformed;

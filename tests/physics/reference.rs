@@ -1,6 +1,6 @@
 //! The exact motion through a phase point, rounded, and comparisons with it.
 
-use affine_oracle::{Differential, Expected, Kinetic, Matrix as Exact, Place, Slopes, State};
+use affine_oracle::{Constraint, Differential, Expected, Kinetic, Matrix as Exact, Place, Slopes, State};
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Real;
 
@@ -16,12 +16,13 @@ pub(crate) struct Reference {
 
 impl Reference {
     pub(crate) fn new(kinetic: &Kinetic, state: &State) -> Self {
-        Reference {
-            expected: kinetic.expected(state).unwrap(),
-            condition: kinetic.condition(&state.phi).unwrap(),
-            state: state.clone(),
-            potential: Slopes { value: 0.0, t: 0.0, x: Vec::new(), phi: Vec::new() },
-        }
+        Self::of(kinetic.expected(state).unwrap(), kinetic.condition(&state.phi).unwrap(), state)
+    }
+
+    /// Exact derivatives from elsewhere, with the factor by which rounding errors of the velocity are amplified.
+    pub(crate) fn of(expected: Expected, condition: f64, state: &State) -> Self {
+        let potential = Slopes { value: 0.0, t: 0.0, x: Vec::new(), phi: Vec::new() };
+        Reference { expected, condition, state: state.clone(), potential }
     }
 
     /// The motion under a potential.
@@ -36,6 +37,23 @@ impl Reference {
             expected: kinetic.motion(state).unwrap().under(t, potential).unwrap().expected().unwrap(),
             potential: slopes,
             ..Reference::new(kinetic, state)
+        }
+    }
+
+    /// The motion under a constraint and a potential.
+    pub(crate) fn confined(
+        kinetic: &Kinetic,
+        constraint: Constraint,
+        state: &State,
+        t: f64,
+        potential: impl Fn(&Place) -> Differential,
+    ) -> Self {
+        let motion = kinetic.constrained_motion(constraint, state, t, &potential).unwrap();
+        Reference {
+            expected: motion.expected().unwrap(),
+            condition: kinetic.constrained_condition(constraint, &state.phi).unwrap(),
+            state: state.clone(),
+            potential: Slopes::of(&potential, t, &state.x.to_f64(), &state.phi.to_f64()),
         }
     }
 

@@ -6,13 +6,17 @@
 mod arithmetic;
 mod capabilities;
 mod constant;
+mod constraint;
 mod dimension;
 mod form;
 mod frames;
 mod identity;
 mod inertia;
+mod metrics;
+mod momentum_side;
 mod potential;
 mod shapes;
+mod smooth;
 mod symbols;
 mod tensors;
 mod two_polar;
@@ -33,25 +37,34 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     symbols::resolved(spec, found);
     capabilities::available(spec, found);
     unitary::casimirs_alone(spec, found);
-    potential::available(spec, found);
+    constraint::stands_alone(spec, found);
+    potential::differences(spec, found);
     potential::scalar(spec, found);
     potential::centre(spec, found);
-    potential::smooth(spec, found);
     frames::internal_motion(spec, found);
     frames::affine_translation(spec, found);
     shapes::shapes(spec, found);
+    momentum_side::scalars(spec, found);
     // The size of a matrix and the value of `n` follow from the dimension, and no value is computed before the
     // powers in it are known to be bounded.
     dimension::two_or_three(spec, found)?;
     shapes::sizes(spec, found);
+    metrics::sizes(spec, found);
     potential::indices(spec, found);
     arithmetic::computable(spec, found)?;
     potential::in_domain(spec, found);
     frames::same_frame(spec, found);
+    momentum_side::one_frame(spec, found);
+    momentum_side::third_casimir(spec, found);
+    momentum_side::inverse_masses(spec, found);
+    metrics::literal(spec, found);
+    metrics::positive(spec, found);
+    metrics::invariant(spec, found);
     inertia::masses(spec, found);
     inertia::symmetric(spec, found);
     inertia::positive(spec, found);
     tensors::literal(spec, found);
     tensors::symmetric(spec, found);
+    constraint::constant_mass_matrix(spec, found);
     found.verdict()
 }

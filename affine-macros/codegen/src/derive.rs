@@ -3,6 +3,7 @@
 mod lattice;
 mod prepared;
 mod programs;
+mod stated;
 
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
@@ -11,10 +12,12 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
+use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{self, Formula};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
-use crate::mechanics::potential::Base;
+use crate::mechanics::metrics::Metrics;
+use crate::mechanics::potential::{Base, Potential};
 use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 use crate::optimise::{Batch, straight_line};
@@ -27,6 +30,10 @@ use programs::{best_reduction, full_chart, full_equations};
 pub struct Model {
     /// Dimension of space.
     pub dim: usize,
+    /// The group that the motion is confined to; `None` for GL+(n).
+    pub constraint: Option<Constraint>,
+    /// Is the affine momentum projected for it? Otherwise the constraint acts through its multiplier.
+    pub projected: bool,
     /// Frame of the internal motion.
     pub frame: Frame,
     /// Frame of the translational energy.
@@ -37,14 +44,12 @@ pub struct Model {
     pub numeric_blocks: Vec<NumericBlock>,
     /// What `prepare()` must find different from zero.
     pub conditions: Vec<Condition>,
-    /// `O -> X`.
-    pub legendre: Program,
+    /// What starts from velocities; `None` where they do not determine the momentum.
+    pub velocity_side: Option<VelocitySide>,
     /// `X -> O`.
     pub velocity: Program,
     /// `1/m` and `m` of the translation.
     pub mass: Option<Program>,
-    /// `(O, v) -> T`.
-    pub kinetic_energy: Program,
     /// Point -> `H`.
     pub hamiltonian: Program,
     /// Hamilton's equations in the model's own frames.
@@ -59,8 +64,10 @@ pub struct Model {
     pub fixed: Vec<String>,
     /// Closed form of the geodesics; whether it needs `p = 0`.
     pub closed_form: Option<(ClosedForm, bool)>,
-    /// `1/alpha`, `1/beta`, `1/mu` of an isotropic model.
+    /// `1/alpha`, `1/beta`, `1/mu` of an isotropic model, and the coefficient of `C(3)/3` where there is one.
     pub isotropic: Option<Program>,
+    /// `1/m`, the stiffness and the scale of the dilatational motion, where it is taken out of the state.
+    pub dilatation: Option<Program>,
     /// Conserved quantities.
     pub conserved: Vec<Candidate>,
     /// Conserved quantities of motions with `p = 0`.
@@ -71,10 +78,20 @@ pub struct Model {
     pub has_potential: bool,
     /// Symmetry groups of space and body that leave the kinetic energy unchanged.
     pub groups: (Group, Group),
+    /// Metrics other than the identity.
+    pub metrics: Option<Metrics>,
     /// `T`, `H`, and the equations.
     pub formulas: Formulas,
     /// The two-polar form, where it is asked for.
     pub two_polar: Option<TwoPolar>,
+}
+
+/// The Legendre transformation and the energy in velocities.
+pub struct VelocitySide {
+    /// `O -> X`.
+    pub legendre: Program,
+    /// `(O, v) -> T`.
+    pub kinetic_energy: Program,
 }
 
 /// The derivation as formulas.
@@ -95,6 +112,8 @@ pub struct Formulas {
 pub struct Equations {
     /// Groups of the array: name and component symbols.
     pub groups: Vec<(&'static str, Vec<String>)>,
+    /// Entries of the affine momentum that are linear in components of the array.
+    pub dependent: Program,
     /// Array -> its rate.
     pub program: Program,
 }
@@ -103,12 +122,23 @@ pub struct Equations {
 pub struct Condition {
     /// `I + A`.
     pub name: &'static str,
-    /// Which velocities lose their momentum.
+    /// Which velocities lose their momentum, or which momenta their velocity.
     pub directions: &'static str,
+    /// What it multiplies.
+    pub relation: Relation,
     /// Must it be positive?
     pub positive: bool,
     /// Computes the value, then the terms whose sizes make the threshold.
     pub program: Program,
+}
+
+/// What an eigenvalue is a factor of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// The momentum is the eigenvalue times the velocity.
+    MomentumOfVelocity,
+    /// The velocity is the eigenvalue times the momentum.
+    VelocityOfMomentum,
 }
 
 /// A block to invert numerically.
@@ -132,16 +162,24 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     };
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form);
-    let Form { mut arena, kinetic, hessian, potential, two_polar, unitary, .. } = form;
+    let Form { mut arena, kinetic, stated, hessian, potential, metrics, two_polar, unitary, .. } = form;
     let potential = potential.as_ref();
     let arena = &mut arena;
-    let h = Hamiltonian::new(arena, &kinetic, &hessian)?;
+    let cubic = stated.as_ref().filter(|stated| stated.is_cubic());
+    let h = match cubic {
+        None => Hamiltonian::new(arena, &kinetic, &hessian)?,
+        Some(stated) => stated.hamiltonian(arena),
+    };
     let own = reduce::own_chart(arena, &h);
     let own_h = reduce::own_hamiltonian(&h, &own);
     let mut coefficients = Constants::new("c");
 
     let mut conserved_now = conserved(arena, &own, &own_h);
     let mut conserved_at_rest = at_rest(arena, &h, &conserved_now);
+    if let Some(forces) = multiplier(arena, &h) {
+        conserved_now.retain(|candidate| forces.keeps(*candidate));
+        conserved_at_rest.retain(|candidate| forces.keeps(*candidate));
+    }
     if let Some(u) = potential {
         conserved_now.retain(|candidate| u.keeps(*candidate));
         conserved_at_rest.retain(|candidate| u.keeps(*candidate));
@@ -162,7 +200,10 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let (reduction, reduced, trajectory, fixed) =
         best_reduction(arena, &h, potential, rotations, &mut coefficients)?;
     let formulas = Formulas {
-        kinetic_energy: describe::kinetic_energy(arena, &kinetic),
+        kinetic_energy: match cubic {
+            None => describe::kinetic_energy(arena, &kinetic),
+            Some(_) => describe::kinetic_energy_of_momenta(arena, &h),
+        },
         hamiltonian: describe::hamiltonian(arena, &h, &full_h, potential),
         equations: describe::equations(arena, &h, &full_chart, &full_h, potential),
         reduced: describe::system(arena, &reduction.system),
@@ -174,28 +215,38 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     };
     let velocities: Vec<Expr> = kinetic.velocity.0.iter().flatten().copied().collect();
     let momenta: Vec<Expr> = h.momentum.0.iter().flatten().copied().collect();
-    let legendre = legendre_batch(arena, &kinetic);
-    let legendre = inline(arena, legendre, velocities.clone());
-    let velocity = matrix_batch(arena, &kinetic.velocity, &h.velocity);
+    let legendre = cubic.is_none().then(|| {
+        let legendre = legendre_batch(arena, &kinetic);
+        inline(arena, legendre, velocities.clone())
+    });
+    let dependent = own.dependent();
+    let projected =
+        |atom: Expr| dependent.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone());
+    let velocities_of: Vec<Vec<Polynomial>> =
+        h.velocity.iter().map(|row| row.iter().map(|o| o.substitute(&projected)).collect()).collect();
+    let velocity = matrix_batch(arena, &kinetic.velocity, &velocities_of);
     let velocity = inline(arena, velocity, momenta);
-    let (energy, energy_inputs) = energy_batch(arena, &kinetic, velocities);
-    let kinetic_energy = inline(arena, energy, energy_inputs);
+    let velocity_side = legendre.map(|legendre| {
+        let (energy, inputs) = energy_batch(arena, &kinetic, velocities);
+        VelocitySide { legendre, kinetic_energy: inline(arena, energy, inputs) }
+    });
     let mut points: Vec<Expr> = full_chart.coordinates().into_iter().map(|z| full_chart.symbol(z)).collect();
-    let mut energy = result("energy", full_h.clone());
+    let mut energy = result("energy", full_h.substitute(&projected));
     if let Some(u) = potential {
         let (value, shared) = u.energy_at_a_point(arena, &full_chart);
         energy.results[0].1.add_scaled(&value, &Rational::ONE);
         energy.shared = shared;
         points.push(Base::MeanLogStretch.symbol(arena));
+        points.extend((0..kinetic.dim).map(|a| Base::LogStretch(a).symbol(arena)));
+        points.extend(u.time());
     }
     let hamiltonian = inline(arena, energy, points);
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {
-        let mass = Polynomial::normal_form(arena, t.mass);
-        let batch = Batch {
-            shared: Vec::new(),
-            results: vec![("inverse_mass".into(), inverse.clone()), ("mass".into(), mass)],
-        };
-        inline(arena, batch, Vec::new())
+        let mut results = vec![("inverse_mass".into(), inverse.clone())];
+        if cubic.is_none() {
+            results.push(("mass".into(), Polynomial::normal_form(arena, t.mass)));
+        }
+        inline(arena, Batch { results, ..Batch::default() }, Vec::new())
     });
     let isotropic = h.isotropic.as_ref().map(|iso| {
         let named = [
@@ -203,9 +254,13 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
             ("inverse_beta", &iso.casimir1_squared),
             ("inverse_mu", &iso.skew),
         ];
-        let results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
-        inline(arena, Batch { shared: Vec::new(), results }, Vec::new())
+        let mut results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
+        if !iso.casimir3.is_zero() {
+            results.push(("casimir3".to_owned(), iso.casimir3.clone()));
+        }
+        inline(arena, Batch { results, ..Batch::default() }, Vec::new())
     });
+    let dilatation = reduction.separation.as_ref().map(|s| inline(arena, s.batch(), Vec::new()));
     if unitary {
         // Nothing but the lattice is emitted: no other coefficient is computed.
         coefficients = Constants::new("c");
@@ -214,15 +269,19 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
     Some(Model {
         dim: kinetic.dim,
+        constraint: kinetic.constraint,
+        projected: kinetic.confined().is_some(),
         frame: kinetic.frame,
         translation: kinetic.translation.map(|t| t.frame),
-        conditions: conditions(arena, &kinetic, eigenvalues, require_positive),
+        conditions: match &stated {
+            None => conditions(arena, &kinetic, eigenvalues, require_positive),
+            Some(stated) => stated::conditions(arena, stated, require_positive),
+        },
         coefficients: coefficient_program(arena, &coefficients),
         numeric_blocks,
-        legendre,
+        velocity_side,
         velocity,
         mass,
-        kinetic_energy,
         hamiltonian,
         full,
         reduced,
@@ -231,18 +290,20 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         fixed,
         closed_form,
         isotropic,
+        dilatation,
         conserved: conserved_now,
         conserved_at_rest,
         signature,
         has_potential: potential.is_some(),
         groups,
+        metrics,
         formulas,
         two_polar,
     })
 }
 
 fn result(name: &str, polynomial: Polynomial) -> Batch {
-    Batch { shared: Vec::new(), results: vec![(name.to_owned(), polynomial)] }
+    Batch { results: vec![(name.to_owned(), polynomial)], ..Batch::default() }
 }
 
 /// The list for `p = 0`: translation dropped, and with it what it alone makes meaningful.
@@ -250,11 +311,21 @@ fn at_rest(arena: &mut Arena, h: &Hamiltonian, moving: &[Candidate]) -> Vec<Cand
     if h.translation.is_none() {
         return moving.to_vec();
     }
-    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), None);
+    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), None).under(h.confined());
     conserved(arena, &chart, &h.internal())
 }
 
-/// `X_ab = dT/dO_ba`.
+/// The force of the multiplier of a constraint that acts through one: it has the directions of that of a potential in
+/// `q`, and no other is known of it.
+fn multiplier(arena: &mut Arena, h: &Hamiltonian) -> Option<Potential> {
+    let acts = h.constraint.is_some() && h.confined().is_none();
+    acts.then(|| {
+        let q = Base::MeanLogStretch.symbol(arena);
+        Potential::new(arena, h.dim, q)
+    })
+}
+
+/// `X_ab = dT/dO_ba`, projected under a constraint.
 fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
     let energy = kinetic.internal_energy();
     let n = kinetic.dim;
@@ -264,6 +335,9 @@ fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
             momenta[b][a] = energy.derivative(*velocity);
         }
     }
+    if let Some(group) = kinetic.confined() {
+        momenta = group.projected(&momenta);
+    }
     let names = Matrix::symbols(arena, kinetic.frame.momentum_name(), n);
     matrix_batch(arena, &names, &momenta)
 }
@@ -271,7 +345,7 @@ fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
 fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Batch {
     let name = |s: &Expr| arena.name(*s).unwrap_or("entry").to_owned();
     let results = names.0.concat().iter().map(name).zip(values.concat()).collect();
-    Batch { shared: Vec::new(), results }
+    Batch { results, ..Batch::default() }
 }
 
 /// `T_int(O) + m/2 |v|^2`, with its inputs.

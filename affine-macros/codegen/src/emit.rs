@@ -4,10 +4,13 @@ mod body;
 mod closed_form;
 mod description;
 mod dynamics;
+mod kernel;
+mod metrics;
 mod names;
 mod points;
 mod prepare;
 mod reduction;
+mod separated;
 mod two_polar;
 
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -47,12 +50,14 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let implementation = model_impl(&context);
     let points = points::inherent(&context);
     let two_polar = two_polar::implementations(&context);
+    let (bases, _) = metrics::bases(&context);
     quote! {
         #item
         #prepared_type
         const _: () = {
             use #runtime::__private as #rt;
             #prepare
+            #bases
             #constants
             #implementation
             #points
@@ -90,6 +95,26 @@ impl Context<'_> {
             Frame::Space => quote!(#rt::Space),
             Frame::Flat => quote!(#rt::Canonical),
         }
+    }
+
+    /// The constraint, as an expression.
+    fn constraint(&self) -> Option<TokenStream> {
+        let rt = &self.names.rt;
+        let group = self.model.constraint?;
+        let group = format_ident!("{}", format!("{group:?}"));
+        Some(quote!(#rt::Constraint::#group))
+    }
+
+    /// `let` statements for the entries of the affine momentum that are linear in components of an array.
+    fn dependent(&self, equations: &Equations) -> TokenStream {
+        let program = &equations.dependent;
+        let Body { lets, results } = self.generic(program);
+        let names = identifiers(&program.outputs.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>());
+        // A result with a step of its own is bound to its name already.
+        let lets_of =
+            names.iter().zip(&results).filter(|(name, result)| name.to_string() != result.to_string());
+        let rest = lets_of.map(|(name, result)| quote!(let #name = #result;));
+        quote!(#lets #(#rest)*)
     }
 
     /// Type of the centre of mass over a scalar.
@@ -132,7 +157,7 @@ impl Context<'_> {
             let name = format_ident!("{name}");
             quote!(#name)
         };
-        let Body { lets, results } = body(program, &Scope { number, input: &input });
+        let Body { lets, results } = body(program, &Scope { number, input: &input, rt: &self.names.rt });
         let coefficients = inputs(program).into_iter().filter_map(|name| {
             let (index, name) = (coefficient_index(name)?, format_ident!("{name}"));
             let value = number.of_double(quote!(self.coefficients[#index]));
@@ -183,6 +208,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let dynamics = dynamics::methods(context);
     let reduction = reduction::methods(context);
     let geodesic = closed_form::geodesic(context);
+    let (_, bases) = metrics::bases(context);
     quote! {
         #(#[doc = #docs])*
         impl #generics #rt::Model<#n> for #prepared #types #clause {
@@ -191,6 +217,7 @@ fn model_impl(context: &Context) -> TokenStream {
             type Full<#scalar: #rt::Scalar> = [#scalar; #full];
             type Reduced<#scalar: #rt::Scalar> = [#scalar; #reduced];
             type Constants<#scalar: #rt::Scalar> = #constants<#scalar>;
+            #bases
             #dynamics
             #reduction
             #geodesic

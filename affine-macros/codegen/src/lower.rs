@@ -1,13 +1,19 @@
 //! From what the user wrote to symbolic terms: the last place where the specification's syntax is known.
 
+mod metrics;
+mod momentum_side;
 mod potential;
 
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 use crate::check::constant;
+use crate::mechanics::constraint::Constraint;
 use crate::mechanics::kinetic::{Coefficient, Term, TermKind};
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 
+pub use metrics::metrics;
+pub use momentum_side::stated;
 pub use potential::potential;
+pub(crate) use potential::{difference_of, energy};
 
 /// Stem of the symbols of fields: kept apart from the names that the derivation makes.
 pub const FIELD: &str = "self.";
@@ -26,6 +32,16 @@ pub fn terms(arena: &mut Arena, spec: &Spec) -> Vec<(usize, Term)> {
             Some((place, Term { kind: kind(term.kind.value), value }))
         })
         .collect()
+}
+
+/// The group that the motion is confined to.
+#[must_use]
+pub fn constraint(constraint: spec::Constraint) -> Constraint {
+    match constraint {
+        spec::Constraint::Isochoric => Constraint::Isochoric,
+        spec::Constraint::Rigid => Constraint::Rigid,
+        spec::Constraint::Conformal => Constraint::Conformal,
+    }
 }
 
 fn kind(kind: spec::TermKind) -> TermKind {

@@ -1,16 +1,22 @@
 //! From a kinetic energy to Hamilton's equations; never sees tokens. One file per step.
 
 pub mod brackets;
+mod carried;
 pub mod charts;
 pub mod conserved;
+pub mod constraint;
 pub mod describe;
 pub mod equations;
 mod flow;
+mod group_point;
 pub mod hamiltonian;
 pub mod hessian;
 pub mod kinetic;
+pub mod metrics;
+pub mod momentum_side;
 mod notation;
 pub mod potential;
 pub mod reduce;
+pub mod separation;
 pub mod symmetry;
 pub mod two_polar;

@@ -5,6 +5,7 @@ mod expression;
 mod expression_parser;
 mod grammar;
 mod item;
+mod momentum_side;
 mod named_potentials;
 mod names;
 mod symbol;
@@ -17,8 +18,10 @@ use expression_parser::Language;
 
 pub use expression::{Expression, ExpressionKind, MatrixName, Operator};
 pub use item::{Field, Item};
+pub use momentum_side::MomentumKind;
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
-pub use names::{Capability, Claim, Named, PlacementGroup, Requirement, TermKind, nearest};
+pub use names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
+pub(crate) use symbol::numbered;
 pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
 
 /// Something with its place in the source.
@@ -38,10 +41,16 @@ pub struct Spec {
     pub dim: Spanned<usize>,
     /// `symmetry(space = ..., body = ...)`; without it nothing is claimed.
     pub symmetry: Option<Symmetry>,
-    /// The terms of `kinetic(...)`, in the user's order, each kind at most once.
+    /// The terms of `kinetic(...)`, in the user's order, each kind at most once; none beside `hamiltonian(...)`.
     pub kinetic: Vec<Term>,
-    /// The key `kinetic`.
+    /// The terms of `hamiltonian(...)`, likewise, where it stands instead of `kinetic(...)`.
+    pub hamiltonian: Option<Vec<Term<MomentumKind>>>,
+    /// The key `kinetic` or `hamiltonian`.
     pub kinetic_key: Region,
+    /// `metrics(space = g, body = eta)`, in this order.
+    pub metrics: [Option<Metric>; 2],
+    /// `constraint = ...`.
+    pub constraint: Option<Spanned<Constraint>>,
     /// `potential = ...`.
     pub potential: Option<Potential>,
     /// `group = ...`; GL(n, R) without it.
@@ -63,15 +72,34 @@ pub struct Symmetry {
     pub body: Spanned<Claim>,
 }
 
-/// One summand of the kinetic energy.
+/// One summand of the kinetic energy, or of the Hamiltonian.
 #[derive(Clone, Debug)]
-pub struct Term {
+pub struct Term<K = TermKind> {
     /// Its kind, at its name.
-    pub kind: Spanned<TermKind>,
+    pub kind: Spanned<K>,
     /// Its coefficients.
     pub value: Value,
     /// The place of the value.
     pub span: Region,
+}
+
+/// A constant metric.
+#[derive(Clone, Debug)]
+pub struct Metric {
+    /// `space` or `body`.
+    pub side: &'static str,
+    /// `g` or `eta`; a scalar is that multiple of the identity.
+    pub value: Value,
+    /// The place of the value.
+    pub span: Region,
+}
+
+impl Metric {
+    /// The paper's letters.
+    #[must_use]
+    pub fn letters(&self) -> &'static str {
+        if self.side == "space" { "g" } else { "eta" }
+    }
 }
 
 /// The potential energy U(t, x, phi).
@@ -113,6 +141,28 @@ impl Spec {
     #[must_use]
     pub fn term(&self, kind: TermKind) -> Option<&Term> {
         self.kinetic.iter().find(|term| term.kind.value == kind)
+    }
+
+    /// Is a metric stated?
+    #[must_use]
+    pub fn has_metrics(&self) -> bool {
+        self.metrics.iter().any(Option::is_some)
+    }
+
+    /// Every coefficient of the kinetic energy or of the Hamiltonian, and every entry of the metrics.
+    pub fn coefficients(&self) -> impl Iterator<Item = &Expression> {
+        let stated = self.hamiltonian.iter().flatten().flat_map(|term| term.value.expressions());
+        let metrics = self.metrics.iter().flatten().flat_map(|metric| metric.value.expressions());
+        self.kinetic.iter().flat_map(|term| term.value.expressions()).chain(stated).chain(metrics)
+    }
+
+    /// The name and the place of the first translation term, on either side.
+    #[must_use]
+    pub fn translation(&self) -> Option<(&'static str, Region)> {
+        let kinetic = self.kinetic.iter().find(|term| term.kind.value.is_translation());
+        let kinetic = kinetic.map(|term| (term.kind.value.name(), term.kind.span));
+        let mut stated = self.hamiltonian.iter().flatten().filter(|term| term.kind.value.is_translation());
+        kinetic.or_else(|| stated.next().map(|term| (term.kind.value.name(), term.kind.span)))
     }
 }
 

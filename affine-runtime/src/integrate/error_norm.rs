@@ -41,7 +41,7 @@ impl ErrorNorm {
     #[must_use]
     pub fn new(groups: &'static [Group]) -> Self {
         let unplaced = Self { groups, phi: None, inertia: [0.0; GROUPS] };
-        Self { phi: unplaced.range_of("phi").map(|range| (range.start, range.end)), ..unplaced }
+        Self { phi: unplaced.placement().map(|range| (range.start, range.end)), ..unplaced }
     }
 
     /// The norm with the inertias at `(t, y)`, where `f(t, y) = slope`; and the number of evaluations that took,
@@ -54,7 +54,7 @@ impl ErrorNorm {
         let mut probed = Self::new(groups);
         let mut evaluations = 0;
         for (k, group) in groups.iter().enumerate().take(GROUPS) {
-            let Some(moved) = probed.moved_by(group.name) else { continue };
+            let Some(moved) = probed.moved_by(group) else { continue };
             let own = probed.range(k);
             let size = norm(&y.as_ref()[own.clone()]);
             // Any change will do where the group is zero: the equations are linear in momenta, or nearly so.
@@ -128,12 +128,17 @@ impl ErrorNorm {
     }
 
     /// Components of the configuration that a momentum moves; `None` for what is no momentum.
-    fn moved_by(&self, name: &str) -> Option<Range<usize>> {
-        match name {
-            "x" | "phi" | "q" => None,
+    fn moved_by(&self, group: &Group) -> Option<Range<usize>> {
+        match group.name {
+            "x" | "q" | "1/D" => None,
+            _ if group.is_placement() => None,
             "p" | "p_hat" => self.range_of("x"),
-            _ => self.range_of("phi"),
+            _ => self.placement(),
         }
+    }
+
+    fn placement(&self) -> Option<Range<usize>> {
+        self.groups.iter().position(Group::is_placement).map(|k| self.range(k))
     }
 
     fn range_of(&self, name: &str) -> Option<Range<usize>> {

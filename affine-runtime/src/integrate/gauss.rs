@@ -8,10 +8,11 @@ pub use coefficients::Tableau;
 
 use core::fmt;
 
+use super::lie::{Coordinates, Flat, Sum};
 use super::{Failure, Statistics};
 use crate::model::StateVector;
 use coefficients::MOST_STAGES;
-use equations::{Equations, Increments, Start, total};
+use equations::{Equations, Field, Increments, Start, total};
 
 /// Steps are equal and none is longer than asked for; a length that divides the interval up to this many roundings
 /// is taken as it is.
@@ -36,8 +37,9 @@ const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 /// A solution of the stage equations need not be unique where the step is far too long: the one found is the one
 /// the iteration leads to.
 #[derive(Clone)]
-pub struct Gauss<S, F> {
+pub struct Gauss<S, F, C = Flat> {
     f: F,
+    coordinates: C,
     equations: Equations<S>,
     t0: f64,
     t_end: f64,
@@ -53,26 +55,6 @@ pub struct Gauss<S, F> {
     failure: Option<Failure>,
 }
 
-/// `value + carry`, the carry being what rounding left out of the value.
-#[derive(Clone, Copy)]
-struct Sum<S> {
-    value: S,
-    carry: S,
-}
-
-impl<S: StateVector<f64>> Sum<S> {
-    fn plus(&self, rise: &S) -> Self {
-        let mut sum = *self;
-        for (c, (value, carry)) in sum.value.as_mut().iter_mut().zip(sum.carry.as_mut()).enumerate() {
-            let before = *value;
-            let rise = *carry + rise.as_ref()[c];
-            *value = before + rise;
-            *carry = (before - *value) + rise;
-        }
-        sum
-    }
-}
-
 impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Gauss<S, F> {
     /// The integration at its start. One evaluation.
     ///
@@ -80,6 +62,25 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Gauss<S, F> {
     /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite; [`Failure::StepUnderflow`] where `step` is
     /// not positive, or gives more steps than there are floating-point times.
     pub fn new(
+        f: F,
+        tableau: &'static Tableau,
+        start: (f64, S),
+        t_end: f64,
+        step: f64,
+    ) -> Result<Self, Failure> {
+        Self::within(Flat, f, tableau, start, t_end, step)
+    }
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C> {
+    /// The integration at its start, in other coordinates: on a group, in the chart around the middle of each step,
+    /// which keeps the method symmetric. What it says of linear and quadratic invariants then holds for those of the
+    /// components beside the placement. One evaluation.
+    ///
+    /// # Errors
+    /// As [`new`](Gauss::new).
+    pub fn within(
+        coordinates: C,
         f: F,
         tableau: &'static Tableau,
         (t0, y0): (f64, S),
@@ -92,18 +93,20 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Gauss<S, F> {
         if !is_finite(&y0) || !is_finite(&slope) {
             return Err(Failure::NotFinite);
         }
+        let start = Sum::of(y0);
+        let slope = coordinates.velocity(&y0, &coordinates.origin(&start).value, &slope);
         let mut increments = [S::zeros(); MOST_STAGES];
         for (increment, weight) in increments.iter_mut().zip(tableau.weights) {
             for (increment, slope) in increment.as_mut().iter_mut().zip(slope.as_ref()) {
                 *increment = h * weight * slope;
             }
         }
-        let start = Sum { value: y0, carry: S::zeros() };
         let mut equations = Equations::new(tableau);
         equations.evaluations = 1;
         let (begin, end) = (start, start);
         Ok(Self {
             f,
+            coordinates,
             equations,
             t0,
             t_end,
@@ -221,10 +224,12 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Gauss<S, F> {
         h: f64,
         guess: Increments<S>,
     ) -> Result<(Sum<S>, Increments<S>, f64), Failure> {
-        let start = Start { t, h, y: &begin.value, carry: &begin.carry };
-        match self.equations.solve(&self.f, start, guess) {
+        let origin = self.coordinates.origin(&begin);
+        let start = Start { t, h, y: &origin.value, carry: &origin.carry };
+        let field = Field { f: &self.f, coordinates: self.coordinates, base: &begin };
+        match self.equations.solve(&field, start, guess) {
             Ok(solution) => {
-                let end = begin.plus(&total(&solution.increments));
+                let end = self.coordinates.end(&begin, &total(&solution.increments));
                 if is_finite(&end.value) {
                     Ok((end, solution.increments, solution.residual))
                 } else {
@@ -259,7 +264,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Gauss<S, F> {
     }
 }
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> fmt::Debug for Gauss<S, F> {
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> fmt::Debug for Gauss<S, F, C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Gauss")
             .field("stages", &self.equations.tableau.stages())

@@ -8,6 +8,7 @@ pub use step::{Dense, Step};
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, sum_of_squares};
+use super::lie::{Coordinates, Flat, Sum};
 use super::step_size::{Controller, first_step};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
@@ -25,12 +26,19 @@ use crate::scalar::Scalar;
 /// Cost: 12 evaluations per accepted step, 11 (or 12, where only the slope at its end is not finite) per rejected
 /// one, 3 for the dense output of a step; at the start 2, and one for each component of a momentum.
 #[derive(Clone)]
-pub struct RungeKutta8<S, F> {
+pub struct RungeKutta8<S, F, C = Flat> {
     f: F,
+    coordinates: C,
     error_norm: ErrorNorm,
     tolerance: f64,
     controller: Controller,
+    /// In the coordinates around `begin`.
     step: Step<S>,
+    begin: Sum<S>,
+    /// The state reached.
+    end: Sum<S>,
+    /// Its time derivative.
+    rate: S,
     length: f64,
     t_end: f64,
     failure: Option<Failure>,
@@ -45,25 +53,60 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
     pub fn new(
         f: F,
         groups: &'static [Group],
+        start: (f64, S),
+        t_end: f64,
+        tolerance: f64,
+    ) -> Result<Self, Failure> {
+        Self::within(Flat, f, groups, start, t_end, tolerance)
+    }
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S, F, C> {
+    /// The integration at its start, in other coordinates: on a group, in the chart around the beginning of each step.
+    /// Errors are those of the state itself, in the norm of `groups`.
+    ///
+    /// # Errors
+    /// As [`new`](RungeKutta8::new).
+    pub fn within(
+        coordinates: C,
+        f: F,
+        groups: &'static [Group],
         (t0, y0): (f64, S),
         t_end: f64,
         tolerance: f64,
     ) -> Result<Self, Failure> {
-        let step = Step::start(&f, t0, y0);
-        if !is_finite(&y0) || !is_finite(step.slope()) {
+        let slope = f(t0, &y0);
+        if !is_finite(&y0) || !is_finite(&slope) {
             return Err(Failure::NotFinite);
         }
         let mut statistics = Statistics { evaluations: 1, ..Statistics::default() };
         let (mut error_norm, mut length) = (ErrorNorm::new(groups), 0.0);
         if t_end != t0 {
             let probes;
-            (error_norm, probes) = ErrorNorm::probed(groups, &f, (t0, &y0, step.slope()));
+            (error_norm, probes) = ErrorNorm::probed(groups, &f, (t0, &y0, &slope));
             statistics.evaluations += probes;
-            length = first_step(&f, &error_norm, (t0, &y0, step.slope()), t_end - t0, tolerance);
+            length = first_step(&f, &error_norm, (t0, &y0, &slope), t_end - t0, tolerance);
             statistics.evaluations += 1;
         }
         let controller = Controller::new();
-        Ok(Self { f, error_norm, tolerance, controller, step, length, t_end, failure: None, statistics })
+        let begin = Sum::of(y0);
+        let origin = coordinates.origin(&begin).value;
+        let step = Step::at(t0, origin, coordinates.velocity(&y0, &origin, &slope));
+        Ok(Self {
+            f,
+            coordinates,
+            error_norm,
+            tolerance,
+            controller,
+            step,
+            begin,
+            end: begin,
+            rate: slope,
+            length,
+            t_end,
+            failure: None,
+            statistics,
+        })
     }
 
     /// Takes one accepted step; does nothing at `t_end`, which the last step hits exactly.
@@ -77,16 +120,21 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
         if self.is_finished() {
             return Ok(());
         }
-        self.step.begin_next();
+        self.begin_next();
         loop {
             let end = self.next_time();
-            self.step.attempt(&self.f, end);
+            let (f, coordinates, begin) = (&self.f, self.coordinates, self.begin);
+            self.step.attempt(&in_coordinates(f, coordinates, begin), end);
             self.statistics.evaluations += 11;
-            let mut error = self.error();
+            let reached = coordinates.state(&begin, self.step.trial_end());
+            let mut error = self.error(&reached.value);
             if error <= 1.0 {
-                self.step.accept(&self.f);
+                self.rate = f(end, &reached.value);
+                let slope = coordinates.velocity(&reached.value, self.step.trial_end(), &self.rate);
+                self.step.accept_with(slope);
                 self.statistics.evaluations += 1;
-                if is_finite(self.step.end_slope()) {
+                if is_finite(&slope) {
+                    self.end = reached;
                     self.statistics.steps += 1;
                     self.length = self.step.length().abs() * self.controller.accept(error);
                     return Ok(());
@@ -105,9 +153,10 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
     }
 
     /// Dense output over the last accepted step: three evaluations.
-    pub fn dense(&mut self) -> Dense<S> {
+    pub fn dense(&mut self) -> Dense<S, C> {
         self.statistics.evaluations += 3;
-        self.step.dense(&self.f)
+        let dense = self.step.dense(&in_coordinates(&self.f, self.coordinates, self.begin));
+        dense.around(self.coordinates, self.begin, self.end.value)
     }
 
     /// Time reached.
@@ -119,7 +168,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
     /// State reached.
     #[must_use]
     pub fn y(&self) -> &S {
-        self.step.end()
+        &self.end.value
     }
 
     /// `t_end` is reached.
@@ -132,6 +181,14 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
     #[must_use]
     pub fn statistics(&self) -> Statistics {
         self.statistics
+    }
+
+    /// Turns to the next step, in coordinates around the state reached.
+    fn begin_next(&mut self) {
+        let origin = self.coordinates.origin(&self.end).value;
+        let slope = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
+        self.begin = self.end;
+        self.step.begin_next_at(origin, slope);
     }
 
     /// End of the step to try: `t_end` itself where the step reaches about there, and half the way where it
@@ -156,10 +213,12 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
     }
 
     /// Estimated error of the attempted step relative to the tolerance; NaN where something is not finite.
-    fn error(&self) -> f64 {
+    fn error(&self, reached: &S) -> f64 {
         let (fifth, third) = self.step.error_slopes();
-        let before = self.step.begin().as_ref();
-        let after = self.step.trial_end().as_ref();
+        let fifth = self.coordinates.change(&self.begin, &fifth);
+        let third = self.coordinates.change(&self.begin, &third);
+        let before = self.begin.value.as_ref();
+        let after = reached.as_ref();
         let relative = self.error_norm.largest(self.step.length().abs(), before, after, |range| {
             let fifth = sum_of_squares(&fifth.as_ref()[range.clone()]);
             let third = sum_of_squares(&third.as_ref()[range]);
@@ -169,15 +228,28 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
     }
 }
 
-impl<S: StateVector<f64>, F> fmt::Debug for RungeKutta8<S, F> {
+impl<S: StateVector<f64>, F, C> fmt::Debug for RungeKutta8<S, F, C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("RungeKutta8")
             .field("t", &self.step.end_time())
-            .field("y", self.step.end())
+            .field("y", &self.end.value)
             .field("t_end", &self.t_end)
             .field("tolerance", &self.tolerance)
             .field("statistics", &self.statistics)
             .finish_non_exhaustive()
+    }
+}
+
+/// `z'` as a function of `t` and of the coordinates `z` around `base`.
+#[inline(always)]
+fn in_coordinates<S: StateVector<f64>, C: Coordinates<S>>(
+    f: &impl Fn(f64, &S) -> S,
+    coordinates: C,
+    base: Sum<S>,
+) -> impl Fn(f64, &S) -> S {
+    move |t, z| {
+        let state = coordinates.state(&base, z).value;
+        coordinates.velocity(&state, z, &f(t, &state))
     }
 }
 

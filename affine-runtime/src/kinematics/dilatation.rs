@@ -112,7 +112,7 @@ impl<const N: usize, T: Real> LogDeterminant<N, T> {
 }
 
 /// `N` as a number.
-pub(super) fn integer<T: Real>(n: usize) -> T {
+pub(crate) fn integer<T: Real>(n: usize) -> T {
     (0..n).fold(T::zero(), |sum, _| sum + T::one())
 }
 

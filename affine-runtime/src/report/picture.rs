@@ -11,7 +11,7 @@ use super::scene::{Body, Scene};
 use super::{method_name, save};
 use crate::error::Result;
 use crate::frames::Matrix;
-use crate::simulate::{Method, Trajectory};
+use crate::simulate::Trajectory;
 use crate::state::Phase;
 
 /// The page and its parts.
@@ -67,7 +67,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         let (method, (t0, _), (t_end, _)) = (method_name(computation.method), self.start(), self.end());
         let accuracy = match self.statistics().steps {
             0 => String::new(),
-            steps if matches!(computation.method, Method::Gauss { .. }) => format!(", {steps} steps"),
+            steps if computation.method.step().is_some() => format!(", {steps} steps"),
             steps => format!(", tolerance {:e}, {steps} steps", computation.tolerance),
         };
         canvas.text(self.description().name, (84.0, 30.0), Lettering::new(16.0, INK).bold());

@@ -211,7 +211,7 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
 
 /// Accuracy is set by a tolerance: not by the step, and not exact.
 fn has_tolerance(method: Method) -> bool {
-    !matches!(method, Method::ClosedForm | Method::Gauss { .. })
+    !matches!(method, Method::ClosedForm | Method::Gauss { .. } | Method::Rattle { .. })
 }
 
 /// `|a - b|/|b|`, 0 where they agree even in a vanishing reference.

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::trajectory::Trajectory;
-use crate::conserved::{evaluate, scale};
+use crate::conserved::{Components, evaluate, scale};
 use crate::model::Conserved;
 use crate::state::Phase;
 
@@ -72,17 +72,27 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     #[must_use]
     pub fn relative_drifts(&self, Drift { quantity, scale, .. }: &Drift) -> Vec<f64> {
         let relative = |absolute: f64| if absolute == 0.0 { 0.0 } else { absolute / scale };
-        let Some(at_start) = evaluate(*quantity, &self.start.1) else {
+        let Some(at_start) = self.value(*quantity, &self.start.1) else {
             let distance = |energy: &f64| (energy - self.energies.start).abs();
             return self.energies.outputs.iter().map(distance).map(relative).collect();
         };
-        let distance = |point: &P| evaluate(*quantity, point).map_or(0.0, |value| value.distance(&at_start));
+        let distance =
+            |point: &P| self.value(*quantity, point).map_or(0.0, |value| value.distance(&at_start));
         self.points.iter().map(distance).map(relative).collect()
+    }
+
+    /// A quantity in bases in which the metrics are the identity, where transposes and norms are the plain ones.
+    fn value(&self, quantity: Conserved, point: &P) -> Option<Components> {
+        evaluate(quantity, &self.orthonormal(point))
+    }
+
+    fn orthonormal(&self, point: &P) -> P {
+        self.bases.as_ref().map_or(*point, |bases| point.rebased(bases))
     }
 
     fn drift(&self, quantity: Conserved) -> Drift {
         let mut drift = Drift { quantity, absolute: 0.0, scale: 0.0 };
-        let Some(at_start) = evaluate(quantity, &self.start.1) else {
+        let Some(at_start) = self.value(quantity, &self.start.1) else {
             drift.scale = self.energies.scale;
             for energy in self.energies.outputs.iter().chain([&self.energies.end]) {
                 drift.absolute = larger(drift.absolute, (energy - self.energies.start).abs());
@@ -90,9 +100,9 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
             return drift;
         };
         for point in self.points.iter().chain([&self.start.1, &self.end.1]) {
-            let distance = evaluate(quantity, point).map_or(0.0, |value| value.distance(&at_start));
+            let distance = self.value(quantity, point).map_or(0.0, |value| value.distance(&at_start));
             drift.absolute = larger(drift.absolute, distance);
-            drift.scale = larger(drift.scale, scale(quantity, point).unwrap_or(0.0));
+            drift.scale = larger(drift.scale, scale(quantity, &self.orthonormal(point)).unwrap_or(0.0));
         }
         drift
     }

@@ -99,6 +99,26 @@ pub enum Setting {
         /// The number of stages asked for.
         given: usize,
     },
+    /// RATTLE is available with the orders 2, 4, 6 and 8.
+    Order {
+        /// The order asked for.
+        given: usize,
+    },
+    /// RATTLE was asked for, and the model is not isochoric.
+    NotIsochoric {
+        /// Name of the model.
+        model: &'static str,
+    },
+    /// RATTLE was asked for, and the Hamiltonian is not `T(Pi) + U(phi)`.
+    NotSeparable {
+        /// Name of the model.
+        model: &'static str,
+    },
+    /// The start is off the constraint `det phi = 1` or its velocity off `tr(phi^-1 phi_dot) = 0`.
+    OffConstraint {
+        /// The larger of the two relative defects.
+        defect: f64,
+    },
     /// The length of a fixed step is not positive, not finite, or lost in the rounding of times.
     Step {
         /// Its value.
@@ -158,6 +178,24 @@ impl fmt::Display for Setting {
             Setting::Stages { given } => write!(
                 f,
                 "Gauss collocation with {given} stages: give 2 stages, of order 4, or 3, of order 6"
+            ),
+            Setting::Order { given } => {
+                write!(f, "RATTLE of order {given}: its compositions have the orders 2, 4, 6 and 8")
+            }
+            Setting::NotIsochoric { model } => write!(
+                f,
+                "{model} is not confined to det phi = 1, the constraint that RATTLE keeps: use Method::Automatic, or \
+                 say `constraint = isochoric`"
+            ),
+            Setting::NotSeparable { model } => write!(
+                f,
+                "the Hamiltonian of {model} is not T(Pi) + U(phi) with T quadratic, as in the model of d'Alembert: use \
+                 Method::Gauss or Method::Automatic, which take steps on the group"
+            ),
+            Setting::OffConstraint { defect } => write!(
+                f,
+                "the start is off det phi = 1, or its velocity off tr(phi^-1 phi_dot) = 0, by {defect:e}: scale phi by \
+                 det(phi)^(-1/n), and take the part of the velocity along phi away"
             ),
             Setting::Step { given, t0, t_end } => write!(
                 f,

@@ -11,9 +11,11 @@ use super::{Method, Observe, Progress, Simulation, Watch};
 use crate::frames::Matrix;
 use crate::geodesic::{Geodesic, Motion};
 use crate::integrate::gauss::{Tableau, step_count};
-use crate::integrate::{Failure, Gauss, RungeKutta8, Statistics, norm};
+use crate::integrate::lie::{Chart, Coordinates, Flat};
+use crate::integrate::rattle::{Composition, Reaction};
+use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics, norm};
 use crate::kinematics::LogDeterminant;
-use crate::model::{Group, Model, StateVector};
+use crate::model::{Constraint, Group, Model, StateVector};
 use crate::state::Phase;
 
 /// The finest tolerance: about four roundings.
@@ -40,7 +42,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let mut trajectory = self.empty_trajectory();
         let model = self.model;
         let outcome = self.drive(&mut trajectory);
-        trajectory.energies.end = model.hamiltonian(&trajectory.end.1);
+        trajectory.energies.end = model.hamiltonian(trajectory.end.0, &trajectory.end.1);
         match outcome {
             Ok(()) => Ok(trajectory),
             Err(reason) => {
@@ -51,9 +53,10 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     }
 
     fn empty_trajectory(&self) -> Trajectory<N, M::Point<f64>> {
-        let energy = self.model.hamiltonian(&self.start);
+        let energy = self.model.hamiltonian(self.t0, &self.start);
         Trajectory {
             description: M::DESCRIPTION,
+            bases: self.model.bases(),
             start: (self.t0, self.start),
             end: (self.t0, self.start),
             times: Vec::new(),
@@ -89,7 +92,14 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 self.evaluate(&geodesic, t_end, &mut recorder)
             }
             (Method::Automatic, None) | (Method::RungeKutta8 | Method::Gauss { .. }, _) => {
-                self.integrate(t_end, &mut recorder)
+                match chart::<N, M>() {
+                    Some(_) if is_canonical::<N, M>() => self.integrate_with_reaction(t_end, &mut recorder),
+                    Some(chart) => self.integrate(chart, t_end, &mut recorder),
+                    None => self.integrate(Flat, t_end, &mut recorder),
+                }
+            }
+            (Method::Rattle { order, step }, _) => {
+                self.integrate_by_rattle((order, step), t_end, &mut recorder)
             }
         }
     }
@@ -107,11 +117,22 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         if self.max_steps == 0 {
             return Err(Setting::NoSteps);
         }
-        if let Method::Gauss { stages, step } = self.method {
-            Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
-            if !step.is_finite() || step_count(self.t0, t_end, step).is_none() {
-                return Err(Setting::Step { given: step, t0: self.t0, t_end });
+        match self.method {
+            Method::Gauss { stages, .. } => {
+                Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
             }
+            Method::Rattle { order, .. } => {
+                Composition::of_order(order).ok_or(Setting::Order { given: order })?;
+                if M::DESCRIPTION.constraint != Some(Constraint::Isochoric) {
+                    return Err(Setting::NotIsochoric { model: M::DESCRIPTION.name });
+                }
+            }
+            _ => {}
+        }
+        if let Some(step) = self.method.step()
+            && (!step.is_finite() || step_count(self.t0, t_end, step).is_none())
+        {
+            return Err(Setting::Step { given: step, t0: self.t0, t_end });
         }
         Ok((t_end, self.output.schedule(self.t0, t_end)?))
     }
@@ -141,45 +162,111 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     }
 
     /// Reduction, integration with output on the way, expansion.
-    fn integrate(&mut self, t_end: f64, recorder: &mut Recorder<'_, '_, N, M>) -> Result<(), Reason> {
-        let model = self.model;
-        if recorder.schedule == Schedule::Steps || recorder.schedule.take_through(self.t0, false).is_some() {
-            recorder.record(self.t0, self.start)?;
-        }
-        let (reduced, constants) = model.reduce(self.t0, &self.start);
-        let equations = |t: f64, reduced: &M::Reduced<f64>| model.reduced_equations(t, &constants, reduced);
-        let begin = (self.t0, reduced);
-        match self.method {
-            Method::Gauss { stages, step } => {
-                let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
-                let integration = Gauss::new(equations, tableau, begin, t_end, step);
-                let mut integration = integration.map_err(|failure| self.reason(failure))?;
-                recorder.trajectory.computation.method = self.method;
-                let outcome = self.step_through(&mut integration, &constants, t_end, recorder);
-                recorder.trajectory.computation.residual = Some(integration.residual());
-                outcome
-            }
-            _ => {
-                let groups = M::DESCRIPTION.reduced;
-                let integration = RungeKutta8::new(equations, groups, begin, t_end, self.tolerance);
-                let mut integration = Explicit::new(integration.map_err(|failure| self.reason(failure))?);
-                self.step_through(&mut integration, &constants, t_end, recorder)
-            }
-        }
-    }
-
-    /// Steps to the end with output on the way, and the expansion of the last good step.
-    fn step_through(
+    fn integrate<C: Coordinates<M::Reduced<f64>>>(
         &mut self,
-        integration: &mut impl Stepper<M::Reduced<f64>>,
-        constants: &M::Constants<f64>,
+        coordinates: C,
         t_end: f64,
         recorder: &mut Recorder<'_, '_, N, M>,
     ) -> Result<(), Reason> {
         let model = self.model;
-        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, constants, reduced);
+        recorder.begin(self.t0, self.start)?;
+        let (reduced, constants) = model.reduce(self.t0, &self.start);
+        let equations = |t: f64, reduced: &M::Reduced<f64>| model.reduced_equations(t, &constants, reduced);
+        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
+        let state = (M::DESCRIPTION.reduced, reduced);
+        if !matches!(self.method, Method::Gauss { .. }) {
+            return self.integrate_in(coordinates, equations, state, expand, t_end, recorder);
+        }
+        // What is carried along would spoil the geometry of the method: it is computed from the rest.
+        let closed = |t: f64, reduced: &M::Reduced<f64>| equations(t, &model.renewed(reduced));
+        self.integrate_in(coordinates, closed, state, expand, t_end, recorder)
+    }
+
+    /// The phase point of a separable isochoric body on SL(n): its equations are the free ones, to which the multiplier is
+    /// added.
+    fn integrate_with_reaction(
+        &mut self,
+        t_end: f64,
+        recorder: &mut Recorder<'_, '_, N, M>,
+    ) -> Result<(), Reason> {
+        let model = self.model;
+        recorder.begin(self.t0, self.start)?;
+        let groups = M::DESCRIPTION.full;
+        let free = |t: f64, full: &M::Full<f64>| model.hamilton_equations(t, full);
+        let start = model.flatten(&self.start);
+        let reaction = Reaction::<N>::of(groups, &free, (self.t0, &start));
+        let reaction = reaction.map_err(|failure| self.reason(failure))?;
+        let placement =
+            placement_in(groups, N).ok_or(Setting::NotSeparable { model: M::DESCRIPTION.name })?;
+        let chart = Chart::<N>::new(Constraint::Isochoric, placement.start);
+        let equations = |t: f64, full: &M::Full<f64>| reaction.rates(&free, t, full);
+        let expand = |_: f64, full: &M::Full<f64>| model.unflatten(&reaction.with_momentum(full));
+        let state = (groups, reaction.with_velocity(&start));
+        self.integrate_in(chart, equations, state, expand, t_end, recorder)
+    }
+
+    /// Integration of a state by the method asked for.
+    fn integrate_in<S: StateVector<f64>>(
+        &mut self,
+        coordinates: impl Coordinates<S>,
+        equations: impl Fn(f64, &S) -> S,
+        (groups, start): (&'static [Group], S),
+        expand: impl Fn(f64, &S) -> M::Point<f64>,
+        t_end: f64,
+        recorder: &mut Recorder<'_, '_, N, M>,
+    ) -> Result<(), Reason> {
+        let begin = (self.t0, start);
+        match self.method {
+            Method::Gauss { stages, step } => {
+                let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
+                let integration = Gauss::within(coordinates, equations, tableau, begin, t_end, step);
+                let mut integration = integration.map_err(|failure| self.reason(failure))?;
+                recorder.trajectory.computation.method = self.method;
+                let outcome = self.step_through(&mut integration, expand, groups, t_end, recorder);
+                recorder.trajectory.computation.residual = Some(integration.residual());
+                outcome
+            }
+            _ => {
+                let integration =
+                    RungeKutta8::within(coordinates, equations, groups, begin, t_end, self.tolerance);
+                let mut integration = Explicit::new(integration.map_err(|failure| self.reason(failure))?);
+                self.step_through(&mut integration, expand, groups, t_end, recorder)
+            }
+        }
+    }
+
+    /// RATTLE on the phase point itself.
+    fn integrate_by_rattle(
+        &mut self,
+        (order, step): (usize, f64),
+        t_end: f64,
+        recorder: &mut Recorder<'_, '_, N, M>,
+    ) -> Result<(), Reason> {
+        let model = self.model;
+        recorder.begin(self.t0, self.start)?;
+        let composition = Composition::of_order(order).ok_or(Setting::Order { given: order })?;
+        let equations = |t: f64, full: &M::Full<f64>| model.hamilton_equations(t, full);
+        let expand = |_: f64, full: &M::Full<f64>| model.unflatten(full);
+        let (groups, begin) = (M::DESCRIPTION.full, (self.t0, model.flatten(&self.start)));
+        let integration = Rattle::<N, _, _>::new(equations, groups, composition, begin, t_end, step);
+        let mut integration = integration.map_err(|failure| self.reason(failure))?;
+        recorder.trajectory.computation.method = self.method;
+        let outcome = self.step_through(&mut integration, expand, groups, t_end, recorder);
+        recorder.trajectory.computation.residual = Some(integration.residual());
+        outcome
+    }
+
+    /// Steps to the end with output on the way, and the expansion of the last good step.
+    fn step_through<S: StateVector<f64>>(
+        &mut self,
+        integration: &mut impl Stepper<S>,
+        expand: impl Fn(f64, &S) -> M::Point<f64>,
+        groups: &[Group],
+        t_end: f64,
+        recorder: &mut Recorder<'_, '_, N, M>,
+    ) -> Result<(), Reason> {
         let mut last = None;
-        let outcome = self.follow(integration, expand, t_end, recorder, &mut last);
+        let outcome = self.follow(integration, (&expand, groups), t_end, recorder, &mut last);
         let trajectory = &mut *recorder.trajectory;
         trajectory.statistics = integration.statistics();
         if let Some((t, reduced)) = last.filter(|(t, _)| (t - trajectory.end.0) * (t_end - self.t0) > 0.0) {
@@ -190,15 +277,15 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
 
     /// Steps to the end. A step without output whose reduced state shows that it is good is not expanded: it is
     /// only left in `last`, for a halt in the next one.
-    fn follow(
+    fn follow<S: StateVector<f64>>(
         &mut self,
-        integration: &mut impl Stepper<M::Reduced<f64>>,
-        expand: impl Fn(f64, &M::Reduced<f64>) -> M::Point<f64>,
+        integration: &mut impl Stepper<S>,
+        (expand, groups): (&impl Fn(f64, &S) -> M::Point<f64>, &[Group]),
         t_end: f64,
         recorder: &mut Recorder<'_, '_, N, M>,
-        last: &mut Option<(f64, M::Reduced<f64>)>,
+        last: &mut Option<(f64, S)>,
     ) -> Result<(), Reason> {
-        let placement = placement_in(M::DESCRIPTION.reduced, N);
+        let placement = placement_in(groups, N);
         while !integration.is_finished() {
             let steps = integration.statistics().steps;
             if steps == self.max_steps {
@@ -234,9 +321,10 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             Failure::NotFinite => Reason::NotFinite,
             Failure::StepUnderflow => Reason::StepUnderflow { tolerance: self.tolerance },
             Failure::NoSolution { residual } => {
-                let step = if let Method::Gauss { step, .. } = self.method { step } else { f64::NAN };
-                Reason::NoSolution { residual, step }
+                Reason::NoSolution { residual, step: self.method.step().unwrap_or(f64::NAN) }
             }
+            Failure::NotSeparable => Setting::NotSeparable { model: M::DESCRIPTION.name }.into(),
+            Failure::OffConstraint { defect } => Setting::OffConstraint { defect }.into(),
         }
     }
 }
@@ -250,6 +338,14 @@ struct Recorder<'r, 'a, const N: usize, M: Model<N>> {
 }
 
 impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
+    /// Records the start where it is an output.
+    fn begin(&mut self, t0: f64, start: M::Point<f64>) -> Result<(), Reason> {
+        if self.schedule == Schedule::Steps || self.schedule.take_through(t0, false).is_some() {
+            self.record(t0, start)?;
+        }
+        Ok(())
+    }
+
     /// Checks a phase point, which becomes the last good one.
     fn reach(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
         check(t, &point)?;
@@ -262,7 +358,7 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
         self.reach(t, point)?;
         self.trajectory.times.push(t);
         self.trajectory.points.push(point);
-        let energy = self.model.hamiltonian(&point);
+        let energy = self.model.hamiltonian(t, &point);
         let energies = &mut self.trajectory.energies;
         energies.outputs.push(energy);
         energies.scale = larger(energies.scale, energy_scale(self.model, &point, energy));
@@ -326,10 +422,21 @@ fn energy_scale<const N: usize, M: Model<N>>(model: &M, point: &M::Point<f64>, e
     larger(energy.abs(), 0.5 * (internal + translational))
 }
 
-/// Components of a reduced state that are the placement, row by row, up to factors of positive determinant that
+/// The chart of the group to which the motion is confined, where the reduced state holds the placement.
+fn chart<const N: usize, M: Model<N>>() -> Option<Chart<N>> {
+    let placement = placement_in(M::DESCRIPTION.reduced, N)?;
+    Some(Chart::new(M::DESCRIPTION.constraint?, placement.start))
+}
+
+/// The reduced equations are those of the body without constraint, over `phi` and `Pi`.
+fn is_canonical<const N: usize, M: Model<N>>() -> bool {
+    M::DESCRIPTION.reduced.iter().any(|group| group.name == "Pi")
+}
+
+/// Components of a state that are the placement, row by row, up to factors of positive determinant that
 /// the expansion restores.
 fn placement_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
-    let k = groups.iter().position(|group| group.name == "phi" && group.len == n * n)?;
+    let k = groups.iter().position(|group| group.is_placement() && group.len == n * n)?;
     let start = total(&groups[..k]);
     Some(start..start + n * n)
 }

@@ -1,7 +1,8 @@
 //! What a simulation asks of an integrator.
 
+use crate::integrate::lie::Coordinates;
 use crate::integrate::runge_kutta::Dense;
-use crate::integrate::{Failure, Gauss, RungeKutta8, Statistics};
+use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics};
 use crate::model::StateVector;
 
 /// An integration that goes step by step.
@@ -21,18 +22,18 @@ pub(super) trait Stepper<S> {
 }
 
 /// The explicit method with the dense output of its last step, which is formed once for all times in it.
-pub(super) struct Explicit<S, F> {
-    integration: RungeKutta8<S, F>,
-    dense: Option<Dense<S>>,
+pub(super) struct Explicit<S, F, C> {
+    integration: RungeKutta8<S, F, C>,
+    dense: Option<Dense<S, C>>,
 }
 
-impl<S, F> Explicit<S, F> {
-    pub(super) fn new(integration: RungeKutta8<S, F>) -> Self {
+impl<S, F, C> Explicit<S, F, C> {
+    pub(super) fn new(integration: RungeKutta8<S, F, C>) -> Self {
         Self { integration, dense: None }
     }
 }
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Explicit<S, F> {
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for Explicit<S, F, C> {
     fn advance(&mut self) -> Result<(), Failure> {
         self.dense = None;
         self.integration.advance()
@@ -54,7 +55,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Explicit<S, F> {
     }
 }
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Gauss<S, F> {
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for Gauss<S, F, C> {
     fn advance(&mut self) -> Result<(), Failure> {
         Gauss::advance(self)
     }
@@ -72,5 +73,26 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Gauss<S, F> {
     }
     fn statistics(&self) -> Statistics {
         Gauss::statistics(self)
+    }
+}
+
+impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Rattle<N, S, F> {
+    fn advance(&mut self) -> Result<(), Failure> {
+        Rattle::advance(self)
+    }
+    fn between(&mut self, t: f64) -> Result<S, Failure> {
+        self.at(t)
+    }
+    fn t(&self) -> f64 {
+        Rattle::t(self)
+    }
+    fn y(&self) -> &S {
+        Rattle::y(self)
+    }
+    fn is_finished(&self) -> bool {
+        Rattle::is_finished(self)
+    }
+    fn statistics(&self) -> Statistics {
+        Rattle::statistics(self)
     }
 }

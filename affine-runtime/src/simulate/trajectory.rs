@@ -2,6 +2,7 @@
 
 use super::Method;
 use crate::integrate::Statistics;
+use crate::metrics::Bases;
 use crate::model::Description;
 use crate::state::Phase;
 
@@ -17,6 +18,8 @@ pub struct Trajectory<const N: usize, P> {
     pub(super) energies: Energies,
     pub(super) statistics: Statistics,
     pub(super) computation: Computation,
+    /// Bases in which the model's metrics are the identity.
+    pub(super) bases: Option<Bases<N>>,
 }
 
 /// How a trajectory was computed.

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::Method;
 use super::trajectory::{Computation, Trajectory};
-use crate::model::Description;
+use crate::model::{Constraint, Description};
 use crate::state::Phase;
 
 /// Why a trajectory was computed the way it was; displays as text.
@@ -44,6 +44,37 @@ impl Why {
                 }
             }
             Method::Gauss { stages, step } => self.gauss(f, stages, step),
+            Method::Rattle { order, step } => self.rattle(f, order, step),
+        }
+    }
+
+    fn rattle(&self, f: &mut fmt::Formatter<'_>, order: usize, step: f64) -> fmt::Result {
+        write!(f, "RATTLE of order {order}, equal steps of at most {step:e}")?;
+        if let Some(residual) = self.computation.residual {
+            write!(f, ", det phi = 1 solved to {residual:.1e}")?;
+        }
+        writeln!(f, ": as asked for")?;
+        writeln!(
+            f,
+            "kept up to rounding: det phi = 1, tr(phi^-1 phi_dot) = 0, and what the model conserves of p, spin and \
+             vorticity"
+        )?;
+        writeln!(f, "symplectic: the energy error stays bounded while steps resolve the motion")
+    }
+
+    /// The group on which the steps were taken.
+    fn group(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let chart = match self.description.constraint {
+            Some(Constraint::Isochoric) => "SL(n), in the Cayley chart of unit determinant",
+            Some(Constraint::Rigid) => "SO(n), in the Cayley chart",
+            Some(Constraint::Conformal) => {
+                "R+ SO(n), in the Cayley chart times the exponential of the dilatation"
+            }
+            None => return Ok(()),
+        };
+        match self.computation.method {
+            Method::ClosedForm | Method::Rattle { .. } => Ok(()),
+            _ => writeln!(f, "steps on {chart} around the placement: phi stays on the group up to rounding"),
         }
     }
 
@@ -62,8 +93,13 @@ impl Why {
             ""
         };
         writeln!(f, ": as asked for{rest}")?;
-        writeln!(f, "kept up to rounding: linear and quadratic first integrals of the reduced equations")?;
-        if self.is_canonical() {
+        let of =
+            if self.description.constraint.is_none() { "" } else { " that do not contain the placement" };
+        writeln!(
+            f,
+            "kept up to rounding: linear and quadratic first integrals{of} of the reduced equations"
+        )?;
+        if self.is_canonical() && self.description.constraint.is_none() {
             writeln!(
                 f,
                 "symplectic: the reduced variables are canonical; the energy error stays bounded while steps resolve the motion"
@@ -82,7 +118,7 @@ impl Why {
         let groups = self.description.reduced;
         let holds = |name: &str| groups.iter().any(|group| group.name == name);
         let paired = holds("phi") && holds("Pi") && holds("x") == holds("p");
-        paired && groups.iter().all(|group| ["x", "phi", "p", "Pi"].contains(&group.name))
+        paired && groups.iter().all(|group| ["x", "phi", "p", "Pi", "1/D"].contains(&group.name))
     }
 
     fn scene(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -102,6 +138,7 @@ impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.description.name)?;
         self.method(f)?;
+        self.group(f)?;
         for left_out in self.description.left_out {
             writeln!(f, "left out of the model: {left_out}")?;
         }

@@ -1,7 +1,9 @@
 //! Models written by hand, as the macro would write them but for the reduction.
 
 pub(crate) mod drunk_missile;
+pub(crate) mod incompressible_disc;
 pub(crate) mod planar;
+pub(crate) mod top;
 pub(crate) mod vibrating_body;
 
 use affine_runtime::frames::{Matrix, Vector};
@@ -62,6 +64,7 @@ const fn description(name: &'static str) -> Description {
         reduced: &[],
         full_operations: NOTHING,
         reduced_operations: NOTHING,
+        constraint: None,
         left_out: &[],
     }
 }

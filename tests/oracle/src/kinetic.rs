@@ -27,6 +27,10 @@ pub enum Term {
     BodyTranslation(BigRational),
     /// `m/2 |x_dot|^2`.
     SpaceTranslation(BigRational),
+    /// `1/2 v^T M v`, `v = phi^-1 x_dot`.
+    BodyTranslationMetric(Matrix),
+    /// `1/2 x_dot^T M x_dot`.
+    SpaceTranslationMetric(Matrix),
     /// `1/2 tr(phi_dot J phi_dot^T)`.
     DAlembert(Matrix),
     /// `1/2 K[nA+B][nC+D] Oh[A][B] Oh[C][D]`.
@@ -54,12 +58,19 @@ impl Term {
     }
 
     fn is_translational(&self) -> bool {
-        matches!(self, Term::BodyTranslation(_) | Term::SpaceTranslation(_))
+        matches!(
+            self,
+            Term::BodyTranslation(_)
+                | Term::SpaceTranslation(_)
+                | Term::BodyTranslationMetric(_)
+                | Term::SpaceTranslationMetric(_)
+        )
     }
 
     fn check(&self, n: usize) -> Result<(), Error> {
         match self {
             Term::BodyInertia(j) | Term::SpaceInertia(j) | Term::DAlembert(j) => check("J", j, (n, n)),
+            Term::BodyTranslationMetric(m) | Term::SpaceTranslationMetric(m) => check("M", m, (n, n)),
             Term::BodyTensor(k) | Term::SpaceTensor(k) | Term::FlatTensor(k) => check("K", k, (n * n, n * n)),
             Term::Casimir2(_)
             | Term::Casimir1Squared(_)
@@ -77,6 +88,8 @@ impl Term {
             Term::SpaceInertia(j) => quadratic(space, j),
             Term::BodyTranslation(m) => (&v_hat.transpose() * v_hat).scaled(m),
             Term::SpaceTranslation(m) => (&x_dot.transpose() * x_dot).scaled(m),
+            Term::BodyTranslationMetric(m) => &v_hat.transpose() * &(&Matrix::constant(m) * v_hat),
+            Term::SpaceTranslationMetric(m) => &x_dot.transpose() * &(&Matrix::constant(m) * x_dot),
             Term::DAlembert(j) => quadratic(phi_dot, j),
             Term::BodyTensor(k) => contracted(body, k),
             Term::SpaceTensor(k) => contracted(space, k),
@@ -274,12 +287,12 @@ impl Kinetic {
         Ok((momentum, velocity))
     }
 
-    fn joined<R: Ring>(&self, vector: &Matrix<R>, matrix: &Matrix<R>) -> Matrix<R> {
+    pub(crate) fn joined<R: Ring>(&self, vector: &Matrix<R>, matrix: &Matrix<R>) -> Matrix<R> {
         let column = matrix.clone().reshaped(self.n * self.n, 1);
         if self.has_translation() { vector.above(&column) } else { column }
     }
 
-    fn split<R: Ring>(&self, column: &Matrix<R>) -> (Matrix<R>, Matrix<R>) {
+    pub(crate) fn split<R: Ring>(&self, column: &Matrix<R>) -> (Matrix<R>, Matrix<R>) {
         let square = self.n * self.n;
         let vector = if self.has_translation() { column.rows(0, self.n) } else { Matrix::zeros(self.n, 1) };
         let matrix = column.rows(column.shape().0 - square, square).reshaped(self.n, self.n);

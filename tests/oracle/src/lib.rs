@@ -8,6 +8,8 @@
 //! * `dH/dP = v` and `dH/dq = -dT/dq` at fixed `v`, the latter by dual numbers through `T` itself;
 //! * `{F, H}` as the derivative of `F` along the canonical vector field, by dual numbers through `F` itself.
 //!
+//! A [`Hamiltonian`] stated on the momentum side is taken as given instead, as a function of `(x, phi; p, Pi)`.
+//!
 //! A potential adds forces to the vector field ([`Motion::under`]). Its gradient comes from the plain definition of the
 //! potential by forward differentiation in `f64`, since elementary functions have no exact values; it is then taken as
 //! an exact number.
@@ -33,6 +35,7 @@
 
 mod differential;
 mod error;
+mod hamiltonian;
 mod kinetic;
 mod linear;
 mod matrix;
@@ -42,13 +45,15 @@ mod potential;
 mod random;
 mod ring;
 mod state;
+mod stretches;
 
 pub use differential::Differential;
 pub use error::Error;
+pub use hamiltonian::{Hamiltonian, Invariant};
 pub use kinetic::{Kinetic, Term};
 pub use linear::Signature;
 pub use matrix::Matrix;
-pub use motion::{Expected, Motion};
+pub use motion::{Constraint, Expected, Motion};
 pub use num_rational::BigRational as Rational;
 pub use observable::Observable;
 pub use potential::{Place, Slopes};

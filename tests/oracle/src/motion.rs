@@ -1,5 +1,7 @@
 //! Motion through a point: the canonical vector field and derivatives along it.
 
+mod constrained;
+
 use num_rational::BigRational;
 
 use crate::differential::Differential;
@@ -10,6 +12,8 @@ use crate::observable::Observable;
 use crate::potential::{Place, Slopes};
 use crate::ring::{exact, rounded};
 use crate::state::State;
+
+pub use constrained::Constraint;
 
 /// The canonical vector field of a kinetic energy at one point.
 #[derive(Clone, Debug)]
@@ -30,26 +34,26 @@ impl Kinetic {
         let n = self.dimension();
         let (x_dot, phi_dot) = self.velocity(state)?;
         let energy = self.energy(&state.phi, &x_dot, &phi_dot)?.entry(0, 0);
-        let mut pi_dot = Vec::with_capacity(n * n);
+        let pi_dot = self.slope_of_placement(&state.phi, &x_dot, &phi_dot)?;
+        let rate = State { x: x_dot, phi: phi_dot, p: Matrix::zeros(n, 1), pi: pi_dot };
+        Ok(Motion { kinetic: self, state: state.clone(), rate, energy })
+    }
+
+    /// `(dT/dphi)^T` at fixed velocities, by dual numbers through `T`.
+    fn slope_of_placement(&self, phi: &Matrix, x_dot: &Matrix, phi_dot: &Matrix) -> Result<Matrix, Error> {
+        let n = self.dimension();
+        let mut slopes = Vec::with_capacity(n * n);
         // Row-major in (A, i), as Pi is.
         for place in 0..n * n {
             let direction = Matrix::unit(n, place % n, place / n);
-            let slope = self
-                .energy(
-                    &Matrix::along(&state.phi, &direction),
-                    &Matrix::constant(&x_dot),
-                    &Matrix::constant(&phi_dot),
-                )?
-                .slope();
-            pi_dot.push(slope.entry(0, 0));
+            let energy = self.energy(
+                &Matrix::along(phi, &direction),
+                &Matrix::constant(x_dot),
+                &Matrix::constant(phi_dot),
+            )?;
+            slopes.push(energy.slope().entry(0, 0));
         }
-        let rate = State {
-            x: x_dot,
-            phi: phi_dot,
-            p: Matrix::zeros(n, 1),
-            pi: Matrix::from_rationals(n, n, &pi_dot),
-        };
-        Ok(Motion { kinetic: self, state: state.clone(), rate, energy })
+        Ok(Matrix::from_rationals(n, n, &slopes))
     }
 
     /// Everything about one point, each number exact until it is rounded at the end.

@@ -78,12 +78,17 @@ impl Observable {
     /// # Errors
     /// Those of [`Kinetic::hamiltonian`] for [`Observable::Energy`]; otherwise none.
     pub fn value<R: Ring>(self, kinetic: &Kinetic, state: &State<R>) -> Result<Matrix<R>, Error> {
+        self.of_state(state).map_or_else(|| kinetic.hamiltonian(state), Ok)
+    }
+
+    /// The same where it is a function of the state alone; `None` for [`Observable::Energy`].
+    pub(crate) fn of_state<R: Ring>(self, state: &State<R>) -> Option<Matrix<R>> {
         let State { x, phi, p, pi } = state;
         let sigma = || phi * pi;
         let sigma_hat = || pi * phi;
         let orbital = || x * &p.transpose();
-        Ok(match self {
-            Observable::Energy => kinetic.hamiltonian(state)?,
+        Some(match self {
+            Observable::Energy => return None,
             Observable::LinearMomentum => p.clone(),
             Observable::ComovingLinearMomentum => &phi.transpose() * p,
             Observable::OrbitalAngularMomentum => orbital().skew(),

@@ -3,6 +3,7 @@
 //! What is not zero here is not zero; what is zero here may still be a multiple of the prime.
 
 use super::evaluate::Field;
+use super::function::Function;
 use super::rational::Rational;
 
 /// A residue modulo the Mersenne prime `2^61 - 1`; none for fractions whose denominator it divides.
@@ -60,6 +61,12 @@ impl Field for Residue {
     fn mul(&self, other: &Self) -> Self {
         let (Some(a), Some(b)) = (self.0, other.0) else { return Self::UNKNOWN };
         Self(Some(product(a, b)))
+    }
+
+    /// Any function of an argument, by a value for the two together: an identity that holds for these holds for every
+    /// function, and what only the properties of one function make true does not hold here.
+    fn apply(&self, function: Function) -> Option<Self> {
+        Some(Self::sample(&format!("{}({})", function.name(), self.0?)))
     }
 
     /// Fermat: `a^(p-2) = 1/a`.

@@ -2,12 +2,16 @@
 
 use std::collections::BTreeMap;
 
+use super::momentum_side;
 use super::two_polar;
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, Directions, Reported};
 use crate::lower;
+use crate::mechanics::constraint::Constraint;
 use crate::mechanics::hessian::{Block, Direction, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
+use crate::mechanics::metrics::Metrics;
+use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
 use crate::spec::{self, Claim, Named, Requirement, Spec, Value};
@@ -18,6 +22,8 @@ pub struct Form {
     pub arena: Arena,
     /// The energy.
     pub kinetic: Kinetic,
+    /// The Hamiltonian, where it is what the user stated; `kinetic` follows from it.
+    pub stated: Option<Stated>,
     /// Its Hessian on the affine velocities.
     pub hessian: Hessian,
     /// The largest of GL(n), O(n) that acts on space without changing the energy.
@@ -30,6 +36,8 @@ pub struct Form {
     pub two_polar: bool,
     /// Are the placements those of U(n)?
     pub unitary: bool,
+    /// Metrics other than the identity; everything else stands in bases in which they are.
+    pub metrics: Option<Metrics>,
 }
 
 /// Builds the form and holds it against every rule.
@@ -38,22 +46,132 @@ pub struct Form {
 /// [`Reported`] if any rule is broken; all broken ones are in the bag.
 pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     let mut arena = Arena::new();
+    if let Some(stated) = lower::stated(&mut arena, spec) {
+        return momentum_form(arena, spec, stated, found);
+    }
     let (places, terms): (Vec<usize>, Vec<Term>) = lower::terms(&mut arena, spec).into_iter().unzip();
     let kinetic = Kinetic::new(&mut arena, spec.dim.value, &terms)
         .ok()
         .filter(|k| !k.internal.is_empty())
         .ok_or_else(|| found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy))?;
+    let free = kinetic;
+    let kinetic = confined(&mut arena, spec, &free, &terms);
     let hessian = Hessian::new(&kinetic);
+    nothing_vanishes(spec, &kinetic, &places, found);
     invertible(spec, &hessian, found);
     positive(spec, &kinetic, &hessian, found);
-    claims(spec, &kinetic, &places, found);
+    // Symmetries are those of the energy as stated, on all of GL(n).
+    claims(spec, &free, |place| spec.kinetic[places[place]].kind.value.name(), found);
     found.verdict()?;
-    let space_group = largest_group(&kinetic, Side::Space);
-    let body_group = largest_group(&kinetic, Side::Body);
-    let potential = lower::potential(&mut arena, spec);
+    super::smooth::potential(&mut arena, spec, found);
+    found.verdict()?;
+    let potential = potential(&mut arena, spec, kinetic.constraint, found);
+    found.verdict()?;
+    let space_group = largest_group(&free, Side::Space);
+    let body_group = largest_group(&free, Side::Body);
     let unitary = spec.group.is_some();
-    let two_polar = unitary || two_polar::asked(spec, &kinetic, &places, potential.as_ref(), found)?;
-    Ok(Form { arena, kinetic, hessian, space_group, body_group, potential, two_polar, unitary })
+    let two_polar = unitary || two_polar::asked(spec, &free, &places, potential.as_ref(), found)?;
+    Ok(Form {
+        arena,
+        kinetic,
+        stated: None,
+        hessian,
+        space_group,
+        body_group,
+        potential,
+        metrics: lower::metrics(spec),
+        two_polar,
+        unitary,
+    })
+}
+
+/// The same from a stated Hamiltonian. Groups and claims are decided on the form in the momenta.
+fn momentum_form(
+    mut arena: Arena,
+    spec: &Spec,
+    stated: Stated,
+    found: &mut Diagnostics,
+) -> Result<Form, Reported> {
+    momentum_side::invertible(spec, &stated, found);
+    momentum_side::positive(spec, &stated, found);
+    let on_momenta = stated.on_momenta(&mut arena);
+    let name = |place: usize| {
+        spec.hamiltonian.iter().flatten().nth(place).map_or("hamiltonian", |term| term.kind.value.name())
+    };
+    claims(spec, &on_momenta, name, found);
+    found.verdict()?;
+    super::smooth::potential(&mut arena, spec, found);
+    found.verdict()?;
+    let kinetic = stated
+        .kinetic(&mut arena)
+        .ok_or_else(|| found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy))?;
+    let hessian = Hessian::new(&kinetic);
+    let space_group = largest_group(&on_momenta, Side::Space);
+    let body_group = largest_group(&on_momenta, Side::Body);
+    let potential = potential(&mut arena, spec, None, found);
+    found.verdict()?;
+    let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
+    Ok(Form {
+        arena,
+        kinetic,
+        stated: Some(stated),
+        hessian,
+        space_group,
+        body_group,
+        potential,
+        metrics: lower::metrics(spec),
+        two_polar,
+        unitary: false,
+    })
+}
+
+/// The energy of a motion that is confined to a group.
+fn confined(arena: &mut Arena, spec: &Spec, free: &Kinetic, terms: &[Term]) -> Kinetic {
+    let group = spec.constraint.map(|constraint| lower::constraint(constraint.value));
+    // What has constant coefficients on GL(n) has them on a subgroup.
+    Kinetic::under(arena, free.dim, terms, group).unwrap_or_else(|_| free.clone())
+}
+
+/// Every term says something about the velocities that the constraint leaves free: `(tr Om)^2` is zero where they are
+/// traceless, and would be read by nobody.
+fn nothing_vanishes(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mut Diagnostics) {
+    let Some(constraint) = spec.constraint else { return };
+    for (place, energy) in &kinetic.internal {
+        let alone = Kinetic { internal: vec![(*place, energy.clone())], ..kinetic.clone() };
+        let blocks = Hessian::new(&alone).blocks;
+        if blocks.iter().flat_map(|block| block.form.concat()).all(|entry| entry.is_zero()) {
+            let kind = spec.kinetic[places[*place]].kind;
+            let mistake = Diagnostic::VanishingTerm {
+                term: kind.value.name(),
+                constraint: constraint.value.name(),
+                velocities: constraint.value.velocities(),
+            };
+            found.report(kind.span, mistake);
+        }
+    }
+}
+
+/// The potential on the group that is left: one that is constant there moves nothing, and one without a value there is
+/// none.
+fn potential(
+    arena: &mut Arena,
+    spec: &Spec,
+    group: Option<Constraint>,
+    found: &mut Diagnostics,
+) -> Option<Potential> {
+    let energy = lower::potential(arena, spec)?;
+    let (Some(group), Some(constraint), Some(written)) = (group, spec.constraint, &spec.potential) else {
+        return Some(Potential::new(arena, spec.dim.value, energy));
+    };
+    let left = Potential::under(arena, spec.dim.value, energy, group);
+    let defect = match &left {
+        None => "has no value",
+        Some(left) if left.is_constant() => "is constant",
+        Some(_) => return left,
+    };
+    let (constraint, group) = (constraint.value.name(), constraint.value.group());
+    found.report(written.span, Diagnostic::ConstrainedPotential { defect, constraint, group });
+    None
 }
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic
@@ -119,7 +237,7 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
 
 /// A claimed symmetry is a theorem about the form: its derivative along every generator of the group vanishes,
 /// and for O(n) one reflection leaves it unchanged as well.
-fn claims(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mut Diagnostics) {
+fn claims(spec: &Spec, kinetic: &Kinetic, term: impl Fn(usize) -> &'static str, found: &mut Diagnostics) {
     let Some(symmetry) = &spec.symmetry else { return };
     for (side, name, claim) in [(Side::Space, "space", symmetry.space), (Side::Body, "body", symmetry.body)] {
         let (group, letters) = match claim.value {
@@ -129,12 +247,11 @@ fn claims(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mut Diagnost
         };
         let Some((breaker, place)) = broken_by(kinetic, side, group) else { continue };
         let n = kinetic.dim;
-        let term = &spec.kinetic[places[place]];
         let mistake = Diagnostic::ClaimBroken {
             side: name,
             claim: claim.value.name(),
             group: format!("{letters}({n})"),
-            term: term.kind.value.name(),
+            term: term(place),
             transformation: match breaker {
                 Breaker::Generator(a, b) => format!("the generator E[{a},{b}]"),
                 Breaker::Rotation(a, b) => format!("the generator E[{a},{b}] - E[{b},{a}]"),
@@ -227,6 +344,10 @@ fn matrix_text(n: usize, entries: &[Rational]) -> String {
 /// The numbers of positive and negative squares of a numeric form.
 #[must_use]
 pub fn signature(form: &Form) -> Option<(usize, usize)> {
+    // With a cubic term the metric depends on the momentum.
+    if form.stated.as_ref().is_some_and(Stated::is_cubic) {
+        return None;
+    }
     let mut count = (0, 0);
     for inertia in form.hessian.blocks.iter().map(|b: &Block| b.inertia(form.kinetic.dim)) {
         let inertia = inertia?;

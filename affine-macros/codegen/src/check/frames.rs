@@ -79,7 +79,7 @@ fn is_zero(term: &Term, n: usize) -> bool {
 /// A model needs a kinetic energy in phi_dot: with none, Sigma = (dT/dOm)^T is zero whatever the motion, and
 /// no Hamiltonian exists.
 pub(super) fn internal_motion(spec: &Spec, found: &mut Diagnostics) {
-    if spec.kinetic.iter().all(|term| term.kind.value.is_translation()) {
+    if spec.hamiltonian.is_none() && spec.kinetic.iter().all(|term| term.kind.value.is_translation()) {
         found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy);
     }
 }
@@ -91,8 +91,7 @@ pub(super) fn affine_translation(spec: &Spec, found: &mut Diagnostics) {
     if [symmetry.space.value, symmetry.body.value] != [Claim::Affine; 2] {
         return;
     }
-    let translation = spec.kinetic.iter().find(|term| term.kind.value.is_translation());
-    if let Some(term) = translation {
-        found.report(term.kind.span, Diagnostic::AffineTranslation { term: term.kind.value.name() });
+    if let Some((term, at)) = spec.translation() {
+        found.report(at, Diagnostic::AffineTranslation { term });
     }
 }

@@ -54,19 +54,22 @@ fn symmetric_rows(spec: &Spec, term: &Term, rows: &[Vec<Expression>], found: &mu
 /// indefinite J is legitimate; whether its form is degenerate depends on the Casimirs beside it.
 pub(super) fn positive(spec: &Spec, found: &mut Diagnostics) {
     let Some(term) = spec.term(TermKind::Dalembert) else { return };
-    let n = spec.dim.value;
-    let defect = match &term.value {
-        Value::Scalar(inertia) => constant(inertia, n)
+    if let Some(defect) = defect(&term.value, spec.dim.value, "J") {
+        found.report(term.span, Diagnostic::InertiaNotPositive { term: term.kind.value.name(), defect });
+    }
+}
+
+/// What shows that a symmetric matrix of numbers, called by `letters`, is not positive definite.
+pub(super) fn defect(value: &Value, n: usize, letters: &str) -> Option<String> {
+    match value {
+        Value::Scalar(multiple) => constant(multiple, n)
             .filter(|value| !positive_number(value))
-            .map(|value| format!("J is {value} times the identity")),
+            .map(|value| format!("{letters} is {value} times the identity")),
         Value::Diagonal(entries) => entries.iter().enumerate().find_map(|(index, entry)| {
             let value = constant(entry, n).filter(|value| !positive_number(value))?;
-            Some(format!("J[{0},{0}] = {value}", index + 1))
+            Some(format!("{letters}[{0},{0}] = {value}", index + 1))
         }),
         Value::Matrix(rows) => values(rows, n).and_then(bad_minor),
-    };
-    if let Some(defect) = defect {
-        found.report(term.span, Diagnostic::InertiaNotPositive { term: term.kind.value.name(), defect });
     }
 }
 

@@ -66,7 +66,7 @@ pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
             kind if kind.is_tensor() => (n * n, format!("n^2 = {}", n * n)),
             _ => continue,
         };
-        for (at, counted, actual) in counts(term, expected) {
+        for (at, counted, actual) in counts(&term.value, term.span, expected) {
             if actual != expected {
                 let (term, because) = (kind.name(), because.clone());
                 found.report(at, Diagnostic::MatrixSize { term, counted, found: actual, expected, because });
@@ -76,16 +76,16 @@ pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
 }
 
 /// What is counted in a matrix: its rows, or what is in them where the number of rows is right.
-fn counts(term: &Term, expected: usize) -> Vec<(Region, String, usize)> {
-    match &term.value {
+pub(super) fn counts(value: &Value, span: Region, expected: usize) -> Vec<(Region, String, usize)> {
+    match value {
         Value::Scalar(_) => Vec::new(),
-        Value::Diagonal(entries) => vec![(term.span, "diagonal entries".to_owned(), entries.len())],
-        Value::Matrix(rows) if rows.len() != expected => vec![(term.span, "rows".to_owned(), rows.len())],
+        Value::Diagonal(entries) => vec![(span, "diagonal entries".to_owned(), entries.len())],
+        Value::Matrix(rows) if rows.len() != expected => vec![(span, "rows".to_owned(), rows.len())],
         Value::Matrix(rows) => rows
             .iter()
             .enumerate()
             .map(|(index, row)| {
-                let at = extent(row).unwrap_or(term.span);
+                let at = extent(row).unwrap_or(span);
                 (at, format!("entries in row {}", index + 1), row.len())
             })
             .collect(),

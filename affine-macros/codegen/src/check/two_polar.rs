@@ -18,10 +18,20 @@ pub(super) fn asked(
     let Some(asked) = spec.emit.iter().find(|capability| capability.value == Capability::TwoPolar) else {
         return Ok(false);
     };
+    let mut without = |holds: bool, part: &str, lacks: &'static str| {
+        if holds {
+            found.report(asked.span, Diagnostic::LatticeWithout { part: part.to_owned(), lacks });
+        }
+    };
+    without(spec.hamiltonian.is_some(), "`hamiltonian(...)`", "momentum side");
+    without(spec.constraint.is_some(), "a constraint", "constraint");
+    without(spec.metrics.iter().any(Option::is_some), "`metrics(...)`", "metrics");
+    without(potential.is_some_and(Potential::depends_on_time), "a potential of the time", "time");
     if let Some(t) = kinetic.translation {
-        let term = spec.kinetic[places[t.place]].kind.value.name();
-        found.report(asked.span, Diagnostic::LatticeWithCentre { term });
+        let term = spec.kinetic.get(places[t.place]).map_or("translation", |term| term.kind.value.name());
+        without(true, &format!("`{term}`"), "centre of mass");
     }
+    found.verdict()?;
     let mut anisotropic = |part: String, side: Side, transformation: String| {
         let side = if side == Side::Space { "space" } else { "the body" };
         found.report(asked.span, Diagnostic::NotDoublyIsotropic { part, side, transformation });

@@ -22,6 +22,15 @@ pub(super) fn casimirs_alone(spec: &Spec, found: &mut Diagnostics) {
     if let Some(symmetry) = &spec.symmetry {
         found.report(symmetry.space.span, Diagnostic::UnitaryTerm { part: "symmetry" });
     }
+    if let Some(constraint) = &spec.constraint {
+        found.report(constraint.span, Diagnostic::UnitaryTerm { part: "constraint" });
+    }
+    if spec.hamiltonian.is_some() {
+        found.report(spec.kinetic_key, Diagnostic::UnitaryTerm { part: "hamiltonian" });
+    }
+    for metric in spec.metrics.iter().flatten() {
+        found.report(metric.span, Diagnostic::UnitaryTerm { part: "metrics" });
+    }
     for requirement in &spec.require {
         found.report(requirement.span, Diagnostic::UnitaryTerm { part: requirement.value.name() });
     }

@@ -99,7 +99,7 @@ fn rates(
     let rate = |(_, symbol, rate): &(_, Expr, Polynomial)| {
         (format!("d_{}", arena.name(*symbol).unwrap_or("place")), stable.rewritten(rate))
     };
-    Batch { shared, results: equations.rates.iter().take(moving).map(rate).collect() }
+    Batch { shared, results: equations.rates.iter().take(moving).map(rate).collect(), ..Batch::default() }
 }
 
 fn energy(equations: &Equations, stable: &Stable, potential: Option<&OnAxes>) -> Batch {
@@ -109,7 +109,7 @@ fn energy(equations: &Equations, stable: &Stable, potential: Option<&OnAxes>) ->
         shared.extend(potential.energy_shared.iter().cloned());
         energy.add_scaled(&potential.energy, &Rational::ONE);
     }
-    Batch { shared, results: vec![("energy".to_owned(), energy)] }
+    Batch { shared, results: vec![("energy".to_owned(), energy)], ..Batch::default() }
 }
 
 /// Symbols of the frames: an angle each in the plane, the entries of `L` and `R` in space.
@@ -146,7 +146,7 @@ impl Frames {
     /// `dL/dt = L chi_hat`, `dR/dt = R theta_hat`, beside the rates of the state. A rotation by the angle `w` has
     /// `L^T dL/dt = [[0, -1], [1, 0]] dw/dt`.
     fn framed(&self, arena: &mut Arena, equations: &Equations, stable: &Stable, rates: Batch) -> Batch {
-        let Batch { mut shared, mut results } = rates;
+        let Batch { mut shared, mut results, .. } = rates;
         for (stem, frame, angular) in
             [("chi", &self.left, &equations.chi), ("theta", &self.right, &equations.theta)]
         {
@@ -158,7 +158,7 @@ impl Frames {
                 results.push((name, self.rate(frame, &symbols, k)));
             }
         }
-        Batch { shared, results }
+        Batch { shared, results, ..Batch::default() }
     }
 
     /// Entry `k` of `L chi_hat`, or the rate of the angle.

@@ -9,7 +9,7 @@ use crate::mechanics::hessian::Direction;
 use crate::mechanics::kinetic::{Coefficient, Kinetic, TermKind};
 use crate::optimise::{Batch, straight_line};
 
-use super::{Condition, NumericBlock};
+use super::{Condition, NumericBlock, Relation};
 
 /// What `prepare()` has to check once the fields have values.
 pub(super) fn conditions(
@@ -53,7 +53,7 @@ pub(super) fn conditions(
         .map(|(name, directions, positive, value)| {
             let sizes = summands(&value);
             let program = unbound(arena, std::iter::once(value).chain(sizes));
-            Condition { name, directions, positive, program }
+            Condition { name, directions, relation: Relation::MomentumOfVelocity, positive, program }
         })
         .collect()
 }
@@ -87,14 +87,14 @@ fn determinant(rows: &[Vec<Polynomial>]) -> Polynomial {
 }
 
 /// The terms of a sum, each a polynomial: their sizes say how much of it rounding can make.
-fn summands(sum: &Polynomial) -> Vec<Polynomial> {
+pub(super) fn summands(sum: &Polynomial) -> Vec<Polynomial> {
     sum.terms().map(|(monomial, c)| Polynomial::term(monomial.clone(), c.clone())).collect()
 }
 
 /// A program over the fields alone.
-fn unbound(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
+pub(super) fn unbound(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
     let results = values.enumerate().map(|(k, p)| (format!("value_{}", k + 1), p)).collect();
-    let batch = Batch { shared: Vec::new(), results };
+    let batch = Batch { results, ..Batch::default() };
     fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
 }
 
@@ -104,7 +104,7 @@ pub(super) fn coefficient_program(arena: &mut Arena, coefficients: &Constants) -
         .iter()
         .map(|(s, p)| (arena.name(*s).unwrap_or("c").to_owned(), p.clone()))
         .collect();
-    let batch = Batch { shared: Vec::new(), results };
+    let batch = Batch { results, ..Batch::default() };
     fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
 }
 

@@ -4,12 +4,14 @@ use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
-use crate::mechanics::charts::{Chart, Linear, Momentum};
+use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
+use crate::mechanics::constraint::Constraint;
 use crate::mechanics::equations::{self, System, hamilton};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::{self, Layout, Reduction};
+use crate::mechanics::separation::{Separation, Slope};
 use crate::optimise::{Batch, straight_line};
 
 use super::Equations;
@@ -20,7 +22,7 @@ pub(super) fn full_chart(arena: &mut Arena, h: &Hamiltonian) -> (Chart, Polynomi
         (Frame::Body, Frame::Body) => Linear::Body,
         _ => Linear::Space,
     });
-    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), linear);
+    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), linear).under(h.confined());
     let full = reduce::own_hamiltonian(h, &chart);
     (chart, full)
 }
@@ -35,7 +37,8 @@ pub(super) fn full_equations(
     coefficients: &mut Constants,
 ) -> Equations {
     let load = potential.map(|u| u.load(arena, chart)).unwrap_or_default();
-    let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    inputs.extend(potential.and_then(Potential::time));
     let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
     through_velocity.add(&load);
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
@@ -43,7 +46,10 @@ pub(super) fn full_equations(
         let mut expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
         expanded.add(&load);
         ways.push(batch(arena, &expanded));
-        ways.push(split_batch(arena, chart, &expanded));
+        // Symmetric and skew parts are entries already where a constraint leaves only one of them.
+        if chart.confined.is_none_or(|group| group == Constraint::Isochoric) {
+            ways.push(split_batch(arena, chart, &expanded));
+        }
     }
     let (program, chosen) = ways
         .iter()
@@ -62,17 +68,48 @@ pub(super) fn full_equations(
         ("x", name(&chart.x)),
         ("phi", name(&chart.phi.0.concat())),
         (linear_name, name(&chart.p)),
-        (chart.momentum.symbol(), name(&chart.m.0.concat())),
+        (chart.momentum.symbol(), name(&independent_momenta(chart))),
     ];
     Equations {
         groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),
+        dependent: dependent(arena, chart),
         program: fuse(&program),
     }
+}
+
+impl Separation {
+    /// What the closed form of the dilatation reads: `1/m`, and the stiffness and scale of `U_dil'`.
+    pub(super) fn batch(&self) -> Batch {
+        let mut results = vec![("inverse_dilatational_mass".to_owned(), self.inverse_mass.clone())];
+        match &self.slope {
+            Slope::Zero => {}
+            Slope::Linear(stiffness) => results.push(("stiffness".to_owned(), stiffness.clone())),
+            Slope::Hyperbolic { stiffness, scale } => {
+                results.push(("stiffness".to_owned(), stiffness.clone()));
+                results.push(("scale".to_owned(), Polynomial::constant(scale.clone())));
+            }
+        }
+        Batch { results, ..Batch::default() }
+    }
+}
+
+fn independent_momenta(chart: &Chart) -> Vec<Expr> {
+    let momenta = chart.independent().into_iter().filter(|z| matches!(z, Coordinate::M(..)));
+    momenta.map(|z| chart.symbol(z)).collect()
+}
+
+/// Entries of the affine momentum that a constraint makes linear in others.
+fn dependent(arena: &mut Arena, chart: &Chart) -> Program {
+    let results = chart.dependent().into_iter();
+    let results = results.map(|(symbol, value)| (arena.name(symbol).unwrap_or("entry").to_owned(), value));
+    let batch = Batch { results: results.collect(), ..Batch::default() };
+    fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
 }
 
 fn batch(arena: &Arena, system: &System) -> Batch {
     Batch {
         shared: system.shared.clone(),
+        kernels: system.kernels.clone(),
         results: system
             .rates
             .iter()
@@ -119,11 +156,19 @@ pub(super) fn best_reduction(
 ) -> Option<(Reduction, Equations, Program, Vec<String>)> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
     for candidate in reduce::candidates(arena, h, potential, rotations) {
-        let states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
+        let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
+        states.extend(potential.and_then(Potential::time));
         let mut constants = Constants::new("k");
         let way = batch(arena, &candidate.system);
         let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
         let weight = program.operations().weight() + states.len();
+        eprintln!(
+            "cand {:?} carried {} weight {} {:?}",
+            candidate.chart.momentum,
+            candidate.carried,
+            weight,
+            program.operations()
+        );
         if best.as_ref().is_none_or(|(least, ..)| weight < *least) {
             best = Some((weight, candidate, program, constants));
         }
@@ -131,18 +176,22 @@ pub(super) fn best_reduction(
     let (_, reduction, program, constants) = best?;
     let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {
-        shared: Vec::new(),
         results: constants
             .entries
             .iter()
             .map(|(s, p)| (arena.name(*s).unwrap_or("k").to_owned(), p.clone()))
             .collect(),
+        ..Batch::default()
     };
     let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
     let name = |s: &Expr| arena.name(*s).unwrap_or("state").to_owned();
     let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(name).collect())).collect();
     let fixed = reduction.fixed.iter().map(name).collect();
-    Some((reduction, Equations { groups, program: fuse(&program) }, trajectory, fixed))
+    let dependent = match reduction.layout {
+        Layout::Constant => Program::default(),
+        Layout::Entries => dependent(arena, &reduction.chart),
+    };
+    Some((reduction, Equations { groups, dependent, program: fuse(&program) }, trajectory, fixed))
 }
 
 /// What `trajectory` reads: `p` where the state depends on it, and the constant part of the affine momentum.

@@ -38,6 +38,17 @@ pub enum Diagnostic {
         /// The key.
         key: &'static str,
     },
+    /// A term of `kinetic(...)` in `hamiltonian(...)`, or the other way round.
+    OtherSide {
+        /// The list it stands in.
+        list: &'static str,
+        /// The term.
+        key: &'static str,
+        /// The list it belongs to.
+        other: &'static str,
+    },
+    /// `kinetic(...)` beside `hamiltonian(...)`.
+    TwoStatements,
     /// A key given twice.
     RepeatedKey {
         /// The list it stands in.
@@ -107,10 +118,12 @@ pub enum Diagnostic {
         /// A term, `potential`, or a capability.
         part: &'static str,
     },
-    /// `two_polar` for a model with a moving centre.
-    LatticeWithCentre {
-        /// The translational term.
-        term: &'static str,
+    /// `two_polar` for a model with what the lattice does not have.
+    LatticeWithout {
+        /// What the model has.
+        part: String,
+        /// What the lattice has not.
+        lacks: &'static str,
     },
     /// A dimension other than the literals 2 and 3.
     Dimension {
@@ -287,11 +300,34 @@ pub enum Diagnostic {
         /// The form: `x[1]`, `norm(x)`.
         form: String,
     },
-    /// `abs(...)`.
+    /// `abs(...)` of what changes its sign.
     NotSmooth {
         /// Its argument.
         argument: String,
     },
+    /// A root, a logarithm or a quotient where two stretches coincide.
+    Coincidence {
+        /// The form: `sqrt(d^2)`.
+        written: String,
+        /// What vanishes: `d^2`.
+        argument: String,
+        /// The stretches.
+        stretches: (usize, usize),
+    },
+    /// A potential that changes when two stretches are exchanged.
+    NotSymmetric {
+        /// The potential.
+        energy: String,
+        /// The stretches.
+        stretches: (usize, usize),
+    },
+    /// `pairs(f(d))` with `f(d) != f(-d)`.
+    OddDifference {
+        /// `f(d)`.
+        function: String,
+    },
+    /// `d` outside `pairs(...)`.
+    LooseDifference,
     /// A logarithm or a root of a number that is not positive.
     Domain {
         /// The function.
@@ -392,6 +428,15 @@ pub enum Diagnostic {
         /// Its value.
         value: String,
     },
+    /// An inverse mass that is exactly zero.
+    ZeroInverseMass {
+        /// The translation term of `hamiltonian(...)`.
+        term: &'static str,
+        /// The coefficient as written.
+        coefficient: String,
+    },
+    /// `casimir3` for n = 2.
+    PlanarCasimir3,
     /// Two terms whose sum has a mass matrix that depends on the placement.
     MixedFrames {
         /// One term.
@@ -406,6 +451,78 @@ pub enum Diagnostic {
     /// Only translation terms, or none.
     NoKineticEnergy,
 
+    // ---- the metrics ----
+    /// An entry of a metric that contains a field.
+    MetricEntry {
+        /// `space` or `body`.
+        side: &'static str,
+        /// The entry.
+        entry: String,
+    },
+    /// `g_ij != g_ji`.
+    MetricNotSymmetric {
+        /// `space` or `body`.
+        side: &'static str,
+        /// The row, 1-based.
+        row: usize,
+        /// The column, 1-based.
+        column: usize,
+        /// The value at (row, column).
+        value: String,
+        /// The value at (column, row).
+        transposed: String,
+    },
+    /// A metric that is not positive definite.
+    MetricNotPositive {
+        /// `space` or `body`.
+        side: &'static str,
+        /// What shows it: `g[2,2] = -1`.
+        defect: String,
+    },
+    /// A matrix or tensor beside a metric.
+    MetricTerm {
+        /// The term.
+        term: &'static str,
+    },
+    /// A form of potentials that depends on the bases.
+    MetricForm {
+        /// The form: `G[1,2]`, `x[1]`, `tr(phi)`.
+        form: String,
+    },
+    // ---- the constraint ----
+    /// A constraint beside a key that does not go with it.
+    ConstraintBeside {
+        /// The other key.
+        key: &'static str,
+    },
+    /// A term that is zero wherever the constraint holds.
+    VanishingTerm {
+        /// The term.
+        term: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+        /// What velocities are under it: `traceless`, `skew`.
+        velocities: &'static str,
+    },
+    /// An energy in `phi_dot` whose mass matrix depends on the placement under the constraint.
+    ConstrainedMassMatrix {
+        /// The term.
+        term: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+        /// The group: `phi = e^q R with a rotation R`.
+        group: &'static str,
+    },
+    /// A potential that is constant, or has no value, wherever the constraint holds.
+    ConstrainedPotential {
+        /// `is constant`, `has no value`.
+        defect: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+        /// The group: `det phi = 1`.
+        group: &'static str,
+    },
+
     // ---- the quadratic form ----
     /// The isotropic form vanishes on some directions.
     Degenerate {
@@ -414,6 +531,15 @@ pub enum Diagnostic {
         /// The same in the user's numbers: `1 + 2 + 3*(-1)`.
         numbers: String,
         /// The directions.
+        directions: Directions,
+    },
+    /// A stated Hamiltonian whose velocity vanishes on some momenta.
+    DegenerateHamiltonian {
+        /// The eigenvalue: `2 vorticity_squared - casimir2`.
+        eigenvalue: String,
+        /// The same in the user's numbers: `2*0.1 - 0.2`.
+        numbers: String,
+        /// The momenta.
         directions: Directions,
     },
     /// A tensor, or a sum of terms with one, that has a kernel.
@@ -495,6 +621,8 @@ names! {
     MalformedItem => "malformed-item",
     UnknownKey => "unknown-key",
     UnavailableKey => "unavailable-key",
+    OtherSide => "other-side",
+    TwoStatements => "two-statements",
     RepeatedKey => "repeated-key",
     MissingKey => "missing-key",
     ExpectedValue => "expected-value",
@@ -504,7 +632,7 @@ names! {
     UnavailableCapability => "unavailable-capability",
     NotDoublyIsotropic => "not-doubly-isotropic",
     UnitaryTerm => "unitary-term",
-    LatticeWithCentre => "lattice-with-centre",
+    LatticeWithout => "lattice-without",
     Dimension => "dimension",
     RuntimePath => "runtime-path",
     ItemKind => "item-kind",
@@ -534,6 +662,10 @@ names! {
     NotScalar => "not-scalar",
     FixedCentre => "fixed-centre",
     NotSmooth => "not-smooth",
+    Coincidence => "coincidence",
+    NotSymmetric => "not-symmetric",
+    OddDifference => "odd-difference",
+    LooseDifference => "loose-difference",
     Domain => "domain",
     PotentialExponent => "potential-exponent",
     TermShape => "term-shape",
@@ -544,9 +676,21 @@ names! {
     InertiaNotPositive => "inertia-not-positive",
     ZeroMass => "zero-mass",
     NegativeMass => "negative-mass",
+    ZeroInverseMass => "zero-inverse-mass",
+    PlanarCasimir3 => "planar-casimir3",
     MixedFrames => "mixed-frames",
     NoKineticEnergy => "no-kinetic-energy",
+    MetricEntry => "metric-entry",
+    MetricNotSymmetric => "metric-not-symmetric",
+    MetricNotPositive => "metric-not-positive",
+    MetricTerm => "metric-term",
+    MetricForm => "metric-form",
+    ConstraintBeside => "constraint-beside",
+    VanishingTerm => "vanishing-term",
+    ConstrainedMassMatrix => "constrained-mass-matrix",
+    ConstrainedPotential => "constrained-potential",
     Degenerate => "degenerate",
+    DegenerateHamiltonian => "degenerate-hamiltonian",
     DegenerateTensor => "degenerate-tensor",
     NotPositiveDefinite => "not-positive-definite",
     ClaimBroken => "claim-broken",

@@ -62,6 +62,24 @@ impl Diagnostic {
                 ),
                 format!("state the model without `{key}`"),
             ),
+            Self::OtherSide { list, key, other } => text(
+                format!("`{key}` does not belong to `{list}(...)`"),
+                if *list == "kinetic" {
+                    format!(
+                        "`{key}` is a function of the momentum, and `kinetic(...)` states T through velocities"
+                    )
+                } else {
+                    format!(
+                        "`{key}` is a form in the velocity, and `hamiltonian(...)` states H through momenta"
+                    )
+                },
+                format!("state all terms in `{other}(...)`, with the coefficients that they have there"),
+            ),
+            Self::TwoStatements => text(
+                "the kinetic energy is stated twice, in `kinetic(...)` and in `hamiltonian(...)`",
+                "each determines the other: T by the velocities, H by the momenta",
+                "keep one of them, and state all terms there",
+            ),
             Self::RepeatedKey { list, key } => text(
                 format!("`{key}` stands twice in `{list}(...)`"),
                 "an item is given once; two values would contradict each other or hide a slip",
@@ -119,10 +137,11 @@ impl Diagnostic {
                  emitted as its lattice on the circle and nothing else",
                 format!("remove `{part}`, and keep `casimir2` and `casimir1_squared`"),
             ),
-            Self::LatticeWithCentre { term } => text(
-                format!("`two_polar` with `{term}`: the lattice has no centre of mass"),
-                "(q, p, M, N) of (6.2) to (6.5) describe the internal motion alone",
-                format!("state the internal motion as a model of its own, without `{term}`"),
+            Self::LatticeWithout { part, lacks } => text(
+                format!("`two_polar` with {part}: the lattice has no {lacks}"),
+                "(q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, of an energy in velocities, in \
+                 orthonormal coordinates",
+                format!("remove `two_polar` from `emit(...)`, or state a model without {part}"),
             ),
             Self::Dimension { found } => text(
                 format!("`dim = {found}`: the dimension is 2 or 3"),
@@ -286,7 +305,35 @@ impl Diagnostic {
             Self::NotSmooth { argument } => text(
                 format!("`abs({argument})` is not smooth where its argument is zero"),
                 "the force is the derivative of the potential, and it jumps there; `sqrt(a^2)` is the same function",
-                "use a smooth function, as in `sqrt(a^2 + b^2)` with a constant b, or a power, as in `a^2`",
+                "use a smooth function, as in `sqrt(a^2 + b^2)` with a constant b, or a power, as in `a^2` or \
+                 `abs(a)^2`",
+            ),
+            Self::Coincidence { written, argument, stretches: (a, b) } => text(
+                format!("`{written}` is not smooth where the stretches Q{a} and Q{b} coincide"),
+                format!(
+                    "`{argument}` vanishes there, in particular for an undeformed body: a root has a kink, a \
+                     logarithm and a quotient have a pole, or 0/0 where the quotient as a whole is smooth"
+                ),
+                "write a function that is smooth there, as `cosh(d)`, `d^2` or `sqrt(d^2 + b^2)` with a constant b",
+            ),
+            Self::NotSymmetric { energy, stretches: (a, b) } => text(
+                format!("the potential changes when the stretches Q{a} and Q{b} are exchanged"),
+                format!(
+                    "stretches have no order of their own, so that `{energy}` is a function of phi only if every \
+                     exchange of indices leaves it unchanged"
+                ),
+                "treat all stretches alike, as in `q1^4 + q2^4` for n = 2 or `pairs(d^2)`",
+            ),
+            Self::OddDifference { function } => text(
+                format!("`{function}` changes with the sign of `d`"),
+                "`pairs(f(d))` sums over pairs of stretches, whose order means nothing: d = q_a - q_b and its \
+                 opposite belong to the same pair",
+                "write an even function, as `d^2`, `cosh(d)` or `1/cosh(d)^2`",
+            ),
+            Self::LooseDifference => text(
+                "`d` stands outside `pairs(...)`",
+                "it is the difference q_a - q_b of the two log-stretches of a pair, and here there is no pair",
+                "write `pairs(f(d))` for a sum over all pairs, or `q1 - q2` for one difference",
             ),
             Self::Domain { function, argument, value } => text(
                 format!("`{function}({argument})` is taken of {value}, which is not positive"),
@@ -346,6 +393,17 @@ impl Diagnostic {
                 "`dalembert` is the kinetic energy of positive masses (2.1), and these are the same masses",
                 "write a positive mass",
             ),
+            Self::ZeroInverseMass { term, coefficient } => text(
+                format!("`{term} = {coefficient}` is zero"),
+                "in `hamiltonian(...)` it is the inverse mass, the velocity is that times the momentum, and does not \
+                 determine it",
+                format!("write `{term} = 1/m`, or remove `{term}`: the body is then fixed in space"),
+            ),
+            Self::PlanarCasimir3 => text(
+                "`casimir3` is for `dim = 3`",
+                "for n = 2, tr X^3 = (3 tr X tr X^2 - (tr X)^3)/2 (Cayley and Hamilton) is no invariant of its own",
+                "remove `casimir3`, or write `dim = 3`",
+            ),
             Self::MixedFrames { first, first_velocity, second, second_velocity } => text(
                 format!("`{first}` and `{second}` do not go together in this version"),
                 format!(
@@ -358,6 +416,75 @@ impl Diagnostic {
                 "there is no kinetic energy of the internal motion",
                 "without a term in phi_dot the Legendre transformation has no inverse: Sigma = (dT/dOm)^T = 0",
                 "add `casimir2`, `body_inertia`, `space_inertia`, `dalembert`, `body_tensor`, `space_tensor` or `flat_tensor`",
+            ),
+            Self::MetricEntry { side, entry } => text(
+                format!("the entry `{entry}` of the metric `{side}` depends on a field"),
+                "this version finds the orthonormal bases when the model is compiled, which needs numbers",
+                "write numbers",
+            ),
+            Self::MetricNotSymmetric { side, row, column, value, transposed } => text(
+                format!(
+                    "the metric `{side}` is not symmetric: its entry ({row},{column}) is {value}, \
+                     ({column},{row}) is {transposed}"
+                ),
+                "a metric is a scalar product, g(u, v) = g(v, u)",
+                "write the same entry in both places",
+            ),
+            Self::MetricNotPositive { side, defect } => text(
+                format!("the metric `{side}` is not positive definite: {defect}"),
+                "a metric gives every vector but zero a positive length, and has an orthonormal basis only then",
+                "write a symmetric matrix whose leading minors are all positive",
+            ),
+            Self::MetricTerm { term } => text(
+                format!("`{term}` with a matrix does not go with `metrics(...)` in this version"),
+                "equations stand in orthonormal bases of the metrics, in which its entries are in general irrational",
+                "write a scalar, or state the model in orthonormal bases and leave out `metrics(...)`",
+            ),
+            Self::MetricForm { form } => text(
+                format!("`{form}` does not go with `metrics(...)` in this version"),
+                "equations stand in orthonormal bases of the metrics, and this form depends on the bases",
+                "write the potential through `q`, `det`, `I1..In`, `norm(x)` and traces of powers of `G` or of `Ct`",
+            ),
+            Self::ConstraintBeside { key } => text(
+                format!("`constraint` does not go with `{key}` in this version"),
+                match *key {
+                    "metrics(...)" => {
+                        "the group of a constraint is that of orthonormal bases, and points stand in others"
+                    }
+                    _ => "under a constraint momenta are restricted, and T is known only from velocities",
+                },
+                match *key {
+                    "metrics(...)" => "state the model in orthonormal bases and leave out `metrics(...)`",
+                    _ => "state the energy in `kinetic(...)`",
+                },
+            ),
+            Self::VanishingTerm { term, constraint, velocities } => text(
+                format!("`{term}` is zero under `constraint = {constraint}`"),
+                format!("affine velocities are {velocities} there, and it is zero on all of them"),
+                format!("remove `{term}` or the constraint"),
+            ),
+            Self::ConstrainedMassMatrix { term, constraint, group } => text(
+                format!("`{term}` has no constant mass matrix under `constraint = {constraint}`"),
+                format!(
+                    "phi_dot = phi Oh with {group}: as a form of Oh it depends on phi; only `dalembert` that is `rigid`, \
+                     where phi drops out, or `isochoric`, where a multiplier keeps det phi = 1, goes with a constraint"
+                ),
+                match *term {
+                    "flat_tensor" => "write `body_tensor`, which is constant in Oh, or remove the constraint",
+                    _ => "write `body_inertia`, which is constant in Oh, or remove the constraint",
+                },
+            ),
+            Self::ConstrainedPotential { defect, constraint, group } => text(
+                format!("this potential {defect} under `constraint = {constraint}`"),
+                match *constraint {
+                    "rigid" => format!("{group}: q = 0, det phi = 1, and G and Ct are the identity"),
+                    "conformal" => format!("{group}: G and Ct are exp(2q) times the identity"),
+                    _ => format!("{group}: q = 0 and D = 1"),
+                },
+                match *defect {
+                    "is constant" => "remove the potential or the constraint",
+                    _ => "write a potential that is finite there, or remove the constraint",
+                },
             ),
             Self::Degenerate { eigenvalue, numbers, directions } => text(
                 format!(
@@ -373,6 +500,21 @@ impl Diagnostic {
                      A is `casimir2`, B is `casimir1_squared`"
                 ),
             ),
+            Self::DegenerateHamiltonian { eigenvalue, numbers, directions } => {
+                let value = if numbers == "0" { eigenvalue.clone() } else { equated(eigenvalue, numbers) };
+                let directions = directions.to_string().replace("velocities", "momenta");
+                text(
+                    format!("the Hamiltonian is degenerate: {value} = 0 on {directions}"),
+                    format!(
+                        "the velocity O = a X + b tr(X) 1 - c (X - X^T) has the eigenvalue {eigenvalue} there; it does \
+                         not determine the momentum X"
+                    ),
+                    format!(
+                        "change a coefficient so that {eigenvalue} is not zero; a is `casimir2`, b `casimir1_squared`, \
+                         c `vorticity_squared` or `spin_squared`"
+                    ),
+                )
+            }
             Self::DegenerateTensor { terms, velocity, kernel } => text(
                 format!("the kinetic energy is degenerate: `{terms}` vanishes on {velocity} = {kernel}"),
                 "the Legendre transformation X[B,A] = K[(A,B),(C,D)] O[C,D] (4.6), (4.8) gives zero momentum \

@@ -38,9 +38,28 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
         _ => quote!(let drift = #rt::Vector::<#n>::zeros();),
     };
     let spin = own_spin(context);
+    let velocity = match context.model.metrics {
+        None => quote!(#rt::Model::velocity(self, point)),
+        Some(_) => quote!(bases::<#f64>().velocity(&#rt::Model::velocity(self, stated))),
+    };
+    let stated = (context.model.metrics.is_some() && form == ClosedForm::Straight)
+        .then(|| quote!(let stated = point;));
+    // A straight line reads the velocity alone, and the momentum of a free centre.
+    let inward = (form != ClosedForm::Straight || drifts).then(|| context.inward());
+    let on_geodesic = context.with_metrics(quote! {
+        fn on_geodesic(
+            &self,
+            geodesic: &#rt::Geodesic<#n>,
+            t: #f64,
+            start: &Self::Point<#f64>,
+        ) -> Self::Point<#f64> {
+            let point = geodesic.point(t, &#rt::Phase::rebased(start, &bases()));
+            #rt::Phase::rebased(&point, &bases::<#f64>().reversed())
+        }
+    });
     let motion = match (form, &context.model.isotropic) {
         (ClosedForm::Straight, _) | (_, None) => quote! {
-            let motion = #rt::Motion::straight(#rt::Model::velocity(self, point).phi_dot);
+            let motion = #rt::Motion::straight(#velocity.phi_dot);
         },
         (affine, Some(program)) => {
             let Body { lets, results } = context.double(program);
@@ -48,15 +67,21 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
                 ClosedForm::Body => quote!(body),
                 _ => quote!(space),
             };
-            quote!(#lets let motion = #rt::Motion::#make(&#spin, [#(#results),*]);)
+            let (quadratic, cubic) = results.split_at(3.min(results.len()));
+            let squared = cubic.first().map(|casimir3| quote!(.with_square(&#spin, #casimir3)));
+            quote!(#lets let motion = #rt::Motion::#make(&#spin, [#(#quadratic),*])#squared;)
         }
     };
     quote! {
         fn geodesic(&self, t0: #f64, point: &Self::Point<#f64>) -> ::core::option::Option<#rt::Geodesic<#n>> {
+            #stated
+            #inward
             #rest
             #drift
             #motion
             ::core::option::Option::Some(#rt::Geodesic { t0, motion, drift })
         }
+
+        #on_geodesic
     }
 }

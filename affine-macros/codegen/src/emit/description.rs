@@ -37,6 +37,11 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         Some((p, 0)) => format!("The kinetic metric is positive definite, ({p}, 0)."),
         Some((0, q)) => format!("The kinetic metric is negative definite, (0, {q})."),
         Some((p, q)) => format!("The kinetic metric is indefinite, ({p}, {q})."),
+        None if model.velocity_side.is_none() => {
+            "The velocity is quadratic in the momentum: the kinetic metric \
+            depends on the momentum, and is singular on a hypersurface of it."
+                .to_owned()
+        }
         None => "The signature of the kinetic metric depends on the fields.".to_owned(),
     });
     lines.push(String::new());
@@ -46,12 +51,29 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         Group::Metric => format!("O({n})"),
         Group::Less => format!("a proper subgroup of O({n})"),
     };
-    let invariant = if model.has_potential { "The kinetic energy is invariant" } else { "Invariant" };
+    let invariant = match (model.has_potential, model.constraint) {
+        (_, Some(_)) => "Without its constraint the kinetic energy is invariant",
+        (true, None) => "The kinetic energy is invariant",
+        (false, None) => "Invariant",
+    };
     lines.push(format!(
         "{invariant} under {} in space and {} in the body.",
         group(model.groups.0),
         group(model.groups.1)
     ));
+    if let Some(constraint) = model.constraint {
+        let survives = |g: Group| match g {
+            Group::Affine => constraint.name(n),
+            Group::Metric => format!("SO({n})"),
+            Group::Less => format!("a proper subgroup of SO({n})"),
+        };
+        lines.push(format!(
+            "The motion is confined to {}, on which {} in space and {} in the body act.",
+            constraint.name(n),
+            survives(model.groups.0),
+            survives(model.groups.1)
+        ));
+    }
     lines.push(String::new());
     lines.push(format!("Conserved: {}.", names(&model.conserved)));
     if model.translation.is_some() {
@@ -129,6 +151,10 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         quote!(&[#(#entries),*])
     };
     let (full, reduced) = (groups(&model.full.groups), groups(&model.reduced.groups));
+    let constraint = match context.constraint() {
+        Some(group) => quote!(::core::option::Option::Some(#group)),
+        None => quote!(::core::option::Option::None),
+    };
     let full_operations = operations(context, model.full.program.operations());
     let reduced_operations = operations(context, model.reduced.program.operations());
     quote! {
@@ -145,6 +171,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
             reduced: #reduced,
             full_operations: #full_operations,
             reduced_operations: #reduced_operations,
+            constraint: #constraint,
             left_out: &[#(#left_out),*],
         }
     }

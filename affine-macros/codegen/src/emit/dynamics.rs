@@ -3,9 +3,11 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use crate::derive::VelocitySide;
 use crate::ir::Program;
 use crate::mechanics::charts::Linear;
 use crate::mechanics::kinetic::Frame;
+use crate::mechanics::potential::TIME;
 
 use super::body::Body;
 use super::points::{affine_velocity, components, wrapper};
@@ -57,20 +59,37 @@ fn velocity(context: &Context) -> TokenStream {
         }
         _ => (TokenStream::new(), quote!(#rt::Vector::<#n, #t>::zeros())),
     };
+    let inward = context.inward();
+    let velocity = quote!(#rt::Velocity { x_dot: #x_dot, phi_dot });
+    let velocity = match context.model.metrics {
+        Some(_) => quote!(bases::<#t>().reversed().velocity(&#velocity)),
+        None => velocity,
+    };
     quote! {
         fn velocity<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
+            #inward
             let [#(#rows),*] = #rt::rows(&#spin);
             #lets
             let phi_dot = #phi_dot;
             #mass
-            #rt::Velocity { x_dot: #x_dot, phi_dot }
+            #velocity
         }
     }
 }
 
 fn kinetic_energy(context: &Context) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
-    let program = &context.model.kinetic_energy;
+    let Some(VelocitySide { kinetic_energy: program, .. }) = &context.model.velocity_side else {
+        return quote! {
+            fn kinetic_energy<#t: #rt::Real>(
+                &self,
+                _phi: &#rt::Matrix<#n, #t>,
+                _velocity: &#rt::Velocity<#n, #t>,
+            ) -> #t {
+                const { #rt::no_kinetic_energy_of_velocities() }
+            }
+        };
+    };
     let used = inputs(program);
     let names = components(context.model.frame.velocity_name(), context.model.dim);
     let rows = names.iter().map(|row| pattern(row, &used));
@@ -91,12 +110,19 @@ fn kinetic_energy(context: &Context) -> TokenStream {
     };
     let body = context.generic(program);
     let (lets, energy) = (&body.lets, body.result());
+    let inward = context.with_metrics(quote! {
+        let velocity = &bases::<#t>().velocity(velocity);
+    });
+    let phi_inward = (reads_phi && context.model.metrics.is_some())
+        .then(|| quote!(let phi = &bases::<#t>().placement(phi);));
+    let inward = quote!(#inward #phi_inward);
     quote! {
         fn kinetic_energy<#t: #rt::Real>(
             &self,
             #phi: &#rt::Matrix<#n, #t>,
             velocity: &#rt::Velocity<#n, #t>,
         ) -> #t {
+            #inward
             let phi_dot = velocity.phi_dot;
             let [#(#rows),*] = #rt::rows(&#o);
             #centre
@@ -111,7 +137,6 @@ fn bind_point(context: &Context, program: &Program) -> TokenStream {
     let rt = &context.names.rt;
     let used = inputs(program);
     let spin = own_spin(context);
-    let n = context.model.dim;
     let mut lets = TokenStream::new();
     for (group, names) in &context.model.full.groups {
         if !names.iter().any(|name| used.contains(&name.as_str())) {
@@ -124,34 +149,63 @@ fn bind_point(context: &Context, program: &Program) -> TokenStream {
             "p_hat" => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
             _ => quote!(#rt::rows(&#spin)),
         };
-        lets.extend(if names.len() == n {
-            let bound = pattern(names, &used);
-            quote!(let #bound = #value;)
-        } else {
-            let rows = names.chunks(n).map(|row| pattern(row, &used));
-            quote!(let [#(#rows),*] = #value;)
-        });
+        lets.extend(bind_group(context, group, names, &used, &value));
     }
     lets
+}
+
+/// Binds the components of a vector or a matrix that are both in a group of the array and used.
+fn bind_group(
+    context: &Context,
+    group: &str,
+    names: &[String],
+    used: &[&str],
+    value: &TokenStream,
+) -> TokenStream {
+    let stem = match group {
+        "x" | "p" | "p_hat" => {
+            let bound = pattern(names, used);
+            return quote!(let #bound = #value;);
+        }
+        "phi" => "phi",
+        _ => context.model.frame.momentum_name(),
+    };
+    let used: Vec<&str> = used.iter().copied().filter(|name| names.iter().any(|n| n == name)).collect();
+    let rows = components(stem, context.model.dim);
+    let rows = rows.iter().map(|row| pattern(row, &used));
+    quote!(let [#(#rows),*] = #value;)
 }
 
 fn hamiltonian(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.hamiltonian;
     let bound = bind_point(context, program);
-    let stretch = inputs(program)
-        .contains(&"q")
-        .then(|| quote!(let q = #rt::mean_log_stretch(#rt::Phase::phi(point));));
+    let used = inputs(program);
+    let stretch = used.contains(&"q").then(|| quote!(let q = #rt::mean_log_stretch(#rt::Phase::phi(point));));
+    let names: Vec<String> = (1..=context.model.dim).map(|a| format!("q_{a}")).collect();
+    let stretches = names.iter().any(|name| used.contains(&name.as_str())).then(|| {
+        let bound = pattern(&names, &used);
+        quote!(let #bound = #rt::log_stretches(#rt::Phase::phi(point));)
+    });
+    let time = time(program);
     let body = context.generic(program);
     let (lets, energy) = (&body.lets, body.result());
+    let inward = context.inward();
     quote! {
-        fn hamiltonian<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #t {
+        fn hamiltonian<#t: #rt::Real>(&self, #time: #t, point: &Self::Point<#t>) -> #t {
+            #inward
             #bound
             #stretch
+            #stretches
             #lets
             #energy
         }
     }
+}
+
+/// Name of the time as a parameter: an idle one where the program does not read it.
+pub(super) fn time(program: &Program) -> TokenStream {
+    if inputs(program).contains(&TIME) { quote!(t) } else { quote!(_t) }
 }
 
 /// `flatten` and `unflatten`.
@@ -171,13 +225,8 @@ fn flat(context: &Context) -> TokenStream {
             "p_hat" => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
             _ => quote!(#rt::rows(&#spin)),
         };
-        let names = identifiers(names);
-        bound.extend(if names.len() == n {
-            quote!(let [#(#names),*] = #value;)
-        } else {
-            let rows = names.chunks(n).map(|row| quote!([#(#row),*]));
-            quote!(let [#(#rows),*] = #value;)
-        });
+        let used: Vec<&str> = names.iter().map(String::as_str).collect();
+        bound.extend(bind_group(context, group, names, &used, &value));
     }
     let rows = |stem: &str| {
         let rows = components(stem, n).into_iter().map(|row| {
@@ -191,6 +240,7 @@ fn flat(context: &Context) -> TokenStream {
         quote!(#rt::vector([#(#names),*]))
     };
     let (phi, own, wrap) = (rows("phi"), rows(context.model.frame.momentum_name()), wrapper(context));
+    let dependent = context.dependent(&context.model.full);
     let linear = context.model.full.groups.iter().any(|(name, _)| *name == "p_hat");
     let linear = if linear { Linear::Body } else { Linear::Space };
     let centre = match (context.model.translation, linear) {
@@ -204,17 +254,21 @@ fn flat(context: &Context) -> TokenStream {
             quote!(let centre = #rt::Centre { x: #x, p: #rt::inverse(&phi).tr_mul(&#p_hat) };)
         }
     };
+    let inward = context.inward();
+    let point = context.outward(&quote!(#t), quote!(#rt::point(phi, #wrap(#own), centre)));
     quote! {
         fn flatten<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> Self::Full<#t> {
+            #inward
             #bound
             [#(#names),*]
         }
 
         fn unflatten<#t: #rt::Real>(&self, full: &Self::Full<#t>) -> Self::Point<#t> {
             let [#(#names),*] = *full;
+            #dependent
             let phi = #phi;
             #centre
-            #rt::point(phi, #wrap(#own), centre)
+            #point
         }
     }
 }
@@ -224,10 +278,11 @@ fn hamilton_equations(context: &Context) -> TokenStream {
     let program = &context.model.full.program;
     let all: Vec<String> = context.model.full.groups.iter().flat_map(|(_, names)| names.clone()).collect();
     let bound = pattern(&all, &inputs(program));
+    let time = time(program);
     let Body { lets, results } = context.generic(program);
     quote! {
         #[inline]
-        fn hamilton_equations<#t: #rt::Scalar>(&self, _t: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
+        fn hamilton_equations<#t: #rt::Scalar>(&self, #time: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
             let #bound = *full;
             #lets
             [#(#results),*]

@@ -3,6 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::derive::VelocitySide;
+use crate::ir::Program;
 use crate::mechanics::kinetic::Frame;
 
 use super::body::Body;
@@ -14,8 +16,6 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
     let visibility = &context.spec.item.visibility;
     let (generics, types, clause) = context.generics();
     let point = context.point(&quote!(#rt::f64));
-    let legendre = legendre(context);
-    let momentum_of_centre = momentum_of_centre(context);
     let moving = context.model.translation.is_some();
     let (x, p, x_dot, centre) = match moving {
         false => (quote!(), quote!(), quote!(), quote!(#rt::Pinned)),
@@ -30,19 +30,57 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
         false => ("`phi`", "`phi_dot`", "the affine spin"),
         true => ("`(x, phi)`", "`(x_dot, phi_dot)`", "`p` and the affine spin"),
     };
+    let Confinement { off, from_momentum, tangent, from_velocity } = confinement(context, &centre);
     let at_momentum = format!(
         " The phase point at the placement {q} with {m}: `Spatial(sigma)`, `Comoving(sigma_hat)` or `TwoPoint(pi)`."
     );
-    let at_velocity = format!(
-        " The phase point at the placement {q} with the velocity {v}: the Legendre transformation \
-         `X = (dT/dO)^T` (4.6), (4.8)."
-    );
+    let at_velocity = match &context.model.velocity_side {
+        None => without_velocity(context, &point),
+        Some(VelocitySide { legendre: program, .. }) => {
+            let legendre = legendre(context, program);
+            let momentum_of_centre = momentum_of_centre(context);
+            let inward_centre =
+                moving.then(|| quote!(let (x, x_dot) = (bases.space * x, bases.space * x_dot);));
+            let inward = context.with_metrics(quote! {
+                let bases = bases::<#rt::f64>();
+                #inward_centre
+                let (phi, phi_dot) = (bases.placement(&phi), bases.placement(&phi_dot));
+            });
+            let outward = context
+                .with_metrics(quote!(.map(|point: #point| #rt::Phase::rebased(&point, &bases.reversed()))));
+            let doc = format!(
+                " The phase point at the placement {q} with the velocity {v}: the Legendre transformation \
+                 `X = (dT/dO)^T` (4.6), (4.8)."
+            );
+            quote! {
+                #[doc = #doc]
+                ///
+                /// # Errors
+                /// `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a velocity.
+                #off
+                #visibility fn at_velocity(
+                    &self,
+                    #x
+                    phi: #rt::Matrix<#n>,
+                    #x_dot
+                    phi_dot: #rt::Matrix<#n>,
+                ) -> #rt::Result<#point> {
+                    #inward
+                    #tangent
+                    #legendre
+                    #momentum_of_centre
+                    #from_velocity #outward
+                }
+            }
+        }
+    };
     quote! {
         impl #generics #prepared #types #clause {
             #[doc = #at_momentum]
             ///
             /// # Errors
             /// `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a momentum.
+            #off
             #visibility fn at_momentum(
                 &self,
                 #x
@@ -50,35 +88,97 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
                 #p
                 spin: impl #rt::Momentum<#n, #rt::f64>,
             ) -> #rt::Result<#point> {
-                #rt::phase_point(phi, spin, #centre)
+                #from_momentum
             }
 
-            #[doc = #at_velocity]
-            ///
-            /// # Errors
-            /// `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a velocity.
-            #visibility fn at_velocity(
-                &self,
-                #x
-                phi: #rt::Matrix<#n>,
-                #x_dot
-                phi_dot: #rt::Matrix<#n>,
-            ) -> #rt::Result<#point> {
-                #legendre
-                #momentum_of_centre
-                #rt::phase_point(phi, spin, #centre)
-            }
+            #at_velocity
         }
     }
 }
 
+/// `at_velocity` of a model whose velocities do not determine the momentum: its call does not compile, and the bound,
+/// which nothing meets, says why.
+fn without_velocity(context: &Context, point: &TokenStream) -> TokenStream {
+    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
+    let (_, types, _) = context.generics();
+    let visibility = &context.spec.item.visibility;
+    // A lifetime keeps the compiler from judging the bound before the method is called.
+    let of_centre =
+        |name: TokenStream, moves: bool| if moves { quote!(#name: #rt::Vector<#n>,) } else { quote!() };
+    let moves = context.model.translation.is_some();
+    let (x, x_dot) = (of_centre(quote!(_x), moves), of_centre(quote!(_x_dot), moves));
+    quote! {
+        /// Does not compile when called: with `C(3)` in `H` the velocity is quadratic in the momentum, and neither
+        /// determines it nor reaches every value; `at_momentum` makes the points.
+        ///
+        /// # Errors
+        /// None: it cannot be called.
+        #visibility fn at_velocity(
+            &self,
+            #x
+            _phi: #rt::Matrix<#n>,
+            #x_dot
+            _phi_dot: #rt::Matrix<#n>,
+        ) -> #rt::Result<#point>
+        where
+            for<'never> #prepared #types: #rt::VelocityDeterminesMomentum,
+        {
+            #rt::VelocityDeterminesMomentum::never(self)
+        }
+    }
+}
+
+/// How points are made and what a constraint asks of them.
+struct Confinement {
+    /// A line of documentation.
+    off: TokenStream,
+    /// The point with the momentum `spin`.
+    from_momentum: TokenStream,
+    /// What has to hold before a velocity is looked at.
+    tangent: TokenStream,
+    /// The point with the momentum of a velocity.
+    from_velocity: TokenStream,
+}
+
+fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
+    let rt = &context.names.rt;
+    let free = quote!(#rt::phase_point(phi, spin, #centre));
+    let Some(group) = context.constraint() else {
+        return Confinement {
+            off: TokenStream::new(),
+            from_momentum: free.clone(),
+            tangent: TokenStream::new(),
+            from_velocity: free,
+        };
+    };
+    let tangent = quote! {
+        #rt::on_the_group(#group, &phi)?;
+        #rt::in_the_algebra(#group, &phi, &phi_dot)?;
+    };
+    let off = quote! {
+        ///
+        /// `OffConstraint` where placement, velocity or momentum violates the constraint by more than rounding.
+    };
+    if context.model.projected {
+        let confined = quote!(#rt::confined_point(#group, phi, spin, #centre));
+        return Confinement { off, from_momentum: confined.clone(), tangent, from_velocity: confined };
+    }
+    let from_momentum = quote! {
+        #rt::on_the_group(#group, &phi)?;
+        let point = #free?;
+        #rt::in_the_algebra(#group, &phi, &#rt::Model::velocity(self, &point).phi_dot)?;
+        ::core::result::Result::Ok(point)
+    };
+    Confinement { off, from_momentum, tangent, from_velocity: free }
+}
+
 /// `O -> X` in the model's frame.
-fn legendre(context: &Context) -> TokenStream {
+fn legendre(context: &Context, program: &Program) -> TokenStream {
     let rt = &context.names.rt;
     let components = components(context.model.frame.velocity_name(), context.model.dim);
-    let used = inputs(&context.model.legendre);
+    let used = inputs(program);
     let rows = components.iter().map(|row| pattern(row, &used));
-    let Body { lets, results } = context.double(&context.model.legendre);
+    let Body { lets, results } = context.double(program);
     let rows_out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
     let velocity = affine_velocity(context, &quote!(&phi));
     let wrapper = wrapper(context);

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::derive::{Condition, NumericBlock};
+use crate::derive::{Condition, NumericBlock, Relation};
 use crate::lower::FIELD;
 
 use super::body::{Body, Number, Scope, body};
@@ -46,7 +46,7 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let conditions = conditions(context, rt);
     let blocks: TokenStream =
         context.model.numeric_blocks.iter().map(|block| numeric_block(block, rt)).collect();
-    let Body { lets, results } = over_fields(&context.model.coefficients);
+    let Body { lets, results } = over_fields(rt, &context.model.coefficients);
     quote! {
         impl #generics #model #types #clause {
             /// Checks the values of the fields and computes the coefficients of the equations.
@@ -66,7 +66,7 @@ pub(super) fn method(context: &Context) -> TokenStream {
 }
 
 /// A program over the fields, and over inverse blocks computed before.
-fn over_fields(program: &Program) -> Body {
+fn over_fields(rt: &Ident, program: &Program) -> Body {
     let input = |name: &str| match name.strip_prefix(FIELD) {
         Some(field) => {
             let field = format_ident!("{field}");
@@ -77,12 +77,12 @@ fn over_fields(program: &Program) -> Body {
             quote!(#name)
         }
     };
-    body(program, &Scope { number: Number::Double, input: &input })
+    body(program, &Scope { number: Number::Double, input: &input, rt })
 }
 
 /// Eigenvalues share one threshold, a mass has its own.
 fn conditions(context: &Context, rt: &Ident) -> TokenStream {
-    let is_mass = |c: &&Condition| c.name == "m";
+    let is_mass = |c: &&Condition| matches!(c.name, "m" | "1/m");
     let list = |conditions: Vec<&Condition>| {
         if conditions.is_empty() {
             return TokenStream::new();
@@ -98,17 +98,18 @@ fn conditions(context: &Context, rt: &Ident) -> TokenStream {
 fn condition(condition: &Condition, rt: &Ident) -> TokenStream {
     let positive = condition.positive;
     let text = format!("{} {} 0", condition.name, if positive { ">" } else { "!=" });
-    let reason = format!(
-        "on {} the momentum is {} times the velocity; {}",
-        condition.directions,
-        condition.name,
-        if positive {
-            "choose fields that make it positive"
-        } else {
-            "choose fields that keep it away from zero, or the momentum does not determine the velocity"
-        }
-    );
-    let Body { lets, results } = over_fields(&condition.program);
+    let (given, sought) = match condition.relation {
+        Relation::MomentumOfVelocity => ("velocity", "momentum"),
+        Relation::VelocityOfMomentum => ("momentum", "velocity"),
+    };
+    let remedy = if positive {
+        "choose fields that make it positive".to_owned()
+    } else {
+        format!("choose fields that keep it away from zero, or the {sought} does not determine the {given}")
+    };
+    let reason =
+        format!("on {} the {sought} is {} times the {given}; {remedy}", condition.directions, condition.name);
+    let Body { lets, results } = over_fields(rt, &condition.program);
     let (value, sizes) = results.split_first().map_or((quote!(0.0), &[][..]), |(v, s)| (v.clone(), s));
     quote! {
         {
@@ -125,7 +126,7 @@ fn condition(condition: &Condition, rt: &Ident) -> TokenStream {
 }
 
 fn numeric_block(block: &NumericBlock, rt: &Ident) -> TokenStream {
-    let Body { lets, results } = over_fields(&block.program);
+    let Body { lets, results } = over_fields(rt, &block.program);
     let names = block.inverse.iter().map(|name| format_ident!("{name}"));
     let (size, positive) = (number(block.size), block.positive);
     let count = number(block.inverse.len());

@@ -8,7 +8,9 @@ use crate::mechanics::kinetic::Frame;
 use crate::mechanics::reduce::{Commuting, Layout};
 
 use super::body::Body;
+use super::dynamics::time;
 use super::points::components;
+use super::separated;
 use super::{Context, identifiers, inputs, number, pattern};
 
 /// What one trajectory needs besides its reduced state.
@@ -29,6 +31,10 @@ struct Parts {
     fixed: Vec<String>,
     /// Generator of the rotation that commutes.
     whirl: Option<Frame>,
+    /// The dilatation moves in closed form.
+    dilatation: bool,
+    /// `1/D` is state.
+    carried: bool,
     /// Coefficients of the reduced equations.
     coefficients: usize,
 }
@@ -52,6 +58,8 @@ impl Parts {
             momentum: reduction.layout == Layout::Constant,
             fixed: context.model.fixed.clone(),
             whirl,
+            dilatation: reduction.separation.is_some(),
+            carried: reduction.carried,
             coefficients: context.model.trajectory.outputs.len(),
         }
     }
@@ -88,6 +96,11 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
         quote!(whirl: #rt::Matrix<#n, #t>),
     );
     field(
+        parts.dilatation,
+        "The motion of `q = ln(det phi)/n` and its momentum `tr Sigma`.",
+        quote!(dilatation: #rt::Breathing<#t>),
+    );
+    field(
         parts.coefficients > 0,
         "Coefficients of the reduced equations.",
         quote!(coefficients: [#t; #coefficients]),
@@ -108,7 +121,8 @@ pub(super) fn methods(context: &Context) -> TokenStream {
     let reduce = reduce(context, &parts);
     let equations = reduced_equations(context, &parts);
     let expand = expand(context, &parts);
-    quote!(#reduce #equations #expand)
+    let renewed = parts.carried.then(|| renewed(context));
+    quote!(#reduce #equations #expand #renewed)
 }
 
 /// The affine momentum of the reduced chart at `point`.
@@ -117,8 +131,17 @@ fn chart_momentum(context: &Context) -> TokenStream {
     match context.model.reduction.chart.momentum {
         Momentum::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
         Momentum::Space => quote!(#rt::Phase::sigma(point).0.0),
-        Momentum::Total => quote!(#rt::total_affine_momentum(point)),
+        Momentum::Total => projected(context, quote!(#rt::total_affine_momentum(point))),
         Momentum::Canonical => quote!(#rt::Phase::pi(point).0.0),
+    }
+}
+
+/// A momentum, projected under a constraint.
+fn projected(context: &Context, momentum: TokenStream) -> TokenStream {
+    let rt = &context.names.rt;
+    match context.constraint().filter(|_| context.model.projected) {
+        Some(group) => quote!(#rt::projected(#group, &(#momentum))),
+        None => momentum,
     }
 }
 
@@ -140,7 +163,13 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
             _ => quote!(let turn = #rt::turn(&p, ::core::option::Option::None);),
         });
     }
-    lets.extend(bind_state(context, parts, moving));
+    lets.extend(match parts.dilatation {
+        true => separated::split(context),
+        false => bind_state(context, parts, moving),
+    });
+    if parts.carried {
+        lets.extend(quote!(let inverse_dilatation = #t::one() / #rt::dilatation(#rt::Phase::phi(point));));
+    }
     let body = context.generic(&context.model.trajectory);
     let (trajectory, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
@@ -161,17 +190,20 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
     field(parts.momentum, quote!(momentum));
     field(!parts.fixed.is_empty(), quote!(fixed: [#(#fixed),*]));
     field(parts.whirl.is_some(), quote!(whirl));
+    field(parts.dilatation, quote!(dilatation));
     field(parts.coefficients > 0, quote!(coefficients: [#(#results),*]));
     if fields.is_empty() {
         fields = quote!(scalar: ::core::marker::PhantomData);
     }
-    let origin = if parts.origin { quote!(t0) } else { quote!(_t0) };
+    let origin = if parts.origin || parts.dilatation { quote!(t0) } else { quote!(_t0) };
+    let inward = context.inward();
     quote! {
         fn reduce<#t: #rt::Real>(
             &self,
             #origin: #t,
             point: &Self::Point<#t>,
         ) -> (Self::Reduced<#t>, Self::Constants<#t>) {
+            #inward
             #lets
             #trajectory
             #whirl
@@ -261,11 +293,12 @@ fn reduced_equations(context: &Context, parts: &Parts) -> TokenStream {
     let state = if reads_state { quote!(reduced) } else { quote!(_reduced) };
     let bind = reads_state.then(|| quote!(let #bound = *reduced;));
     let Body { lets, results } = context.generic(program);
+    let time = time(program);
     quote! {
         #[inline]
         fn reduced_equations<#t: #rt::Scalar>(
             &self,
-            _t: #t,
+            #time: #t,
             #constants: &Self::Constants<#t>,
             #state: &Self::Reduced<#t>,
         ) -> Self::Reduced<#t> {
@@ -281,8 +314,10 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
     let chart = &context.model.reduction.chart;
     let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
-    let names = identifiers(&all);
-    let mut lets = quote!(let [#(#names),*] = *reduced;);
+    let needed: Vec<&str> =
+        all.iter().map(String::as_str).filter(|name| *name != "inverse_dilatation").collect();
+    let bound = pattern(&all, &needed);
+    let mut lets = quote!(let #bound = *reduced;);
     let rows = |stem: &str| {
         let rows = components(stem, n).into_iter().map(|row| {
             let row = identifiers(&row);
@@ -293,8 +328,12 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
     let back = |value: TokenStream| {
         if parts.turn { quote!(constants.turn.tr_mul(&#value)) } else { value }
     };
-    let phi = back(rows("phi"));
-    lets.extend(quote!(let phi = #phi;));
+    if parts.dilatation {
+        lets.extend(separated::placement(context));
+    } else {
+        let phi = back(rows("phi"));
+        lets.extend(quote!(let phi = #phi;));
+    }
     if parts.origin {
         lets.extend(quote!(let elapsed = t - constants.t0;));
     }
@@ -310,13 +349,19 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
         let components = (1..=n).map(|i| format_ident!("p_{i}"));
         lets.extend(quote!(let p = #rt::vector([#(#components),*]);));
     }
-    lets.extend(expanded_momentum(context, parts, &rows(chart.momentum.name())));
+    lets.extend(match parts.dilatation {
+        true => separated::momentum(context, &parts.fixed),
+        false => expanded_momentum(context, parts, &rows(chart.momentum.name())),
+    });
     let spin = match (parts.whirl, chart.momentum) {
         (Some(Frame::Body), Momentum::Body) => quote!(#rt::Comoving(whirl.tr_mul(&momentum) * whirl)),
         (Some(Frame::Space), Momentum::Space) => quote!(#rt::Spatial(whirl * momentum * whirl.transpose())),
         (_, Momentum::Body) => quote!(#rt::Comoving(momentum)),
         (_, Momentum::Space) => quote!(#rt::Spatial(momentum)),
-        (_, Momentum::Total) => quote!(#rt::Spatial(momentum - x * #p.transpose())),
+        (_, Momentum::Total) => {
+            let spin = projected(context, quote!(momentum - x * #p.transpose()));
+            quote!(#rt::Spatial(#spin))
+        }
         (_, Momentum::Canonical) => quote!(#rt::TwoPoint(momentum)),
     };
     if let Some(frame) = parts.whirl {
@@ -331,9 +376,15 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
         (false, true) => quote!(#rt::Centre { x, p: constants.p }),
         (false, false) => quote!(#rt::Pinned),
     };
-    let time = if parts.origin { quote!(t) } else { quote!(_t) };
-    let reads = parts.origin || parts.turn || parts.linear || parts.momentum || !parts.fixed.is_empty();
+    let time = if parts.origin || parts.dilatation { quote!(t) } else { quote!(_t) };
+    let reads = parts.origin
+        || parts.dilatation
+        || parts.turn
+        || parts.linear
+        || parts.momentum
+        || !parts.fixed.is_empty();
     let constants = if reads { quote!(constants) } else { quote!(_constants) };
+    let point = context.outward(&quote!(#t), quote!(#rt::point(phi, #spin, #centre)));
     quote! {
         fn expand<#t: #rt::Real>(
             &self,
@@ -342,7 +393,29 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
             reduced: &Self::Reduced<#t>,
         ) -> Self::Point<#t> {
             #lets
-            #rt::point(phi, #spin, #centre)
+            #point
+        }
+    }
+}
+
+/// The state with `1/D` from its placement.
+fn renewed(context: &Context) -> TokenStream {
+    let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
+    let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let names = identifiers(&all);
+    let rows = components("phi", n).into_iter().map(|row| {
+        let row = identifiers(&row);
+        quote!([#(#row),*])
+    });
+    let kept: Vec<&str> =
+        all.iter().map(String::as_str).filter(|name| *name != "inverse_dilatation").collect();
+    let bound = pattern(&all, &kept);
+    quote! {
+        fn renewed<#t: #rt::Real>(&self, reduced: &Self::Reduced<#t>) -> Self::Reduced<#t> {
+            let #bound = *reduced;
+            let phi = #rt::matrix([#(#rows),*]);
+            let inverse_dilatation = #t::one() / #rt::dilatation(&phi);
+            [#(#names),*]
         }
     }
 }
@@ -358,6 +431,7 @@ fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> To
         let fixed = identifiers(&parts.fixed);
         lets.extend(quote!(let [#(#fixed),*] = constants.fixed;));
     }
+    lets.extend(context.dependent(&context.model.reduced));
     let momentum = match (parts.turn, chart.momentum) {
         (false, _) | (_, Momentum::Body) => quote!(#rows),
         (true, Momentum::Canonical) => quote!(#rows * constants.turn),

@@ -1,7 +1,8 @@
 //! Charts of phase space: which momenta stand beside `x` and `phi`.
 
-use crate::algebra::{Arena, Expr, Matrix};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 
+use super::constraint::Constraint;
 use super::kinetic::Frame;
 
 /// The affine momentum of a chart.
@@ -31,6 +32,8 @@ pub enum Linear {
 pub struct Chart {
     /// Dimension of space.
     pub dim: usize,
+    /// The group that the motion is confined to, for which the affine momentum is projected.
+    pub confined: Option<Constraint>,
     /// Which affine momentum.
     pub momentum: Momentum,
     /// Which linear momentum; `None` without translation.
@@ -56,6 +59,8 @@ pub enum Coordinate {
     P(usize),
     /// Entry of the affine momentum.
     M(usize, usize),
+    /// A function of the others that is integrated beside them.
+    Carried(Expr),
 }
 
 impl Momentum {
@@ -114,7 +119,28 @@ impl Chart {
         };
         let phi = Matrix::symbols(arena, "phi", dim);
         let m = Matrix::symbols(arena, momentum.name(), dim);
-        Self { dim, momentum, linear, x, phi, p, m }
+        Self { dim, confined: None, momentum, linear, x, phi, p, m }
+    }
+
+    /// The same chart for a motion confined to a group: its affine momentum is projected.
+    #[must_use]
+    pub fn under(self, confined: Option<Constraint>) -> Self {
+        Self { confined, ..self }
+    }
+
+    /// Entries of the affine momentum that are linear in others, by those.
+    #[must_use]
+    pub fn dependent(&self) -> Vec<(Expr, Polynomial)> {
+        self.confined.map_or_else(Vec::new, |group| group.dependent(&self.m))
+    }
+
+    /// The coordinates that determine the others, group after group.
+    #[must_use]
+    pub fn independent(&self) -> Vec<Coordinate> {
+        let dependent = self.dependent();
+        let mut all = self.coordinates();
+        all.retain(|z| !dependent.iter().any(|(symbol, _)| *symbol == self.symbol(*z)));
+        all
     }
 
     /// All coordinates, group after group.
@@ -137,6 +163,7 @@ impl Chart {
             Coordinate::Phi(i, a) => self.phi.0[i][a],
             Coordinate::P(i) => self.p[i],
             Coordinate::M(a, b) => self.m.0[a][b],
+            Coordinate::Carried(symbol) => symbol,
         }
     }
 }

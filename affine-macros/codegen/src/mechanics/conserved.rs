@@ -1,12 +1,15 @@
 //! Conserved quantities by exact brackets: a candidate is listed exactly when its bracket with `H` vanishes
 //! identically.
 
+use crate::algebra::residue::Residue;
 use crate::algebra::ring::{Ring, Square, deviator, skew, sum};
 use crate::algebra::{Arena, Polynomial};
 
 use super::charts::Chart;
+use super::constraint::Constraint;
 use super::equations::gradient;
 use super::flow::{Flow, at_a_point, norm_rate, power_rate};
+use super::group_point::GroupPoint;
 
 /// What a model may conserve, named as in the runtime.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,18 +92,49 @@ impl Candidate {
             _ => true,
         }
     }
+
+    /// Is it under the constraint neither a number nor another candidate under a second name? `Sigma` is traceless for
+    /// SL(n) and `S/2` for SO(n); where `phi` is a rotation up to scale, `|Vort| = |S|` and the deviator is `S/2`.
+    fn means_something(self, group: Constraint) -> bool {
+        let deviators = matches!(
+            self,
+            Candidate::Deviator
+                | Candidate::ComovingDeviator
+                | Candidate::DeviatorCasimir2
+                | Candidate::DeviatorCasimir3
+        );
+        let casimirs = matches!(self, Candidate::Casimir1 | Candidate::Casimir2 | Candidate::Casimir3);
+        let spins = matches!(self, Candidate::AffineSpin | Candidate::ComovingAffineSpin);
+        match group {
+            Constraint::Isochoric => !deviators && self != Candidate::Casimir1,
+            Constraint::Rigid => !deviators && !casimirs && !spins && self != Candidate::VorticityNorm,
+            Constraint::Conformal => !deviators && self != Candidate::VorticityNorm,
+        }
+    }
 }
 
 /// The candidates that `h` conserves, a polynomial in the chart of the model's own frame with `p` spatial.
 #[must_use]
 pub fn conserved(arena: &Arena, chart: &Chart, h: &Polynomial) -> Vec<Candidate> {
-    let exists = |c: &Candidate| c.exists(chart.dim, chart.linear.is_some());
+    let exists = |c: &Candidate| {
+        c.exists(chart.dim, chart.linear.is_some())
+            && chart.confined.is_none_or(|group| c.means_something(group))
+    };
     still(arena, chart, h, Candidate::ALL.into_iter().filter(exists).collect())
 }
 
 /// Those of the candidates whose brackets with `h` vanish.
 fn still(arena: &Arena, chart: &Chart, h: &Polynomial, candidates: Vec<Candidate>) -> Vec<Candidate> {
     let slopes = gradient(chart, h);
+    if let Some(group) = chart.confined {
+        let mut list = candidates;
+        for point in GroupPoint::all(arena, chart, group) {
+            let value = |p: &Polynomial| -> Residue { point.evaluate(arena, p) };
+            let flow = Flow::new(chart, &slopes, &value);
+            list.retain(|c| flow.bracket(*c).iter().all(Ring::vanishes));
+        }
+        return list;
+    }
     let (residue, itself) = (at_a_point(arena), Polynomial::clone);
     let sample = Flow::new(chart, &slopes, &residue);
     let symbolic = Flow::new(chart, &slopes, &itself);

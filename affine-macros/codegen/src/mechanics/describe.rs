@@ -6,12 +6,14 @@ use crate::algebra::ring::{difference, outer, product, times, transpose};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::constraint::Constraint;
 use super::equations::{Form, System, gradient, rate, velocities};
-use super::hamiltonian::Hamiltonian;
+use super::hamiltonian::{Hamiltonian, Isotropic};
 use super::kinetic::{Coefficient, Frame, Kinetic, TermKind};
 use super::notation::{latex, plain};
 use super::potential::Potential;
 use super::reduce::{ClosedForm, Commuting, Layout, Reduction};
+use super::separation::Slope;
 
 /// A formula in both notations.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -114,6 +116,17 @@ pub fn kinetic_energy(arena: &mut Arena, kinetic: &Kinetic) -> Formula {
     sum.finish()
 }
 
+/// `T = tr(X O) - H` of a Hamiltonian with `C(3)`, on momenta: the cubic term counts twice (Euler).
+pub fn kinetic_energy_of_momenta(arena: &mut Arena, h: &Hamiltonian) -> Formula {
+    let mut doubled = h.clone();
+    if let Some(iso) = &mut doubled.isotropic {
+        iso.casimir3 = iso.casimir3.scaled(&Rational::from(2));
+    }
+    let Formula { text, latex } = kinetic_hamiltonian(arena, &doubled, &Polynomial::zero());
+    let named = |formula: String| formula.replacen('H', "T", 1);
+    Formula { text: named(text), latex: named(latex) }
+}
+
 /// `H`, through the Casimirs where it is isotropic.
 pub fn hamiltonian(
     arena: &mut Arena,
@@ -121,7 +134,9 @@ pub fn hamiltonian(
     full: &Polynomial,
     potential: Option<&Potential>,
 ) -> Formula {
-    let mut formula = kinetic_hamiltonian(arena, h, full);
+    let dependent = h.confined().map_or_else(Vec::new, |group| group.dependent(&h.momentum));
+    let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
+    let mut formula = kinetic_hamiltonian(arena, h, &full.substitute(&value));
     if let Some(u) = potential {
         formula.text += &format!(" + {}", plain(arena, u.energy));
         formula.latex += &format!(" + {}", latex(arena, u.energy));
@@ -150,10 +165,16 @@ fn kinetic_hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) ->
     );
     sum.add(
         arena,
-        &iso.casimir1_squared.scaled(&half),
+        &trace_coefficient(h, iso).scaled(&half),
         (&format!("(tr {x})^2"), &format!("(\\operatorname{{tr}}{hat})^2")),
     );
     sum.add(arena, &iso.skew.scaled(&half), skew);
+    let third = Rational::ratio(1, 3).unwrap_or(Rational::ONE);
+    sum.add(
+        arena,
+        &iso.casimir3.scaled(&third),
+        (&format!("tr({x}^3)"), &format!("\\operatorname{{tr}}{hat}^3")),
+    );
     if let Some((frame, inverse_mass)) = &h.translation {
         let body = match frame {
             Frame::Body => ("|phi^T p|^2", "|\\varphi^T p|^2"),
@@ -162,6 +183,14 @@ fn kinetic_hamiltonian(arena: &mut Arena, h: &Hamiltonian, full: &Polynomial) ->
         sum.add(arena, &inverse_mass.scaled(&half), body);
     }
     sum.finish()
+}
+
+/// The coefficient of the trace of the affine spin, which is zero where a constraint makes it traceless.
+fn trace_coefficient(h: &Hamiltonian, iso: &Isotropic) -> Polynomial {
+    match h.confined().is_some_and(Constraint::is_traceless) {
+        true => Polynomial::zero(),
+        false => iso.casimir1_squared.clone(),
+    }
 }
 
 /// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
@@ -203,7 +232,7 @@ pub fn equations(
         let force = match coordinates[0] {
             Coordinate::P(_) => forces[0],
             Coordinate::M(..) => forces[1],
-            Coordinate::X(_) | Coordinate::Phi(..) => None,
+            Coordinate::X(_) | Coordinate::Phi(..) | Coordinate::Carried(_) => None,
         };
         match (known, force) {
             (Some(k), None) => list.push(Formula {
@@ -252,6 +281,46 @@ pub fn equations(
     for (name, name_latex, text, latex) in forces.into_iter().flatten() {
         list.push(Formula { text: format!("{name} = {text}"), latex: format!("{name_latex} = {latex}") });
     }
+    match h.constraint {
+        Some(group) => under_constraint(h, group, list),
+        None => list,
+    }
+}
+
+/// The equations with what a constraint makes of the rate of the affine momentum: a projection, or a multiplier.
+fn under_constraint(h: &Hamiltonian, group: Constraint, mut list: Vec<Formula>) -> Vec<Formula> {
+    let momentum = Momentum::of(h.frame);
+    let (_, _, rate, rate_latex) = momentum_names(momentum);
+    let (left, left_latex) = (format!("{rate} = "), format!("{rate_latex} = "));
+    let mut projects = false;
+    for formula in &mut list {
+        let (Some(text), Some(latex)) =
+            (formula.text.strip_prefix(&left), formula.latex.strip_prefix(&left_latex))
+        else {
+            continue;
+        };
+        if h.confined().is_none() {
+            let (text, latex) = if text == "0" { ("", "") } else { (text, latex) };
+            let plus = if text.is_empty() { "" } else { " + " };
+            *formula = Formula {
+                text: format!("{left}{text}{plus}lambda phi^-1"),
+                latex: format!("{left_latex}{latex}{plus}\\lambda\\,\\varphi^{{-1}}"),
+            };
+        // [X, O] of a momentum that is projected and a velocity in the algebra is projected already.
+        } else if text.contains(" + ") || text.contains(" - ") || !text.contains('[') && text != "0" {
+            projects = true;
+            *formula = Formula {
+                text: format!("{left}P({text})"),
+                latex: format!("{left_latex}P\\left({latex}\\right)"),
+            };
+        }
+    }
+    let (text, latex) = match (h.confined().is_none(), projects) {
+        (true, _) => ("lambda: the multiplier of det phi = 1, left to the method", "\\det\\varphi = 1"),
+        (false, true) => group.projection(),
+        (false, false) => return list,
+    };
+    list.push(Formula { text: text.to_owned(), latex: latex.to_owned() });
     list
 }
 
@@ -364,7 +433,7 @@ fn affine_velocity(arena: &mut Arena, h: &Hamiltonian, chart: &Chart) -> Formula
             sum.add(arena, &iso.casimir2, (x, x_latex));
             sum.add(
                 arena,
-                &iso.casimir1_squared,
+                &trace_coefficient(h, iso),
                 (&format!("tr({x}) 1"), &format!("\\operatorname{{tr}}({x_latex})\\,1")),
             );
             sum.add(
@@ -372,6 +441,7 @@ fn affine_velocity(arena: &mut Arena, h: &Hamiltonian, chart: &Chart) -> Formula
                 &iso.skew.scaled(&Rational::MINUS_ONE),
                 (&format!("({x} - {x}^T)"), &format!("({x_latex} - {x_latex}^T)")),
             );
+            sum.add(arena, &iso.casimir3, (&format!("{x}^2"), &format!("{x_latex}^2")));
             sum.finish()
         }
         None => Formula {
@@ -428,6 +498,23 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
         .to_owned());
     }
     let (name, ..) = momentum_names(reduction.chart.momentum);
+    if let Some(separation) = &reduction.separation {
+        let path = match separation.slope {
+            Slope::Zero => "moves freely",
+            Slope::Linear(_) => "swings harmonically",
+            Slope::Hyperbolic { .. } => "moves by an elliptic function",
+        };
+        list.push(format!(
+            "the dilatation: phi = e^q Psi with det Psi = 1, and q {path}; the state is Psi with O, the traceless part \
+             of {name} over alpha, in parts O = s + w, symmetric and skew"
+        ));
+        if !reduction.fixed.is_empty() {
+            list.push("w: conserved".to_owned());
+        }
+    }
+    if reduction.carried {
+        list.push("the root of det phi: 1/D = (det phi)^(-1/n) is integrated beside phi".to_owned());
+    }
     match reduction.layout {
         Layout::Constant => list.push(format!("{name}: conserved")),
         Layout::Entries => {}

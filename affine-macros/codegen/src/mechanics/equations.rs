@@ -1,6 +1,7 @@
 //! Hamilton's equations of a chart from its brackets.
 
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::ring::table;
+use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 
 use super::brackets::bracket;
 use super::charts::{Chart, Coordinate, Momentum};
@@ -10,6 +11,8 @@ use super::charts::{Chart, Coordinate, Momentum};
 pub struct System {
     /// Shared quantities, each a polynomial in coordinates and earlier ones.
     pub shared: Vec<(Expr, Polynomial)>,
+    /// Calls of runtime functions, whose results are shared quantities too.
+    pub kernels: Vec<Kernel>,
     /// Coordinates and their time derivatives.
     pub rates: Vec<(Coordinate, Expr, Polynomial)>,
 }
@@ -19,6 +22,8 @@ pub struct System {
 pub struct Load {
     /// Quantities that the forces share.
     pub shared: Vec<(Expr, Polynomial)>,
+    /// Calls of runtime functions that they need.
+    pub kernels: Vec<Kernel>,
     /// Coordinates and what their rates gain.
     pub forces: Vec<(Coordinate, Polynomial)>,
 }
@@ -93,21 +98,49 @@ pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form)
                 Coordinate::M(..) => momenta,
                 // With I(O) as momentum the velocity of x is a difference that cancels.
                 Coordinate::X(_) | Coordinate::P(_) if chart.momentum == Momentum::Total => Form::Expanded,
-                Coordinate::X(_) | Coordinate::P(_) => Form::ThroughVelocity,
+                Coordinate::X(_) | Coordinate::P(_) | Coordinate::Carried(_) => Form::ThroughVelocity,
             };
             (z, chart.symbol(z), rate(chart, &gradient, &velocity, form, z))
         })
         .collect();
-    System { shared: velocity.into_iter().flatten().collect(), rates }
+    let symbols =
+        Matrix(velocity.iter().map(|row| row.iter().map(|(symbol, _)| *symbol).collect()).collect());
+    let system = System { shared: velocity.into_iter().flatten().collect(), kernels: Vec::new(), rates };
+    system.confined(chart, &symbols)
 }
 
 impl System {
+    /// Under a constraint: rates of the affine momentum projected, and entries of momentum and velocity that are linear
+    /// in others written through those.
+    fn confined(mut self, chart: &Chart, velocity: &Matrix) -> Self {
+        let Some(group) = chart.confined else { return self };
+        let rate = |a, b| {
+            let found = self.rates.iter().find(|(z, _, _)| *z == Coordinate::M(a, b));
+            found.map_or_else(Polynomial::zero, |(_, _, rate)| rate.clone())
+        };
+        let projected = group.projected(&table(chart.dim, rate));
+        for (z, _, rate) in &mut self.rates {
+            if let Coordinate::M(a, b) = z {
+                *rate = projected[*a][*b].clone();
+            }
+        }
+        let (momenta, velocities) = (chart.dependent(), group.dependent(velocity));
+        let listed = |list: &[(Expr, Polynomial)], symbol: Expr| list.iter().any(|(s, _)| *s == symbol);
+        self.rates.retain(|(_, symbol, _)| !listed(&momenta, *symbol));
+        self.shared.retain(|(symbol, _)| !listed(&velocities, *symbol));
+        let value = |atom: Expr| {
+            momenta.iter().chain(&velocities).find(|(s, _)| *s == atom).map(|(_, value)| value.clone())
+        };
+        self.substitute(&value)
+    }
+
     /// Replaces atoms by polynomials in every definition and every rate.
     #[must_use]
     pub fn substitute(&self, value: &impl Fn(Expr) -> Option<Polynomial>) -> Self {
         let each = |p: &Polynomial| p.substitute(value);
         Self {
             shared: self.shared.iter().map(|(s, p)| (*s, each(p))).collect(),
+            kernels: self.kernels.iter().map(|kernel| kernel.with_arguments(each)).collect(),
             rates: self.rates.iter().map(|(z, s, p)| (*z, *s, each(p))).collect(),
         }
     }
@@ -115,6 +148,7 @@ impl System {
     /// Adds quantities and what they add to the rates.
     pub fn add(&mut self, load: &Load) {
         self.shared.extend(load.shared.iter().cloned());
+        self.kernels.extend(load.kernels.iter().cloned());
         for (coordinate, force) in &load.forces {
             for (_, _, rate) in self.rates.iter_mut().filter(|(z, _, _)| z == coordinate) {
                 rate.add_scaled(force, &Rational::ONE);
@@ -122,7 +156,7 @@ impl System {
         }
     }
 
-    /// Drops shared quantities that nothing uses, and puts in place those that are a single constant or atom.
+    /// Drops shared quantities and calls that nothing uses, and puts in place those that are a single constant or atom.
     #[must_use]
     pub fn tidied(mut self, arena: &Arena) -> Self {
         let trivial: Vec<(Expr, Polynomial)> = self
@@ -144,13 +178,17 @@ impl System {
             let used = |symbol: Expr| {
                 let shared = self.shared.iter().map(|(_, p)| p);
                 shared
+                    .chain(self.kernels.iter().flat_map(Kernel::inputs))
                     .chain(self.rates.iter().map(|(_, _, p)| p))
                     .any(|p| p.any_symbol(arena, &mut |a| a == symbol))
             };
             let idle: Vec<Expr> = self.shared.iter().map(|(s, _)| *s).filter(|s| !used(*s)).collect();
-            if idle.is_empty() {
+            let called: Vec<bool> = self.kernels.iter().map(|kernel| kernel.outputs().any(used)).collect();
+            if idle.is_empty() && called.iter().all(|called| *called) {
                 break;
             }
+            let mut called = called.into_iter();
+            self.kernels.retain(|_| called.next().unwrap_or(true));
             self.shared.retain(|(s, _)| !idle.contains(s));
         }
         self

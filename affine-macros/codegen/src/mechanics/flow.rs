@@ -82,19 +82,27 @@ impl<'a, R: Ring> Flow<'a, R> {
     }
 
     pub(super) fn m_dot(&self) -> Square<R> {
-        self.table(|i, j| self.rate(Coordinate::M(i, j)))
+        self.projected(self.table(|i, j| self.rate(Coordinate::M(i, j))))
+    }
+
+    /// The rate of an affine spin, projected under a constraint.
+    fn projected(&self, rate: Square<R>) -> Square<R> {
+        match self.chart.confined {
+            Some(group) => group.projected(&rate),
+            None => rate,
+        }
     }
 
     /// Rate of `Sigma`.
     pub(super) fn sigma_dot(&self) -> &Square<R> {
         let rate = |i, j| self.sum(|y| generator_bracket(self.chart, Generator::Space(i, j), y));
-        self.sigma_dot.get_or_init(|| self.table(rate))
+        self.sigma_dot.get_or_init(|| self.projected(self.table(rate)))
     }
 
     /// Rate of `Sigma_hat`.
     pub(super) fn sigma_hat_dot(&self) -> &Square<R> {
         let rate = |a, b| self.sum(|y| generator_bracket(self.chart, Generator::Body(a, b), y));
-        self.sigma_hat_dot.get_or_init(|| self.table(rate))
+        self.sigma_hat_dot.get_or_init(|| self.projected(self.table(rate)))
     }
 
     /// `phi_dot^T p + phi^T p_dot`.

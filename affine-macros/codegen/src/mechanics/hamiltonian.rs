@@ -3,6 +3,7 @@
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Linear, Momentum};
+use super::constraint::Constraint;
 use super::hessian::{Direction, Hessian, NumericBlock};
 use super::kinetic::{Frame, Kinetic};
 
@@ -11,13 +12,15 @@ use super::kinetic::{Frame, Kinetic};
 pub struct Hamiltonian {
     /// Dimension of space.
     pub dim: usize,
+    /// The group that the motion is confined to; `None` for GL+(n).
+    pub constraint: Option<Constraint>,
     /// Frame in which the internal energy has constant coefficients.
     pub frame: Frame,
     /// The affine spin of that frame.
     pub momentum: Matrix,
-    /// The affine velocity as a linear function of the affine spin: `O = (dH/dX)^T`.
+    /// The affine velocity as a function of the affine spin: `O = (dH/dX)^T`, linear without `C(3)`.
     pub velocity: Vec<Vec<Polynomial>>,
-    /// `C(2)/(2 alpha) + C(1)^2/(2 beta) + |W|^2/(2 mu)`, where the energy is isotropic.
+    /// `C(2)/(2 alpha) + C(1)^2/(2 beta) + |W|^2/(2 mu)`, where the energy is isotropic, and what is stated of `C(3)`.
     pub isotropic: Option<Isotropic>,
     /// Frame and `1/m` of the translational energy.
     pub translation: Option<(Frame, Polynomial)>,
@@ -34,6 +37,8 @@ pub struct Isotropic {
     pub casimir1_squared: Polynomial,
     /// `1/mu`, of `|W|^2/2` with `W = X - X^T`, `|W|^2` the sum over `a < b` of `W_ab^2`.
     pub skew: Polynomial,
+    /// Of `C(3)/3`, for Hamiltonians stated with it.
+    pub casimir3: Polynomial,
 }
 
 impl Hamiltonian {
@@ -61,22 +66,29 @@ impl Hamiltonian {
         };
         Some(Self {
             dim: n,
+            constraint: kinetic.constraint,
             frame: kinetic.frame,
             momentum,
             velocity: flat.chunks(n).map(<[Polynomial]>::to_vec).collect(),
             isotropic: match kinetic.frame {
                 // The Casimirs of the affine group are no functions of Pi alone.
                 Frame::Flat => None,
-                Frame::Body | Frame::Space => isotropic(arena, hessian, n),
+                Frame::Body | Frame::Space => isotropic(arena, kinetic.confined(), hessian, n),
             },
             translation,
             numeric_blocks: inverse.numeric_blocks,
         })
     }
 
-    /// `1/2 tr(X O(X))` in the frame's own affine spin.
+    /// `1/2 tr(X O(X))` in the frame's own affine spin, for a quadratic form; `H_int` itself with `C(3)`.
     #[must_use]
     pub fn internal(&self) -> Polynomial {
+        if let Some(iso) = self.isotropic.as_ref().filter(|iso| !iso.casimir3.is_zero()) {
+            let spin = self.momentum.0.iter();
+            let spin: Vec<Vec<Polynomial>> =
+                spin.map(|row| row.iter().map(|x| Polynomial::atom(*x)).collect()).collect();
+            return iso.energy(&spin);
+        }
         let mut sum = Polynomial::zero();
         for (a, row) in self.velocity.iter().enumerate() {
             for (b, o) in row.iter().enumerate() {
@@ -91,7 +103,15 @@ impl Hamiltonian {
     /// `[X, O(X)] = 0` for every `X` only where `O` is a multiple of `X` and the identity.
     #[must_use]
     pub fn is_tensor(&self) -> bool {
-        self.isotropic.is_none() && self.frame != Frame::Flat
+        // The few momenta of a rigid or conformal motion make short equations whatever their coefficients.
+        let small = matches!(self.constraint, Some(Constraint::Rigid | Constraint::Conformal));
+        self.isotropic.is_none() && self.frame != Frame::Flat && !small
+    }
+
+    /// The constraint, where velocities and momenta are projected for it; see [`Kinetic::confined`].
+    #[must_use]
+    pub fn confined(&self) -> Option<Constraint> {
+        self.constraint.filter(|_| self.frame != Frame::Flat)
     }
 
     /// The internal energy in a chart, with its skew part (of isotropic energies) left out on request; `None`
@@ -125,7 +145,22 @@ impl Hamiltonian {
 }
 
 impl Isotropic {
-    /// `C(2)/(2 alpha) + C(1)^2/(2 beta)` of an affine spin.
+    /// `H = 0`.
+    #[must_use]
+    pub fn zero() -> Self {
+        let [casimir2, casimir1_squared, skew, casimir3] = std::array::from_fn(|_| Polynomial::zero());
+        Self { casimir2, casimir1_squared, skew, casimir3 }
+    }
+
+    /// `H` of an affine spin.
+    #[must_use]
+    pub fn energy(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
+        let mut sum = self.casimirs(spin);
+        sum.add_scaled(&self.skew_norm(spin), &Rational::ONE);
+        sum
+    }
+
+    /// `C(2)/(2 alpha) + C(1)^2/(2 beta)` of an affine spin, and what there is of `C(3)`.
     #[must_use]
     pub fn casimirs(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
         let (mut c1, mut c2) = (Polynomial::zero(), Polynomial::zero());
@@ -138,6 +173,10 @@ impl Isotropic {
         let mut sum = Polynomial::zero();
         sum.add_product(&c2, &self.casimir2, &half());
         sum.add_product(&c1.mul(&c1), &self.casimir1_squared, &half());
+        if !self.casimir3.is_zero() {
+            let third = Rational::ratio(1, 3).unwrap_or(Rational::ONE);
+            sum.add_product(&cubed_trace(spin), &self.casimir3, &third);
+        }
         sum
     }
 
@@ -154,6 +193,16 @@ impl Isotropic {
         }
         norm.mul(&self.skew)
     }
+}
+
+/// `tr X^3`.
+fn cubed_trace(spin: &[Vec<Polynomial>]) -> Polynomial {
+    let n = spin.len();
+    let mut trace = Polynomial::zero();
+    for (a, b, c) in (0..n).flat_map(|a| (0..n).flat_map(move |b| (0..n).map(move |c| (a, b, c)))) {
+        trace.add_product(&spin[a][b].mul(&spin[b][c]), &spin[c][a], &Rational::ONE);
+    }
+    trace
 }
 
 /// `p_hat = phi^T p`.
@@ -192,9 +241,18 @@ fn half() -> Rational {
     Rational::ratio(1, 2).unwrap_or(Rational::ONE)
 }
 
-/// The isotropic coefficients, where shear, rotation and dilatation each have one eigenvalue.
-fn isotropic(arena: &mut Arena, hessian: &Hessian, n: usize) -> Option<Isotropic> {
+/// The isotropic coefficients, where shear, rotation and dilatation each have one eigenvalue, or are not free.
+fn isotropic(
+    arena: &mut Arena,
+    constraint: Option<Constraint>,
+    hessian: &Hessian,
+    n: usize,
+) -> Option<Isotropic> {
     let mut common = |kind: Direction| {
+        // No momentum moves the body in a direction that is not free.
+        if constraint.is_some_and(|group| !group.leaves_free(kind)) {
+            return Some(Polynomial::zero());
+        }
         let mut found: Option<Polynomial> = None;
         for block in hessian.blocks.iter().filter(|b| b.basis[0].kind == kind) {
             let eigenvalue = block.eigenvalue()?;
@@ -221,5 +279,6 @@ fn isotropic(arena: &mut Arena, hessian: &Hessian, n: usize) -> Option<Isotropic
         casimir2: shear,
         casimir1_squared: casimir1_squared.scaled(&nth),
         skew: skew.scaled(&half()),
+        casimir3: Polynomial::zero(),
     })
 }

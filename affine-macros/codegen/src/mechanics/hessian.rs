@@ -9,7 +9,7 @@ use super::kinetic::Kinetic;
 /// that do not mix.
 #[derive(Clone, Debug)]
 pub struct Hessian {
-    /// The blocks; their basis vectors together span the velocity space.
+    /// The blocks; their basis vectors together span the velocity space, or the Lie algebra of a constraint.
     pub blocks: Vec<Block>,
     /// Entry `[k][l]`, a polynomial in the model's parameters.
     pub matrix: Vec<Vec<Polynomial>>,
@@ -91,9 +91,13 @@ impl Hessian {
         let velocities: Vec<Expr> = kinetic.velocity.0.iter().flatten().copied().collect();
         let gradient = energy.gradient(&velocities);
         let matrix: Vec<Vec<Polynomial>> = gradient.iter().map(|slope| slope.gradient(&velocities)).collect();
-        let blocks = [entries(kinetic.dim), invariant(kinetic.dim)]
-            .map(|basis| blocks(&matrix, basis))
+        let bases = match kinetic.confined() {
+            None => vec![entries(kinetic.dim), invariant(kinetic.dim)],
+            Some(group) => group.bases(kinetic.dim, invariant(kinetic.dim)),
+        };
+        let blocks = bases
             .into_iter()
+            .map(|basis| blocks(&matrix, basis))
             // Work of inverting; the invariant directions win a tie, since they name the eigenvalues.
             .min_by_key(|blocks| {
                 let work: usize = blocks.iter().map(|b| b.basis.len().pow(3)).sum();
@@ -104,7 +108,8 @@ impl Hessian {
     }
 
     /// The inverse: entry `[k][l]` is a polynomial in parameters, reciprocals of eigenvalues, and symbols for
-    /// the inverse blocks that only numbers can give. `None` where the form is degenerate.
+    /// the inverse blocks that only numbers can give. `None` where the form is degenerate. Under a constraint it is the
+    /// inverse of the form on the Lie algebra, from momenta that act on it to velocities in it.
     pub fn inverse(&self, arena: &mut Arena) -> Option<Inverse> {
         let n2 = self.matrix.len();
         let mut result =

@@ -2,6 +2,8 @@
 
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
+use super::constraint::Constraint;
+
 /// A term of the kinetic energy and its coefficient.
 #[derive(Clone, Debug)]
 pub struct Term {
@@ -112,6 +114,8 @@ impl TermKind {
 pub struct Kinetic {
     /// Dimension of space.
     pub dim: usize,
+    /// The group that the motion is confined to; `None` for GL+(n).
+    pub constraint: Option<Constraint>,
     /// Frame of the internal motion.
     pub frame: Frame,
     /// The affine velocity of that frame, as symbols.
@@ -136,19 +140,30 @@ pub struct Translation {
 }
 
 impl Kinetic {
-    /// `n^2`, and `n` more with translation.
+    /// The dimension of the group, and `n` more with translation.
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
-        self.dim * self.dim + if self.translation.is_some() { self.dim } else { 0 }
+        let internal = self.constraint.map_or(self.dim * self.dim, |group| group.dimension(self.dim));
+        internal + if self.translation.is_some() { self.dim } else { 0 }
     }
 
     /// Is the energy that of positive masses alone, `1/2 tr(phi_dot J phi_dot^T)` (2.1)? Every other one may be
     /// indefinite.
     #[must_use]
     pub fn is_dalembert(&self) -> bool {
-        self.terms
-            .iter()
-            .all(|term| term.kind == TermKind::Dalembert || term.kind.translation_frame().is_some())
+        self.frame == Frame::Flat
+            && !self.terms.is_empty()
+            && self
+                .terms
+                .iter()
+                .all(|term| term.kind == TermKind::Dalembert || term.kind.translation_frame().is_some())
+    }
+
+    /// The constraint, where velocities and momenta are projected for it. With `phi_dot` and `Pi` they are not, since
+    /// the tangent space turns with `phi`: there it acts through its multiplier.
+    #[must_use]
+    pub fn confined(&self) -> Option<Constraint> {
+        self.constraint.filter(|_| self.frame != Frame::Flat)
     }
 
     /// Writes the terms in their common frame; the places of two terms that have none, otherwise.
@@ -156,8 +171,22 @@ impl Kinetic {
     /// # Errors
     /// The places of the first two terms whose coefficients cannot be constant together.
     pub fn new(arena: &mut Arena, dim: usize, terms: &[Term]) -> Result<Self, (usize, usize)> {
-        let translation = common(terms, TermKind::translation_frame)?;
-        let fixed = common(terms, TermKind::internal_frame)?;
+        Self::under(arena, dim, terms, None)
+    }
+
+    /// The same of a motion confined to a group, each term in the [form](Constraint::form_of) that it has there.
+    ///
+    /// # Errors
+    /// As [`Kinetic::new`].
+    pub fn under(
+        arena: &mut Arena,
+        dim: usize,
+        terms: &[Term],
+        constraint: Option<Constraint>,
+    ) -> Result<Self, (usize, usize)> {
+        let form = |kind: TermKind| constraint.map_or(kind, |group| group.form_of(kind));
+        let translation = common(terms, |kind| form(kind).translation_frame())?;
+        let fixed = common(terms, |kind| form(kind).internal_frame())?;
         // The Casimir terms alone live in both affine frames; the one of the translation makes it shortest.
         let frame = fixed.or(translation).map_or(Frame::Body, |(frame, _)| frame);
         if let (Frame::Flat, Some((_, flat))) = (frame, fixed)
@@ -168,10 +197,17 @@ impl Kinetic {
             return Err((flat.min(affine), flat.max(affine)));
         }
         let velocity = Matrix::symbols(arena, frame.velocity_name(), dim);
-        let mut kinetic =
-            Self { dim, frame, velocity, terms: terms.to_vec(), internal: Vec::new(), translation: None };
+        let mut kinetic = Self {
+            dim,
+            constraint,
+            frame,
+            velocity,
+            terms: terms.to_vec(),
+            internal: Vec::new(),
+            translation: None,
+        };
         for (place, term) in terms.iter().enumerate() {
-            match (term.kind.translation_frame(), &term.value) {
+            match (form(term.kind).translation_frame(), &term.value) {
                 (Some(frame), Coefficient::Scalar(mass)) => {
                     kinetic.translation = Some(Translation { frame, mass: *mass, place });
                 }

@@ -5,8 +5,16 @@ use crate::algebra::{Arena, Expr, Function, Rational};
 
 /// Text of an expression; fields keep their names, tensors and their traces get those of the specification.
 pub(super) fn plain(arena: &Arena, expr: Expr) -> String {
-    const NAMES: [(&str, &str); 4] =
-        [("trace_1", "tr(G)"), ("trace_2", "tr(G^2)"), ("green_", "G_"), ("finger_", "Ct_")];
+    const NAMES: [(&str, &str); 8] = [
+        ("trace_1", "tr(G)"),
+        ("trace_2", "tr(G^2)"),
+        ("green_", "G_"),
+        ("finger_", "Ct_"),
+        ("psi_", "Psi_"),
+        ("shear_", "s_"),
+        ("turn_", "w_"),
+        ("isochoric_", "O_"),
+    ];
     // A field may have any of these names: only what is none is renamed.
     let parts = arena.text(expr);
     let mut written = String::with_capacity(parts.len());
@@ -116,6 +124,10 @@ fn symbol_latex(name: &str) -> String {
         return (*latex).to_owned();
     }
     let stems = [
+        ("psi_", "\\Psi"),
+        ("shear_", "s"),
+        ("turn_", "w"),
+        ("isochoric_", "O"),
         ("sigma_hat_sym_", "\\hat\\Sigma^{s}"),
         ("sigma_sym_", "\\Sigma^{s}"),
         ("total_sym_", "I^{s}"),

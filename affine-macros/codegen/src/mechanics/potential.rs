@@ -5,16 +5,24 @@
 //! of the paper).
 
 mod axes;
+mod dilatation;
 mod invariance;
+mod principal;
+mod restriction;
 mod rewriting;
+pub mod stretches;
 
-use crate::algebra::ring::{Square, adjugate};
-use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
+use crate::algebra::ring::{Square, adjugate, table};
+use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::conserved::Candidate;
+use super::constraint::Constraint;
 use super::equations::Load;
 pub use axes::OnAxes;
-use invariance::Invariance;
+use invariance::Evidence;
+use principal::Principal;
+use restriction::restricted;
 use rewriting::{about_undeformed, through_dilatation};
 
 /// A potential.
@@ -24,7 +32,8 @@ pub struct Potential {
     /// `U` as an expression in base functions and parameters.
     pub energy: Expr,
     slopes: Vec<(Base, Expr)>,
-    invariance: Invariance,
+    time: Option<Expr>,
+    invariance: Evidence,
 }
 
 /// Functions of the placement and the position that potentials are written in, indices from 0.
@@ -32,6 +41,8 @@ pub struct Potential {
 pub enum Base {
     /// `q = ln(det phi)/n`
     MeanLogStretch,
+    /// `q_a = ln Q_a`, `Q_a` a singular value of `phi`; only together in symmetric functions
+    LogStretch(usize),
     /// `tr G = tr Ct`
     Trace,
     /// `tr G^2 = tr Ct^2`
@@ -52,6 +63,7 @@ impl Base {
         let pairs = || (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)));
         let upper = || pairs().filter(|(a, b)| a <= b);
         let mut list = vec![Self::MeanLogStretch, Self::Trace, Self::TraceOfSquare];
+        list.extend((0..n).map(Self::LogStretch));
         list.extend(upper().map(|(a, b)| Self::Green(a, b)));
         list.extend(upper().map(|(i, j)| Self::Finger(i, j)));
         list.extend(pairs().map(|(i, a)| Self::Placement(i, a)));
@@ -63,6 +75,7 @@ impl Base {
     pub fn symbol(self, arena: &mut Arena) -> Expr {
         arena.symbol(&match self {
             Self::MeanLogStretch => "q".to_owned(),
+            Self::LogStretch(a) => format!("q_{}", a + 1),
             Self::Trace => "trace_1".to_owned(),
             Self::TraceOfSquare => "trace_2".to_owned(),
             Self::Green(a, b) => format!("green_{}{}", a.min(b) + 1, a.max(b) + 1),
@@ -87,6 +100,7 @@ impl Base {
     fn slope_name(self) -> String {
         match self {
             Self::MeanLogStretch => "pressure".to_owned(),
+            Self::LogStretch(a) => format!("tension_{}", a + 1),
             Self::Trace => "stress_1".to_owned(),
             Self::TraceOfSquare => "stress_2".to_owned(),
             Self::Green(a, b) => format!("slope_green_{}{}", a + 1, b + 1),
@@ -97,13 +111,18 @@ impl Base {
     }
 }
 
+/// Name of the symbol of the time.
+pub const TIME: &str = "t";
+
 /// Deformation tensors as symbols or as polynomials in `phi`, whichever the purpose asks for.
 struct Tensors {
     phi: Square<Polynomial>,
     green: Square<Polynomial>,
     finger: Square<Polynomial>,
-    /// `phi^-1`; only the canonical chart needs it.
-    inverse: Square<Polynomial>,
+    /// `d(det phi)/dphi`; only the canonical chart needs it.
+    cofactors: Square<Polynomial>,
+    /// Stretches and principal axes; only single stretches need them.
+    principal: Principal,
 }
 
 /// The directions of a derivative: the entries of an affine momentum.
@@ -120,6 +139,28 @@ enum Along {
 impl Potential {
     /// The potential `energy`, an expression in base functions, parameters and numbers.
     pub fn new(arena: &mut Arena, dim: usize, energy: Expr) -> Self {
+        let slopes = Self::slopes(arena, dim, energy);
+        let invariance = Evidence::identities(arena, dim, &slopes);
+        let time = Self::time_in(arena, energy);
+        Self { dim, energy, slopes, time, invariance }
+    }
+
+    /// The potential on the group of a constraint; `None` where it has no value there.
+    pub fn under(arena: &mut Arena, dim: usize, energy: Expr, group: Constraint) -> Option<Self> {
+        let energy = restricted(arena, dim, energy, group)?;
+        let slopes = Self::slopes(arena, dim, energy);
+        let invariance = Evidence::on_the_group(arena, dim, &slopes, group);
+        let time = Self::time_in(arena, energy);
+        Some(Self { dim, energy, slopes, time, invariance })
+    }
+
+    /// Does it change along no velocity that the constraint leaves free?
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        self.keeps(Candidate::LinearMomentum) && self.invariance.moves_no_placement()
+    }
+
+    fn slopes(arena: &mut Arena, dim: usize, energy: Expr) -> Vec<(Base, Expr)> {
         let mut slopes = Vec::new();
         for base in Base::all(dim) {
             let symbol = base.symbol(arena);
@@ -128,8 +169,25 @@ impl Potential {
                 slopes.push((base, slope));
             }
         }
-        let invariance = Invariance::new(arena, dim, &slopes);
-        Self { dim, energy, slopes, invariance }
+        slopes
+    }
+
+    /// The time, where the energy depends on it.
+    fn time_in(arena: &mut Arena, energy: Expr) -> Option<Expr> {
+        let time = arena.symbol(TIME);
+        arena.any_symbol(energy, &mut |symbol| symbol == time).then_some(time)
+    }
+
+    /// Does it depend on the time?
+    #[must_use]
+    pub fn depends_on_time(&self) -> bool {
+        self.time.is_some()
+    }
+
+    /// The time as a symbol, where it depends on it: an input of every program with forces.
+    #[must_use]
+    pub fn time(&self) -> Option<Expr> {
+        self.time
     }
 
     /// Does it depend on the position of the centre of mass?
@@ -141,27 +199,22 @@ impl Potential {
     /// What it adds to Hamilton's equations of a chart.
     pub fn load(&self, arena: &mut Arena, chart: &Chart) -> Load {
         let mut load = Load::default();
-        let tensors = self.tensors(arena, chart);
-        let mut weighted: Vec<(Base, Polynomial)> = Vec::new();
-        for (base, slope) in &self.slopes {
-            let form = through_dilatation(arena, *slope);
-            let form = Polynomial::normal_form(arena, form).scaled(&base.weight(self.dim));
-            // A slope in parameters alone is a coefficient, not a quantity of the motion.
-            let moves = form.any_symbol(arena, &mut |s| !is_parameter(arena, s));
-            let symbol = arena.symbol(&base.slope_name());
-            weighted.push((*base, if moves { Polynomial::atom(symbol) } else { form.clone() }));
-            if moves {
-                load.shared.push((symbol, form));
-            }
+        if self.slopes.iter().any(|(base, _)| matches!(base, Base::LogStretch(_))) {
+            let (kernel, shared) = principal::computed(arena, chart);
+            load.kernels.push(kernel);
+            load.shared.extend(shared);
         }
-        load.shared.extend(definitions(arena, self.dim, chart));
-        load.shared.extend(self.dilatation(arena, &placement(chart)));
+        let tensors = self.tensors(arena, chart);
         let along = match chart.momentum {
             Momentum::Body => Along::Body,
             Momentum::Space | Momentum::Total => Along::Space,
             Momentum::Canonical => Along::Placement,
         };
-        for (a, b) in (0..self.dim).flat_map(|a| (0..self.dim).map(move |b| (a, b))) {
+        let weighted = self.weighted(arena, chart, along, &mut load);
+        load.shared.extend(definitions(arena, self.dim, chart));
+        load.shared.extend(cofactors(arena, chart));
+        load.shared.extend(self.dilatation(arena, chart));
+        let mut forces = table(self.dim, |a, b| {
             let mut force = Polynomial::zero();
             for (base, slope) in &weighted {
                 let entry = match along {
@@ -175,12 +228,53 @@ impl Potential {
                     force.add_product(slope, &Polynomial::atom(chart.x[a]), &Rational::ONE);
                 }
             }
-            load.forces.push((Coordinate::M(a, b), force));
+            force
+        });
+        if let Some(group) = chart.confined {
+            forces = group.projected(&forces);
+        }
+        for (a, row) in forces.into_iter().enumerate() {
+            load.forces.extend(row.into_iter().enumerate().map(|(b, force)| (Coordinate::M(a, b), force)));
         }
         for i in 0..chart.p.len() {
             load.forces.push((Coordinate::P(i), force_on_centre(chart, &weighted, i)));
         }
         load
+    }
+
+    /// The slopes with the numbers that they carry in a force, named where they move.
+    fn weighted(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        along: Along,
+        load: &mut Load,
+    ) -> Vec<(Base, Polynomial)> {
+        let mut weighted: Vec<(Base, Polynomial)> = Vec::new();
+        for (base, slope) in &self.slopes {
+            let form = through_dilatation(arena, *slope);
+            let form = Polynomial::normal_form(arena, form).scaled(&base.weight(self.dim));
+            let form = match (base, along) {
+                (Base::LogStretch(_), Along::Body) => form,
+                (Base::LogStretch(k), _) => form.mul(&principal::inverse_square(arena, *k)),
+                _ => form,
+            };
+            // A slope in parameters alone is a coefficient, not a quantity of the motion.
+            let moves = form.any_symbol(arena, &mut |s| !is_parameter(arena, s));
+            let symbol = arena.symbol(&base.slope_name());
+            let mut slope = if moves { Polynomial::atom(symbol) } else { form.clone() };
+            if moves {
+                load.shared.push((symbol, form));
+            }
+            // dq/dphi = cof/(n det): the factor that all entries share.
+            if (*base, chart.momentum) == (Base::MeanLogStretch, Momentum::Canonical) {
+                let swelling = arena.symbol("swelling");
+                load.shared.push((swelling, slope.mul(&Polynomial::atom(arena.symbol("inverse_det")))));
+                slope = Polynomial::atom(swelling);
+            }
+            weighted.push((*base, slope));
+        }
+        weighted
     }
 
     fn tensors(&self, arena: &mut Arena, chart: &Chart) -> Tensors {
@@ -190,16 +284,14 @@ impl Potential {
         };
         let (green, finger) = (symbols(Base::Green), symbols(Base::Finger));
         let phi = placement(chart);
-        let inverse_det = Polynomial::atom(arena.symbol("inverse_det"));
-        let inverse = adjugate(&phi)
-            .iter()
-            .map(|row| row.iter().map(|entry| entry.mul(&inverse_det)).collect())
-            .collect();
-        Tensors { phi, green, finger, inverse }
+        let cofactors = Matrix::symbols(arena, "cofactor", n).0;
+        let cofactors =
+            cofactors.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
+        Tensors { phi, green, finger, cofactors, principal: Principal::new(arena, n) }
     }
 
     /// `det`, `D = det^(1/n)`, `1/D`, `1/det`, `q`, with one root.
-    fn dilatation(&self, arena: &mut Arena, phi: &Square<Polynomial>) -> Vec<(Expr, Polynomial)> {
+    fn dilatation(&self, arena: &mut Arena, chart: &Chart) -> Vec<(Expr, Polynomial)> {
         let n = self.dim;
         let [det, inverse_det, d, inverse_d, q] =
             ["det", "inverse_det", "dilatation", "inverse_dilatation", "q"].map(|name| arena.symbol(name));
@@ -216,9 +308,17 @@ impl Potential {
             true => Polynomial::term(vec![inverse_d; n], Rational::ONE),
             false => reciprocal(arena, det),
         };
+        // The forces on Pi contain the cofactors themselves; elsewhere the determinant alone is needed.
+        let first_row: Vec<Polynomial> = match chart.momentum {
+            Momentum::Canonical => {
+                let cofactors = Matrix::symbols(arena, "cofactor", n);
+                cofactors.0[0].iter().map(|cofactor| Polynomial::atom(*cofactor)).collect()
+            }
+            _ => adjugate(&placement(chart)).iter().map(|row| row[0].clone()).collect(),
+        };
         let mut determinant = Polynomial::zero();
-        for (entry, row) in phi[0].iter().zip(adjugate(phi)) {
-            determinant.add_product(entry, &row[0], &Rational::ONE);
+        for (entry, cofactor) in chart.phi.0[0].iter().zip(first_row) {
+            determinant.add_product(&Polynomial::atom(*entry), &cofactor, &Rational::ONE);
         }
         let mut product = vec![inverse_d; n - 1];
         product.push(det);
@@ -323,7 +423,7 @@ fn definitions(arena: &mut Arena, n: usize, chart: &Chart) -> Vec<(Expr, Polynom
 /// The derivative of a base function, divided by the number that its slope carries.
 fn direction(base: Base, along: Along, tensors: &Tensors, a: usize, b: usize) -> Polynomial {
     let one = |holds: bool| Polynomial::constant(if holds { Rational::ONE } else { Rational::ZERO });
-    let Tensors { phi, green, finger, inverse } = tensors;
+    let Tensors { phi, green, finger, cofactors, principal } = tensors;
     let mut sum = Polynomial::zero();
     let mut add = |holds: bool, value: &Polynomial| {
         if holds {
@@ -332,8 +432,9 @@ fn direction(base: Base, along: Along, tensors: &Tensors, a: usize, b: usize) ->
     };
     match (base, along) {
         (Base::Position(_), _) => {}
+        (Base::LogStretch(k), _) => return principal.direction(k, along, a, b),
         (Base::MeanLogStretch, Along::Body | Along::Space) => return one(a == b),
-        (Base::MeanLogStretch, Along::Placement) => return inverse[b][a].clone(),
+        (Base::MeanLogStretch, Along::Placement) => return cofactors[a][b].clone(),
         (Base::Trace, Along::Body) => return green[a][b].clone(),
         (Base::Trace, Along::Space) => return finger[a][b].clone(),
         (Base::Trace, Along::Placement) => return phi[a][b].clone(),
@@ -395,6 +496,12 @@ fn force_on_centre(chart: &Chart, weighted: &[(Base, Polynomial)], i: usize) -> 
     force
 }
 
+/// The cofactors `d(det phi)/dphi_iA`.
+fn cofactors(arena: &mut Arena, chart: &Chart) -> Vec<(Expr, Polynomial)> {
+    let symbols = Matrix::symbols(arena, "cofactor", chart.dim).transpose();
+    symbols.0.concat().into_iter().zip(adjugate(&placement(chart)).concat()).collect()
+}
+
 fn placement(chart: &Chart) -> Square<Polynomial> {
     chart.phi.0.iter().map(|row| row.iter().map(|e| Polynomial::atom(*e)).collect()).collect()
 }
@@ -412,6 +519,6 @@ fn finger(phi: &Square<Polynomial>, i: usize, j: usize) -> Polynomial {
 }
 
 /// A parameter of the model: a field.
-fn is_parameter(arena: &Arena, symbol: Expr) -> bool {
+pub(super) fn is_parameter(arena: &Arena, symbol: Expr) -> bool {
     arena.name(symbol).is_some_and(|name| name.starts_with("self."))
 }

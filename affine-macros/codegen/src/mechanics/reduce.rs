@@ -4,12 +4,14 @@
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::brackets::poisson;
+use super::carried::carrying_the_dilatation;
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::conserved::Candidate;
 use super::equations::{Form, Load, System, hamilton};
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetic::Frame;
 use super::potential::Potential;
+use super::separation::{Separation, shear_system};
 
 /// A piece of `H` that commutes with the rest and whose flow is known.
 #[derive(Clone, Debug)]
@@ -44,6 +46,10 @@ pub struct Reduction {
     pub layout: Layout,
     /// Components of the affine momentum that are conserved while others are state, in turned space.
     pub fixed: Vec<Expr>,
+    /// The dilatation, where it is taken out of the state: the system is then that of `Psi` and `sigma/alpha`.
+    pub separation: Option<Separation>,
+    /// `1/D = (det phi)^(-1/n)` is state, so that no right-hand side takes a root.
+    pub carried: bool,
     /// The equations of the state variables.
     pub system: System,
     /// State variables: group name and symbols.
@@ -65,7 +71,8 @@ pub enum ClosedForm {
 pub fn closed_form(arena: &mut Arena, h: &Hamiltonian, moving: &[Commuting]) -> Option<(ClosedForm, bool)> {
     let at_rest = h.translation.is_some() && !moving.iter().any(|c| matches!(c, Commuting::Drift(_)));
     if h.frame == Frame::Flat {
-        return Some((ClosedForm::Straight, at_rest));
+        // The multiplier of a constraint bends the line.
+        return h.constraint.is_none().then_some((ClosedForm::Straight, at_rest));
     }
     let iso = h.isotropic.as_ref()?;
     // The translational energy is quadratic in p: at p = 0 its flow stands still, and only the internal pieces have
@@ -80,7 +87,8 @@ pub fn closed_form(arena: &mut Arena, h: &Hamiltonian, moving: &[Commuting]) -> 
 
 /// The chart of the model's own frame, `p` spatial.
 pub fn own_chart(arena: &mut Arena, h: &Hamiltonian) -> Chart {
-    Chart::new(arena, h.dim, Momentum::of(h.frame), h.translation.as_ref().map(|_| Linear::Space))
+    let linear = h.translation.as_ref().map(|_| Linear::Space);
+    Chart::new(arena, h.dim, Momentum::of(h.frame), linear).under(h.confined())
 }
 
 /// `H` in the chart of the model's own frame.
@@ -140,19 +148,79 @@ pub fn candidates(
             momenta.push(other);
         }
     }
-    momenta
+    let separated = separated(arena, h, potential, &commuting);
+    let entire: Vec<Reduction> = momenta
         .into_iter()
         .flat_map(|momentum| {
-            let chart = Chart::new(arena, h.dim, momentum, linear);
+            let chart = Chart::new(arena, h.dim, momentum, linear).under(h.confined());
             let Some(mut main) = h.internal_in(&chart, without_skew) else { return Vec::new() };
             if linear.is_some() {
                 main.add_scaled(&h.translation_in(&chart), &Rational::ONE);
             }
             let load = potential.map(|u| u.load(arena, &chart));
-            let plan = Plan { chart, commuting: commuting.clone(), turn, load };
+            let multiplier = h.constraint.is_some() && h.confined().is_none();
+            let plan = Plan { chart, commuting: commuting.clone(), turn, load, multiplier };
             plan.reduced(arena, &main, h.is_tensor())
         })
+        .collect();
+    separated.into_iter().chain(entire).collect()
+}
+
+/// The reductions that take the dilatation out of the state as well.
+fn separated(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    potential: Option<&Potential>,
+    commuting: &[Commuting],
+) -> Vec<Reduction> {
+    let drifts = commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
+    let turns = commuting.iter().any(|c| !matches!(c, Commuting::Drift(_)));
+    let (Some(iso), Some(u)) = (&h.isotropic, potential) else { return Vec::new() };
+    // With C(3) the velocity is no multiple of the traceless momentum.
+    if h.constraint.is_some() {
+        return Vec::new();
+    }
+    if (h.translation.is_some() && !drifts) || !(turns || iso.skew.is_zero()) || !iso.casimir3.is_zero() {
+        return Vec::new();
+    }
+    let Some(slope) = u.dilatational_slope(arena) else { return Vec::new() };
+    let inverse_mass = iso.inverse_dilatational_mass(h.dim);
+    let charts = [Momentum::Body, Momentum::Space].map(|momentum| Chart::new(arena, h.dim, momentum, None));
+    charts
+        .into_iter()
+        .filter_map(|chart| {
+            let load = u.load(arena, &chart);
+            let mut system = shear_system(arena, &chart, iso, &load)?;
+            let fixed = take_constants(&mut system);
+            let states = states("Psi", "O", &system);
+            let separation = Some(Separation { slope: slope.clone(), inverse_mass: inverse_mass.clone() });
+            let (commuting, layout) = (commuting.to_vec(), Layout::Entries);
+            Some(Reduction {
+                chart,
+                commuting,
+                turned: false,
+                layout,
+                fixed,
+                separation,
+                carried: false,
+                system,
+                states,
+            })
+        })
         .collect()
+}
+
+/// Takes components of the affine momentum that are conserved out of a system.
+fn take_constants(system: &mut System) -> Vec<Expr> {
+    let mut fixed = Vec::new();
+    system.rates.retain(|(z, symbol, rate)| {
+        let still = matches!(z, Coordinate::M(..)) && rate.is_zero();
+        if still {
+            fixed.push(*symbol);
+        }
+        !still
+    });
+    fixed
 }
 
 /// What is known about a reduction before its equations are.
@@ -162,6 +230,8 @@ struct Plan {
     turn: bool,
     /// The forces of the potential.
     load: Option<Load>,
+    /// Does the multiplier of a constraint act besides? Then no affine momentum is taken for conserved.
+    multiplier: bool,
 }
 
 impl Plan {
@@ -172,13 +242,25 @@ impl Plan {
         let mut systems = Vec::new();
         if !tensor {
             let expanded = self.loaded(hamilton(arena, &self.chart, h, Form::Expanded));
-            layout = conserved_layout(&expanded);
+            if !self.multiplier {
+                layout = conserved_layout(&expanded);
+            }
             systems.push(expanded);
         }
         if layout == Layout::Entries {
             systems.push(self.loaded(hamilton(arena, &self.chart, h, Form::ThroughVelocity)));
         }
-        systems.into_iter().map(|system| self.state_only(arena, system, layout)).collect()
+        let mut reductions = Vec::new();
+        for system in systems {
+            let free = !self.multiplier && self.chart.confined.is_none();
+            if let Some(rootless) =
+                free.then(|| carrying_the_dilatation(arena, &self.chart, &system)).flatten()
+            {
+                reductions.push(self.state_only(arena, rootless, layout));
+            }
+            reductions.push(self.state_only(arena, system, layout));
+        }
+        reductions
     }
 
     /// The equations with the forces of the potential.
@@ -195,7 +277,7 @@ impl Plan {
             system.rates.iter().all(|(z, _, rate)| !matches!(z, Coordinate::P(_)) || rate.is_zero());
         let turned = self.turn && p_constant;
         system.rates.retain(|(z, _, _)| match z {
-            Coordinate::X(_) | Coordinate::Phi(..) => true,
+            Coordinate::X(_) | Coordinate::Phi(..) | Coordinate::Carried(_) => true,
             Coordinate::P(_) => !p_constant,
             Coordinate::M(..) => match layout {
                 Layout::Constant => false,
@@ -205,16 +287,20 @@ impl Plan {
         let gauge = gauge(&chart, turned, layout);
         let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
         system = system.substitute(&value).tidied(arena);
-        let mut fixed: Vec<Expr> = Vec::new();
-        system.rates.retain(|(z, symbol, rate)| {
-            let still = matches!(z, Coordinate::M(..)) && rate.is_zero();
-            if still {
-                fixed.push(*symbol);
-            }
-            !still
-        });
-        let states = states(&chart, &system);
-        Reduction { chart, commuting: self.commuting.clone(), turned, layout, fixed, system, states }
+        let fixed = if self.multiplier { Vec::new() } else { take_constants(&mut system) };
+        let carried = system.rates.iter().any(|(z, ..)| matches!(z, Coordinate::Carried(_)));
+        let states = states("phi", chart.momentum.symbol(), &system);
+        Reduction {
+            chart,
+            commuting: self.commuting.clone(),
+            turned,
+            layout,
+            fixed,
+            separation: None,
+            carried,
+            system,
+            states,
+        }
     }
 }
 
@@ -226,7 +312,11 @@ fn conserved_layout(system: &System) -> Layout {
 }
 
 /// State variables, grouped.
-fn states(chart: &Chart, system: &System) -> Vec<(&'static str, Vec<Expr>)> {
+fn states(
+    placement: &'static str,
+    momentum: &'static str,
+    system: &System,
+) -> Vec<(&'static str, Vec<Expr>)> {
     let group = |name: &'static str, wanted: fn(&Coordinate) -> bool| {
         let symbols: Vec<Expr> =
             system.rates.iter().filter(|(z, _, _)| wanted(z)).map(|(_, s, _)| *s).collect();
@@ -234,9 +324,10 @@ fn states(chart: &Chart, system: &System) -> Vec<(&'static str, Vec<Expr>)> {
     };
     [
         group("x", |z| matches!(z, Coordinate::X(_))),
-        group("phi", |z| matches!(z, Coordinate::Phi(..))),
+        group(placement, |z| matches!(z, Coordinate::Phi(..))),
         group("p", |z| matches!(z, Coordinate::P(_))),
-        group(chart.momentum.symbol(), |z| matches!(z, Coordinate::M(..))),
+        group(momentum, |z| matches!(z, Coordinate::M(..))),
+        group("1/D", |z| matches!(z, Coordinate::Carried(_))),
     ]
     .into_iter()
     .filter(|(_, symbols)| !symbols.is_empty())

@@ -91,7 +91,8 @@ pub(super) fn unwrapped(mut tokens: Vec<TokenTree>) -> Vec<TokenTree> {
     tokens
 }
 
-/// The entries of a list whose keys are the names of `K`, and the keys of `later` versions. Whatever is not an
+/// The entries of a list whose keys are the names of `K`, and the keys of `later` versions or, for terms, of the
+/// other side. Whatever is not an
 /// entry with a known key, or repeats one, is reported; where the key meant is plain, a refused entry stands
 /// for it.
 pub(super) fn entries<K: Named + PartialEq>(
@@ -176,7 +177,12 @@ fn unknown<K: Named>(
 ) -> (Option<K>, Reported) {
     let text = name.to_string();
     if let Some(key) = later.iter().find(|key| **key == text) {
-        return (None, found.report(name.span(), Diagnostic::UnavailableKey { list, key }));
+        let mistake = match list {
+            "kinetic" => Diagnostic::OtherSide { list, key, other: "hamiltonian" },
+            "hamiltonian" => Diagnostic::OtherSide { list, key, other: "kinetic" },
+            _ => Diagnostic::UnavailableKey { list, key },
+        };
+        return (None, found.report(name.span(), mistake));
     }
     let nearest = nearest(&text, K::names());
     let mistake = Diagnostic::UnknownKey { list, nearest, found: shortened(&text), known: K::names() };

@@ -5,8 +5,9 @@ use syn::parse::Parser;
 
 use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
 use super::expression_parser::{self, Language};
-use super::names::{Capability, Claim, Named, PlacementGroup, Requirement, TermKind, nearest};
-use super::{Item, Potential, Spanned, Spec, Symmetry, Term, value};
+use super::momentum_side::{self, MomentumKind};
+use super::names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
+use super::{Item, Metric, Potential, Spanned, Spec, Symmetry, Term, value};
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
 /// The keys of `affine_model(...)`.
@@ -15,6 +16,9 @@ enum Key {
     Dim,
     Symmetry,
     Kinetic,
+    Hamiltonian,
+    Metrics,
+    Constraint,
     Group,
     Potential,
     Require,
@@ -23,16 +27,23 @@ enum Key {
 }
 
 /// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 5] = ["hamiltonian", "metrics", "constraint", "dissipation", "forces"];
+const LATER_KEYS: [&str; 2] = ["dissipation", "forces"];
 
-/// Kinetic terms that later versions read: they belong to the momentum side.
-const LATER_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
+/// Terms that `hamiltonian(...)` has and `kinetic(...)` has not.
+const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
+
+/// Terms that `kinetic(...)` has and `hamiltonian(...)` has not.
+const VELOCITY_TERMS: [&str; 6] =
+    ["body_inertia", "space_inertia", "dalembert", "body_tensor", "space_tensor", "flat_tensor"];
 
 impl Named for Key {
     const ALL: &'static [Self] = &[
         Self::Dim,
         Self::Symmetry,
         Self::Kinetic,
+        Self::Hamiltonian,
+        Self::Metrics,
+        Self::Constraint,
         Self::Group,
         Self::Potential,
         Self::Require,
@@ -45,6 +56,9 @@ impl Named for Key {
             Self::Dim => "dim",
             Self::Symmetry => "symmetry",
             Self::Kinetic => "kinetic",
+            Self::Hamiltonian => "hamiltonian",
+            Self::Metrics => "metrics",
+            Self::Constraint => "constraint",
             Self::Group => "group",
             Self::Potential => "potential",
             Self::Require => "require",
@@ -60,6 +74,11 @@ impl Key {
             Self::Dim => "dim = 3",
             Self::Symmetry => "symmetry(space = affine, body = metric)",
             Self::Kinetic => "kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)",
+            Self::Hamiltonian => {
+                "hamiltonian(casimir2 = 5/6, casimir1_squared = -1/18, vorticity_squared = 25/24)"
+            }
+            Self::Metrics => "metrics(space = diag(1, 1, 2), body = [[2, 1, 0], [1, 2, 0], [0, 0, 1]])",
+            Self::Constraint => "constraint = isochoric",
             Self::Group => "group = unitary",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
             Self::Require => "require(positive_definite)",
@@ -91,7 +110,9 @@ impl Named for Side {
 pub(super) struct Arguments {
     dim: Spanned<usize>,
     symmetry: Option<Symmetry>,
-    kinetic: Spanned<Vec<Term>>,
+    energy: Energy,
+    metrics: [Option<Metric>; 2],
+    constraint: Option<Spanned<Constraint>>,
     group: Option<Spanned<PlacementGroup>>,
     potential: Option<Potential>,
     require: Vec<Spanned<Requirement>>,
@@ -99,15 +120,29 @@ pub(super) struct Arguments {
     runtime: Option<syn::Path>,
 }
 
+/// The kinetic energy, on the side where it is stated.
+enum Energy {
+    Kinetic(Spanned<Vec<Term>>),
+    Hamiltonian(Spanned<Vec<Term<MomentumKind>>>),
+}
+
 impl Arguments {
     pub(super) fn of(self, item: Item) -> Spec {
-        let Self { dim, symmetry, kinetic, group, potential, require, emit, runtime } = self;
+        let Self { dim, symmetry, energy, metrics, constraint, group, potential, require, emit, runtime } =
+            self;
+        let (kinetic, hamiltonian, kinetic_key) = match energy {
+            Energy::Kinetic(terms) => (terms.value, None, terms.span),
+            Energy::Hamiltonian(terms) => (Vec::new(), Some(terms.value), terms.span),
+        };
         Spec {
             item,
             dim,
             symmetry,
-            kinetic: kinetic.value,
-            kinetic_key: kinetic.span,
+            kinetic,
+            hamiltonian,
+            kinetic_key,
+            metrics,
+            constraint,
             group,
             potential,
             require,
@@ -121,14 +156,26 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     let here = Span::call_site();
     let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &LATER_KEYS, found);
     let (mut dim, mut symmetry, mut kinetic, mut runtime) = (None, None, None, None);
+    let mut hamiltonian = None;
+    let mut metric = [None, None];
     let (mut require, mut emit) = (Vec::new(), Vec::new());
-    let (mut energy, mut group) = (None, None);
+    let (mut constraint, mut energy, mut group) = (None, None, None);
     for entry in entries {
         let at = entry.at;
         match entry.key {
             Key::Dim => dim = Some(dimension(expect_value(entry, found), found)),
             Key::Symmetry => symmetry = sides(expect_list(entry, found), at, found),
-            Key::Kinetic => kinetic = Some(terms(expect_list(entry, found), at, found)),
+            Key::Kinetic => {
+                kinetic = Some((at, terms(KINETIC, expect_list(entry, found), at, found)));
+            }
+            Key::Hamiltonian => {
+                hamiltonian = Some((at, terms(HAMILTONIAN, expect_list(entry, found), at, found)));
+            }
+            Key::Metrics => metric = metrics(expect_list(entry, found), found),
+            Key::Constraint => {
+                let piece = expect_value(entry, found).ok();
+                constraint = piece.and_then(|Piece { tokens, at }| member("constraint", tokens, at, found));
+            }
             Key::Potential => energy = potential(expect_value(entry, found), at, found),
             Key::Group => {
                 group = expect_value(entry, found)
@@ -141,8 +188,24 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
         }
     }
     let dim = dim.unwrap_or_else(|| Err(missing(Key::Dim, "the dimension of space and body", here, found)));
-    let kinetic = kinetic.unwrap_or_else(|| Err(missing(Key::Kinetic, "the kinetic energy", here, found)));
-    Ok(Arguments { dim: dim?, symmetry, kinetic: kinetic?, group, potential: energy, require, emit, runtime })
+    let stated = match (kinetic, hamiltonian) {
+        (None, None) => Err(missing(Key::Kinetic, "the kinetic energy", here, found)),
+        (Some((_, terms)), None) => terms.map(Energy::Kinetic),
+        (None, Some((_, terms))) => terms.map(Energy::Hamiltonian),
+        (Some(_), Some((at, _))) => Err(found.report(at, Diagnostic::TwoStatements)),
+    };
+    Ok(Arguments {
+        dim: dim?,
+        symmetry,
+        energy: stated?,
+        metrics: metric,
+        constraint,
+        group,
+        potential: energy,
+        require,
+        emit,
+        runtime,
+    })
 }
 
 fn missing(key: Key, states: &'static str, at: Span, found: &mut Diagnostics) -> Reported {
@@ -216,15 +279,28 @@ fn claim(entry: &Entry<Side>, found: &mut Diagnostics) -> Option<Spanned<Claim>>
     member("claim", piece.tokens.clone(), piece.at, found)
 }
 
-/// `kinetic(...)`.
-fn terms(
+/// A list of terms: its key, the terms that belong to the other side, and how a term may look.
+struct TermList<K> {
+    name: &'static str,
+    elsewhere: &'static [&'static str],
+    example: fn(K) -> &'static str,
+}
+
+const KINETIC: TermList<TermKind> =
+    TermList { name: "kinetic", elsewhere: &MOMENTUM_TERMS, example: value::example };
+const HAMILTONIAN: TermList<MomentumKind> =
+    TermList { name: "hamiltonian", elsewhere: &VELOCITY_TERMS, example: momentum_side::example };
+
+/// `kinetic(...)` and `hamiltonian(...)`.
+fn terms<K: Named + PartialEq>(
+    side: TermList<K>,
     list: Result<Group, Reported>,
     key: Span,
     found: &mut Diagnostics,
-) -> Result<Spanned<Vec<Term>>, Reported> {
+) -> Result<Spanned<Vec<Term<K>>>, Reported> {
     let list = list?;
     let mut terms = Vec::new();
-    for entry in entries::<TermKind>("kinetic", list.stream(), list.span_close(), &LATER_TERMS, found) {
+    for entry in entries::<K>(side.name, list.stream(), list.span_close(), side.elsewhere, found) {
         let kind = Spanned { value: entry.key, span: entry.at.into() };
         match entry.body {
             Body::Value(piece) if !piece.tokens.is_empty() => {
@@ -236,12 +312,36 @@ fn terms(
             Body::Refused(_) => {}
             _ => {
                 let mistake =
-                    Diagnostic::ExpectedValue { key: entry.key.name(), example: value::example(entry.key) };
+                    Diagnostic::ExpectedValue { key: entry.key.name(), example: (side.example)(entry.key) };
                 found.report(entry.at, mistake);
             }
         }
     }
     Ok(Spanned { value: terms, span: key.into() })
+}
+
+/// `metrics(...)`; an omitted side is the identity.
+fn metrics(list: Result<Group, Reported>, found: &mut Diagnostics) -> [Option<Metric>; 2] {
+    let mut metrics = [None, None];
+    let Ok(list) = list else { return metrics };
+    for entry in entries::<Side>("metrics", list.stream(), list.span_close(), &[], found) {
+        let (place, example) = match entry.key {
+            Side::Space => (0, "space = diag(1, 1, 2)"),
+            Side::Body => (1, "body = [[2, 1, 0], [1, 2, 0], [0, 0, 1]]"),
+        };
+        let side = entry.key.name();
+        match entry.body {
+            Body::Value(piece) if !piece.tokens.is_empty() => {
+                let span = piece.at;
+                metrics[place] = value::parse(piece, found).ok().map(|value| Metric { side, value, span });
+            }
+            Body::Refused(_) => {}
+            _ => {
+                found.report(entry.at, Diagnostic::ExpectedValue { key: side, example });
+            }
+        }
+    }
+    metrics
 }
 
 /// `potential = ...`.

@@ -59,6 +59,51 @@ impl Named for PlacementGroup {
     }
 }
 
+/// The group that the motion is confined to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Constraint {
+    /// SL(n).
+    Isochoric,
+    /// SO(n).
+    Rigid,
+    /// R+ SO(n).
+    Conformal,
+}
+
+impl Named for Constraint {
+    const ALL: &'static [Self] = &[Self::Isochoric, Self::Rigid, Self::Conformal];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Isochoric => "isochoric",
+            Self::Rigid => "rigid",
+            Self::Conformal => "conformal",
+        }
+    }
+}
+
+impl Constraint {
+    /// The group by its equation, as the end of a sentence.
+    #[must_use]
+    pub fn group(self) -> &'static str {
+        match self {
+            Self::Isochoric => "det phi = 1",
+            Self::Rigid => "phi^T phi = 1",
+            Self::Conformal => "phi = e^q R with a rotation R",
+        }
+    }
+
+    /// What affine velocities are.
+    #[must_use]
+    pub fn velocities(self) -> &'static str {
+        match self {
+            Self::Isochoric => "traceless",
+            Self::Rigid => "skew",
+            Self::Conformal => "skew up to multiples of the identity",
+        }
+    }
+}
+
 /// A condition that the user wants enforced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Requirement {

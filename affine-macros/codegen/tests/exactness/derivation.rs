@@ -41,8 +41,9 @@ pub(crate) fn check(what: &str, model: &Model, kinetic: &Kinetic, state: &State,
     };
 
     agree(what, &run(&model.velocity, &here), velocity, &stem(&moving, velocity), n * n);
-    agree(what, &run(&model.legendre, &moving), spin, &stem(&here, spin), n * n);
-    for (program, inputs) in [(&model.kinetic_energy, &moving), (&model.hamiltonian, &here)] {
+    let velocity_side = model.velocity_side.as_ref().expect("the velocity determines the momentum");
+    agree(what, &run(&velocity_side.legendre, &moving), spin, &stem(&here, spin), n * n);
+    for (program, inputs) in [(&velocity_side.kinetic_energy, &moving), (&model.hamiltonian, &here)] {
         let energy = run(program, inputs);
         assert_eq!(energy["energy"], own(motion.energy()), "{what}: energy");
         assert_eq!(energy.len(), 1);

@@ -23,13 +23,14 @@ pub(crate) fn isotropic(n: usize, i: &Rational, a: &Rational, b: &Rational) -> M
 }
 
 pub(crate) fn programs(model: &Model) -> Vec<(&'static str, &Program)> {
+    let velocity_side = model.velocity_side.as_ref().expect("the velocity determines the momentum");
     let mut list = vec![
         ("full", &model.full.program),
         ("reduced", &model.reduced.program),
         ("trajectory", &model.trajectory),
-        ("legendre", &model.legendre),
+        ("legendre", &velocity_side.legendre),
         ("velocity", &model.velocity),
-        ("kinetic energy", &model.kinetic_energy),
+        ("kinetic energy", &velocity_side.kinetic_energy),
         ("hamiltonian", &model.hamiltonian),
     ];
     list.extend(model.isotropic.as_ref().map(|program| ("isotropic", program)));

@@ -2,6 +2,7 @@
 
 use super::coefficients::{MOST_STAGES, Tableau};
 use super::newton::Newton;
+use crate::integrate::lie::{Coordinates, Sum};
 use crate::model::StateVector;
 use crate::scalar::Scalar;
 
@@ -28,6 +29,27 @@ pub(super) struct Start<'a, S> {
     pub(super) y: &'a S,
     /// What rounding left out of `y`.
     pub(super) carry: &'a S,
+}
+
+/// The vector field in coordinates around a point of the step.
+pub(super) struct Field<'a, S, F, C> {
+    pub(super) f: &'a F,
+    pub(super) coordinates: C,
+    /// Where the step begins.
+    pub(super) base: &'a Sum<S>,
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Field<'_, S, F, C> {
+    /// `z'` as a function of `t` and of `z` as counted from the beginning of a step of total increment `rise`.
+    #[inline(always)]
+    fn over(&self, rise: S) -> impl Fn(f64, &S) -> S + '_ {
+        let middle = self.coordinates.middle(self.base, &rise);
+        move |t, z| {
+            let z = self.coordinates.centred(z, &rise);
+            let state = self.coordinates.state(&middle, &z).value;
+            self.coordinates.velocity(&state, &z, &(self.f)(t, &state))
+        }
+    }
 }
 
 /// Increments and how well they fulfil the equations: the largest defect, relative to the largest component of
@@ -62,9 +84,9 @@ impl<S: StateVector<f64>> Equations<S> {
     }
 
     /// Increments of the step, iterated from `guess`.
-    pub(super) fn solve(
+    pub(super) fn solve<F: Fn(f64, &S) -> S, C: Coordinates<S>>(
         &mut self,
-        f: &impl Fn(f64, &S) -> S,
+        f: &Field<'_, S, F, C>,
         start: Start<'_, S>,
         guess: Increments<S>,
     ) -> Result<Solution<S>, Unsolved> {
@@ -93,9 +115,9 @@ impl<S: StateVector<f64>> Equations<S> {
         Err(Unsolved { residual: least })
     }
 
-    fn fixed_point(
+    fn fixed_point<F: Fn(f64, &S) -> S, C: Coordinates<S>>(
         &mut self,
-        f: &impl Fn(f64, &S) -> S,
+        f: &Field<'_, S, F, C>,
         start: Start<'_, S>,
         guess: Increments<S>,
     ) -> Result<Solution<S>, Unsolved> {
@@ -127,9 +149,9 @@ impl<S: StateVector<f64>> Equations<S> {
         Err(Unsolved { residual: least })
     }
 
-    fn corrected(
+    fn corrected<F: Fn(f64, &S) -> S, C: Coordinates<S>>(
         &mut self,
-        f: &impl Fn(f64, &S) -> S,
+        f: &Field<'_, S, F, C>,
         start: Start<'_, S>,
         first: Increments<S>,
     ) -> Result<Solution<S>, Unsolved> {
@@ -169,25 +191,31 @@ impl<S: StateVector<f64>> Equations<S> {
     }
 
     /// The Jacobian half-way through the step, by the increments.
-    fn differentiate(&mut self, f: &impl Fn(f64, &S) -> S, start: Start<'_, S>, increments: &Increments<S>) {
+    fn differentiate<F: Fn(f64, &S) -> S, C: Coordinates<S>>(
+        &mut self,
+        f: &Field<'_, S, F, C>,
+        start: Start<'_, S>,
+        increments: &Increments<S>,
+    ) {
         let extent = total(increments);
         let mut middle = *start.y;
         for (y, rise) in middle.as_mut().iter_mut().zip(extent.as_ref()) {
             *y += 0.5 * rise;
         }
-        self.newton.differentiate(f, start.t + 0.5 * start.h, &middle, &extent);
+        self.newton.differentiate(&f.over(extent), start.t + 0.5 * start.h, &middle, &extent);
         self.evaluations += 1 + S::LEN as u64;
     }
 
     /// `h b_i f(t + c_i h, y + sum_j mu_ij L_j)`: one evaluation for each stage.
     #[inline]
-    fn images(
+    fn images<F: Fn(f64, &S) -> S, C: Coordinates<S>>(
         &mut self,
-        f: &impl Fn(f64, &S) -> S,
+        f: &Field<'_, S, F, C>,
         start: Start<'_, S>,
         increments: &Increments<S>,
     ) -> Increments<S> {
         let stages = self.tableau.stages();
+        let f = f.over(total(increments));
         let mut images = [S::zeros(); MOST_STAGES];
         for (i, image) in images.iter_mut().enumerate().take(stages) {
             let mut stage = *start.y;

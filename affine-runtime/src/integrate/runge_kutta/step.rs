@@ -1,6 +1,7 @@
 //! One step, whatever its size, and the polynomial over it.
 
 use super::dormand_prince_853::*;
+use crate::integrate::lie::{Coordinates, Flat, Sum};
 use crate::model::StateVector;
 use crate::scalar::Scalar;
 
@@ -39,8 +40,13 @@ pub struct Step<S> {
 impl<S: StateVector<f64>> Step<S> {
     /// At `(t, y)`, before any step. One evaluation.
     pub fn start(f: &impl Fn(f64, &S) -> S, t: f64, y: S) -> Self {
+        Self::at(t, y, f(t, &y))
+    }
+
+    /// At `(t, y)` where `f(t, y) = slope`.
+    pub(super) fn at(t: f64, y: S, slope: S) -> Self {
         let mut stages = [S::zeros(); STAGES];
-        stages[0] = f(t, &y);
+        stages[0] = slope;
         Self { t, y, t_trial: t, y_trial: y, accepted: false, stages }
     }
 
@@ -66,7 +72,13 @@ impl<S: StateVector<f64>> Step<S> {
     /// Accepts the step: evaluates the slope at its end. One evaluation.
     #[inline]
     pub fn accept(&mut self, f: &impl Fn(f64, &S) -> S) {
-        self.stages[12] = f(self.t_trial, &self.y_trial);
+        self.accept_with(f(self.t_trial, &self.y_trial));
+    }
+
+    /// Accepts the step, at whose end `f` is `slope`.
+    #[inline]
+    pub(super) fn accept_with(&mut self, slope: S) {
+        self.stages[12] = slope;
         self.accepted = true;
     }
 
@@ -77,6 +89,17 @@ impl<S: StateVector<f64>> Step<S> {
             self.t = self.t_trial;
             self.y = self.y_trial;
             self.stages[0] = self.stages[12];
+            self.accepted = false;
+        }
+    }
+
+    /// Turns to the next step, which begins at the time when this one ended, at `y` with `f(t, y) = slope`.
+    #[inline]
+    pub(super) fn begin_next_at(&mut self, y: S, slope: S) {
+        if self.accepted {
+            self.t = self.t_trial;
+            self.y = y;
+            self.stages[0] = slope;
             self.accepted = false;
         }
     }
@@ -105,7 +128,16 @@ impl<S: StateVector<f64>> Step<S> {
                 *c = h * r;
             }
         }
-        Dense { t: self.t, t_end: self.t_trial, y: self.y, y_end: self.y_trial, coefficients }
+        let base = Sum::of(self.y);
+        Dense {
+            t: self.t,
+            t_end: self.t_trial,
+            y: self.y,
+            y_end: self.y_trial,
+            coefficients,
+            coordinates: Flat,
+            base,
+        }
     }
 
     /// Time at the end of the step as far as it is accepted.
@@ -129,20 +161,8 @@ impl<S: StateVector<f64>> Step<S> {
         self.t
     }
 
-    pub(super) fn begin(&self) -> &S {
-        &self.y
-    }
-
-    pub(super) fn slope(&self) -> &S {
-        &self.stages[0]
-    }
-
     pub(super) fn trial_end(&self) -> &S {
         &self.y_trial
-    }
-
-    pub(super) fn end_slope(&self) -> &S {
-        &self.stages[12]
     }
 
     /// `h`, the exact difference of the two times wherever it is a floating-point number.
@@ -197,15 +217,25 @@ impl<S: StateVector<f64>> Step<S> {
 /// r_7))))))` (Hairer, Norsett, Wanner, section II.6), `r_1 = y_{n+1} - y_n`, `r_2 = h k_1 - r_1`,
 /// `r_3 = 2 r_1 - h (k_1 + k_13)`, `r_i = h sum_j d_ij k_j` beyond. Value and slope are exact at both ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dense<S> {
+pub struct Dense<S, C = Flat> {
     t: f64,
     t_end: f64,
     y: S,
     y_end: S,
     coefficients: [S; 7],
+    coordinates: C,
+    base: Sum<S>,
 }
 
 impl<S: StateVector<f64>> Dense<S> {
+    /// The same polynomial, for coordinates around `base`, of a step that ends at the state `y_end`.
+    pub(super) fn around<C>(self, coordinates: C, base: Sum<S>, y_end: S) -> Dense<S, C> {
+        let Self { t, t_end, y, coefficients, .. } = self;
+        Dense { t, t_end, y, y_end, coefficients, coordinates, base }
+    }
+}
+
+impl<S: StateVector<f64>, C: Coordinates<S>> Dense<S, C> {
     /// The state at a time within the step.
     #[must_use]
     pub fn at(&self, t: f64) -> S {
@@ -222,6 +252,6 @@ impl<S: StateVector<f64>> Dense<S> {
             }
             *value += self.y.as_ref()[i];
         }
-        y
+        self.coordinates.state(&self.base, &y).value
     }
 }

@@ -6,6 +6,7 @@ use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::mechanics::symmetry::Side;
 use crate::mechanics::two_polar::{Lattice, Variables};
 
+use super::invariance::Evidence;
 use super::rewriting::{about_undeformed, through_dilatation};
 use super::{Base, Potential, is_parameter};
 
@@ -26,12 +27,14 @@ impl Potential {
     /// The first rotation that changes the potential: its side and plane, axes from 1.
     #[must_use]
     pub fn anisotropy(&self) -> Option<(Side, (usize, usize))> {
+        // The evidence of a constraint is another; the two-polar form has none.
+        let Evidence::Identities(invariance) = &self.invariance else { return None };
         let turns = |square: &Square<Polynomial>| {
             let planes = (0..self.dim).flat_map(|a| (a + 1..self.dim).map(move |b| (a, b)));
             planes.into_iter().find(|(a, b)| square[*a][*b] != square[*b][*a]).map(|(a, b)| (a + 1, b + 1))
         };
-        let space = turns(&self.invariance.space).map(|plane| (Side::Space, plane));
-        space.or_else(|| turns(&self.invariance.body).map(|plane| (Side::Body, plane)))
+        let space = turns(&invariance.space).map(|plane| (Side::Space, plane));
+        space.or_else(|| turns(&invariance.body).map(|plane| (Side::Body, plane)))
     }
 
     /// Does it depend on `q = ln(det phi)/n` alone?
@@ -107,11 +110,16 @@ fn along_axis(
     };
     match base {
         Base::MeanLogStretch => power(0, 1),
+        Base::LogStretch(k) if k == a => power(0, 1),
         Base::Trace => power(2, 1),
         Base::TraceOfSquare => power(4, 1),
         Base::Green(c, d) | Base::Finger(c, d) if c == a && d == a => power(2, 2),
         Base::Placement(c, d) if c == a && d == a => power(1, 1),
-        Base::Green(..) | Base::Finger(..) | Base::Placement(..) | Base::Position(_) => Polynomial::zero(),
+        Base::LogStretch(_)
+        | Base::Green(..)
+        | Base::Finger(..)
+        | Base::Placement(..)
+        | Base::Position(_) => Polynomial::zero(),
     }
 }
 
@@ -154,6 +162,10 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
             list.push((d, Polynomial::atom(root)));
             list.push((inverse_d, Polynomial::atom(arena.pow(d, -1).unwrap_or(d))));
             list.push((q, Polynomial::term(vec![arena.apply(Function::Ln, det)], nth)));
+            for (a, stretch) in stretches.iter().enumerate() {
+                let own = Base::LogStretch(a).symbol(arena);
+                list.push((own, Polynomial::atom(arena.apply(Function::Ln, *stretch))));
+            }
         }
     }
     list

@@ -1,10 +1,15 @@
 //! What a potential leaves conserved: its derivatives along the generators of the group.
 
-use crate::algebra::ring::{Square, deviator, skew, sum, table};
+use crate::algebra::residue::Residue;
+use crate::algebra::ring::{Ring, Square, deviator, skew, sum, table};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
+use crate::mechanics::constraint::Constraint;
+use crate::mechanics::group_point::GroupPoint;
 
+use super::principal::Principal;
+use super::rewriting::through_dilatation;
 use super::{Along, Base, Potential, Tensors, definitions, direction, finger, green, placement};
 
 impl Potential {
@@ -12,46 +17,82 @@ impl Potential {
     /// energy is quadratic in the momenta, so that its bracket and that of the potential vanish each for itself.
     #[must_use]
     pub fn keeps(&self, candidate: Candidate) -> bool {
-        let invariance = &self.invariance;
-        let vanish = |list: &[Polynomial]| list.iter().all(Polynomial::is_zero);
-        match candidate {
-            Candidate::Energy => true,
-            Candidate::LinearMomentum | Candidate::ComovingLinearMomentum => vanish(&invariance.centre),
-            Candidate::OrbitalAngularMomentum => vanish(&skew(&invariance.orbital)),
-            Candidate::TotalAffineMomentum => vanish(&invariance.total().concat()),
-            Candidate::TotalAngularMomentum => vanish(&skew(&invariance.total())),
-            Candidate::AffineSpin
-            | Candidate::CanonicalMomentum
-            | Candidate::Casimir2
-            | Candidate::Casimir3 => vanish(&invariance.space.concat()),
-            Candidate::ComovingAffineSpin => vanish(&invariance.body.concat()),
-            Candidate::Deviator | Candidate::DeviatorCasimir2 | Candidate::DeviatorCasimir3 => {
-                vanish(&deviator(&invariance.space).concat())
+        if candidate == Candidate::Energy {
+            return !self.depends_on_time();
+        }
+        match &self.invariance {
+            Evidence::Identities(one) => one.keeps(candidate),
+            Evidence::OnTheGroup(points) => points.iter().all(|point| point.keeps(candidate)),
+        }
+    }
+}
+
+/// What shows that derivatives vanish.
+#[derive(Clone, Debug)]
+pub(super) enum Evidence {
+    /// They are zero as polynomials.
+    Identities(Invariance<Polynomial>),
+    /// They are zero at random points of the group of a constraint, projected for it.
+    OnTheGroup(Vec<Invariance<Residue>>),
+}
+
+impl Evidence {
+    pub(super) fn identities(arena: &mut Arena, n: usize, slopes: &[(Base, Expr)]) -> Self {
+        Self::Identities(Invariance::new(arena, n, slopes))
+    }
+
+    pub(super) fn on_the_group(
+        arena: &mut Arena,
+        n: usize,
+        slopes: &[(Base, Expr)],
+        group: Constraint,
+    ) -> Self {
+        let mut through = Vec::new();
+        for (base, slope) in slopes {
+            through.push((*base, through_dilatation(arena, *slope)));
+        }
+        let chart = chart(arena, n);
+        let symbolic = Invariance::new(arena, n, &through);
+        let points = GroupPoint::all(arena, &chart, group);
+        let at = |point: &GroupPoint| {
+            let value = |p: &Polynomial| point.evaluate(arena, p);
+            let values = |m: &Square<Polynomial>| table(n, |a, b| value(&m[a][b]));
+            Invariance {
+                space: group.projected(&values(&symbolic.space)),
+                body: group.projected(&values(&symbolic.body)),
+                centre: symbolic.centre.iter().map(value).collect(),
+                orbital: values(&symbolic.orbital),
             }
-            Candidate::ComovingDeviator => vanish(&deviator(&invariance.body).concat()),
-            Candidate::Spin | Candidate::SpinNorm => vanish(&skew(&invariance.space)),
-            Candidate::Vorticity | Candidate::VorticityNorm => vanish(&skew(&invariance.body)),
-            Candidate::Casimir1 => {
-                let mut trace = Polynomial::zero();
-                (0..self.dim).for_each(|i| trace.add_scaled(&invariance.space[i][i], &Rational::ONE));
-                trace.is_zero()
-            }
+        };
+        Self::OnTheGroup(points.iter().map(at).collect())
+    }
+
+    /// Do the derivatives with respect to the placement vanish?
+    pub(super) fn moves_no_placement(&self) -> bool {
+        match self {
+            Self::Identities(one) => one.keeps(Candidate::AffineSpin),
+            Self::OnTheGroup(points) => points.iter().all(|point| point.keeps(Candidate::AffineSpin)),
         }
     }
 }
 
 /// Derivatives of `U` along the generators, as polynomials in `phi`, `x` and functions.
 #[derive(Clone, Debug)]
-pub(super) struct Invariance {
-    pub(super) space: Square<Polynomial>,
-    pub(super) body: Square<Polynomial>,
-    centre: Vec<Polynomial>,
-    orbital: Square<Polynomial>,
+pub(super) struct Invariance<R> {
+    pub(super) space: Square<R>,
+    pub(super) body: Square<R>,
+    centre: Vec<R>,
+    orbital: Square<R>,
 }
 
-impl Invariance {
-    pub(super) fn new(arena: &mut Arena, n: usize, slopes: &[(Base, Expr)]) -> Self {
-        let chart = Chart::new(arena, n, Momentum::Body, Some(Linear::Space));
+/// The chart whose placement and position the derivatives are written in.
+fn chart(arena: &mut Arena, n: usize) -> Chart {
+    Chart::new(arena, n, Momentum::Body, Some(Linear::Space))
+}
+
+impl Invariance<Polynomial> {
+    fn new(arena: &mut Arena, n: usize, slopes: &[(Base, Expr)]) -> Self {
+        let chart = chart(arena, n);
         let phi = placement(&chart);
         let (green, finger) = (table(n, |a, b| green(&phi, a, b)), table(n, |i, j| finger(&phi, i, j)));
         let definitions = definitions(arena, n, &chart);
@@ -65,7 +106,8 @@ impl Invariance {
                 (*base, form.scaled(&base.weight(n)))
             })
             .collect();
-        let tensors = Tensors { phi, green, finger, inverse: Vec::new() };
+        let principal = Principal::on_unit_axes(arena, n);
+        let tensors = Tensors { phi, green, finger, cofactors: Vec::new(), principal };
         let along = |along: Along| {
             table(n, |a, b| {
                 let mut sum = Polynomial::zero();
@@ -86,8 +128,37 @@ impl Invariance {
             orbital: table(n, |i, j| Polynomial::atom(chart.x[i]).mul(&position(j))),
         }
     }
+}
 
-    fn total(&self) -> Square<Polynomial> {
+impl<R: Ring> Invariance<R> {
+    fn total(&self) -> Square<R> {
         sum(&self.orbital, &self.space)
+    }
+
+    fn keeps(&self, candidate: Candidate) -> bool {
+        let vanish = |list: &[R]| list.iter().all(Ring::vanishes);
+        match candidate {
+            Candidate::Energy => true,
+            Candidate::LinearMomentum | Candidate::ComovingLinearMomentum => vanish(&self.centre),
+            Candidate::OrbitalAngularMomentum => vanish(&skew(&self.orbital)),
+            Candidate::TotalAffineMomentum => vanish(&self.total().concat()),
+            Candidate::TotalAngularMomentum => vanish(&skew(&self.total())),
+            Candidate::AffineSpin
+            | Candidate::CanonicalMomentum
+            | Candidate::Casimir2
+            | Candidate::Casimir3 => vanish(&self.space.concat()),
+            Candidate::ComovingAffineSpin => vanish(&self.body.concat()),
+            Candidate::Deviator | Candidate::DeviatorCasimir2 | Candidate::DeviatorCasimir3 => {
+                vanish(&deviator(&self.space).concat())
+            }
+            Candidate::ComovingDeviator => vanish(&deviator(&self.body).concat()),
+            Candidate::Spin | Candidate::SpinNorm => vanish(&skew(&self.space)),
+            Candidate::Vorticity | Candidate::VorticityNorm => vanish(&skew(&self.body)),
+            Candidate::Casimir1 => {
+                let mut trace = R::zero();
+                self.space.iter().enumerate().for_each(|(i, row)| trace.plus(&row[i], &Rational::ONE));
+                trace.vanishes()
+            }
+        }
     }
 }

@@ -1,0 +1,47 @@
+//! Rules on what a constraint leaves of a model.
+
+use super::constant;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::spec::{Constraint, Named, Spec, Term, TermKind};
+
+/// On the group, energies in `phi_dot` have mass matrices that depend on the placement, but for two:
+/// `tr(phi_dot J phi_dot^T) = tr(Oh J Oh^T)` of a rigid motion, and the isochoric one, whose constraint has a
+/// multiplier instead.
+pub(super) fn constant_mass_matrix(spec: &Spec, found: &mut Diagnostics) {
+    let Some(constraint) = spec.constraint else { return };
+    for term in terms(spec) {
+        let curved = match (term.kind.value, constraint.value) {
+            (TermKind::FlatTensor, _) => true,
+            (TermKind::Dalembert, constraint) => constraint == Constraint::Conformal,
+            _ => false,
+        };
+        if curved {
+            let mistake = Diagnostic::ConstrainedMassMatrix {
+                term: term.kind.value.name(),
+                constraint: constraint.value.name(),
+                group: constraint.value.group(),
+            };
+            found.report(term.kind.span, mistake);
+        }
+    }
+}
+
+/// Momenta of a constrained motion lie in the dual of a subalgebra, on which a Hamiltonian stated for all of them is
+/// another one; and the group of a metric is that of its orthonormal bases.
+pub(super) fn stands_alone(spec: &Spec, found: &mut Diagnostics) {
+    let Some(constraint) = spec.constraint else { return };
+    let beside = [("hamiltonian(...)", spec.hamiltonian.is_some()), ("metrics(...)", spec.has_metrics())];
+    for (key, _) in beside.into_iter().filter(|(_, stated)| *stated) {
+        found.report(constraint.span, Diagnostic::ConstraintBeside { key });
+    }
+}
+
+/// The terms that are not exactly zero.
+fn terms(spec: &Spec) -> impl Iterator<Item = &Term> {
+    let zero = |term: &Term| {
+        term.value
+            .expressions()
+            .all(|entry| constant(entry, spec.dim.value).is_some_and(|value| value.is_zero()))
+    };
+    spec.kinetic.iter().filter(move |term| !zero(term))
+}

@@ -1,0 +1,99 @@
+//! The metrics of space and body, and what can be stated beside them.
+
+use super::identity::equal;
+use super::inertia::defect;
+use super::shapes::counts;
+use super::symbols::has_field;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::spec::{Expression, ExpressionKind, MatrixName, Metric, Named, Spec, Value};
+
+fn stated(spec: &Spec) -> impl Iterator<Item = &Metric> {
+    spec.metrics.iter().flatten()
+}
+
+/// n x n, as `g_ij` and `eta_AB`.
+pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
+    let n = spec.dim.value;
+    for metric in stated(spec) {
+        for (at, counted, actual) in counts(&metric.value, metric.span, n) {
+            if actual != n {
+                let because = format!("n = {n}");
+                let mistake = Diagnostic::MatrixSize {
+                    term: metric.side,
+                    counted,
+                    found: actual,
+                    expected: n,
+                    because,
+                };
+                found.report(at, mistake);
+            }
+        }
+    }
+}
+
+/// The orthonormal bases are computed when the model is compiled, to the precision of every scalar.
+pub(super) fn literal(spec: &Spec, found: &mut Diagnostics) {
+    for metric in stated(spec) {
+        for entry in metric.value.expressions().filter(|entry| has_field(spec, entry)) {
+            let mistake = Diagnostic::MetricEntry { side: metric.side, entry: entry.to_string() };
+            found.report(entry.span, mistake);
+        }
+    }
+}
+
+/// `g_ij = g_ji > 0`: a metric measures lengths.
+pub(super) fn positive(spec: &Spec, found: &mut Diagnostics) {
+    let n = spec.dim.value;
+    for metric in stated(spec) {
+        if let Value::Matrix(rows) = &metric.value
+            && let Some((i, j)) = asymmetric(rows, n)
+        {
+            let mistake = Diagnostic::MetricNotSymmetric {
+                side: metric.side,
+                row: j + 1,
+                column: i + 1,
+                value: rows[j][i].to_string(),
+                transposed: rows[i][j].to_string(),
+            };
+            found.report(rows[i][j].span, mistake);
+        } else if let Some(defect) = defect(&metric.value, n, metric.letters()) {
+            found.report(metric.span, Diagnostic::MetricNotPositive { side: metric.side, defect });
+        }
+    }
+}
+
+/// The first entry below the diagonal that differs from its transpose.
+fn asymmetric(rows: &[Vec<Expression>], n: usize) -> Option<(usize, usize)> {
+    let pairs = (0..rows.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    pairs
+        .filter(|(i, j)| rows[*i].len() == rows.len() && rows[*j].len() == rows.len())
+        .find(|(i, j)| equal(&rows[*j][*i], &rows[*i][*j], n) == Some(false))
+}
+
+/// Beside metrics, what names components in the user's bases is not yet carried over to orthonormal ones, where its
+/// coefficients are irrational: matrices J and K, entries and coordinates, and traces of `phi` itself or of products of
+/// tensors of the body with tensors of space, which depend on the bases.
+pub(super) fn invariant(spec: &Spec, found: &mut Diagnostics) {
+    if crate::lower::metrics(spec).is_none() {
+        return;
+    }
+    for term in &spec.kinetic {
+        if !matches!(term.value, Value::Scalar(_)) {
+            found.report(term.span, Diagnostic::MetricTerm { term: term.kind.value.name() });
+        }
+    }
+    let mut pending: Vec<&Expression> = spec.potential.iter().map(|potential| &potential.energy).collect();
+    while let Some(part) = pending.pop() {
+        let depends = match &part.kind {
+            ExpressionKind::Entry(..) | ExpressionKind::Component(_) => true,
+            ExpressionKind::Trace(factors) => {
+                factors.contains(&MatrixName::Placement) || factors.windows(2).any(|pair| pair[0] != pair[1])
+            }
+            _ => false,
+        };
+        if depends {
+            found.report(part.span, Diagnostic::MetricForm { form: part.to_string() });
+        }
+        pending.extend(part.operands());
+    }
+}

@@ -1,0 +1,169 @@
+//! The Hamiltonian as stated on the momentum side.
+
+use super::constant::constant;
+use crate::algebra::Polynomial;
+use crate::diagnostics::{Diagnostic, Diagnostics, Directions};
+use crate::mechanics::hessian::Direction;
+use crate::mechanics::momentum_side::Stated;
+use crate::spec::{Expression, MomentumKind, Named, Requirement, Spec, Term, Value};
+
+/// Each term is a multiple of one invariant.
+pub(super) fn scalars(spec: &Spec, found: &mut Diagnostics) {
+    for term in terms(spec) {
+        let written = match term.value {
+            Value::Scalar(_) => continue,
+            Value::Diagonal(_) => "a diagonal matrix",
+            Value::Matrix(_) => "a matrix",
+        };
+        let mistake = Diagnostic::TermShape {
+            term: term.kind.value.name(),
+            found: written,
+            takes: "a scalar: it multiplies one invariant of the affine spin or of p".to_owned(),
+            instead: "write one expression, as in `casimir2 = 5/6`; inertias and tensors are stated in `kinetic(...)`",
+        };
+        found.report(term.span, mistake);
+    }
+}
+
+/// `|Vort|^2` is a constant form in `Sigma_hat`, `|S|^2` in `Sigma`, and likewise `|p_hat|^2` and `|p|^2`: the velocity
+/// of their sum is a form in the momentum that depends on phi.
+pub(super) fn one_frame(spec: &Spec, found: &mut Diagnostics) {
+    let forms = |kind| match kind {
+        MomentumKind::VorticitySquared => Some((false, "Sigma_hat = Pi phi")),
+        MomentumKind::SpinSquared => Some((false, "Sigma = phi Pi")),
+        MomentumKind::BodyTranslation => Some((true, "p_hat = phi^T p")),
+        MomentumKind::SpaceTranslation => Some((true, "p")),
+        _ => None,
+    };
+    let mut earlier: [Option<(&'static str, &'static str)>; 2] = [None; 2];
+    for term in terms(spec).filter(|term| !is_zero(term, spec.dim.value)) {
+        let Some((of_centre, momentum)) = forms(term.kind.value) else { continue };
+        let name = term.kind.value.name();
+        match earlier[usize::from(of_centre)] {
+            None => earlier[usize::from(of_centre)] = Some((name, momentum)),
+            Some((first, first_velocity)) => {
+                let mistake = Diagnostic::MixedFrames {
+                    first,
+                    first_velocity,
+                    second: name,
+                    second_velocity: momentum,
+                };
+                found.report(term.kind.span, mistake);
+            }
+        }
+    }
+}
+
+/// `tr X^3` is a function of `tr X` and `tr X^2` for n = 2 (Cayley and Hamilton).
+pub(super) fn third_casimir(spec: &Spec, found: &mut Diagnostics) {
+    let cubic = terms(spec).find(|term| term.kind.value == MomentumKind::Casimir3);
+    if let Some(term) = cubic.filter(|_| spec.dim.value == 2) {
+        found.report(term.kind.span, Diagnostic::PlanarCasimir3);
+    }
+}
+
+/// `x_dot = p/m`: with `1/m = 0` the centre stands still whatever `p` is.
+pub(super) fn inverse_masses(spec: &Spec, found: &mut Diagnostics) {
+    for term in terms(spec).filter(|term| term.kind.value.is_translation() && is_zero(term, spec.dim.value)) {
+        let coefficient = written(term).map(Expression::to_string).unwrap_or_default();
+        found.report(term.span, Diagnostic::ZeroInverseMass { term: term.kind.value.name(), coefficient });
+    }
+}
+
+/// The velocity `O = a X + b tr(X) 1 - c (X - X^T)` determines the momentum iff none of `a`, `2c - a`, `a + n b` is
+/// zero; values with fields are left to `prepare()`. With `casimir3` the velocity never does, and nothing is asked.
+pub(super) fn invertible(spec: &Spec, stated: &Stated, found: &mut Diagnostics) {
+    if stated.is_cubic() {
+        return;
+    }
+    let sum = stated.invariants();
+    for (direction, value) in stated.eigenvalues().into_iter().filter(|(_, value)| value.is_zero()) {
+        // Without a norm, or without the other Casimir, these vanish with `casimir2`, which is reported.
+        let alone = match direction {
+            Direction::Rotation => sum.skew.is_zero() && value == sum.casimir2,
+            Direction::Dilatation => sum.casimir1_squared.is_zero(),
+            Direction::Shear | Direction::Entry => false,
+        };
+        if !alone {
+            let (eigenvalue, numbers, directions) = eigenvalue(spec, direction);
+            let mistake = Diagnostic::DegenerateHamiltonian { eigenvalue, numbers, directions };
+            found.report(spec.kinetic_key, mistake);
+        }
+    }
+}
+
+/// `require(positive_definite)`: `T > 0` iff `H > 0`, for a form and its inverse have the same signs. Values with
+/// fields are left to `prepare()`.
+pub(super) fn positive(spec: &Spec, stated: &Stated, found: &mut Diagnostics) {
+    let Some(required) = spec.require.iter().find(|r| r.value == Requirement::PositiveDefinite) else {
+        return;
+    };
+    if stated.is_cubic() {
+        let defect = "with `casimir3`, tr X^3 takes both signs".to_owned();
+        found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
+        return;
+    }
+    let negative = |value: &Polynomial| value.as_constant().is_some_and(|value| value.is_negative());
+    for (direction, _) in stated.eigenvalues().iter().filter(|(_, value)| negative(value)) {
+        let (eigenvalue, numbers, _) = eigenvalue(spec, *direction);
+        let text = if eigenvalue == numbers { eigenvalue } else { format!("{eigenvalue} = {numbers}") };
+        found
+            .report(required.span, Diagnostic::NotPositiveDefinite { defect: format!("{text} is negative") });
+    }
+    if let Some((place, _, value)) = &stated.translation
+        && let (Some(value), Some(term)) = (value.as_constant(), terms(spec).nth(*place))
+        && value.is_negative()
+    {
+        let defect = format!("the inverse mass `{} = {value}` is negative", term.kind.value.name());
+        found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
+    }
+}
+
+/// An eigenvalue by the names of the terms, with the user's coefficients in it, and the momenta it belongs to.
+fn eigenvalue(spec: &Spec, direction: Direction) -> (String, String, Directions) {
+    let coefficient = |kind: MomentumKind| {
+        let term = terms(spec).find(|term| term.kind.value == kind);
+        term.and_then(written).map_or_else(|| "0".to_owned(), |e| bracketed(e.to_string()))
+    };
+    let a = coefficient(MomentumKind::Casimir2);
+    match direction {
+        Direction::Shear | Direction::Entry => ("casimir2".to_owned(), a, Directions::SymmetricTraceless),
+        Direction::Rotation => {
+            let norms = [MomentumKind::VorticitySquared, MomentumKind::SpinSquared];
+            let norm = norms.into_iter().find(|kind| terms(spec).any(|term| term.kind.value == *kind));
+            match norm {
+                Some(kind) => (
+                    format!("2 {} - casimir2", kind.name()),
+                    format!("2*{} - {a}", coefficient(kind)),
+                    Directions::Skew,
+                ),
+                None => ("-casimir2".to_owned(), format!("-{a}"), Directions::Skew),
+            }
+        }
+        Direction::Dilatation => (
+            "casimir2 + n casimir1_squared".to_owned(),
+            format!("{a} + {}*{}", spec.dim.value, coefficient(MomentumKind::Casimir1Squared)),
+            Directions::Trace,
+        ),
+    }
+}
+
+fn bracketed(text: String) -> String {
+    let simple = text.chars().all(|c| c.is_alphanumeric() || c == '.' || c == '_');
+    if simple { text } else { format!("({text})") }
+}
+
+fn terms(spec: &Spec) -> impl Iterator<Item = &Term<MomentumKind>> {
+    spec.hamiltonian.iter().flatten()
+}
+
+fn written(term: &Term<MomentumKind>) -> Option<&Expression> {
+    match &term.value {
+        Value::Scalar(e) => Some(e),
+        _ => None,
+    }
+}
+
+fn is_zero(term: &Term<MomentumKind>, n: usize) -> bool {
+    written(term).and_then(|e| constant(e, n)).is_some_and(|value| value.is_zero())
+}

@@ -1,0 +1,45 @@
+//! The terms of `hamiltonian(...)` as symbolic terms.
+
+use crate::algebra::{Arena, Polynomial};
+use crate::check::constant;
+use crate::mechanics::hamiltonian::Isotropic;
+use crate::mechanics::kinetic::Frame;
+use crate::mechanics::momentum_side::Stated;
+use crate::spec::{MomentumKind, Spec, Value};
+
+use super::expression;
+
+/// The Hamiltonian, if the model states one; terms that are exactly zero leave no trace.
+pub fn stated(arena: &mut Arena, spec: &Spec) -> Option<Stated> {
+    let n = spec.dim.value;
+    let (mut parts, mut translation, mut norm) = (Vec::new(), None, None);
+    for (place, term) in spec.hamiltonian.as_ref()?.iter().enumerate() {
+        let Value::Scalar(written) = &term.value else { continue };
+        if constant(written, n).is_some_and(|value| value.is_zero()) {
+            continue;
+        }
+        let value = expression(arena, n, written)?;
+        let value = Polynomial::normal_form(arena, value);
+        let zero = Isotropic::zero();
+        match term.kind.value {
+            MomentumKind::Casimir2 => parts.push((place, Isotropic { casimir2: value, ..zero })),
+            MomentumKind::Casimir1Squared => {
+                parts.push((place, Isotropic { casimir1_squared: value, ..zero }));
+            }
+            MomentumKind::VorticitySquared => {
+                norm = Some(Frame::Body);
+                parts.push((place, Isotropic { skew: value, ..zero }));
+            }
+            MomentumKind::SpinSquared => {
+                norm = Some(Frame::Space);
+                parts.push((place, Isotropic { skew: value, ..zero }));
+            }
+            MomentumKind::Casimir3 => parts.push((place, Isotropic { casimir3: value, ..zero })),
+            MomentumKind::BodyTranslation => translation = Some((place, Frame::Body, value)),
+            MomentumKind::SpaceTranslation => translation = Some((place, Frame::Space, value)),
+        }
+    }
+    let moving = translation.as_ref().map(|(_, frame, _)| *frame);
+    let frame = norm.or(moving).unwrap_or(Frame::Body);
+    Some(Stated { dim: n, frame, parts, translation })
+}

@@ -1,0 +1,158 @@
+//! Constraints: motion confined to a subgroup `G` of GL+(n), velocities to its Lie algebra `g`, momenta to `g*`.
+//!
+//! `T*G` is what is left of `T*GL` over `G` once momenta that differ by a covector that vanishes on `g` are one. The
+//! pairing `tr(X O)` identifies `g*` with the image of a projection `P`, and a Hamiltonian `H(P X)` has Hamilton's
+//! equations on GL whose flow keeps `G`; of the rates of the momenta `P` takes what acts on `g`. For the three groups
+//! here `P` commutes with conjugation by elements of `G`, so that `Sigma = phi Sigma_hat phi^-1` holds for the
+//! projected momenta too.
+
+use crate::algebra::ring::{Ring, Square, deviator, table};
+use crate::algebra::{Expr, Matrix, Polynomial, Rational};
+
+use super::hessian::{BasisVector, Direction};
+use super::kinetic::TermKind;
+
+/// The subgroup that the motion is confined to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Constraint {
+    /// SL(n): `det phi = 1`; `g` is traceless.
+    Isochoric,
+    /// SO(n): `phi^T phi = 1`; `g` is skew.
+    Rigid,
+    /// R+ SO(n): `phi^T phi` is a multiple of the identity; `g` is skew plus multiples of the identity.
+    Conformal,
+}
+
+impl Constraint {
+    /// Name of the group.
+    #[must_use]
+    pub fn name(self, n: usize) -> String {
+        match self {
+            Self::Isochoric => format!("SL({n})"),
+            Self::Rigid => format!("SO({n})"),
+            Self::Conformal => format!("R+ SO({n})"),
+        }
+    }
+
+    /// Does `g` contain the invariant directions of this kind?
+    #[must_use]
+    pub fn leaves_free(self, kind: Direction) -> bool {
+        match self {
+            Self::Isochoric => kind != Direction::Dilatation,
+            Self::Rigid => kind == Direction::Rotation,
+            Self::Conformal => matches!(kind, Direction::Rotation | Direction::Dilatation),
+        }
+    }
+
+    /// Dimension of `G`.
+    #[must_use]
+    pub fn dimension(self, n: usize) -> usize {
+        let rotations = n * (n - 1) / 2;
+        match self {
+            Self::Isochoric => n * n - 1,
+            Self::Rigid => rotations,
+            Self::Conformal => rotations + 1,
+        }
+    }
+
+    /// The form that a term has on `G`: with `phi^T phi = 1` is `tr(phi_dot J phi_dot^T) = tr(Oh J Oh^T)` and
+    /// `|phi^-1 x_dot| = |x_dot|`.
+    #[must_use]
+    pub fn form_of(self, kind: TermKind) -> TermKind {
+        match (self, kind) {
+            (Self::Rigid, TermKind::Dalembert) => TermKind::BodyInertia,
+            (Self::Rigid, TermKind::BodyTranslation) => TermKind::SpaceTranslation,
+            _ => kind,
+        }
+    }
+
+    /// `P X`: the traceless part, the skew part, or the skew part and the trace. Also the orthogonal projection of
+    /// velocities on `g`.
+    #[must_use]
+    pub fn projected<R: Ring>(self, m: &Square<R>) -> Square<R> {
+        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        let skew = || {
+            table(m.len(), |a, b| {
+                let mut entry = R::zero();
+                if a != b {
+                    entry.plus(&m[a][b], &half);
+                    entry.plus(&m[b][a], &-&half);
+                }
+                entry
+            })
+        };
+        match self {
+            Self::Isochoric => deviator(m),
+            Self::Rigid => skew(),
+            Self::Conformal => {
+                let mut result = skew();
+                let nth = i64::try_from(m.len()).ok().and_then(|n| Rational::ratio(1, n));
+                let nth = nth.unwrap_or(Rational::ONE);
+                for a in 0..m.len() {
+                    for (k, row) in m.iter().enumerate() {
+                        result[a][a].plus(&row[k], &nth);
+                    }
+                }
+                result
+            }
+        }
+    }
+
+    /// `P` as a formula, in text and LaTeX.
+    #[must_use]
+    pub fn projection(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Isochoric => ("P X = X - tr(X)/n 1", "P X = X - \\tfrac{1}{n}\\operatorname{tr}(X)\\,1"),
+            Self::Rigid => ("P X = (X - X^T)/2", "P X = \\tfrac{1}{2}(X - X^T)"),
+            Self::Conformal => (
+                "P X = (X - X^T)/2 + tr(X)/n 1",
+                "P X = \\tfrac{1}{2}(X - X^T) + \\tfrac{1}{n}\\operatorname{tr}(X)\\,1",
+            ),
+        }
+    }
+
+    /// Are affine velocities and their momenta traceless?
+    #[must_use]
+    pub fn is_traceless(self) -> bool {
+        !self.leaves_free(Direction::Dilatation)
+    }
+
+    /// The entries of a matrix in the image of `P` that are linear in others, by those: the last of the diagonal; all
+    /// below it, and the diagonal, or all but the first of it.
+    #[must_use]
+    pub fn dependent(self, m: &Matrix) -> Vec<(Expr, Polynomial)> {
+        let n = m.dim();
+        let minus = |of: Expr| Polynomial::term(vec![of], Rational::MINUS_ONE);
+        let mut list = Vec::new();
+        match self {
+            Self::Isochoric => {
+                let mut sum = Polynomial::zero();
+                (0..n - 1).for_each(|a| sum.add_scaled(&minus(m.0[a][a]), &Rational::ONE));
+                list.push((m.0[n - 1][n - 1], sum));
+            }
+            Self::Rigid => list.extend((0..n).map(|a| (m.0[a][a], Polynomial::zero()))),
+            Self::Conformal => list.extend((1..n).map(|a| (m.0[a][a], Polynomial::atom(m.0[0][0])))),
+        }
+        if self != Self::Isochoric {
+            list.extend(
+                (0..n).flat_map(|a| (0..a).map(move |b| (a, b))).map(|(a, b)| (m.0[a][b], minus(m.0[b][a]))),
+            );
+        }
+        list
+    }
+
+    /// Bases of `g`, one of which makes the form of an energy shortest: invariant directions, and where `g` has enough
+    /// of them, single entries.
+    #[must_use]
+    pub fn bases(self, n: usize, invariant: Vec<BasisVector>) -> Vec<Vec<BasisVector>> {
+        let free: Vec<BasisVector> = invariant.into_iter().filter(|v| self.leaves_free(v.kind)).collect();
+        if self != Self::Isochoric {
+            return vec![free];
+        }
+        let single = |k| BasisVector { kind: Direction::Entry, entries: vec![(k, Rational::ONE)] };
+        let mut entries: Vec<BasisVector> = (0..n * n).filter(|k| k % (n + 1) != 0).map(single).collect();
+        let diagonal = free.iter().filter(|v| v.entries.iter().all(|(k, _)| k % (n + 1) == 0));
+        entries.extend(diagonal.map(|v| BasisVector { kind: Direction::Entry, entries: v.entries.clone() }));
+        vec![entries, free]
+    }
+}

@@ -1,0 +1,102 @@
+//! Points of the constraint groups modulo a prime: what holds on a group need not hold as a polynomial identity.
+//!
+//! A rational function that does not vanish on the group vanishes at a random point of it with a chance of its degree
+//! over `2^61` (Schwartz, J. ACM 27 (1980) 701; the groups are rational varieties), at [`POINTS`] points with that to
+//! the power [`POINTS`].
+
+use std::collections::HashMap;
+
+use crate::algebra::evaluate::{Field, evaluate_polynomial};
+use crate::algebra::residue::Residue;
+use crate::algebra::ring::{Ring, Square, adjugate, product, table};
+use crate::algebra::{Arena, Matrix, Polynomial, Rational};
+
+use super::charts::Chart;
+use super::constraint::Constraint;
+
+/// Number of points that decide.
+const POINTS: usize = 3;
+
+/// Values of the placement, of a projected momentum and of `exp(q)`; of every other name one that depends on it alone.
+pub(super) struct GroupPoint {
+    seed: usize,
+    values: HashMap<String, Residue>,
+}
+
+impl GroupPoint {
+    /// The points that decide about a chart of a confined motion.
+    pub(super) fn all(arena: &Arena, chart: &Chart, group: Constraint) -> Vec<Self> {
+        (0..POINTS).map(|seed| Self::new(arena, chart, group, seed)).collect()
+    }
+
+    fn new(arena: &Arena, chart: &Chart, group: Constraint, seed: usize) -> Self {
+        let mut point = Self { seed, values: HashMap::new() };
+        let scale = match group {
+            Constraint::Conformal => point.value("scale"),
+            Constraint::Isochoric | Constraint::Rigid => Residue::from_rational(&Rational::ONE),
+        };
+        let phi = match group {
+            Constraint::Isochoric => unimodular(&point.sample(arena, &chart.phi)),
+            Constraint::Rigid | Constraint::Conformal => {
+                let rotation = cayley(&Constraint::Rigid.projected(&point.sample(arena, &chart.phi)));
+                scaled(&rotation, scale)
+            }
+        };
+        let momentum = group.projected(&point.sample(arena, &chart.m));
+        for (symbols, values) in [(&chart.phi, phi), (&chart.m, momentum)] {
+            for (symbol, value) in symbols.0.iter().flatten().zip(values.concat()) {
+                point.values.insert(arena.name(*symbol).unwrap_or_default().to_owned(), value);
+            }
+        }
+        point.values.insert("dilatation".to_owned(), scale);
+        point.values.insert("inverse_dilatation".to_owned(), scale.recip().unwrap_or(Residue::UNKNOWN));
+        point
+    }
+
+    fn value(&self, name: &str) -> Residue {
+        let known = self.values.get(name).copied();
+        known.unwrap_or_else(|| Residue::sample(&format!("{} at point {}", name, self.seed)))
+    }
+
+    fn sample(&self, arena: &Arena, symbols: &Matrix) -> Square<Residue> {
+        table(symbols.dim(), |i, j| self.value(arena.name(symbols.0[i][j]).unwrap_or_default()))
+    }
+
+    /// The value of a polynomial.
+    pub(super) fn evaluate(&self, arena: &Arena, polynomial: &Polynomial) -> Residue {
+        let value = evaluate_polynomial(arena, polynomial, &|name| Some(self.value(name)));
+        value.unwrap_or(Residue::UNKNOWN)
+    }
+}
+
+fn determinant(m: &Square<Residue>) -> Residue {
+    let mut sum = Residue::ZERO;
+    for (entry, row) in m[0].iter().zip(adjugate(m)) {
+        sum.plus_product(entry, &row[0], &Rational::ONE);
+    }
+    sum
+}
+
+fn scaled(m: &Square<Residue>, factor: Residue) -> Square<Residue> {
+    table(m.len(), |i, j| m[i][j].mul(&factor))
+}
+
+/// The matrix with its first row divided by its determinant.
+fn unimodular(m: &Square<Residue>) -> Square<Residue> {
+    let factor = determinant(m).recip().unwrap_or(Residue::UNKNOWN);
+    table(m.len(), |i, j| if i == 0 { m[i][j].mul(&factor) } else { m[i][j] })
+}
+
+/// Cayley's rotation `(1 - W)^-1 (1 + W)` of a skew `W`.
+fn cayley(w: &Square<Residue>) -> Square<Residue> {
+    let unit_plus = |sign: &Rational| {
+        table(w.len(), |i, j| {
+            let mut entry = Residue::from_rational(&Rational::from(i64::from(i == j)));
+            entry.plus(&w[i][j], sign);
+            entry
+        })
+    };
+    let minus = unit_plus(&Rational::MINUS_ONE);
+    let factor = determinant(&minus).recip().unwrap_or(Residue::UNKNOWN);
+    scaled(&product(&adjugate(&minus), &unit_plus(&Rational::ONE)), factor)
+}

@@ -1,0 +1,160 @@
+//! A Hamiltonian as stated on the momentum side, and the kinetic energy that belongs to it.
+
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+
+use super::hamiltonian::{Hamiltonian, Isotropic};
+use super::hessian::Direction;
+use super::kinetic::{Coefficient, Frame, Kinetic, Term, TermKind, Translation};
+
+/// `a/2 tr X^2 + b/2 (tr X)^2 + c/2 |W|^2 + d/3 tr X^3`, `W = X - X^T`, and `k/2 |p_hat|^2` or `k/2 |p|^2`.
+#[derive(Clone, Debug)]
+pub struct Stated {
+    /// Dimension of space.
+    pub dim: usize,
+    /// Frame of `X`: that of the squared norm, or else of the translation; the Casimirs are the same in both.
+    pub frame: Frame,
+    /// Each internal term alone, with its place among the terms.
+    pub parts: Vec<(usize, Isotropic)>,
+    /// Place, frame and `k = 1/m` of the translation.
+    pub translation: Option<(usize, Frame, Polynomial)>,
+}
+
+impl Stated {
+    /// The sum of the internal terms.
+    #[must_use]
+    pub fn invariants(&self) -> Isotropic {
+        let mut sum = Isotropic::zero();
+        for (_, part) in &self.parts {
+            sum.casimir2.add_scaled(&part.casimir2, &Rational::ONE);
+            sum.casimir1_squared.add_scaled(&part.casimir1_squared, &Rational::ONE);
+            sum.skew.add_scaled(&part.skew, &Rational::ONE);
+            sum.casimir3.add_scaled(&part.casimir3, &Rational::ONE);
+        }
+        sum
+    }
+
+    /// Is there a cubic term? Then the velocity is quadratic in the momentum and does not determine it.
+    #[must_use]
+    pub fn is_cubic(&self) -> bool {
+        !self.invariants().casimir3.is_zero()
+    }
+
+    /// Eigenvalues of the quadratic part on symmetric traceless, skew and trace momenta: `a`, `2c - a`, `a + n b`, from
+    /// `tr X^2 = -tr X X^T` and `|W|^2 = 2 tr X X^T` on skew `X`.
+    #[must_use]
+    pub fn eigenvalues(&self) -> [(Direction, Polynomial); 3] {
+        let sum = self.invariants();
+        let two = Rational::from(2);
+        let mut rotation = sum.skew.scaled(&two);
+        rotation.add_scaled(&sum.casimir2, &Rational::MINUS_ONE);
+        let mut dilatation = sum.casimir1_squared.scaled(&dimension(self.dim));
+        dilatation.add_scaled(&sum.casimir2, &Rational::ONE);
+        [
+            (Direction::Shear, sum.casimir2),
+            (Direction::Rotation, rotation),
+            (Direction::Dilatation, dilatation),
+        ]
+    }
+
+    /// The form on momenta in place of velocities: `phi -> A phi B` changes `Sigma_hat` as `Oh` and `Sigma` as `Om`, so
+    /// that what is invariant of the one is of the other.
+    #[must_use]
+    pub fn on_momenta(&self, arena: &mut Arena) -> Kinetic {
+        let spin = Matrix::symbols(arena, self.frame.momentum_name(), self.dim);
+        let rows = atoms(&spin);
+        let internal = self.parts.iter().map(|(place, part)| (*place, part.energy(&rows))).collect();
+        Kinetic {
+            constraint: None,
+            dim: self.dim,
+            frame: self.frame,
+            velocity: spin,
+            terms: Vec::new(),
+            internal,
+            translation: self.mass(arena),
+        }
+    }
+
+    /// The kinetic energy on the velocity side, `I`, `A`, `B` from `I + A = 1/a`, `I - A = 1/(2c - a)`,
+    /// `I + A + n B = 1/(a + n b)`; without internal form for a cubic Hamiltonian. `None` where it is degenerate.
+    pub fn kinetic(&self, arena: &mut Arena) -> Option<Kinetic> {
+        if self.is_cubic() {
+            return Some(Kinetic {
+                constraint: None,
+                dim: self.dim,
+                frame: self.frame,
+                velocity: Matrix::symbols(arena, self.frame.velocity_name(), self.dim),
+                terms: Vec::new(),
+                internal: Vec::new(),
+                translation: self.mass(arena),
+            });
+        }
+        let mut reciprocal = |(_, value): (Direction, Polynomial)| -> Option<Polynomial> {
+            let value = value.expression(arena);
+            let reciprocal = arena.pow(value, -1)?;
+            Some(Polynomial::normal_form(arena, reciprocal))
+        };
+        let [shear, rotation, dilatation] = self.eigenvalues();
+        let (shear, rotation, dilatation) =
+            (reciprocal(shear)?, reciprocal(rotation)?, reciprocal(dilatation)?);
+        let half = Rational::ratio(1, 2)?;
+        let nth = Rational::ONE.checked_div(&dimension(self.dim))?;
+        let combined = |x: &Polynomial, y: &Polynomial, sign: &Rational, weight: &Rational| {
+            let mut sum = x.clone();
+            sum.add_scaled(y, sign);
+            sum.scaled(weight)
+        };
+        let inertia = if self.frame == Frame::Space { TermKind::SpaceInertia } else { TermKind::BodyInertia };
+        let coefficients = [
+            (TermKind::Casimir2, combined(&shear, &rotation, &Rational::MINUS_ONE, &half)),
+            (TermKind::Casimir1Squared, combined(&dilatation, &shear, &Rational::MINUS_ONE, &nth)),
+            (inertia, combined(&shear, &rotation, &Rational::ONE, &half)),
+        ];
+        let mut terms: Vec<Term> = coefficients
+            .into_iter()
+            .filter(|(_, value)| !value.is_zero())
+            .map(|(kind, value)| Term { kind, value: Coefficient::Scalar(value.expression(arena)) })
+            .collect();
+        if let Some(t) = self.mass(arena) {
+            let kind =
+                if t.frame == Frame::Body { TermKind::BodyTranslation } else { TermKind::SpaceTranslation };
+            terms.push(Term { kind, value: Coefficient::Scalar(t.mass) });
+        }
+        Kinetic::new(arena, self.dim, &terms).ok()
+    }
+
+    /// The Hamiltonian as it stands, for one that is no quadratic form.
+    pub fn hamiltonian(&self, arena: &mut Arena) -> Hamiltonian {
+        let momentum = Matrix::symbols(arena, self.frame.momentum_name(), self.dim);
+        let invariants = self.invariants();
+        let energy = invariants.energy(&atoms(&momentum));
+        // O = (dH/dX)^T
+        let velocity = momentum.transpose().0.iter().map(|row| energy.gradient(row)).collect();
+        Hamiltonian {
+            constraint: None,
+            dim: self.dim,
+            frame: self.frame,
+            momentum,
+            velocity,
+            isotropic: Some(invariants),
+            translation: self.translation.as_ref().map(|(_, frame, k)| (*frame, k.clone())),
+            numeric_blocks: Vec::new(),
+        }
+    }
+
+    /// `m = 1/k`.
+    fn mass(&self, arena: &mut Arena) -> Option<Translation> {
+        let (place, frame, inverse) = self.translation.as_ref()?;
+        let inverse = inverse.expression(arena);
+        let mass = arena.pow(inverse, -1)?;
+        Some(Translation { frame: *frame, mass, place: *place })
+    }
+}
+
+fn atoms(matrix: &Matrix) -> Vec<Vec<Polynomial>> {
+    let row = |row: &Vec<Expr>| row.iter().map(|symbol| Polynomial::atom(*symbol)).collect();
+    matrix.0.iter().map(row).collect()
+}
+
+fn dimension(n: usize) -> Rational {
+    Rational::from(i64::try_from(n).unwrap_or(i64::MAX))
+}

@@ -1,0 +1,211 @@
+//! The dilatation apart from the shear: `phi = e^q Psi`, `det Psi = 1`.
+//!
+//! Where the kinetic energy is isotropic up to a commuting rotation and `U = U_dil(q) + U_sh(Psi)`, the dilatation is
+//! a motion of one degree of freedom that is known in closed form, and what is left to integrate is
+//! (Slawianowski et al., section 5)
+//!
+//! ```text
+//! Psi' = Psi O  (co-moving)  or  O Psi  (spatial),   O = sigma/alpha,   sigma the traceless part of the affine spin
+//! ```
+//!
+//! `O` itself is the state, split into symmetric and skew parts, so that no coefficient is left in `Psi'`.
+
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+
+use super::charts::{Chart, Coordinate, Momentum};
+use super::equations::{Load, System};
+use super::hamiltonian::Isotropic;
+use super::potential::is_parameter;
+
+/// The motion of `q` with its momentum `p = tr Sigma`.
+#[derive(Clone, Debug)]
+pub struct Separation {
+    /// `U_dil'`.
+    pub slope: Slope,
+    /// `1/m = 1/(n (I + A + n B))`.
+    pub inverse_mass: Polynomial,
+}
+
+/// Derivatives `U_dil'(q)` under which `q'' = -U_dil'(q)/m` has a closed form.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Slope {
+    /// `0`
+    Zero,
+    /// `stiffness q`
+    Linear(Polynomial),
+    /// `stiffness sinh(2 scale q)/(2 scale)`
+    Hyperbolic {
+        /// `U_dil''(0)`.
+        stiffness: Polynomial,
+        /// Half the power of `D`.
+        scale: Rational,
+    },
+}
+
+impl Slope {
+    /// Reads `U_dil'` off a polynomial in `q`, `D` and `1/D` with coefficients in parameters.
+    pub(super) fn of(arena: &mut Arena, slope: &Polynomial) -> Option<Self> {
+        let [q, up, down] = ["q", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
+        let mut powers: Vec<((usize, i64), Polynomial)> = Vec::new();
+        for (monomial, weight) in slope.terms() {
+            let count = |symbol: Expr| monomial.iter().filter(|atom| **atom == symbol).count();
+            let power = i64::try_from(count(up)).ok()? - i64::try_from(count(down)).ok()?;
+            let key = (count(q), power);
+            let rest = monomial.iter().copied().filter(|atom| ![q, up, down].contains(atom)).collect();
+            let rest = Polynomial::term(rest, weight.clone());
+            match powers.iter_mut().find(|(known, _)| *known == key) {
+                Some((_, sum)) => sum.add_scaled(&rest, &Rational::ONE),
+                None => powers.push((key, rest)),
+            }
+        }
+        powers.retain(|(_, coefficient)| !coefficient.is_zero());
+        powers.sort_by_key(|(key, _)| *key);
+        // Not time, nor q inside other functions.
+        if powers.iter().any(|(_, c)| c.any_symbol(arena, &mut |s| !is_parameter(arena, s))) {
+            return None;
+        }
+        match powers.as_slice() {
+            [] => Some(Self::Zero),
+            [((1, 0), stiffness)] => Some(Self::Linear(stiffness.clone())),
+            [((0, low), lower), ((0, high), upper)] if *low == -*high => {
+                let mut sum = lower.clone();
+                sum.add_scaled(upper, &Rational::ONE);
+                let scale = Rational::ratio(*high, 2)?;
+                // C (D^j - D^-j) = 2 C sinh(j q), j = 2 scale.
+                let stiffness = upper.scaled(&Rational::from(2 * high));
+                sum.is_zero().then_some(Self::Hyperbolic { stiffness, scale })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The system of `Psi` and `O` in place of `phi` and an affine spin; `load` are the forces of the potential in the
+/// chart, `casimirs` the kinetic energy without the rotation that commutes. `None` where the forces still depend on
+/// the dilatation.
+pub(super) fn shear_system(
+    arena: &mut Arena,
+    chart: &Chart,
+    casimirs: &Isotropic,
+    load: &Load,
+) -> Option<System> {
+    let n = chart.dim;
+    let psi = Matrix::symbols(arena, "psi", n);
+    let velocity = velocity(arena, n);
+    let forces = forces(arena, chart, &psi, load);
+    let mut system = System { shared: forces.shared, ..System::default() };
+    let o = Matrix::symbols(arena, "isochoric", n);
+    for (a, b) in pairs(n) {
+        system.shared.push((o.0[a][b], velocity[a][b].clone()));
+    }
+    for (i, a) in pairs(n) {
+        let mut rate = Polynomial::zero();
+        for k in 0..n {
+            let product = match chart.momentum {
+                Momentum::Space => vec![o.0[i][k], psi.0[k][a]],
+                _ => vec![psi.0[i][k], o.0[k][a]],
+            };
+            rate.add_term(product, &Rational::ONE);
+        }
+        system.rates.push((Coordinate::Phi(i, a), psi.0[i][a], rate));
+    }
+    let force = |a: usize, b: usize| {
+        let found = forces.forces.iter().find(|(z, _)| *z == Coordinate::M(a, b));
+        found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
+    };
+    let nth = Rational::ratio(1, i64::try_from(n).ok()?)?;
+    let half = Rational::ratio(1, 2)?;
+    let mut mean = Polynomial::zero();
+    (0..n).for_each(|a| mean.add_scaled(&force(a, a), &nth));
+    for (a, b) in pairs(n) {
+        let mut rate = match (a < b, a == b) {
+            (true, _) => sum(&force(a, b), &force(b, a), &Rational::ONE).scaled(&half),
+            (_, true) => sum(&force(a, a), &mean, &Rational::MINUS_ONE),
+            _ => sum(&force(b, a), &force(a, b), &Rational::MINUS_ONE).scaled(&half),
+        };
+        rate = rate.mul(&casimirs.casimir2);
+        if (a, b) != (n - 1, n - 1) {
+            system.rates.push((Coordinate::M(a, b), part(arena, a, b), rate));
+        }
+    }
+    let system = system.tidied(arena);
+    let depends = |p: &Polynomial| {
+        p.any_symbol(arena, &mut |s| arena.name(s).is_some_and(|name| UNDEFORMED.contains(&name)))
+    };
+    let free =
+        !system.shared.iter().any(|(_, p)| depends(p)) && !system.rates.iter().any(|(.., p)| depends(p));
+    free.then_some(system)
+}
+
+/// What is a constant at `det phi = 1`.
+const UNDEFORMED: [&str; 5] = ["det", "inverse_det", "dilatation", "inverse_dilatation", "q"];
+
+/// The forces at `q = 0` with `Psi` for `phi`.
+fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
+    let value_at_rest = UNDEFORMED.map(|name| {
+        let value = if name == "q" { Rational::ZERO } else { Rational::ONE };
+        (arena.symbol(name), Polynomial::constant(value))
+    });
+    let replaced: Vec<(Expr, Polynomial)> = pairs(chart.dim)
+        .map(|(i, a)| (chart.phi.0[i][a], Polynomial::atom(psi.0[i][a])))
+        .chain(value_at_rest.clone())
+        .collect();
+    let value = |atom: Expr| replaced.iter().find(|(s, _)| *s == atom).map(|(_, p)| p.clone());
+    let defined = |symbol: Expr| value_at_rest.iter().any(|(s, _)| *s == symbol);
+    Load {
+        shared: load
+            .shared
+            .iter()
+            .filter(|(symbol, _)| !defined(*symbol))
+            .map(|(symbol, p)| (*symbol, p.substitute(&value)))
+            .collect(),
+        forces: load.forces.iter().map(|(z, p)| (*z, p.substitute(&value))).collect(),
+        ..Load::default()
+    }
+}
+
+/// `O_ab` in its parts: `s_ab + w_ab`, `s_ab - w_ab`, `s_aa`, and the last diagonal entry from the trace.
+fn velocity(arena: &mut Arena, n: usize) -> Vec<Vec<Polynomial>> {
+    let mut rows = vec![vec![Polynomial::zero(); n]; n];
+    for (a, b) in pairs(n) {
+        let symbol = |arena: &mut Arena, a, b| Polynomial::atom(part(arena, a, b));
+        rows[a][b] = match (a < b, a == b) {
+            (true, _) => sum(&symbol(arena, a, b), &symbol(arena, b, a), &Rational::ONE),
+            (_, true) if a + 1 < n => symbol(arena, a, a),
+            (_, true) => {
+                let mut rest = Polynomial::zero();
+                (0..a).for_each(|c| rest.add_scaled(&symbol(arena, c, c), &Rational::MINUS_ONE));
+                rest
+            }
+            _ => sum(&symbol(arena, b, a), &symbol(arena, a, b), &Rational::MINUS_ONE),
+        };
+    }
+    rows
+}
+
+/// The symbol of the symmetric part above the diagonal and on it, of the skew part `w_ba`, `b < a`, below.
+fn part(arena: &mut Arena, a: usize, b: usize) -> Expr {
+    if a <= b {
+        arena.symbol(&format!("shear_{}{}", a + 1, b + 1))
+    } else {
+        arena.symbol(&format!("turn_{}{}", b + 1, a + 1))
+    }
+}
+
+fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
+}
+
+fn sum(left: &Polynomial, right: &Polynomial, weight: &Rational) -> Polynomial {
+    let mut sum = left.clone();
+    sum.add_scaled(right, weight);
+    sum
+}
+
+impl Isotropic {
+    /// `1/m` of `p^2/(2 m)`, the energy of the dilatational momentum `p = tr Sigma`: `1/(n alpha) + 1/beta`.
+    pub(super) fn inverse_dilatational_mass(&self, n: usize) -> Polynomial {
+        let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+        sum(&self.casimir2.scaled(&nth), &self.casimir1_squared, &Rational::ONE)
+    }
+}

@@ -1,0 +1,67 @@
+//! The names of `hamiltonian(...)`, the momentum-side statement.
+
+use super::Named;
+
+/// The kinds of terms of a Hamiltonian; `X` is `Sigma = phi Pi` or `Sigma_hat = Pi phi`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MomentumKind {
+    /// `a/2 tr X^2`.
+    Casimir2,
+    /// `b/2 (tr X)^2`.
+    Casimir1Squared,
+    /// `c/2 |Vort|^2`, `Vort = Sigma_hat - Sigma_hat^T`, `|W|^2` the sum over `a < b` of `W_ab^2`.
+    VorticitySquared,
+    /// `c/2 |S|^2`, `S = Sigma - Sigma^T`.
+    SpinSquared,
+    /// `k/2 |p_hat|^2`, `k = 1/m`.
+    BodyTranslation,
+    /// `k/2 |p|^2`, `k = 1/m`.
+    SpaceTranslation,
+    /// `c/3 tr X^3`, n = 3 only.
+    Casimir3,
+}
+
+impl Named for MomentumKind {
+    const ALL: &'static [Self] = &[
+        Self::Casimir2,
+        Self::Casimir1Squared,
+        Self::VorticitySquared,
+        Self::SpinSquared,
+        Self::BodyTranslation,
+        Self::SpaceTranslation,
+        Self::Casimir3,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Casimir2 => "casimir2",
+            Self::Casimir1Squared => "casimir1_squared",
+            Self::VorticitySquared => "vorticity_squared",
+            Self::SpinSquared => "spin_squared",
+            Self::BodyTranslation => "body_translation",
+            Self::SpaceTranslation => "space_translation",
+            Self::Casimir3 => "casimir3",
+        }
+    }
+}
+
+impl MomentumKind {
+    /// A kinetic energy of the centre of mass, in p?
+    #[must_use]
+    pub fn is_translation(self) -> bool {
+        matches!(self, Self::BodyTranslation | Self::SpaceTranslation)
+    }
+}
+
+/// How a term may look, in a message.
+pub(super) fn example(kind: MomentumKind) -> &'static str {
+    match kind {
+        MomentumKind::Casimir2 => "casimir2 = 5/6",
+        MomentumKind::Casimir1Squared => "casimir1_squared = -1/18",
+        MomentumKind::VorticitySquared => "vorticity_squared = 25/24",
+        MomentumKind::SpinSquared => "spin_squared = 25/24",
+        MomentumKind::BodyTranslation => "body_translation = 1/2",
+        MomentumKind::SpaceTranslation => "space_translation = 1/2",
+        MomentumKind::Casimir3 => "casimir3 = 0.1",
+    }
+}

@@ -1,0 +1,28 @@
+//! The least run time at which a method reaches an error.
+
+use std::time::Duration;
+
+/// Errors at which tools are compared.
+pub(crate) const ERRORS: [f64; 5] = [1e-3, 1e-6, 1e-9, 1e-12, 1e-14];
+
+/// The least time in seconds at an error, by logarithmic interpolation between neighbours on the front of runs that
+/// no other run beats in both; the cheapest run where all are more accurate. `None` where no run is as accurate.
+pub(crate) fn least_time(runs: &[(f64, Duration)], error: f64) -> Option<f64> {
+    let mut front: Vec<(f64, f64)> = Vec::new();
+    let mut sorted: Vec<(f64, f64)> = runs
+        .iter()
+        .filter(|(e, _)| e.is_finite())
+        .map(|(e, time)| (e.max(1e-17), time.as_secs_f64()))
+        .collect();
+    sorted.sort_by(|a, b| a.1.total_cmp(&b.1));
+    for run in sorted {
+        if front.last().is_none_or(|last| run.0 < last.0) {
+            front.push(run);
+        }
+    }
+    let after = front.iter().position(|(e, _)| *e <= error)?;
+    let (e1, t1) = front[after];
+    let Some((e0, t0)) = after.checked_sub(1).map(|before| front[before]) else { return Some(t1) };
+    let part = (e0 / error).ln() / (e0 / e1).ln();
+    Some((t0.ln() + part * (t1 / t0).ln()).exp())
+}

@@ -1,0 +1,550 @@
+//! Generated code of constrained models against the oracle's multipliers: every constraint with every kind of kinetic
+//! energy, with and without potential and translation, n = 2 and 3.
+
+use affine_oracle::{
+    Constraint, Differential, Kinetic, Matrix as Exact, Motion, Observable, Place, Random, Slopes, State,
+    Term, rational,
+};
+use affine_runtime::Error;
+use affine_runtime::frames::inverse;
+use affine_runtime::model::Conserved;
+use affine_runtime::prelude::*;
+use affine_runtime::simulate::{Reason, Setting};
+
+use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
+use crate::conserved::exists;
+use crate::reference::{Reference, assert_close, entries, exact_state};
+use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, ON_THE_GROUP, UNDER_POTENTIAL};
+
+/// Points per model.
+const SAMPLES: u64 = 4;
+
+/// A constrained model, stated a second time for the oracle.
+trait Confined<const N: usize>: Model<N> + Sized {
+    const CONSTRAINT: Constraint;
+    const TRANSLATION: bool;
+    /// The momentum is `Pi`, and the constraint acts through its multiplier alone.
+    const MULTIPLIER: bool;
+
+    fn body() -> Self;
+    fn kinetic() -> Kinetic;
+    fn potential(place: &Place) -> Differential;
+    fn at_spin(&self, start: &Start<N>) -> affine_runtime::Result<Self::Point<f64>>;
+    fn at_speed(
+        &self,
+        point: &Self::Point<f64>,
+        x_dot: Vector<N>,
+        phi_dot: Matrix<N>,
+    ) -> affine_runtime::Result<Self::Point<f64>>;
+
+    /// Points on the group with momenta in the dual of its algebra; every other one at `p = 0`.
+    fn points(&self) -> Vec<Self::Point<f64>> {
+        let points = starts::<N>(Self::CONSTRAINT).map(|start| match Self::MULTIPLIER {
+            false => self.at_spin(&start).unwrap(),
+            true => {
+                let phi_dot = start.phi * start.spin;
+                let rest = self.at_spin(&Start { spin: Matrix::<N>::zeros(), ..start }).unwrap();
+                self.at_speed(&rest, start.p, phi_dot).unwrap()
+            }
+        });
+        points.collect()
+    }
+
+    /// The exact motion through a point that the code may have moved.
+    fn reference(&self, point: &Self::Point<f64>) -> Reference {
+        let state = exact_state(Self::DESCRIPTION.full.last().unwrap().name, point);
+        match Self::MULTIPLIER {
+            true => Reference::under(&Self::kinetic(), &state, T0, Self::potential),
+            false => Reference::confined(&Self::kinetic(), Self::CONSTRAINT, &state, T0, Self::potential),
+        }
+    }
+}
+
+/// A placement on the group, a matrix `spin` of its algebra, position and momentum of the centre.
+#[derive(Clone, Copy)]
+struct Start<const N: usize> {
+    x: Vector<N>,
+    phi: Matrix<N>,
+    p: Vector<N>,
+    spin: Matrix<N>,
+}
+
+fn starts<const N: usize>(constraint: Constraint) -> impl Iterator<Item = Start<N>> {
+    (0..SAMPLES).map(move |seed| {
+        let mut random = Random::new(77 + seed);
+        let mut square = || Matrix::<N>::from_row_slice(&random.matrix(N, N).to_f64());
+        let (a, b, spin) = (square() * 0.5, square() * 0.5, square());
+        let one = Matrix::<N>::identity();
+        let rotation = || {
+            let w = a - a.transpose();
+            (one - w).try_inverse().unwrap() * (one + w)
+        };
+        let phi = match constraint {
+            // Exact: products of triangular matrices of short binary fractions.
+            Constraint::Isochoric => {
+                (a.lower_triangle() - Matrix::<N>::from_diagonal(&a.diagonal()) + one)
+                    * (b.upper_triangle() - Matrix::<N>::from_diagonal(&b.diagonal()) + one)
+            }
+            Constraint::Rigid => rotation(),
+            Constraint::Conformal => rotation() * (1.25 + 0.5 * b[(0, 0)]),
+        };
+        let skew = (spin - spin.transpose()) * 0.5;
+        let mean = one * (spin.trace() / N as f64);
+        let spin = match constraint {
+            Constraint::Isochoric => spin - mean,
+            Constraint::Rigid => skew,
+            Constraint::Conformal => skew + mean,
+        };
+        let mut vector = || Vector::<N>::from_column_slice(&random.matrix(N, 1).to_f64());
+        let (x, p) = (vector(), vector());
+        Start { x, phi, p: if seed % 2 == 0 { p } else { Vector::<N>::zeros() }, spin }
+    })
+}
+
+/// Velocities, energies, Hamilton's equations, and the way back from velocities.
+fn agrees_with_the_oracle<const N: usize, M: Confined<N>>() {
+    let model = M::body();
+    for point in model.points() {
+        let reference = model.reference(&point);
+        let velocity = model.velocity(&point);
+        reference.assert_rate("x", velocity.x_dot.as_slice(), UNDER_POTENTIAL);
+        reference.assert_rate("phi", &entries(&velocity.phi_dot), UNDER_POTENTIAL);
+        let energy = reference.expected.hamiltonian;
+        let tolerance = UNDER_POTENTIAL * reference.condition;
+        assert_close("H", &[model.hamiltonian(0.0, &point)], &[energy], reference.energy_size(), tolerance);
+        let potential = Slopes::of(M::potential, T0, point.x().as_slice(), &entries(point.phi())).value;
+        let kinetic = model.kinetic_energy(point.phi(), &velocity);
+        assert_close("T", &[kinetic], &[energy - potential], reference.energy_size(), tolerance);
+
+        let rates = model.hamilton_equations(T0, &model.flatten(&point));
+        for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
+            assert_components(&reference, N, name, rate);
+        }
+
+        if M::MULTIPLIER {
+            assert_right_but_for_the_multiplier::<N, M>(&model, &point, rates.as_ref());
+        }
+
+        let back = model.at_speed(&point, velocity.x_dot, velocity.phi_dot).unwrap();
+        let (found, expected) = (entries(&back.pi().0.0), entries(&point.pi().0.0));
+        assert_close("Pi of velocity", &found, &expected, crate::reference::norm(&expected), tolerance);
+    }
+}
+
+/// What the emitted rates of `(phi, Pi)` make of `P(Sigma)`, which the multiplier does not change, against the oracle's
+/// constrained motion.
+fn assert_right_but_for_the_multiplier<const N: usize, M: Confined<N>>(
+    model: &M,
+    point: &M::Point<f64>,
+    rates: &[f64],
+) {
+    let state = exact_state(M::DESCRIPTION.full.last().unwrap().name, point);
+    let reference = Reference::confined(&M::kinetic(), M::CONSTRAINT, &state, T0, M::potential);
+    let phi_dot = model.velocity(point).phi_dot;
+    let pi_dot = Matrix::<N>::from_row_slice(&rates[rates.len() - N * N..]);
+    let sigma_dot = phi_dot * point.pi().0.0 + point.phi() * pi_dot;
+    let mean = Matrix::<N>::identity() * (sigma_dot.trace() / N as f64);
+    reference.assert_rate("phi", &entries(&phi_dot), UNDER_POTENTIAL);
+    reference.assert_rate("Sigma", &entries(&(sigma_dot - mean)), UNDER_POTENTIAL);
+}
+
+/// The components of a group of the plain array: of a projected momentum those that determine the others.
+fn assert_components(reference: &Reference, n: usize, name: &str, rate: &[f64]) {
+    let (expected, size) = reference.rate(name);
+    let independent: Vec<f64> = match (expected.len() == n * n, rate.len()) {
+        (true, len) if len == n * n - 1 => expected[..len].to_vec(),
+        (true, len) if len < n * n => {
+            let mut places: Vec<usize> = (0..n * n).filter(|k| k % n > k / n).collect();
+            if len > places.len() {
+                places.insert(0, 0);
+            }
+            places.into_iter().map(|k| expected[k]).collect()
+        }
+        _ => expected.to_vec(),
+    };
+    assert_close(name, rate, &independent, size, UNDER_POTENTIAL * reference.condition);
+}
+
+/// `expand` undoes `reduce`; its derivative along the reduced equations is the vector field of the oracle.
+fn reduction_keeps_the_motion<const N: usize, M: Confined<N>>() {
+    let model = M::body();
+    for point in model.points() {
+        let spin = M::DESCRIPTION.full.last().unwrap().name;
+        let state = exact_state(spin, &point);
+        let condition = M::kinetic().constrained_condition(M::CONSTRAINT, &state.phi).unwrap();
+        assert_charts_lead_back(&model, &point, &state, UNDER_POTENTIAL * condition);
+        if M::MULTIPLIER {
+            assert_reduced_equations_move(&model, &point, UNDER_POTENTIAL, |t, state| {
+                Reference::under(&M::kinetic(), state, t, M::potential)
+            });
+        } else {
+            assert_reduced_equations_move(&model, &point, UNDER_POTENTIAL, |t, state| {
+                Reference::confined(&M::kinetic(), M::CONSTRAINT, state, t, M::potential)
+            });
+        }
+    }
+}
+
+/// Exactly what the constrained motion conserves is listed, once.
+fn lists_are_exact<const N: usize, M: Confined<N>>() {
+    let (model, kinetic) = (M::body(), M::kinetic());
+    let spin = M::DESCRIPTION.full.last().unwrap().name;
+    let states: Vec<State> = model.points().iter().map(|point| exact_state(spin, point)).collect();
+    let held = |state: &State| {
+        let slopes = Slopes::of(M::potential, T0, &state.x.to_f64(), &state.phi.to_f64());
+        slopes.x.iter().any(|slope| *slope != 0.0)
+    };
+    assert_listed::<N, M>(&kinetic, M::DESCRIPTION.conserved, &states, M::TRANSLATION);
+    if states.iter().any(held) {
+        assert_eq!(M::DESCRIPTION.conserved_at_rest, M::DESCRIPTION.conserved);
+    } else {
+        let still: Vec<State> = states.iter().map(State::at_rest).collect();
+        assert_listed::<N, M>(&kinetic, M::DESCRIPTION.conserved_at_rest, &still, false);
+    }
+}
+
+fn assert_listed<const N: usize, M: Confined<N>>(
+    kinetic: &Kinetic,
+    listed: &[Conserved],
+    states: &[State],
+    translation: bool,
+) {
+    let listed: Vec<Observable> =
+        listed.iter().map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap()).collect();
+    let motion = |state| kinetic.constrained_motion(M::CONSTRAINT, state, T0, M::potential).unwrap();
+    let motions: Vec<Motion> = states.iter().map(motion).collect();
+    for &observable in Observable::ALL {
+        if observable == Observable::Energy {
+            assert!(listed.contains(&observable));
+            continue;
+        }
+        let named =
+            exists(observable, N, translation) && !has_another_name(M::CONSTRAINT, M::MULTIPLIER, observable);
+        let rates = motions.iter().flat_map(|motion| motion.bracket(observable).unwrap().to_f64());
+        let largest = rates.fold(0.0, |largest: f64, rate| largest.max(rate.abs()));
+        assert!(
+            largest <= BRACKET_ZERO || largest > BRACKET_VISIBLE,
+            "{observable:?} undecided: {largest:e}"
+        );
+        assert_eq!(listed.contains(&observable), named && largest <= BRACKET_ZERO, "{observable:?} listed");
+    }
+}
+
+/// Is the observable, at the projected momentum, a number or another observable?
+fn has_another_name(constraint: Constraint, multiplier: bool, observable: Observable) -> bool {
+    use Observable as O;
+    let deviators = [O::Deviator, O::ComovingDeviator, O::DeviatorCasimir2, O::DeviatorCasimir3];
+    let more: &[Observable] = match constraint {
+        // Nothing of Pi but its part in the dual of the algebra is known to this comparison.
+        Constraint::Isochoric if multiplier => &[O::Casimir1],
+        Constraint::Isochoric => &[O::Casimir1],
+        Constraint::Rigid => {
+            &[O::AffineSpin, O::ComovingAffineSpin, O::Casimir1, O::Casimir2, O::Casimir3, O::VorticityNorm]
+        }
+        Constraint::Conformal => &[O::VorticityNorm],
+    };
+    deviators.contains(&observable) || more.contains(&observable)
+}
+
+/// What is off the group, off the algebra or off its dual is refused, with the size of the defect.
+fn defects_are_refused<const N: usize, M: Confined<N>>() {
+    let model = M::body();
+    let defect = |error: affine_runtime::Result<M::Point<f64>>| match error {
+        Err(Error::OffConstraint { quantity, defect, threshold, .. }) => {
+            assert!(defect > threshold);
+            (quantity, defect)
+        }
+        other => panic!("{other:?}"),
+    };
+    for start in starts::<N>(M::CONSTRAINT).take(2) {
+        let mut bent = start;
+        bent.phi[(0, 0)] += 1e-10;
+        let (quantity, size) = defect(model.at_spin(&bent));
+        assert_eq!(quantity, "phi");
+        assert!((1e-12..1e-8).contains(&size), "{size:e}");
+
+        let point = model.points()[0];
+        let velocity = model.velocity(&point);
+        let stretched = velocity.phi_dot
+            + point.phi() * Matrix::<N>::from_fn(|i, j| if (i, j) == (0, 0) { 1e-10 } else { 0.0 });
+        let (quantity, _) = defect(model.at_speed(&point, velocity.x_dot, stretched));
+        assert_eq!(quantity, "phi_dot");
+
+        let mut loaded = start;
+        loaded.spin[(0, 0)] += 1e-10;
+        let (quantity, _) = defect(model.at_spin(&loaded));
+        assert!(["Sigma", "Sigma_hat", "phi_dot"].contains(&quantity), "{quantity}");
+    }
+}
+
+/// Every motion stays on its group.
+fn nothing_drifts<const N: usize, M: Confined<N>>() {
+    let model = M::body();
+    for point in model.points() {
+        let run = Simulation::new(&model, point).until(1.0).run().unwrap();
+        let (_, end) = run.end();
+        let phi = end.phi();
+        let defect = match M::CONSTRAINT {
+            // ln det phi = n q
+            Constraint::Isochoric => end.mean_log_stretch(),
+            Constraint::Rigid => (phi.tr_mul(phi) - Matrix::<N>::identity()).norm(),
+            Constraint::Conformal => {
+                let green = phi.tr_mul(phi);
+                (green - Matrix::<N>::identity() * (green.trace() / N as f64)).norm() / green.norm()
+            }
+        };
+        // A placement of condition c is on the group to c roundings.
+        let condition = phi.norm() * inverse(phi).norm();
+        assert!(defect.abs() < ON_THE_GROUP * condition, "{defect:e} at {condition:e}");
+    }
+}
+
+fn none(_place: &Place) -> Differential {
+    Differential::constant(0.0)
+}
+
+fn diagonal(entries: &[i64]) -> Exact {
+    let n = entries.len();
+    (0..n).fold(Exact::zeros(n, n), |sum, a| &sum + &Exact::unit(n, a, a).scaled(&rational(entries[a], 2)))
+}
+
+/// Rows of quarters.
+fn quarters(n: usize, entries: &[i64]) -> Exact {
+    let entries: Vec<_> = entries.iter().map(|entry| rational(*entry, 4)).collect();
+    Exact::from_rationals(n, n, &entries)
+}
+
+macro_rules! confined {
+    ($($name:ident: $n:literal $constraint:ident $key:ident $centre:ident $form:ident ($($kinetic:tt)*) [$($term:expr),*]
+        $(=> ($($potential:tt)*))? $energy:expr;)*) => { $(
+        mod $name {
+            #[allow(clippy::wildcard_imports)]
+            use super::*;
+
+            #[affine_model(dim = $n, constraint = $key, kinetic($($kinetic)*) $(, potential = $($potential)*)?)]
+            struct Body;
+
+            impl Confined<$n> for Body {
+                const CONSTRAINT: Constraint = Constraint::$constraint;
+                const TRANSLATION: bool = confined!(@translation $centre);
+                const MULTIPLIER: bool = confined!(@multiplier $form);
+
+                fn body() -> Self {
+                    Body
+                }
+                fn kinetic() -> Kinetic {
+                    Kinetic::new($n, vec![$($term),*]).unwrap()
+                }
+                fn potential(place: &Place) -> Differential {
+                    let energy: fn(&Place) -> Differential = $energy;
+                    energy(place)
+                }
+                fn at_spin(&self, start: &Start<$n>) -> affine_runtime::Result<Self::Point<f64>> {
+                    confined!(@point $centre self start)
+                }
+                fn at_speed(&self, point: &Self::Point<f64>, x_dot: Vector<$n>, phi_dot: Matrix<$n>)
+                    -> affine_runtime::Result<Self::Point<f64>> {
+                    confined!(@velocity $centre self point x_dot phi_dot)
+                }
+            }
+
+            #[test]
+            fn full_equations() {
+                agrees_with_the_oracle::<$n, Body>();
+            }
+            #[test]
+            fn reduced_equations() {
+                reduction_keeps_the_motion::<$n, Body>();
+            }
+            #[test]
+            fn conserved_quantities() {
+                lists_are_exact::<$n, Body>();
+            }
+            #[test]
+            fn defects() {
+                defects_are_refused::<$n, Body>();
+            }
+            #[test]
+            fn runs() {
+                nothing_drifts::<$n, Body>();
+            }
+        }
+    )* };
+    (@translation pinned) => { false };
+    (@translation moving) => { true };
+    (@multiplier projected) => { false };
+    (@multiplier multiplier) => { true };
+    (@point pinned $model:ident $start:ident) => { $model.at_momentum($start.phi, Comoving($start.spin)) };
+    (@point moving $model:ident $start:ident) => {
+        $model.at_momentum($start.x, $start.phi, $start.p, Comoving($start.spin))
+    };
+    (@velocity pinned $model:ident $point:ident $x_dot:ident $phi_dot:ident) => {{
+        let _ = $x_dot;
+        $model.at_velocity(*$point.phi(), $phi_dot)
+    }};
+    (@velocity moving $model:ident $point:ident $x_dot:ident $phi_dot:ident) => {
+        $model.at_velocity($point.x(), *$point.phi(), $x_dot, $phi_dot)
+    };
+}
+
+fn body(n: usize) -> Term {
+    Term::body_inertia(n, rational(3, 2))
+}
+fn space(n: usize) -> Term {
+    Term::space_inertia(n, rational(3, 2))
+}
+fn casimir2() -> Term {
+    Term::Casimir2(rational(1, 4))
+}
+fn casimir1() -> Term {
+    Term::Casimir1Squared(rational(1, 8))
+}
+fn body_translation() -> Term {
+    Term::BodyTranslation(rational(5, 4))
+}
+fn space_translation() -> Term {
+    Term::SpaceTranslation(rational(5, 4))
+}
+
+/// What `prepare()` refuses, and with which condition.
+macro_rules! conditions {
+    ($($name:ident: $n:literal $key:ident ($($kinetic:tt)*) [$($good:expr),*] [$($bad:expr => $condition:literal),*];)*) => { $(
+        #[test]
+        fn $name() {
+            #[affine_model(dim = $n, constraint = $key, kinetic($($kinetic)*))]
+            struct Body {
+                i: f64,
+                a: f64,
+                b: f64,
+            }
+            let prepare = |[i, a, b]: [f64; 3]| Body { i, a, b }.prepare();
+            $(assert!(prepare($good).is_ok(), "{:?}", $good);)*
+            $(match prepare($bad) {
+                Err(Error::IllPosed(defect)) => assert_eq!(defect.condition, $condition),
+                other => panic!("{:?}: {other:?}", $bad),
+            })*
+        }
+    )* };
+}
+
+// Only the directions that the constraint leaves free count.
+conditions! {
+    isochoric_conditions: 3 isochoric (body_inertia = i, casimir2 = a + b)
+        [[1.0, 0.5, 0.0]] [[1.0, -1.0, 0.0] => "I + A != 0", [1.0, 1.0, 0.0] => "I - A != 0"];
+    rigid_conditions: 3 rigid (body_inertia = i, casimir2 = a + b)
+        [[1.0, 0.5, 0.0], [1.0, -1.0, 0.0]] [[1.0, 1.0, 0.0] => "I - A != 0"];
+    conformal_conditions: 2 conformal (body_inertia = i, casimir2 = a, casimir1_squared = b)
+        [[1.0, 0.5, 0.25], [1.0, -1.0, 0.5]]
+        [[1.0, 1.0, 0.25] => "I - A != 0", [1.0, 0.5, -0.75] => "I + A + n B != 0"];
+    rigid_masses: 3 rigid (dalembert = [[i, a, 0], [a, i, 0], [0, 0, b]])
+        [[1.0, 0.5, 1.0]] [[1.0, 1.5, 1.0] => "a leading minor of J > 0", [1.0, 0.5, -0.5] => "a leading minor of J > 0"];
+}
+
+/// A top whose inertia has a field in every place, and the same in numbers.
+#[test]
+fn fields_in_a_full_inertia() {
+    #[affine_model(dim = 3, constraint = rigid, kinetic(casimir2 = a, body_inertia = [[j, k, 0], [k, 2, l], [0, l, 3]]))]
+    struct Fields {
+        a: f64,
+        j: f64,
+        k: f64,
+        l: f64,
+    }
+    #[affine_model(dim = 3, constraint = rigid, kinetic(casimir2 = 0.25, body_inertia = [[1, 0.5, 0], [0.5, 2, 0.25], [0, 0.25, 3]]))]
+    struct Numbers;
+
+    let fields = Fields { a: 0.25, j: 1.0, k: 0.5, l: 0.25 }.prepare().unwrap();
+    for start in starts::<3>(Constraint::Rigid) {
+        let point = Numbers.at_momentum(start.phi, Comoving(start.spin)).unwrap();
+        let rates = Numbers.hamilton_equations(T0, &Numbers.flatten(&point));
+        let found = fields.hamilton_equations(T0, &fields.flatten(&point));
+        assert_close("rates", &found, &rates, crate::reference::norm(&rates), UNDER_POTENTIAL);
+    }
+}
+
+confined! {
+    isochoric_left_2: 2 Isochoric isochoric pinned projected (body_inertia = 1.5, casimir2 = 0.25) [body(2), casimir2()] none;
+    isochoric_left_3: 3 Isochoric isochoric pinned projected (body_inertia = 1.5, casimir2 = 0.25) [body(3), casimir2()] none;
+    isochoric_right_drift_3: 3 Isochoric isochoric moving projected
+        (space_inertia = 1.5, casimir2 = 0.25, space_translation = 1.25) [space(3), casimir2(), space_translation()] none;
+    isochoric_affine_missile_2: 2 Isochoric isochoric moving projected
+        (casimir2 = 0.25, body_translation = 1.25) [casimir2(), body_translation()] none;
+    isochoric_missile_3: 3 Isochoric isochoric moving projected
+        (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25) [body(3), casimir2(), body_translation()] none;
+    isochoric_right_missile_2: 2 Isochoric isochoric moving projected
+        (space_inertia = 1.5, body_translation = 1.25) [space(2), body_translation()]
+        => (norm(x)^2/2) |place| place.distance().power(2) * 0.5;
+    isochoric_neo_hookean_3: 3 Isochoric isochoric pinned projected
+        (space_inertia = 1.5, casimir2 = 0.25) [space(3), casimir2()]
+        => (tr(G)*exp(-2*q) - n) |place| place.trace_green() * (place.q() * -2.0).exp() - place.n();
+    isochoric_square_of_green_2: 2 Isochoric isochoric pinned projected (body_inertia = 1.5) [body(2)]
+        => (tr(G*G) + sinh(q)^2) |place| place.trace_green_squared() + place.q().sinh().power(2);
+    isochoric_missile_under_finger_3: 3 Isochoric isochoric moving projected
+        (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25) [body(3), casimir2(), body_translation()]
+        => (Ct[1,2]^2) |place| place.finger(1, 2).power(2);
+    isochoric_inertia_2: 2 Isochoric isochoric pinned projected
+        (body_inertia = [[1, 0.5], [0.5, 2]], casimir2 = 0.25)
+        [Term::BodyInertia(quarters(2, &[4, 2, 2, 8])), casimir2()] none;
+    isochoric_inertia_3: 3 Isochoric isochoric moving projected
+        (space_inertia = diag(1, 1.5, 2), casimir2 = 0.25, space_translation = 1.25)
+        [Term::SpaceInertia(diagonal(&[2, 3, 4])), casimir2(), space_translation()]
+        => (phi[1,2]^3) |place| place.phi(1, 2).power(3);
+    isochoric_tensor_2: 2 Isochoric isochoric pinned projected
+        (body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])
+        [Term::BodyTensor(quarters(4, &[8, 2, 0, 4, 2, 12, 1, 0, 0, 1, -4, 2, 4, 0, 2, 16]))] none;
+    isochoric_diagonal_tensor_2: 2 Isochoric isochoric pinned projected
+        (space_tensor = [[2, 0, 0, 0], [0, 3, 0, 0], [0, 0, -1, 0], [0, 0, 0, 4]])
+        [Term::SpaceTensor(quarters(4, &[8, 0, 0, 0, 0, 12, 0, 0, 0, 0, -4, 0, 0, 0, 0, 16]))] none;
+    rigid_left_2: 2 Rigid rigid pinned projected (body_inertia = 1.5, casimir2 = 0.25) [body(2), casimir2()] none;
+    rigid_left_3: 3 Rigid rigid pinned projected (body_inertia = 1.5, casimir2 = 0.25) [body(3), casimir2()] none;
+    rigid_affine_missile_3: 3 Rigid rigid moving projected
+        (casimir2 = 0.25, body_translation = 1.25) [casimir2(), body_translation()] none;
+    rigid_missile_2: 2 Rigid rigid moving projected
+        (body_inertia = 1.5, body_translation = 1.25) [body(2), body_translation()]
+        => (norm(x)^2/2 + phi[1,2]) |place| place.distance().power(2) * 0.5 + place.phi(1, 2);
+    rigid_top_3: 3 Rigid rigid pinned projected (dalembert = diag(1, 1.5, 2)) [Term::DAlembert(diagonal(&[2, 3, 4]))] none;
+    rigid_heavy_top_3: 3 Rigid rigid moving projected
+        (dalembert = diag(1, 1, 2), space_translation = 1.25)
+        [Term::DAlembert(diagonal(&[2, 2, 4])), space_translation()] => (phi[3,3]) |place| place.phi(3, 3);
+    rigid_right_top_3: 3 Rigid rigid pinned projected
+        (space_inertia = [[1, 0.5, 0], [0.5, 2, 0.25], [0, 0.25, 3]], casimir2 = 0.25)
+        [Term::SpaceInertia(quarters(3, &[4, 2, 0, 2, 8, 1, 0, 1, 12])), casimir2()]
+        => (phi[1,2]*phi[2,1]) |place| place.phi(1, 2) * place.phi(2, 1);
+    rigid_dalembert_2: 2 Rigid rigid moving projected
+        (dalembert = [[1, 0.5], [0.5, 2]], space_translation = 1.25)
+        [Term::DAlembert(quarters(2, &[4, 2, 2, 8])), space_translation()] => (x[1]*phi[1,2])
+        |place| place.x(1) * place.phi(1, 2);
+    rigid_tensor_2: 2 Rigid rigid pinned projected
+        (body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])
+        [Term::BodyTensor(quarters(4, &[8, 2, 0, 4, 2, 12, 1, 0, 0, 1, -4, 2, 4, 0, 2, 16]))] none;
+    conformal_left_2: 2 Conformal conformal pinned projected
+        (body_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125) [body(2), casimir2(), casimir1()] none;
+    conformal_left_3: 3 Conformal conformal pinned projected
+        (body_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125) [body(3), casimir2(), casimir1()] none;
+    conformal_missile_3: 3 Conformal conformal moving projected
+        (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25) [body(3), casimir2(), body_translation()] none;
+    conformal_right_missile_3: 3 Conformal conformal moving projected
+        (space_inertia = 1.5, casimir1_squared = 0.125, body_translation = 1.25)
+        [space(3), casimir1(), body_translation()] none;
+    conformal_right_drift_2: 2 Conformal conformal moving projected
+        (space_inertia = 1.5, casimir2 = 0.25, space_translation = 1.25)
+        [space(2), casimir2(), space_translation()] => (1/2*sinh(q)^2) |place| place.q().sinh().power(2) * 0.5;
+    conformal_inertia_3: 3 Conformal conformal pinned projected
+        (body_inertia = diag(1, 1.5, 2), casimir1_squared = 0.125)
+        [Term::BodyInertia(diagonal(&[2, 3, 4])), casimir1()] => (phi[3,3]*exp(-q) + tr(G))
+        |place| place.phi(3, 3) * (place.q() * -1.0).exp() + place.trace_green();
+    conformal_matrix_2: 2 Conformal conformal moving projected
+        (space_inertia = [[1, 0.5], [0.5, 2]], body_translation = 1.25)
+        [Term::SpaceInertia(quarters(2, &[4, 2, 2, 8])), body_translation()]
+        => (x[1]^3) |place| place.x(1).power(3);
+    conformal_tensor_2: 2 Conformal conformal pinned projected
+        (space_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])
+        [Term::SpaceTensor(quarters(4, &[8, 2, 0, 4, 2, 12, 1, 0, 0, 1, -4, 2, 4, 0, 2, 16]))] none;
+    isochoric_dalembert_2: 2 Isochoric isochoric pinned multiplier (dalembert = 1.5) [Term::dalembert(2, rational(3, 2))] none;
+    isochoric_dalembert_3: 3 Isochoric isochoric moving multiplier
+        (dalembert = 1.5, space_translation = 1.25) [Term::dalembert(3, rational(3, 2)), space_translation()]
+        => (tr(G)*exp(-2*q)) |place| place.trace_green();
+    isochoric_dalembert_diagonal_3: 3 Isochoric isochoric pinned multiplier
+        (dalembert = diag(1, 1.5, 2)) [Term::DAlembert(diagonal(&[2, 3, 4]))]
+        => (tr(G)/2) |place| place.trace_green() * 0.5;
+}
