@@ -140,6 +140,13 @@ families! {
         kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1, body_translation = 2)";
     conformal_body_inertia_3: "dim = 3, constraint = conformal, kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5, 2)), \
         potential = hyperbolic_dilatation(10) + 0.5*phi[3,3]";
+    taylor_missile_3: "dim = 3, emit(taylor), \
+        kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1)";
+    taylor_vibrating_2: "dim = 2, emit(taylor), kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1), \
+        potential = hyperbolic_dilatation(10) + neo_hookean(0.5)";
+    taylor_functions_2: "dim = 2, emit(taylor), kinetic(dalembert = 1), \
+        potential = exp(tr(G)/4) + ln(1 + det^2) + sin(phi[1,2])*tan(det/4) + 1/sqrt(1 + tr(G))";
+    taylor_straight_2: "dim = 2, emit(taylor), kinetic(dalembert = 3)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.

@@ -6,6 +6,7 @@ pub mod lie;
 pub mod rattle;
 pub mod runge_kutta;
 mod step_size;
+pub mod taylor;
 
 pub use error_norm::ErrorNorm;
 pub(crate) use error_norm::norm;
@@ -13,6 +14,7 @@ pub use gauss::Gauss;
 pub use rattle::Rattle;
 
 pub use runge_kutta::RungeKutta8;
+pub use taylor::Taylor;
 
 use core::fmt;
 

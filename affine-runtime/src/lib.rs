@@ -16,6 +16,7 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod breathing;
+pub mod capability;
 pub mod conserved;
 mod constraint;
 #[cfg(feature = "std")]

@@ -2,7 +2,9 @@
 
 use core::fmt::Debug;
 
+use crate::capability::NotEmitted;
 use crate::frames::{Matrix, Vector};
+use crate::integrate::taylor::Series;
 use crate::metrics::Bases;
 use crate::scalar::{Real, Scalar};
 use crate::state::Phase;
@@ -84,6 +86,11 @@ pub trait Model<const N: usize> {
         start: &Self::Point<f64>,
     ) -> Self::Point<f64> {
         geodesic.point(t, start)
+    }
+
+    /// The Taylor coefficients of the reduced motion, where `emit(taylor)` asked for them.
+    fn taylor(&self) -> Option<impl Series<Self::Reduced<f64>, Self::Constants<f64>>> {
+        None::<NotEmitted>
     }
 }
 

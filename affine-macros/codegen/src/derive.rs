@@ -10,6 +10,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::check::{Form, eigenvalues, signature};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::ir::taylor::Recurrence;
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::constraint::Constraint;
@@ -21,6 +22,7 @@ use crate::mechanics::potential::{Base, Potential};
 use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 use crate::optimise::{Batch, straight_line};
+use crate::spec::{Capability, Spanned};
 
 pub use lattice::TwoPolar;
 use prepared::{coefficient_program, conditions, numeric_blocks};
@@ -84,6 +86,8 @@ pub struct Model {
     pub formulas: Formulas,
     /// The two-polar form, where it is asked for.
     pub two_polar: Option<TwoPolar>,
+    /// Taylor coefficients of the reduced equations, if asked for.
+    pub taylor: Option<Recurrence>,
 }
 
 /// The Legendre transformation and the energy in velocities.
@@ -299,7 +303,23 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         metrics,
         formulas,
         two_polar,
+        taylor: None,
     })
+}
+
+impl Model {
+    /// Derives what `emit(...)` asks for.
+    #[must_use]
+    pub fn with(mut self, capabilities: &[Spanned<Capability>]) -> Self {
+        for capability in capabilities {
+            if capability.value == Capability::Taylor {
+                let states: Vec<String> =
+                    self.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect();
+                self.taylor = Some(Recurrence::of(&self.reduced.program, &states));
+            }
+        }
+        self
+    }
 }
 
 fn result(name: &str, polynomial: Polynomial) -> Batch {

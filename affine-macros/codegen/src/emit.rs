@@ -11,6 +11,7 @@ mod points;
 mod prepare;
 mod reduction;
 mod separated;
+mod taylor;
 mod two_polar;
 
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -51,6 +52,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let points = points::inherent(&context);
     let two_polar = two_polar::implementations(&context);
     let (bases, _) = metrics::bases(&context);
+    let taylor = taylor::taylor_impl(&context);
     quote! {
         #item
         #prepared_type
@@ -62,6 +64,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #implementation
             #points
             #two_polar
+            #taylor
         };
     }
 }
@@ -209,6 +212,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let reduction = reduction::methods(context);
     let geodesic = closed_form::geodesic(context);
     let (_, bases) = metrics::bases(context);
+    let taylor = taylor::capability(context);
     quote! {
         #(#[doc = #docs])*
         impl #generics #rt::Model<#n> for #prepared #types #clause {
@@ -221,6 +225,7 @@ fn model_impl(context: &Context) -> TokenStream {
             #dynamics
             #reduction
             #geodesic
+            #taylor
         }
     }
 }

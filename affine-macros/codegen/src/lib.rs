@@ -45,6 +45,6 @@ fn model(args: TokenStream, item: TokenStream) -> Result<TokenStream, Rejected> 
     let form = gate(|found| check::form(&spec, found))?;
     // Past the second gate nothing can fail: a form that passed has an invertible Legendre transformation.
     let positive = spec.require.iter().any(|r| r.value == spec::Requirement::PositiveDefinite);
-    let tokens = derive::derive(form, positive).map(|model| emit::emit(&spec, &model));
+    let tokens = derive::derive(form, positive).map(|model| emit::emit(&spec, &model.with(&spec.emit)));
     Ok(tokens.unwrap_or(spec.item.tokens))
 }

@@ -9,7 +9,7 @@ use crate::spec::{self, Field, Item, Spec};
 use crate::{check, derive, emit};
 
 /// The user's item with the reasons for its refusal. Where the item can be read, it gets the methods of a
-/// well-posed model of the same dimension, with translation, potential and fields as written, so that its uses
+/// well-posed model of the same dimension, with translation, potential, Taylor coefficients and fields as written, so that its uses
 /// raise no errors of their own.
 #[must_use]
 pub fn stub(args: TokenStream, item: &TokenStream, rejected: &Rejected) -> TokenStream {
@@ -33,7 +33,7 @@ fn stand_in(args: TokenStream, item: &TokenStream) -> Option<TokenStream> {
         fields: field.into_iter().collect(),
     };
     let form = gate(|found| check::form(&spec, found)).ok()?;
-    let model = emit::emit(&spec, &derive::derive(form, false)?);
+    let model = emit::emit(&spec, &derive::derive(form, false)?.with(&spec.emit));
     Some(quote!(#model #prepare))
 }
 
@@ -90,7 +90,9 @@ impl Outline {
         let translation = moving.then(|| quote!(, body_translation = 1));
         let potential = self.potential.then(|| quote!(, potential = q^2));
         let runtime = self.runtime.as_ref().map(|path| quote!(, crate = #path));
-        let args = quote!(dim = #dim, kinetic(casimir2 = #coefficient #translation) #potential #runtime);
+        let taylor = self.names.iter().any(|name| name == "taylor").then(|| quote!(, emit(taylor)));
+        let args =
+            quote!(dim = #dim, kinetic(casimir2 = #coefficient #translation) #potential #taylor #runtime);
         gate(|found| {
             spec::parse(
                 args,

@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::trajectory::Trajectory;
 use crate::error::Error;
+use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER};
 use crate::state::Phase;
 
 /// A run that did not reach its end: the stop, and the trajectory up to there.
@@ -99,7 +100,7 @@ pub enum Setting {
         /// The number of stages asked for.
         given: usize,
     },
-    /// RATTLE is available with the orders 2, 4, 6 and 8.
+    /// RATTLE is available with the orders 2, 4, 6 and 8, Taylor polynomials with 2 to 32.
     Order {
         /// The order asked for.
         given: usize,
@@ -118,6 +119,13 @@ pub enum Setting {
     OffConstraint {
         /// The larger of the two relative defects.
         defect: f64,
+    },
+    /// The method needs a capability that the model was not given.
+    NotEmitted {
+        /// Name of the model.
+        model: &'static str,
+        /// What `emit(...)` should list.
+        key: &'static str,
     },
     /// The length of a fixed step is not positive, not finite, or lost in the rounding of times.
     Step {
@@ -179,9 +187,11 @@ impl fmt::Display for Setting {
                 f,
                 "Gauss collocation with {given} stages: give 2 stages, of order 4, or 3, of order 6"
             ),
-            Setting::Order { given } => {
-                write!(f, "RATTLE of order {given}: its compositions have the orders 2, 4, 6 and 8")
-            }
+            Setting::Order { given } => write!(
+                f,
+                "order {given}: RATTLE has the orders 2, 4, 6 and 8; Taylor series have {LOWEST_ORDER} to \
+                 {HIGHEST_ORDER}, or `None` for the one that suits the tolerance"
+            ),
             Setting::NotIsochoric { model } => write!(
                 f,
                 "{model} is not confined to det phi = 1, the constraint that RATTLE keeps: use Method::Automatic, or \
@@ -196,6 +206,11 @@ impl fmt::Display for Setting {
                 f,
                 "the start is off det phi = 1, or its velocity off tr(phi^-1 phi_dot) = 0, by {defect:e}: scale phi by \
                  det(phi)^(-1/n), and take the part of the velocity along phi away"
+            ),
+            Setting::NotEmitted { model, key } => write!(
+                f,
+                "{model} was not given `{key}`: write `emit({key})` in its `#[affine_model(...)]`, or use \
+                 Method::Automatic, which takes what there is"
             ),
             Setting::Step { given, t0, t_end } => write!(
                 f,

@@ -7,12 +7,13 @@ use super::halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
 use super::output::{Schedule, without_steps};
 use super::stepper::{Explicit, Stepper};
 use super::trajectory::{Computation, Energies, Trajectory};
-use super::{Method, Observe, Progress, Simulation, Watch};
+use super::{Method, Observe, Progress, Simulation, TAYLOR_TOLERANCE, Watch};
 use crate::frames::Matrix;
 use crate::geodesic::{Geodesic, Motion};
 use crate::integrate::gauss::{Tableau, step_count};
 use crate::integrate::lie::{Chart, Coordinates, Flat};
 use crate::integrate::rattle::{Composition, Reaction};
+use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER, Taylor};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics, norm};
 use crate::kinematics::LogDeterminant;
 use crate::model::{Constraint, Group, Model, StateVector};
@@ -75,6 +76,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 closed_form_exists: false,
                 no_whirl: false,
                 at_rest: self.start.p().iter().all(|p| *p == 0.0),
+                missing: None,
                 residual: None,
             },
         }
@@ -91,16 +93,15 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             (Method::Automatic | Method::ClosedForm, Some(geodesic)) => {
                 self.evaluate(&geodesic, t_end, &mut recorder)
             }
-            (Method::Automatic, None) | (Method::RungeKutta8 | Method::Gauss { .. }, _) => {
-                match chart::<N, M>() {
-                    Some(_) if is_canonical::<N, M>() => self.integrate_with_reaction(t_end, &mut recorder),
-                    Some(chart) => self.integrate(chart, t_end, &mut recorder),
-                    None => self.integrate(Flat, t_end, &mut recorder),
-                }
-            }
             (Method::Rattle { order, step }, _) => {
                 self.integrate_by_rattle((order, step), t_end, &mut recorder)
             }
+            _ => match (chart::<N, M>(), self.chosen(&mut recorder.trajectory.computation)) {
+                (_, Method::Taylor { order }) => self.integrate_by_series(order, t_end, &mut recorder),
+                (Some(_), _) if is_canonical::<N, M>() => self.integrate_with_reaction(t_end, &mut recorder),
+                (Some(chart), _) => self.integrate(chart, t_end, &mut recorder),
+                (None, _) => self.integrate(Flat, t_end, &mut recorder),
+            },
         }
     }
 
@@ -118,6 +119,9 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             return Err(Setting::NoSteps);
         }
         match self.method {
+            Method::Taylor { order: Some(given) } if !(LOWEST_ORDER..=HIGHEST_ORDER).contains(&given) => {
+                return Err(Setting::Order { given });
+            }
             Method::Gauss { stages, .. } => {
                 Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
             }
@@ -159,6 +163,45 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             report(&mut self.progress, Progress { t0: self.t0, t, t_end, steps: outputs })?;
         }
         recorder.reach(t_end, at(t_end))
+    }
+
+    /// Reduction, integration with output on the way, expansion.
+    /// The integrator to take, noted with what was missing for a better one.
+    fn chosen(&self, computation: &mut Computation) -> Method {
+        computation.method = match self.method {
+            Method::Automatic
+                if self.tolerance <= TAYLOR_TOLERANCE && M::DESCRIPTION.constraint.is_none() =>
+            {
+                if self.model.taylor().is_some() {
+                    Method::Taylor { order: None }
+                } else {
+                    computation.missing = Some("taylor");
+                    Method::RungeKutta8
+                }
+            }
+            Method::Automatic => Method::RungeKutta8,
+            asked => asked,
+        };
+        computation.method
+    }
+
+    /// The reduced state by its Taylor series.
+    fn integrate_by_series(
+        &mut self,
+        order: Option<usize>,
+        t_end: f64,
+        recorder: &mut Recorder<'_, '_, N, M>,
+    ) -> Result<(), Reason> {
+        let model = self.model;
+        recorder.begin(self.t0, self.start)?;
+        let (reduced, constants) = model.reduce(self.t0, &self.start);
+        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
+        let (groups, begin) = (M::DESCRIPTION.reduced, (self.t0, reduced));
+        let series = model.taylor();
+        let series = series.ok_or(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "taylor" })?;
+        let integration = Taylor::new((series, constants), groups, begin, t_end, self.tolerance, order);
+        let mut integration = integration.map_err(|failure| self.reason(failure))?;
+        self.step_through(&mut integration, expand, groups, t_end, recorder)
     }
 
     /// Reduction, integration with output on the way, expansion.

@@ -2,6 +2,7 @@
 
 use crate::integrate::lie::Coordinates;
 use crate::integrate::runge_kutta::Dense;
+use crate::integrate::taylor::{Series, Taylor};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics};
 use crate::model::StateVector;
 
@@ -73,6 +74,27 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for
     }
     fn statistics(&self) -> Statistics {
         Gauss::statistics(self)
+    }
+}
+
+impl<S: StateVector<f64>, C, R: Series<S, C>> Stepper<S> for Taylor<S, C, R> {
+    fn advance(&mut self) -> Result<(), Failure> {
+        Taylor::advance(self)
+    }
+    fn between(&mut self, t: f64) -> Result<S, Failure> {
+        Ok(self.at(t))
+    }
+    fn t(&self) -> f64 {
+        Taylor::t(self)
+    }
+    fn y(&self) -> &S {
+        Taylor::y(self)
+    }
+    fn is_finished(&self) -> bool {
+        Taylor::is_finished(self)
+    }
+    fn statistics(&self) -> Statistics {
+        Taylor::statistics(self)
     }
 }
 

@@ -38,6 +38,8 @@ pub struct Computation {
     pub no_whirl: bool,
     /// `p = 0` at the start.
     pub at_rest: bool,
+    /// What `emit(...)` would have to list for the method that [`Method::Automatic`] would rather take.
+    pub missing: Option<&'static str>,
     /// Largest relative residual of the equations of implicit steps; `None` where the method is explicit.
     pub residual: Option<f64>,
 }

@@ -2,8 +2,9 @@
 
 use core::fmt;
 
-use super::Method;
 use super::trajectory::{Computation, Trajectory};
+use super::{Method, TAYLOR_TOLERANCE};
+use crate::integrate::taylor::order_for;
 use crate::model::{Constraint, Description};
 use crate::state::Phase;
 
@@ -25,7 +26,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
 
 impl Why {
     fn method(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Computation { asked, method, tolerance, closed_form_exists, .. } = self.computation;
+        let Computation { asked, method, tolerance, closed_form_exists, missing, .. } = self.computation;
         match method {
             Method::ClosedForm if asked == Method::ClosedForm => {
                 writeln!(f, "closed form, as asked for: exact up to rounding, no steps")
@@ -41,6 +42,26 @@ impl Why {
                     }
                     (Method::RungeKutta8, false) => writeln!(f, "as asked for; there is no closed form"),
                     _ => writeln!(f, "the model has no closed form from this start"),
+                }?;
+                match missing {
+                    Some(key) => writeln!(
+                        f,
+                        "not emitted: `emit({key})` would give a method that is cheaper at this tolerance"
+                    ),
+                    None => Ok(()),
+                }
+            }
+            Method::Taylor { order } => {
+                let order = order.unwrap_or(order_for(tolerance));
+                write!(f, "Taylor series of order {order}, relative error {tolerance:e} per step: ")?;
+                match (asked, closed_form_exists) {
+                    (Method::Automatic, _) => writeln!(
+                        f,
+                        "the model has no closed form from this start, and at tolerances up to {TAYLOR_TOLERANCE:e} \
+                         this is cheaper than Runge-Kutta"
+                    ),
+                    (_, true) => writeln!(f, "as asked for; Method::Automatic would take the closed form"),
+                    (_, false) => writeln!(f, "as asked for; there is no closed form"),
                 }
             }
             Method::Gauss { stages, step } => self.gauss(f, stages, step),

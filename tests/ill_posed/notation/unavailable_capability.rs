@@ -1,6 +1,6 @@
 use affine_runtime::affine_model;
 
-#[affine_model(dim = 2, kinetic(casimir2 = 1), emit(taylor))]
+#[affine_model(dim = 2, kinetic(casimir2 = 1), emit(tangent))]
 struct Model;
 
 fn main() {}

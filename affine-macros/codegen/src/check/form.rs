@@ -66,6 +66,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
     let potential = potential(&mut arena, spec, kinetic.constraint, found);
+    super::capabilities::series(spec, potential.as_ref(), found);
     found.verdict()?;
     let space_group = largest_group(&free, Side::Space);
     let body_group = largest_group(&free, Side::Body);
@@ -109,6 +110,7 @@ fn momentum_form(
     let space_group = largest_group(&on_momenta, Side::Space);
     let body_group = largest_group(&on_momenta, Side::Body);
     let potential = potential(&mut arena, spec, None, found);
+    super::capabilities::series(spec, potential.as_ref(), found);
     found.verdict()?;
     let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
     Ok(Form {

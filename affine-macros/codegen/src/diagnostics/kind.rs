@@ -76,15 +76,15 @@ pub enum Diagnostic {
     ExpectedList {
         /// The key.
         key: &'static str,
-        /// How it may look, if this version accepts any list.
-        example: Option<&'static str>,
+        /// How it may look.
+        example: &'static str,
     },
     /// `key()`.
     EmptyList {
         /// The key.
         key: &'static str,
-        /// How it may look, if this version accepts any list.
-        example: Option<&'static str>,
+        /// How it may look.
+        example: &'static str,
     },
     /// A claim, requirement or capability that does not exist.
     UnknownName {
@@ -96,6 +96,13 @@ pub enum Diagnostic {
         nearest: Option<&'static str>,
         /// All names of this role.
         known: Vec<&'static str>,
+    },
+    /// A capability beside something that it does not exist for.
+    CapabilityBeside {
+        /// The capability.
+        capability: &'static str,
+        /// The other thing.
+        beside: &'static str,
     },
     /// A capability that this version does not have.
     UnavailableCapability {
@@ -629,6 +636,7 @@ names! {
     ExpectedList => "expected-list",
     EmptyList => "empty-list",
     UnknownName => "unknown-name",
+    CapabilityBeside => "capability-beside",
     UnavailableCapability => "unavailable-capability",
     NotDoublyIsotropic => "not-doubly-isotropic",
     UnitaryTerm => "unitary-term",

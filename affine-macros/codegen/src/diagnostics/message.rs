@@ -98,15 +98,12 @@ impl Diagnostic {
             Self::ExpectedList { key, example } => text(
                 format!("`{key}` has no list"),
                 format!("`{key}` takes a list in parentheses, directly after the name"),
-                example.map_or_else(|| format!("remove `{key}`"), |example| format!("write `{example}`")),
+                format!("write `{example}`"),
             ),
             Self::EmptyList { key, example } => text(
                 format!("`{key}()` is empty"),
                 "an empty list states nothing",
-                match example {
-                    Some(example) => format!("write `{example}`, or remove `{key}`"),
-                    None => format!("remove `{key}`"),
-                },
+                format!("write `{example}`, or remove `{key}`"),
             ),
             Self::UnknownName { role, found, nearest, known } => text(
                 format!("there is no {role} `{found}`"),
@@ -116,9 +113,18 @@ impl Diagnostic {
                     _ => suggestion(*nearest, "use one of these, or remove it"),
                 },
             ),
+            Self::CapabilityBeside { capability, beside } => text(
+                format!("`emit({capability})` does not go with {beside} in this version"),
+                "its recurrences follow from the operations of one autonomous right-hand side",
+                format!(
+                    "remove `{capability}` from `emit(...)`: Runge-Kutta and Gauss methods integrate the model"
+                ),
+            ),
             Self::UnavailableCapability { capability, gives } => text(
                 format!("the capability `{capability}` is not available in this version"),
-                format!("it will give {gives}; this version emits the default: Hamilton's equations"),
+                format!(
+                    "it will give {gives}; this version emits the default, Hamilton's equations, `taylor` and `two_polar`"
+                ),
                 format!("remove `{capability}` from `emit(...)`"),
             ),
             Self::NotDoublyIsotropic { part, side, transformation } => text(

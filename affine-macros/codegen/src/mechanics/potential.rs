@@ -184,6 +184,12 @@ impl Potential {
         self.time.is_some()
     }
 
+    /// Does it depend on single stretches, through an iteration at run time?
+    #[must_use]
+    pub fn has_single_stretches(&self) -> bool {
+        self.slopes.iter().any(|(base, _)| matches!(base, Base::LogStretch(_)))
+    }
+
     /// The time as a symbol, where it depends on it: an input of every program with forces.
     #[must_use]
     pub fn time(&self) -> Option<Expr> {
@@ -199,7 +205,7 @@ impl Potential {
     /// What it adds to Hamilton's equations of a chart.
     pub fn load(&self, arena: &mut Arena, chart: &Chart) -> Load {
         let mut load = Load::default();
-        if self.slopes.iter().any(|(base, _)| matches!(base, Base::LogStretch(_))) {
+        if self.has_single_stretches() {
             let (kernel, shared) = principal::computed(arena, chart);
             load.kernels.push(kernel);
             load.shared.extend(shared);

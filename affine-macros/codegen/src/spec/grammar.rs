@@ -82,7 +82,7 @@ impl Key {
             Self::Group => "group = unitary",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
             Self::Require => "require(positive_definite)",
-            Self::Emit => "emit(two_polar)",
+            Self::Emit => "emit(taylor)",
             Self::Crate => "crate = ::affine_runtime",
         }
     }
@@ -226,8 +226,7 @@ fn expect_value(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Piece, Rep
 
 /// The list of an entry; a missing or empty one is reported.
 fn expect_list(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Group, Reported> {
-    let example = Some(entry.key.example());
-    let key = entry.key.name();
+    let (key, example) = (entry.key.name(), entry.key.example());
     match entry.body {
         // An empty sum is a model without kinetic energy, which a rule of its own refuses.
         Body::List(group) if !group.stream().is_empty() || entry.key == Key::Kinetic => Ok(group),

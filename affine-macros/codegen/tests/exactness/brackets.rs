@@ -134,6 +134,7 @@ impl Canonical {
                 total
             }
             (Coordinate::M(a, i), Momentum::Canonical) => Polynomial::atom(c.m.0[a][i]),
+            (Coordinate::Carried(_), _) => unreachable!("no coordinate of phase space"),
         }
     }
 

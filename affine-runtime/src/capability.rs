@@ -1,0 +1,95 @@
+//! What a model has beyond the default, by `emit(...)`, and how code that serves every model finds it.
+//!
+//! Each capability is a trait that generated code implements, so that a function which needs one says so in its
+//! bound. A [`Simulation`](crate::Simulation), which takes any model, asks [`Model`] instead: a provided method gives
+//! `Some` of the capability where it was emitted and `None::<NotEmitted>` elsewhere, a type without values.
+
+use crate::integrate::taylor::Series;
+use crate::model::{Model, StateVector};
+use crate::scalar::Scalar;
+
+/// `emit(taylor)`: Taylor coefficients of the reduced motion to any order, `y(t + h) = sum_k y_k h^k`.
+///
+/// The recurrence is unrolled over the components of the state; every order keeps a row of what later convolutions
+/// read.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no Taylor coefficients",
+    label = "`emit(taylor)` is missing",
+    note = "write `emit(taylor)` in its `#[affine_model(...)]`"
+)]
+pub trait Taylor<const N: usize>: Model<N> {
+    /// What is kept of each order.
+    type Row<T: Scalar>: StateVector<T>;
+
+    /// `y_1` from `y_0` at time `t`; fills the row of order 0.
+    fn start<T: Scalar>(
+        &self,
+        t: T,
+        constants: &Self::Constants<T>,
+        state: &Self::Reduced<T>,
+        row: &mut Self::Row<T>,
+    ) -> Self::Reduced<T>;
+
+    /// `(k + 1) y_(k+1)` from `y_k`, `order = k > 0`. The rows are those of the orders 0 to k; fills the last one.
+    fn next<T: Scalar>(
+        &self,
+        order: T,
+        constants: &Self::Constants<T>,
+        coefficient: &Self::Reduced<T>,
+        rows: &mut [Self::Row<T>],
+    ) -> Self::Reduced<T>;
+
+    /// Fills in all coefficients after the first, which is the reduced state at time `t`. The order is one less than
+    /// the shorter of the number of coefficients, and of rows and one.
+    fn coefficients<T: Scalar>(
+        &self,
+        t: T,
+        constants: &Self::Constants<T>,
+        coefficients: &mut [Self::Reduced<T>],
+        rows: &mut [Self::Row<T>],
+    ) {
+        let (mut order, mut scale) = (T::zero(), T::one());
+        for k in 0..rows.len().min(coefficients.len().saturating_sub(1)) {
+            let coefficient = coefficients[k];
+            let mut rate = match k {
+                0 => self.start(t, constants, &coefficient, &mut rows[0]),
+                _ => self.next(order, constants, &coefficient, &mut rows[..=k]),
+            };
+            rate.as_mut().iter_mut().for_each(|rate| *rate *= scale);
+            coefficients[k + 1] = rate;
+            order += T::one();
+            scale = T::one() / (order + T::one());
+        }
+    }
+}
+
+/// A model that has the capability in question.
+#[derive(Clone, Copy, Debug)]
+pub struct Emitted<'a, M, const N: usize>(pub &'a M);
+
+/// A capability that was not emitted: there is no such value.
+#[derive(Clone, Copy, Debug)]
+pub enum NotEmitted {}
+
+impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> for Emitted<'_, M, N> {
+    type Row = M::Row<f64>;
+
+    #[inline]
+    fn coefficients(
+        &self,
+        t: f64,
+        constants: &M::Constants<f64>,
+        coefficients: &mut [M::Reduced<f64>],
+        rows: &mut [Self::Row],
+    ) {
+        self.0.coefficients(t, constants, coefficients, rows);
+    }
+}
+
+impl<S, C> Series<S, C> for NotEmitted {
+    type Row = [f64; 0];
+
+    fn coefficients(&self, _: f64, _: &C, _: &mut [S], _: &mut [[f64; 0]]) {
+        match *self {}
+    }
+}

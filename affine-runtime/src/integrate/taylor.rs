@@ -1,0 +1,254 @@
+//! Taylor series method with choice of order and step.
+
+mod lanes;
+
+pub use lanes::{add_multiple, add_products, lanes, subtract_multiple, subtract_products};
+
+use core::fmt;
+
+use super::error_norm::{ErrorNorm, norm};
+use super::{Failure, Statistics};
+use crate::model::{Group, StateVector};
+
+/// The highest order.
+pub const HIGHEST_ORDER: usize = 32;
+/// The lowest order: the step follows from two coefficients.
+pub const LOWEST_ORDER: usize = 2;
+
+/// Taylor coefficients of the solutions of `y' = f(t, y)`, where `f` depends on constants `C`.
+pub trait Series<S, C> {
+    /// What is kept of each order.
+    type Row: StateVector<f64>;
+
+    /// Fills in all coefficients after the first, which is the state at time `t`; as many rows as coefficients, less
+    /// one.
+    fn coefficients(&self, t: f64, constants: &C, coefficients: &mut [S], rows: &mut [Self::Row]);
+}
+
+/// Adaptive integration from `t0` to `t_end`, in either direction of time, by Taylor polynomials.
+///
+/// After Jorba and Zou, Experimental Mathematics 14 (2005) 99-117, sections 3.2 and 3.3: the order for a tolerance is
+/// `p = ceil(1 - ln(tolerance)/2)`, with which a step of the radius of convergence over `e^2` just meets it; the step
+/// is the longest for which the last two terms do, `|y_j| h^j <= tolerance` in the [`ErrorNorm`] for `j = p - 1` and
+/// `p`, times `exp(-0.7/(p - 1))`. No step is rejected. Two terms, since every other one vanishes for an even or odd
+/// solution.
+///
+/// The polynomial is the dense output. Steps are summed with compensation.
+///
+/// Cost: one set of coefficients per step, counted as an evaluation; at the start one for each component of a
+/// momentum and one more, of order 1.
+#[derive(Clone)]
+pub struct Taylor<S, C, R: Series<S, C>> {
+    series: R,
+    constants: C,
+    error_norm: ErrorNorm,
+    tolerance: f64,
+    order: usize,
+    begin: f64,
+    t: f64,
+    y: S,
+    /// What rounding left out of `y`.
+    carry: S,
+    t_end: f64,
+    coefficients: [S; HIGHEST_ORDER + 1],
+    rows: [R::Row; HIGHEST_ORDER],
+    length: f64,
+    failure: Option<Failure>,
+    statistics: Statistics,
+}
+
+/// `ceil(1 - ln(tolerance)/2)`, within what there is.
+#[must_use]
+pub fn order_for(tolerance: f64) -> usize {
+    let order = libm::ceil(1.0 - 0.5 * libm::log(tolerance));
+    (order as usize).clamp(LOWEST_ORDER, HIGHEST_ORDER)
+}
+
+impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
+    /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`]; the order is that of
+    /// [`order_for`] unless given, and within [`LOWEST_ORDER`] and [`HIGHEST_ORDER`].
+    ///
+    /// # Errors
+    /// [`Failure::NotFinite`] where `y0` or its slope is not finite.
+    pub fn new(
+        (series, constants): (R, C),
+        groups: &'static [Group],
+        (t0, y0): (f64, S),
+        t_end: f64,
+        tolerance: f64,
+        order: Option<usize>,
+    ) -> Result<Self, Failure> {
+        let slope = |t: f64, y: &S| {
+            let mut coefficients = [*y, S::zeros()];
+            series.coefficients(t, &constants, &mut coefficients, &mut [R::Row::zeros()]);
+            coefficients[1]
+        };
+        let first = slope(t0, &y0);
+        if !is_finite(&y0) || !is_finite(&first) {
+            return Err(Failure::NotFinite);
+        }
+        let (error_norm, probes) = if t_end == t0 {
+            (ErrorNorm::new(groups), 0)
+        } else {
+            ErrorNorm::probed(groups, &slope, (t0, &y0, &first))
+        };
+        Ok(Self {
+            error_norm,
+            tolerance,
+            order: order.unwrap_or(order_for(tolerance)).clamp(LOWEST_ORDER, HIGHEST_ORDER),
+            begin: t0,
+            t: t0,
+            y: y0,
+            carry: S::zeros(),
+            t_end,
+            coefficients: [y0; HIGHEST_ORDER + 1],
+            rows: [R::Row::zeros(); HIGHEST_ORDER],
+            length: (t_end - t0).abs(),
+            failure: None,
+            statistics: Statistics { evaluations: probes + 1, ..Statistics::default() },
+            series,
+            constants,
+        })
+    }
+
+    /// Takes one step; does nothing at `t_end`, which the last step hits exactly.
+    ///
+    /// # Errors
+    /// [`Failure`], now and ever after; the state stays that of the last step.
+    pub fn advance(&mut self) -> Result<(), Failure> {
+        if let Some(failure) = self.failure {
+            return Err(failure);
+        }
+        if self.is_finished() {
+            return Ok(());
+        }
+        self.step().inspect_err(|failure| self.failure = Some(*failure))
+    }
+
+    fn step(&mut self) -> Result<(), Failure> {
+        self.coefficients[0] = self.y;
+        let coefficients = &mut self.coefficients[..=self.order];
+        self.series.coefficients(self.t, &self.constants, coefficients, &mut self.rows[..self.order]);
+        self.statistics.evaluations += 1;
+        let length = self.longest();
+        if length.is_nan() {
+            return Err(Failure::NotFinite);
+        }
+        let rest = self.t_end - self.t;
+        // A rest that is hardly longer is no step of its own.
+        let end = if 1.01 * length >= rest.abs() { self.t_end } else { self.t + length.copysign(rest) };
+        if (end - self.t).abs() <= self.shortest() && end != self.t_end {
+            return Err(Failure::StepUnderflow);
+        }
+        let rise = self.rise(end - self.t);
+        let (mut y, mut carry) = (self.y, self.carry);
+        for (i, (y, carry)) in y.as_mut().iter_mut().zip(carry.as_mut()).enumerate() {
+            let before = *y;
+            let rise = *carry + rise.as_ref()[i];
+            *y = before + rise;
+            *carry = (before - *y) + rise;
+        }
+        if !is_finite(&y) {
+            return Err(Failure::NotFinite);
+        }
+        (self.begin, self.t, self.y, self.carry, self.length) = (self.t, end, y, carry, length);
+        self.statistics.steps += 1;
+        Ok(())
+    }
+
+    /// The longest step that the last two coefficients allow.
+    fn longest(&self) -> f64 {
+        let within = |h: f64| {
+            // The logarithm of `(tolerance/|y_j|)^(1/j)`; no error is no bound, and NaN stays.
+            let logarithm = |j: usize| {
+                let (y, term) = (self.coefficients[0].as_ref(), self.coefficients[j].as_ref());
+                let error = self.error_norm.largest(h, y, y, |r| norm(&term[r]));
+                libm::log(self.tolerance / error) / j as f64
+            };
+            let (last, before) = (logarithm(self.order), logarithm(self.order - 1));
+            let least = if last <= before || last.is_nan() { last } else { before };
+            libm::exp(least - 0.7 / (self.order - 1) as f64)
+        };
+        let length = within(self.length);
+        // Momenta may err the less, the longer the step: one that is longer than guessed is measured again.
+        if length > self.length { within(length) } else { length }
+    }
+
+    /// `sum_(k > 0) y_k h^k`.
+    fn rise(&self, h: f64) -> S {
+        let mut rise = self.coefficients[self.order];
+        for coefficient in self.coefficients[1..self.order].iter().rev() {
+            for (rise, coefficient) in rise.as_mut().iter_mut().zip(coefficient.as_ref()) {
+                *rise = crate::scalar::Scalar::fma(*rise, h, *coefficient);
+            }
+        }
+        rise.as_mut().iter_mut().for_each(|rise| *rise *= h);
+        rise
+    }
+
+    /// Dense output: the state at a time within the last step.
+    #[must_use]
+    pub fn at(&self, t: f64) -> S {
+        if t == self.t {
+            return self.y;
+        }
+        let mut y = self.rise(t - self.begin);
+        for (y, begin) in y.as_mut().iter_mut().zip(self.coefficients[0].as_ref()) {
+            *y += begin;
+        }
+        y
+    }
+
+    /// The order.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// Time reached.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.t
+    }
+
+    /// State reached.
+    #[must_use]
+    pub fn y(&self) -> &S {
+        &self.y
+    }
+
+    /// `t_end` is reached.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        self.t == self.t_end
+    }
+
+    /// Cost so far.
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
+        self.statistics
+    }
+
+    /// Steps at or below this length are lost in the rounding of times.
+    fn shortest(&self) -> f64 {
+        let (t, span) = (self.t.abs(), (self.t_end - self.t).abs());
+        16.0 * f64::EPSILON * if t > f64::EPSILON * span { t } else { f64::EPSILON * span }
+    }
+}
+
+impl<S: StateVector<f64>, C, R: Series<S, C>> fmt::Debug for Taylor<S, C, R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Taylor")
+            .field("order", &self.order)
+            .field("t", &self.t)
+            .field("y", &self.y)
+            .field("t_end", &self.t_end)
+            .field("tolerance", &self.tolerance)
+            .field("statistics", &self.statistics)
+            .finish_non_exhaustive()
+    }
+}
+
+fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
+    y.as_ref().iter().all(|v| v.is_finite())
+}
