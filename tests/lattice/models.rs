@@ -65,3 +65,16 @@ pub(crate) struct Family2 {
     pub(crate) kappa: f64,
     pub(crate) c: f64,
 }
+
+/// A potential of the single stretches: a well for each, and a force between them.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1),
+    potential = q1^2 + q2^2 + q3^2 + 0.1*pairs(cosh(d)),
+    emit(two_polar)
+)]
+pub(crate) struct Pairs3;
+
+/// The same for d'Alembert's model.
+#[affine_model(dim = 2, kinetic(dalembert = 1.5), potential = q1^2 + q2^2 + 0.1*pairs(d^2), emit(two_polar))]
+pub(crate) struct Pairs2;

@@ -96,6 +96,7 @@ same_motion! {
         SpatiallyAffine3 SpatiallyAffineDilated3 SpatiallyAffineSheared3;
     materially_affine from start: MateriallyAffine2 MateriallyAffineDilated2 MateriallyAffineSheared2
         MateriallyAffine3 MateriallyAffineDilated3 MateriallyAffineSheared3;
+    single_stretches from start: Pairs2 Pairs3;
     dalembert_geodesic from growing: Dalembert2 Dalembert3;
     dalembert from start: DalembertDilated2 DalembertSheared2 DalembertSheared3;
     dalembert_dilated from growing: DalembertDilated3;

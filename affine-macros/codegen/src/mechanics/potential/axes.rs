@@ -130,6 +130,9 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
     let mut list = Vec::new();
     let (mut trace, mut of_square) = (Polynomial::zero(), Polynomial::zero());
     for (a, stretch) in stretches.iter().enumerate() {
+        let inverse = arena.symbol(&format!("inverse_stretch_{}", a + 1));
+        // A symbol is not the number zero.
+        list.push((inverse, Polynomial::atom(arena.pow(*stretch, -1).unwrap_or(*stretch))));
         let square = arena.symbol(&format!("square_{}", a + 1));
         list.push((square, Polynomial::term(vec![*stretch, *stretch], Rational::ONE)));
         trace.add_term(vec![square], &Rational::ONE);
