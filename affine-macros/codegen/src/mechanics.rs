@@ -21,3 +21,4 @@ pub mod potential;
 pub mod reduce;
 pub mod separation;
 pub mod symmetry;
+pub mod two_polar;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::momentum_side;
+use super::two_polar;
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, Directions, Reported};
 use crate::lower;
@@ -31,6 +32,10 @@ pub struct Form {
     pub body_group: Group,
     /// The potential energy.
     pub potential: Option<Potential>,
+    /// Is the two-polar form asked for?
+    pub two_polar: bool,
+    /// Are the placements those of U(n)?
+    pub unitary: bool,
     /// Metrics other than the identity; everything else stands in bases in which they are.
     pub metrics: Option<Metrics>,
     /// What else is emitted.
@@ -83,6 +88,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     found.verdict()?;
     let space_group = largest_group(&free, Side::Space);
     let body_group = largest_group(&free, Side::Body);
+    let unitary = spec.group.is_some();
+    let two_polar = unitary || two_polar::asked(spec, &free, &places, potential.as_ref(), found)?;
     Ok(Form {
         arena,
         kinetic,
@@ -93,6 +100,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         potential,
         metrics: lower::metrics(spec),
         quantities: Quantities::of(spec),
+        two_polar,
+        unitary,
     })
 }
 
@@ -122,6 +131,7 @@ fn momentum_form(
     let potential = potential(&mut arena, spec, None, found);
     super::capabilities::series(spec, potential.as_ref(), found);
     found.verdict()?;
+    let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
     Ok(Form {
         arena,
         kinetic,
@@ -132,6 +142,8 @@ fn momentum_form(
         potential,
         metrics: lower::metrics(spec),
         quantities: Quantities::of(spec),
+        two_polar,
+        unitary: false,
     })
 }
 

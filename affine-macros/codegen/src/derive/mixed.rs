@@ -94,6 +94,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         has_potential: potential.is_some(),
         groups: (space_group, body_group),
         metrics: None,
+        two_polar: None,
         formulas,
         taylor: None,
     })
