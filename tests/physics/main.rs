@@ -18,6 +18,7 @@ mod constraints;
 mod driven;
 mod drunk_missile;
 mod geodesics;
+mod laws;
 mod mixed;
 mod momentum_side;
 #[macro_use]

@@ -61,3 +61,6 @@ pub(crate) const TWO_METHODS: f64 = 1e-11;
 /// The time at which a mass matrix degenerates: velocities grow without bound before it, and steps of relative accuracy
 /// 1e-12 add up to it from one side.
 pub(crate) const DEGENERATION: f64 = 1e-9;
+
+/// Exact laws along motions of a few periods: some hundred steps at tolerance 1e-15.
+pub(crate) const LAWS: f64 = 1e-12;

@@ -184,13 +184,6 @@ pub(super) fn shortest_reduction(
         let way = batch(arena, &candidate.system);
         let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
         let weight = program.operations().weight() + states.len();
-        eprintln!(
-            "cand {:?} carried {} weight {} {:?}",
-            candidate.chart.momentum,
-            candidate.carried,
-            weight,
-            program.operations()
-        );
         if best.as_ref().is_none_or(|(least, ..)| weight < *least) {
             best = Some((weight, candidate, program, constants));
         }
