@@ -21,7 +21,10 @@ struct Free;
 struct Left;
 
 /// The same with translation: the drunk missile.
-#[affine_model(dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1))]
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1)
+)]
 struct Missile;
 
 const TOLERANCE: f64 = 1e-15;
@@ -69,7 +72,8 @@ fn free_bodies_go_straight() {
 #[test]
 fn geodesics_scale_with_their_momenta() {
     let p = Vector::<3>::new(0.3, -0.2, 0.5);
-    let at = |c: f64| Missile.at_momentum(Vector::<3>::zeros(), placement(), p * c, Comoving(spin() * c)).unwrap();
+    let at =
+        |c: f64| Missile.at_momentum(Vector::<3>::zeros(), placement(), p * c, Comoving(spin() * c)).unwrap();
     let run = |c: f64| {
         let run = Simulation::new(&Missile, at(c)).until(4.0 / c).tolerance(TOLERANCE).run().unwrap();
         *run.end().1
