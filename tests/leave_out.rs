@@ -269,7 +269,7 @@ fn table_of_costs() {
     for (name, args) in models {
         table += &row(name, args);
     }
-    insta::assert_snapshot!("costs", table);
+    insta::with_settings!({ snapshot_path => "data" }, { insta::assert_snapshot!("costs", table) });
 }
 
 fn row(name: &str, args: &str) -> String {
