@@ -19,6 +19,7 @@ pub mod conserved;
 #[cfg(feature = "std")]
 pub mod counting;
 pub mod decompose;
+mod dissipation;
 pub mod error;
 pub mod frames;
 pub mod geodesic;

@@ -3,6 +3,7 @@
 pub use core::primitive::f64;
 
 pub use crate::decompose::skew_exponential;
+pub use crate::dissipation::{semidefinite, semidefinite_form};
 pub use crate::error::Result;
 pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,

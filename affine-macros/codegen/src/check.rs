@@ -7,6 +7,7 @@ mod arithmetic;
 mod capabilities;
 mod constant;
 mod dimension;
+mod dissipation;
 mod form;
 mod frames;
 mod identity;
@@ -34,6 +35,7 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     potential::scalar(spec, found);
     potential::centre(spec, found);
     potential::smooth(spec, found);
+    dissipation::centre(spec, found);
     frames::internal_motion(spec, found);
     frames::affine_translation(spec, found);
     shapes::shapes(spec, found);

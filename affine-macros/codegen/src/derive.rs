@@ -18,8 +18,8 @@ use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 use crate::optimise::{Batch, straight_line};
 
-use prepared::{coefficient_program, conditions, numeric_blocks};
-use programs::{best_reduction, full_chart, full_equations};
+use prepared::{coefficient_program, conditions, damping, numeric_blocks};
+use programs::{best_reduction, full_chart, full_equations, power_batch};
 
 /// Everything that is emitted about a model.
 pub struct Model {
@@ -35,6 +35,8 @@ pub struct Model {
     pub numeric_blocks: Vec<NumericBlock>,
     /// What `prepare()` must find different from zero.
     pub conditions: Vec<Condition>,
+    /// What `prepare()` must find not negative in the dissipation.
+    pub damping: Damping,
     /// `O -> X`.
     pub legendre: Program,
     /// `X -> O`.
@@ -45,6 +47,8 @@ pub struct Model {
     pub kinetic_energy: Program,
     /// Point -> `H`.
     pub hamiltonian: Program,
+    /// Point -> power of the forces that no potential has.
+    pub power: Option<Program>,
     /// Hamilton's equations in the model's own frames.
     pub full: Equations,
     /// The reduced equations.
@@ -107,6 +111,15 @@ pub struct Condition {
     pub program: Program,
 }
 
+/// What must not be negative once the fields have values.
+#[derive(Default)]
+pub struct Damping {
+    /// Eigenvalues and coefficients.
+    pub conditions: Vec<Condition>,
+    /// Blocks whose eigenvalues need numbers; no inverse is formed.
+    pub blocks: Vec<NumericBlock>,
+}
+
 /// A block to invert numerically.
 pub struct NumericBlock {
     /// Computes the upper triangle, row after row, then the terms whose sizes make the threshold.
@@ -128,7 +141,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     };
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form);
-    let Form { mut arena, kinetic, hessian, potential, .. } = form;
+    let Form { mut arena, kinetic, hessian, potential, forces, .. } = form;
     let potential = potential.as_ref();
     let arena = &mut arena;
     let h = Hamiltonian::new(arena, &kinetic, &hessian)?;
@@ -146,21 +159,27 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
             conserved_at_rest.clone_from(&conserved_now);
         }
     }
-    let commuting = reduce::commuting(arena, &h, potential);
+    // Of the undamped motion: the forces are held against the same rotations on their own.
+    let rotations =
+        conserved_now.contains(&Candidate::TotalAngularMomentum) && forces.are_isotropic_in_space();
+    if !forces.is_empty() {
+        conserved_now = forces.keep(arena, &own, &h, conserved_now);
+        conserved_at_rest = forces.keep(arena, &own, &h, conserved_at_rest);
+    }
+    let commuting = reduce::commuting(arena, &h, potential, &forces);
     let closed_form = match potential {
-        None => reduce::closed_form(arena, &h, &commuting),
-        Some(_) => None,
+        None if forces.is_empty() => reduce::closed_form(arena, &h, &commuting),
+        _ => None,
     };
 
     let (full_chart, full_h) = full_chart(arena, &h);
-    let full = full_equations(arena, &h, &full_chart, &full_h, potential, &mut coefficients);
-    let rotations = conserved_now.contains(&Candidate::TotalAngularMomentum);
+    let full = full_equations(arena, &h, &full_chart, &full_h, potential, &forces, &mut coefficients);
     let (reduction, reduced, trajectory, fixed) =
-        best_reduction(arena, &h, potential, rotations, &mut coefficients)?;
+        best_reduction(arena, &h, potential, &forces, rotations, &mut coefficients)?;
     let formulas = Formulas {
         kinetic_energy: describe::kinetic_energy(arena, &kinetic),
         hamiltonian: describe::hamiltonian(arena, &h, &full_h, potential),
-        equations: describe::equations(arena, &h, &full_chart, &full_h, potential),
+        equations: describe::equations(arena, &h, &full_chart, &full_h, potential, &forces),
         reduced: describe::system(arena, &reduction.system),
         left_out: describe::left_out(&h, &reduction, closed_form),
     };
@@ -184,6 +203,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         energy.shared = shared;
         points.push(Base::MeanLogStretch.symbol(arena));
     }
+    let power = power_batch(arena, &h, &full_chart, &full_h, &forces);
+    let power = power.map(|batch| inline(arena, batch, points.clone()));
     let hamiltonian = inline(arena, energy, points);
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {
         let mass = Polynomial::normal_form(arena, t.mass);
@@ -210,11 +231,13 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         conditions: conditions(arena, &kinetic, eigenvalues, require_positive),
         coefficients: coefficient_program(arena, &coefficients),
         numeric_blocks,
+        damping: damping(arena, &forces),
         legendre,
         velocity,
         mass,
         kinetic_energy,
         hamiltonian,
+        power,
         full,
         reduced,
         reduction,

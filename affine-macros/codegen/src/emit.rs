@@ -4,6 +4,7 @@ mod body;
 mod closed_form;
 mod description;
 mod dynamics;
+mod forces;
 mod names;
 mod points;
 mod prepare;
@@ -168,6 +169,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let dynamics = dynamics::methods(context);
     let reduction = reduction::methods(context);
     let geodesic = closed_form::geodesic(context);
+    let power = forces::power(context);
     quote! {
         #(#[doc = #docs])*
         impl #generics #rt::Model<#n> for #prepared #types #clause {
@@ -179,6 +181,7 @@ fn model_impl(context: &Context) -> TokenStream {
             #dynamics
             #reduction
             #geodesic
+            #power
         }
     }
 }

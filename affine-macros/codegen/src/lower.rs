@@ -4,7 +4,9 @@ mod potential;
 
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 use crate::check::constant;
-use crate::mechanics::kinetic::{Coefficient, Term, TermKind};
+use crate::mechanics::dissipation::Dissipation;
+use crate::mechanics::forces::Forces;
+use crate::mechanics::kinetic::{Coefficient, Frame, Term, TermKind};
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 
 pub use potential::potential;
@@ -12,10 +14,9 @@ pub use potential::potential;
 /// Stem of the symbols of fields: kept apart from the names that the derivation makes.
 pub const FIELD: &str = "self.";
 
-/// The terms of the kinetic energy that are not exactly zero, each with its place in `spec.kinetic`.
-pub fn terms(arena: &mut Arena, spec: &Spec) -> Vec<(usize, Term)> {
-    let n = spec.dim.value;
-    spec.kinetic
+/// The terms of a quadratic form in dimension `n` that are not exactly zero, each with its place in `written`.
+pub fn terms(arena: &mut Arena, n: usize, written: &[spec::Term]) -> Vec<(usize, Term)> {
+    written
         .iter()
         .enumerate()
         .filter(|(_, term)| {
@@ -28,7 +29,16 @@ pub fn terms(arena: &mut Arena, spec: &Spec) -> Vec<(usize, Term)> {
         .collect()
 }
 
-fn kind(kind: spec::TermKind) -> TermKind {
+/// The forces besides those of the potential, for a kinetic energy that is constant in the frame `own`.
+pub fn forces(arena: &mut Arena, spec: &Spec, own: Frame) -> Forces {
+    let n = spec.dim.value;
+    let damping: Vec<Term> = terms(arena, n, &spec.dissipation).into_iter().map(|(_, term)| term).collect();
+    let dissipation = (!damping.is_empty()).then(|| Dissipation::new(arena, n, own, &damping));
+    Forces { dissipation }
+}
+
+/// The term's form in the derivation.
+pub fn kind(kind: spec::TermKind) -> TermKind {
     match kind {
         spec::TermKind::Casimir2 => TermKind::Casimir2,
         spec::TermKind::Casimir1Squared => TermKind::Casimir1Squared,

@@ -44,6 +44,8 @@ pub struct Spec {
     pub kinetic_key: Region,
     /// `potential = ...`.
     pub potential: Option<Potential>,
+    /// The terms of `dissipation(...)`, in the user's order, each kind at most once.
+    pub dissipation: Vec<Term>,
     /// `require(...)`.
     pub require: Vec<Spanned<Requirement>>,
     /// `emit(...)`.
@@ -61,7 +63,7 @@ pub struct Symmetry {
     pub body: Spanned<Claim>,
 }
 
-/// One summand of the kinetic energy.
+/// One summand of the kinetic energy or of the dissipation.
 #[derive(Clone, Debug)]
 pub struct Term {
     /// Its kind, at its name.
@@ -107,6 +109,11 @@ impl Value {
 }
 
 impl Spec {
+    /// The terms of all quadratic forms: the kinetic energy, then the dissipation.
+    pub fn forms(&self) -> impl Iterator<Item = &Term> {
+        self.kinetic.iter().chain(&self.dissipation)
+    }
+
     /// The term of a kind.
     #[must_use]
     pub fn term(&self, kind: TermKind) -> Option<&Term> {

@@ -30,7 +30,7 @@ impl Place {
 /// its functions, fields and variables.
 pub(super) fn computable(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> {
     let mut result = Ok(());
-    let coefficients = spec.kinetic.iter().flat_map(|term| term.value.expressions());
+    let coefficients = spec.forms().flat_map(|term| term.value.expressions());
     let placed = coefficients
         .map(|expression| (expression, Place::Coefficient))
         .chain(spec.potential.iter().map(|potential| (&potential.energy, Place::Potential)));

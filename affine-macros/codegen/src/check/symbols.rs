@@ -35,7 +35,7 @@ pub(super) fn resolved(spec: &Spec, found: &mut Diagnostics) {
             found.report(name.span(), mistake);
         }
     };
-    for name in spec.kinetic.iter().flat_map(|term| term.value.expressions()).flat_map(names) {
+    for name in spec.forms().flat_map(|term| term.value.expressions()).flat_map(names) {
         report(name, unresolved(spec, name, spec.resolve(name), &[]));
     }
     let Some(potential) = &spec.potential else { return };

@@ -5,7 +5,8 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::{Chart, Linear, Momentum};
-use crate::mechanics::equations::{self, System, hamilton};
+use crate::mechanics::equations::{self, Load, System, hamilton};
+use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::potential::Potential;
@@ -32,16 +33,20 @@ pub(super) fn full_equations(
     chart: &Chart,
     full_h: &Polynomial,
     potential: Option<&Potential>,
+    forces: &Forces,
     coefficients: &mut Constants,
 ) -> Equations {
-    let load = potential.map(|u| u.load(arena, chart)).unwrap_or_default();
+    let mut loads: Vec<Load> = potential.iter().map(|u| u.load(arena, chart)).collect();
+    loads.extend(forces.loads(arena, chart, h));
+    // The plain array has no place for the work.
+    loads.iter_mut().for_each(|load| load.work = None);
     let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
     let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
-    through_velocity.add(&load);
+    loads.iter().for_each(|load| through_velocity.add(load));
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
     if !h.is_tensor() {
         let mut expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
-        expanded.add(&load);
+        loads.iter().for_each(|load| expanded.add(load));
         ways.push(batch(arena, &expanded));
         ways.push(split_batch(arena, chart, &expanded));
     }
@@ -71,12 +76,13 @@ pub(super) fn full_equations(
 }
 
 fn batch(arena: &Arena, system: &System) -> Batch {
+    let rates = system.rates.iter().map(|(_, symbol, rate)| (*symbol, rate));
+    let work = system.work.iter().map(|(symbol, power)| (*symbol, power));
     Batch {
         shared: system.shared.clone(),
-        results: system
-            .rates
-            .iter()
-            .map(|(_, symbol, rate)| (format!("d_{}", arena.name(*symbol).unwrap_or("state")), rate.clone()))
+        results: rates
+            .chain(work)
+            .map(|(symbol, rate)| (format!("d_{}", arena.name(symbol).unwrap_or("state")), rate.clone()))
             .collect(),
     }
 }
@@ -114,11 +120,12 @@ pub(super) fn best_reduction(
     arena: &mut Arena,
     h: &Hamiltonian,
     potential: Option<&Potential>,
+    forces: &Forces,
     rotations: bool,
     coefficients: &mut Constants,
 ) -> Option<(Reduction, Equations, Program, Vec<String>)> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
-    for candidate in reduce::candidates(arena, h, potential, rotations) {
+    for candidate in reduce::candidates(arena, h, potential, forces, rotations) {
         let states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
         let mut constants = Constants::new("k");
         let way = batch(arena, &candidate.system);
@@ -153,4 +160,21 @@ fn trajectory_symbols(reduction: &Reduction) -> Vec<Expr> {
         Layout::Entries => reduction.fixed.clone(),
     };
     [chart.p.clone(), momentum].concat()
+}
+
+/// The power of the forces at a point, with what it shares; `None` where there are no forces.
+pub(super) fn power_batch(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    chart: &Chart,
+    full_h: &Polynomial,
+    forces: &Forces,
+) -> Option<Batch> {
+    let mut system = System {
+        shared: equations::velocities(arena, chart, full_h).into_iter().flatten().collect(),
+        ..System::default()
+    };
+    forces.loads(arena, chart, h).iter().for_each(|load| system.add(load));
+    let (_, power) = system.work?;
+    Some(Batch { shared: system.shared, results: vec![("power".to_owned(), power)] })
 }

@@ -429,6 +429,18 @@ pub enum Diagnostic {
         /// The translation term.
         term: &'static str,
     },
+
+    // ---- the forces ----
+    /// A dissipation of the motion of a centre that stands still.
+    DampedCentre {
+        /// The translation term.
+        term: &'static str,
+    },
+    /// A dissipation function that is negative at some velocity.
+    NegativeDissipation {
+        /// What shows it, in the user's numbers: `I - A = 0.1 - 0.2 = -1/10 on skew velocities (rotation)`.
+        defect: String,
+    },
 }
 
 /// The invariant parts of an affine velocity `O` under rotations.
@@ -529,4 +541,6 @@ names! {
     NotPositiveDefinite => "not-positive-definite",
     ClaimBroken => "claim-broken",
     AffineTranslation => "affine-translation",
+    DampedCentre => "damped-centre",
+    NegativeDissipation => "negative-dissipation",
 }

@@ -386,6 +386,20 @@ impl Diagnostic {
                  after (4.5)): a translational energy needs a metric on one side",
                 format!("claim `metric` on one side, or remove `{term}`"),
             ),
+            Self::DampedCentre { term } => text(
+                format!("`{term}` in `dissipation(...)` slows a centre that stands still"),
+                "without a translational kinetic energy the centre is fixed in space, and x_dot = 0",
+                format!(
+                    "add `space_translation = m` or `body_translation = m` to `kinetic(...)`, or remove `{term}`"
+                ),
+            ),
+            Self::NegativeDissipation { defect } => text(
+                format!("the dissipation is negative: {defect}"),
+                "the forces of R have the power -2 R; where R < 0 they would feed energy in. The terms of each frame \
+                 count together; casimir terms count with those of the body, or else with those of space",
+                "change a coefficient so that R >= 0 at every velocity; an isotropic R has it iff I >= |A| and \
+                 I + A + n B >= 0, where I is the inertia, A is `casimir2`, B is `casimir1_squared`",
+            ),
         }
     }
 }

@@ -107,7 +107,7 @@ fn kinetic_energy(context: &Context) -> TokenStream {
 }
 
 /// `let` statements that bind the components of `point` that a program reads.
-fn bind_point(context: &Context, program: &Program) -> TokenStream {
+pub(super) fn bind_point(context: &Context, program: &Program) -> TokenStream {
     let rt = &context.names.rt;
     let used = inputs(program);
     let spin = own_spin(context);

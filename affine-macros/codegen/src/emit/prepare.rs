@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::derive::{Condition, NumericBlock};
+use crate::derive::{Condition, Damping, NumericBlock};
 use crate::lower::FIELD;
 
 use super::body::{Body, Number, Scope, body};
@@ -46,6 +46,7 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let conditions = conditions(context, rt);
     let blocks: TokenStream =
         context.model.numeric_blocks.iter().map(|block| numeric_block(block, rt)).collect();
+    let damping = damping(&context.model.damping, rt);
     let Body { lets, results } = over_fields(&context.model.coefficients);
     quote! {
         impl #generics #model #types #clause {
@@ -57,6 +58,7 @@ pub(super) fn method(context: &Context) -> TokenStream {
             #visibility fn prepare(&self) -> #rt::Result<#prepared> {
                 #conditions
                 #blocks
+                #damping
                 #lets
                 let coefficients = #rt::finite([#(#results),*])?;
                 ::core::result::Result::Ok(#prepared { coefficients })
@@ -108,6 +110,43 @@ fn condition(condition: &Condition, rt: &Ident) -> TokenStream {
             "choose fields that keep it away from zero, or the momentum does not determine the velocity"
         }
     );
+    held(condition, &text, &reason, rt)
+}
+
+/// What the dissipation must not be: negative.
+fn damping(damping: &Damping, rt: &Ident) -> TokenStream {
+    let entries: Vec<TokenStream> = damping
+        .conditions
+        .iter()
+        .map(|condition| {
+            let text = format!("{} >= 0", condition.name);
+            let reason = format!(
+                "on {} the dissipation function R is half of {} times the square of the velocity; where R < 0 its \
+                 forces would feed energy in",
+                condition.directions, condition.name,
+            );
+            held(condition, &text, &reason, rt)
+        })
+        .collect();
+    let conditions = (!entries.is_empty()).then(|| quote!(#rt::semidefinite(&[#(#entries),*])?;));
+    let blocks = damping.blocks.iter().map(|block| {
+        let Body { lets, results } = over_fields(&block.program);
+        let (size, count) = (block.size, block.size * (block.size + 1) / 2);
+        let (entries, terms) = results.split_at(count);
+        let (size, count) = (number(size), number(count));
+        quote! {
+            {
+                #lets
+                #rt::semidefinite_form::<#size, #count>([#(#entries),*], #rt::total_size([#(#terms),*]))?;
+            }
+        }
+    });
+    quote!(#conditions #(#blocks)*)
+}
+
+/// A condition with the program of its value and of the sizes that rounding errors are measured by.
+fn held(condition: &Condition, text: &str, reason: &str, rt: &Ident) -> TokenStream {
+    let positive = condition.positive;
     let Body { lets, results } = over_fields(&condition.program);
     let (value, sizes) = results.split_first().map_or((quote!(0.0), &[][..]), |(v, s)| (v.clone(), s));
     quote! {

@@ -145,6 +145,7 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
     let (trajectory, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
     let state: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let work = state.iter().any(|name| name == "work").then(|| quote!(let work = #t::zero();));
     let state = identifiers(&state);
     let mut fields = TokenStream::new();
     let mut field = |wanted: bool, tokens: TokenStream| {
@@ -175,6 +176,7 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
             #lets
             #trajectory
             #whirl
+            #work
             ([#(#state),*], #constants { #fields })
         }
     }
@@ -281,8 +283,10 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
     let chart = &context.model.reduction.chart;
     let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
-    let names = identifiers(&all);
-    let mut lets = quote!(let [#(#names),*] = *reduced;);
+    // No phase point holds the work.
+    let read: Vec<&str> = all.iter().map(String::as_str).filter(|name| *name != "work").collect();
+    let bound = pattern(&all, &read);
+    let mut lets = quote!(let #bound = *reduced;);
     let rows = |stem: &str| {
         let rows = components(stem, n).into_iter().map(|row| {
             let row = identifiers(&row);

@@ -12,15 +12,19 @@ pub struct System {
     pub shared: Vec<(Expr, Polynomial)>,
     /// Coordinates and their time derivatives.
     pub rates: Vec<(Coordinate, Expr, Polynomial)>,
+    /// The work of forces that no potential has, as one more variable, and its rate, their power.
+    pub work: Option<(Expr, Polynomial)>,
 }
 
-/// What a potential adds to a system.
+/// What a potential, a dissipation or a force adds to a system.
 #[derive(Clone, Debug, Default)]
 pub struct Load {
     /// Quantities that the forces share.
     pub shared: Vec<(Expr, Polynomial)>,
     /// Coordinates and what their rates gain.
     pub forces: Vec<(Coordinate, Polynomial)>,
+    /// The symbol of the work and the power of the forces, where no potential has them.
+    pub work: Option<(Expr, Polynomial)>,
 }
 
 /// How the rate of a coordinate is written.
@@ -98,7 +102,7 @@ pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form)
             (z, chart.symbol(z), rate(chart, &gradient, &velocity, form, z))
         })
         .collect();
-    System { shared: velocity.into_iter().flatten().collect(), rates }
+    System { shared: velocity.into_iter().flatten().collect(), rates, work: None }
 }
 
 impl System {
@@ -109,16 +113,26 @@ impl System {
         Self {
             shared: self.shared.iter().map(|(s, p)| (*s, each(p))).collect(),
             rates: self.rates.iter().map(|(z, s, p)| (*z, *s, each(p))).collect(),
+            work: self.work.as_ref().map(|(s, p)| (*s, each(p))),
         }
     }
 
     /// Adds quantities and what they add to the rates.
     pub fn add(&mut self, load: &Load) {
-        self.shared.extend(load.shared.iter().cloned());
+        for (symbol, definition) in &load.shared {
+            // Two loads may share a quantity; either definition has its value.
+            if !self.shared.iter().any(|(known, _)| known == symbol) {
+                self.shared.push((*symbol, definition.clone()));
+            }
+        }
         for (coordinate, force) in &load.forces {
             for (_, _, rate) in self.rates.iter_mut().filter(|(z, _, _)| z == coordinate) {
                 rate.add_scaled(force, &Rational::ONE);
             }
+        }
+        if let Some((symbol, power)) = &load.work {
+            let (_, sum) = self.work.get_or_insert_with(|| (*symbol, Polynomial::zero()));
+            sum.add_scaled(power, &Rational::ONE);
         }
     }
 
@@ -145,6 +159,7 @@ impl System {
                 let shared = self.shared.iter().map(|(_, p)| p);
                 shared
                     .chain(self.rates.iter().map(|(_, _, p)| p))
+                    .chain(self.work.iter().map(|(_, p)| p))
                     .any(|p| p.any_symbol(arena, &mut |a| a == symbol))
             };
             let idle: Vec<Expr> = self.shared.iter().map(|(s, _)| *s).filter(|s| !used(*s)).collect();

@@ -167,6 +167,11 @@ impl Kinetic {
         {
             return Err((flat.min(affine), flat.max(affine)));
         }
+        Ok(Self::in_frame(arena, dim, frame, terms))
+    }
+
+    /// Writes terms that have constant coefficients in `frame` in the velocity of that frame.
+    pub(super) fn in_frame(arena: &mut Arena, dim: usize, frame: Frame, terms: &[Term]) -> Self {
         let velocity = Matrix::symbols(arena, frame.velocity_name(), dim);
         let mut kinetic =
             Self { dim, frame, velocity, terms: terms.to_vec(), internal: Vec::new(), translation: None };
@@ -181,7 +186,7 @@ impl Kinetic {
                 }
             }
         }
-        Ok(kinetic)
+        kinetic
     }
 
     /// The internal energy `T_int`.

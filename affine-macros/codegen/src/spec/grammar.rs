@@ -16,20 +16,29 @@ enum Key {
     Symmetry,
     Kinetic,
     Potential,
+    Dissipation,
     Require,
     Emit,
     Crate,
 }
 
 /// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 6] = ["hamiltonian", "metrics", "group", "constraint", "dissipation", "forces"];
+const LATER_KEYS: [&str; 5] = ["hamiltonian", "metrics", "group", "constraint", "forces"];
 
 /// Kinetic terms that later versions read: they belong to the momentum side.
 const LATER_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
 
 impl Named for Key {
-    const ALL: &'static [Self] =
-        &[Self::Dim, Self::Symmetry, Self::Kinetic, Self::Potential, Self::Require, Self::Emit, Self::Crate];
+    const ALL: &'static [Self] = &[
+        Self::Dim,
+        Self::Symmetry,
+        Self::Kinetic,
+        Self::Potential,
+        Self::Dissipation,
+        Self::Require,
+        Self::Emit,
+        Self::Crate,
+    ];
 
     fn name(self) -> &'static str {
         match self {
@@ -37,6 +46,7 @@ impl Named for Key {
             Self::Symmetry => "symmetry",
             Self::Kinetic => "kinetic",
             Self::Potential => "potential",
+            Self::Dissipation => "dissipation",
             Self::Require => "require",
             Self::Emit => "emit",
             Self::Crate => "crate",
@@ -51,6 +61,7 @@ impl Key {
             Self::Symmetry => "symmetry(space = affine, body = metric)",
             Self::Kinetic => "kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
+            Self::Dissipation => "dissipation(body_inertia = 0.1, casimir2 = 0.1)",
             Self::Require => "require(positive_definite)",
             Self::Emit => "emit(splitting)",
             Self::Crate => "crate = ::affine_runtime",
@@ -82,6 +93,7 @@ pub(super) struct Arguments {
     symmetry: Option<Symmetry>,
     kinetic: Spanned<Vec<Term>>,
     potential: Option<Potential>,
+    dissipation: Vec<Term>,
     require: Vec<Spanned<Requirement>>,
     emit: Vec<Spanned<Capability>>,
     runtime: Option<syn::Path>,
@@ -89,7 +101,7 @@ pub(super) struct Arguments {
 
 impl Arguments {
     pub(super) fn of(self, item: Item) -> Spec {
-        let Self { dim, symmetry, kinetic, potential, require, emit, runtime } = self;
+        let Self { dim, symmetry, kinetic, potential, dissipation, require, emit, runtime } = self;
         Spec {
             item,
             dim,
@@ -97,6 +109,7 @@ impl Arguments {
             kinetic: kinetic.value,
             kinetic_key: kinetic.span,
             potential,
+            dissipation,
             require,
             emit,
             runtime,
@@ -110,13 +123,18 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     let (mut dim, mut symmetry, mut kinetic, mut runtime) = (None, None, None, None);
     let (mut require, mut emit) = (Vec::new(), Vec::new());
     let mut energy = None;
+    let mut dissipation = Vec::new();
     for entry in entries {
         let at = entry.at;
         match entry.key {
             Key::Dim => dim = Some(dimension(expect_value(entry, found), found)),
             Key::Symmetry => symmetry = sides(expect_list(entry, found), at, found),
-            Key::Kinetic => kinetic = Some(terms(expect_list(entry, found), at, found)),
+            Key::Kinetic => kinetic = Some(terms("kinetic", expect_list(entry, found), at, found)),
             Key::Potential => energy = potential(expect_value(entry, found), at, found),
+            Key::Dissipation => {
+                let terms = terms("dissipation", expect_list(entry, found), at, found);
+                dissipation = terms.map_or_else(|_| Vec::new(), |terms| terms.value);
+            }
             Key::Require => require = members("requirement", expect_list(entry, found), found),
             Key::Emit => emit = members("capability", expect_list(entry, found), found),
             Key::Crate => runtime = path(expect_value(entry, found), found),
@@ -124,7 +142,16 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     }
     let dim = dim.unwrap_or_else(|| Err(missing(Key::Dim, "the dimension of space and body", here, found)));
     let kinetic = kinetic.unwrap_or_else(|| Err(missing(Key::Kinetic, "the kinetic energy", here, found)));
-    Ok(Arguments { dim: dim?, symmetry, kinetic: kinetic?, potential: energy, require, emit, runtime })
+    Ok(Arguments {
+        dim: dim?,
+        symmetry,
+        kinetic: kinetic?,
+        potential: energy,
+        dissipation,
+        require,
+        emit,
+        runtime,
+    })
 }
 
 fn missing(key: Key, states: &'static str, at: Span, found: &mut Diagnostics) -> Reported {
@@ -199,15 +226,16 @@ fn claim(entry: &Entry<Side>, found: &mut Diagnostics) -> Option<Spanned<Claim>>
     member("claim", piece.tokens.clone(), piece.at, found)
 }
 
-/// `kinetic(...)`.
+/// `kinetic(...)` and `dissipation(...)`.
 fn terms(
+    name: &'static str,
     list: Result<Group, Reported>,
     key: Span,
     found: &mut Diagnostics,
 ) -> Result<Spanned<Vec<Term>>, Reported> {
     let list = list?;
     let mut terms = Vec::new();
-    for entry in entries::<TermKind>("kinetic", list.stream(), list.span_close(), &LATER_TERMS, found) {
+    for entry in entries::<TermKind>(name, list.stream(), list.span_close(), &LATER_TERMS, found) {
         let kind = Spanned { value: entry.key, span: entry.at.into() };
         match entry.body {
             Body::Value(piece) if !piece.tokens.is_empty() => {
