@@ -117,6 +117,14 @@ families! {
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
     flat_tensor_drift_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2, \
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
+    damped_bulk_missile_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, \
+        body_translation = 1), potential = hyperbolic_dilatation(10) + neo_hookean(0.5), \
+        dissipation(casimir1_squared = 0.3)";
+    damped_shear_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1), dissipation(body_inertia = 0.5, casimir2 = 0.5)";
+    damped_across_frames_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, space_translation = 2), \
+        dissipation(space_inertia = 0.5, dalembert = diag(1, 2), body_translation = 0.25)";
+    damped_dalembert_3: "dim = 3, kinetic(dalembert = diag(1, 1.5, 2), space_translation = 2), \
+        dissipation(dalembert = diag(1, 2, 3), space_translation = 3)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.
@@ -159,6 +167,13 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "dim = 2, kinetic(casimir2 = a, body_inertia = diag(i, 2*i), body_translation = 1)",
         "/// A body.
         pub struct BodyInertia { a: f64, i: f64 }",
+    ),
+    (
+        "fields_damped_2",
+        "dim = 2, kinetic(casimir2 = 0.2, space_inertia = i), \
+         dissipation(space_inertia = [[a, b], [b, c]], casimir2 = a)",
+        "/// A body.
+        pub struct Damped { i: f64, a: f64, b: f64, c: f64 }",
     ),
     (
         "generics_2",

@@ -13,7 +13,7 @@ use crate::geodesic::{Geodesic, Motion};
 use crate::integrate::gauss::{Tableau, step_count};
 use crate::integrate::{Failure, Gauss, RungeKutta8, Statistics, norm};
 use crate::kinematics::LogDeterminant;
-use crate::model::{Group, Model, StateVector};
+use crate::model::{Group, Model, StateVector, WORK};
 use crate::state::Phase;
 
 /// The finest tolerance: about four roundings.
@@ -62,6 +62,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 start: energy,
                 end: energy,
                 outputs: Vec::new(),
+                work: Vec::new(),
+                work_at_end: 0.0,
                 scale: energy_scale(self.model, &self.start, energy),
             },
             statistics: Statistics::default(),
@@ -133,18 +135,18 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let at = |t| if t == self.t0 { self.start } else { self.model.on_geodesic(geodesic, t, &self.start) };
         let mut outputs = 0;
         while let Some(t) = recorder.schedule.take_through(t_end, t_end < self.t0) {
-            recorder.record(t, at(t))?;
+            recorder.record(t, at(t), 0.0)?;
             outputs += 1;
             report(&mut self.progress, Progress { t0: self.t0, t, t_end, steps: outputs })?;
         }
-        recorder.reach(t_end, at(t_end))
+        recorder.reach(t_end, at(t_end), 0.0)
     }
 
     /// Reduction, integration with output on the way, expansion.
     fn integrate(&mut self, t_end: f64, recorder: &mut Recorder<'_, '_, N, M>) -> Result<(), Reason> {
         let model = self.model;
         if recorder.schedule == Schedule::Steps || recorder.schedule.take_through(self.t0, false).is_some() {
-            recorder.record(self.t0, self.start)?;
+            recorder.record(self.t0, self.start, 0.0)?;
         }
         let (reduced, constants) = model.reduce(self.t0, &self.start);
         let equations = |t: f64, reduced: &M::Reduced<f64>| model.reduced_equations(t, &constants, reduced);
@@ -184,6 +186,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         trajectory.statistics = integration.statistics();
         if let Some((t, reduced)) = last.filter(|(t, _)| (t - trajectory.end.0) * (t_end - self.t0) > 0.0) {
             trajectory.end = (t, expand(t, &reduced));
+            trajectory.energies.work_at_end = work::<N, M>(&reduced);
         }
         outcome
     }
@@ -208,19 +211,19 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             let (t, reduced) = (integration.t(), *integration.y());
             while let Some(due) = recorder.schedule.take_through(t, t_end < self.t0) {
                 if due == t {
-                    recorder.record(t, expand(t, &reduced))?;
+                    recorder.record(t, expand(t, &reduced), work::<N, M>(&reduced))?;
                 } else {
                     let between = integration.between(due).map_err(|failure| self.reason(failure))?;
-                    recorder.record(due, expand(due, &between))?;
+                    recorder.record(due, expand(due, &between), work::<N, M>(&between))?;
                 }
             }
             if recorder.schedule == Schedule::Steps {
-                recorder.record(t, expand(t, &reduced))?;
+                recorder.record(t, expand(t, &reduced), work::<N, M>(&reduced))?;
             } else if recorder.trajectory.end.0 != t {
                 let phi =
                     placement.clone().map(|range| Matrix::<N>::from_row_slice(&reduced.as_ref()[range]));
                 if integration.is_finished() || !phi.is_some_and(|phi| is_clearly_positive(&phi)) {
-                    recorder.reach(t, expand(t, &reduced))?;
+                    recorder.reach(t, expand(t, &reduced), work::<N, M>(&reduced))?;
                 }
             }
             *last = Some((t, reduced));
@@ -251,20 +254,22 @@ struct Recorder<'r, 'a, const N: usize, M: Model<N>> {
 
 impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     /// Checks a phase point, which becomes the last good one.
-    fn reach(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
+    fn reach(&mut self, t: f64, point: M::Point<f64>, work: f64) -> Result<(), Reason> {
         check(t, &point)?;
         self.trajectory.end = (t, point);
+        self.trajectory.energies.work_at_end = work;
         Ok(())
     }
 
     /// Checks a phase point, records it as an output and shows it to the observer.
-    fn record(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
-        self.reach(t, point)?;
+    fn record(&mut self, t: f64, point: M::Point<f64>, work: f64) -> Result<(), Reason> {
+        self.reach(t, point, work)?;
         self.trajectory.times.push(t);
         self.trajectory.points.push(point);
         let energy = self.model.hamiltonian(&point);
         let energies = &mut self.trajectory.energies;
         energies.outputs.push(energy);
+        energies.work.push(work);
         energies.scale = larger(energies.scale, energy_scale(self.model, &point, energy));
         match &mut self.observe {
             Some(observe) => go_on(observe(t, &point), Callback::Observer),
@@ -332,6 +337,13 @@ fn placement_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
     let k = groups.iter().position(|group| group.name == "phi" && group.len == n * n)?;
     let start = total(&groups[..k]);
     Some(start..start + n * n)
+}
+
+/// The work of the forces that no potential has, where the reduced state holds it.
+fn work<const N: usize, M: Model<N>>(reduced: &M::Reduced<f64>) -> f64 {
+    let groups = M::DESCRIPTION.reduced;
+    let place = groups.iter().position(|group| group.name == WORK).map(|k| total(&groups[..k]));
+    place.map_or(0.0, |place| reduced.as_ref()[place])
 }
 
 const fn total(groups: &[Group]) -> usize {

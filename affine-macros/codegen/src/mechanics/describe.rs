@@ -418,7 +418,8 @@ pub fn system(arena: &mut Arena, system: &System) -> Vec<Formula> {
     let shared = system.shared.iter().filter(|(s, _)| !is_rate(*s)).map(|(s, p)| (*s, p.clone(), false));
     let rates =
         system.rates.iter().map(|(_, s, p)| (*s, value_of_rate(p).unwrap_or_else(|| p.clone()), true));
-    let equations: Vec<(Expr, Polynomial, bool)> = shared.chain(rates).collect();
+    let work = system.work.iter().map(|(s, p)| (*s, p.clone(), true));
+    let equations: Vec<(Expr, Polynomial, bool)> = shared.chain(rates).chain(work).collect();
     equations
         .into_iter()
         .map(|(symbol, p, rate)| {

@@ -222,9 +222,11 @@ impl Shared<'_> {
     }
 
     fn matrix(&mut self, stem: &str, values: &Square<Polynomial>) -> Square<Polynomial> {
-        let row = |(i, row): (usize, &Vec<Polynomial>)| self.vector(&format!("{stem}_{}", i + 1), row);
-        let rows: Vec<Vec<Polynomial>> = values.iter().enumerate().map(row).collect();
-        rows
+        let mut result = values.clone();
+        for (i, j) in (0..values.len()).flat_map(|i| (0..values.len()).map(move |j| (i, j))) {
+            result[i][j] = self.named(&format!("{stem}_{}{}", i + 1, j + 1), &values[i][j]);
+        }
+        result
     }
 
     /// `phi^-1`, with the names that potentials have for the determinant and its reciprocal.
