@@ -15,6 +15,7 @@ mod benchmarks;
 mod canonical;
 mod conserved;
 mod drunk_missile;
+mod forces;
 mod geodesics;
 mod potentials;
 mod prepare;

@@ -10,7 +10,7 @@ pub(crate) struct Reference {
     /// Condition of the mass matrix.
     pub(crate) condition: f64,
     state: State,
-    /// What a potential adds to the sizes; all zero without.
+    /// What forces add to the sizes; all zero without.
     potential: Slopes,
 }
 
@@ -35,6 +35,20 @@ impl Reference {
         Reference {
             expected: kinetic.motion(state).unwrap().under(t, potential).unwrap().expected().unwrap(),
             potential: slopes,
+            ..Reference::new(kinetic, state)
+        }
+    }
+
+    /// The motion with a dissipation function, stated as a kinetic energy is.
+    pub(crate) fn damped(kinetic: &Kinetic, state: &State, dissipation: &Kinetic) -> Self {
+        let free = kinetic.motion(state).unwrap();
+        let motion = free.clone().damped(dissipation).unwrap();
+        let push = |before: &Exact, after: &Exact| (after - before).to_f64();
+        let x = push(&free.rate().p, &motion.rate().p);
+        let phi = push(&free.rate().pi, &motion.rate().pi);
+        Reference {
+            expected: motion.expected().unwrap(),
+            potential: Slopes { value: 0.0, t: 0.0, x, phi },
             ..Reference::new(kinetic, state)
         }
     }

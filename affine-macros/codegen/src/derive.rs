@@ -164,7 +164,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         conserved_now.contains(&Candidate::TotalAngularMomentum) && forces.are_isotropic_in_space();
     if !forces.is_empty() {
         conserved_now = forces.keep(arena, &own, &h, conserved_now);
-        conserved_at_rest = forces.keep(arena, &own, &h, conserved_at_rest);
+        conserved_at_rest = forces.at_rest().keep(arena, &own, &h, conserved_at_rest);
     }
     let commuting = reduce::commuting(arena, &h, potential, &forces);
     let closed_form = match potential {

@@ -43,6 +43,13 @@ impl Forces {
         }
     }
 
+    /// Those that act where `p = 0`.
+    #[must_use]
+    pub fn at_rest(&self) -> Self {
+        let dissipation = self.dissipation.as_ref().and_then(Dissipation::at_rest);
+        Self { dissipation }
+    }
+
     /// Does none act on the centre of mass?
     #[must_use]
     pub fn leave_the_centre(&self) -> bool {
