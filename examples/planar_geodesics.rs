@@ -74,7 +74,7 @@ struct Stretch {
 
 impl Stretch {
     fn new(start: &Point) -> Self {
-        let energy = PlanarBody.hamiltonian(start);
+        let energy = PlanarBody.hamiltonian(0.0, start);
         let (s, v) = (start.spin().0.0[(0, 1)], start.vorticity().0.0[(0, 1)]);
         // d/dt of tr(phi^T phi)/(2 det phi) for a traceless affine velocity, det phi constant.
         let velocity = PlanarBody.velocity(start).phi_dot;

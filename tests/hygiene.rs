@@ -16,7 +16,7 @@ fn works<const N: usize, M: Model<N>>(model: &M) {
     let skip = usize::from(M::DESCRIPTION.full[0].name == "x") * N;
     (0..N).for_each(|k| full.as_mut()[skip + k * (N + 1)] = 2.0);
     let point = model.unflatten(&full);
-    let energy = model.hamiltonian(&point);
+    let energy = model.hamiltonian(0.0, &point);
     let difference = energy - model.kinetic_energy(point.phi(), &model.velocity(&point));
     // A few hundred roundings of terms of the size of the energy.
     assert!(difference.abs() < 1e-13 * energy.abs().max(1.0), "{}: {difference}", M::DESCRIPTION.name);

@@ -130,6 +130,10 @@ impl Scalar for Counting {
     fn abs(self) -> Self {
         Self(Scalar::abs(self.0))
     }
+
+    fn copysign(self, sign: Self) -> Self {
+        Self(Scalar::copysign(self.0, sign.0))
+    }
 }
 
 impl Real for Counting {

@@ -31,8 +31,8 @@ pub trait Model<const N: usize> {
     fn velocity<T: Real>(&self, point: &Self::Point<T>) -> Velocity<N, T>;
     /// The kinetic energy `T` of velocities at the placement `phi`.
     fn kinetic_energy<T: Real>(&self, phi: &Matrix<N, T>, velocity: &Velocity<N, T>) -> T;
-    /// The Hamiltonian `H` of a phase point.
-    fn hamiltonian<T: Real>(&self, point: &Self::Point<T>) -> T;
+    /// The Hamiltonian `H` of a phase point at time `t`, which only a potential that contains the time reads.
+    fn hamiltonian<T: Real>(&self, t: T, point: &Self::Point<T>) -> T;
 
     /// The power of the forces that no potential has, `dH/dt`: `-2 R` of a dissipation function `R`. Zero for a
     /// model without such forces.

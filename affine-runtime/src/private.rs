@@ -2,7 +2,7 @@
 
 pub use core::primitive::f64;
 
-pub use crate::decompose::skew_exponential;
+pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
 pub use crate::dissipation::{semidefinite, semidefinite_form};
 pub use crate::error::Result;
 pub use crate::frames::{

@@ -79,6 +79,10 @@ pub trait Scalar:
     /// Absolute value.
     #[must_use]
     fn abs(self) -> Self;
+    /// The size of this number with the sign of another, either sign where that is zero: what a choice of a branch
+    /// by sign becomes in straight-line code.
+    #[must_use]
+    fn copysign(self, sign: Self) -> Self;
 }
 
 /// An ordered number, for everything outside right-hand sides.
@@ -116,6 +120,11 @@ macro_rules! primitive {
                 return self.mul_add(factor, term);
                 #[cfg(not(all(feature = "std", target_feature = "fma")))]
                 return self * factor + term;
+            }
+
+            #[inline(always)]
+            fn copysign(self, sign: Self) -> Self {
+                <$type>::copysign(self, sign)
             }
 
             $(

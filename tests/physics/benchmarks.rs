@@ -104,7 +104,7 @@ fn assert_is_the_motion<M: Model<3>>(
 ) {
     let (rows, spin) = rows(data);
     let start = start(&rows[0]);
-    let largest = (2.0 * scale.inertia * model.hamiltonian(&start)).sqrt();
+    let largest = (2.0 * scale.inertia * model.hamiltonian(0.0, &start)).sqrt();
     let wanted: Vec<&Row> = rows[1..].iter().filter(|row| row.t <= until).collect();
     assert_eq!(wanted.last().unwrap().t, until, "a row at the end");
     let run = Simulation::new(model, start)

@@ -87,7 +87,7 @@ fn agrees_with_the_oracle<const N: usize, F: Family<N>>() {
                 tolerance,
             );
         };
-        energy("H", model.hamiltonian(&point));
+        energy("H", model.hamiltonian(T0, &point));
         energy("T", model.kinetic_energy(point.phi(), &velocity));
 
         let full = model.flatten(&point);

@@ -74,7 +74,7 @@ fn assert_conserved(point: &Point) {
     close("p", point.p().as_slice(), start.p().as_slice());
     close("I(O)", &total(point), &total(&start));
     close("Vort", &vorticity(point), &vorticity(&start));
-    close("H", &[DrunkMissile.hamiltonian(point)], &[DrunkMissile.hamiltonian(&start)]);
+    close("H", &[DrunkMissile.hamiltonian(0.0, point)], &[DrunkMissile.hamiltonian(0.0, &start)]);
 }
 
 /// Integrates from row to row.

@@ -148,6 +148,10 @@ impl Scalar for Dual {
     fn abs(self) -> Self {
         self.chain(self.value.abs(), self.value.signum())
     }
+    fn copysign(self, sign: Self) -> Self {
+        let value = self.value.copysign(sign.value);
+        self.chain(value, self.value.signum() * value.signum())
+    }
 }
 
 impl Real for Dual {

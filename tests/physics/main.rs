@@ -17,6 +17,8 @@ mod conserved;
 mod drunk_missile;
 mod forces;
 mod geodesics;
+#[macro_use]
 mod potentials;
 mod prepare;
+mod stretches;
 mod undeformed;

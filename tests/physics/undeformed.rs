@@ -27,7 +27,7 @@ fn placement(k: i32) -> Matrix<3> {
 fn dilatation_keeps_its_digits() {
     for (k, exact) in DILATATION {
         let phi = placement(k);
-        let energy = Dilatation.hamiltonian(&Dilatation.at_velocity(phi, Matrix::<3>::zeros()).unwrap());
+        let energy = Dilatation.hamiltonian(0.0, &Dilatation.at_velocity(phi, Matrix::<3>::zeros()).unwrap());
         assert!((energy / exact - 1.0).abs() < 1e-14, "k = {k}: {energy:e} for {exact:e}");
     }
 }
@@ -37,7 +37,7 @@ fn dilatation_keeps_its_digits() {
 fn shear_keeps_half_its_digits() {
     for (k, exact) in SHEAR {
         let phi = placement(k);
-        let energy = Shear.hamiltonian(&Shear.at_velocity(phi, Matrix::<3>::zeros()).unwrap());
+        let energy = Shear.hamiltonian(0.0, &Shear.at_velocity(phi, Matrix::<3>::zeros()).unwrap());
         let tolerance = 8.0 * f64::EPSILON * 2f64.powi(k);
         assert!((energy / exact - 1.0).abs() < tolerance, "k = {k}: {energy:e} for {exact:e}");
     }

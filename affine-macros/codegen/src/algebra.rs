@@ -5,15 +5,18 @@ pub mod bind;
 pub mod evaluate;
 pub mod factor;
 pub mod function;
+pub mod kernel;
 pub mod linear;
 pub mod matrix;
 pub mod polynomial;
 pub mod rational;
 pub mod residue;
 pub mod ring;
+pub mod substitute;
 
 pub use arena::{Arena, Expr};
 pub use function::Function;
+pub use kernel::Kernel;
 pub use matrix::Matrix;
 pub use polynomial::Polynomial;
 pub use rational::Rational;

@@ -14,6 +14,7 @@ mod identity;
 mod inertia;
 mod potential;
 mod shapes;
+mod smooth;
 mod symbols;
 mod tensors;
 
@@ -31,10 +32,9 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     symbols::hidden(spec, found);
     symbols::resolved(spec, found);
     capabilities::available(spec, found);
-    potential::available(spec, found);
+    potential::differences(spec, found);
     potential::scalar(spec, found);
     potential::centre(spec, found);
-    potential::smooth(spec, found);
     dissipation::centre(spec, found);
     frames::internal_motion(spec, found);
     frames::affine_translation(spec, found);

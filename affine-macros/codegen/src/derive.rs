@@ -202,6 +202,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         energy.results[0].1.add_scaled(&value, &Rational::ONE);
         energy.shared = shared;
         points.push(Base::MeanLogStretch.symbol(arena));
+        points.extend((0..kinetic.dim).map(|a| Base::LogStretch(a).symbol(arena)));
+        points.extend(u.time());
     }
     let power = power_batch(arena, &h, &full_chart, &full_h, &forces);
     let power = power.map(|batch| inline(arena, batch, points.clone()));
@@ -209,8 +211,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {
         let mass = Polynomial::normal_form(arena, t.mass);
         let batch = Batch {
-            shared: Vec::new(),
             results: vec![("inverse_mass".into(), inverse.clone()), ("mass".into(), mass)],
+            ..Batch::default()
         };
         inline(arena, batch, Vec::new())
     });
@@ -221,7 +223,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
             ("inverse_mu", &iso.skew),
         ];
         let results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
-        inline(arena, Batch { shared: Vec::new(), results }, Vec::new())
+        inline(arena, Batch { results, ..Batch::default() }, Vec::new())
     });
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
     Some(Model {
@@ -255,7 +257,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
 }
 
 fn result(name: &str, polynomial: Polynomial) -> Batch {
-    Batch { shared: Vec::new(), results: vec![(name.to_owned(), polynomial)] }
+    Batch { results: vec![(name.to_owned(), polynomial)], ..Batch::default() }
 }
 
 /// The list for `p = 0`: translation dropped, and with it what it alone makes meaningful.
@@ -284,7 +286,7 @@ fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
 fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Batch {
     let name = |s: &Expr| arena.name(*s).unwrap_or("entry").to_owned();
     let results = names.0.concat().iter().map(name).zip(values.concat()).collect();
-    Batch { shared: Vec::new(), results }
+    Batch { results, ..Batch::default() }
 }
 
 /// `T_int(O) + m/2 |v|^2`, with its inputs.

@@ -5,6 +5,7 @@ mod closed_form;
 mod description;
 mod dynamics;
 mod forces;
+mod kernel;
 mod names;
 mod points;
 mod prepare;
@@ -118,7 +119,7 @@ impl Context<'_> {
             let name = format_ident!("{name}");
             quote!(#name)
         };
-        let Body { lets, results } = body(program, &Scope { number, input: &input });
+        let Body { lets, results } = body(program, &Scope { number, input: &input, rt: &self.names.rt });
         let coefficients = inputs(program).into_iter().filter_map(|name| {
             let (index, name) = (coefficient_index(name)?, format_ident!("{name}"));
             let value = number.of_double(quote!(self.coefficients[#index]));

@@ -1,11 +1,14 @@
 //! Straight-line programs in static single assignment, and their passes; knows neither syntax nor mechanics.
 
 pub mod build;
+pub mod call;
 pub mod count;
 pub mod fuse;
 pub mod run;
 
 use crate::algebra::{Function, Rational};
+
+use call::Call;
 
 /// A value: the index of the step that makes it.
 pub type Value = usize;
@@ -51,6 +54,8 @@ impl Op {
 pub struct Program {
     /// The steps in order.
     pub steps: Vec<Op>,
+    /// Calls of runtime functions, which provide some of the inputs.
+    pub calls: Vec<Call>,
     /// Names of values that mean something.
     pub names: Vec<(Value, String)>,
     /// The results in order.
@@ -58,13 +63,14 @@ pub struct Program {
 }
 
 impl Program {
-    /// How often each value is read, by steps and as a result.
+    /// How often each value is read, by steps, by calls and as a result.
     #[must_use]
     pub fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.steps.len()];
         for step in &self.steps {
             step.operands().into_iter().for_each(|v| uses[v] += 1);
         }
+        self.calls.iter().flat_map(Call::operands).for_each(|v| uses[v] += 1);
         self.outputs.iter().for_each(|(_, v)| uses[*v] += 1);
         uses
     }
@@ -77,6 +83,15 @@ impl Program {
         program.without_dead_steps()
     }
 
+    /// The call that provides the value, if it is an input that a call provides.
+    #[must_use]
+    pub fn call_before(&self, value: Value) -> Option<&Call> {
+        match &self.steps[value] {
+            Op::Input(name) => self.calls.iter().find(|call| call.provides(name)),
+            _ => None,
+        }
+    }
+
     /// Keeps only what the results need, in the same order.
     #[must_use]
     pub fn without_dead_steps(&self) -> Self {
@@ -85,6 +100,7 @@ impl Program {
         for k in (0..self.steps.len()).rev() {
             if needed[k] {
                 self.steps[k].operands().into_iter().for_each(|v| needed[v] = true);
+                self.call_before(k).into_iter().flat_map(Call::operands).for_each(|v| needed[v] = true);
             }
         }
         let mut place = vec![0; self.steps.len()];
@@ -93,6 +109,12 @@ impl Program {
             place[k] = result.steps.len();
             result.steps.push(step.renumbered(&place));
         }
+        let is_read = |call: &&Call| {
+            let read =
+                |(k, step): (usize, &Op)| needed[k] && matches!(step, Op::Input(name) if call.provides(name));
+            self.steps.iter().enumerate().any(read)
+        };
+        result.calls = self.calls.iter().filter(is_read).map(|call| call.renumbered(&place)).collect();
         result.names =
             self.names.iter().filter(|(v, _)| needed[*v]).map(|(v, n)| (place[*v], n.clone())).collect();
         result.outputs = self.outputs.iter().map(|(n, v)| (n.clone(), place[*v])).collect();

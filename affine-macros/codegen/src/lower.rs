@@ -10,6 +10,7 @@ use crate::mechanics::kinetic::{Coefficient, Frame, Term, TermKind};
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 
 pub use potential::potential;
+pub(crate) use potential::{difference_of, energy};
 
 /// Stem of the symbols of fields: kept apart from the names that the derivation makes.
 pub const FIELD: &str = "self.";

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use crate::algebra::bind::Constants;
 use crate::algebra::factor::{complete_sums, factored, scale_atoms};
-use crate::algebra::{Arena, Expr, Polynomial};
+use crate::algebra::{Arena, Expr, Kernel, Polynomial};
 use crate::ir::Program;
 use crate::ir::build::Builder;
 
@@ -13,6 +13,8 @@ use crate::ir::build::Builder;
 pub struct Batch {
     /// Shared quantities; each may use others of the list.
     pub shared: Vec<(Expr, Polynomial)>,
+    /// Calls of runtime functions, whose results are shared quantities too.
+    pub kernels: Vec<Kernel>,
     /// Results.
     pub results: Vec<(String, Polynomial)>,
 }
@@ -25,9 +27,11 @@ pub fn straight_line(
     varies: &impl Fn(Expr) -> bool,
 ) -> Program {
     let mut shared: Vec<Expr> = batch.shared.iter().map(|(s, _)| *s).collect();
+    shared.extend(batch.kernels.iter().flat_map(Kernel::outputs));
     let moving = |atom: Expr| varies(atom) || shared.contains(&atom);
     let mut polynomials: Vec<Polynomial> =
         batch.shared.iter().map(|(_, p)| p).chain(batch.results.iter().map(|(_, p)| p)).cloned().collect();
+    polynomials.extend(batch.kernels.iter().flat_map(Kernel::inputs).cloned());
     for polynomial in &mut polynomials {
         *polynomial = constants.bind_inside(arena, polynomial, &moving);
     }
@@ -40,21 +44,37 @@ pub fn straight_line(
         *polynomial = constants.bind(arena, polynomial, &moving);
     }
     let scaled = scale_atoms(arena, &mut polynomials, &moving);
-    let (shared_forms, result_forms) = polynomials.split_at(batch.shared.len());
+    let (shared_forms, other_forms) = polynomials.split_at(batch.shared.len());
+    let (result_forms, argument_forms) = other_forms.split_at(batch.results.len());
+    let mut arguments = argument_forms.iter().cloned();
+    let mut calls: Vec<Kernel> = batch
+        .kernels
+        .iter()
+        .map(|kernel| kernel.with_arguments(|p| arguments.next().unwrap_or_else(|| p.clone())))
+        .collect();
     let mut open: Vec<(Expr, Polynomial)> = sums
         .into_iter()
         .chain(scaled)
-        .chain(shared.iter().copied().zip(shared_forms.iter().cloned()))
+        .chain(batch.shared.iter().map(|(symbol, _)| *symbol).zip(shared_forms.iter().cloned()))
         .collect();
     let mut builder = Builder::new();
     // Definitions in an order in which each uses only what is there already.
-    while let Some(ready) = open
-        .iter()
-        .position(|(_, p)| !p.any_symbol(arena, &mut |s| open.iter().any(|(symbol, _)| *symbol == s)))
-    {
-        let (symbol, polynomial) = open.remove(ready);
-        let value = factored(arena, &polynomial);
-        builder.define(arena, symbol, value);
+    loop {
+        let pending =
+            |s: Expr| open.iter().any(|(symbol, _)| *symbol == s) || calls.iter().any(|c| c.returns(s));
+        let known = |p: &Polynomial| !p.any_symbol(arena, &mut |s| pending(s));
+        if let Some(ready) = open.iter().position(|(_, p)| known(p)) {
+            let (symbol, polynomial) = open.remove(ready);
+            let value = factored(arena, &polynomial);
+            builder.define(arena, symbol, value);
+        } else if let Some(ready) = calls.iter().position(|call| call.inputs().all(known)) {
+            let call = calls.remove(ready);
+            let arguments: Vec<_> =
+                call.arguments.iter().map(|group| group.map(|p| factored(arena, p))).collect();
+            builder.call(arena, call.callee, &arguments, &call.results);
+        } else {
+            break;
+        }
     }
     for ((name, _), form) in batch.results.iter().zip(result_forms) {
         let value = factored(arena, form);

@@ -19,6 +19,7 @@ pub use expression::{Expression, ExpressionKind, MatrixName, Operator};
 pub use item::{Field, Item};
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
 pub use names::{Capability, Claim, Named, Requirement, TermKind, nearest};
+pub(crate) use symbol::numbered;
 pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
 
 /// Something with its place in the source.

@@ -40,7 +40,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let mut trajectory = self.empty_trajectory();
         let model = self.model;
         let outcome = self.drive(&mut trajectory);
-        trajectory.energies.end = model.hamiltonian(&trajectory.end.1);
+        trajectory.energies.end = model.hamiltonian(trajectory.end.0, &trajectory.end.1);
         match outcome {
             Ok(()) => Ok(trajectory),
             Err(reason) => {
@@ -51,7 +51,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     }
 
     fn empty_trajectory(&self) -> Trajectory<N, M::Point<f64>> {
-        let energy = self.model.hamiltonian(&self.start);
+        let energy = self.model.hamiltonian(self.t0, &self.start);
         Trajectory {
             description: M::DESCRIPTION,
             start: (self.t0, self.start),
@@ -266,7 +266,7 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
         self.reach(t, point, work)?;
         self.trajectory.times.push(t);
         self.trajectory.points.push(point);
-        let energy = self.model.hamiltonian(&point);
+        let energy = self.model.hamiltonian(t, &point);
         let energies = &mut self.trajectory.energies;
         energies.outputs.push(energy);
         energies.work.push(work);

@@ -4,7 +4,7 @@ use affine_runtime::prelude::*;
 struct Refused;
 
 fn energy<const N: usize, M: Model<N>>(model: &M, point: &M::Point<f64>) -> f64 {
-    model.hamiltonian(point)
+    model.hamiltonian(0.0, point)
 }
 
 fn main() -> affine_runtime::Result<()> {

@@ -39,5 +39,5 @@ pub fn follow<M: Model<3>>(
         }
     }
     let end = model.expand(step * steps as f64, &constants, &state);
-    (*end.phi(), [model.hamiltonian(start), model.hamiltonian(&end)])
+    (*end.phi(), [model.hamiltonian(0.0, start), model.hamiltonian(0.0, &end)])
 }

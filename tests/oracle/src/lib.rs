@@ -42,6 +42,7 @@ mod potential;
 mod random;
 mod ring;
 mod state;
+mod stretches;
 
 pub use differential::Differential;
 pub use error::Error;

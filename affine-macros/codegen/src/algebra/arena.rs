@@ -169,6 +169,10 @@ impl Arena {
         match (function, self.node(argument)) {
             (Function::Exp, Node::Function(Function::Ln, inner))
             | (Function::Ln, Node::Function(Function::Exp, inner)) => return *inner,
+            (Function::Cos | Function::Cosh | Function::Abs, Node::Function(Function::Abs, inner)) => {
+                let inner = *inner;
+                return self.apply(function, inner);
+            }
             _ => {}
         }
         let negative = match self.node(argument) {
@@ -253,6 +257,13 @@ impl Arena {
                 self.split_factor(*argument, exponent / 2, number, bases)?;
                 if exponent % 2 == 1 {
                     bases.push((base, 1));
+                }
+            }
+            // |u|^2 = u^2.
+            Node::Function(Function::Abs, argument) if exponent.abs() >= 2 => {
+                self.split_factor(*argument, exponent - exponent % 2, number, bases)?;
+                if exponent % 2 != 0 {
+                    bases.push((base, exponent % 2));
                 }
             }
             _ => bases.push((base, exponent)),

@@ -54,6 +54,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     found.verdict()?;
     let space_group = largest_group(&kinetic, Side::Space);
     let body_group = largest_group(&kinetic, Side::Body);
+    super::smooth::potential(&mut arena, spec, found);
+    found.verdict()?;
     let potential = lower::potential(&mut arena, spec);
     Ok(Form { arena, kinetic, hessian, space_group, body_group, potential, forces })
 }

@@ -5,29 +5,16 @@ use crate::algebra::Function;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::spec::{Expression, ExpressionKind, MatrixName, Spec, Symbol};
 
-/// A potential that needs the singular values of phi has to be differentiated through them, also where two of
-/// them coincide; nothing does this yet.
-pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
-    const INSTEAD: &str = "write the potential through `q`, `det`, `I1..In` and traces such as `tr(G*G)`, which are \
-                           symmetric functions of the stretches";
+/// `d` is the difference of the two log-stretches of a pair: elsewhere there is no pair.
+pub(super) fn differences(spec: &Spec, found: &mut Diagnostics) {
     let mut pending: Vec<&Expression> = energy(spec).collect();
     while let Some(part) = pending.pop() {
         match &part.kind {
-            // What is in it has no meaning elsewhere.
-            ExpressionKind::Pairs(_) => {
-                let form = "pairs".to_owned();
-                found.report(part.span, Diagnostic::UnavailableForm { form, instead: INSTEAD });
-            }
+            ExpressionKind::Pairs(_) => {}
             ExpressionKind::Symbol(name)
-                if matches!(spec.resolve_in_potential(name), Some(Symbol::Stretch)) =>
+                if matches!(spec.resolve_in_potential(name), Some(Symbol::Difference)) =>
             {
-                let form = name.to_string();
-                found.report(name.span(), Diagnostic::UnavailableForm { form, instead: INSTEAD });
-            }
-            // The energy of a phase point is asked for without a time.
-            ExpressionKind::Symbol(name) if matches!(spec.resolve_in_potential(name), Some(Symbol::Time)) => {
-                let instead = "state a potential of the configuration alone";
-                found.report(name.span(), Diagnostic::UnavailableForm { form: name.to_string(), instead });
+                found.report(name.span(), Diagnostic::LooseDifference);
             }
             _ => pending.extend(part.operands().into_iter().rev()),
         }
@@ -49,7 +36,7 @@ pub(super) fn scalar(spec: &Spec, found: &mut Diagnostics) {
     }
 }
 
-/// Rows, columns, coordinates and invariants are counted from 1 to n, as in the paper.
+/// Rows, columns, coordinates, invariants and stretches are counted from 1 to n, as in the paper.
 pub(super) fn indices(spec: &Spec, found: &mut Diagnostics) {
     let n = spec.dim.value;
     for part in energy(spec).flat_map(parts) {
@@ -57,7 +44,7 @@ pub(super) fn indices(spec: &Spec, found: &mut Diagnostics) {
             ExpressionKind::Entry(_, row, column) => (part.to_string(), vec![*row, *column]),
             ExpressionKind::Component(index) => (part.to_string(), vec![*index]),
             ExpressionKind::Symbol(name) => match spec.resolve_in_potential(name) {
-                Some(Symbol::Invariant(index)) => (name.to_string(), vec![index]),
+                Some(Symbol::Invariant(index) | Symbol::Stretch(index)) => (name.to_string(), vec![index]),
                 _ => continue,
             },
             _ => continue,
@@ -80,16 +67,6 @@ pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
     }
 }
 
-/// Hamilton's equations contain the derivative of the potential, and their solutions are unique, and methods
-/// keep their order, only if it is smooth.
-pub(super) fn smooth(spec: &Spec, found: &mut Diagnostics) {
-    for part in energy(spec).flat_map(parts) {
-        if let ExpressionKind::Call(Function::Abs, argument) = &part.kind {
-            found.report(part.span, Diagnostic::NotSmooth { argument: argument.to_string() });
-        }
-    }
-}
-
 /// Real logarithms are of positive numbers, and a square root is smooth only there. Arguments that depend on
 /// the state or on fields are left to the run.
 pub(super) fn in_domain(spec: &Spec, found: &mut Diagnostics) {
@@ -105,12 +82,12 @@ pub(super) fn in_domain(spec: &Spec, found: &mut Diagnostics) {
     }
 }
 
-fn energy(spec: &Spec) -> impl Iterator<Item = &Expression> {
+pub(super) fn energy(spec: &Spec) -> impl Iterator<Item = &Expression> {
     spec.potential.iter().map(|potential| &potential.energy)
 }
 
 /// The expression and everything in it, from left to right.
-fn parts(expression: &Expression) -> Vec<&Expression> {
+pub(super) fn parts(expression: &Expression) -> Vec<&Expression> {
     let mut parts = vec![expression];
     parts.extend(expression.operands().into_iter().flat_map(self::parts));
     parts

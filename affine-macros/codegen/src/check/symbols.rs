@@ -39,10 +39,11 @@ pub(super) fn resolved(spec: &Spec, found: &mut Diagnostics) {
         report(name, unresolved(spec, name, spec.resolve(name), &[]));
     }
     let Some(potential) = &spec.potential else { return };
-    // The symbols that stand by themselves in this version.
+    // The symbols that stand by themselves.
     let dimension = spec.dim.value;
-    let standing = ["q", "D", "det"].into_iter().chain(["I1", "I2", "I3"].into_iter().take(dimension));
-    let standing: Vec<&str> = standing.collect();
+    let numbered = [["I1", "I2", "I3"], ["q1", "q2", "q3"], ["Q1", "Q2", "Q3"]];
+    let numbered = numbered.iter().flat_map(|names| names.iter().copied().take(dimension));
+    let standing: Vec<&str> = ["q", "D", "det", "t"].into_iter().chain(numbered).collect();
     for name in names(&potential.energy) {
         report(name, unresolved(spec, name, spec.resolve_in_potential(name), &standing));
     }

@@ -137,7 +137,7 @@ fn summands(sum: &Polynomial) -> Vec<Polynomial> {
 /// A program over the fields alone.
 fn unbound(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
     let results = values.enumerate().map(|(k, p)| (format!("value_{}", k + 1), p)).collect();
-    let batch = Batch { shared: Vec::new(), results };
+    let batch = Batch { results, ..Batch::default() };
     fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
 }
 
@@ -147,7 +147,7 @@ pub(super) fn coefficient_program(arena: &mut Arena, coefficients: &Constants) -
         .iter()
         .map(|(s, p)| (arena.name(*s).unwrap_or("c").to_owned(), p.clone()))
         .collect();
-    let batch = Batch { shared: Vec::new(), results };
+    let batch = Batch { results, ..Batch::default() };
     fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
 }
 

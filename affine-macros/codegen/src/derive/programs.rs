@@ -40,7 +40,8 @@ pub(super) fn full_equations(
     loads.extend(forces.loads(arena, chart, h));
     // The plain array has no place for the work.
     loads.iter_mut().for_each(|load| load.work = None);
-    let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    inputs.extend(potential.and_then(Potential::time));
     let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
     loads.iter().for_each(|load| through_velocity.add(load));
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
@@ -80,6 +81,7 @@ fn batch(arena: &Arena, system: &System) -> Batch {
     let work = system.work.iter().map(|(symbol, power)| (*symbol, power));
     Batch {
         shared: system.shared.clone(),
+        kernels: system.kernels.clone(),
         results: rates
             .chain(work)
             .map(|(symbol, rate)| (format!("d_{}", arena.name(symbol).unwrap_or("state")), rate.clone()))
@@ -126,7 +128,8 @@ pub(super) fn best_reduction(
 ) -> Option<(Reduction, Equations, Program, Vec<String>)> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
     for candidate in reduce::candidates(arena, h, potential, forces, rotations) {
-        let states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
+        let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
+        states.extend(potential.and_then(Potential::time));
         let mut constants = Constants::new("k");
         let way = batch(arena, &candidate.system);
         let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
@@ -138,12 +141,12 @@ pub(super) fn best_reduction(
     let (_, reduction, program, constants) = best?;
     let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {
-        shared: Vec::new(),
         results: constants
             .entries
             .iter()
             .map(|(s, p)| (arena.name(*s).unwrap_or("k").to_owned(), p.clone()))
             .collect(),
+        ..Batch::default()
     };
     let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
     let name = |s: &Expr| arena.name(*s).unwrap_or("state").to_owned();
@@ -176,5 +179,5 @@ pub(super) fn power_batch(
     };
     forces.loads(arena, chart, h).iter().for_each(|load| system.add(load));
     let (_, power) = system.work?;
-    Some(Batch { shared: system.shared, results: vec![("power".to_owned(), power)] })
+    Some(Batch { shared: system.shared, kernels: system.kernels, results: vec![("power".to_owned(), power)] })
 }

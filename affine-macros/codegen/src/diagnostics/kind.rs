@@ -268,11 +268,34 @@ pub enum Diagnostic {
         /// The form: `x[1]`, `norm(x)`.
         form: String,
     },
-    /// `abs(...)`.
+    /// `abs(...)` of what changes its sign.
     NotSmooth {
         /// Its argument.
         argument: String,
     },
+    /// A root, a logarithm or a quotient where two stretches coincide.
+    Coincidence {
+        /// The form: `sqrt(d^2)`.
+        written: String,
+        /// What vanishes: `d^2`.
+        argument: String,
+        /// The stretches.
+        stretches: (usize, usize),
+    },
+    /// A potential that changes when two stretches are exchanged.
+    NotSymmetric {
+        /// The potential.
+        energy: String,
+        /// The stretches.
+        stretches: (usize, usize),
+    },
+    /// `pairs(f(d))` with `f(d) != f(-d)`.
+    OddDifference {
+        /// `f(d)`.
+        function: String,
+    },
+    /// `d` outside `pairs(...)`.
+    LooseDifference,
     /// A logarithm or a root of a number that is not positive.
     Domain {
         /// The function.
@@ -524,6 +547,10 @@ names! {
     NotScalar => "not-scalar",
     FixedCentre => "fixed-centre",
     NotSmooth => "not-smooth",
+    Coincidence => "coincidence",
+    NotSymmetric => "not-symmetric",
+    OddDifference => "odd-difference",
+    LooseDifference => "loose-difference",
     Domain => "domain",
     PotentialExponent => "potential-exponent",
     TermShape => "term-shape",

@@ -265,7 +265,35 @@ impl Diagnostic {
             Self::NotSmooth { argument } => text(
                 format!("`abs({argument})` is not smooth where its argument is zero"),
                 "the force is the derivative of the potential, and it jumps there; `sqrt(a^2)` is the same function",
-                "use a smooth function, as in `sqrt(a^2 + b^2)` with a constant b, or a power, as in `a^2`",
+                "use a smooth function, as in `sqrt(a^2 + b^2)` with a constant b, or a power, as in `a^2` or \
+                 `abs(a)^2`",
+            ),
+            Self::Coincidence { written, argument, stretches: (a, b) } => text(
+                format!("`{written}` is not smooth where the stretches Q{a} and Q{b} coincide"),
+                format!(
+                    "`{argument}` vanishes there, in particular for an undeformed body: a root has a kink, a \
+                     logarithm and a quotient have a pole, or 0/0 where the quotient as a whole is smooth"
+                ),
+                "write a function that is smooth there, as `cosh(d)`, `d^2` or `sqrt(d^2 + b^2)` with a constant b",
+            ),
+            Self::NotSymmetric { energy, stretches: (a, b) } => text(
+                format!("the potential changes when the stretches Q{a} and Q{b} are exchanged"),
+                format!(
+                    "stretches have no order of their own, so that `{energy}` is a function of phi only if every \
+                     exchange of indices leaves it unchanged"
+                ),
+                "treat all stretches alike, as in `q1^4 + q2^4` for n = 2 or `pairs(d^2)`",
+            ),
+            Self::OddDifference { function } => text(
+                format!("`{function}` changes with the sign of `d`"),
+                "`pairs(f(d))` sums over pairs of stretches, whose order means nothing: d = q_a - q_b and its \
+                 opposite belong to the same pair",
+                "write an even function, as `d^2`, `cosh(d)` or `1/cosh(d)^2`",
+            ),
+            Self::LooseDifference => text(
+                "`d` stands outside `pairs(...)`",
+                "it is the difference q_a - q_b of the two log-stretches of a pair, and here there is no pair",
+                "write `pairs(f(d))` for a sum over all pairs, or `q1 - q2` for one difference",
             ),
             Self::Domain { function, argument, value } => text(
                 format!("`{function}({argument})` is taken of {value}, which is not positive"),

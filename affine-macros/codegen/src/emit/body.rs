@@ -6,7 +6,10 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::algebra::Rational;
+use crate::ir::call::Call;
 use crate::ir::{Op, Program, Value};
+
+use super::kernel;
 
 /// A program as statements and result expressions.
 pub(super) struct Body {
@@ -60,6 +63,8 @@ pub(super) struct Scope<'a> {
     pub number: Number<'a>,
     /// Expression of an input.
     pub input: &'a dyn Fn(&str) -> TokenStream,
+    /// The runtime's support module.
+    pub rt: &'a Ident,
 }
 
 /// Binding strength of an expression's outermost operator.
@@ -78,12 +83,14 @@ pub(super) fn body(program: &Program, scope: &Scope) -> Body {
         scope,
         uses: program.uses(),
         depth: vec![0; program.steps.len()],
+        called: Vec::new(),
         bound: HashMap::new(),
         lets: TokenStream::new(),
         temporaries: 0,
     };
     writer.constants();
     for value in 0..program.steps.len() {
+        writer.call(value);
         writer.bind(value);
     }
     let results = program.outputs.iter().map(|(_, v)| writer.expression(*v).0).collect();
@@ -111,6 +118,8 @@ struct Writer<'a> {
     uses: Vec<usize>,
     /// How deep the expression of each value is nested.
     depth: Vec<usize>,
+    /// The calls that are written down.
+    called: Vec<&'a Call>,
     bound: HashMap<Value, Ident>,
     lets: TokenStream,
     temporaries: usize,
@@ -138,6 +147,19 @@ impl Writer<'_> {
     /// Is the value the only result, and nothing else?
     fn ends_with(&self, value: Value) -> bool {
         matches!(self.program.outputs.as_slice(), [(_, only)] if *only == value) && self.uses[value] == 1
+    }
+
+    /// The call that provides an input, before its first result is read.
+    fn call(&mut self, value: Value) {
+        let Some(call) = self.program.call_before(value).filter(|call| !self.called.contains(call)) else {
+            return;
+        };
+        let arguments: Vec<TokenStream> =
+            call.arguments.iter().map(|group| kernel::written(group, |v| self.expression(*v).0)).collect();
+        let read = inputs(self.program);
+        let results = call.results.iter().map(|group| kernel::bound(group, &read));
+        self.lets.extend(kernel::statement(self.scope.rt, call.callee, &arguments, results));
+        self.called.push(call);
     }
 
     fn bind(&mut self, value: Value) {

@@ -6,6 +6,7 @@ use quote::{format_ident, quote};
 use crate::ir::Program;
 use crate::mechanics::charts::Linear;
 use crate::mechanics::kinetic::Frame;
+use crate::mechanics::potential::TIME;
 
 use super::body::Body;
 use super::points::{affine_velocity, components, wrapper};
@@ -139,19 +140,30 @@ fn hamiltonian(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.hamiltonian;
     let bound = bind_point(context, program);
-    let stretch = inputs(program)
-        .contains(&"q")
-        .then(|| quote!(let q = #rt::mean_log_stretch(#rt::Phase::phi(point));));
+    let used = inputs(program);
+    let stretch = used.contains(&"q").then(|| quote!(let q = #rt::mean_log_stretch(#rt::Phase::phi(point));));
+    let names: Vec<String> = (1..=context.model.dim).map(|a| format!("q_{a}")).collect();
+    let stretches = names.iter().any(|name| used.contains(&name.as_str())).then(|| {
+        let bound = pattern(&names, &used);
+        quote!(let #bound = #rt::log_stretches(#rt::Phase::phi(point));)
+    });
+    let time = time(program);
     let body = context.generic(program);
     let (lets, energy) = (&body.lets, body.result());
     quote! {
-        fn hamiltonian<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #t {
+        fn hamiltonian<#t: #rt::Real>(&self, #time: #t, point: &Self::Point<#t>) -> #t {
             #bound
             #stretch
+            #stretches
             #lets
             #energy
         }
     }
+}
+
+/// Name of the time as a parameter: an idle one where the program does not read it.
+pub(super) fn time(program: &Program) -> TokenStream {
+    if inputs(program).contains(&TIME) { quote!(t) } else { quote!(_t) }
 }
 
 /// `flatten` and `unflatten`.
@@ -224,10 +236,11 @@ fn hamilton_equations(context: &Context) -> TokenStream {
     let program = &context.model.full.program;
     let all: Vec<String> = context.model.full.groups.iter().flat_map(|(_, names)| names.clone()).collect();
     let bound = pattern(&all, &inputs(program));
+    let time = time(program);
     let Body { lets, results } = context.generic(program);
     quote! {
         #[inline]
-        fn hamilton_equations<#t: #rt::Scalar>(&self, _t: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
+        fn hamilton_equations<#t: #rt::Scalar>(&self, #time: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
             let #bound = *full;
             #lets
             [#(#results),*]

@@ -47,7 +47,7 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let blocks: TokenStream =
         context.model.numeric_blocks.iter().map(|block| numeric_block(block, rt)).collect();
     let damping = damping(&context.model.damping, rt);
-    let Body { lets, results } = over_fields(&context.model.coefficients);
+    let Body { lets, results } = over_fields(rt, &context.model.coefficients);
     quote! {
         impl #generics #model #types #clause {
             /// Checks the values of the fields and computes the coefficients of the equations.
@@ -68,7 +68,7 @@ pub(super) fn method(context: &Context) -> TokenStream {
 }
 
 /// A program over the fields, and over inverse blocks computed before.
-fn over_fields(program: &Program) -> Body {
+fn over_fields(rt: &Ident, program: &Program) -> Body {
     let input = |name: &str| match name.strip_prefix(FIELD) {
         Some(field) => {
             let field = format_ident!("{field}");
@@ -79,7 +79,7 @@ fn over_fields(program: &Program) -> Body {
             quote!(#name)
         }
     };
-    body(program, &Scope { number: Number::Double, input: &input })
+    body(program, &Scope { number: Number::Double, input: &input, rt })
 }
 
 /// Eigenvalues share one threshold, a mass has its own.
@@ -130,7 +130,7 @@ fn damping(damping: &Damping, rt: &Ident) -> TokenStream {
         .collect();
     let conditions = (!entries.is_empty()).then(|| quote!(#rt::semidefinite(&[#(#entries),*])?;));
     let blocks = damping.blocks.iter().map(|block| {
-        let Body { lets, results } = over_fields(&block.program);
+        let Body { lets, results } = over_fields(rt, &block.program);
         let (size, count) = (block.size, block.size * (block.size + 1) / 2);
         let (entries, terms) = results.split_at(count);
         let (size, count) = (number(size), number(count));
@@ -147,7 +147,7 @@ fn damping(damping: &Damping, rt: &Ident) -> TokenStream {
 /// A condition with the program of its value and of the sizes that rounding errors are measured by.
 fn held(condition: &Condition, text: &str, reason: &str, rt: &Ident) -> TokenStream {
     let positive = condition.positive;
-    let Body { lets, results } = over_fields(&condition.program);
+    let Body { lets, results } = over_fields(rt, &condition.program);
     let (value, sizes) = results.split_first().map_or((quote!(0.0), &[][..]), |(v, s)| (v.clone(), s));
     quote! {
         {
@@ -164,7 +164,7 @@ fn held(condition: &Condition, text: &str, reason: &str, rt: &Ident) -> TokenStr
 }
 
 fn numeric_block(block: &NumericBlock, rt: &Ident) -> TokenStream {
-    let Body { lets, results } = over_fields(&block.program);
+    let Body { lets, results } = over_fields(rt, &block.program);
     let names = block.inverse.iter().map(|name| format_ident!("{name}"));
     let (size, positive) = (number(block.size), block.positive);
     let count = number(block.inverse.len());

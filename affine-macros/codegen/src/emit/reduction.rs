@@ -8,6 +8,7 @@ use crate::mechanics::kinetic::Frame;
 use crate::mechanics::reduce::{Commuting, Layout};
 
 use super::body::Body;
+use super::dynamics::time;
 use super::points::components;
 use super::{Context, identifiers, inputs, number, pattern};
 
@@ -263,11 +264,12 @@ fn reduced_equations(context: &Context, parts: &Parts) -> TokenStream {
     let state = if reads_state { quote!(reduced) } else { quote!(_reduced) };
     let bind = reads_state.then(|| quote!(let #bound = *reduced;));
     let Body { lets, results } = context.generic(program);
+    let time = time(program);
     quote! {
         #[inline]
         fn reduced_equations<#t: #rt::Scalar>(
             &self,
-            _t: #t,
+            #time: #t,
             #constants: &Self::Constants<#t>,
             #state: &Self::Reduced<#t>,
         ) -> Self::Reduced<#t> {

@@ -3,8 +3,10 @@
 use std::collections::HashMap;
 
 use crate::algebra::arena::Node;
+use crate::algebra::kernel::{Callee, Group};
 use crate::algebra::{Arena, Expr, Rational};
 
+use super::call::Call;
 use super::{Op, Program, Value};
 
 /// Builds a program expression by expression.
@@ -32,6 +34,23 @@ impl Builder {
         {
             self.program.names.push((made, name.to_owned()));
         }
+    }
+
+    /// Calls a runtime function here; its results are inputs from here on.
+    pub fn call(
+        &mut self,
+        arena: &Arena,
+        callee: Callee,
+        arguments: &[Group<Expr>],
+        results: &[Group<Expr>],
+    ) {
+        let arguments = arguments.iter().map(|group| group.map(|e| self.lower(arena, *e))).collect();
+        for symbol in results.iter().flat_map(Group::entries) {
+            self.lower(arena, *symbol);
+        }
+        let name = |symbol: &Expr| arena.name(*symbol).unwrap_or("result").to_owned();
+        let results = results.iter().map(|group| group.map(name)).collect();
+        self.program.calls.push(Call { callee, arguments, results });
     }
 
     /// Adds a result.

@@ -3,8 +3,9 @@
 use crate::algebra::ring::{Square, product};
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::check::constant;
-use crate::mechanics::potential::{Base, Potential};
-use crate::spec::{Expression, ExpressionKind, MatrixName, Spec};
+use crate::mechanics::potential::stretches::{canonical, is_stretched};
+use crate::mechanics::potential::{Base, Potential, TIME};
+use crate::spec::{Expression, ExpressionKind, MatrixName, Spec, numbered};
 
 use super::FIELD;
 
@@ -12,7 +13,10 @@ use super::FIELD;
 pub fn potential(arena: &mut Arena, spec: &Spec) -> Option<Potential> {
     let written = spec.potential.as_ref()?;
     let n = spec.dim.value;
-    let energy = energy(arena, n, &written.energy)?;
+    let mut energy = energy(arena, n, &written.energy, None)?;
+    if is_stretched(arena, n, energy) {
+        energy = canonical(arena, n, energy);
+    }
     let form = Polynomial::normal_form(arena, energy);
     // A constant moves nothing and leaves no trace.
     if form.as_constant().is_some() {
@@ -21,41 +25,43 @@ pub fn potential(arena: &mut Arena, spec: &Spec) -> Option<Potential> {
     Some(Potential::new(arena, n, energy))
 }
 
-/// The symbolic value; `None` only for what the checks refuse.
-fn energy(arena: &mut Arena, n: usize, e: &Expression) -> Option<Expr> {
+/// The symbolic value, with `difference` for `d`; `None` only for what the checks refuse.
+pub(crate) fn energy(arena: &mut Arena, n: usize, e: &Expression, difference: Option<Expr>) -> Option<Expr> {
     if let Some(value) = constant(e, n) {
         return Some(arena.constant(value));
     }
+    let of = |arena: &mut Arena, operand: &Expression| energy(arena, n, operand, difference);
     match &e.kind {
         ExpressionKind::Number(value) => Some(arena.constant(value.clone())),
+        ExpressionKind::Symbol(name) if name == "d" => difference,
         ExpressionKind::Symbol(name) => symbol(arena, n, &name.to_string()),
         ExpressionKind::Negate(a) => {
-            let a = energy(arena, n, a)?;
+            let a = of(arena, a)?;
             Some(arena.neg(a))
         }
         ExpressionKind::Add(a, b) => {
-            let (a, b) = (energy(arena, n, a)?, energy(arena, n, b)?);
+            let (a, b) = (of(arena, a)?, of(arena, b)?);
             Some(arena.add(a, b))
         }
         ExpressionKind::Subtract(a, b) => {
-            let (a, b) = (energy(arena, n, a)?, energy(arena, n, b)?);
+            let (a, b) = (of(arena, a)?, of(arena, b)?);
             Some(arena.sub(a, b))
         }
         ExpressionKind::Multiply(a, b) => {
-            let (a, b) = (energy(arena, n, a)?, energy(arena, n, b)?);
+            let (a, b) = (of(arena, a)?, of(arena, b)?);
             Some(arena.mul(a, b))
         }
         ExpressionKind::Divide(a, b) => {
-            let (a, b) = (energy(arena, n, a)?, energy(arena, n, b)?);
+            let (a, b) = (of(arena, a)?, of(arena, b)?);
             arena.div(a, b)
         }
         ExpressionKind::Power(a, exponent) => {
-            let a = energy(arena, n, a)?;
+            let a = of(arena, a)?;
             arena.pow(a, i32::try_from(constant(exponent, n)?.to_i64()?).ok()?)
         }
         ExpressionKind::Call(function, a) => {
-            let a = energy(arena, n, a)?;
-            Some(arena.apply(*function, a))
+            let a = of(arena, a)?;
+            Some(applied(arena, *function, a))
         }
         ExpressionKind::Trace(factors) => trace(arena, n, factors),
         ExpressionKind::Entry(matrix, row, column) => {
@@ -71,8 +77,38 @@ fn energy(arena: &mut Arena, n: usize, e: &Expression) -> Option<Expr> {
             let square = arena.linear(&squares);
             Some(arena.apply(Function::Sqrt, square))
         }
-        ExpressionKind::Pairs(_) => None,
+        ExpressionKind::Pairs(f) => {
+            let mut terms = Vec::new();
+            for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
+                let difference = difference_of(arena, a, b);
+                terms.push((energy(arena, n, f, Some(difference))?, Rational::ONE));
+            }
+            Some(arena.linear(&terms))
+        }
     }
+}
+
+/// `q_a - q_b`, counted from 0.
+pub(crate) fn difference_of(arena: &mut Arena, a: usize, b: usize) -> Expr {
+    let [left, right] = [a, b].map(|k| Base::LogStretch(k).symbol(arena));
+    arena.sub(left, right)
+}
+
+/// A function of an argument; an absolute value of what keeps its sign is no function.
+fn applied(arena: &mut Arena, function: Function, argument: Expr) -> Expr {
+    let value = arena.apply(function, argument);
+    match (function, arena.sign(argument, &is_positive)) {
+        (Function::Abs, Some(sign)) if sign.negative => arena.neg(argument),
+        (Function::Abs, Some(_)) => argument,
+        _ => value,
+    }
+}
+
+/// Traces and diagonal entries of `G` and `Ct` are positive.
+fn is_positive(name: &str) -> bool {
+    let diagonal = |entry: &str| matches!(entry, "11" | "22" | "33");
+    ["trace_1", "trace_2"].contains(&name)
+        || name.strip_prefix("green_").or_else(|| name.strip_prefix("finger_")).is_some_and(diagonal)
 }
 
 fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
@@ -84,6 +120,7 @@ fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
     };
     match name {
         "q" => Some(q),
+        TIME => Some(arena.symbol(TIME)),
         "D" => power(arena, 1),
         "det" => power(arena, n),
         "I1" => Some(Base::Trace.symbol(arena)),
@@ -96,7 +133,14 @@ fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
         }
         // e_n = det G
         "I2" | "I3" => power(arena, 2 * n),
-        field => Some(arena.symbol(&format!("{FIELD}{field}"))),
+        name => match numbered(name) {
+            Some(('q', a)) => Some(Base::LogStretch(a.checked_sub(1)?).symbol(arena)),
+            Some(('Q', a)) => {
+                let q = Base::LogStretch(a.checked_sub(1)?).symbol(arena);
+                Some(arena.apply(Function::Exp, q))
+            }
+            _ => Some(arena.symbol(&format!("{FIELD}{name}"))),
+        },
     }
 }
 

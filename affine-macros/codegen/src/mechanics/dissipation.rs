@@ -104,7 +104,7 @@ impl Dissipation {
         }
         forces.extend(centre.into_iter().enumerate().map(|(i, force)| (Coordinate::P(i), force)));
         let work = shared.arena.symbol("work");
-        Load { shared: shared.list, forces, work: Some((work, power)) }
+        Load { shared: shared.list, kernels: Vec::new(), forces, work: Some((work, power)) }
     }
 
     /// The force on the affine momentum of the chart, and its power. What has constant coefficients in another frame

@@ -1,6 +1,6 @@
 //! Hamilton's equations of a chart from its brackets.
 
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 
 use super::brackets::bracket;
 use super::charts::{Chart, Coordinate, Momentum};
@@ -10,6 +10,8 @@ use super::charts::{Chart, Coordinate, Momentum};
 pub struct System {
     /// Shared quantities, each a polynomial in coordinates and earlier ones.
     pub shared: Vec<(Expr, Polynomial)>,
+    /// Calls of runtime functions, whose results are shared quantities too.
+    pub kernels: Vec<Kernel>,
     /// Coordinates and their time derivatives.
     pub rates: Vec<(Coordinate, Expr, Polynomial)>,
     /// The work of forces that no potential has, as one more variable, and its rate, their power.
@@ -21,6 +23,8 @@ pub struct System {
 pub struct Load {
     /// Quantities that the forces share.
     pub shared: Vec<(Expr, Polynomial)>,
+    /// Calls of runtime functions that they need.
+    pub kernels: Vec<Kernel>,
     /// Coordinates and what their rates gain.
     pub forces: Vec<(Coordinate, Polynomial)>,
     /// The symbol of the work and the power of the forces, where no potential has them.
@@ -102,7 +106,7 @@ pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form)
             (z, chart.symbol(z), rate(chart, &gradient, &velocity, form, z))
         })
         .collect();
-    System { shared: velocity.into_iter().flatten().collect(), rates, work: None }
+    System { shared: velocity.into_iter().flatten().collect(), kernels: Vec::new(), rates, work: None }
 }
 
 impl System {
@@ -112,6 +116,7 @@ impl System {
         let each = |p: &Polynomial| p.substitute(value);
         Self {
             shared: self.shared.iter().map(|(s, p)| (*s, each(p))).collect(),
+            kernels: self.kernels.iter().map(|kernel| kernel.with_arguments(each)).collect(),
             rates: self.rates.iter().map(|(z, s, p)| (*z, *s, each(p))).collect(),
             work: self.work.as_ref().map(|(s, p)| (*s, each(p))),
         }
@@ -125,6 +130,7 @@ impl System {
                 self.shared.push((*symbol, definition.clone()));
             }
         }
+        self.kernels.extend(load.kernels.iter().cloned());
         for (coordinate, force) in &load.forces {
             for (_, _, rate) in self.rates.iter_mut().filter(|(z, _, _)| z == coordinate) {
                 rate.add_scaled(force, &Rational::ONE);
@@ -136,7 +142,7 @@ impl System {
         }
     }
 
-    /// Drops shared quantities that nothing uses, and puts in place those that are a single constant or atom.
+    /// Drops shared quantities and calls that nothing uses, and puts in place those that are a single constant or atom.
     #[must_use]
     pub fn tidied(mut self, arena: &Arena) -> Self {
         let trivial: Vec<(Expr, Polynomial)> = self
@@ -158,14 +164,18 @@ impl System {
             let used = |symbol: Expr| {
                 let shared = self.shared.iter().map(|(_, p)| p);
                 shared
+                    .chain(self.kernels.iter().flat_map(Kernel::inputs))
                     .chain(self.rates.iter().map(|(_, _, p)| p))
                     .chain(self.work.iter().map(|(_, p)| p))
                     .any(|p| p.any_symbol(arena, &mut |a| a == symbol))
             };
             let idle: Vec<Expr> = self.shared.iter().map(|(s, _)| *s).filter(|s| !used(*s)).collect();
-            if idle.is_empty() {
+            let called: Vec<bool> = self.kernels.iter().map(|kernel| kernel.outputs().any(used)).collect();
+            if idle.is_empty() && called.iter().all(|called| *called) {
                 break;
             }
+            let mut called = called.into_iter();
+            self.kernels.retain(|_| called.next().unwrap_or(true));
             self.shared.retain(|(s, _)| !idle.contains(s));
         }
         self

@@ -5,7 +5,9 @@
 //! of the paper).
 
 mod invariance;
+mod principal;
 mod rewriting;
+pub mod stretches;
 
 use crate::algebra::ring::{Square, adjugate};
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
@@ -13,6 +15,7 @@ use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::equations::Load;
 use invariance::Invariance;
+use principal::Principal;
 use rewriting::{about_undeformed, through_dilatation};
 
 /// A potential.
@@ -22,6 +25,7 @@ pub struct Potential {
     /// `U` as an expression in base functions and parameters.
     pub energy: Expr,
     slopes: Vec<(Base, Expr)>,
+    time: Option<Expr>,
     invariance: Invariance,
 }
 
@@ -30,6 +34,8 @@ pub struct Potential {
 pub enum Base {
     /// `q = ln(det phi)/n`
     MeanLogStretch,
+    /// `q_a = ln Q_a`, `Q_a` a singular value of `phi`; only together in symmetric functions
+    LogStretch(usize),
     /// `tr G = tr Ct`
     Trace,
     /// `tr G^2 = tr Ct^2`
@@ -50,6 +56,7 @@ impl Base {
         let pairs = || (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)));
         let upper = || pairs().filter(|(a, b)| a <= b);
         let mut list = vec![Self::MeanLogStretch, Self::Trace, Self::TraceOfSquare];
+        list.extend((0..n).map(Self::LogStretch));
         list.extend(upper().map(|(a, b)| Self::Green(a, b)));
         list.extend(upper().map(|(i, j)| Self::Finger(i, j)));
         list.extend(pairs().map(|(i, a)| Self::Placement(i, a)));
@@ -61,6 +68,7 @@ impl Base {
     pub fn symbol(self, arena: &mut Arena) -> Expr {
         arena.symbol(&match self {
             Self::MeanLogStretch => "q".to_owned(),
+            Self::LogStretch(a) => format!("q_{}", a + 1),
             Self::Trace => "trace_1".to_owned(),
             Self::TraceOfSquare => "trace_2".to_owned(),
             Self::Green(a, b) => format!("green_{}{}", a.min(b) + 1, a.max(b) + 1),
@@ -85,6 +93,7 @@ impl Base {
     fn slope_name(self) -> String {
         match self {
             Self::MeanLogStretch => "pressure".to_owned(),
+            Self::LogStretch(a) => format!("tension_{}", a + 1),
             Self::Trace => "stress_1".to_owned(),
             Self::TraceOfSquare => "stress_2".to_owned(),
             Self::Green(a, b) => format!("slope_green_{}{}", a + 1, b + 1),
@@ -95,6 +104,9 @@ impl Base {
     }
 }
 
+/// Name of the symbol of the time.
+pub const TIME: &str = "t";
+
 /// Deformation tensors as symbols or as polynomials in `phi`, whichever the purpose asks for.
 struct Tensors {
     phi: Square<Polynomial>,
@@ -102,6 +114,8 @@ struct Tensors {
     finger: Square<Polynomial>,
     /// `phi^-1`; only the canonical chart needs it.
     inverse: Square<Polynomial>,
+    /// Stretches and principal axes; only single stretches need them.
+    principal: Principal,
 }
 
 /// The directions of a derivative: the entries of an affine momentum.
@@ -127,7 +141,21 @@ impl Potential {
             }
         }
         let invariance = Invariance::new(arena, dim, &slopes);
-        Self { dim, energy, slopes, invariance }
+        let time = arena.symbol(TIME);
+        let time = arena.any_symbol(energy, &mut |symbol| symbol == time).then_some(time);
+        Self { dim, energy, slopes, time, invariance }
+    }
+
+    /// Does it depend on the time?
+    #[must_use]
+    pub fn depends_on_time(&self) -> bool {
+        self.time.is_some()
+    }
+
+    /// The time as a symbol, where it depends on it: an input of every program with forces.
+    #[must_use]
+    pub fn time(&self) -> Option<Expr> {
+        self.time
     }
 
     /// Does it depend on the position of the centre of mass?
@@ -139,11 +167,26 @@ impl Potential {
     /// What it adds to Hamilton's equations of a chart.
     pub fn load(&self, arena: &mut Arena, chart: &Chart) -> Load {
         let mut load = Load::default();
+        if self.slopes.iter().any(|(base, _)| matches!(base, Base::LogStretch(_))) {
+            let (kernel, shared) = principal::computed(arena, chart);
+            load.kernels.push(kernel);
+            load.shared.extend(shared);
+        }
         let tensors = self.tensors(arena, chart);
+        let along = match chart.momentum {
+            Momentum::Body => Along::Body,
+            Momentum::Space | Momentum::Total => Along::Space,
+            Momentum::Canonical => Along::Placement,
+        };
         let mut weighted: Vec<(Base, Polynomial)> = Vec::new();
         for (base, slope) in &self.slopes {
             let form = through_dilatation(arena, *slope);
             let form = Polynomial::normal_form(arena, form).scaled(&base.weight(self.dim));
+            let form = match (base, along) {
+                (Base::LogStretch(_), Along::Body) => form,
+                (Base::LogStretch(k), _) => form.mul(&principal::inverse_square(arena, *k)),
+                _ => form,
+            };
             // A slope in parameters alone is a coefficient, not a quantity of the motion.
             let moves = form.any_symbol(arena, &mut |s| !is_parameter(arena, s));
             let symbol = arena.symbol(&base.slope_name());
@@ -154,11 +197,6 @@ impl Potential {
         }
         load.shared.extend(definitions(arena, self.dim, chart));
         load.shared.extend(self.dilatation(arena, &placement(chart)));
-        let along = match chart.momentum {
-            Momentum::Body => Along::Body,
-            Momentum::Space | Momentum::Total => Along::Space,
-            Momentum::Canonical => Along::Placement,
-        };
         for (a, b) in (0..self.dim).flat_map(|a| (0..self.dim).map(move |b| (a, b))) {
             let mut force = Polynomial::zero();
             for (base, slope) in &weighted {
@@ -193,7 +231,7 @@ impl Potential {
             .iter()
             .map(|row| row.iter().map(|entry| entry.mul(&inverse_det)).collect())
             .collect();
-        Tensors { phi, green, finger, inverse }
+        Tensors { phi, green, finger, inverse, principal: Principal::new(arena, n) }
     }
 
     /// `det`, `D = det^(1/n)`, `1/D`, `1/det`, `q`, with one root.
@@ -321,7 +359,7 @@ fn definitions(arena: &mut Arena, n: usize, chart: &Chart) -> Vec<(Expr, Polynom
 /// The derivative of a base function, divided by the number that its slope carries.
 fn direction(base: Base, along: Along, tensors: &Tensors, a: usize, b: usize) -> Polynomial {
     let one = |holds: bool| Polynomial::constant(if holds { Rational::ONE } else { Rational::ZERO });
-    let Tensors { phi, green, finger, inverse } = tensors;
+    let Tensors { phi, green, finger, inverse, principal } = tensors;
     let mut sum = Polynomial::zero();
     let mut add = |holds: bool, value: &Polynomial| {
         if holds {
@@ -330,6 +368,7 @@ fn direction(base: Base, along: Along, tensors: &Tensors, a: usize, b: usize) ->
     };
     match (base, along) {
         (Base::Position(_), _) => {}
+        (Base::LogStretch(k), _) => return principal.direction(k, along, a, b),
         (Base::MeanLogStretch, Along::Body | Along::Space) => return one(a == b),
         (Base::MeanLogStretch, Along::Placement) => return inverse[b][a].clone(),
         (Base::Trace, Along::Body) => return green[a][b].clone(),

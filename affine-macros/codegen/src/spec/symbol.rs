@@ -20,8 +20,10 @@ pub enum Symbol<'a> {
     /// `I1`, ..., `In`: coefficients of the characteristic polynomial of G, I1 = tr G, In = det G. The index as
     /// written, not yet known to be at most n.
     Invariant(usize),
-    /// `q1..qn`, `Q1..Qn`, and `d` of `pairs(...)`: logarithmic stretches, stretches, and their differences.
-    Stretch,
+    /// `q1..qn`, `Q1..Qn`: logarithmic stretches and stretches. The index as written.
+    Stretch(usize),
+    /// `d` of `pairs(...)`: the difference of two logarithmic stretches.
+    Difference,
     /// A matrix, which is no number by itself.
     Matrix(MatrixName),
     /// `x`, the centre: likewise.
@@ -75,11 +77,11 @@ impl Spec {
             "det" => Symbol::Determinant,
             "t" => Symbol::Time,
             "x" => Symbol::Centre,
-            "d" => Symbol::Stretch,
+            "d" => Symbol::Difference,
             _ => match (MatrixName::named(&text), numbered(&text)) {
                 (Some(matrix), _) => Symbol::Matrix(matrix),
                 (None, Some(('I', index))) => Symbol::Invariant(index),
-                (None, Some(('q' | 'Q', _))) => Symbol::Stretch,
+                (None, Some(('q' | 'Q', index))) => Symbol::Stretch(index),
                 _ => return self.resolve(name),
             },
         })
@@ -87,7 +89,7 @@ impl Spec {
 }
 
 /// A letter and one digit: no dimension has two.
-fn numbered(name: &str) -> Option<(char, usize)> {
+pub(crate) fn numbered(name: &str) -> Option<(char, usize)> {
     let mut letters = name.chars();
     let (letter, digit, end) = (letters.next()?, letters.next()?, letters.next());
     if end.is_some() {

@@ -7,6 +7,7 @@ mod derivation;
 mod expressions;
 mod fields;
 mod inertia;
+mod kernels;
 mod linear;
 mod models;
 mod passes;

@@ -194,7 +194,7 @@ fn completing_sums_shortens_programs() {
         let mut system = nearly_shared(&mut random);
         let before = lowered(&mut system.arena, &system.polynomials, factored).operations().weight();
         let results = system.polynomials.iter().enumerate().map(|(k, p)| (format!("y{k}"), p.clone()));
-        let batch = Batch { shared: Vec::new(), results: results.collect() };
+        let batch = Batch { results: results.collect(), ..Batch::default() };
         let names = varying(&system);
         let mut constants = Constants::new("c");
         let after = straight_line(&mut system.arena, &batch, &mut constants, &|a| names.contains(&a));
@@ -240,7 +240,7 @@ fn the_whole_pipeline_keeps_the_value() {
             .skip(1)
             .for_each(|p| p.add_product(&Polynomial::atom(shared), &first, &Rational::ONE));
         let results = results.into_iter().enumerate().map(|(k, p)| (format!("y{k}"), p)).collect();
-        let batch = Batch { shared: vec![(shared, first)], results };
+        let batch = Batch { shared: vec![(shared, first)], results, ..Batch::default() };
         let mut constants = Constants::new("c");
         let program = straight_line(&mut system.arena, &batch, &mut constants, &|a| names.contains(&a));
         let square = &expected[0] * &expected[0];

@@ -72,7 +72,7 @@ impl Model<3> for DrunkMissile {
         internal + v_hat.dot(&v_hat) * T::constant(0.5, 0.0)
     }
 
-    fn hamiltonian<T: Real>(&self, point: &Missile<T>) -> T {
+    fn hamiltonian<T: Real>(&self, _t: T, point: &Missile<T>) -> T {
         let spin = &point.sigma_hat().0.0;
         let p_hat = point.phi().tr_mul(&point.p());
         let half = T::constant(0.5, 0.0);

@@ -49,7 +49,7 @@ impl Model<2> for Planar {
         velocity.phi_dot.dot(&velocity.phi_dot) * T::constant(0.5, 0.0)
     }
 
-    fn hamiltonian<T: Real>(&self, point: &Disc<T>) -> T {
+    fn hamiltonian<T: Real>(&self, _t: T, point: &Disc<T>) -> T {
         let (phi, pi) = (point.phi(), point.pi().0.0);
         (pi.dot(&pi) + phi.dot(phi) * T::constant(self.spring, 0.0)) * T::constant(0.5, 0.0)
     }

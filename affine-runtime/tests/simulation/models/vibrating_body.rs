@@ -88,7 +88,7 @@ impl Model<3> for VibratingBody {
         isotropic_energy(&(inverse(phi) * velocity.phi_dot), [self.i, self.a, self.b])
     }
 
-    fn hamiltonian<T: Real>(&self, point: &Body3<T>) -> T {
+    fn hamiltonian<T: Real>(&self, _t: T, point: &Body3<T>) -> T {
         let number = |value: f64| T::constant(value, 0.0);
         let spin = &point.sigma_hat().0.0;
         let r = self.flatten(point)[18];

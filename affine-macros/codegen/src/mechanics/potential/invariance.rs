@@ -5,6 +5,7 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
 
+use super::principal::Principal;
 use super::{Along, Base, Potential, Tensors, definitions, direction, finger, green, placement};
 
 impl Potential {
@@ -15,7 +16,7 @@ impl Potential {
         let invariance = &self.invariance;
         let vanish = |list: &[Polynomial]| list.iter().all(Polynomial::is_zero);
         match candidate {
-            Candidate::Energy => true,
+            Candidate::Energy => !self.depends_on_time(),
             Candidate::LinearMomentum | Candidate::ComovingLinearMomentum => vanish(&invariance.centre),
             Candidate::OrbitalAngularMomentum => vanish(&skew(&invariance.orbital)),
             Candidate::TotalAffineMomentum => vanish(&invariance.total().concat()),
@@ -65,7 +66,8 @@ impl Invariance {
                 (*base, form.scaled(&base.weight(n)))
             })
             .collect();
-        let tensors = Tensors { phi, green, finger, inverse: Vec::new() };
+        let principal = Principal::on_unit_axes(arena, n);
+        let tensors = Tensors { phi, green, finger, inverse: Vec::new(), principal };
         let along = |along: Along| {
             table(n, |a, b| {
                 let mut sum = Polynomial::zero();

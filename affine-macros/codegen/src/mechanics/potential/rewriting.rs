@@ -3,35 +3,44 @@
 use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function, Rational};
 
-/// The integer `k` of `k q`.
-fn multiple_of_q(arena: &Arena, argument: Expr) -> Option<i32> {
-    let is_q = |e: Expr| arena.name(e) == Some("q");
-    if is_q(argument) {
-        return Some(1);
+/// A logarithm `q` or `q_a`, as the name of its exponential.
+fn exponential(arena: &Arena, symbol: Expr) -> Option<String> {
+    match arena.name(symbol)? {
+        "q" => Some("dilatation".to_owned()),
+        name => Some(format!("stretch_{}", name.strip_prefix("q_")?)),
+    }
+}
+
+/// The logarithm and the integer `k` of `k q` or `k q_a`.
+fn multiple_of_logarithm(arena: &Arena, argument: Expr) -> Option<(Expr, i32)> {
+    let is_logarithm = |e: Expr| exponential(arena, e).is_some();
+    if is_logarithm(argument) {
+        return Some((argument, 1));
     }
     match arena.node(argument) {
-        Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 && is_q(terms[0].0) => {
-            i32::try_from(terms[0].1.to_i64()?).ok()
+        Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 && is_logarithm(terms[0].0) => {
+            Some((terms[0].0, i32::try_from(terms[0].1.to_i64()?).ok()?))
         }
         _ => None,
     }
 }
 
 /// Functions `exp`, `sinh`, `cosh` of integer multiples of `q` as powers of `D = exp(q)` and `1/D`, which cost one
-/// root instead of a logarithm and an exponential each.
+/// root instead of a logarithm and an exponential each; those of `q_a` as powers of `Q_a` and `1/Q_a`.
 pub(super) fn through_dilatation(arena: &mut Arena, expr: Expr) -> Expr {
-    let power = |arena: &mut Arena, k: i32| {
-        let base = arena.symbol(if k > 0 { "dilatation" } else { "inverse_dilatation" });
+    let power = |arena: &mut Arena, q: Expr, k: i32| {
+        let name = exponential(arena, q).unwrap_or_default();
+        let base = arena.symbol(&if k > 0 { name } else { format!("inverse_{name}") });
         arena.pow(base, i32::try_from(k.unsigned_abs()).unwrap_or(1)).unwrap_or(base)
     };
     rewritten(arena, expr, &|arena, function, argument, exponent| {
-        let k = multiple_of_q(arena, argument)?;
+        let (q, k) = multiple_of_logarithm(arena, argument)?;
         let half = Rational::ratio(1, 2)?;
         match function {
-            Function::Exp => Some(power(arena, k.checked_mul(exponent)?)),
+            Function::Exp => Some(power(arena, q, k.checked_mul(exponent)?)),
             Function::Sinh | Function::Cosh => {
                 let sign = if function == Function::Sinh { -&half } else { half.clone() };
-                let (up, down) = (power(arena, k), power(arena, -k));
+                let (up, down) = (power(arena, q, k), power(arena, q, -k));
                 let value = arena.linear(&[(up, half), (down, sign)]);
                 arena.pow(value, exponent)
             }
@@ -40,14 +49,13 @@ pub(super) fn through_dilatation(arena: &mut Arena, expr: Expr) -> Expr {
     })
 }
 
-/// `exp(u) = 1 + 2 sinh(u/2)^2 + sinh(u)` and `cosh(u) = 1 + 2 sinh(u/2)^2` for `u = k q`.
+/// `exp(u) = 1 + 2 sinh(u/2)^2 + sinh(u)` and `cosh(u) = 1 + 2 sinh(u/2)^2` for `u = k q` and `u = k q_a`.
 pub(super) fn about_undeformed(arena: &mut Arena, expr: Expr) -> Expr {
     rewritten(arena, expr, &|arena, function, argument, exponent| {
-        let k = multiple_of_q(arena, argument)?;
+        let (q, k) = multiple_of_logarithm(arena, argument)?;
         if !matches!(function, Function::Exp | Function::Cosh) || exponent < 1 && function == Function::Cosh {
             return None;
         }
-        let q = arena.symbol("q");
         // A power of an exponential is one exponential.
         let (k, exponent) =
             if function == Function::Exp { (k.checked_mul(exponent)?, 1) } else { (k, exponent) };

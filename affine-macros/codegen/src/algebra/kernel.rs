@@ -1,0 +1,81 @@
+//! Runtime functions among the quantities of a program: what no straight line of arithmetic computes.
+
+use super::arena::Expr;
+use super::polynomial::Polynomial;
+
+/// A call of a runtime function. Its results are symbols, which polynomials use like any other quantity; a call whose
+/// results nothing uses is left out.
+#[derive(Clone, Debug)]
+pub struct Kernel {
+    /// What is called.
+    pub callee: Callee,
+    /// What it reads: polynomials in the state, in shared quantities and in results of other calls.
+    pub arguments: Vec<Group<Polynomial>>,
+    /// What it returns.
+    pub results: Vec<Group<Expr>>,
+}
+
+/// The runtime functions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Callee {
+    /// Placement -> stretches and principal axes.
+    Stretches,
+}
+
+/// Numbers that travel together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Group<E> {
+    /// One number.
+    Scalar(E),
+    /// An array.
+    Vector(Vec<E>),
+    /// An array of rows.
+    Matrix(Vec<Vec<E>>),
+}
+
+impl<E> Group<E> {
+    /// All numbers, row after row.
+    pub fn entries(&self) -> Vec<&E> {
+        match self {
+            Self::Scalar(one) => vec![one],
+            Self::Vector(list) => list.iter().collect(),
+            Self::Matrix(rows) => rows.iter().flatten().collect(),
+        }
+    }
+
+    /// The same shape with other entries.
+    pub fn map<F>(&self, mut value: impl FnMut(&E) -> F) -> Group<F> {
+        match self {
+            Self::Scalar(one) => Group::Scalar(value(one)),
+            Self::Vector(list) => Group::Vector(list.iter().map(value).collect()),
+            Self::Matrix(rows) => {
+                Group::Matrix(rows.iter().map(|row| row.iter().map(&mut value).collect()).collect())
+            }
+        }
+    }
+}
+
+impl Kernel {
+    /// Is the symbol one of its results?
+    #[must_use]
+    pub fn returns(&self, symbol: Expr) -> bool {
+        self.outputs().any(|result| result == symbol)
+    }
+
+    /// Its results, one symbol after the other.
+    pub fn outputs(&self) -> impl Iterator<Item = Expr> {
+        self.results.iter().flat_map(Group::entries).copied()
+    }
+
+    /// Its arguments, one polynomial after the other.
+    pub fn inputs(&self) -> impl Iterator<Item = &Polynomial> {
+        self.arguments.iter().flat_map(Group::entries)
+    }
+
+    /// The same call with other arguments.
+    #[must_use]
+    pub fn with_arguments(&self, mut value: impl FnMut(&Polynomial) -> Polynomial) -> Self {
+        let arguments = self.arguments.iter().map(|group| group.map(&mut value)).collect();
+        Self { callee: self.callee, arguments, results: self.results.clone() }
+    }
+}

@@ -1,0 +1,82 @@
+//! Symbols replaced by expressions, and signs that hold whatever the symbols are.
+
+use super::arena::{Arena, Expr, Node};
+use super::function::Function;
+use super::rational::Rational;
+
+impl Arena {
+    /// The expression with symbols replaced; `None` where a divisor becomes zero.
+    pub fn substitute(&mut self, expr: Expr, value: &dyn Fn(Expr) -> Option<Expr>) -> Option<Expr> {
+        match self.node(expr).clone() {
+            Node::Constant(_) => Some(expr),
+            Node::Symbol(_) => Some(value(expr).unwrap_or(expr)),
+            Node::Sum(constant, terms) => {
+                let mut summands = vec![(self.constant(constant), Rational::ONE)];
+                for (term, c) in terms {
+                    summands.push((self.substitute(term, value)?, c));
+                }
+                Some(self.linear(&summands))
+            }
+            Node::Product(factors) => {
+                let mut product = Vec::with_capacity(factors.len());
+                for (base, exponent) in factors {
+                    product.push((self.substitute(base, value)?, exponent));
+                }
+                self.product(&product)
+            }
+            Node::Function(function, argument) => {
+                let argument = self.substitute(argument, value)?;
+                Some(self.apply(function, argument))
+            }
+        }
+    }
+
+    /// Is the value `>= 0` for all symbols, those of `positive` being so; and is it never zero?
+    #[must_use]
+    pub fn sign(&self, expr: Expr, positive: &dyn Fn(&str) -> bool) -> Option<Sign> {
+        match self.node(expr) {
+            Node::Constant(value) if value.is_zero() => None,
+            Node::Constant(value) => Some(Sign { negative: value.is_negative(), strict: true }),
+            Node::Symbol(name) => positive(name).then_some(Sign { negative: false, strict: true }),
+            Node::Sum(constant, terms) => {
+                let own = (!constant.is_zero()).then_some((constant.is_negative(), true));
+                let mut signs: Vec<(bool, bool)> = own.into_iter().collect();
+                for (term, c) in terms {
+                    let sign = self.sign(*term, positive)?;
+                    signs.push((sign.negative != c.is_negative(), sign.strict));
+                }
+                let negative = signs.first()?.0;
+                let strict = signs.iter().any(|(_, strict)| *strict);
+                signs.iter().all(|(other, _)| *other == negative).then_some(Sign { negative, strict })
+            }
+            Node::Product(factors) => {
+                let mut product = Sign { negative: false, strict: true };
+                for (base, exponent) in factors {
+                    let known = self.sign(*base, positive);
+                    let strict = known.is_some_and(|sign| sign.strict);
+                    // What is divided by is not zero.
+                    product.strict &= strict || *exponent < 0;
+                    if exponent % 2 != 0 {
+                        product.negative ^= known?.negative;
+                    }
+                }
+                Some(product)
+            }
+            Node::Function(Function::Exp | Function::Cosh, _) => Some(Sign { negative: false, strict: true }),
+            Node::Function(Function::Sqrt | Function::Abs, argument) => {
+                let strict = self.sign(*argument, positive).is_some_and(|sign| sign.strict);
+                Some(Sign { negative: false, strict })
+            }
+            Node::Function(..) => None,
+        }
+    }
+}
+
+/// A sign that an expression has everywhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sign {
+    /// `<= 0` rather than `>= 0`.
+    pub negative: bool,
+    /// Never zero.
+    pub strict: bool,
+}

@@ -1,0 +1,164 @@
+//! A potential is a smooth function of the placement: Hamilton's equations contain its derivative, their solutions are
+//! unique and methods keep their order only then.
+//!
+//! The stretches are that only up to their order. A function of them is one of the placement if exchanging two changes
+//! nothing, and then it is as smooth as it is as a function of the `q_a` (Ball, Duke Math. J. 51 (1984) 699).
+
+use super::potential::{energy, parts};
+use crate::algebra::arena::Node;
+use crate::algebra::{Arena, Expr, Function};
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::lower::{self, FIELD};
+use crate::mechanics::potential::stretches::{
+    canonical, exchanged, is_stretched, singular_at_coincidence, vanishes_at_coincidence,
+};
+use crate::spec::{Expression, ExpressionKind, Spec};
+
+/// Every rule; a potential that breaks one of symmetry is not asked for more.
+pub(super) fn potential(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) {
+    let n = spec.dim.value;
+    for written in energy(spec) {
+        let Some(value) = lower::energy(arena, n, written, None) else { continue };
+        // Without single stretches there is nothing to exchange, and traces stay as they are written.
+        let stretched = is_stretched(arena, n, value);
+        let value = if stretched { canonical(arena, n, value) } else { value };
+        if stretched
+            && !(even_in_differences(arena, spec, found) && symmetric(arena, n, written, value, found))
+        {
+            continue;
+        }
+        let absolute = absolute_value(arena, value);
+        let singular = singular_at_coincidence(arena, n, value);
+        if absolute.is_none() && singular.is_none() {
+            continue;
+        }
+        let kinks = kinks(arena, n, written, None);
+        let innermost = kinks.into_iter().find(|kink| match kink {
+            Kink::Absolute(_) => absolute.is_some(),
+            Kink::Coincidence(..) => singular.is_some(),
+        });
+        match (innermost, singular) {
+            (Some(Kink::Absolute(part)), _) => {
+                let argument = part.operands().first().map(ToString::to_string).unwrap_or_default();
+                found.report(part.span, Diagnostic::NotSmooth { argument });
+            }
+            (Some(Kink::Coincidence(part, argument, stretches)), _) => {
+                let argument = argument.to_string();
+                let written = part.to_string();
+                found.report(part.span, Diagnostic::Coincidence { written, argument, stretches });
+            }
+            (None, Some((argument, (a, b)))) => {
+                let (argument, stretches) = (arena.text(argument), (a + 1, b + 1));
+                let all = written.to_string();
+                found.report(written.span, Diagnostic::Coincidence { written: all, argument, stretches });
+            }
+            (None, None) => {
+                let argument = absolute.map(|argument| arena.text(argument)).unwrap_or_default();
+                found.report(written.span, Diagnostic::NotSmooth { argument });
+            }
+        }
+    }
+}
+
+/// `pairs(f(d))` sums over pairs whose order means nothing: `f(d) = f(-d)`.
+fn even_in_differences(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) -> bool {
+    let n = spec.dim.value;
+    let mut holds = true;
+    for part in energy(spec).flat_map(parts) {
+        let ExpressionKind::Pairs(f) = &part.kind else { continue };
+        let d = lower::difference_of(arena, 0, 1);
+        let opposite = arena.neg(d);
+        let values = [d, opposite].map(|d| lower::energy(arena, n, f, Some(d)));
+        let [Some(one), Some(other)] = values.map(|value| value.map(|value| canonical(arena, n, value)))
+        else {
+            continue;
+        };
+        if one != other {
+            holds = false;
+            found.report(part.span, Diagnostic::OddDifference { function: f.to_string() });
+        }
+    }
+    holds
+}
+
+/// Unchanged under every exchange of two stretches.
+fn symmetric(
+    arena: &mut Arena,
+    n: usize,
+    written: &Expression,
+    value: Expr,
+    found: &mut Diagnostics,
+) -> bool {
+    for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
+        let other = exchanged(arena, n, value, a, b).map(|other| canonical(arena, n, other));
+        if other != Some(value) {
+            let energy = written.to_string();
+            found.report(written.span, Diagnostic::NotSymmetric { energy, stretches: (a + 1, b + 1) });
+            return false;
+        }
+    }
+    true
+}
+
+/// The argument of an absolute value in `value` that depends on the state; those of known sign are gone by now.
+fn absolute_value(arena: &Arena, value: Expr) -> Option<Expr> {
+    let mut pending = vec![value];
+    while let Some(expr) = pending.pop() {
+        match arena.node(expr) {
+            Node::Constant(_) | Node::Symbol(_) => {}
+            Node::Sum(_, terms) => pending.extend(terms.iter().map(|(term, _)| *term)),
+            Node::Product(factors) => pending.extend(factors.iter().map(|(base, _)| *base)),
+            Node::Function(Function::Abs, argument) if moves(arena, *argument) => return Some(*argument),
+            Node::Function(_, argument) => pending.push(*argument),
+        }
+    }
+    None
+}
+
+/// Does the expression depend on more than fields?
+fn moves(arena: &Arena, expr: Expr) -> bool {
+    arena.any_symbol(expr, &mut |symbol| arena.name(symbol).is_some_and(|name| !name.starts_with(FIELD)))
+}
+
+/// A place where smoothness ends, as written.
+enum Kink<'a> {
+    /// `abs(...)`.
+    Absolute(&'a Expression),
+    /// A root, a logarithm or a quotient, what vanishes in it, and the stretches, from 1, where they coincide.
+    Coincidence(&'a Expression, &'a Expression, (usize, usize)),
+}
+
+/// All such places, the inner ones first; `d` stands for `difference`.
+fn kinks<'a>(arena: &mut Arena, n: usize, part: &'a Expression, difference: Option<Expr>) -> Vec<Kink<'a>> {
+    let inner = match part.kind {
+        ExpressionKind::Pairs(_) => Some(lower::difference_of(arena, 0, 1)),
+        _ => difference,
+    };
+    let mut list: Vec<Kink> =
+        part.operands().into_iter().flat_map(|operand| kinks(arena, n, operand, inner)).collect();
+    let vanishing = match &part.kind {
+        ExpressionKind::Call(Function::Abs, argument) => {
+            let value = lower::energy(arena, n, argument, difference);
+            if value.is_some_and(|value| moves(arena, value)) {
+                list.push(Kink::Absolute(part));
+            }
+            return list;
+        }
+        ExpressionKind::Call(Function::Sqrt | Function::Ln, argument)
+        | ExpressionKind::Divide(_, argument)
+        | ExpressionKind::Power(argument, _) => argument,
+        _ => return list,
+    };
+    let singular_power = match &part.kind {
+        ExpressionKind::Power(_, exponent) => super::constant(exponent, n).is_some_and(|k| k.is_negative()),
+        _ => true,
+    };
+    if let Some(value) = lower::energy(arena, n, vanishing, difference).filter(|_| singular_power) {
+        let pairs = (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b)));
+        let found = pairs.into_iter().find(|(a, b)| vanishes_at_coincidence(arena, n, value, *a, *b));
+        if let Some((a, b)) = found {
+            list.push(Kink::Coincidence(part, vanishing, (a + 1, b + 1)));
+        }
+    }
+    list
+}

@@ -1,0 +1,58 @@
+//! Calls of runtime functions in emitted code: `let (results) = rt::function(arguments);`
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::algebra::kernel::{Callee, Group};
+
+/// The statement of a call. One group of results is bound by itself, several as a tuple.
+pub(super) fn statement(
+    rt: &Ident,
+    callee: Callee,
+    arguments: &[TokenStream],
+    results: impl Iterator<Item = TokenStream>,
+) -> TokenStream {
+    let function = match callee {
+        Callee::Stretches => quote!(#rt::principal_stretches),
+    };
+    let results: Vec<TokenStream> = results.collect();
+    let results = match results.as_slice() {
+        [one] => one.clone(),
+        several => quote!((#(#several),*)),
+    };
+    quote!(let #results = #function(#(#arguments),*);)
+}
+
+/// A group as an expression or as a pattern.
+pub(super) fn written<E>(group: &Group<E>, entry: impl Fn(&E) -> TokenStream) -> TokenStream {
+    match group {
+        Group::Scalar(one) => entry(one),
+        Group::Vector(list) => {
+            let entries = list.iter().map(entry);
+            quote!([#(#entries),*])
+        }
+        Group::Matrix(rows) => {
+            let rows = rows.iter().map(|row| {
+                let entries = row.iter().map(&entry);
+                quote!([#(#entries),*])
+            });
+            quote!([#(#rows),*])
+        }
+    }
+}
+
+/// The pattern of a group of results; what nothing reads is not bound.
+pub(super) fn bound(group: &Group<String>, read: &[&str]) -> TokenStream {
+    let is_read = |name: &String| read.contains(&name.as_str());
+    if !group.entries().into_iter().any(is_read) {
+        return quote!(_);
+    }
+    written(group, |name| {
+        if is_read(name) {
+            let name = format_ident!("{name}");
+            quote!(#name)
+        } else {
+            quote!(_)
+        }
+    })
+}

@@ -1,0 +1,37 @@
+//! Calls of runtime functions: their arguments are values of the program, their results are inputs of it.
+
+use crate::algebra::kernel::{Callee, Group};
+
+use super::Value;
+
+/// A call. It happens before the first step that reads one of its results; every argument is an earlier step.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Call {
+    /// What is called.
+    pub callee: Callee,
+    /// What it reads.
+    pub arguments: Vec<Group<Value>>,
+    /// Names of the inputs that it provides.
+    pub results: Vec<Group<String>>,
+}
+
+impl Call {
+    /// Does it provide the input?
+    #[must_use]
+    pub fn provides(&self, input: &str) -> bool {
+        self.results.iter().any(|group| group.entries().into_iter().any(|name| name == input))
+    }
+
+    /// The values it reads.
+    #[must_use]
+    pub fn operands(&self) -> Vec<Value> {
+        self.arguments.iter().flat_map(Group::entries).copied().collect()
+    }
+
+    /// The same call on renumbered values.
+    #[must_use]
+    pub fn renumbered(&self, place: &[Value]) -> Self {
+        let arguments = self.arguments.iter().map(|group| group.map(|v| place[*v])).collect();
+        Self { callee: self.callee, arguments, results: self.results.clone() }
+    }
+}

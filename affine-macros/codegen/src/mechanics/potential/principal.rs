@@ -1,0 +1,102 @@
+//! Stretches and principal axes: `phi R = L diag(Q)`, `L` and `R` rotations.
+
+use crate::algebra::kernel::{Callee, Group};
+use crate::algebra::ring::{Square, table};
+use crate::algebra::{Arena, Expr, Function, Kernel, Polynomial, Rational};
+use crate::mechanics::charts::Chart;
+
+use super::{Along, Base, placement};
+
+/// Products of the entries of principal axes, in which the derivatives of log-stretches are written: with column `k` of `R`
+/// and of `L` written `R_k` and `L_k`, `dq_k = R_k . Oh R_k = L_k . Om L_k`.
+pub(super) struct Principal {
+    /// `R_Ak R_Bk`, an array for each `k`.
+    body: Vec<Square<Polynomial>>,
+    /// `Q_k^2 L_ik L_jk`.
+    space: Vec<Square<Polynomial>>,
+    /// `Q_k L_ik R_Ak`.
+    placement: Vec<Square<Polynomial>>,
+}
+
+impl Principal {
+    /// Through what the kernel returns: `R`, and `W = phi R` with `L_k = W_k/Q_k`.
+    pub(super) fn new(arena: &mut Arena, n: usize) -> Self {
+        let axis = table(n, |a, k| format!("axis_{}{}", a + 1, k + 1));
+        let stretched = table(n, |i, k| format!("stretched_{}{}", i + 1, k + 1));
+        let mut symbol = |name: &String| arena.symbol(name);
+        let mut symbols = |names: Square<String>| -> Square<Expr> {
+            names.iter().map(|row| row.iter().map(&mut symbol).collect()).collect()
+        };
+        let (axis, stretched) = (symbols(axis), symbols(stretched));
+        let product = |factors: Vec<Expr>| Polynomial::term(factors, Rational::ONE);
+        let each = |entry: &dyn Fn(usize, usize, usize) -> Vec<Expr>| {
+            (0..n).map(|k| table(n, |a, b| product(entry(k, a, b)))).collect()
+        };
+        Self {
+            body: each(&|k, a, b| vec![axis[a][k], axis[b][k]]),
+            space: each(&|k, i, j| vec![stretched[i][k], stretched[j][k]]),
+            placement: each(&|k, i, a| vec![stretched[i][k], axis[a][k]]),
+        }
+    }
+
+    /// Through axes of which only their length is known: `R_nk^2 = 1 - R_1k^2 - ...`, so that traces are exact. `L` is as
+    /// good as `R` for what depends on one of them.
+    pub(super) fn on_unit_axes(arena: &mut Arena, n: usize) -> Self {
+        let mut body = Self::new(arena, n).body;
+        for axes in &mut body {
+            let mut last = Polynomial::constant(Rational::ONE);
+            (0..n - 1).for_each(|a| last.add_scaled(&axes[a][a], &Rational::MINUS_ONE));
+            axes[n - 1][n - 1] = last;
+        }
+        Self { space: body.clone(), body, placement: Vec::new() }
+    }
+
+    /// Derivative of `q_k`, times `Q_k^2` unless it is along the body.
+    pub(super) fn direction(&self, k: usize, along: Along, a: usize, b: usize) -> Polynomial {
+        match along {
+            Along::Body => self.body[k][a][b].clone(),
+            Along::Space => self.space[k][a][b].clone(),
+            Along::Placement => self.placement[k][a][b].clone(),
+        }
+    }
+}
+
+/// The kernel, and what else follows from it: `1/Q_k` and `q_k = ln Q_k`.
+pub(super) fn computed(arena: &mut Arena, chart: &Chart) -> (Kernel, Vec<(Expr, Polynomial)>) {
+    let n = chart.dim;
+    let mut rows = |stem: &str| -> Square<Expr> {
+        let mut entry = |i: usize, k: usize| arena.symbol(&format!("{stem}_{}{}", i + 1, k + 1));
+        (0..n).map(|i| (0..n).map(|k| entry(i, k)).collect()).collect()
+    };
+    let (stretched, axes) = (rows("stretched"), rows("axis"));
+    let stretches: Vec<Expr> = (0..n).map(|k| stretch(arena, k)).collect();
+    let kernel = Kernel {
+        callee: Callee::Stretches,
+        arguments: vec![Group::Matrix(placement(chart))],
+        results: vec![Group::Vector(stretches.clone()), Group::Matrix(stretched), Group::Matrix(axes)],
+    };
+    let mut shared = Vec::new();
+    for (k, stretch) in stretches.into_iter().enumerate() {
+        let reciprocal = arena.pow(stretch, -1).unwrap_or(stretch);
+        let logarithm = arena.apply(Function::Ln, stretch);
+        shared.push((inverse_stretch(arena, k), Polynomial::atom(reciprocal)));
+        shared.push((Base::LogStretch(k).symbol(arena), Polynomial::atom(logarithm)));
+    }
+    (kernel, shared)
+}
+
+/// `Q_k`
+fn stretch(arena: &mut Arena, k: usize) -> Expr {
+    arena.symbol(&format!("stretch_{}", k + 1))
+}
+
+/// `1/Q_k`
+fn inverse_stretch(arena: &mut Arena, k: usize) -> Expr {
+    arena.symbol(&format!("inverse_stretch_{}", k + 1))
+}
+
+/// `1/Q_k^2`
+pub(super) fn inverse_square(arena: &mut Arena, k: usize) -> Polynomial {
+    let inverse = inverse_stretch(arena, k);
+    Polynomial::term(vec![inverse, inverse], Rational::ONE)
+}

@@ -1,0 +1,111 @@
+//! Functions of the single stretches: a canonical form, in which equal functions are equal and what is symmetric is
+//! written through `q`, `tr G` and `tr G^2`.
+//!
+//! A term is `c q_1^k_1 ... Q_1^l_1 ... (other factors)`: products and powers of exponentials are one exponential for each
+//! stretch, `Q_a = exp(q_a)`. Symmetric functions of the stretches that are smooth in the `q_a` are smooth functions of
+//! the placement, also where stretches coincide (Ball, Duke Math. J. 51 (1984) 699).
+
+mod form;
+mod symmetric;
+
+use crate::algebra::arena::Node;
+use crate::algebra::{Arena, Expr, Function, Rational};
+
+use super::Base;
+use form::Form;
+
+/// The function in canonical form.
+pub fn canonical(arena: &mut Arena, n: usize, energy: Expr) -> Expr {
+    // What is written through traces may cancel further.
+    (0..3).fold(energy, |energy, _| {
+        let form = Form::of(arena, n, energy);
+        symmetric::through_traces(arena, n, form).expression(arena, n)
+    })
+}
+
+/// Does it need the single stretches?
+#[must_use]
+pub fn is_stretched(arena: &mut Arena, n: usize, energy: Expr) -> bool {
+    let stretches = symbols(arena, n);
+    arena.any_symbol(energy, &mut |symbol| stretches.contains(&symbol))
+}
+
+/// The function with two stretches exchanged, counted from 0; `None` where that divides by zero.
+pub fn exchanged(arena: &mut Arena, n: usize, energy: Expr, a: usize, b: usize) -> Option<Expr> {
+    let q = symbols(arena, n);
+    arena.substitute(energy, &|symbol| match symbol {
+        _ if symbol == q[a] => Some(q[b]),
+        _ if symbol == q[b] => Some(q[a]),
+        _ => None,
+    })
+}
+
+/// Does a function vanish wherever two stretches, counted from 0, coincide? `q`, `tr G` and `tr G^2` are what they are in
+/// terms of the stretches.
+pub fn vanishes_at_coincidence(arena: &mut Arena, n: usize, function: Expr, a: usize, b: usize) -> bool {
+    let q = symbols(arena, n);
+    let [mean, trace, of_square] =
+        [Base::MeanLogStretch, Base::Trace, Base::TraceOfSquare].map(|base| base.symbol(arena));
+    let stretches: Vec<Expr> = (0..n).map(|c| if c == b { q[a] } else { q[c] }).collect();
+    let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+    let sum = |arena: &mut Arena, power: i64| {
+        let terms: Vec<(Expr, Rational)> = stretches
+            .iter()
+            .map(|q| {
+                let argument = arena.scale(*q, &Rational::from(power));
+                (arena.apply(Function::Exp, argument), Rational::ONE)
+            })
+            .collect();
+        arena.linear(&terms)
+    };
+    let traces = [sum(arena, 2), sum(arena, 4)];
+    let means: Vec<(Expr, Rational)> = stretches.iter().map(|q| (*q, nth.clone())).collect();
+    let means = arena.linear(&means);
+    let at_coincidence = arena.substitute(function, &|symbol| match symbol {
+        _ if symbol == mean => Some(means),
+        _ if symbol == trace => Some(traces[0]),
+        _ if symbol == of_square => Some(traces[1]),
+        _ if symbol == q[b] => Some(q[a]),
+        _ => None,
+    });
+    at_coincidence.is_none_or(|value| Form::of(arena, n, value).is_zero())
+}
+
+/// The first argument of a root, a logarithm or a quotient in `energy` that vanishes where two stretches coincide.
+pub fn singular_at_coincidence(arena: &mut Arena, n: usize, energy: Expr) -> Option<(Expr, (usize, usize))> {
+    let vanishing = |arena: &mut Arena, argument: Expr| {
+        let pairs = (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b)));
+        pairs.into_iter().find(|(a, b)| vanishes_at_coincidence(arena, n, argument, *a, *b))
+    };
+    let mut pending = vec![energy];
+    while let Some(expr) = pending.pop() {
+        match arena.node(expr).clone() {
+            Node::Constant(_) | Node::Symbol(_) => {}
+            Node::Sum(_, terms) => pending.extend(terms.into_iter().map(|(term, _)| term)),
+            Node::Product(factors) => {
+                for (base, exponent) in factors {
+                    if exponent < 0
+                        && let Some(pair) = vanishing(arena, base)
+                    {
+                        return Some((base, pair));
+                    }
+                    pending.push(base);
+                }
+            }
+            Node::Function(function, argument) => {
+                if matches!(function, Function::Sqrt | Function::Ln)
+                    && let Some(pair) = vanishing(arena, argument)
+                {
+                    return Some((argument, pair));
+                }
+                pending.push(argument);
+            }
+        }
+    }
+    None
+}
+
+/// The symbols `q_1, ..., q_n`.
+pub fn symbols(arena: &mut Arena, n: usize) -> Vec<Expr> {
+    (0..n).map(|a| Base::LogStretch(a).symbol(arena)).collect()
+}

@@ -1,6 +1,0 @@
-use affine_runtime::affine_model;
-
-#[affine_model(dim = 3, kinetic(casimir2 = 1), potential = pairs(cosh(d)))]
-struct Model;
-
-fn main() {}

@@ -1,6 +1,0 @@
-use affine_runtime::affine_model;
-
-#[affine_model(dim = 3, kinetic(casimir2 = 1), potential = cos(t)*q^2)]
-struct Model;
-
-fn main() {}
