@@ -18,17 +18,21 @@
 pub mod conserved;
 #[cfg(feature = "std")]
 pub mod counting;
+mod custom;
 pub mod decompose;
 mod dissipation;
 pub mod error;
+pub mod force;
 pub mod frames;
 pub mod geodesic;
 pub mod integrate;
 pub mod kinematics;
 pub mod model;
+pub mod potential;
 mod reduction;
 #[cfg(feature = "report")]
 pub mod report;
+pub mod sampling;
 pub mod scalar;
 #[cfg(feature = "std")]
 pub mod simulate;

@@ -2,6 +2,9 @@
 
 pub use core::primitive::f64;
 
+pub use crate::custom::{
+    comoving_force, potential_energy, potential_slopes, spatial_force, translational_force,
+};
 pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
 pub use crate::dissipation::{semidefinite, semidefinite_form};
 pub use crate::error::Result;

@@ -53,6 +53,16 @@ impl Reference {
         }
     }
 
+    /// The motion with forces on `p` and, row-major, on `Pi`.
+    pub(crate) fn pushed(kinetic: &Kinetic, state: &State, on_p: &[f64], on_pi: &[f64]) -> Self {
+        let motion = kinetic.motion(state).unwrap().pushed(on_p, on_pi).unwrap();
+        Reference {
+            expected: motion.expected().unwrap(),
+            potential: Slopes { value: 0.0, t: 0.0, x: on_p.to_vec(), phi: on_pi.to_vec() },
+            ..Reference::new(kinetic, state)
+        }
+    }
+
     /// The summands' size of `H`.
     pub(crate) fn energy_size(&self) -> f64 {
         let (p, pi) = (norm(&self.state.p.to_f64()), norm(&self.state.pi.to_f64()));

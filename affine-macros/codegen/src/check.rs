@@ -6,6 +6,7 @@
 mod arithmetic;
 mod capabilities;
 mod constant;
+mod custom;
 mod dimension;
 mod dissipation;
 mod form;
@@ -35,6 +36,8 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     potential::differences(spec, found);
     potential::scalar(spec, found);
     potential::centre(spec, found);
+    custom::fields(spec, found);
+    custom::centre(spec, found);
     dissipation::centre(spec, found);
     frames::internal_motion(spec, found);
     frames::affine_translation(spec, found);

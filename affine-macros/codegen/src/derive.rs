@@ -69,8 +69,8 @@ pub struct Model {
     pub conserved_at_rest: Vec<Candidate>,
     /// Numbers of positive and negative squares.
     pub signature: Option<(usize, usize)>,
-    /// Is there a potential?
-    pub has_potential: bool,
+    /// Is there a potential or any other force?
+    pub has_forces: bool,
     /// Symmetry groups of space and body that leave the kinetic energy unchanged.
     pub groups: (Group, Group),
     /// `T`, `H`, and the equations.
@@ -164,7 +164,10 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         conserved_now.contains(&Candidate::TotalAngularMomentum) && forces.are_isotropic_in_space();
     if !forces.is_empty() {
         conserved_now = forces.keep(arena, &own, &h, conserved_now);
-        conserved_at_rest = forces.at_rest().keep(arena, &own, &h, conserved_at_rest);
+        conserved_at_rest = match forces.push_from_rest() {
+            true => conserved_now.clone(),
+            false => forces.at_rest().keep(arena, &own, &h, conserved_at_rest),
+        };
     }
     let commuting = reduce::commuting(arena, &h, potential, &forces);
     let closed_form = match potential {
@@ -178,7 +181,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         best_reduction(arena, &h, potential, &forces, rotations, &mut coefficients)?;
     let formulas = Formulas {
         kinetic_energy: describe::kinetic_energy(arena, &kinetic),
-        hamiltonian: describe::hamiltonian(arena, &h, &full_h, potential),
+        hamiltonian: describe::hamiltonian(arena, &h, &full_h, potential, &forces),
         equations: describe::equations(arena, &h, &full_chart, &full_h, potential, &forces),
         reduced: describe::system(arena, &reduction.system),
         left_out: describe::left_out(&h, &reduction, closed_form),
@@ -205,6 +208,13 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         points.extend((0..kinetic.dim).map(|a| Base::LogStretch(a).symbol(arena)));
         points.extend(u.time());
     }
+    for custom in &forces.customs {
+        if let Some((value, kernel)) = custom.energy(arena, &full_chart) {
+            energy.results[0].1.add_scaled(&value, &Rational::ONE);
+            energy.kernels.push(kernel);
+        }
+    }
+    points.extend(forces.time(arena));
     let power = power_batch(arena, &h, &full_chart, &full_h, &forces);
     let power = power.map(|batch| inline(arena, batch, points.clone()));
     let hamiltonian = inline(arena, energy, points);
@@ -250,7 +260,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         conserved: conserved_now,
         conserved_at_rest,
         signature,
-        has_potential: potential.is_some(),
+        has_forces: potential.is_some() || !forces.is_empty(),
         groups,
         formulas,
     })

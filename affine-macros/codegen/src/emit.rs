@@ -14,6 +14,7 @@ mod reduction;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::algebra::kernel::Callee;
 use crate::derive::{Equations, Model};
 use crate::ir::Program;
 use crate::mechanics::kinetic::Frame;
@@ -96,7 +97,7 @@ impl Context<'_> {
 
     /// Generics of the type that implements the model.
     fn generics(&self) -> (TokenStream, TokenStream, TokenStream) {
-        if self.has_fields {
+        if self.has_fields && self.spec.customs.is_empty() {
             return (TokenStream::new(), TokenStream::new(), TokenStream::new());
         }
         let (implementation, ty, clause) = self.spec.item.generics.split_for_impl();
@@ -125,7 +126,15 @@ impl Context<'_> {
             let value = number.of_double(quote!(self.coefficients[#index]));
             Some(quote!(let #name = #value;))
         });
-        Body { lets: coefficients.chain([lets]).collect(), results }
+        let fields = self.spec.customs.iter().enumerate().filter_map(|(k, custom)| {
+            program
+                .calls
+                .iter()
+                .find(|call| matches!(call.callee, Callee::Custom(place, _) if place == k + 1))?;
+            let (name, field) = (format_ident!("custom_{}", k + 1), &custom.field);
+            Some(quote!(let #name = &self.#field;))
+        });
+        Body { lets: coefficients.chain(fields).chain([lets]).collect(), results }
     }
 }
 

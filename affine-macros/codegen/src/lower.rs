@@ -4,6 +4,7 @@ mod potential;
 
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 use crate::check::constant;
+use crate::mechanics::custom::{Class, Custom, On, Role};
 use crate::mechanics::dissipation::Dissipation;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::kinetic::{Coefficient, Frame, Term, TermKind};
@@ -35,7 +36,23 @@ pub fn forces(arena: &mut Arena, spec: &Spec, own: Frame) -> Forces {
     let n = spec.dim.value;
     let damping: Vec<Term> = terms(arena, n, &spec.dissipation).into_iter().map(|(_, term)| term).collect();
     let dissipation = (!damping.is_empty()).then(|| Dissipation::new(arena, n, own, &damping));
-    Forces { dissipation }
+    let customs = spec.customs.iter().enumerate().map(|(k, custom)| custom_field(k + 1, custom)).collect();
+    Forces { dissipation, customs }
+}
+
+fn custom_field(place: usize, written: &spec::Custom) -> Custom {
+    let force = |on: On| Role::Force { on, gyroscopic: written.marked };
+    let potential = |class: Class| Role::Potential { class, moves: written.marked };
+    let role = match written.role.value {
+        spec::Role::Spatial => force(On::Space),
+        spec::Role::Comoving => force(On::Body),
+        spec::Role::Translation => force(On::Centre),
+        spec::Role::Isotropic => potential(Class::Isotropic),
+        spec::Role::Green => potential(Class::Green),
+        spec::Role::Finger => potential(Class::Finger),
+        spec::Role::General => potential(Class::General),
+    };
+    Custom { place, name: written.field.to_string(), role }
 }
 
 /// The term's form in the derivation.

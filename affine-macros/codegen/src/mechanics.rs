@@ -3,6 +3,7 @@
 pub mod brackets;
 pub mod charts;
 pub mod conserved;
+pub mod custom;
 pub mod describe;
 pub mod dissipation;
 pub mod equations;
@@ -14,4 +15,5 @@ pub mod kinetic;
 mod notation;
 pub mod potential;
 pub mod reduce;
+mod shared;
 pub mod symmetry;

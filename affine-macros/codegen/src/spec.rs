@@ -1,5 +1,6 @@
 //! What the user wrote, as plain data with its places in the source; nothing is judged here but the notation.
 
+mod custom;
 mod entries;
 mod expression;
 mod expression_parser;
@@ -15,6 +16,7 @@ use proc_macro2::TokenStream;
 use crate::diagnostics::{Diagnostics, Region, Reported};
 use expression_parser::Language;
 
+pub use custom::{Custom, Role};
 pub use expression::{Expression, ExpressionKind, MatrixName, Operator};
 pub use item::{Field, Item};
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
@@ -45,6 +47,8 @@ pub struct Spec {
     pub kinetic_key: Region,
     /// `potential = ...`.
     pub potential: Option<Potential>,
+    /// The summands `custom(...)` of `potential` and `forces`, in the user's order.
+    pub customs: Vec<Custom>,
     /// The terms of `dissipation(...)`, in the user's order, each kind at most once.
     pub dissipation: Vec<Term>,
     /// `require(...)`.

@@ -106,6 +106,17 @@ impl Motion<'_> {
         Ok(self)
     }
 
+    /// The same point with forces on the canonical momenta: `p_dot += on_p`, `Pi_dot += on_pi` (row-major in `(A, i)`).
+    ///
+    /// # Errors
+    /// [`Error::Shape`], [`Error::NotFinite`].
+    pub fn pushed(mut self, on_p: &[f64], on_pi: &[f64]) -> Result<Self, Error> {
+        let n = self.state.dimension();
+        self.rate.p = &self.rate.p + &Matrix::from_f64("the force on p", n, 1, on_p)?;
+        self.rate.pi = &self.rate.pi + &Matrix::from_f64("the force on Pi", n, n, on_pi)?;
+        Ok(self)
+    }
+
     /// The point.
     pub fn state(&self) -> &State {
         &self.state

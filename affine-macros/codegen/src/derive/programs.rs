@@ -42,6 +42,7 @@ pub(super) fn full_equations(
     loads.iter_mut().for_each(|load| load.work = None);
     let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
     inputs.extend(potential.and_then(Potential::time));
+    inputs.extend(forces.time(arena));
     let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
     loads.iter().for_each(|load| through_velocity.add(load));
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
@@ -130,6 +131,7 @@ pub(super) fn best_reduction(
     for candidate in reduce::candidates(arena, h, potential, forces, rotations) {
         let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
         states.extend(potential.and_then(Potential::time));
+        states.extend(forces.time(arena));
         let mut constants = Constants::new("k");
         let way = batch(arena, &candidate.system);
         let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));

@@ -454,6 +454,26 @@ pub enum Diagnostic {
     },
 
     // ---- the forces ----
+    /// `custom(...)` that does not say what the field computes, or something else in its place.
+    MalformedCustom {
+        /// `potential` or `forces`.
+        key: &'static str,
+        /// What stands there.
+        found: String,
+        /// What it takes besides the field.
+        takes: &'static str,
+        /// How it may look.
+        example: &'static str,
+    },
+    /// `custom(...)` of something that is no field.
+    UnknownField {
+        /// The name.
+        name: String,
+        /// The field probably meant.
+        nearest: Option<String>,
+        /// The fields.
+        fields: Vec<String>,
+    },
     /// A dissipation of the motion of a centre that stands still.
     DampedCentre {
         /// The translation term.
@@ -568,6 +588,8 @@ names! {
     NotPositiveDefinite => "not-positive-definite",
     ClaimBroken => "claim-broken",
     AffineTranslation => "affine-translation",
+    MalformedCustom => "malformed-custom",
+    UnknownField => "unknown-field",
     DampedCentre => "damped-centre",
     NegativeDissipation => "negative-dissipation",
 }

@@ -414,6 +414,20 @@ impl Diagnostic {
                  after (4.5)): a translational energy needs a metric on one side",
                 format!("claim `metric` on one side, or remove `{term}`"),
             ),
+            Self::MalformedCustom { key, found, takes, example } => text(
+                format!("`{key}` has {} where it should say what a field computes", quoted(found)),
+                format!("`custom(field, ..)` takes {takes}"),
+                format!("write `{key} = {example}`"),
+            ),
+            Self::UnknownField { name, nearest, fields } => text(
+                format!("there is no field `{name}`"),
+                format!("`custom(field, ..)` calls a field of the struct, which has {}", listed(fields)),
+                suggestion(
+                    nearest.as_deref(),
+                    "add the field, of a type that implements `affine_runtime::force::Force` or \
+                     `affine_runtime::potential::Potential`",
+                ),
+            ),
             Self::DampedCentre { term } => text(
                 format!("`{term}` in `dissipation(...)` slows a centre that stands still"),
                 "without a translational kinetic energy the centre is fixed in space, and x_dot = 0",
@@ -441,6 +455,11 @@ fn arguments(count: usize) -> String {
 fn is_machine_type(suffix: &str) -> bool {
     let size = suffix.strip_prefix(['f', 'i', 'u']);
     size.is_some_and(|size| matches!(size, "8" | "16" | "32" | "64" | "128" | "size"))
+}
+
+/// A word in quotes; a description as it is.
+fn quoted(found: &str) -> String {
+    if matches!(found, "no field" | "the field alone") { found.to_owned() } else { format!("`{found}`") }
 }
 
 /// `a = b`, or `a` alone where both are the same text.

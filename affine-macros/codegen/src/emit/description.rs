@@ -46,11 +46,7 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         Group::Metric => format!("O({n})"),
         Group::Less => format!("a proper subgroup of O({n})"),
     };
-    let invariant = if model.has_potential || model.power.is_some() {
-        "The kinetic energy is invariant"
-    } else {
-        "Invariant"
-    };
+    let invariant = if model.has_forces { "The kinetic energy is invariant" } else { "Invariant" };
     lines.push(format!(
         "{invariant} under {} in space and {} in the body.",
         group(model.groups.0),

@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 
 use crate::derive::{Condition, Damping, NumericBlock};
 use crate::lower::FIELD;
+use crate::spec::Field;
 
 use super::body::{Body, Number, Scope, body};
 use super::{Context, number};
@@ -19,6 +20,26 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
     let visibility = &context.spec.item.visibility;
     let count = number(context.model.coefficients.outputs.len());
     let summary = format!(" [`{model}`] with values of its fields that make it well posed.");
+    if !context.spec.customs.is_empty() {
+        let generics = &context.spec.item.generics;
+        let (_, types, clause) = generics.split_for_impl();
+        let fields = called(context).map(|field| {
+            let (name, ty) = (&field.ident, &field.ty);
+            quote!(#name: #ty,)
+        });
+        return quote! {
+            #[doc = #summary]
+            ///
+            /// Made by `prepare()`; holds the coefficients that the equations need, computed once, and the fields
+            /// that they call.
+            #[derive(::core::clone::Clone)]
+            #visibility struct #prepared #generics #clause {
+                coefficients: [::core::primitive::f64; #count],
+                #(#fields)*
+                model: ::core::marker::PhantomData<fn() -> #model #types>,
+            }
+        };
+    }
     quote! {
         #[doc = #summary]
         ///
@@ -35,6 +56,13 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
     }
 }
 
+/// The fields that the equations call, each once.
+fn called<'a>(context: &'a Context) -> impl Iterator<Item = &'a Field> {
+    let customs = &context.spec.customs;
+    let fields = context.spec.item.fields.iter();
+    fields.filter(move |field| customs.iter().any(|custom| custom.field == field.ident))
+}
+
 /// The method that makes it.
 pub(super) fn method(context: &Context) -> TokenStream {
     if !context.has_fields {
@@ -44,6 +72,13 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let visibility = &context.spec.item.visibility;
     let (generics, types, clause) = context.spec.item.generics.split_for_impl();
     let conditions = conditions(context, rt);
+    let clones = called(context).map(|field| {
+        let name = &field.ident;
+        quote!(, #name: ::core::clone::Clone::clone(&self.#name))
+    });
+    let marker = (!context.spec.customs.is_empty()).then(|| quote!(, model: ::core::marker::PhantomData));
+    let fields: Vec<TokenStream> = clones.chain(marker).collect();
+    let of = (!context.spec.customs.is_empty()).then(|| quote!(#types));
     let blocks: TokenStream =
         context.model.numeric_blocks.iter().map(|block| numeric_block(block, rt)).collect();
     let damping = damping(&context.model.damping, rt);
@@ -55,13 +90,13 @@ pub(super) fn method(context: &Context) -> TokenStream {
             /// # Errors
             /// `IllPosed` with the condition, its value and its threshold, where the Legendre transformation
             /// is degenerate to rounding, a required sign is missing, or a coefficient overflows.
-            #visibility fn prepare(&self) -> #rt::Result<#prepared> {
+            #visibility fn prepare(&self) -> #rt::Result<#prepared #of> {
                 #conditions
                 #blocks
                 #damping
                 #lets
                 let coefficients = #rt::finite([#(#results),*])?;
-                ::core::result::Result::Ok(#prepared { coefficients })
+                ::core::result::Result::Ok(#prepared { coefficients #(#fields)* })
             }
         }
     }

@@ -126,11 +126,16 @@ pub fn hamiltonian(
     h: &Hamiltonian,
     full: &Polynomial,
     potential: Option<&Potential>,
+    forces: &Forces,
 ) -> Formula {
     let mut formula = kinetic_hamiltonian(arena, h, full);
     if let Some(u) = potential {
         formula.text += &format!(" + {}", plain(arena, u.energy));
         formula.latex += &format!(" + {}", latex(arena, u.energy));
+    }
+    for custom in forces.potentials() {
+        formula.text += &format!(" + {}", custom.text);
+        formula.latex += &format!(" + {}", custom.latex);
     }
     formula
 }

@@ -6,14 +6,15 @@
 
 mod invariance;
 
-use crate::algebra::ring::{Square, adjugate, product, sum, table, times, transpose};
-use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::algebra::ring::{Square, product, sum, table, times, transpose};
+use crate::algebra::{Arena, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::equations::Load;
 use super::hamiltonian::Hamiltonian;
 use super::hessian::Hessian;
 use super::kinetic::{Coefficient, Frame, Kinetic, Term};
+use super::shared::{Shared, atoms, frame_of};
 
 /// A dissipation function.
 #[derive(Clone, Debug)]
@@ -113,11 +114,7 @@ impl Dissipation {
         let n = self.dim;
         let phi = atoms(&chart.phi);
         let own = atoms(&Matrix::symbols(shared.arena, chart.momentum.velocity_name(), n));
-        let phi_dot = match frame_of(chart) {
-            Frame::Body => product(&phi, &own),
-            Frame::Space => product(&own, &phi),
-            Frame::Flat => own.clone(),
-        };
+        let phi_dot = shared.phi_dot(chart);
         let zero = table(n, |_, _| Polynomial::zero());
         let (mut force, mut push, mut power) = (zero.clone(), zero, Polynomial::zero());
         for part in &self.parts {
@@ -142,11 +139,7 @@ impl Dissipation {
             }
         }
         let push = shared.matrix("push", &push);
-        let rest = match frame_of(chart) {
-            Frame::Body => product(&push, &phi),
-            Frame::Space => product(&phi, &push),
-            Frame::Flat => push,
-        };
+        let rest = shared.on_own(chart, &push);
         (sum(&force, &rest), power)
     }
 
@@ -202,60 +195,6 @@ impl Dissipation {
     }
 }
 
-/// Quantities that forces share.
-struct Shared<'a> {
-    arena: &'a mut Arena,
-    list: Vec<(Expr, Polynomial)>,
-}
-
-impl Shared<'_> {
-    /// The value under a name; what needs no name has none.
-    fn named(&mut self, name: &str, value: &Polynomial) -> Polynomial {
-        let is_name =
-            value.terms().len() == 1 && value.terms().all(|(monomial, c)| monomial.len() == 1 && c.is_one());
-        if value.is_zero() || is_name {
-            return value.clone();
-        }
-        let symbol = self.arena.symbol(name);
-        if !self.list.iter().any(|(known, _)| *known == symbol) {
-            self.list.push((symbol, value.clone()));
-        }
-        Polynomial::atom(symbol)
-    }
-
-    fn vector(&mut self, stem: &str, values: &[Polynomial]) -> Vec<Polynomial> {
-        values.iter().enumerate().map(|(i, value)| self.named(&format!("{stem}_{}", i + 1), value)).collect()
-    }
-
-    fn matrix(&mut self, stem: &str, values: &Square<Polynomial>) -> Square<Polynomial> {
-        let mut result = values.clone();
-        for (i, j) in (0..values.len()).flat_map(|i| (0..values.len()).map(move |j| (i, j))) {
-            result[i][j] = self.named(&format!("{stem}_{}{}", i + 1, j + 1), &values[i][j]);
-        }
-        result
-    }
-
-    /// `phi^-1`, with the names that potentials have for the determinant and its reciprocal.
-    fn inverse(&mut self, phi: &Square<Polynomial>) -> Square<Polynomial> {
-        let cofactors = adjugate(phi);
-        let mut determinant = Polynomial::zero();
-        for (entry, row) in phi[0].iter().zip(&cofactors) {
-            determinant.add_product(entry, &row[0], &Rational::ONE);
-        }
-        self.named("det", &determinant);
-        let det = self.arena.symbol("det");
-        // A symbol is not the number zero.
-        let reciprocal = Polynomial::atom(self.arena.pow(det, -1).unwrap_or(det));
-        let inverse_det = self.arena.symbol("inverse_det");
-        if !self.list.iter().any(|(known, _)| *known == inverse_det) {
-            self.list.push((inverse_det, reciprocal));
-        }
-        let inverse_det = Polynomial::atom(inverse_det);
-        let inverse = table(phi.len(), |a, i| cofactors[a][i].mul(&inverse_det));
-        self.matrix("phi_inverse", &inverse)
-    }
-}
-
 /// Stem of the names of the force in a frame.
 fn drag_name(frame: Frame) -> &'static str {
     match frame {
@@ -263,17 +202,4 @@ fn drag_name(frame: Frame) -> &'static str {
         Frame::Space => "drag",
         Frame::Flat => "drag_flat",
     }
-}
-
-/// The frame whose affine momentum the chart has.
-fn frame_of(chart: &Chart) -> Frame {
-    match chart.momentum {
-        Momentum::Body => Frame::Body,
-        Momentum::Space | Momentum::Total => Frame::Space,
-        Momentum::Canonical => Frame::Flat,
-    }
-}
-
-fn atoms(symbols: &Matrix) -> Square<Polynomial> {
-    symbols.0.iter().map(|row| row.iter().map(|e| Polynomial::atom(*e)).collect()).collect()
 }

@@ -6,7 +6,7 @@ use syn::parse::Parser;
 use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
 use super::expression_parser::{self, Language};
 use super::names::{Capability, Claim, Named, Requirement, TermKind, nearest};
-use super::{Item, Potential, Spanned, Spec, Symmetry, Term, value};
+use super::{Custom, Item, Potential, Spanned, Spec, Symmetry, Term, custom, value};
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
 /// The keys of `affine_model(...)`.
@@ -17,13 +17,14 @@ enum Key {
     Kinetic,
     Potential,
     Dissipation,
+    Forces,
     Require,
     Emit,
     Crate,
 }
 
 /// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 5] = ["hamiltonian", "metrics", "group", "constraint", "forces"];
+const LATER_KEYS: [&str; 4] = ["hamiltonian", "metrics", "group", "constraint"];
 
 /// Kinetic terms that later versions read: they belong to the momentum side.
 const LATER_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
@@ -35,6 +36,7 @@ impl Named for Key {
         Self::Kinetic,
         Self::Potential,
         Self::Dissipation,
+        Self::Forces,
         Self::Require,
         Self::Emit,
         Self::Crate,
@@ -47,6 +49,7 @@ impl Named for Key {
             Self::Kinetic => "kinetic",
             Self::Potential => "potential",
             Self::Dissipation => "dissipation",
+            Self::Forces => "forces",
             Self::Require => "require",
             Self::Emit => "emit",
             Self::Crate => "crate",
@@ -62,6 +65,7 @@ impl Key {
             Self::Kinetic => "kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
             Self::Dissipation => "dissipation(body_inertia = 0.1, casimir2 = 0.1)",
+            Self::Forces => "forces = custom(wind, spatial)",
             Self::Require => "require(positive_definite)",
             Self::Emit => "emit(splitting)",
             Self::Crate => "crate = ::affine_runtime",
@@ -93,6 +97,7 @@ pub(super) struct Arguments {
     symmetry: Option<Symmetry>,
     kinetic: Spanned<Vec<Term>>,
     potential: Option<Potential>,
+    customs: Vec<Custom>,
     dissipation: Vec<Term>,
     require: Vec<Spanned<Requirement>>,
     emit: Vec<Spanned<Capability>>,
@@ -101,7 +106,7 @@ pub(super) struct Arguments {
 
 impl Arguments {
     pub(super) fn of(self, item: Item) -> Spec {
-        let Self { dim, symmetry, kinetic, potential, dissipation, require, emit, runtime } = self;
+        let Self { dim, symmetry, kinetic, potential, customs, dissipation, require, emit, runtime } = self;
         Spec {
             item,
             dim,
@@ -109,6 +114,7 @@ impl Arguments {
             kinetic: kinetic.value,
             kinetic_key: kinetic.span,
             potential,
+            customs,
             dissipation,
             require,
             emit,
@@ -123,14 +129,15 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     let (mut dim, mut symmetry, mut kinetic, mut runtime) = (None, None, None, None);
     let (mut require, mut emit) = (Vec::new(), Vec::new());
     let mut energy = None;
-    let mut dissipation = Vec::new();
+    let (mut dissipation, mut customs) = (Vec::new(), Vec::new());
     for entry in entries {
         let at = entry.at;
         match entry.key {
             Key::Dim => dim = Some(dimension(expect_value(entry, found), found)),
             Key::Symmetry => symmetry = sides(expect_list(entry, found), at, found),
             Key::Kinetic => kinetic = Some(terms("kinetic", expect_list(entry, found), at, found)),
-            Key::Potential => energy = potential(expect_value(entry, found), at, found),
+            Key::Potential => energy = potential(expect_value(entry, found), at, &mut customs, found),
+            Key::Forces => forces(expect_value(entry, found), &mut customs, found),
             Key::Dissipation => {
                 let terms = terms("dissipation", expect_list(entry, found), at, found);
                 dissipation = terms.map_or_else(|_| Vec::new(), |terms| terms.value);
@@ -147,6 +154,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
         symmetry,
         kinetic: kinetic?,
         potential: energy,
+        customs,
         dissipation,
         require,
         emit,
@@ -256,10 +264,25 @@ fn terms(
 }
 
 /// `potential = ...`.
-fn potential(piece: Result<Piece, Reported>, key: Span, found: &mut Diagnostics) -> Option<Potential> {
-    let Piece { tokens, at } = piece.ok()?;
+fn potential(
+    piece: Result<Piece, Reported>,
+    key: Span,
+    customs: &mut Vec<Custom>,
+    found: &mut Diagnostics,
+) -> Option<Potential> {
+    let (fields, rest) = custom::taken(piece.ok()?, custom::Place::Potential, found);
+    customs.extend(fields);
+    let Piece { tokens, at } = rest?;
     let energy = expression_parser::parse(tokens, at, Language::Potential(&[]), found).ok()?;
     Some(Potential { key: key.into(), energy, span: at })
+}
+
+/// `forces = ...`.
+fn forces(piece: Result<Piece, Reported>, customs: &mut Vec<Custom>, found: &mut Diagnostics) {
+    let Ok(piece) = piece else { return };
+    let (fields, rest) = custom::taken(piece, custom::Place::Forces, found);
+    customs.extend(fields);
+    custom::only(rest, custom::Place::Forces, found);
 }
 
 /// `require(...)` and `emit(...)`: names and nothing else.

@@ -10,7 +10,9 @@ use crate::mechanics::hamiltonian::{Hamiltonian, Isotropic, spatial_or_own};
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::symmetry::{Group, Side, broken_by};
 
-use super::{Dissipation, frame_of};
+use crate::mechanics::shared::frame_of;
+
+use super::Dissipation;
 
 impl Dissipation {
     /// Those of the candidates that the forces leave at rest, for all momenta; `chart` is that of the model's own
