@@ -176,6 +176,35 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         pub struct Damped { i: f64, a: f64, b: f64, c: f64 }",
     ),
     (
+        "custom_force_2",
+        "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 2), forces = custom(wind, spatial)",
+        "/// A body.
+        pub struct Custom<F: affine_runtime::force::Force<2, Form = affine_runtime::force::Spatial>> {
+            /// What blows.
+            pub wind: F,
+        }",
+    ),
+    (
+        "gyroscopic_force_2",
+        "dim = 2, kinetic(dalembert = 1, space_translation = 2), forces = custom(magnet, translation, gyroscopic)",
+        "/// A body.
+        pub struct Charged<F: affine_runtime::force::Force<2, Form = affine_runtime::force::Translation>> {
+            /// What turns.
+            pub magnet: F,
+        }",
+    ),
+    (
+        "custom_potential_3",
+        "dim = 3, kinetic(casimir2 = 0.2, body_inertia = i), potential = q^2 + custom(gravity, isotropic)",
+        "/// A body.
+        pub struct Heavy<U: affine_runtime::potential::Potential<3> + Clone> {
+            /// The inertia.
+            pub i: f64,
+            /// What attracts.
+            pub gravity: U,
+        }",
+    ),
+    (
         "generics_2",
         "dim = 2, kinetic(casimir2 = a, casimir1_squared = 0.1)",
         "/// A body with a label.

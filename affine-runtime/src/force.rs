@@ -142,7 +142,7 @@ impl<const N: usize> fmt::Display for HasPower<N> {
 impl<const N: usize> core::error::Error for HasPower<N> {}
 
 /// Holds a force that says it is gyroscopic against its power at the given motions; see
-/// [`samples`](crate::sampling::motions) for some.
+/// [`motions`](crate::sampling::motions) for some.
 ///
 /// # Errors
 /// [`HasPower`] at the first motion along which the power is more than rounding, 1e-12 of `|Q| |Omega|`.
@@ -156,7 +156,8 @@ pub fn check<const N: usize, F: Force<N>>(
     for motion in motions {
         let (power, scale) = F::Form::power(&force.force(&motion), &motion);
         // NaN is no zero.
-        if !(power.abs() <= 1e-12 * scale) {
+        let vanishes = power.abs() <= 1e-12 * scale;
+        if !vanishes {
             return Err(HasPower { motion, power, scale });
         }
     }

@@ -158,7 +158,8 @@ fn invariant<const N: usize, P: Potential<N>>(
     let [here, there] = energies;
     let size = here.abs().max(there.abs()).max(1.0);
     // NaN is no agreement.
-    if !((here - there).abs() <= ENERGY * size) {
+    let agree = (here - there).abs() <= ENERGY * size;
+    if !agree {
         return Err(Unsound::Class { place: *place, class: P::CLASS, energies });
     }
     Ok(())

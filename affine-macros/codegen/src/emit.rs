@@ -131,7 +131,8 @@ impl Context<'_> {
                 .calls
                 .iter()
                 .find(|call| matches!(call.callee, Callee::Custom(place, _) if place == k + 1))?;
-            let (name, field) = (format_ident!("custom_{}", k + 1), &custom.field);
+            let name = format_ident!("custom_{}", k + 1);
+            let field = if self.has_fields { &name } else { &custom.field };
             Some(quote!(let #name = &self.#field;))
         });
         Body { lets: coefficients.chain(fields).chain([lets]).collect(), results }

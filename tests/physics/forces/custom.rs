@@ -425,7 +425,7 @@ pushed! {
         (space_inertia = 1.5, casimir2 = 0.25, space_translation = 1.25)
         (forces = custom(field, translation)) Wind
         [Spin SpinNorm ComovingAffineSpin ComovingDeviator Vorticity VorticityNorm
-            Casimir1 Casimir2 DeviatorCasimir2 DeviatorCasimir3]
+            Casimir1 Casimir2 DeviatorCasimir2]
         |motion| blown(motion);
     magnet 2 moving [dalembert space_translation] (dalembert = 1.5, space_translation = 1.25)
         (forces = custom(field, translation, gyroscopic)) Magnet

@@ -23,8 +23,10 @@ pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
         return;
     }
     for custom in &spec.customs {
-        if custom.role.value == Role::Translation || (custom.marked && !custom.role.value.is_force()) {
-            let form = format!("custom({}, ..)", custom.field);
+        let form = format!("custom({}, ..)", custom.field);
+        if custom.role.value == Role::Translation {
+            found.report(custom.span, Diagnostic::FixedCentreForce { term: form, key: "forces" });
+        } else if custom.marked && !custom.role.value.is_force() {
             found.report(custom.span, Diagnostic::FixedCentre { form });
         }
     }

@@ -15,7 +15,8 @@ pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
         return;
     }
     for term in spec.dissipation.iter().filter(|term| term.kind.value.is_translation()) {
-        found.report(term.kind.span, Diagnostic::DampedCentre { term: term.kind.value.name() });
+        let term_name = term.kind.value.name().to_owned();
+        found.report(term.kind.span, Diagnostic::FixedCentreForce { term: term_name, key: "dissipation" });
     }
 }
 

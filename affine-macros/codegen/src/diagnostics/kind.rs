@@ -199,13 +199,6 @@ pub enum Diagnostic {
     },
 
     // ---- the potential ----
-    /// A form of potentials that this version does not have.
-    UnavailableForm {
-        /// The form: `pairs`, `q1`, ...
-        form: String,
-        /// What to write.
-        instead: &'static str,
-    },
     /// `f(...)` with a name that is no function.
     UnknownFunction {
         /// The name.
@@ -474,10 +467,12 @@ pub enum Diagnostic {
         /// The fields.
         fields: Vec<String>,
     },
-    /// A dissipation of the motion of a centre that stands still.
-    DampedCentre {
-        /// The translation term.
-        term: &'static str,
+    /// A force on a centre that stands still.
+    FixedCentreForce {
+        /// The translation term, or `custom(..)`.
+        term: String,
+        /// The key it stands in.
+        key: &'static str,
     },
     /// A dissipation function that is negative at some velocity.
     NegativeDissipation {
@@ -557,7 +552,6 @@ names! {
     Exponent => "exponent",
     Degree => "degree",
     DivisionByZero => "division-by-zero",
-    UnavailableForm => "unavailable-form",
     UnknownFunction => "unknown-function",
     ArgumentCount => "argument-count",
     Argument => "argument",
@@ -590,6 +584,6 @@ names! {
     AffineTranslation => "affine-translation",
     MalformedCustom => "malformed-custom",
     UnknownField => "unknown-field",
-    DampedCentre => "damped-centre",
+    FixedCentreForce => "fixed-centre-force",
     NegativeDissipation => "negative-dissipation",
 }

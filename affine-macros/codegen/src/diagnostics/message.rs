@@ -206,13 +206,6 @@ impl Diagnostic {
                 "a quotient by zero has no value; coefficients are exact, so that no rounding made this one vanish",
                 "write a divisor that is not zero",
             ),
-            Self::UnavailableForm { form, instead } => text(
-                format!("`{form}` in `potential` is not available in this version"),
-                format!(
-                    "`{form}` belongs to the specification language, but nothing can be derived from it yet"
-                ),
-                *instead,
-            ),
             Self::UnknownFunction { name, nearest, known } => text(
                 format!("there is no function `{name}`"),
                 format!("a potential can use {}", listed(known)),
@@ -415,8 +408,8 @@ impl Diagnostic {
                 format!("claim `metric` on one side, or remove `{term}`"),
             ),
             Self::MalformedCustom { key, found, takes, example } => text(
-                format!("`{key}` has {} where it should say what a field computes", quoted(found)),
-                format!("`custom(field, ..)` takes {takes}"),
+                format!("`{key}` has {found} where `custom(field, ..)` should say what a field computes"),
+                format!("it is a summand by itself, and takes {takes}"),
                 format!("write `{key} = {example}`"),
             ),
             Self::UnknownField { name, nearest, fields } => text(
@@ -428,9 +421,10 @@ impl Diagnostic {
                      `affine_runtime::potential::Potential`",
                 ),
             ),
-            Self::DampedCentre { term } => text(
-                format!("`{term}` in `dissipation(...)` slows a centre that stands still"),
-                "without a translational kinetic energy the centre is fixed in space, and x_dot = 0",
+            Self::FixedCentreForce { term, key } => text(
+                format!("`{term}` in `{key}` acts on a centre that stands still"),
+                "without a translational kinetic energy the centre is fixed in space: x_dot = 0, and p is not part of \
+                 the state",
                 format!(
                     "add `space_translation = m` or `body_translation = m` to `kinetic(...)`, or remove `{term}`"
                 ),
@@ -455,11 +449,6 @@ fn arguments(count: usize) -> String {
 fn is_machine_type(suffix: &str) -> bool {
     let size = suffix.strip_prefix(['f', 'i', 'u']);
     size.is_some_and(|size| matches!(size, "8" | "16" | "32" | "64" | "128" | "size"))
-}
-
-/// A word in quotes; a description as it is.
-fn quoted(found: &str) -> String {
-    if matches!(found, "no field" | "the field alone") { found.to_owned() } else { format!("`{found}`") }
 }
 
 /// `a = b`, or `a` alone where both are the same text.

@@ -23,8 +23,8 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
     if !context.spec.customs.is_empty() {
         let generics = &context.spec.item.generics;
         let (_, types, clause) = generics.split_for_impl();
-        let fields = called(context).map(|field| {
-            let (name, ty) = (&field.ident, &field.ty);
+        let fields = called(context).map(|(name, field)| {
+            let ty = &field.ty;
             quote!(#name: #ty,)
         });
         return quote! {
@@ -56,11 +56,12 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
     }
 }
 
-/// The fields that the equations call, each once.
-fn called<'a>(context: &'a Context) -> impl Iterator<Item = &'a Field> {
-    let customs = &context.spec.customs;
-    let fields = context.spec.item.fields.iter();
-    fields.filter(move |field| customs.iter().any(|custom| custom.field == field.ident))
+/// The fields that the equations call: the name in the prepared model, and the field.
+fn called<'a>(context: &'a Context) -> impl Iterator<Item = (Ident, &'a Field)> {
+    context.spec.customs.iter().enumerate().filter_map(|(k, custom)| {
+        let field = context.spec.item.fields.iter().find(|field| field.ident == custom.field)?;
+        Some((format_ident!("custom_{}", k + 1), field))
+    })
 }
 
 /// The method that makes it.
@@ -72,9 +73,9 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let visibility = &context.spec.item.visibility;
     let (generics, types, clause) = context.spec.item.generics.split_for_impl();
     let conditions = conditions(context, rt);
-    let clones = called(context).map(|field| {
-        let name = &field.ident;
-        quote!(, #name: ::core::clone::Clone::clone(&self.#name))
+    let clones = called(context).map(|(name, field)| {
+        let field = &field.ident;
+        quote!(, #name: ::core::clone::Clone::clone(&self.#field))
     });
     let marker = (!context.spec.customs.is_empty()).then(|| quote!(, model: ::core::marker::PhantomData));
     let fields: Vec<TokenStream> = clones.chain(marker).collect();

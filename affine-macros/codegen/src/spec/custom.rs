@@ -155,7 +155,7 @@ fn custom(list: Vec<Piece>, at: Region, place: Place, found: &mut Diagnostics) -
             [TokenTree::Ident(name)] => names.push((name.clone(), at)),
             other => {
                 let text = other.iter().cloned().collect::<proc_macro2::TokenStream>().to_string();
-                found.report(at, malformed(place, shortened(&text)));
+                found.report(at, malformed(place, format!("`{}`", shortened(&text))));
                 return None;
             }
         }
@@ -173,7 +173,7 @@ fn custom(list: Vec<Piece>, at: Region, place: Place, found: &mut Diagnostics) -
             Some(value) if role.is_none() => role = Some(Spanned { value, span: at }),
             None if text == place.mark() && !marked => marked = true,
             _ => {
-                found.report(at, malformed(place, text));
+                found.report(at, malformed(place, format!("`{text}`")));
                 return None;
             }
         }
@@ -189,8 +189,13 @@ fn custom(list: Vec<Piece>, at: Region, place: Place, found: &mut Diagnostics) -
 pub(super) fn only(rest: Option<Piece>, place: Place, found: &mut Diagnostics) {
     if let Some(Piece { tokens, at }) = rest {
         let text = tokens.into_iter().collect::<proc_macro2::TokenStream>().to_string();
-        found.report(at, malformed(place, shortened(&text)));
+        found.report(at, malformed(place, format!("`{}`", shortened(&text))));
     }
+}
+
+/// `2*custom(..)`.
+pub(super) fn within_an_expression() -> Diagnostic {
+    malformed(Place::Potential, "`custom(..)` within an expression".to_owned())
 }
 
 fn malformed(place: Place, found: String) -> Diagnostic {
