@@ -11,6 +11,8 @@ use proc_macro::TokenStream;
 /// | `dim` | `2`, `3` | dimension; `n` in expressions |
 /// | `kinetic(...)` | terms | the kinetic energy, a sum of the terms below |
 /// | `potential` | expression | the potential energy, below |
+/// | `dissipation(...)` | terms | Rayleigh's function `R`, a sum of the same terms, positive semidefinite |
+/// | `forces` | sum of `custom(..)` | forces that fields compute, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
 /// | `crate` | path | the runtime, where it has another name than `affine_runtime` |
@@ -44,6 +46,18 @@ use proc_macro::TokenStream;
 /// | `saint_venant_kirchhoff(lambda, mu)` | `lambda/2 (tr E)^2 + mu tr E^2`, `E = (G - 1)/2` |
 /// | `orthogonality(k)` | `k tr((G - 1)^2)` |
 /// | `gas(k)` | `k exp(-2q)` |
+///
+/// A summand `custom(field, class)` is computed by a field whose type implements `affine_runtime::potential::Potential`;
+/// the class is `isotropic`, `green` (a function of `G`), `finger` (of `Ct`) or `general`, with `position` after it where
+/// it depends on `x`. What stays conserved follows from the class, which is compared with the one that the type declares.
+///
+/// `dissipation(...)` adds the forces `Q_hat = -(dR/dOh)^T`, `Q = -(dR/dOm)^T`, `N = -(dR/dphi_dot)^T`, `Q_tr = -dR/dx_dot`,
+/// each in the frame of its term, whatever the frame of `T`; `dH/dt = -2 R`. `R >= 0` is proved, or checked by `prepare()`,
+/// frame by frame; the Casimir terms count with those of the body, or else with those of space.
+///
+/// `forces = custom(field, form) + ..` calls fields whose types implement `affine_runtime::force::Force`; the form is
+/// `spatial` (`Q`), `comoving` (`Q_hat`) or `translation` (`Q_tr`), with `gyroscopic` after it where the force has no power:
+/// the energy then stays conserved.
 ///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
 /// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`.

@@ -3,3 +3,4 @@
 
 mod custom;
 mod dissipation;
+mod prepare;
