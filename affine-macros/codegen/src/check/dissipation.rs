@@ -45,6 +45,9 @@ pub(super) fn semidefinite(spec: &Spec, dissipation: &Dissipation, found: &mut D
             };
             reported.push(kind);
             found.report(first.kind.span, Diagnostic::NegativeDissipation { defect });
+            if !written.only_isotropic() {
+                break;
+            }
         }
     }
 }
