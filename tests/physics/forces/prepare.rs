@@ -64,7 +64,7 @@ fn eigenvalues_may_vanish_but_not_be_negative() {
     ] {
         let defect = defect(model.prepare());
         assert_eq!((defect.condition, defect.value), (condition, value));
-        assert!(defect.threshold <= 0.0 && defect.threshold >= -4.0 * EPS, "{:e}", defect.threshold);
+        assert!(defect.threshold <= 0.0 && defect.threshold >= -8.0 * EPS, "{:e}", defect.threshold);
         assert!(defect.to_string().contains("feed energy in"), "{defect}");
     }
     for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -78,9 +78,14 @@ fn blocks_are_judged_by_their_eigenvalues() {
     let fine = Blocks { j: 1.0, k: 0.5, l: 1.0, m: 1.0 };
     assert!(fine.prepare().is_ok());
     assert!(Blocks { k: 1.0, ..fine }.prepare().is_ok(), "semidefinite");
-    for model in [Blocks { k: 1.5, ..fine }, Blocks { j: -1.0, ..fine }, Blocks { m: 0.5, ..fine }] {
+    for (model, condition) in [
+        (Blocks { k: 1.5, ..fine }, "R >= 0 on every velocity"),
+        (Blocks { j: -1.0, ..fine }, "R >= 0 on every velocity"),
+        // The flat form has the eigenvalues m + 1 and m - 1.
+        (Blocks { m: 0.5, ..fine }, "an eigenvalue of R >= 0"),
+    ] {
         let defect = defect(model.prepare());
-        assert_eq!(defect.condition, "R >= 0 on every velocity");
+        assert_eq!(defect.condition, condition);
         assert!(defect.value < -0.4, "{defect}");
     }
 }
