@@ -91,6 +91,24 @@ fn potentials() {
     assert_eq!(counted, [(62, 30), (62, 30)]);
 }
 
+/// Single stretches cost twelve rotations of columns, whichever chart; what is symmetric in even powers costs none.
+#[test]
+fn stretches() {
+    #[affine_model(dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), potential = q1^2 + q2^2 + q3^2)]
+    struct Hencky;
+    #[affine_model(dim = 2, kinetic(dalembert = 1), potential = pairs(d^2))]
+    struct Plane;
+    #[affine_model(dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), potential = Q1^2 + Q2^2 + Q3^2)]
+    struct Traced;
+    let [Operations { div, sqrt, ln, .. }, traced] =
+        [Hencky::DESCRIPTION.reduced_operations, Traced::DESCRIPTION.reduced_operations];
+    assert_eq!((div, sqrt, ln), (25, 28, 3));
+    assert_eq!((traced.div, traced.sqrt, traced.ln), (0, 0, 0));
+    assert_eq!(counts::<3, Hencky>(&Hencky, &sample::<3, Hencky>(&Hencky)), [(603, 375), (582, 345)]);
+    assert_eq!(counts::<2, Plane>(&Plane, &sample::<2, Plane>(&Plane)), [(96, 47), (96, 47)]);
+    assert_eq!(counts::<3, Traced>(&Traced, &sample::<3, Traced>(&Traced)), [(81, 60), (60, 30)]);
+}
+
 // (multiplications, additions); 0.2, 0.1, 1 are the coefficients of problem P1.
 pinned! {
     Left2 2 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1) = full (19, 11), reduced (8, 4);

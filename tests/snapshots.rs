@@ -117,6 +117,9 @@ families! {
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
     flat_tensor_drift_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2, \
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
+    hencky_3: "dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), potential = q1^2 + q2^2 + q3^2";
+    biot_driven_2: "dim = 2, kinetic(casimir2 = 0.2, space_inertia = 1), potential = cos(t)*(Q1 + Q2)";
+    wells_dalembert_2: "dim = 2, kinetic(dalembert = 1), potential = pairs(cos(d))";
     damped_bulk_missile_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, \
         body_translation = 1), potential = hyperbolic_dilatation(10) + neo_hookean(0.5), \
         dissipation(casimir1_squared = 0.3)";

@@ -34,8 +34,16 @@ use proc_macro::TokenStream;
 ///
 /// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
 /// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)`, their entries `G[1,2]`, with
-/// translation `x[1]` and `norm(x)`, and the functions `exp ln sqrt sin cos tan sinh cosh tanh`. It is
-/// differentiated symbolically. Named ones are written `name(coefficient, ..)`:
+/// translation `x[1]` and `norm(x)`, the time `t`, and the functions `exp ln sqrt abs sin cos tan sinh cosh tanh`. It is
+/// differentiated symbolically.
+///
+/// The log-stretches `q1..qn`, the stretches `Q1..Qn = exp(q1)..exp(qn)` (singular values of `phi`), and
+/// `pairs(f(d))`, the sum of an even `f(q_a - q_b)` over `a < b`, make isotropic potentials. Exchanging two stretches must
+/// change nothing, and no root, logarithm or quotient may vanish where two coincide; what is a function of `q`, `tr(G)` and
+/// `tr(G*G)` is written through these. `abs` is for what keeps its sign, for fields, and inside even functions such as
+/// `abs(q)^2`. With `t` the energy is not conserved.
+///
+/// Named potentials are written `name(coefficient, ..)`:
 ///
 /// | name | formula |
 /// |---|---|

@@ -14,6 +14,7 @@ mod tolerances;
 mod benchmarks;
 mod canonical;
 mod conserved;
+mod driven;
 mod drunk_missile;
 mod forces;
 mod geodesics;

@@ -1,7 +1,7 @@
 //! Potentials in single stretches and in time against the oracle: n = 2 and 3, every chart, coefficients that are literals
 //! and fields, generic placements and coincident stretches.
 
-use affine_oracle::{Differential, Kinetic, Matrix as Exact, Place, Random, State, Term, rational};
+use affine_oracle::{Differential, Kinetic, Matrix as Exact, Place, Random, State, rational};
 use affine_runtime::prelude::*;
 
 use crate::canonical::{T0, groups};

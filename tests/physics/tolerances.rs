@@ -45,3 +45,10 @@ pub(crate) const VIBRATION: f64 = 1e-11;
 
 /// The same per radian of the fastest vibration: ten units of rounding of its phase.
 pub(crate) const VIBRATION_PER_RADIAN: f64 = 10.0 * f64::EPSILON;
+
+/// A driven motion whose solution is known, absolute in numbers of order 1: a hundred steps of 1e-13 at most.
+pub(crate) const DRIVEN: f64 = 1e-11;
+
+/// How far a measured order may be from the order of the method, between steps that are not small beside the time in
+/// which the driving force turns.
+pub(crate) const ORDER: f64 = 0.3;

@@ -149,14 +149,15 @@ fn names_of_a_potential_mean_what_the_table_says() {
             Some(Symbol::Determinant) => 'd',
             Some(Symbol::Time) => 't',
             Some(Symbol::Invariant(index)) => char::from_digit(u32::try_from(index).unwrap(), 10).unwrap(),
-            Some(Symbol::Stretch) => 's',
+            Some(Symbol::Stretch(_)) => 's',
+            Some(Symbol::Difference) => 'e',
             Some(Symbol::Matrix(_)) => 'M',
             Some(Symbol::Centre) => 'x',
             Some(Symbol::Field(_)) => 'f',
         }
     };
     let names = "n q D det t x G Ct phi I1 I2 I3 q1 Q3 d kappa law I q12 i1 Phi";
-    assert_eq!(names.split(' ').map(letter).collect::<String>(), "nqDdtxMMM123sssff????");
+    assert_eq!(names.split(' ').map(letter).collect::<String>(), "nqDdtxMMM123sseff????");
     // Every symbol that a field must not hide has a meaning of its own.
     for (name, _) in SYMBOLS.iter().chain(&POTENTIAL_SYMBOLS) {
         assert!(!matches!(letter(name), '?' | 'f'), "{name}");

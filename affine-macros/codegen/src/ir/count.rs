@@ -1,7 +1,10 @@
-//! Operation counts.
+//! Operation counts, those of the runtime functions that are called among them.
 
 use super::{Op, Program};
 use crate::algebra::Function;
+use crate::algebra::kernel::{Callee, Group};
+
+use super::call::Call;
 
 /// Numbers of operations; a multiply-add counts as both, a change of sign as none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,6 +24,19 @@ pub struct Operations {
 }
 
 impl Operations {
+    /// Both.
+    #[must_use]
+    fn with(self, other: Self) -> Self {
+        Self {
+            mul: self.mul + other.mul,
+            add: self.add + other.add,
+            div: self.div + other.div,
+            sqrt: self.sqrt + other.sqrt,
+            exp: self.exp + other.exp,
+            ln: self.ln + other.ln,
+        }
+    }
+
     /// Additions and multiplications, with a division as heavy as eight of them and a function as twenty.
     #[must_use]
     pub fn weight(self) -> usize {
@@ -48,6 +64,32 @@ impl Program {
                 }
             }
         }
+        for call in &self.calls {
+            count = count.with(kernel_operations(call));
+        }
         count
+    }
+}
+
+/// What a runtime function executes.
+fn kernel_operations(call: &Call) -> Operations {
+    let n = match call.arguments.as_slice() {
+        [Group::Matrix(rows)] => rows.len(),
+        _ => 0,
+    };
+    match call.callee {
+        // What a field of the model computes is not known here.
+        Callee::Custom(..) => Operations::default(),
+        // One-sided Jacobi: scaling, so many rotations of two columns of two matrices, lengths.
+        Callee::Stretches => {
+            let rotations = if n == 2 { 2 } else { 12 };
+            Operations {
+                mul: 3 * n * n + n * (n + 1) + rotations * (11 * n + 6),
+                add: n * n + n * (n - 1) + rotations * (7 * n + 4),
+                div: 1 + 2 * rotations,
+                sqrt: 1 + 2 * rotations + n,
+                ..Operations::default()
+            }
+        }
     }
 }
