@@ -217,13 +217,6 @@ pub enum Diagnostic {
     },
 
     // ---- the potential ----
-    /// A form of potentials that this version does not have.
-    UnavailableForm {
-        /// The form: `pairs`, `q1`, ...
-        form: String,
-        /// What to write.
-        instead: &'static str,
-    },
     /// `f(...)` with a name that is no function.
     UnknownFunction {
         /// The name.
@@ -570,6 +563,40 @@ pub enum Diagnostic {
         /// The translation term.
         term: &'static str,
     },
+
+    // ---- the forces ----
+    /// `custom(...)` that does not say what the field computes, or something else in its place.
+    MalformedCustom {
+        /// `potential` or `forces`.
+        key: &'static str,
+        /// What stands there.
+        found: String,
+        /// What it takes besides the field.
+        takes: &'static str,
+        /// How it may look.
+        example: &'static str,
+    },
+    /// `custom(...)` of something that is no field.
+    UnknownField {
+        /// The name.
+        name: String,
+        /// The field probably meant.
+        nearest: Option<String>,
+        /// The fields.
+        fields: Vec<String>,
+    },
+    /// A force on a centre that stands still.
+    FixedCentreForce {
+        /// The translation term, or `custom(..)`.
+        term: String,
+        /// The key it stands in.
+        key: &'static str,
+    },
+    /// A dissipation function that is negative at some velocity.
+    NegativeDissipation {
+        /// What shows it, in the user's numbers: `I - A = 0.1 - 0.2 = -1/10 on skew velocities (rotation)`.
+        defect: String,
+    },
 }
 
 /// The invariant parts of an affine velocity `O` under rotations.
@@ -646,7 +673,6 @@ names! {
     Exponent => "exponent",
     Degree => "degree",
     DivisionByZero => "division-by-zero",
-    UnavailableForm => "unavailable-form",
     UnknownFunction => "unknown-function",
     ArgumentCount => "argument-count",
     Argument => "argument",
@@ -691,4 +717,8 @@ names! {
     NotPositiveDefinite => "not-positive-definite",
     ClaimBroken => "claim-broken",
     AffineTranslation => "affine-translation",
+    MalformedCustom => "malformed-custom",
+    UnknownField => "unknown-field",
+    FixedCentreForce => "fixed-centre-force",
+    NegativeDissipation => "negative-dissipation",
 }

@@ -230,13 +230,6 @@ impl Diagnostic {
                 "a quotient by zero has no value; coefficients are exact, so that no rounding made this one vanish",
                 "write a divisor that is not zero",
             ),
-            Self::UnavailableForm { form, instead } => text(
-                format!("`{form}` in `potential` is not available in this version"),
-                format!(
-                    "`{form}` belongs to the specification language, but nothing can be derived from it yet"
-                ),
-                *instead,
-            ),
             Self::UnknownFunction { name, nearest, known } => text(
                 format!("there is no function `{name}`"),
                 format!("a potential can use {}", listed(known)),
@@ -544,6 +537,35 @@ impl Diagnostic {
                 "every form on the affine group that is invariant on both sides is degenerate (section 4, \
                  after (4.5)): a translational energy needs a metric on one side",
                 format!("claim `metric` on one side, or remove `{term}`"),
+            ),
+            Self::MalformedCustom { key, found, takes, example } => text(
+                format!("`{key}` has {found} where `custom(field, ..)` should say what a field computes"),
+                format!("it is a summand by itself, and takes {takes}"),
+                format!("write `{key} = {example}`"),
+            ),
+            Self::UnknownField { name, nearest, fields } => text(
+                format!("there is no field `{name}`"),
+                format!("`custom(field, ..)` calls a field of the struct, which has {}", listed(fields)),
+                suggestion(
+                    nearest.as_deref(),
+                    "add the field, of a type that implements `affine_runtime::force::Force` or \
+                     `affine_runtime::potential::Potential`",
+                ),
+            ),
+            Self::FixedCentreForce { term, key } => text(
+                format!("`{term}` in `{key}` acts on a centre that stands still"),
+                "without a translational kinetic energy the centre is fixed in space: x_dot = 0, and p is not part of \
+                 the state",
+                format!(
+                    "add `space_translation = m` or `body_translation = m` to `kinetic(...)`, or remove `{term}`"
+                ),
+            ),
+            Self::NegativeDissipation { defect } => text(
+                format!("the dissipation is negative: {defect}"),
+                "the forces of R have the power -2 R; where R < 0 they would feed energy in. The terms of each frame \
+                 count together; casimir terms count with those of the body, or else with those of space",
+                "change a coefficient so that R >= 0 at every velocity; an isotropic R has it iff I >= |A| and \
+                 I + A + n B >= 0, where I is the inertia, A is `casimir2`, B is `casimir1_squared`",
             ),
         }
     }

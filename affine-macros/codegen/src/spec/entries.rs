@@ -33,7 +33,7 @@ pub(super) fn extent(tokens: &TokenStream) -> Option<Region> {
     region(&tokens.clone().into_iter().collect::<Vec<_>>())
 }
 
-fn region(tokens: &[TokenTree]) -> Option<Region> {
+pub(super) fn region(tokens: &[TokenTree]) -> Option<Region> {
     Some(Region { start: tokens.first()?.span(), end: tokens.last()?.span() })
 }
 

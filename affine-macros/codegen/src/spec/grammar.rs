@@ -7,7 +7,7 @@ use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, u
 use super::expression_parser::{self, Language};
 use super::momentum_side::{self, MomentumKind};
 use super::names::{Capability, Claim, Constraint, Named, Requirement, TermKind, nearest};
-use super::{Item, Metric, Potential, Spanned, Spec, Symmetry, Term, value};
+use super::{Custom, Item, Metric, Potential, Spanned, Spec, Symmetry, Term, custom, value};
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
 /// The keys of `affine_model(...)`.
@@ -20,13 +20,15 @@ enum Key {
     Metrics,
     Constraint,
     Potential,
+    Dissipation,
+    Forces,
     Require,
     Emit,
     Crate,
 }
 
 /// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 3] = ["group", "dissipation", "forces"];
+const LATER_KEYS: [&str; 1] = ["group"];
 
 /// Terms that `hamiltonian(...)` has and `kinetic(...)` has not.
 const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
@@ -44,6 +46,8 @@ impl Named for Key {
         Self::Metrics,
         Self::Constraint,
         Self::Potential,
+        Self::Dissipation,
+        Self::Forces,
         Self::Require,
         Self::Emit,
         Self::Crate,
@@ -58,6 +62,8 @@ impl Named for Key {
             Self::Metrics => "metrics",
             Self::Constraint => "constraint",
             Self::Potential => "potential",
+            Self::Dissipation => "dissipation",
+            Self::Forces => "forces",
             Self::Require => "require",
             Self::Emit => "emit",
             Self::Crate => "crate",
@@ -77,6 +83,8 @@ impl Key {
             Self::Metrics => "metrics(space = diag(1, 1, 2), body = [[2, 1, 0], [1, 2, 0], [0, 0, 1]])",
             Self::Constraint => "constraint = isochoric",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
+            Self::Dissipation => "dissipation(body_inertia = 0.1, casimir2 = 0.1)",
+            Self::Forces => "forces = custom(wind, spatial)",
             Self::Require => "require(positive_definite)",
             Self::Emit => "emit(taylor)",
             Self::Crate => "crate = ::affine_runtime",
@@ -110,6 +118,8 @@ pub(super) struct Arguments {
     metrics: [Option<Metric>; 2],
     constraint: Option<Spanned<Constraint>>,
     potential: Option<Potential>,
+    customs: Vec<Custom>,
+    dissipation: Vec<Term>,
     require: Vec<Spanned<Requirement>>,
     emit: Vec<Spanned<Capability>>,
     runtime: Option<syn::Path>,
@@ -123,7 +133,19 @@ enum Energy {
 
 impl Arguments {
     pub(super) fn of(self, item: Item) -> Spec {
-        let Self { dim, symmetry, energy, metrics, constraint, potential, require, emit, runtime } = self;
+        let Self {
+            dim,
+            symmetry,
+            energy,
+            metrics,
+            constraint,
+            potential,
+            customs,
+            dissipation,
+            require,
+            emit,
+            runtime,
+        } = self;
         let (kinetic, hamiltonian, kinetic_key) = match energy {
             Energy::Kinetic(terms) => (terms.value, None, terms.span),
             Energy::Hamiltonian(terms) => (Vec::new(), Some(terms.value), terms.span),
@@ -138,6 +160,8 @@ impl Arguments {
             metrics,
             constraint,
             potential,
+            customs,
+            dissipation,
             require,
             emit,
             runtime,
@@ -153,6 +177,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     let mut metric = [None, None];
     let (mut require, mut emit) = (Vec::new(), Vec::new());
     let (mut constraint, mut energy) = (None, None);
+    let (mut dissipation, mut customs) = (Vec::new(), Vec::new());
     for entry in entries {
         let at = entry.at;
         match entry.key {
@@ -169,7 +194,12 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
                 let piece = expect_value(entry, found).ok();
                 constraint = piece.and_then(|Piece { tokens, at }| member("constraint", tokens, at, found));
             }
-            Key::Potential => energy = potential(expect_value(entry, found), at, found),
+            Key::Potential => energy = potential(expect_value(entry, found), at, &mut customs, found),
+            Key::Forces => forces(expect_value(entry, found), &mut customs, found),
+            Key::Dissipation => {
+                let terms = terms(DISSIPATION, expect_list(entry, found), at, found);
+                dissipation = terms.map_or_else(|_| Vec::new(), |terms| terms.value);
+            }
             Key::Require => require = members("requirement", expect_list(entry, found), found),
             Key::Emit => emit = members("capability", expect_list(entry, found), found),
             Key::Crate => runtime = path(expect_value(entry, found), found),
@@ -189,6 +219,8 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
         metrics: metric,
         constraint,
         potential: energy,
+        customs,
+        dissipation,
         require,
         emit,
         runtime,
@@ -276,8 +308,9 @@ const KINETIC: TermList<TermKind> =
     TermList { name: "kinetic", elsewhere: &MOMENTUM_TERMS, example: value::example };
 const HAMILTONIAN: TermList<MomentumKind> =
     TermList { name: "hamiltonian", elsewhere: &VELOCITY_TERMS, example: momentum_side::example };
+const DISSIPATION: TermList<TermKind> = TermList { name: "dissipation", ..KINETIC };
 
-/// `kinetic(...)` and `hamiltonian(...)`.
+/// `kinetic(...)`, `hamiltonian(...)` and `dissipation(...)`.
 fn terms<K: Named + PartialEq>(
     side: TermList<K>,
     list: Result<Group, Reported>,
@@ -331,10 +364,25 @@ fn metrics(list: Result<Group, Reported>, found: &mut Diagnostics) -> [Option<Me
 }
 
 /// `potential = ...`.
-fn potential(piece: Result<Piece, Reported>, key: Span, found: &mut Diagnostics) -> Option<Potential> {
-    let Piece { tokens, at } = piece.ok()?;
+fn potential(
+    piece: Result<Piece, Reported>,
+    key: Span,
+    customs: &mut Vec<Custom>,
+    found: &mut Diagnostics,
+) -> Option<Potential> {
+    let (fields, rest) = custom::taken(piece.ok()?, custom::Place::Potential, found);
+    customs.extend(fields);
+    let Piece { tokens, at } = rest?;
     let energy = expression_parser::parse(tokens, at, Language::Potential(&[]), found).ok()?;
     Some(Potential { key: key.into(), energy, span: at })
+}
+
+/// `forces = ...`.
+fn forces(piece: Result<Piece, Reported>, customs: &mut Vec<Custom>, found: &mut Diagnostics) {
+    let Ok(piece) = piece else { return };
+    let (fields, rest) = custom::taken(piece, custom::Place::Forces, found);
+    customs.extend(fields);
+    custom::only(rest, custom::Place::Forces, found);
 }
 
 /// `require(...)` and `emit(...)`: names and nothing else.
