@@ -277,6 +277,30 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "/// A body.
         pub struct Renamed;",
     ),
+    (
+        "two_polar_3",
+        "dim = 3, kinetic(casimir2 = 1.2, casimir1_squared = 0.1), emit(two_polar)",
+        "/// A lattice of three stretches.
+        pub struct Lattice;",
+    ),
+    (
+        "two_polar_fields_2",
+        "dim = 2, kinetic(casimir2 = a, body_inertia = i), potential = neo_hookean(c), emit(two_polar)",
+        "/// A lattice of two stretches.
+        pub struct Lattice { a: f64, i: f64, c: f64 }",
+    ),
+    (
+        "unitary_fields_3",
+        "dim = 3, kinetic(casimir2 = a, casimir1_squared = 0.3), group = unitary",
+        "/// A lattice of three angles.
+        pub struct Lattice { a: f64 }",
+    ),
+    (
+        "two_polar_dalembert_2",
+        "dim = 2, kinetic(dalembert = 1.5), potential = hyperbolic_dilatation(2), emit(two_polar)",
+        "/// A lattice of two stretches.
+        pub struct Lattice;",
+    ),
 ];
 
 #[test]

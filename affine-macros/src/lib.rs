@@ -10,6 +10,7 @@ use proc_macro::TokenStream;
 /// |---|---|---|
 /// | `dim` | `2`, `3` | dimension; `n` in expressions |
 /// | `kinetic(...)` | terms | the kinetic energy, a sum of the terms below |
+/// | `group` | `unitary` | placements in U(n) instead of GL(n, R): `-A/2 tr Om^2 - B/2 (tr Om)^2`, emitted as its lattice on the circle |
 /// | `hamiltonian(...)` | terms | instead of `kinetic(...)`: the same, stated through momenta, below |
 /// | `metrics(space = g, body = eta)` | matrices of numbers | constant metrics other than the identity, below |
 /// | `constraint` | `isochoric`, `rigid`, `conformal` | motion confined to SL(n), SO(n), R+ SO(n), below; without it GL+(n) |
@@ -18,7 +19,7 @@ use proc_macro::TokenStream;
 /// | `forces` | sum of `custom(..)` | forces that fields compute, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
-/// | `emit(...)` | `metric`, `acceleration` | methods beyond the default, below |
+/// | `emit(...)` | `taylor`, `two_polar`, `metric`, `acceleration` | what is emitted beyond the default, below; `two_polar` is the lattice form `(q, p, M, N)` of doubly isotropic models |
 /// | `crate` | path | the runtime, where it has another name than `affine_runtime` |
 ///
 /// | term | energy |

@@ -31,6 +31,7 @@ pub mod frames;
 pub mod geodesic;
 pub mod integrate;
 pub mod kinematics;
+pub mod lattice;
 pub mod metrics;
 pub mod model;
 pub mod potential;

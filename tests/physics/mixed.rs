@@ -55,7 +55,7 @@ fn agrees_with_the_oracle<const N: usize, M: Sum<N>>() {
         reference.assert_rate("phi", &entries(&velocity.phi_dot), MIXED);
 
         let energy = reference.expected.hamiltonian;
-        assert_close("H", &[model.hamiltonian(&point)], &[energy], reference.energy_size(), tolerance);
+        assert_close("H", &[model.hamiltonian(0.0, &point)], &[energy], reference.energy_size(), tolerance);
         let kinetic_energy = Reference::new(&kinetic, &state).expected.hamiltonian;
         let found = model.kinetic_energy(point.phi(), &velocity);
         assert_close("T", &[found], &[kinetic_energy], reference.energy_size(), tolerance);

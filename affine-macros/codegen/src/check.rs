@@ -22,6 +22,8 @@ mod shapes;
 mod smooth;
 mod symbols;
 mod tensors;
+mod two_polar;
+mod unitary;
 
 use crate::diagnostics::{Diagnostics, Reported};
 use crate::spec::Spec;
@@ -38,6 +40,7 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     symbols::hidden(spec, found);
     symbols::resolved(spec, found);
     capabilities::available(spec, found);
+    unitary::casimirs_alone(spec, found);
     constraint::stands_alone(spec, found);
     capabilities::centre(spec, found);
     potential::differences(spec, found);

@@ -1,5 +1,6 @@
 //! The derivation of one model: from its quadratic form to straight-line programs, ready to be written down.
 
+mod lattice;
 mod mixed;
 mod prepared;
 mod programs;
@@ -26,6 +27,7 @@ use crate::mechanics::symmetry::Group;
 use crate::optimise::{Batch, straight_line};
 use crate::spec::{Capability, Spanned};
 
+pub use lattice::TwoPolar;
 use prepared::{coefficient_program, conditions, damping, numeric_blocks};
 use programs::{best_reduction, full_chart, full_equations, power_batch};
 
@@ -98,6 +100,8 @@ pub struct Model {
     pub metrics: Option<Metrics>,
     /// `T`, `H`, and the equations.
     pub formulas: Formulas,
+    /// The two-polar form, where it is asked for.
+    pub two_polar: Option<TwoPolar>,
     /// Taylor coefficients of the reduced equations, if asked for.
     pub taylor: Option<Recurrence>,
 }
@@ -221,7 +225,19 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
     };
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form.hessian);
-    let Form { mut arena, kinetic, stated, hessian, potential, forces, metrics, quantities, .. } = form;
+    let Form {
+        mut arena,
+        kinetic,
+        stated,
+        hessian,
+        potential,
+        forces,
+        metrics,
+        two_polar,
+        unitary,
+        quantities,
+        ..
+    } = form;
     let potential = potential.as_ref();
     let arena = &mut arena;
     let cubic = stated.as_ref().filter(|stated| stated.is_cubic());
@@ -338,6 +354,11 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         inline(arena, Batch { results, ..Batch::default() }, Vec::new())
     });
     let dilatation = reduction.separation.as_ref().map(|s| inline(arena, s.batch(), Vec::new()));
+    if unitary {
+        // Nothing but the lattice is emitted: no other coefficient is computed.
+        coefficients = Constants::new("c");
+    }
+    let two_polar = two_polar.then(|| lattice::two_polar(arena, &h, potential, unitary, &mut coefficients));
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
     let metric = match quantities.metric {
         true => Some(quantities::metric(arena, std::slice::from_ref(&kinetic), Some(&h), &mut coefficients)?),
@@ -385,6 +406,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         groups,
         metrics,
         formulas,
+        two_polar,
         taylor: None,
     })
 }

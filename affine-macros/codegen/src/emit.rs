@@ -15,6 +15,7 @@ mod quantities;
 mod reduction;
 mod separated;
 mod taylor;
+mod two_polar;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -38,9 +39,22 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let rt = &names.rt;
     let prepared_type = prepare::prepared_type(&context);
     let prepare = prepare::method(&context);
+    if spec.group.is_some() {
+        let lattice = two_polar::lattice_of_circle(&context);
+        return quote! {
+            #item
+            #prepared_type
+            const _: () = {
+                use #runtime::__private as #rt;
+                #prepare
+                #lattice
+            };
+        };
+    }
     let constants = reduction::constants_type(&context);
     let implementation = model_impl(&context);
     let points = points::inherent(&context);
+    let two_polar = two_polar::implementations(&context);
     let (bases, _) = metrics::bases(&context);
     let taylor = taylor::taylor_impl(&context);
     quote! {
@@ -53,6 +67,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #constants
             #implementation
             #points
+            #two_polar
             #taylor
         };
     }

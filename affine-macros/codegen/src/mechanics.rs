@@ -25,3 +25,4 @@ pub mod reduce;
 pub mod separation;
 mod shared;
 pub mod symmetry;
+pub mod two_polar;

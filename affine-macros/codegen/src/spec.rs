@@ -22,7 +22,7 @@ pub use expression::{Expression, ExpressionKind, MatrixName, Operator};
 pub use item::{Field, Item};
 pub use momentum_side::MomentumKind;
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
-pub use names::{Capability, Claim, Constraint, Named, Requirement, TermKind, nearest};
+pub use names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
 pub(crate) use symbol::numbered;
 pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
 
@@ -59,6 +59,8 @@ pub struct Spec {
     pub customs: Vec<Custom>,
     /// The terms of `dissipation(...)`, in the user's order, each kind at most once.
     pub dissipation: Vec<Term>,
+    /// `group = ...`; GL(n, R) without it.
+    pub group: Option<Spanned<PlacementGroup>>,
     /// `require(...)`.
     pub require: Vec<Spanned<Requirement>>,
     /// `emit(...)`.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{dissipation, momentum_side};
+use super::{dissipation, momentum_side, two_polar};
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, Directions, Reported};
 use crate::lower;
@@ -34,6 +34,10 @@ pub struct Form {
     pub potential: Option<Potential>,
     /// The forces that no potential has, and the potentials that fields compute.
     pub forces: Forces,
+    /// Is the two-polar form asked for?
+    pub two_polar: bool,
+    /// Are the placements those of U(n)?
+    pub unitary: bool,
     /// Metrics other than the identity; everything else stands in bases in which they are.
     pub metrics: Option<Metrics>,
     /// What else is emitted.
@@ -88,6 +92,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     found.verdict()?;
     let space_group = largest_group(&free, Side::Space);
     let body_group = largest_group(&free, Side::Body);
+    let unitary = spec.group.is_some();
+    let two_polar = unitary || two_polar::asked(spec, &free, &places, potential.as_ref(), found)?;
     Ok(Form {
         arena,
         kinetic,
@@ -99,6 +105,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         forces,
         metrics: lower::metrics(spec),
         quantities: Quantities::of(spec),
+        two_polar,
+        unitary,
     })
 }
 
@@ -129,6 +137,7 @@ fn momentum_form(
     let potential = potential(&mut arena, spec, None, found);
     super::capabilities::series(spec, potential.as_ref(), found);
     found.verdict()?;
+    let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
     Ok(Form {
         arena,
         kinetic,
@@ -140,6 +149,8 @@ fn momentum_form(
         forces,
         metrics: lower::metrics(spec),
         quantities: Quantities::of(spec),
+        two_polar,
+        unitary: false,
     })
 }
 

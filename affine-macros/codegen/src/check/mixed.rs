@@ -8,7 +8,7 @@ use crate::mechanics::kinetic::{Frame, Kinetic, Term};
 use crate::mechanics::mixed::{Internal, Masses, Mixed};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Group, Side};
-use crate::spec::{Named, Requirement, Spec};
+use crate::spec::{Capability, Named, Requirement, Spec};
 
 use super::form::{self, Quantities};
 
@@ -51,6 +51,13 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
         .filter(|(_, stated)| *stated)
     {
         found.report(spec.kinetic_key, Diagnostic::SumBeside { key });
+    }
+    if let Some(lattice) = spec.emit.iter().find(|capability| capability.value == Capability::TwoPolar) {
+        let part = "terms of different frames".to_owned();
+        found.report(
+            lattice.span,
+            Diagnostic::LatticeWithout { part, lacks: "mass matrix that depends on phi" },
+        );
     }
     let mut arena = Arena::new();
     let (places, terms): (Vec<usize>, Vec<Term>) = 

@@ -97,6 +97,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         has_forces: potential.is_some(),
         groups: (space_group, body_group),
         metrics: None,
+        two_polar: None,
         formulas,
         taylor: None,
     })

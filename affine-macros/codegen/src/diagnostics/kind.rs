@@ -111,6 +111,27 @@ pub enum Diagnostic {
         /// What it will give.
         gives: &'static str,
     },
+    /// `two_polar` for a model that rotations of space or body change.
+    NotDoublyIsotropic {
+        /// What they change: a term, or the potential.
+        part: String,
+        /// `space` or `body`.
+        side: &'static str,
+        /// The rotation or reflection.
+        transformation: String,
+    },
+    /// A part that U(n) does not have.
+    UnitaryTerm {
+        /// A term, `potential`, or a capability.
+        part: &'static str,
+    },
+    /// `two_polar` for a model with what the lattice does not have.
+    LatticeWithout {
+        /// What the model has.
+        part: String,
+        /// What the lattice has not.
+        lacks: &'static str,
+    },
     /// A dimension other than the literals 2 and 3.
     Dimension {
         /// What is written.
@@ -654,6 +675,9 @@ names! {
     UnknownName => "unknown-name",
     CapabilityBeside => "capability-beside",
     UnavailableCapability => "unavailable-capability",
+    NotDoublyIsotropic => "not-doubly-isotropic",
+    UnitaryTerm => "unitary-term",
+    LatticeWithout => "lattice-without",
     Dimension => "dimension",
     RuntimePath => "runtime-path",
     ItemKind => "item-kind",

@@ -123,9 +123,31 @@ impl Diagnostic {
             Self::UnavailableCapability { capability, gives } => text(
                 format!("the capability `{capability}` is not available in this version"),
                 format!(
-                    "it will give {gives}; this version emits the default, Hamilton's equations, and `taylor`"
+                    "it will give {gives}; this version emits the default, Hamilton's equations, `taylor` and `two_polar`"
                 ),
                 format!("remove `{capability}` from `emit(...)`"),
+            ),
+            Self::NotDoublyIsotropic { part, side, transformation } => text(
+                format!("`two_polar` needs a doubly isotropic model, and {part} is not isotropic in {side}"),
+                format!(
+                    "{transformation} of {side} changes it: the motion of the stretches in phi = L D R^T then depends \
+                     on the frames L and R, and (q, p, M, N) do not form a system of their own, (6.2) to (6.5)"
+                ),
+                format!(
+                    "remove `two_polar` from `emit(...)`, or state a model that rotations of {side} do not change"
+                ),
+            ),
+            Self::UnitaryTerm { part } => text(
+                format!("`{part}` has no place beside `group = unitary`"),
+                "on U(n) the energy is -A/2 tr Om^2 - B/2 (tr Om)^2 (89), which U(n) leaves unchanged from both sides; it is \
+                 emitted as its lattice on the circle and nothing else",
+                format!("remove `{part}`, and keep `casimir2` and `casimir1_squared`"),
+            ),
+            Self::LatticeWithout { part, lacks } => text(
+                format!("`two_polar` with {part}: the lattice has no {lacks}"),
+                "(q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, of an energy in velocities, in \
+                 orthonormal coordinates",
+                format!("remove `two_polar` from `emit(...)`, or state a model without {part}"),
             ),
             Self::Dimension { found } => text(
                 format!("`dim = {found}`: the dimension is 2 or 3"),

@@ -6,7 +6,7 @@ use syn::parse::Parser;
 use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
 use super::expression_parser::{self, Language};
 use super::momentum_side::{self, MomentumKind};
-use super::names::{Capability, Claim, Constraint, Named, Requirement, TermKind, nearest};
+use super::names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
 use super::{Custom, Item, Metric, Potential, Spanned, Spec, Symmetry, Term, custom, value};
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
@@ -19,6 +19,7 @@ enum Key {
     Hamiltonian,
     Metrics,
     Constraint,
+    Group,
     Potential,
     Dissipation,
     Forces,
@@ -28,7 +29,7 @@ enum Key {
 }
 
 /// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 1] = ["group"];
+const LATER_KEYS: [&str; 0] = [];
 
 /// Terms that `hamiltonian(...)` has and `kinetic(...)` has not.
 const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
@@ -45,6 +46,7 @@ impl Named for Key {
         Self::Hamiltonian,
         Self::Metrics,
         Self::Constraint,
+        Self::Group,
         Self::Potential,
         Self::Dissipation,
         Self::Forces,
@@ -61,6 +63,7 @@ impl Named for Key {
             Self::Hamiltonian => "hamiltonian",
             Self::Metrics => "metrics",
             Self::Constraint => "constraint",
+            Self::Group => "group",
             Self::Potential => "potential",
             Self::Dissipation => "dissipation",
             Self::Forces => "forces",
@@ -82,6 +85,7 @@ impl Key {
             }
             Self::Metrics => "metrics(space = diag(1, 1, 2), body = [[2, 1, 0], [1, 2, 0], [0, 0, 1]])",
             Self::Constraint => "constraint = isochoric",
+            Self::Group => "group = unitary",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
             Self::Dissipation => "dissipation(body_inertia = 0.1, casimir2 = 0.1)",
             Self::Forces => "forces = custom(wind, spatial)",
@@ -117,6 +121,7 @@ pub(super) struct Arguments {
     energy: Energy,
     metrics: [Option<Metric>; 2],
     constraint: Option<Spanned<Constraint>>,
+    group: Option<Spanned<PlacementGroup>>,
     potential: Option<Potential>,
     customs: Vec<Custom>,
     dissipation: Vec<Term>,
@@ -139,6 +144,7 @@ impl Arguments {
             energy,
             metrics,
             constraint,
+            group,
             potential,
             customs,
             dissipation,
@@ -159,6 +165,7 @@ impl Arguments {
             kinetic_key,
             metrics,
             constraint,
+            group,
             potential,
             customs,
             dissipation,
@@ -176,7 +183,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     let mut hamiltonian = None;
     let mut metric = [None, None];
     let (mut require, mut emit) = (Vec::new(), Vec::new());
-    let (mut constraint, mut energy) = (None, None);
+    let (mut constraint, mut energy, mut group) = (None, None, None);
     let (mut dissipation, mut customs) = (Vec::new(), Vec::new());
     for entry in entries {
         let at = entry.at;
@@ -200,6 +207,11 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
                 let terms = terms(DISSIPATION, expect_list(entry, found), at, found);
                 dissipation = terms.map_or_else(|_| Vec::new(), |terms| terms.value);
             }
+            Key::Group => {
+                group = expect_value(entry, found)
+                    .ok()
+                    .and_then(|Piece { tokens, at }| member("group", tokens, at, found));
+            }
             Key::Require => require = members("requirement", expect_list(entry, found), found),
             Key::Emit => emit = members("capability", expect_list(entry, found), found),
             Key::Crate => runtime = path(expect_value(entry, found), found),
@@ -218,6 +230,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
         energy: stated?,
         metrics: metric,
         constraint,
+        group,
         potential: energy,
         customs,
         dissipation,

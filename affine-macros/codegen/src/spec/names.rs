@@ -42,6 +42,23 @@ impl Named for Claim {
     }
 }
 
+/// A group in place of GL(n, R) as the space of placements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlacementGroup {
+    /// U(n), the compact real form of GL(n, C).
+    Unitary,
+}
+
+impl Named for PlacementGroup {
+    const ALL: &'static [Self] = &[Self::Unitary];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Unitary => "unitary",
+        }
+    }
+}
+
 /// The group that the motion is confined to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Constraint {

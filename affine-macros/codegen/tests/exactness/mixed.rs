@@ -140,12 +140,22 @@ fn programs_agree(sum: &Sum, model: &Model, state: &State) {
     put(&mut moving, "x_dot", &motion.rate().x);
     let (velocity, spin) = names(model.frame);
     agree(what, &run(&model.velocity, &here), velocity, &stem(&moving, velocity), n * n);
-    agree(what, &run(&model.legendre, &moving), spin, &stem(&here, spin), n * n);
+    agree(
+        what,
+        &run(&model.velocity_side.as_ref().unwrap().legendre, &moving),
+        spin,
+        &stem(&here, spin),
+        n * n,
+    );
     if let Some(masses) = &model.mixed_masses {
         agree(what, &run(&masses.velocity, &here), "x_dot_", &stem(&moving, "x_dot_"), n);
         agree(what, &run(&masses.momentum, &moving), "p_", &stem(&here, "p_"), n);
     }
-    assert_eq!(run(&model.kinetic_energy, &moving)["energy"], own(motion.energy()), "{what}: T");
+    assert_eq!(
+        run(&model.velocity_side.as_ref().unwrap().kinetic_energy, &moving)["energy"],
+        own(motion.energy()),
+        "{what}: T"
+    );
     assert_eq!(run(&model.hamiltonian, &here)["energy"], own(motion.energy()), "{what}: H");
     let size = n * n + if kinetic.has_translation() { n } else { 0 };
     agree(what, &run(&model.full.program, &here), "d_", &rates(&motion), 2 * size);
