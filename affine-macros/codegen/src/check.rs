@@ -10,6 +10,7 @@ mod constraint;
 mod custom;
 mod dimension;
 mod dissipation;
+mod forces;
 mod form;
 mod frames;
 mod identity;
@@ -49,6 +50,7 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     custom::fields(spec, found);
     custom::centre(spec, found);
     dissipation::centre(spec, found);
+    forces::stand_alone(spec, found);
     frames::internal_motion(spec, found);
     frames::affine_translation(spec, found);
     shapes::shapes(spec, found);

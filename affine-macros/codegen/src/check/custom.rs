@@ -19,7 +19,7 @@ pub(super) fn fields(spec: &Spec, found: &mut Diagnostics) {
 /// Without a translational kinetic energy the centre is fixed in space: nothing pushes it, and x is not part of the
 /// state.
 pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
-    if spec.kinetic.iter().any(|term| term.kind.value.is_translation()) {
+    if spec.translation().is_some() {
         return;
     }
     for custom in &spec.customs {

@@ -11,7 +11,7 @@ use crate::spec::{self, Named, Spec};
 
 /// Without a translational kinetic energy the centre of mass stands still, and nothing slows it.
 pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
-    if spec.kinetic.iter().any(|term| term.kind.value.is_translation()) {
+    if spec.translation().is_some() {
         return;
     }
     for term in spec.dissipation.iter().filter(|term| term.kind.value.is_translation()) {

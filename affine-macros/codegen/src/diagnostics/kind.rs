@@ -31,14 +31,7 @@ pub enum Diagnostic {
         /// All keys of the list.
         known: Vec<&'static str>,
     },
-    /// A key or term of the specification language that this version does not have.
-    UnavailableKey {
-        /// The list it stands in.
-        list: &'static str,
-        /// The key.
-        key: &'static str,
-    },
-    /// A term of `kinetic(...)` in `hamiltonian(...)`, or the other way round.
+    /// A term of `kinetic(...)` in `hamiltonian(...)`, or the other way round, or such a one in `dissipation(...)`.
     OtherSide {
         /// The list it stands in.
         list: &'static str,
@@ -495,6 +488,13 @@ pub enum Diagnostic {
         /// The other key.
         key: &'static str,
     },
+    /// A dissipation, or a force or potential of a field, beside something that does not go with it.
+    ForceBeside {
+        /// The part of the model, as written.
+        force: String,
+        /// The other thing.
+        key: &'static str,
+    },
     /// A constraint beside a key that does not go with it.
     ConstraintBeside {
         /// The other key.
@@ -664,7 +664,6 @@ names! {
     ExpectedKey => "expected-key",
     MalformedItem => "malformed-item",
     UnknownKey => "unknown-key",
-    UnavailableKey => "unavailable-key",
     OtherSide => "other-side",
     TwoStatements => "two-statements",
     RepeatedKey => "repeated-key",
@@ -729,6 +728,7 @@ names! {
     MetricNotPositive => "metric-not-positive",
     MetricTerm => "metric-term",
     MetricForm => "metric-form",
+    ForceBeside => "force-beside",
     ConstraintBeside => "constraint-beside",
     SumBeside => "sum-beside",
     VanishingTerm => "vanishing-term",

@@ -55,25 +55,23 @@ impl Diagnostic {
                 format!("its items are {}", listed(known)),
                 suggestion(*nearest, "use one of these, or remove it"),
             ),
-            Self::UnavailableKey { list, key } => text(
-                format!("`{key}` in `{list}(...)` is not available in this version"),
-                format!(
-                    "`{key}` belongs to the specification language, but nothing can be derived from it yet"
-                ),
-                format!("state the model without `{key}`"),
-            ),
             Self::OtherSide { list, key, other } => text(
                 format!("`{key}` does not belong to `{list}(...)`"),
-                if *list == "kinetic" {
-                    format!(
+                match *list {
+                    "kinetic" => format!(
                         "`{key}` is a function of the momentum, and `kinetic(...)` states T through velocities"
-                    )
-                } else {
-                    format!(
+                    ),
+                    "dissipation" => format!(
+                        "`{key}` is a function of the momentum, and `dissipation(...)` states R through velocities"
+                    ),
+                    _ => format!(
                         "`{key}` is a form in the velocity, and `hamiltonian(...)` states H through momenta"
-                    )
+                    ),
                 },
-                format!("state all terms in `{other}(...)`, with the coefficients that they have there"),
+                match *list {
+                    "dissipation" => format!("remove `{key}`, or state R through forms in the velocity"),
+                    _ => format!("state all terms in `{other}(...)`, with the coefficients that they have there"),
+                },
             ),
             Self::TwoStatements => text(
                 "the kinetic energy is stated twice, in `kinetic(...)` and in `hamiltonian(...)`",
@@ -448,6 +446,27 @@ impl Diagnostic {
                 format!("`{key}` does not go with terms of different frames in this version"),
                 "their sum has a mass matrix that depends on phi, and is derived on all of GL(n) in orthonormal bases",
                 format!("keep the terms of one frame, or remove `{key}`"),
+            ),
+            Self::ForceBeside { force, key } => text(
+                format!("`{force}` does not go with {key} in this version"),
+                match *key {
+                    "`constraint`" => {
+                        "its force is not projected to the group that is left; only a potential of an isochoric body \
+                         with `dalembert` needs no projection, since there the multiplier keeps the constraint"
+                    }
+                    "`metrics(...)`" => {
+                        "velocities and placements would reach it in other bases than those that points stand in"
+                    }
+                    "`casimir3`" => {
+                        "what it leaves conserved is decided for velocities that are linear in the momenta"
+                    }
+                    "`group = unitary`" => "the lattice of U(n) is that of the Casimir terms alone",
+                    "terms of different frames" => {
+                        "what it leaves conserved is decided for a mass matrix that is constant in one frame"
+                    }
+                    _ => "what is emitted there is derived from T and from potentials that are formulas",
+                },
+                "remove one of the two",
             ),
             Self::ConstraintBeside { key } => text(
                 format!("`constraint` does not go with `{key}` in this version"),

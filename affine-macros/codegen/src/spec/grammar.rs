@@ -28,10 +28,7 @@ enum Key {
     Crate,
 }
 
-/// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 0] = [];
-
-/// Terms that `hamiltonian(...)` has and `kinetic(...)` has not.
+/// Terms that `hamiltonian(...)` has, and `kinetic(...)` and `dissipation(...)` have not.
 const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
 
 /// Terms that `kinetic(...)` has and `hamiltonian(...)` has not.
@@ -178,7 +175,7 @@ impl Arguments {
 
 pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Arguments, Reported> {
     let here = Span::call_site();
-    let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &LATER_KEYS, found);
+    let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &[], found);
     let (mut dim, mut symmetry, mut kinetic, mut runtime) = (None, None, None, None);
     let mut hamiltonian = None;
     let mut metric = [None, None];
