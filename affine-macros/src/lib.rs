@@ -105,6 +105,10 @@ use proc_macro::TokenStream;
 /// `spatial` (`Q`), `comoving` (`Q_hat`) or `translation` (`Q_tr`), with `gyroscopic` after it where the force has no power:
 /// the energy then stays conserved.
 ///
+/// Dissipation and fields are refused beside `constraint`, `metrics(...)`, `casimir3`, terms of different frames,
+/// `group = unitary`, `emit(taylor)`, `emit(two_polar)` and `emit(acceleration)`; but a potential of a field goes with
+/// `constraint = isochoric` and `dalembert`, where the multiplier keeps the constraint.
+///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
 /// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`.
 ///

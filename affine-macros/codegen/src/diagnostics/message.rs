@@ -70,7 +70,9 @@ impl Diagnostic {
                 },
                 match *list {
                     "dissipation" => format!("remove `{key}`, or state R through forms in the velocity"),
-                    _ => format!("state all terms in `{other}(...)`, with the coefficients that they have there"),
+                    _ => format!(
+                        "state all terms in `{other}(...)`, with the coefficients that they have there"
+                    ),
                 },
             ),
             Self::TwoStatements => text(

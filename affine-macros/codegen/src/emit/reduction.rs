@@ -317,8 +317,11 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
     let chart = &context.model.reduction.chart;
     let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
     // No phase point holds the work, and 1/D follows from phi.
-    let needed: Vec<&str> =
-        all.iter().map(String::as_str).filter(|name| !["inverse_dilatation", "work"].contains(name)).collect();
+    let needed: Vec<&str> = all
+        .iter()
+        .map(String::as_str)
+        .filter(|name| !["inverse_dilatation", "work"].contains(name))
+        .collect();
     let bound = pattern(&all, &needed);
     let mut lets = quote!(let #bound = *reduced;);
     let rows = |stem: &str| {

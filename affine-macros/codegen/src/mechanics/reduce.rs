@@ -250,7 +250,11 @@ pub fn reduced(
     turn: bool,
     system: System,
 ) -> Reduction {
-    Plan { chart, commuting, turn, loads: Vec::new(), multiplier: false }.state_only(arena, system, Layout::Entries)
+    Plan { chart, commuting, turn, loads: Vec::new(), multiplier: false }.state_only(
+        arena,
+        system,
+        Layout::Entries,
+    )
 }
 
 /// What is known about a reduction before its equations are.
