@@ -359,8 +359,9 @@ fn states(
         group(placement, |z| matches!(z, Coordinate::Phi(..))),
         group("p", |z| matches!(z, Coordinate::P(_))),
         group(momentum, |z| matches!(z, Coordinate::M(..))),
-        ("work", system.work.iter().map(|(symbol, _)| *symbol).collect()),
         group("1/D", |z| matches!(z, Coordinate::Carried(_))),
+        // After all rates.
+        ("work", system.work.iter().map(|(symbol, _)| *symbol).collect()),
     ]
     .into_iter()
     .filter(|(_, symbols)| !symbols.is_empty())
