@@ -163,7 +163,7 @@ fn unrest(e: f64) -> affine_runtime::Result<f64> {
         let (s, c) = (omega * t).sin_cos();
         (point.phi() - Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0) * phi).norm()
     };
-    Ok(run.iter().map(|(t, point)| error((*t, point))).fold(0.0, f64::max))
+    Ok(run.iter().map(|(t, point)| error((t, point))).fold(0.0, f64::max))
 }
 
 /// When the star that starts from rest at `a = 1.2` is at rest again, at its other turning point: a zero of `Pi_33`.
@@ -192,7 +192,7 @@ fn draw(period: f64) -> Result<(), Box<dyn std::error::Error>> {
     let run = Simulation::new(&STAR, start).until(t_end).every(t_end / 300.0).run()?;
     let axis = |category: usize, k: usize| Curve {
         category,
-        points: run.iter().map(|(t, point)| (*t, point.phi()[(k, k)])).collect(),
+        points: run.iter().map(|(t, point)| (t, point.phi()[(k, k)])).collect(),
     };
     let panel = CurvePanel {
         x: "t".into(),
