@@ -151,6 +151,14 @@ families! {
     mixed_body_space_3: "dim = 3, kinetic(body_inertia = 1, space_inertia = diag(1, 1.5, 2))";
     mixed_masses_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1, space_translation = 2), \
         emit(metric, acceleration)";
+    damped_bulk_missile_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, \
+        body_translation = 1), potential = hyperbolic_dilatation(10) + neo_hookean(0.5), \
+        dissipation(casimir1_squared = 0.3)";
+    damped_shear_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1), dissipation(body_inertia = 0.5, casimir2 = 0.5)";
+    damped_across_frames_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, space_translation = 2), \
+        dissipation(space_inertia = 0.5, dalembert = diag(1, 2), body_translation = 0.25)";
+    damped_dalembert_3: "dim = 3, kinetic(dalembert = diag(1, 1.5, 2), space_translation = 2), \
+        dissipation(dalembert = diag(1, 2, 3), space_translation = 3)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.
@@ -205,6 +213,42 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "dim = 3, hamiltonian(casimir2 = a, casimir3 = d, vorticity_squared = 1, space_translation = k)",
         "/// A body.
         pub struct Cubic { a: f64, d: f64, k: f64 }",
+    ),
+    (
+        "fields_damped_2",
+        "dim = 2, kinetic(casimir2 = 0.2, space_inertia = i), \
+         dissipation(space_inertia = [[a, b], [b, c]], casimir2 = a)",
+        "/// A body.
+        pub struct Damped { i: f64, a: f64, b: f64, c: f64 }",
+    ),
+    (
+        "custom_force_2",
+        "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 2), forces = custom(wind, spatial)",
+        "/// A body.
+        pub struct Custom<F: affine_runtime::force::Force<2, Form = affine_runtime::force::Spatial>> {
+            /// What blows.
+            pub wind: F,
+        }",
+    ),
+    (
+        "gyroscopic_force_2",
+        "dim = 2, kinetic(dalembert = 1, space_translation = 2), forces = custom(magnet, translation, gyroscopic)",
+        "/// A body.
+        pub struct Charged<F: affine_runtime::force::Force<2, Form = affine_runtime::force::Translation>> {
+            /// What turns.
+            pub magnet: F,
+        }",
+    ),
+    (
+        "custom_potential_3",
+        "dim = 3, kinetic(casimir2 = 0.2, body_inertia = i), potential = q^2 + custom(gravity, isotropic)",
+        "/// A body.
+        pub struct Heavy<U: affine_runtime::potential::Potential<3> + Clone> {
+            /// The inertia.
+            pub i: f64,
+            /// What attracts.
+            pub gravity: U,
+        }",
     ),
     (
         "generics_2",

@@ -15,6 +15,8 @@ use proc_macro::TokenStream;
 /// | `metrics(space = g, body = eta)` | matrices of numbers | constant metrics other than the identity, below |
 /// | `constraint` | `isochoric`, `rigid`, `conformal` | motion confined to SL(n), SO(n), R+ SO(n), below; without it GL+(n) |
 /// | `potential` | expression | the potential energy, below |
+/// | `dissipation(...)` | terms | Rayleigh's function `R`, a sum of the same terms, positive semidefinite |
+/// | `forces` | sum of `custom(..)` | forces that fields compute, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
 /// | `emit(...)` | `taylor`, `two_polar`, `metric`, `acceleration` | what is emitted beyond the default, below; `two_polar` is the lattice form `(q, p, M, N)` of doubly isotropic models |
@@ -90,6 +92,22 @@ use proc_macro::TokenStream;
 /// vanishes on the group and a potential that is constant there are mistakes; a symmetry is claimed of the energy
 /// without the constraint. Starting points off the constraint by more than 32 roundings times the condition of `phi`
 /// are refused with their defect.
+///
+/// A summand `custom(field, class)` is computed by a field whose type implements `affine_runtime::potential::Potential`;
+/// the class is `isotropic`, `green` (a function of `G`), `finger` (of `Ct`) or `general`, with `position` after it where
+/// it depends on `x`. What stays conserved follows from the class, which is compared with the one that the type declares.
+///
+/// `dissipation(...)` adds the forces `Q_hat = -(dR/dOh)^T`, `Q = -(dR/dOm)^T`, `N = -(dR/dphi_dot)^T`, `Q_tr = -dR/dx_dot`,
+/// each in the frame of its term, whatever the frame of `T`; `dH/dt = -2 R`. `R >= 0` is proved, or checked by `prepare()`,
+/// frame by frame; the Casimir terms count with those of the body, or else with those of space.
+///
+/// `forces = custom(field, form) + ..` calls fields whose types implement `affine_runtime::force::Force`; the form is
+/// `spatial` (`Q`), `comoving` (`Q_hat`) or `translation` (`Q_tr`), with `gyroscopic` after it where the force has no power:
+/// the energy then stays conserved.
+///
+/// Dissipation and fields are refused beside `constraint`, `metrics(...)`, `casimir3`, terms of different frames,
+/// `group = unitary`, `emit(taylor)`, `emit(two_polar)` and `emit(acceleration)`; but a potential of a field goes with
+/// `constraint = isochoric` and `dalembert`, where the multiplier keeps the constraint.
 ///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
 /// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`.

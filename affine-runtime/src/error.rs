@@ -54,7 +54,7 @@ pub enum Error {
     },
 }
 
-/// A condition on the kinetic energy that fails.
+/// A condition on the kinetic energy or the dissipation that fails.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IllPosed {
     /// The condition, in the model's own parameters: `I + A != 0`.
@@ -112,7 +112,7 @@ impl fmt::Display for IllPosed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "the kinetic energy is ill-posed: {} fails with the value {:e} (threshold {:e}): {}",
+            "the model is ill-posed: {} fails with the value {:e} (threshold {:e}): {}",
             self.condition, self.value, self.threshold, self.reason
         )
     }

@@ -40,6 +40,12 @@ pub trait Model<const N: usize> {
     /// The Hamiltonian `H` of a phase point at time `t`, which only a potential that contains the time reads.
     fn hamiltonian<T: Real>(&self, t: T, point: &Self::Point<T>) -> T;
 
+    /// The power of the forces that no potential has, `dH/dt`: `-2 R` of a dissipation function `R`. Zero for a
+    /// model without such forces.
+    fn power<T: Real>(&self, _t: T, _point: &Self::Point<T>) -> T {
+        T::zero()
+    }
+
     /// The point as a plain array.
     fn flatten<T: Real>(&self, point: &Self::Point<T>) -> Self::Full<T>;
     /// The point from a plain array, unchecked.
@@ -195,7 +201,8 @@ pub struct Formula {
 /// A run of components of a state vector that form one geometric object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Group {
-    /// The object: `x`, `phi`, `Sigma_hat`, ...
+    /// The object: `x`, `phi`, `Sigma_hat`, ...; `work`, the integral of [`Model::power`] since the start, where
+    /// there are forces that no potential has.
     pub name: &'static str,
     /// Number of components, row-major.
     pub len: usize,
@@ -207,6 +214,9 @@ impl Group {
         matches!(self.name, "phi" | "Psi")
     }
 }
+
+/// Name of the group of one component that holds the integral of [`Model::power`] since the start.
+pub const WORK: &str = "work";
 
 /// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

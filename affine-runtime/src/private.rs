@@ -5,7 +5,11 @@ pub use core::primitive::f64;
 pub use crate::breathing::Breathing;
 pub use crate::capability::{Emitted, Taylor};
 pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
+pub use crate::custom::{
+    comoving_force, potential_energy, potential_slopes, spatial_force, translational_force,
+};
 pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
+pub use crate::dissipation::{semidefinite, semidefinite_form};
 pub use crate::error::Result;
 pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,

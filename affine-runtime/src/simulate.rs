@@ -4,6 +4,7 @@ mod conservation;
 mod csv;
 mod halt;
 mod output;
+mod power_balance;
 mod run;
 mod signature;
 mod stepper;
@@ -14,6 +15,7 @@ use core::ops::ControlFlow;
 
 pub use conservation::{Conservation, Drift};
 pub use halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
+pub use power_balance::PowerBalance;
 pub use trajectory::{Computation, Trajectory};
 pub use why::Why;
 

@@ -17,6 +17,7 @@ mod conserved;
 mod constraints;
 mod driven;
 mod drunk_missile;
+mod forces;
 mod geodesics;
 mod laws;
 mod mixed;

@@ -28,8 +28,8 @@ use crate::optimise::{Batch, straight_line};
 use crate::spec::{Capability, Spanned};
 
 pub use lattice::TwoPolar;
-use prepared::{coefficient_program, conditions, numeric_blocks};
-use programs::{best_reduction, full_chart, full_equations};
+use prepared::{coefficient_program, conditions, damping, numeric_blocks};
+use programs::{best_reduction, full_chart, full_equations, power_batch};
 
 /// Everything that is emitted about a model.
 pub struct Model {
@@ -49,6 +49,8 @@ pub struct Model {
     pub numeric_blocks: Vec<NumericBlock>,
     /// What `prepare()` must find different from zero.
     pub conditions: Vec<Condition>,
+    /// What `prepare()` must find not negative in the dissipation.
+    pub damping: Damping,
     /// What starts from velocities; with `phi` where the mass matrix depends on it, as in the next ones. `None` where
     /// they do not determine the momentum.
     pub velocity_side: Option<VelocitySide>,
@@ -66,6 +68,8 @@ pub struct Model {
     pub acceleration: Option<Program>,
     /// Point -> `H`.
     pub hamiltonian: Program,
+    /// Point -> power of the forces that no potential has.
+    pub power: Option<Program>,
     /// Hamilton's equations in the model's own frames.
     pub full: Equations,
     /// The reduced equations.
@@ -88,8 +92,8 @@ pub struct Model {
     pub conserved_at_rest: Vec<Candidate>,
     /// Numbers of positive and negative squares.
     pub signature: Option<(usize, usize)>,
-    /// Is there a potential?
-    pub has_potential: bool,
+    /// Is there a potential or any other force?
+    pub has_forces: bool,
     /// Symmetry groups of space and body that leave the kinetic energy unchanged.
     pub groups: (Group, Group),
     /// Metrics other than the identity.
@@ -183,6 +187,15 @@ pub enum Relation {
     VelocityOfMomentum,
 }
 
+/// What must not be negative once the fields have values.
+#[derive(Default)]
+pub struct Damping {
+    /// Eigenvalues and coefficients.
+    pub conditions: Vec<Condition>,
+    /// Blocks whose eigenvalues need numbers; no inverse is formed.
+    pub blocks: Vec<NumericBlock>,
+}
+
 /// A block to invert numerically.
 pub struct NumericBlock {
     /// Computes the upper triangle, row after row, then the terms whose sizes make the threshold.
@@ -213,7 +226,17 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form.hessian);
     let Form {
-        mut arena, kinetic, stated, hessian, potential, metrics, two_polar, unitary, quantities, ..
+        mut arena,
+        kinetic,
+        stated,
+        hessian,
+        potential,
+        forces,
+        metrics,
+        two_polar,
+        unitary,
+        quantities,
+        ..
     } = form;
     let potential = potential.as_ref();
     let arena = &mut arena;
@@ -228,9 +251,9 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
 
     let mut conserved_now = conserved(arena, &own, &own_h);
     let mut conserved_at_rest = at_rest(arena, &h, &conserved_now);
-    if let Some(forces) = multiplier(arena, &h) {
-        conserved_now.retain(|candidate| forces.keeps(*candidate));
-        conserved_at_rest.retain(|candidate| forces.keeps(*candidate));
+    if let Some(reaction) = multiplier(arena, &h) {
+        conserved_now.retain(|candidate| reaction.keeps(*candidate));
+        conserved_at_rest.retain(|candidate| reaction.keeps(*candidate));
     }
     if let Some(u) = potential {
         conserved_now.retain(|candidate| u.keeps(*candidate));
@@ -240,24 +263,33 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
             conserved_at_rest.clone_from(&conserved_now);
         }
     }
-    let commuting = reduce::commuting(arena, &h, potential);
+    // Of the undamped motion: the forces are held against the same rotations on their own.
+    let rotations =
+        conserved_now.contains(&Candidate::TotalAngularMomentum) && forces.are_isotropic_in_space();
+    if !forces.is_empty() {
+        conserved_now = forces.keep(arena, &own, &h, conserved_now);
+        conserved_at_rest = match forces.push_from_rest() {
+            true => conserved_now.clone(),
+            false => forces.at_rest().keep(arena, &own, &h, conserved_at_rest),
+        };
+    }
+    let commuting = reduce::commuting(arena, &h, potential, &forces);
     let closed_form = match potential {
-        None => reduce::closed_form(arena, &h, &commuting),
-        Some(_) => None,
+        None if forces.is_empty() => reduce::closed_form(arena, &h, &commuting),
+        _ => None,
     };
 
     let (full_chart, full_h) = full_chart(arena, &h);
-    let full = full_equations(arena, &h, &full_chart, &full_h, potential, &mut coefficients);
-    let rotations = conserved_now.contains(&Candidate::TotalAngularMomentum);
+    let full = full_equations(arena, &h, &full_chart, &full_h, potential, &forces, &mut coefficients);
     let (reduction, reduced, trajectory, fixed) =
-        best_reduction(arena, &h, potential, rotations, &mut coefficients)?;
+        best_reduction(arena, &h, potential, &forces, rotations, &mut coefficients)?;
     let formulas = Formulas {
         kinetic_energy: match cubic {
             None => describe::kinetic_energy(arena, &kinetic),
             Some(_) => describe::kinetic_energy_of_momenta(arena, &h),
         },
-        hamiltonian: describe::hamiltonian(arena, &h, &full_h, potential),
-        equations: describe::equations(arena, &h, &full_chart, &full_h, potential),
+        hamiltonian: describe::hamiltonian(arena, &h, &full_h, potential, &forces),
+        equations: describe::equations(arena, &h, &full_chart, &full_h, potential, &forces),
         reduced: describe::system(arena, &reduction.system),
         left_out: describe::left_out(&h, &reduction, closed_form),
     };
@@ -292,6 +324,15 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         points.extend((0..kinetic.dim).map(|a| Base::LogStretch(a).symbol(arena)));
         points.extend(u.time());
     }
+    for custom in &forces.customs {
+        if let Some((value, kernel)) = custom.energy(arena, &full_chart) {
+            energy.results[0].1.add_scaled(&value, &Rational::ONE);
+            energy.kernels.push(kernel);
+        }
+    }
+    points.extend(forces.time(arena));
+    let power = power_batch(arena, &h, &full_chart, &full_h, &forces);
+    let power = power.map(|batch| inline(arena, batch, points.clone()));
     let hamiltonian = inline(arena, energy, points);
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {
         let mut results = vec![("inverse_mass".into(), inverse.clone())];
@@ -340,6 +381,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         },
         coefficients: coefficient_program(arena, &coefficients),
         numeric_blocks,
+        damping: damping(arena, &forces),
         velocity_side,
         velocity,
         mass,
@@ -348,6 +390,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         metric,
         acceleration,
         hamiltonian,
+        power,
         full,
         reduced,
         reduction,
@@ -359,7 +402,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         conserved: conserved_now,
         conserved_at_rest,
         signature,
-        has_potential: potential.is_some(),
+        has_forces: potential.is_some() || !forces.is_empty(),
         groups,
         metrics,
         formulas,

@@ -4,6 +4,7 @@ mod body;
 mod closed_form;
 mod description;
 mod dynamics;
+mod forces;
 mod kernel;
 mod metrics;
 mod mixed;
@@ -19,6 +20,7 @@ mod two_polar;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::algebra::kernel::Callee;
 use crate::derive::{Equations, Model};
 use crate::ir::Program;
 use crate::mechanics::kinetic::Frame;
@@ -139,7 +141,7 @@ impl Context<'_> {
 
     /// Generics of the type that implements the model.
     fn generics(&self) -> (TokenStream, TokenStream, TokenStream) {
-        if self.has_fields {
+        if self.has_fields && self.spec.customs.is_empty() {
             return (TokenStream::new(), TokenStream::new(), TokenStream::new());
         }
         let (implementation, ty, clause) = self.spec.item.generics.split_for_impl();
@@ -168,7 +170,16 @@ impl Context<'_> {
             let value = number.of_double(quote!(self.coefficients[#index]));
             Some(quote!(let #name = #value;))
         });
-        Body { lets: coefficients.chain([lets]).collect(), results }
+        let fields = self.spec.customs.iter().enumerate().filter_map(|(k, custom)| {
+            program
+                .calls
+                .iter()
+                .find(|call| matches!(call.callee, Callee::Custom(place, _) if place == k + 1))?;
+            let name = format_ident!("custom_{}", k + 1);
+            let field = if self.has_fields { &name } else { &custom.field };
+            Some(quote!(let #name = &self.#field;))
+        });
+        Body { lets: coefficients.chain(fields).chain([lets]).collect(), results }
     }
 }
 
@@ -215,6 +226,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let geodesic = closed_form::geodesic(context);
     let (_, bases) = metrics::bases(context);
     let taylor = taylor::capability(context);
+    let power = forces::power(context);
     quote! {
         #(#[doc = #docs])*
         impl #generics #rt::Model<#n> for #prepared #types #clause {
@@ -228,6 +240,7 @@ fn model_impl(context: &Context) -> TokenStream {
             #reduction
             #geodesic
             #taylor
+            #power
         }
     }
 }

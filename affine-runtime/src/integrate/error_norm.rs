@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use crate::model::{Group, StateVector};
+use crate::model::{Group, StateVector, WORK};
 use crate::scalar::Scalar;
 
 /// A state vector has at most so many groups with a floor of their own.
@@ -23,6 +23,8 @@ const PART_OF_DISPLACEMENT: f64 = 0.1;
 ///   where `mu_g/h` is the momentum that moves the placement by its own size within a step of length `h`. Without
 ///   that, a body that vibrates by `1e-9` would need its momentum to digits that the forces do not have, and one
 ///   at rest would take ever shorter steps.
+///
+/// `work`, which nothing depends on, is not measured: it is an integral over the rest, and as good as that.
 ///
 /// The inertia `mu_g` is found at the start from the equations themselves, as the least `|dg| |phi|/|d phi'|`
 /// over single components of `g` (with `x` in place of `phi` for the groups `p` and `p_hat`).
@@ -90,6 +92,9 @@ impl ErrorNorm {
         for (k, group) in self.groups.iter().enumerate() {
             let range = start..start + group.len;
             start = range.end;
+            if group.name == WORK {
+                continue;
+            }
             let floor = self.inertia.get(k).map_or(0.0, |inertia| PART_OF_DISPLACEMENT * inertia / h);
             let scale = self.scale(group.name, range.clone(), before, after);
             let value = value(range);
@@ -130,7 +135,7 @@ impl ErrorNorm {
     /// Components of the configuration that a momentum moves; `None` for what is no momentum.
     fn moved_by(&self, group: &Group) -> Option<Range<usize>> {
         match group.name {
-            "x" | "q" | "1/D" => None,
+            "x" | "q" | "1/D" | WORK => None,
             _ if group.is_placement() => None,
             "p" | "p_hat" => self.range_of("x"),
             _ => self.placement(),

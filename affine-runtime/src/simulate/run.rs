@@ -17,7 +17,7 @@ use crate::integrate::rattle::{Composition, Reaction};
 use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER, Taylor};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics, norm};
 use crate::kinematics::LogDeterminant;
-use crate::model::{Constraint, Group, Model, StateVector};
+use crate::model::{Constraint, Group, Model, StateVector, WORK};
 use crate::state::Phase;
 
 /// The finest tolerance: about four roundings.
@@ -67,6 +67,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 start: energy,
                 end: energy,
                 outputs: Vec::new(),
+                work: Vec::new(),
+                work_at_end: 0.0,
                 scale: energy_scale(self.model, &self.start, energy),
             },
             statistics: Statistics::default(),
@@ -159,11 +161,11 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let at = |t| if t == self.t0 { self.start } else { self.model.on_geodesic(geodesic, t, &self.start) };
         let mut outputs = 0;
         while let Some(t) = recorder.schedule.take_through(t_end, t_end < self.t0) {
-            recorder.record(t, at(t))?;
+            recorder.record(t, at(t), 0.0)?;
             outputs += 1;
             report(&mut self.progress, Progress { t0: self.t0, t, t_end, steps: outputs })?;
         }
-        recorder.reach(t_end, at(t_end))
+        recorder.reach(t_end, at(t_end), 0.0)
     }
 
     /// Reduction, integration with output on the way, expansion.
@@ -315,6 +317,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         trajectory.statistics = integration.statistics();
         if let Some((t, reduced)) = last.filter(|(t, _)| (t - trajectory.end.0) * (t_end - self.t0) > 0.0) {
             trajectory.end = (t, expand(t, &reduced));
+            trajectory.energies.work_at_end = work(groups, &reduced);
         }
         outcome
     }
@@ -348,19 +351,19 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             }
             while let Some(due) = recorder.schedule.take_through(t, t_end < self.t0) {
                 if due == t {
-                    recorder.record(t, expand(t, &reduced))?;
+                    recorder.record(t, expand(t, &reduced), work(groups, &reduced))?;
                 } else {
                     let between = integration.between(due).map_err(|failure| self.reason(failure))?;
-                    recorder.record(due, expand(due, &between))?;
+                    recorder.record(due, expand(due, &between), work(groups, &between))?;
                 }
             }
             if recorder.schedule == Schedule::Steps {
-                recorder.record(t, expand(t, &reduced))?;
+                recorder.record(t, expand(t, &reduced), work(groups, &reduced))?;
             } else if recorder.trajectory.end.0 != t {
                 let phi =
                     placement.clone().map(|range| Matrix::<N>::from_row_slice(&reduced.as_ref()[range]));
                 if integration.is_finished() || !phi.is_some_and(|phi| is_clearly_positive(&phi)) {
-                    recorder.reach(t, expand(t, &reduced))?;
+                    recorder.reach(t, expand(t, &reduced), work(groups, &reduced))?;
                 }
             }
             *last = Some((t, reduced));
@@ -394,26 +397,28 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     /// Records the start where it is an output.
     fn begin(&mut self, t0: f64, start: M::Point<f64>) -> Result<(), Reason> {
         if self.schedule == Schedule::Steps || self.schedule.take_through(t0, false).is_some() {
-            self.record(t0, start)?;
+            self.record(t0, start, 0.0)?;
         }
         Ok(())
     }
 
     /// Checks a phase point, which becomes the last good one.
-    fn reach(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
+    fn reach(&mut self, t: f64, point: M::Point<f64>, work: f64) -> Result<(), Reason> {
         check(t, &point)?;
         self.trajectory.end = (t, point);
+        self.trajectory.energies.work_at_end = work;
         Ok(())
     }
 
     /// Checks a phase point, records it as an output and shows it to the observer.
-    fn record(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
-        self.reach(t, point)?;
+    fn record(&mut self, t: f64, point: M::Point<f64>, work: f64) -> Result<(), Reason> {
+        self.reach(t, point, work)?;
         self.trajectory.times.push(t);
         self.trajectory.points.push(point);
         let energy = self.model.hamiltonian(t, &point);
         let energies = &mut self.trajectory.energies;
         energies.outputs.push(energy);
+        energies.work.push(work);
         energies.scale = larger(energies.scale, energy_scale(self.model, &point, energy));
         match &mut self.observe {
             Some(observe) => go_on(observe(t, &point), Callback::Observer),
@@ -492,6 +497,12 @@ fn placement_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
     let k = groups.iter().position(|group| group.is_placement() && group.len == n * n)?;
     let start = total(&groups[..k]);
     Some(start..start + n * n)
+}
+
+/// The work of the forces that no potential has, where the state holds it.
+fn work<S: StateVector<f64>>(groups: &[Group], state: &S) -> f64 {
+    let place = groups.iter().position(|group| group.name == WORK).map(|k| total(&groups[..k]));
+    place.map_or(0.0, |place| state.as_ref()[place])
 }
 
 const fn total(groups: &[Group]) -> usize {

@@ -60,7 +60,8 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
         );
     }
     let mut arena = Arena::new();
-    let (places, terms): (Vec<usize>, Vec<Term>) = lower::terms(&mut arena, spec).into_iter().unzip();
+    let (places, terms): (Vec<usize>, Vec<Term>) =
+        lower::terms(&mut arena, spec.dim.value, &spec.kinetic).into_iter().unzip();
     let mut sums =
         [Frame::Body, Frame::Space].map(|casimirs| Mixed::new(&mut arena, spec.dim.value, &terms, casimirs));
     let hessian = match sums[0].internal.as_slice() {

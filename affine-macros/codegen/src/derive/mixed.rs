@@ -10,6 +10,7 @@ use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::describe;
 use crate::mechanics::equations::{self, System, gradient, hamilton};
+use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
@@ -20,7 +21,7 @@ use crate::optimise::Batch;
 
 use super::prepared::coefficient_program;
 use super::programs::{batch, shortest, shortest_reduction};
-use super::{Formulas, Model, VelocitySide, quantities};
+use super::{Damping, Formulas, Model, VelocitySide, quantities};
 
 /// The internal motion: of one frame, or of several.
 enum Inner {
@@ -69,6 +70,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         conditions: body.conditions(arena, hessian.as_ref(), require_positive),
         numeric_blocks: body.numeric_blocks(arena, require_positive),
         coefficients: coefficient_program(arena, &coefficients),
+        damping: Damping::default(),
         velocity_side: Some(VelocitySide {
             legendre: programs.legendre,
             kinetic_energy: programs.kinetic_energy,
@@ -80,6 +82,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         metric,
         acceleration,
         hamiltonian: programs.hamiltonian,
+        power: None,
         full,
         reduced,
         reduction,
@@ -91,7 +94,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         conserved,
         conserved_at_rest,
         signature,
-        has_potential: potential.is_some(),
+        has_forces: potential.is_some(),
         groups: (space_group, body_group),
         metrics: None,
         two_polar: None,
@@ -230,7 +233,7 @@ impl Body<'_> {
         if self.potential.is_some() {
             return None;
         }
-        let commuting = reduce::commuting(arena, h, None);
+        let commuting = reduce::commuting(arena, h, None, &Forces::default());
         reduce::closed_form(arena, h, &commuting).map(|(form, _)| (form, true))
     }
 
@@ -249,7 +252,7 @@ impl Body<'_> {
             }
             Inner::Constant(_, h) => {
                 let system = describe::system(arena, &reduction.system);
-                (describe::hamiltonian(arena, h, &h.internal(), None), system)
+                (describe::hamiltonian(arena, h, &h.internal(), None, &Forces::default()), system)
             }
         };
         let hamiltonian = mixed::hamiltonian(arena, internal, &self.masses, self.potential);

@@ -6,7 +6,8 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::equations::{self, System, hamilton};
+use crate::mechanics::equations::{self, Load, System, hamilton};
+use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::potential::Potential;
@@ -34,22 +35,32 @@ pub(super) fn full_equations(
     chart: &Chart,
     full_h: &Polynomial,
     potential: Option<&Potential>,
+    forces: &Forces,
     coefficients: &mut Constants,
 ) -> Equations {
-    let load = potential.map(|u| u.load(arena, chart)).unwrap_or_default();
+    let mut loads: Vec<Load> = potential.iter().map(|u| u.load(arena, chart)).collect();
+    loads.extend(forces.loads(arena, chart, h));
+    // The plain array has no place for the work.
+    loads.iter_mut().for_each(|load| load.work = None);
     let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
-    through_velocity.add(&load);
+    loads.iter().for_each(|load| through_velocity.add(load));
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
     if !h.is_tensor() {
         let mut expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
-        expanded.add(&load);
+        loads.iter().for_each(|load| expanded.add(load));
         ways.push(batch(arena, &expanded));
         // Symmetric and skew parts are entries already where a constraint leaves only one of them.
         if chart.confined.is_none_or(|group| group == Constraint::Isochoric) {
             ways.push(split_batch(arena, chart, &expanded));
         }
     }
-    shortest(arena, chart, &ways, potential.and_then(Potential::time), coefficients)
+    let time = time(arena, potential, forces);
+    shortest(arena, chart, &ways, time, coefficients)
+}
+
+/// The time as a symbol, where any force depends on it.
+fn time(arena: &mut Arena, potential: Option<&Potential>, forces: &Forces) -> Option<Expr> {
+    potential.and_then(Potential::time).or_else(|| forces.time(arena))
 }
 
 /// Equations over the coordinates of a chart, in the shortest of several ways.
@@ -118,13 +129,14 @@ fn dependent(arena: &mut Arena, chart: &Chart) -> Program {
 }
 
 pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
+    let rates = system.rates.iter().map(|(_, symbol, rate)| (*symbol, rate));
+    let work = system.work.iter().map(|(symbol, power)| (*symbol, power));
     Batch {
         shared: system.shared.clone(),
         kernels: system.kernels.clone(),
-        results: system
-            .rates
-            .iter()
-            .map(|(_, symbol, rate)| (format!("d_{}", arena.name(*symbol).unwrap_or("state")), rate.clone()))
+        results: rates
+            .chain(work)
+            .map(|(symbol, rate)| (format!("d_{}", arena.name(symbol).unwrap_or("state")), rate.clone()))
             .collect(),
     }
 }
@@ -162,11 +174,13 @@ pub(super) fn best_reduction(
     arena: &mut Arena,
     h: &Hamiltonian,
     potential: Option<&Potential>,
+    forces: &Forces,
     rotations: bool,
     coefficients: &mut Constants,
 ) -> Option<(Reduction, Equations, Program, Vec<String>)> {
-    let candidates = reduce::candidates(arena, h, potential, rotations);
-    shortest_reduction(arena, candidates, potential.and_then(Potential::time), coefficients)
+    let candidates = reduce::candidates(arena, h, potential, forces, rotations);
+    let time = time(arena, potential, forces);
+    shortest_reduction(arena, candidates, time, coefficients)
 }
 
 /// The reduction of several with the shortest equations, and its programs.
@@ -217,4 +231,21 @@ fn trajectory_symbols(reduction: &Reduction) -> Vec<Expr> {
         Layout::Entries => reduction.fixed.clone(),
     };
     [chart.p.clone(), momentum].concat()
+}
+
+/// The power of the forces at a point, with what it shares; `None` where there are no forces.
+pub(super) fn power_batch(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    chart: &Chart,
+    full_h: &Polynomial,
+    forces: &Forces,
+) -> Option<Batch> {
+    let mut system = System {
+        shared: equations::velocities(arena, chart, full_h).into_iter().flatten().collect(),
+        ..System::default()
+    };
+    forces.loads(arena, chart, h).iter().for_each(|load| system.add(load));
+    let (_, power) = system.work?;
+    Some(Batch { shared: system.shared, kernels: system.kernels, results: vec![("power".to_owned(), power)] })
 }

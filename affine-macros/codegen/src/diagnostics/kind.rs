@@ -31,14 +31,7 @@ pub enum Diagnostic {
         /// All keys of the list.
         known: Vec<&'static str>,
     },
-    /// A key or term of the specification language that this version does not have.
-    UnavailableKey {
-        /// The list it stands in.
-        list: &'static str,
-        /// The key.
-        key: &'static str,
-    },
-    /// A term of `kinetic(...)` in `hamiltonian(...)`, or the other way round.
+    /// A term of `kinetic(...)` in `hamiltonian(...)`, or the other way round, or such a one in `dissipation(...)`.
     OtherSide {
         /// The list it stands in.
         list: &'static str,
@@ -238,13 +231,6 @@ pub enum Diagnostic {
     },
 
     // ---- the potential ----
-    /// A form of potentials that this version does not have.
-    UnavailableForm {
-        /// The form: `pairs`, `q1`, ...
-        form: String,
-        /// What to write.
-        instead: &'static str,
-    },
     /// `f(...)` with a name that is no function.
     UnknownFunction {
         /// The name.
@@ -502,6 +488,13 @@ pub enum Diagnostic {
         /// The other key.
         key: &'static str,
     },
+    /// A dissipation, or a force or potential of a field, beside something that does not go with it.
+    ForceBeside {
+        /// The part of the model, as written.
+        force: String,
+        /// The other thing.
+        key: &'static str,
+    },
     /// A constraint beside a key that does not go with it.
     ConstraintBeside {
         /// The other key.
@@ -591,6 +584,40 @@ pub enum Diagnostic {
         /// The translation term.
         term: &'static str,
     },
+
+    // ---- the forces ----
+    /// `custom(...)` that does not say what the field computes, or something else in its place.
+    MalformedCustom {
+        /// `potential` or `forces`.
+        key: &'static str,
+        /// What stands there.
+        found: String,
+        /// What it takes besides the field.
+        takes: &'static str,
+        /// How it may look.
+        example: &'static str,
+    },
+    /// `custom(...)` of something that is no field.
+    UnknownField {
+        /// The name.
+        name: String,
+        /// The field probably meant.
+        nearest: Option<String>,
+        /// The fields.
+        fields: Vec<String>,
+    },
+    /// A force on a centre that stands still.
+    FixedCentreForce {
+        /// The translation term, or `custom(..)`.
+        term: String,
+        /// The key it stands in.
+        key: &'static str,
+    },
+    /// A dissipation function that is negative at some velocity.
+    NegativeDissipation {
+        /// What shows it, in the user's numbers: `I - A = 0.1 - 0.2 = -1/10 on skew velocities (rotation)`.
+        defect: String,
+    },
 }
 
 /// The invariant parts of an affine velocity `O` under rotations.
@@ -637,7 +664,6 @@ names! {
     ExpectedKey => "expected-key",
     MalformedItem => "malformed-item",
     UnknownKey => "unknown-key",
-    UnavailableKey => "unavailable-key",
     OtherSide => "other-side",
     TwoStatements => "two-statements",
     RepeatedKey => "repeated-key",
@@ -670,7 +696,6 @@ names! {
     Exponent => "exponent",
     Degree => "degree",
     DivisionByZero => "division-by-zero",
-    UnavailableForm => "unavailable-form",
     UnknownFunction => "unknown-function",
     ArgumentCount => "argument-count",
     Argument => "argument",
@@ -703,6 +728,7 @@ names! {
     MetricNotPositive => "metric-not-positive",
     MetricTerm => "metric-term",
     MetricForm => "metric-form",
+    ForceBeside => "force-beside",
     ConstraintBeside => "constraint-beside",
     SumBeside => "sum-beside",
     VanishingTerm => "vanishing-term",
@@ -715,4 +741,8 @@ names! {
     NotPositiveDefinite => "not-positive-definite",
     ClaimBroken => "claim-broken",
     AffineTranslation => "affine-translation",
+    MalformedCustom => "malformed-custom",
+    UnknownField => "unknown-field",
+    FixedCentreForce => "fixed-centre-force",
+    NegativeDissipation => "negative-dissipation",
 }

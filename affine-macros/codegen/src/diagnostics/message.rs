@@ -55,25 +55,25 @@ impl Diagnostic {
                 format!("its items are {}", listed(known)),
                 suggestion(*nearest, "use one of these, or remove it"),
             ),
-            Self::UnavailableKey { list, key } => text(
-                format!("`{key}` in `{list}(...)` is not available in this version"),
-                format!(
-                    "`{key}` belongs to the specification language, but nothing can be derived from it yet"
-                ),
-                format!("state the model without `{key}`"),
-            ),
             Self::OtherSide { list, key, other } => text(
                 format!("`{key}` does not belong to `{list}(...)`"),
-                if *list == "kinetic" {
-                    format!(
+                match *list {
+                    "kinetic" => format!(
                         "`{key}` is a function of the momentum, and `kinetic(...)` states T through velocities"
-                    )
-                } else {
-                    format!(
+                    ),
+                    "dissipation" => format!(
+                        "`{key}` is a function of the momentum, and `dissipation(...)` states R through velocities"
+                    ),
+                    _ => format!(
                         "`{key}` is a form in the velocity, and `hamiltonian(...)` states H through momenta"
-                    )
+                    ),
                 },
-                format!("state all terms in `{other}(...)`, with the coefficients that they have there"),
+                match *list {
+                    "dissipation" => format!("remove `{key}`, or state R through forms in the velocity"),
+                    _ => format!(
+                        "state all terms in `{other}(...)`, with the coefficients that they have there"
+                    ),
+                },
             ),
             Self::TwoStatements => text(
                 "the kinetic energy is stated twice, in `kinetic(...)` and in `hamiltonian(...)`",
@@ -251,13 +251,6 @@ impl Diagnostic {
                 format!("division by `{divisor}`, which is zero"),
                 "a quotient by zero has no value; coefficients are exact, so that no rounding made this one vanish",
                 "write a divisor that is not zero",
-            ),
-            Self::UnavailableForm { form, instead } => text(
-                format!("`{form}` in `potential` is not available in this version"),
-                format!(
-                    "`{form}` belongs to the specification language, but nothing can be derived from it yet"
-                ),
-                *instead,
             ),
             Self::UnknownFunction { name, nearest, known } => text(
                 format!("there is no function `{name}`"),
@@ -456,6 +449,27 @@ impl Diagnostic {
                 "their sum has a mass matrix that depends on phi, and is derived on all of GL(n) in orthonormal bases",
                 format!("keep the terms of one frame, or remove `{key}`"),
             ),
+            Self::ForceBeside { force, key } => text(
+                format!("`{force}` does not go with {key} in this version"),
+                match *key {
+                    "`constraint`" => {
+                        "its force is not projected to the group that is left; only a potential of an isochoric body \
+                         with `dalembert` needs no projection, since there the multiplier keeps the constraint"
+                    }
+                    "`metrics(...)`" => {
+                        "velocities and placements would reach it in other bases than those that points stand in"
+                    }
+                    "`casimir3`" => {
+                        "what it leaves conserved is decided for velocities that are linear in the momenta"
+                    }
+                    "`group = unitary`" => "the lattice of U(n) is that of the Casimir terms alone",
+                    "terms of different frames" => {
+                        "what it leaves conserved is decided for a mass matrix that is constant in one frame"
+                    }
+                    _ => "what is emitted there is derived from T and from potentials that are formulas",
+                },
+                "remove one of the two",
+            ),
             Self::ConstraintBeside { key } => text(
                 format!("`constraint` does not go with `{key}` in this version"),
                 match *key {
@@ -566,6 +580,35 @@ impl Diagnostic {
                 "every form on the affine group that is invariant on both sides is degenerate (section 4, \
                  after (4.5)): a translational energy needs a metric on one side",
                 format!("claim `metric` on one side, or remove `{term}`"),
+            ),
+            Self::MalformedCustom { key, found, takes, example } => text(
+                format!("`{key}` has {found} where `custom(field, ..)` should say what a field computes"),
+                format!("it is a summand by itself, and takes {takes}"),
+                format!("write `{key} = {example}`"),
+            ),
+            Self::UnknownField { name, nearest, fields } => text(
+                format!("there is no field `{name}`"),
+                format!("`custom(field, ..)` calls a field of the struct, which has {}", listed(fields)),
+                suggestion(
+                    nearest.as_deref(),
+                    "add the field, of a type that implements `affine_runtime::force::Force` or \
+                     `affine_runtime::potential::Potential`",
+                ),
+            ),
+            Self::FixedCentreForce { term, key } => text(
+                format!("`{term}` in `{key}` acts on a centre that stands still"),
+                "without a translational kinetic energy the centre is fixed in space: x_dot = 0, and p is not part of \
+                 the state",
+                format!(
+                    "add `space_translation = m` or `body_translation = m` to `kinetic(...)`, or remove `{term}`"
+                ),
+            ),
+            Self::NegativeDissipation { defect } => text(
+                format!("the dissipation is negative: {defect}"),
+                "the forces of R have the power -2 R; where R < 0 they would feed energy in. The terms of each frame \
+                 count together; casimir terms count with those of the body, or else with those of space",
+                "change a coefficient so that R >= 0 at every velocity; an isotropic R has it iff I >= |A| and \
+                 I + A + n B >= 0, where I is the inertia, A is `casimir2`, B is `casimir1_squared`",
             ),
         }
     }

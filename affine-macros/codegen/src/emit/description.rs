@@ -56,7 +56,7 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         Group::Metric => format!("O({n})"),
         Group::Less => format!("a proper subgroup of O({n})"),
     };
-    let invariant = match (model.has_potential, model.constraint) {
+    let invariant = match (model.has_forces, model.constraint) {
         (_, Some(_)) => "Without its constraint the kinetic energy is invariant",
         (true, None) => "The kinetic energy is invariant",
         (false, None) => "Invariant",

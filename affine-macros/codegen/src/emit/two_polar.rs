@@ -168,7 +168,7 @@ fn description(context: &Context, form: &TwoPolar) -> TokenStream {
         Variables::Stretches => format_ident!("Stretches"),
         Variables::Angles => format_ident!("Angles"),
     };
-    let potential = match (context.model.has_potential, form.dilatation_only) {
+    let potential = match (context.model.has_forces, form.dilatation_only) {
         (false, _) => format_ident!("None"),
         (true, true) => format_ident!("Dilatation"),
         (true, false) => format_ident!("Stretches"),

@@ -154,13 +154,16 @@ fn still(arena: &Arena, chart: &Chart, h: &Polynomial, candidates: Vec<Candidate
     let sample = Flow::new(chart, &slopes, &residue);
     let symbolic = Flow::new(chart, &slopes, &itself);
     let mut list = candidates;
-    list.retain(|c| {
-        sample.bracket(*c).iter().all(Ring::vanishes) && symbolic.bracket(*c).iter().all(Ring::vanishes)
-    });
+    list.retain(|c| sample.leaves(*c) && symbolic.leaves(*c));
     list
 }
 
 impl<R: Ring> Flow<'_, R> {
+    /// Does the flow leave the candidate at rest?
+    pub(super) fn leaves(&self, candidate: Candidate) -> bool {
+        self.bracket(candidate).iter().all(Ring::vanishes)
+    }
+
     /// The components of `{candidate, H}`, up to common factors that do not vanish.
     fn bracket(&self, candidate: Candidate) -> Vec<R> {
         match candidate {

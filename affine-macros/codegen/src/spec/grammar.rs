@@ -7,7 +7,7 @@ use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, u
 use super::expression_parser::{self, Language};
 use super::momentum_side::{self, MomentumKind};
 use super::names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
-use super::{Item, Metric, Potential, Spanned, Spec, Symmetry, Term, value};
+use super::{Custom, Item, Metric, Potential, Spanned, Spec, Symmetry, Term, custom, value};
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
 /// The keys of `affine_model(...)`.
@@ -21,15 +21,14 @@ enum Key {
     Constraint,
     Group,
     Potential,
+    Dissipation,
+    Forces,
     Require,
     Emit,
     Crate,
 }
 
-/// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 2] = ["dissipation", "forces"];
-
-/// Terms that `hamiltonian(...)` has and `kinetic(...)` has not.
+/// Terms that `hamiltonian(...)` has, and `kinetic(...)` and `dissipation(...)` have not.
 const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
 
 /// Terms that `kinetic(...)` has and `hamiltonian(...)` has not.
@@ -46,6 +45,8 @@ impl Named for Key {
         Self::Constraint,
         Self::Group,
         Self::Potential,
+        Self::Dissipation,
+        Self::Forces,
         Self::Require,
         Self::Emit,
         Self::Crate,
@@ -61,6 +62,8 @@ impl Named for Key {
             Self::Constraint => "constraint",
             Self::Group => "group",
             Self::Potential => "potential",
+            Self::Dissipation => "dissipation",
+            Self::Forces => "forces",
             Self::Require => "require",
             Self::Emit => "emit",
             Self::Crate => "crate",
@@ -81,6 +84,8 @@ impl Key {
             Self::Constraint => "constraint = isochoric",
             Self::Group => "group = unitary",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
+            Self::Dissipation => "dissipation(body_inertia = 0.1, casimir2 = 0.1)",
+            Self::Forces => "forces = custom(wind, spatial)",
             Self::Require => "require(positive_definite)",
             Self::Emit => "emit(taylor)",
             Self::Crate => "crate = ::affine_runtime",
@@ -115,6 +120,8 @@ pub(super) struct Arguments {
     constraint: Option<Spanned<Constraint>>,
     group: Option<Spanned<PlacementGroup>>,
     potential: Option<Potential>,
+    customs: Vec<Custom>,
+    dissipation: Vec<Term>,
     require: Vec<Spanned<Requirement>>,
     emit: Vec<Spanned<Capability>>,
     runtime: Option<syn::Path>,
@@ -128,8 +135,20 @@ enum Energy {
 
 impl Arguments {
     pub(super) fn of(self, item: Item) -> Spec {
-        let Self { dim, symmetry, energy, metrics, constraint, group, potential, require, emit, runtime } =
-            self;
+        let Self {
+            dim,
+            symmetry,
+            energy,
+            metrics,
+            constraint,
+            group,
+            potential,
+            customs,
+            dissipation,
+            require,
+            emit,
+            runtime,
+        } = self;
         let (kinetic, hamiltonian, kinetic_key) = match energy {
             Energy::Kinetic(terms) => (terms.value, None, terms.span),
             Energy::Hamiltonian(terms) => (Vec::new(), Some(terms.value), terms.span),
@@ -145,6 +164,8 @@ impl Arguments {
             constraint,
             group,
             potential,
+            customs,
+            dissipation,
             require,
             emit,
             runtime,
@@ -154,12 +175,13 @@ impl Arguments {
 
 pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Arguments, Reported> {
     let here = Span::call_site();
-    let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &LATER_KEYS, found);
+    let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &[], found);
     let (mut dim, mut symmetry, mut kinetic, mut runtime) = (None, None, None, None);
     let mut hamiltonian = None;
     let mut metric = [None, None];
     let (mut require, mut emit) = (Vec::new(), Vec::new());
     let (mut constraint, mut energy, mut group) = (None, None, None);
+    let (mut dissipation, mut customs) = (Vec::new(), Vec::new());
     for entry in entries {
         let at = entry.at;
         match entry.key {
@@ -176,7 +198,12 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
                 let piece = expect_value(entry, found).ok();
                 constraint = piece.and_then(|Piece { tokens, at }| member("constraint", tokens, at, found));
             }
-            Key::Potential => energy = potential(expect_value(entry, found), at, found),
+            Key::Potential => energy = potential(expect_value(entry, found), at, &mut customs, found),
+            Key::Forces => forces(expect_value(entry, found), &mut customs, found),
+            Key::Dissipation => {
+                let terms = terms(DISSIPATION, expect_list(entry, found), at, found);
+                dissipation = terms.map_or_else(|_| Vec::new(), |terms| terms.value);
+            }
             Key::Group => {
                 group = expect_value(entry, found)
                     .ok()
@@ -202,6 +229,8 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
         constraint,
         group,
         potential: energy,
+        customs,
+        dissipation,
         require,
         emit,
         runtime,
@@ -289,8 +318,9 @@ const KINETIC: TermList<TermKind> =
     TermList { name: "kinetic", elsewhere: &MOMENTUM_TERMS, example: value::example };
 const HAMILTONIAN: TermList<MomentumKind> =
     TermList { name: "hamiltonian", elsewhere: &VELOCITY_TERMS, example: momentum_side::example };
+const DISSIPATION: TermList<TermKind> = TermList { name: "dissipation", ..KINETIC };
 
-/// `kinetic(...)` and `hamiltonian(...)`.
+/// `kinetic(...)`, `hamiltonian(...)` and `dissipation(...)`.
 fn terms<K: Named + PartialEq>(
     side: TermList<K>,
     list: Result<Group, Reported>,
@@ -344,10 +374,25 @@ fn metrics(list: Result<Group, Reported>, found: &mut Diagnostics) -> [Option<Me
 }
 
 /// `potential = ...`.
-fn potential(piece: Result<Piece, Reported>, key: Span, found: &mut Diagnostics) -> Option<Potential> {
-    let Piece { tokens, at } = piece.ok()?;
+fn potential(
+    piece: Result<Piece, Reported>,
+    key: Span,
+    customs: &mut Vec<Custom>,
+    found: &mut Diagnostics,
+) -> Option<Potential> {
+    let (fields, rest) = custom::taken(piece.ok()?, custom::Place::Potential, found);
+    customs.extend(fields);
+    let Piece { tokens, at } = rest?;
     let energy = expression_parser::parse(tokens, at, Language::Potential(&[]), found).ok()?;
     Some(Potential { key: key.into(), energy, span: at })
+}
+
+/// `forces = ...`.
+fn forces(piece: Result<Piece, Reported>, customs: &mut Vec<Custom>, found: &mut Diagnostics) {
+    let Ok(piece) = piece else { return };
+    let (fields, rest) = custom::taken(piece, custom::Place::Forces, found);
+    customs.extend(fields);
+    custom::only(rest, custom::Place::Forces, found);
 }
 
 /// `require(...)` and `emit(...)`: names and nothing else.
