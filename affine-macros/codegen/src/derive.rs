@@ -2,6 +2,7 @@
 
 mod prepared;
 mod programs;
+pub mod splitting;
 mod stated;
 
 use crate::algebra::bind::Constants;
@@ -24,7 +25,7 @@ use crate::optimise::{Batch, straight_line};
 use crate::spec::{Capability, Spanned};
 
 use prepared::{coefficient_program, conditions, numeric_blocks};
-use programs::{best_reduction, full_chart, full_equations};
+use programs::{Reduced, best_reduction, full_chart, full_equations};
 
 /// Everything that is emitted about a model.
 pub struct Model {
@@ -84,6 +85,8 @@ pub struct Model {
     pub formulas: Formulas,
     /// Taylor coefficients of the reduced equations, if asked for.
     pub taylor: Option<Recurrence>,
+    /// Exact flows of the pieces of the reduced motion, if asked for.
+    pub splitting: Option<splitting::Programs>,
 }
 
 /// The Legendre transformation and the energy in velocities.
@@ -162,7 +165,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     };
     let groups = (form.space_group, form.body_group);
     let eigenvalues = eigenvalues(&form);
-    let Form { mut arena, kinetic, stated, hessian, potential, metrics, .. } = form;
+    let Form { mut arena, kinetic, stated, hessian, potential, metrics, split, .. } = form;
     let potential = potential.as_ref();
     let arena = &mut arena;
     let cubic = stated.as_ref().filter(|stated| stated.is_cubic());
@@ -197,8 +200,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let (full_chart, full_h) = full_chart(arena, &h);
     let full = full_equations(arena, &h, &full_chart, &full_h, potential, &mut coefficients);
     let rotations = conserved_now.contains(&Candidate::TotalAngularMomentum);
-    let (reduction, reduced, trajectory, fixed) =
-        best_reduction(arena, &h, potential, rotations, &mut coefficients)?;
+    let Reduced { reduction, equations: reduced, splitting, trajectory, fixed } =
+        best_reduction(arena, &h, potential, (rotations, split), &mut coefficients)?;
     let formulas = Formulas {
         kinetic_energy: match cubic {
             None => describe::kinetic_energy(arena, &kinetic),
@@ -294,6 +297,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         metrics,
         formulas,
         taylor: None,
+        splitting,
     })
 }
 

@@ -11,6 +11,7 @@ mod points;
 mod prepare;
 mod reduction;
 mod separated;
+mod splitting;
 mod taylor;
 
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -38,6 +39,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let implementation = model_impl(&context);
     let points = points::inherent(&context);
     let (bases, _) = metrics::bases(&context);
+    let splitting = splitting::splitting_impl(&context);
     let taylor = taylor::taylor_impl(&context);
     quote! {
         #item
@@ -49,6 +51,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #constants
             #implementation
             #points
+            #splitting
             #taylor
         };
     }
@@ -197,6 +200,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let reduction = reduction::methods(context);
     let geodesic = closed_form::geodesic(context);
     let (_, bases) = metrics::bases(context);
+    let splitting = splitting::capability(context);
     let taylor = taylor::capability(context);
     quote! {
         #(#[doc = #docs])*
@@ -210,6 +214,7 @@ fn model_impl(context: &Context) -> TokenStream {
             #dynamics
             #reduction
             #geodesic
+            #splitting
             #taylor
         }
     }

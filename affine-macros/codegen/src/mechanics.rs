@@ -18,4 +18,5 @@ mod notation;
 pub mod potential;
 pub mod reduce;
 pub mod separation;
+pub mod splitting;
 pub mod symmetry;

@@ -13,7 +13,7 @@ use crate::mechanics::metrics::Metrics;
 use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
-use crate::spec::{self, Claim, Named, Requirement, Spec, Value};
+use crate::spec::{self, Capability, Claim, Named, Requirement, Spec, Value};
 
 /// A kinetic energy that passed all rules that can be decided before its fields have values.
 pub struct Form {
@@ -33,6 +33,8 @@ pub struct Form {
     pub potential: Option<Potential>,
     /// Metrics other than the identity; everything else stands in bases in which they are.
     pub metrics: Option<Metrics>,
+    /// Are the exact flows of pieces of the Hamiltonian asked for?
+    pub split: bool,
 }
 
 /// Builds the form and holds it against every rule.
@@ -62,6 +64,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     found.verdict()?;
     let potential = potential(&mut arena, spec, kinetic.constraint, found);
     super::capabilities::series(spec, potential.as_ref(), found);
+    super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     found.verdict()?;
     let space_group = largest_group(&free, Side::Space);
     let body_group = largest_group(&free, Side::Body);
@@ -74,6 +77,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         body_group,
         potential,
         metrics: lower::metrics(spec),
+        split: super::capabilities::asked(spec, Capability::Splitting),
     })
 }
 
@@ -102,6 +106,7 @@ fn momentum_form(
     let body_group = largest_group(&on_momenta, Side::Body);
     let potential = potential(&mut arena, spec, None, found);
     super::capabilities::series(spec, potential.as_ref(), found);
+    super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     found.verdict()?;
     Ok(Form {
         arena,
@@ -112,6 +117,7 @@ fn momentum_form(
         body_group,
         potential,
         metrics: lower::metrics(spec),
+        split: super::capabilities::asked(spec, Capability::Splitting),
     })
 }
 

@@ -15,6 +15,7 @@ use crate::mechanics::separation::{Separation, Slope};
 use crate::optimise::{Batch, straight_line};
 
 use super::Equations;
+use super::splitting::Programs;
 
 /// Chart and Hamiltonian of the equations that users of other codes write down: all momenta in the model's frames.
 pub(super) fn full_chart(arena: &mut Arena, h: &Hamiltonian) -> (Chart, Polynomial) {
@@ -106,7 +107,7 @@ fn dependent(arena: &mut Arena, chart: &Chart) -> Program {
     fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
 }
 
-fn batch(arena: &Arena, system: &System) -> Batch {
+pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
     Batch {
         shared: system.shared.clone(),
         kernels: system.kernels.clone(),
@@ -146,14 +147,23 @@ fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> Batch {
     result
 }
 
-/// The reduction with the shortest equations, and its programs.
+/// A reduction with its programs.
+pub(super) struct Reduced {
+    pub(super) reduction: Reduction,
+    pub(super) equations: Equations,
+    pub(super) splitting: Option<Programs>,
+    pub(super) trajectory: Program,
+    pub(super) fixed: Vec<String>,
+}
+
+/// The reduction with the shortest equations, and its programs; `split` asks for its sub-flows as well.
 pub(super) fn best_reduction(
     arena: &mut Arena,
     h: &Hamiltonian,
     potential: Option<&Potential>,
-    rotations: bool,
+    (rotations, split): (bool, bool),
     coefficients: &mut Constants,
-) -> Option<(Reduction, Equations, Program, Vec<String>)> {
+) -> Option<Reduced> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
     for candidate in reduce::candidates(arena, h, potential, rotations) {
         let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
@@ -162,18 +172,12 @@ pub(super) fn best_reduction(
         let way = batch(arena, &candidate.system);
         let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
         let weight = program.operations().weight() + states.len();
-        eprintln!(
-            "cand {:?} carried {} weight {} {:?}",
-            candidate.chart.momentum,
-            candidate.carried,
-            weight,
-            program.operations()
-        );
         if best.as_ref().is_none_or(|(least, ..)| weight < *least) {
             best = Some((weight, candidate, program, constants));
         }
     }
-    let (_, reduction, program, constants) = best?;
+    let (_, reduction, program, mut constants) = best?;
+    let splitting = split.then(|| Programs::of(arena, h, potential, &reduction, &mut constants)).flatten();
     let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {
         results: constants
@@ -191,7 +195,8 @@ pub(super) fn best_reduction(
         Layout::Constant => Program::default(),
         Layout::Entries => dependent(arena, &reduction.chart),
     };
-    Some((reduction, Equations { groups, dependent, program: fuse(&program) }, trajectory, fixed))
+    let equations = Equations { groups, dependent, program: fuse(&program) };
+    Some(Reduced { reduction, equations, splitting, trajectory, fixed })
 }
 
 /// What `trajectory` reads: `p` where the state depends on it, and the constant part of the affine momentum.

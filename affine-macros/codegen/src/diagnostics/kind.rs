@@ -104,6 +104,15 @@ pub enum Diagnostic {
         /// The other thing.
         beside: &'static str,
     },
+    /// `emit(splitting)` for a Hamiltonian without pieces whose flows are known.
+    NoExactPieces {
+        /// What stands against it.
+        beside: String,
+        /// The reason.
+        why: String,
+        /// What to do.
+        instead: String,
+    },
     /// A capability that this version does not have.
     UnavailableCapability {
         /// The capability.
@@ -616,6 +625,7 @@ names! {
     EmptyList => "empty-list",
     UnknownName => "unknown-name",
     CapabilityBeside => "capability-beside",
+    NoExactPieces => "no-exact-pieces",
     UnavailableCapability => "unavailable-capability",
     Dimension => "dimension",
     RuntimePath => "runtime-path",

@@ -120,10 +120,15 @@ impl Diagnostic {
                     "remove `{capability}` from `emit(...)`: Runge-Kutta and Gauss methods integrate the model"
                 ),
             ),
+            Self::NoExactPieces { beside, why, instead } => text(
+                format!("`emit(splitting)` does not go with {beside}"),
+                why.clone(),
+                format!("remove `splitting` from `emit(...)`; {instead}"),
+            ),
             Self::UnavailableCapability { capability, gives } => text(
                 format!("the capability `{capability}` is not available in this version"),
                 format!(
-                    "it will give {gives}; this version emits the default, Hamilton's equations, and `taylor`"
+                    "it will give {gives}; this version emits the default, Hamilton's equations, `splitting` and `taylor`"
                 ),
                 format!("remove `{capability}` from `emit(...)`"),
             ),
