@@ -5,7 +5,7 @@ use quote::quote;
 
 use crate::derive::splitting::{FlowProgram, Programs};
 use crate::ir::Program;
-use crate::lower::TIME;
+use crate::mechanics::potential::TIME;
 
 use super::body::{Body, inputs};
 use super::{Context, identifiers, number, pattern};

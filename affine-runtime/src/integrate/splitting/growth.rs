@@ -4,14 +4,14 @@ use crate::scalar::Real;
 
 /// Entries of a matrix up to which the series of its exponential is summed as it stands.
 const RADIUS: f64 = 0.5;
-/// Terms of the series: `(3/2)^18/18!` is below `1e-12` of the first for a full 3 by 3 matrix of such entries, and
-/// `0.5^18/18!` below the rounding of a norm of 1/2; further terms are added while they count.
+/// Terms of the series, at most: for a full 3 by 3 matrix of such entries the next one is below `1.5^27/27! = 6e-24`;
+/// it ends where terms do not count any more.
 const MOST_TERMS: usize = 26;
 
 /// `exp(A) - 1` of an `N` by `N` matrix, `N` = 2 or 3, to a few roundings of its largest entry where those of `A` are
 /// at most 1/2; larger ones are halved, and `g -> 2g + g^2` doubles the error with the time.
 ///
-/// `A = m 1 + B` with `tr B = 0`. By Cayley and Hamilton `B^3 = s B + d 1`, `s = tr(B^2)/2`, `d = det B` (`B^2 = s 1` for
+/// `A = m 1 + B` with `tr B = 0`. By Cayley and Hamilton `B^3 = s B + d 1`, `s = tr(B^2)/2`, `d = det B` (0 for
 /// `N` = 2): powers of `B` have three coefficients, and the series is summed on these.
 #[inline]
 #[must_use]
@@ -68,10 +68,7 @@ fn series<const N: usize, T: Real>(a: [[T; N]; N]) -> [[T; N]; N] {
     };
     core::array::from_fn(|i| {
         core::array::from_fn(|j| {
-            let mut sum = b[i][j] * f1;
-            if N == 3 {
-                sum = square[i][j].fma(f2, sum);
-            }
+            let mut sum = square[i][j].fma(f2, b[i][j] * f1);
             if i == j {
                 sum += f0;
             }
@@ -154,4 +151,45 @@ pub fn accumulate<T: Real>(value: &mut T, carry: &mut T, rise: T) {
     let before = *value;
     *value = before + rise;
     *carry = (before - *value) + rise;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::growth;
+    use crate::decompose::exponential;
+    use crate::frames::Matrix;
+
+    /// Both are good to some roundings; with `2^s` halvings the growth loses as many more.
+    fn agree<const N: usize>(a: [[f64; N]; N], roundings: f64) {
+        let expected = exponential(&Matrix::<N>::from_fn(|i, j| a[i][j])) - Matrix::<N>::identity();
+        let found = growth(a);
+        let found = Matrix::<N>::from_fn(|i, j| found[i][j]);
+        let size = if expected.norm() > 1.0 { expected.norm() } else { 1.0 };
+        assert!((found - expected).norm() <= roundings * f64::EPSILON * size, "{a:?}: {found} {expected}");
+    }
+
+    #[test]
+    fn it_is_the_exponential_less_one() {
+        let (b2, b3) = ([[0.3, -0.4], [0.25, 0.1]], [[0.3, -0.4, 0.1], [0.25, 0.1, -0.45], [0.05, 0.4, -0.2]]);
+        for (scale, roundings) in [(0.0, 0.0), (1e-9, 8.0), (0.1, 8.0), (1.0, 8.0), (4.0, 64.0), (20.0, 512.0)] {
+            agree(b2.map(|row| row.map(|x| x * scale)), roundings);
+            agree(b3.map(|row| row.map(|x| x * scale)), roundings);
+        }
+        // Nilpotent, skew, and a multiple of the identity.
+        agree([[0.0, 0.5, 0.2], [0.0, 0.0, 0.4], [0.0, 0.0, 0.0]], 4.0);
+        agree([[0.0, -0.5], [0.5, 0.0]], 4.0);
+        agree([[0.4, 0.0], [0.0, 0.4]], 4.0);
+    }
+
+    #[test]
+    fn small_growth_keeps_its_digits() {
+        let [[diagonal, upper], [lower, _]] = growth([[1e-20, 3e-17], [-2e-18, -1e-20]]);
+        assert!((diagonal - 1e-20).abs() < 1e-33 && (upper - 3e-17).abs() < 1e-32 && (lower + 2e-18).abs() < 1e-33);
+    }
+
+    #[test]
+    fn what_is_no_number_stays_none() {
+        assert!(growth([[f64::NAN, 0.0], [0.0, 0.0]]).iter().flatten().any(|x| x.is_nan()));
+        assert!(!growth([[f64::INFINITY, 0.0], [0.0, 1.0]]).iter().flatten().all(|x| x.is_finite()));
+    }
 }
