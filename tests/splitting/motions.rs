@@ -22,9 +22,9 @@ fn difference<const N: usize, P: Phase<N>>(one: &P, other: &P) -> f64 {
     (placement + spin + centre) / (1.0 + other.phi().norm() + other.sigma().0.0.norm())
 }
 
-/// Halving the step divides the error by `2^order`; measured between errors of about 1e-4 and 1e-11, where the next
-/// term still shows, and rounding does not.
-const ORDER: f64 = 0.45;
+/// Halving the step divides the error by `2^order`, up to the next term of the error; 0.33 is the largest difference
+/// found, of SRKN14a.
+const ORDER: f64 = 0.4;
 
 fn assert_orders<const N: usize, M: Model<N>>(name: &str, model: &M, start: M::Point<f64>) {
     let exact = *run(model, start, 2.0, Method::RungeKutta8).end().1;
@@ -35,13 +35,7 @@ fn assert_orders<const N: usize, M: Model<N>>(name: &str, model: &M, start: M::P
         };
         let errors = [error(step), error(step / 2.0)];
         let measured = (errors[0] / errors[1]).log2();
-        let named = order as f64;
-        // A single exact flow has no error to divide.
-        assert!(
-            (measured - named).abs() < ORDER || (measured > named && errors[1] < 1e-9),
-            "{name}: order {order}: {measured} from {errors:?}"
-        );
-        println!("{name}: order {order}: {measured:.2}, errors {:.1e} {:.1e}", errors[0], errors[1]);
+        assert!((measured - order as f64).abs() < ORDER, "{name}: order {order}: {measured} from {errors:?}");
     }
 }
 
@@ -98,8 +92,9 @@ fn assert_reference<M: Model<3>>(model: &M, start: M::Point<f64>, data: &[(f64, 
 
 /// Steps of the long runs.
 const STEPS: u32 = 100_000;
-/// Momentum maps are kept to `c eps sqrt(steps)` times their size, `c` this.
-const MOMENTA: f64 = 4.0;
+/// Momentum maps are kept to `c eps sqrt(steps)` times their size, `c` this: a tenth, since increments are summed with
+/// compensation.
+const MOMENTA: f64 = 0.1;
 
 fn assert_kept<const N: usize, M: Model<N>>(
     name: &str,
@@ -118,7 +113,6 @@ fn assert_kept<const N: usize, M: Model<N>>(
             Conserved::Energy => energy,
             _ => MOMENTA * f64::EPSILON * f64::from(STEPS).sqrt(),
         };
-        println!("{name}: {:?} {:.1e}", drift.quantity, drift.relative());
         assert!(drift.relative() <= allowed, "{name}: {:?}: {:e}", drift.quantity, drift.relative());
     }
     // No drift: the second half errs no more than the first.
@@ -133,14 +127,16 @@ fn assert_kept<const N: usize, M: Model<N>>(
 #[test]
 fn a_hundred_thousand_steps() {
     let start = Vibrating.at_momentum(phi3(), Comoving(spin3())).unwrap();
-    assert_kept("vibrating", &Vibrating, start, (2, 0.02), 1e-2);
+    assert_kept("vibrating", &Vibrating, start, (2, 0.02), 2e-4);
     let start = PlanarMirrored.at_momentum(phi2(), Spatial(spin2())).unwrap();
-    assert_kept("planar mirrored", &PlanarMirrored, start, (4, 0.05), 1e-5);
+    assert_kept("planar mirrored", &PlanarMirrored, start, (4, 0.05), 1e-10);
     let model = Elastic { kappa: 10.0 }.prepare().unwrap();
     let start = model.at_momentum(phi3(), Comoving(spin3())).unwrap();
-    assert_kept("elastic", &model, start, (2, 0.02), 1e-2);
+    assert_kept("elastic", &model, start, (2, 0.02), 2e-4);
     let start = Fibred.at_momentum(phi3(), Comoving(spin3())).unwrap();
-    assert_kept("fibred", &Fibred, start, (2, 0.02), 1e-2);
+    assert_kept("fibred", &Fibred, start, (2, 0.02), 2e-4);
+    let start = Attracted.at_momentum(x3(), phi3(), p3(), Comoving(spin3())).unwrap();
+    assert_kept("attracted", &Attracted, start, (2, 0.01), 2e-4);
 }
 
 #[test]
