@@ -147,6 +147,10 @@ families! {
     taylor_functions_2: "dim = 2, emit(taylor), kinetic(dalembert = 1), \
         potential = exp(tr(G)/4) + ln(1 + det^2) + sin(phi[1,2])*tan(det/4) + 1/sqrt(1 + tr(G))";
     taylor_straight_2: "dim = 2, emit(taylor), kinetic(dalembert = 3)";
+    mixed_flat_affine_2: "dim = 2, kinetic(dalembert = 2, casimir2 = 0.2, space_translation = 1)";
+    mixed_body_space_3: "dim = 3, kinetic(body_inertia = 1, space_inertia = diag(1, 1.5, 2))";
+    mixed_masses_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1, space_translation = 2), \
+        emit(metric, acceleration)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.
@@ -228,6 +232,30 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "dim = 2, crate = crate::renamed::runtime, kinetic(casimir2 = 0.2)",
         "/// A body.
         pub struct Renamed;",
+    ),
+    (
+        "two_polar_3",
+        "dim = 3, kinetic(casimir2 = 1.2, casimir1_squared = 0.1), emit(two_polar)",
+        "/// A lattice of three stretches.
+        pub struct Lattice;",
+    ),
+    (
+        "two_polar_fields_2",
+        "dim = 2, kinetic(casimir2 = a, body_inertia = i), potential = neo_hookean(c), emit(two_polar)",
+        "/// A lattice of two stretches.
+        pub struct Lattice { a: f64, i: f64, c: f64 }",
+    ),
+    (
+        "unitary_fields_3",
+        "dim = 3, kinetic(casimir2 = a, casimir1_squared = 0.3), group = unitary",
+        "/// A lattice of three angles.
+        pub struct Lattice { a: f64 }",
+    ),
+    (
+        "two_polar_dalembert_2",
+        "dim = 2, kinetic(dalembert = 1.5), potential = hyperbolic_dilatation(2), emit(two_polar)",
+        "/// A lattice of two stretches.
+        pub struct Lattice;",
     ),
 ];
 

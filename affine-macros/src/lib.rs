@@ -10,12 +10,14 @@ use proc_macro::TokenStream;
 /// |---|---|---|
 /// | `dim` | `2`, `3` | dimension; `n` in expressions |
 /// | `kinetic(...)` | terms | the kinetic energy, a sum of the terms below |
+/// | `group` | `unitary` | placements in U(n) instead of GL(n, R): `-A/2 tr Om^2 - B/2 (tr Om)^2`, emitted as its lattice on the circle |
 /// | `hamiltonian(...)` | terms | instead of `kinetic(...)`: the same, stated through momenta, below |
 /// | `metrics(space = g, body = eta)` | matrices of numbers | constant metrics other than the identity, below |
 /// | `constraint` | `isochoric`, `rigid`, `conformal` | motion confined to SL(n), SO(n), R+ SO(n), below; without it GL+(n) |
 /// | `potential` | expression | the potential energy, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
+/// | `emit(...)` | `taylor`, `two_polar`, `metric`, `acceleration` | what is emitted beyond the default, below; `two_polar` is the lattice form `(q, p, M, N)` of doubly isotropic models |
 /// | `crate` | path | the runtime, where it has another name than `affine_runtime` |
 ///
 /// | term | energy |
@@ -49,6 +51,13 @@ use proc_macro::TokenStream;
 /// With `metrics(...)`, `g` and `eta` symmetric and positive definite, every transpose and norm is the metric one
 /// (`g^-1 Y^T g` in space, `eta^-1 X^T eta` in the body), and `det phi`, `q` are those of orthonormal bases. Points have
 /// the user's coordinates; equations, reduced states and plain arrays those of orthonormal bases.
+/// Terms of different frames add: the mass matrix then depends on `phi`, and is factorised in the equations. A sum that
+/// is not positive definite at every placement is checked at each start, and a motion into a degenerate mass matrix ends
+/// with `Reason::Degenerate`.
+///
+/// `emit(metric)` adds the methods `metric(&phi)` and `inverse_metric(&phi)`, the configuration metric over
+/// `(x_dot, phi_dot)` with `phi_dot` row by row, and its inverse; `emit(acceleration)` adds `acceleration(&point)`, the
+/// acceleration of the centre of mass.
 ///
 /// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
 /// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)`, their entries `G[1,2]`, with

@@ -21,6 +21,8 @@ pub enum Error {
         /// The quantity, as the paper names it.
         quantity: &'static str,
     },
+    /// Two stretches of a lattice are equal: its variables do not determine the momentum there.
+    CoincidentStretches,
     /// A placement, velocity or momentum violates the constraint of the model by more than rounding.
     OffConstraint {
         /// The constraint.
@@ -77,6 +79,10 @@ impl fmt::Display for Error {
             Error::NotFinite { quantity } => {
                 write!(f, "{quantity} is not finite; give finite numbers")
             }
+            Error::CoincidentStretches => f.write_str(
+                "two stretches are equal, where (q, p, M, N) do not determine the momentum: M vanishes with their \
+                 difference; give the phase point itself",
+            ),
             Error::OffConstraint { constraint, quantity, defect, threshold } => write!(
                 f,
                 "{quantity} violates the {constraint} constraint by {defect:e} (threshold {threshold:e}): {}",

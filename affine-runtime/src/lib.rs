@@ -28,9 +28,11 @@ pub mod frames;
 pub mod geodesic;
 pub mod integrate;
 pub mod kinematics;
+pub mod lattice;
 pub mod metrics;
 pub mod model;
 mod reduction;
+mod regularity;
 #[cfg(feature = "report")]
 pub mod report;
 pub mod scalar;

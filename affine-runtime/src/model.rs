@@ -7,6 +7,7 @@ use crate::frames::{Matrix, Vector};
 use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::Series;
 use crate::metrics::Bases;
+pub use crate::regularity::Regularity;
 use crate::scalar::{Real, Scalar};
 use crate::state::Phase;
 
@@ -69,6 +70,12 @@ pub trait Model<const N: usize> {
     #[must_use]
     fn renewed<T: Real>(&self, reduced: &Self::Reduced<T>) -> Self::Reduced<T> {
         *reduced
+    }
+
+    /// Signs and weakest pivot of the mass matrix at a placement, for a model whose kinetic energy has a mass matrix
+    /// that depends on it and is not known to be definite; `None` for every other one, which is regular everywhere.
+    fn regularity(&self, _phi: &Matrix<N>) -> Option<Regularity> {
+        None
     }
 
     /// The bases of space and body in which the model's metrics are the identity, from the user's own; `None` where

@@ -31,6 +31,7 @@
 
 mod axes;
 mod canvas;
+mod curves;
 mod diagram;
 mod drift;
 mod palette;
@@ -43,6 +44,7 @@ mod work_precision;
 use std::io;
 use std::path::Path;
 
+pub use curves::{Curve, CurveDiagram, CurvePanel};
 pub use diagram::{LEAST_ERROR, Series, WorkPrecisionDiagram, WorkPrecisionPoint};
 pub use work_precision::{
     DEFAULT_REPEATS, DEFAULT_TIME_CAP, DEFAULT_TOLERANCES, Measurement, Row, WorkPrecision,

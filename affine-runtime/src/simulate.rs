@@ -5,6 +5,7 @@ mod csv;
 mod halt;
 mod output;
 mod run;
+mod signature;
 mod stepper;
 mod trajectory;
 mod why;
@@ -76,7 +77,9 @@ impl Method {
     /// Length of the equal steps, where that is what the method takes.
     pub(crate) fn step(self) -> Option<f64> {
         match self {
-            Method::Gauss { step, .. } | Method::Rattle { step, .. } | Method::Splitting { step, .. } => Some(step),
+            Method::Gauss { step, .. } | Method::Rattle { step, .. } | Method::Splitting { step, .. } => {
+                Some(step)
+            }
             Method::Automatic | Method::ClosedForm | Method::RungeKutta8 | Method::Taylor { .. } => None,
         }
     }

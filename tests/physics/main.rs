@@ -18,9 +18,12 @@ mod constraints;
 mod driven;
 mod drunk_missile;
 mod geodesics;
+mod laws;
+mod mixed;
 mod momentum_side;
 #[macro_use]
 mod potentials;
 mod prepare;
+mod quantities;
 mod stretches;
 mod undeformed;

@@ -146,7 +146,8 @@ fn forth_and_back() {
     for order in [2, 4, 6, 8] {
         let method = Method::Splitting { order, step: 0.1 };
         let there = run(&model, start, 20.0, method);
-        let back = Simulation::new(&model, *there.end().1).from(20.0).until(0.0).method(method).run().unwrap();
+        let back =
+            Simulation::new(&model, *there.end().1).from(20.0).until(0.0).method(method).run().unwrap();
         let error = difference(back.end().1, &start);
         // Rounding of 200 steps there and back, as the motion magnifies it.
         assert!(error < 1e-12, "order {order}: {error:e}");

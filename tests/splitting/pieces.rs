@@ -44,8 +44,14 @@ fn check<const N: usize, M: Splitting<N>>(name: &str, model: &M, start: M::Point
         let return_trip = after(model, &constants, &whole, piece, -0.7);
         for k in 0..moved::<N, M>() {
             let size = 1.0 + whole.as_ref()[k].abs();
-            assert!((whole.as_ref()[k] - parts.as_ref()[k]).abs() <= GROUP * size, "{name}: piece {piece}, {k}");
-            assert!((return_trip.as_ref()[k] - state.as_ref()[k]).abs() <= GROUP * size, "{name}: back, {piece}, {k}");
+            assert!(
+                (whole.as_ref()[k] - parts.as_ref()[k]).abs() <= GROUP * size,
+                "{name}: piece {piece}, {k}"
+            );
+            assert!(
+                (return_trip.as_ref()[k] - state.as_ref()[k]).abs() <= GROUP * size,
+                "{name}: back, {piece}, {k}"
+            );
         }
         assert!(whole != state, "{name}: piece {piece} moves nothing");
     }

@@ -1,13 +1,16 @@
 //! The derivation of one model: from its quadratic form to straight-line programs, ready to be written down.
 
+mod lattice;
+mod mixed;
 mod prepared;
 mod programs;
+mod quantities;
 pub mod splitting;
 mod stated;
 
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
-use crate::check::{Form, eigenvalues, signature};
+use crate::check::{Energy, Form, eigenvalues, signature};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::ir::taylor::Recurrence;
@@ -15,6 +18,7 @@ use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{self, Formula};
+use crate::mechanics::equations::{self, hamilton};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::mechanics::metrics::Metrics;
@@ -24,6 +28,7 @@ use crate::mechanics::symmetry::Group;
 use crate::optimise::{Batch, straight_line};
 use crate::spec::{Capability, Spanned};
 
+pub use lattice::TwoPolar;
 use prepared::{coefficient_program, conditions, numeric_blocks};
 use programs::{Reduced, best_reduction, full_chart, full_equations};
 
@@ -45,12 +50,21 @@ pub struct Model {
     pub numeric_blocks: Vec<NumericBlock>,
     /// What `prepare()` must find different from zero.
     pub conditions: Vec<Condition>,
-    /// What starts from velocities; `None` where they do not determine the momentum.
+    /// What starts from velocities; with `phi` where the mass matrix depends on it, as in the next ones. `None` where
+    /// they do not determine the momentum.
     pub velocity_side: Option<VelocitySide>,
     /// `X -> O`.
     pub velocity: Program,
     /// `1/m` and `m` of the translation.
     pub mass: Option<Program>,
+    /// Translation with masses in body and space.
+    pub mixed_masses: Option<MixedMasses>,
+    /// What decides whether the mass matrix is regular at a placement, where that is not known for all.
+    pub regularity: Option<Regularity>,
+    /// The configuration metric, where asked for.
+    pub metric: Option<Metric>,
+    /// Point -> acceleration of the centre of mass, where asked for.
+    pub acceleration: Option<Program>,
     /// Point -> `H`.
     pub hamiltonian: Program,
     /// Hamilton's equations in the model's own frames.
@@ -83,6 +97,8 @@ pub struct Model {
     pub metrics: Option<Metrics>,
     /// `T`, `H`, and the equations.
     pub formulas: Formulas,
+    /// The two-polar form, where it is asked for.
+    pub two_polar: Option<TwoPolar>,
     /// Taylor coefficients of the reduced equations, if asked for.
     pub taylor: Option<Recurrence>,
     /// Exact flows of the pieces of the reduced motion, if asked for.
@@ -121,6 +137,32 @@ pub struct Equations {
     pub program: Program,
 }
 
+/// Legendre transformation of the centre of mass where it depends on `phi`.
+pub struct MixedMasses {
+    /// `(phi, x_dot) -> p`.
+    pub momentum: Program,
+    /// `(phi, p) -> x_dot`.
+    pub velocity: Program,
+}
+
+/// The mass matrix in blocks that do not mix.
+pub struct Regularity {
+    /// `phi ->` upper triangle, row after row, then the sizes of the summands of each diagonal entry.
+    pub blocks: Vec<(Program, usize)>,
+    /// Must it be positive definite?
+    pub positive: bool,
+}
+
+/// The configuration metric over `(x_dot, phi_dot)`.
+pub struct Metric {
+    /// Number of rows.
+    pub size: usize,
+    /// `phi ->` entries, row after row.
+    pub entries: Program,
+    /// `phi ->` entries of the inverse, row after row.
+    pub inverse: Program,
+}
+
 /// A quantity that must not vanish once the fields have values.
 pub struct Condition {
     /// `I + A`.
@@ -156,16 +198,36 @@ pub struct NumericBlock {
     pub positive: bool,
 }
 
-/// Derives a model; `None` only for forms that the checks refuse.
-pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
+/// Derives a model; `None` only for energies that the checks refuse.
+pub fn derive(energy: impl Into<Energy>, require_positive: bool) -> Option<Model> {
+    match energy.into() {
+        Energy::Constant(form) => constant(*form, require_positive),
+        Energy::Mixed(form) => mixed::derive(*form, require_positive),
+    }
+}
+
+/// A model whose mass matrix is constant in one frame.
+fn constant(form: Form, require_positive: bool) -> Option<Model> {
     let signature = match require_positive || form.kinetic.is_dalembert() {
         // `prepare()` refuses anything else.
         true => Some((form.kinetic.degrees_of_freedom(), 0)),
         false => signature(&form),
     };
     let groups = (form.space_group, form.body_group);
-    let eigenvalues = eigenvalues(&form);
-    let Form { mut arena, kinetic, stated, hessian, potential, metrics, split, .. } = form;
+    let eigenvalues = eigenvalues(&form.hessian);
+    let Form {
+        mut arena,
+        kinetic,
+        stated,
+        hessian,
+        potential,
+        metrics,
+        split,
+        two_polar,
+        unitary,
+        quantities,
+        ..
+    } = form;
     let potential = potential.as_ref();
     let arena = &mut arena;
     let cubic = stated.as_ref().filter(|stated| stated.is_cubic());
@@ -264,7 +326,21 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         inline(arena, Batch { results, ..Batch::default() }, Vec::new())
     });
     let dilatation = reduction.separation.as_ref().map(|s| inline(arena, s.batch(), Vec::new()));
+    if unitary {
+        // Nothing but the lattice is emitted: no other coefficient is computed.
+        coefficients = Constants::new("c");
+    }
+    let two_polar = two_polar.then(|| lattice::two_polar(arena, &h, potential, unitary, &mut coefficients));
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
+    let metric = match quantities.metric {
+        true => Some(quantities::metric(arena, std::slice::from_ref(&kinetic), Some(&h), &mut coefficients)?),
+        false => None,
+    };
+    let acceleration = quantities.acceleration.then(|| {
+        let mut system = hamilton(arena, &full_chart, &full_h, equations::Form::ThroughVelocity);
+        system.add(&potential.map(|u| u.load(arena, &full_chart)).unwrap_or_default());
+        quantities::acceleration(arena, &full_chart, &system, &mut coefficients)
+    });
     Some(Model {
         dim: kinetic.dim,
         constraint: kinetic.constraint,
@@ -280,6 +356,10 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         velocity_side,
         velocity,
         mass,
+        mixed_masses: None,
+        regularity: None,
+        metric,
+        acceleration,
         hamiltonian,
         full,
         reduced,
@@ -296,6 +376,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         groups,
         metrics,
         formulas,
+        two_polar,
         taylor: None,
         splitting,
     })

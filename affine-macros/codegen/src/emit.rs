@@ -6,13 +6,16 @@ mod description;
 mod dynamics;
 mod kernel;
 mod metrics;
+mod mixed;
 mod names;
 mod points;
 mod prepare;
+mod quantities;
 mod reduction;
 mod separated;
 mod splitting;
 mod taylor;
+mod two_polar;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -35,9 +38,22 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let rt = &names.rt;
     let prepared_type = prepare::prepared_type(&context);
     let prepare = prepare::method(&context);
+    if spec.group.is_some() {
+        let lattice = two_polar::lattice_of_circle(&context);
+        return quote! {
+            #item
+            #prepared_type
+            const _: () = {
+                use #runtime::__private as #rt;
+                #prepare
+                #lattice
+            };
+        };
+    }
     let constants = reduction::constants_type(&context);
     let implementation = model_impl(&context);
     let points = points::inherent(&context);
+    let two_polar = two_polar::implementations(&context);
     let (bases, _) = metrics::bases(&context);
     let splitting = splitting::splitting_impl(&context);
     let taylor = taylor::taylor_impl(&context);
@@ -52,6 +68,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #implementation
             #points
             #splitting
+            #two_polar
             #taylor
         };
     }

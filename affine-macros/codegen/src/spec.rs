@@ -20,7 +20,7 @@ pub use expression::{Expression, ExpressionKind, MatrixName, Operator};
 pub use item::{Field, Item};
 pub use momentum_side::MomentumKind;
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
-pub use names::{Capability, Claim, Constraint, Named, Requirement, TermKind, nearest};
+pub use names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
 pub(crate) use symbol::numbered;
 pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
 
@@ -53,6 +53,8 @@ pub struct Spec {
     pub constraint: Option<Spanned<Constraint>>,
     /// `potential = ...`.
     pub potential: Option<Potential>,
+    /// `group = ...`; GL(n, R) without it.
+    pub group: Option<Spanned<PlacementGroup>>,
     /// `require(...)`.
     pub require: Vec<Spanned<Requirement>>,
     /// `emit(...)`.

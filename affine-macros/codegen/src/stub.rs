@@ -90,8 +90,10 @@ impl Outline {
         let translation = moving.then(|| quote!(, body_translation = 1));
         let potential = self.potential.then(|| quote!(, potential = q^2));
         let runtime = self.runtime.as_ref().map(|path| quote!(, crate = #path));
-        let capabilities =
-            ["splitting", "taylor"].map(|key| self.names.iter().find(|name| *name == key)).into_iter().flatten();
+        let capabilities = ["splitting", "taylor"]
+            .map(|key| self.names.iter().find(|name| *name == key))
+            .into_iter()
+            .flatten();
         let capabilities: Vec<&Ident> = capabilities.collect();
         let emit = (!capabilities.is_empty()).then(|| quote!(, emit(#(#capabilities),*)));
         let args =

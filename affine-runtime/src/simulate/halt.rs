@@ -45,6 +45,15 @@ pub enum Reason {
         /// Its time.
         t: f64,
     },
+    /// The mass matrix, which depends on the placement, became degenerate or changed its signature: the momentum no
+    /// longer determines the velocity.
+    Degenerate {
+        /// The weakest pivot of its factorisation, relative to what it is a difference of, at the first bad placement,
+        /// or at the last good one where no step leads on from it; see [`Regularity`](crate::model::Regularity).
+        weakest: f64,
+        /// The time of that placement.
+        t: f64,
+    },
     /// The error stays above the tolerance however short the step.
     StepUnderflow {
         /// The tolerance.
@@ -253,6 +262,12 @@ impl fmt::Display for Reason {
                 f,
                 "det phi = {determinant:e} at t = {t}: the body has collapsed or turned inside out, and leaves the \
                  configuration space GL+(n); a potential that grows without bound as det phi -> 0 prevents it"
+            ),
+            Reason::Degenerate { weakest, t } => write!(
+                f,
+                "the mass matrix degenerates at t = {t}, its weakest pivot is {weakest:e} of what it is a difference of: \
+                 the momentum does not determine the velocity there; end the run before, start elsewhere, or choose \
+                 coefficients whose sum is definite at every placement"
             ),
             Reason::StepUnderflow { tolerance } => write!(
                 f,

@@ -5,6 +5,7 @@ use core::ops::{ControlFlow, Range};
 use super::conservation::larger;
 use super::halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
 use super::output::{Schedule, without_steps};
+use super::signature::Signature;
 use super::stepper::{Explicit, Stepper};
 use super::trajectory::{Computation, Energies, Trajectory};
 use super::{Method, Observe, Progress, Simulation, TAYLOR_TOLERANCE, Watch};
@@ -357,13 +358,22 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         last: &mut Option<(f64, S)>,
     ) -> Result<(), Reason> {
         let placement = placement_in(groups, N);
+        let signature = Signature::of(self.model.regularity(self.start.phi()));
+        let regularity = |t: f64, reduced: &S| self.model.regularity(expand(t, reduced).phi());
         while !integration.is_finished() {
             let steps = integration.statistics().steps;
             if steps == self.max_steps {
                 return Err(Reason::StepLimit { limit: self.max_steps });
             }
-            integration.advance().map_err(|failure| self.reason(failure))?;
+            if let Err(failure) = integration.advance() {
+                let (t, last) = (integration.t(), integration.y());
+                let degenerate = signature.failing(regularity(t, last), t);
+                return Err(degenerate.unwrap_or_else(|| self.reason(failure)));
+            }
             let (t, reduced) = (integration.t(), *integration.y());
+            if signature.may_change() {
+                signature.kept(regularity(t, &reduced), t)?;
+            }
             while let Some(due) = recorder.schedule.take_through(t, t_end < self.t0) {
                 if due == t {
                     recorder.record(t, expand(t, &reduced))?;

@@ -88,7 +88,11 @@ impl Why {
         writeln!(
             f,
             "splitting of order {order} by exact flows of pieces of H, equal steps of at most {step:e}: as asked for{}",
-            if self.computation.closed_form_exists { "; Method::Automatic would take the closed form" } else { "" }
+            if self.computation.closed_form_exists {
+                "; Method::Automatic would take the closed form"
+            } else {
+                ""
+            }
         )?;
         writeln!(
             f,
@@ -149,11 +153,12 @@ impl Why {
         }
     }
 
-    /// The reduced variables are positions and their momenta, all of them canonical.
+    /// The reduced variables are positions and their momenta, all of them canonical; of `x` and a constant `p` the
+    /// method takes the same step as of `x` and `p`.
     fn is_canonical(&self) -> bool {
         let groups = self.description.reduced;
         let holds = |name: &str| groups.iter().any(|group| group.name == name);
-        let paired = holds("phi") && holds("Pi") && holds("x") == holds("p");
+        let paired = holds("phi") && holds("Pi") && (holds("x") || !holds("p"));
         paired && groups.iter().all(|group| ["x", "phi", "p", "Pi", "1/D"].contains(&group.name))
     }
 

@@ -1,6 +1,6 @@
 use affine_runtime::affine_model;
 
-#[affine_model(dim = 2, kinetic(casimir2 = 1), group = unitary)]
+#[affine_model(dim = 2, kinetic(casimir2 = 1), dissipation(casimir2 = 1))]
 struct Model;
 
 fn main() {}

@@ -11,13 +11,28 @@ use crate::spec::{Capability, Named, Spec};
 /// A capability that cannot be emitted is refused rather than ignored: code that relies on it would fail far
 /// from here.
 pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
-    let available = [Capability::Splitting, Capability::Taylor];
+    let available = [
+        Capability::Splitting,
+        Capability::Taylor,
+        Capability::TwoPolar,
+        Capability::Metric,
+        Capability::Acceleration,
+    ];
     for capability in spec.emit.iter().filter(|c| !available.contains(&c.value)) {
         let name = capability.value;
         found.report(
             capability.span,
             Diagnostic::UnavailableCapability { capability: name.name(), gives: name.gives() },
         );
+    }
+}
+
+/// Where the centre of mass is fixed it has no acceleration.
+pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
+    let asked = spec.emit.iter().find(|capability| capability.value == Capability::Acceleration);
+    if let Some(acceleration) = asked.filter(|_| spec.translation().is_none()) {
+        let form = acceleration.value.name().to_owned();
+        found.report(acceleration.span, Diagnostic::FixedCentre { form });
     }
 }
 
@@ -50,28 +65,35 @@ pub(super) fn pieces(
     (kinetic, hessian): (&Kinetic, &Hessian),
     found: &mut Diagnostics,
 ) {
-    let Some(splitting) = spec.emit.iter().find(|c| c.value == Capability::Splitting) else { return };
-    let energy = if kinetic.frame == Frame::Space { "space_inertia" } else { "body_inertia" };
-    let mut isotropic = || Hamiltonian::new(arena, kinetic, hessian).is_none_or(|h| h.isotropic.is_some());
-    let reason = if let Some(constraint) = &spec.constraint {
-        let name = constraint.value.name();
-        Some((
-            format!("`constraint = {name}`"),
-            format!("the motion on {} is integrated in charts, or with its multiplier", constraint.value.group()),
-            "`Method::Gauss`, which is symmetric, or `Method::Rattle` integrate the model".to_owned(),
-        ))
-    } else if kinetic.frame != Frame::Flat && !isotropic() {
-        Some((
-            "an anisotropic kinetic energy of affine velocities".to_owned(),
-            "its energy is no function of C(1), C(2) and |W|^2, whose flows are exponentials (4.24); squares of single \
-             momenta would make up to n^2 pieces"
-                .to_owned(),
-            format!("state an isotropic one, `{energy} = I` with a number: `Method::Gauss` integrates this one"),
-        ))
-    } else {
-        None
-    };
-    if let Some((beside, why, instead)) = reason {
-        found.report(splitting.span, Diagnostic::NoExactPieces { beside, why, instead });
+    if !asked(spec, Capability::Splitting) {
+        return;
+    }
+    if let Some(constraint) = &spec.constraint {
+        let why = format!("steps on {} are taken in charts, or with a multiplier", constraint.value.group());
+        return not_split(spec, format!("`constraint = {}`", constraint.value.name()), why, found);
+    }
+    let isotropic = Hamiltonian::new(arena, kinetic, hessian).is_none_or(|h| h.isotropic.is_some());
+    if kinetic.frame != Frame::Flat && !isotropic {
+        let beside = "an anisotropic kinetic energy of affine velocities".to_owned();
+        let why = "the energy is no sum of C(2), C(1)^2 and |W|^2, whose flows are exponentials (4.24), but of up to n^2 \
+                   squares of momenta that do not commute"
+            .to_owned();
+        not_split(spec, beside, why, found);
+    }
+}
+
+/// Where terms of different frames are added, no piece of `H` is quadratic in one momentum with constant coefficients.
+pub(super) fn one_frame(spec: &Spec, found: &mut Diagnostics) {
+    if asked(spec, Capability::Splitting) {
+        let why = "the mass matrix of the sum depends on phi: the flow of the kinetic energy is not known"
+            .to_owned();
+        not_split(spec, "terms of different frames".to_owned(), why, found);
+    }
+}
+
+fn not_split(spec: &Spec, beside: String, why: String, found: &mut Diagnostics) {
+    for capability in spec.emit.iter().filter(|c| c.value == Capability::Splitting) {
+        let (beside, why) = (beside.clone(), why.clone());
+        found.report(capability.span, Diagnostic::NoExactPieces { beside, why });
     }
 }

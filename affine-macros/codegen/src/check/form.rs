@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::momentum_side;
+use super::two_polar;
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, Directions, Reported};
 use crate::lower;
@@ -31,10 +32,32 @@ pub struct Form {
     pub body_group: Group,
     /// The potential energy.
     pub potential: Option<Potential>,
+    /// Is the two-polar form asked for?
+    pub two_polar: bool,
+    /// Are the placements those of U(n)?
+    pub unitary: bool,
     /// Metrics other than the identity; everything else stands in bases in which they are.
     pub metrics: Option<Metrics>,
     /// Are the exact flows of pieces of the Hamiltonian asked for?
     pub split: bool,
+    /// What else is emitted.
+    pub quantities: Quantities,
+}
+
+/// Quantities that are emitted when asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Quantities {
+    /// The configuration metric and its inverse.
+    pub metric: bool,
+    /// The acceleration of the centre of mass.
+    pub acceleration: bool,
+}
+
+impl Quantities {
+    pub(super) fn of(spec: &Spec) -> Self {
+        let asked = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
+        Self { metric: asked(Capability::Metric), acceleration: asked(Capability::Acceleration) }
+    }
 }
 
 /// Builds the form and holds it against every rule.
@@ -68,6 +91,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     found.verdict()?;
     let space_group = largest_group(&free, Side::Space);
     let body_group = largest_group(&free, Side::Body);
+    let unitary = spec.group.is_some();
+    let two_polar = unitary || two_polar::asked(spec, &free, &places, potential.as_ref(), found)?;
     Ok(Form {
         arena,
         kinetic,
@@ -78,6 +103,9 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         potential,
         metrics: lower::metrics(spec),
         split: super::capabilities::asked(spec, Capability::Splitting),
+        quantities: Quantities::of(spec),
+        two_polar,
+        unitary,
     })
 }
 
@@ -108,6 +136,7 @@ fn momentum_form(
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     found.verdict()?;
+    let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
     Ok(Form {
         arena,
         kinetic,
@@ -118,6 +147,9 @@ fn momentum_form(
         potential,
         metrics: lower::metrics(spec),
         split: super::capabilities::asked(spec, Capability::Splitting),
+        quantities: Quantities::of(spec),
+        two_polar,
+        unitary: false,
     })
 }
 
@@ -149,7 +181,7 @@ fn nothing_vanishes(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mu
 
 /// The potential on the group that is left: one that is constant there moves nothing, and one without a value there is
 /// none.
-fn potential(
+pub(super) fn potential(
     arena: &mut Arena,
     spec: &Spec,
     group: Option<Constraint>,
@@ -172,7 +204,7 @@ fn potential(
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic
 /// form is zero, and a tensor has no kernel. Blocks with fields are left to `prepare()`.
-fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics) {
+pub(super) fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics) {
     let mut reported = Vec::new();
     for block in &hessian.blocks {
         let kind = block.basis[0].kind;
@@ -233,7 +265,12 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
 
 /// A claimed symmetry is a theorem about the form: its derivative along every generator of the group vanishes,
 /// and for O(n) one reflection leaves it unchanged as well.
-fn claims(spec: &Spec, kinetic: &Kinetic, term: impl Fn(usize) -> &'static str, found: &mut Diagnostics) {
+pub(super) fn claims(
+    spec: &Spec,
+    kinetic: &Kinetic,
+    term: impl Fn(usize) -> &'static str,
+    found: &mut Diagnostics,
+) {
     let Some(symmetry) = &spec.symmetry else { return };
     for (side, name, claim) in [(Side::Space, "space", symmetry.space), (Side::Body, "body", symmetry.body)] {
         let (group, letters) = match claim.value {
@@ -362,9 +399,9 @@ pub fn signature(form: &Form) -> Option<(usize, usize)> {
 
 /// The eigenvalues that decide whether a model with fields is well posed: condition, reason, value.
 #[must_use]
-pub fn eigenvalues(form: &Form) -> Vec<(Direction, Polynomial)> {
+pub fn eigenvalues(hessian: &Hessian) -> Vec<(Direction, Polynomial)> {
     let mut list: Vec<(Direction, Polynomial)> = Vec::new();
-    for block in &form.hessian.blocks {
+    for block in &hessian.blocks {
         if let Some(value) = block.eigenvalue() {
             let kind = block.basis[0].kind;
             if value.as_constant().is_none() && !list.contains(&(kind, value.clone())) {

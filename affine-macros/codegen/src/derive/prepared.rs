@@ -59,7 +59,7 @@ pub(super) fn conditions(
 }
 
 /// The leading minors of `J`, all positive iff `J` is (Sylvester); `I` for `J = I 1`.
-fn leading_minors(arena: &mut Arena, inertia: &Coefficient) -> Vec<Polynomial> {
+pub(super) fn leading_minors(arena: &mut Arena, inertia: &Coefficient) -> Vec<Polynomial> {
     match inertia {
         Coefficient::Scalar(i) => vec![Polynomial::normal_form(arena, *i)],
         Coefficient::Matrix(j) => {

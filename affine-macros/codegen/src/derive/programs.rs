@@ -38,8 +38,6 @@ pub(super) fn full_equations(
     coefficients: &mut Constants,
 ) -> Equations {
     let load = potential.map(|u| u.load(arena, chart)).unwrap_or_default();
-    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
-    inputs.extend(potential.and_then(Potential::time));
     let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
     through_velocity.add(&load);
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
@@ -52,6 +50,19 @@ pub(super) fn full_equations(
             ways.push(split_batch(arena, chart, &expanded));
         }
     }
+    shortest(arena, chart, &ways, potential.and_then(Potential::time), coefficients)
+}
+
+/// Equations over the coordinates of a chart, in the shortest of several ways.
+pub(super) fn shortest(
+    arena: &mut Arena,
+    chart: &Chart,
+    ways: &[Batch],
+    time: Option<Expr>,
+    coefficients: &mut Constants,
+) -> Equations {
+    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    inputs.extend(time);
     let (program, chosen) = ways
         .iter()
         .map(|way| {
@@ -164,10 +175,25 @@ pub(super) fn best_reduction(
     (rotations, split): (bool, bool),
     coefficients: &mut Constants,
 ) -> Option<Reduced> {
+    let candidates = reduce::candidates(arena, h, potential, rotations);
+    let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
+        split.then(|| Programs::of(arena, h, potential, reduction, constants)).flatten()
+    };
+    shortest_reduction(arena, candidates, potential.and_then(Potential::time), pieces, coefficients)
+}
+
+/// The reduction of several with the shortest equations, its programs, and those of its `pieces`.
+pub(super) fn shortest_reduction(
+    arena: &mut Arena,
+    candidates: Vec<Reduction>,
+    time: Option<Expr>,
+    pieces: impl FnOnce(&mut Arena, &Reduction, &mut Constants) -> Option<Programs>,
+    coefficients: &mut Constants,
+) -> Option<Reduced> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
-    for candidate in reduce::candidates(arena, h, potential, rotations) {
+    for candidate in candidates {
         let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
-        states.extend(potential.and_then(Potential::time));
+        states.extend(time);
         let mut constants = Constants::new("k");
         let way = batch(arena, &candidate.system);
         let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
@@ -177,7 +203,7 @@ pub(super) fn best_reduction(
         }
     }
     let (_, reduction, program, mut constants) = best?;
-    let splitting = split.then(|| Programs::of(arena, h, potential, &reduction, &mut constants)).flatten();
+    let splitting = pieces(arena, &reduction, &mut constants);
     let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {
         results: constants

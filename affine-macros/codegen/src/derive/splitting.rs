@@ -52,7 +52,8 @@ impl Programs {
         constants: &mut Constants,
     ) -> Option<Self> {
         let split = splitting(arena, h, potential, reduction)?;
-        let mut varying: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
+        let mut varying: Vec<Expr> =
+            reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
         varying.extend(potential.and_then(Potential::time));
         let mut pieces = Vec::new();
         for piece in split.pieces {
@@ -87,7 +88,10 @@ fn written(
             });
             let results: Vec<(String, Polynomial)> = results.collect();
             let table = |symbols: &[Expr]| -> Vec<Vec<String>> {
-                symbols.chunks(reduction.chart.dim).map(|row| row.iter().map(|s| name(arena, *s)).collect()).collect()
+                symbols
+                    .chunks(reduction.chart.dim)
+                    .map(|row| row.iter().map(|s| name(arena, *s)).collect())
+                    .collect()
             };
             let placement = reduction.states.iter().find(|(group, _)| matches!(*group, "phi" | "Psi"));
             let placement = placement.map_or_else(Vec::new, |(_, symbols)| table(symbols));

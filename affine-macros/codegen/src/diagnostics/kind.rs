@@ -110,8 +110,6 @@ pub enum Diagnostic {
         beside: String,
         /// The reason.
         why: String,
-        /// What to do.
-        instead: String,
     },
     /// A capability that this version does not have.
     UnavailableCapability {
@@ -119,6 +117,27 @@ pub enum Diagnostic {
         capability: &'static str,
         /// What it will give.
         gives: &'static str,
+    },
+    /// `two_polar` for a model that rotations of space or body change.
+    NotDoublyIsotropic {
+        /// What they change: a term, or the potential.
+        part: String,
+        /// `space` or `body`.
+        side: &'static str,
+        /// The rotation or reflection.
+        transformation: String,
+    },
+    /// A part that U(n) does not have.
+    UnitaryTerm {
+        /// A term, `potential`, or a capability.
+        part: &'static str,
+    },
+    /// `two_polar` for a model with what the lattice does not have.
+    LatticeWithout {
+        /// What the model has.
+        part: String,
+        /// What the lattice has not.
+        lacks: &'static str,
     },
     /// A dimension other than the literals 2 and 3.
     Dimension {
@@ -485,6 +504,11 @@ pub enum Diagnostic {
         form: String,
     },
     // ---- the constraint ----
+    /// A sum of energies of different frames beside a key that does not go with it.
+    SumBeside {
+        /// The other key.
+        key: &'static str,
+    },
     /// A constraint beside a key that does not go with it.
     ConstraintBeside {
         /// The other key.
@@ -545,6 +569,11 @@ pub enum Diagnostic {
         velocity: &'static str,
         /// A velocity on which it vanishes.
         kernel: String,
+    },
+    /// A sum of terms of different frames that is degenerate at every placement.
+    DegenerateSum {
+        /// The terms, joined by `+`.
+        terms: String,
     },
     /// `require(positive_definite)` fails.
     NotPositiveDefinite {
@@ -627,6 +656,9 @@ names! {
     CapabilityBeside => "capability-beside",
     NoExactPieces => "no-exact-pieces",
     UnavailableCapability => "unavailable-capability",
+    NotDoublyIsotropic => "not-doubly-isotropic",
+    UnitaryTerm => "unitary-term",
+    LatticeWithout => "lattice-without",
     Dimension => "dimension",
     RuntimePath => "runtime-path",
     ItemKind => "item-kind",
@@ -680,12 +712,14 @@ names! {
     MetricTerm => "metric-term",
     MetricForm => "metric-form",
     ConstraintBeside => "constraint-beside",
+    SumBeside => "sum-beside",
     VanishingTerm => "vanishing-term",
     ConstrainedMassMatrix => "constrained-mass-matrix",
     ConstrainedPotential => "constrained-potential",
     Degenerate => "degenerate",
     DegenerateHamiltonian => "degenerate-hamiltonian",
     DegenerateTensor => "degenerate-tensor",
+    DegenerateSum => "degenerate-sum",
     NotPositiveDefinite => "not-positive-definite",
     ClaimBroken => "claim-broken",
     AffineTranslation => "affine-translation",

@@ -120,17 +120,40 @@ impl Diagnostic {
                     "remove `{capability}` from `emit(...)`: Runge-Kutta and Gauss methods integrate the model"
                 ),
             ),
-            Self::NoExactPieces { beside, why, instead } => text(
+            Self::NoExactPieces { beside, why } => text(
                 format!("`emit(splitting)` does not go with {beside}"),
                 why.clone(),
-                format!("remove `splitting` from `emit(...)`; {instead}"),
+                "remove `splitting` from `emit(...)`: Gauss collocation is symmetric and integrates the model",
             ),
             Self::UnavailableCapability { capability, gives } => text(
                 format!("the capability `{capability}` is not available in this version"),
                 format!(
-                    "it will give {gives}; this version emits the default, Hamilton's equations, `splitting` and `taylor`"
+                    "it will give {gives}; this version emits the default, Hamilton's equations, `splitting`, `taylor` and \
+                     `two_polar`"
                 ),
                 format!("remove `{capability}` from `emit(...)`"),
+            ),
+            Self::NotDoublyIsotropic { part, side, transformation } => text(
+                format!("`two_polar` needs a doubly isotropic model, and {part} is not isotropic in {side}"),
+                format!(
+                    "{transformation} of {side} changes it: the motion of the stretches in phi = L D R^T then depends \
+                     on the frames L and R, and (q, p, M, N) do not form a system of their own, (6.2) to (6.5)"
+                ),
+                format!(
+                    "remove `two_polar` from `emit(...)`, or state a model that rotations of {side} do not change"
+                ),
+            ),
+            Self::UnitaryTerm { part } => text(
+                format!("`{part}` has no place beside `group = unitary`"),
+                "on U(n) the energy is -A/2 tr Om^2 - B/2 (tr Om)^2 (89), which U(n) leaves unchanged from both sides; it is \
+                 emitted as its lattice on the circle and nothing else",
+                format!("remove `{part}`, and keep `casimir2` and `casimir1_squared`"),
+            ),
+            Self::LatticeWithout { part, lacks } => text(
+                format!("`two_polar` with {part}: the lattice has no {lacks}"),
+                "(q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, of an energy in velocities, in \
+                 orthonormal coordinates",
+                format!("remove `two_polar` from `emit(...)`, or state a model without {part}"),
             ),
             Self::Dimension { found } => text(
                 format!("`dim = {found}`: the dimension is 2 or 3"),
@@ -434,6 +457,11 @@ impl Diagnostic {
                 "equations stand in orthonormal bases of the metrics, and this form depends on the bases",
                 "write the potential through `q`, `det`, `I1..In`, `norm(x)` and traces of powers of `G` or of `Ct`",
             ),
+            Self::SumBeside { key } => text(
+                format!("`{key}` does not go with terms of different frames in this version"),
+                "their sum has a mass matrix that depends on phi, and is derived on all of GL(n) in orthonormal bases",
+                format!("keep the terms of one frame, or remove `{key}`"),
+            ),
             Self::ConstraintBeside { key } => text(
                 format!("`constraint` does not go with `{key}` in this version"),
                 match *key {
@@ -509,6 +537,13 @@ impl Diagnostic {
                 "the Legendre transformation X[B,A] = K[(A,B),(C,D)] O[C,D] (4.6), (4.8) gives zero momentum \
                  there; the momentum does not determine the velocity",
                 "change a coefficient, or add a term that is not zero on this velocity",
+            ),
+            Self::DegenerateSum { terms } => text(
+                format!("the kinetic energy `{terms}` is degenerate at every placement"),
+                "its terms have constant coefficients in different velocities, so that the mass matrix over phi_dot \
+                 depends on phi; its determinant is zero for all phi, and the momentum Pi = (dT/dphi_dot)^T does not \
+                 determine the velocity",
+                "add a term that is not zero on any velocity, such as `dalembert` or `body_inertia`",
             ),
             Self::NotPositiveDefinite { defect } => text(
                 format!("the kinetic energy is not positive definite: {defect}"),

@@ -115,14 +115,17 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
         FlowProgram::Shift { moved, program } => {
             let bind = bound(context, program, &[]);
             let Body { lets, results } = context.generic(program);
-            let rises =
-                moved.iter().zip(&results).map(|(name, rate)| accumulated(context, name, quote!(h * (#rate))));
+            let rises = moved
+                .iter()
+                .zip(&results)
+                .map(|(name, rate)| accumulated(context, name, quote!(h * (#rate))));
             // A name or a number needs no brackets.
             quote!({ #bind #lets #(#rises)* })
         }
         FlowProgram::Exponential { placement, momentum, right, program } => {
             let rt = &context.names.rt;
-            let moved: Vec<String> = placement.iter().chain(momentum.iter().flatten()).flatten().cloned().collect();
+            let moved: Vec<String> =
+                placement.iter().chain(momentum.iter().flatten()).flatten().cloned().collect();
             let bind = bound(context, program, &moved);
             let Body { lets, results } = context.generic(program);
             let rows = results.chunks(context.model.dim);
@@ -170,7 +173,8 @@ fn table(names: &[Vec<String>]) -> TokenStream {
 /// Adds the entries of a matrix to components of the state.
 fn added(context: &Context, names: &[Vec<String>], rise: &str) -> TokenStream {
     let rise = quote::format_ident!("{rise}");
-    let entries = names.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, n)| (i, j, n)));
+    let entries =
+        names.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, n)| (i, j, n)));
     entries
         .map(|(i, j, name)| {
             let [i, j]: [Literal; 2] = [i, j].map(number);

@@ -148,6 +148,10 @@ fn symbol_latex(name: &str) -> String {
         ("p_hat_", "\\hat p"),
         ("p_", "p"),
         ("x_", "x"),
+        ("q_", "q"),
+        ("stretch_", "Q"),
+        ("m_", "M"),
+        ("n_", "N"),
         ("k_", "k"),
         ("c_", "c"),
     ];

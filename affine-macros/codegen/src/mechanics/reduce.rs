@@ -223,6 +223,18 @@ fn take_constants(system: &mut System) -> Vec<Expr> {
     fixed
 }
 
+/// A system whose affine momentum is state, reduced: `p` leaves it where it is conserved, and space is turned on
+/// demand.
+pub fn reduced(
+    arena: &Arena,
+    chart: Chart,
+    commuting: Vec<Commuting>,
+    turn: bool,
+    system: System,
+) -> Reduction {
+    Plan { chart, commuting, turn, load: None, multiplier: false }.state_only(arena, system, Layout::Entries)
+}
+
 /// What is known about a reduction before its equations are.
 struct Plan {
     chart: Chart,

@@ -138,13 +138,19 @@ fn summands(
         let value = |atom: Expr| defined.iter().find(|(s, _)| *s == atom).map(|(_, p)| p.clone());
         let mut system = system.substitute(&value);
         system.shared.clear();
-        summands.push(Summand { name, energy: Some(energy), system: over_the_state(arena, reduction, system)? });
+        summands.push(Summand {
+            name,
+            energy: Some(energy),
+            system: over_the_state(arena, reduction, system)?,
+        });
     }
     if let Some(u) = potential {
         let load = u.load(arena, chart);
-        let force = |z: &Coordinate| load.forces.iter().find(|(at, _)| at == z).map(|(_, force)| force.clone());
+        let force =
+            |z: &Coordinate| load.forces.iter().find(|(at, _)| at == z).map(|(_, force)| force.clone());
         let rates = chart.coordinates().into_iter().filter_map(|z| Some((z, chart.symbol(z), force(&z)?)));
-        let system = System { rates: rates.collect(), shared: load.shared.clone(), kernels: load.kernels.clone() };
+        let system =
+            System { rates: rates.collect(), shared: load.shared.clone(), kernels: load.kernels.clone() };
         let system = over_the_state(arena, reduction, system)?;
         summands.push(Summand { name: "potential", energy: None, system });
     }
@@ -208,8 +214,11 @@ fn exact_flow(arena: &Arena, chart: &Chart, system: &System) -> Option<Flow> {
     }
     let (generator, right) = generator(chart, system)?;
     let turns_momentum = system.rates.iter().any(|(z, ..)| matches!(z, Coordinate::M(..)));
-    (!turns_momentum || turns_along(chart, system, &generator, right))
-        .then_some(Flow::Exponential { generator, right, turns_momentum })
+    (!turns_momentum || turns_along(chart, system, &generator, right)).then_some(Flow::Exponential {
+        generator,
+        right,
+        turns_momentum,
+    })
 }
 
 /// `Y` with `phi' = phi Y` or `phi' = Y phi` and `Y' = 0`, and whether it stands on the right. Nothing else moves but
@@ -294,9 +303,8 @@ fn is_nystrom(reduction: &Reduction, groups: &[(Vec<Summand>, Vec<Flow>)]) -> bo
         return true;
     }
     let moved = |atom: &&Expr| kick.rates.iter().any(|(_, symbol, _)| symbol == *atom);
-    let quadratic = |energy: &Polynomial| {
-        energy.terms().all(|(monomial, _)| monomial.iter().filter(moved).count() <= 2)
-    };
+    let quadratic =
+        |energy: &Polynomial| energy.terms().all(|(monomial, _)| monomial.iter().filter(moved).count() <= 2);
     first.iter().all(|summand| summand.energy.as_ref().is_some_and(quadratic))
 }
 

@@ -6,7 +6,7 @@ use syn::parse::Parser;
 use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
 use super::expression_parser::{self, Language};
 use super::momentum_side::{self, MomentumKind};
-use super::names::{Capability, Claim, Constraint, Named, Requirement, TermKind, nearest};
+use super::names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
 use super::{Item, Metric, Potential, Spanned, Spec, Symmetry, Term, value};
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
@@ -19,6 +19,7 @@ enum Key {
     Hamiltonian,
     Metrics,
     Constraint,
+    Group,
     Potential,
     Require,
     Emit,
@@ -26,7 +27,7 @@ enum Key {
 }
 
 /// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 3] = ["group", "dissipation", "forces"];
+const LATER_KEYS: [&str; 2] = ["dissipation", "forces"];
 
 /// Terms that `hamiltonian(...)` has and `kinetic(...)` has not.
 const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
@@ -43,6 +44,7 @@ impl Named for Key {
         Self::Hamiltonian,
         Self::Metrics,
         Self::Constraint,
+        Self::Group,
         Self::Potential,
         Self::Require,
         Self::Emit,
@@ -57,6 +59,7 @@ impl Named for Key {
             Self::Hamiltonian => "hamiltonian",
             Self::Metrics => "metrics",
             Self::Constraint => "constraint",
+            Self::Group => "group",
             Self::Potential => "potential",
             Self::Require => "require",
             Self::Emit => "emit",
@@ -76,6 +79,7 @@ impl Key {
             }
             Self::Metrics => "metrics(space = diag(1, 1, 2), body = [[2, 1, 0], [1, 2, 0], [0, 0, 1]])",
             Self::Constraint => "constraint = isochoric",
+            Self::Group => "group = unitary",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
             Self::Require => "require(positive_definite)",
             Self::Emit => "emit(taylor)",
@@ -109,6 +113,7 @@ pub(super) struct Arguments {
     energy: Energy,
     metrics: [Option<Metric>; 2],
     constraint: Option<Spanned<Constraint>>,
+    group: Option<Spanned<PlacementGroup>>,
     potential: Option<Potential>,
     require: Vec<Spanned<Requirement>>,
     emit: Vec<Spanned<Capability>>,
@@ -123,7 +128,8 @@ enum Energy {
 
 impl Arguments {
     pub(super) fn of(self, item: Item) -> Spec {
-        let Self { dim, symmetry, energy, metrics, constraint, potential, require, emit, runtime } = self;
+        let Self { dim, symmetry, energy, metrics, constraint, group, potential, require, emit, runtime } =
+            self;
         let (kinetic, hamiltonian, kinetic_key) = match energy {
             Energy::Kinetic(terms) => (terms.value, None, terms.span),
             Energy::Hamiltonian(terms) => (Vec::new(), Some(terms.value), terms.span),
@@ -137,6 +143,7 @@ impl Arguments {
             kinetic_key,
             metrics,
             constraint,
+            group,
             potential,
             require,
             emit,
@@ -152,7 +159,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     let mut hamiltonian = None;
     let mut metric = [None, None];
     let (mut require, mut emit) = (Vec::new(), Vec::new());
-    let (mut constraint, mut energy) = (None, None);
+    let (mut constraint, mut energy, mut group) = (None, None, None);
     for entry in entries {
         let at = entry.at;
         match entry.key {
@@ -170,6 +177,11 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
                 constraint = piece.and_then(|Piece { tokens, at }| member("constraint", tokens, at, found));
             }
             Key::Potential => energy = potential(expect_value(entry, found), at, found),
+            Key::Group => {
+                group = expect_value(entry, found)
+                    .ok()
+                    .and_then(|Piece { tokens, at }| member("group", tokens, at, found));
+            }
             Key::Require => require = members("requirement", expect_list(entry, found), found),
             Key::Emit => emit = members("capability", expect_list(entry, found), found),
             Key::Crate => runtime = path(expect_value(entry, found), found),
@@ -188,6 +200,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
         energy: stated?,
         metrics: metric,
         constraint,
+        group,
         potential: energy,
         require,
         emit,

@@ -170,8 +170,11 @@ mod tests {
 
     #[test]
     fn it_is_the_exponential_less_one() {
-        let (b2, b3) = ([[0.3, -0.4], [0.25, 0.1]], [[0.3, -0.4, 0.1], [0.25, 0.1, -0.45], [0.05, 0.4, -0.2]]);
-        for (scale, roundings) in [(0.0, 0.0), (1e-9, 8.0), (0.1, 8.0), (1.0, 8.0), (4.0, 64.0), (20.0, 512.0)] {
+        let (b2, b3) =
+            ([[0.3, -0.4], [0.25, 0.1]], [[0.3, -0.4, 0.1], [0.25, 0.1, -0.45], [0.05, 0.4, -0.2]]);
+        for (scale, roundings) in
+            [(0.0, 0.0), (1e-9, 8.0), (0.1, 8.0), (1.0, 8.0), (4.0, 64.0), (20.0, 512.0)]
+        {
             agree(b2.map(|row| row.map(|x| x * scale)), roundings);
             agree(b3.map(|row| row.map(|x| x * scale)), roundings);
         }
@@ -184,7 +187,11 @@ mod tests {
     #[test]
     fn small_growth_keeps_its_digits() {
         let [[diagonal, upper], [lower, _]] = growth([[1e-20, 3e-17], [-2e-18, -1e-20]]);
-        assert!((diagonal - 1e-20).abs() < 1e-33 && (upper - 3e-17).abs() < 1e-32 && (lower + 2e-18).abs() < 1e-33);
+        assert!(
+            (diagonal - 1e-20).abs() < 1e-33
+                && (upper - 3e-17).abs() < 1e-32
+                && (lower + 2e-18).abs() < 1e-33
+        );
     }
 
     #[test]
