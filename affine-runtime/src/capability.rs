@@ -78,7 +78,8 @@ pub trait Splitting<const N: usize>: Model<N> {
     const NYSTROM: bool;
 
     /// Moves the reduced state along a piece for the time `h`, adding to each component and to what rounding left out
-    /// of it; `t` is the time that a potential reads.
+    /// of it; `t` is the time that a potential reads. What is a function of the rest, `1/D`, stays as it is:
+    /// [`renewed`](Model::renewed).
     fn flow<T: Real>(
         &self,
         piece: usize,
@@ -143,11 +144,6 @@ impl<const N: usize, M: Splitting<N>> Pieces<M::Reduced<f64>, M::Constants<f64>>
     ) {
         self.0.flow(piece, t, h, constants, &mut state.value, &mut state.carry);
     }
-
-    #[inline]
-    fn finish(&self, state: &mut Sum<M::Reduced<f64>>) {
-        state.value = self.0.renewed(&state.value);
-    }
 }
 
 impl<S, C> Pieces<S, C> for NotEmitted {
@@ -160,10 +156,6 @@ impl<S, C> Pieces<S, C> for NotEmitted {
     }
 
     fn flow(&self, _: usize, _: f64, _: f64, _: &C, _: &mut Sum<S>) {
-        match *self {}
-    }
-
-    fn finish(&self, _: &mut Sum<S>) {
         match *self {}
     }
 }

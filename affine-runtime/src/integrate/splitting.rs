@@ -23,9 +23,6 @@ pub trait Pieces<S, C> {
 
     /// Moves the state along a piece for the time `h`; `t` is the time that a potential reads.
     fn flow(&self, piece: usize, t: f64, h: f64, constants: &C, state: &mut Sum<S>);
-
-    /// Brings what is a function of other components up to date.
-    fn finish(&self, state: &mut Sum<S>);
 }
 
 /// Integration from `t0` to `t_end`, in either direction of time, in `n = ceil(|t_end - t0|/step)` equal steps, each a
@@ -171,7 +168,6 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
             elapsed += if piece == 0 { part } else { 0.0 };
             evaluations += u64::from(piece == last);
         });
-        pieces.finish(&mut state);
         self.evaluations += evaluations;
         state
     }
