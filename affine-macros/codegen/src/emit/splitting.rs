@@ -115,12 +115,14 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
         FlowProgram::Shift { moved, program } => {
             let bind = bound(context, program, &[]);
             let Body { lets, results } = context.generic(program);
-            let rises = moved
-                .iter()
-                .zip(&results)
-                .map(|(name, rate)| accumulated(context, name, quote!(h * (#rate))));
-            // A name or a number needs no brackets.
-            quote!({ #bind #lets #(#rises)* })
+            // Several results are names or numbers; a single one may be a sum.
+            let (only, results) = match results.as_slice() {
+                [one] => (quote!(let rate = #one;), vec![quote!(rate)]),
+                _ => (TokenStream::new(), results),
+            };
+            let rises =
+                moved.iter().zip(&results).map(|(name, rate)| accumulated(context, name, quote!(h * #rate)));
+            quote!({ #bind #lets #only #(#rises)* })
         }
         FlowProgram::Exponential { placement, momentum, right, program } => {
             let rt = &context.names.rt;
