@@ -147,6 +147,12 @@ families! {
     taylor_functions_2: "dim = 2, emit(taylor), kinetic(dalembert = 1), \
         potential = exp(tr(G)/4) + ln(1 + det^2) + sin(phi[1,2])*tan(det/4) + 1/sqrt(1 + tr(G))";
     taylor_straight_2: "dim = 2, emit(taylor), kinetic(dalembert = 3)";
+    splitting_vibrating_3: "dim = 3, emit(splitting), kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1), \
+        potential = hyperbolic_dilatation(10) + neo_hookean(0.5)";
+    splitting_fibred_2: "dim = 2, emit(splitting), kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), \
+        potential = tr(G)/2 - ln(det) + G[1,2]*cos(t) + norm(x)^2/2";
+    splitting_elastic_2: "dim = 2, emit(splitting), kinetic(dalembert = diag(1, 2)), \
+        potential = hyperbolic_dilatation(10) + neo_hookean(0.5)";
     mixed_flat_affine_2: "dim = 2, kinetic(dalembert = 2, casimir2 = 0.2, space_translation = 1)";
     mixed_body_space_3: "dim = 3, kinetic(body_inertia = 1, space_inertia = diag(1, 1.5, 2))";
     mixed_masses_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1, space_translation = 2), \

@@ -4,9 +4,11 @@
 //! bound. A [`Simulation`](crate::Simulation), which takes any model, asks [`Model`] instead: a provided method gives
 //! `Some` of the capability where it was emitted and `None::<NotEmitted>` elsewhere, a type without values.
 
+use crate::integrate::lie::Sum;
+use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::Series;
 use crate::model::{Model, StateVector};
-use crate::scalar::Scalar;
+use crate::scalar::{Real, Scalar};
 
 /// `emit(taylor)`: Taylor coefficients of the reduced motion to any order, `y(t + h) = sum_k y_k h^k`.
 ///
@@ -63,6 +65,32 @@ pub trait Taylor<const N: usize>: Model<N> {
     }
 }
 
+/// `emit(splitting)`: exact flows of pieces of the Hamiltonian over the reduced state, those of the kinetic energy first.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no exact sub-flows",
+    label = "`emit(splitting)` is missing",
+    note = "write `emit(splitting)` in its `#[affine_model(...)]`"
+)]
+pub trait Splitting<const N: usize>: Model<N> {
+    /// The pieces, in words.
+    const PIECES: &'static [&'static str];
+    /// There are two pieces, `A` and `B`, with `[B, [B, [B, A]]] = 0`.
+    const NYSTROM: bool;
+
+    /// Moves the reduced state along a piece for the time `h`, adding to each component and to what rounding left out
+    /// of it; `t` is the time that a potential reads. What is a function of the rest, `1/D`, stays as it is:
+    /// [`renewed`](Model::renewed).
+    fn flow<T: Real>(
+        &self,
+        piece: usize,
+        t: T,
+        h: T,
+        constants: &Self::Constants<T>,
+        state: &mut Self::Reduced<T>,
+        carry: &mut Self::Reduced<T>,
+    );
+}
+
 /// A model that has the capability in question.
 #[derive(Clone, Copy, Debug)]
 pub struct Emitted<'a, M, const N: usize>(pub &'a M);
@@ -90,6 +118,44 @@ impl<S, C> Series<S, C> for NotEmitted {
     type Row = [f64; 0];
 
     fn coefficients(&self, _: f64, _: &C, _: &mut [S], _: &mut [[f64; 0]]) {
+        match *self {}
+    }
+}
+
+impl<const N: usize, M: Splitting<N>> Pieces<M::Reduced<f64>, M::Constants<f64>> for Emitted<'_, M, N> {
+    #[inline]
+    fn count(&self) -> usize {
+        M::PIECES.len()
+    }
+
+    #[inline]
+    fn is_nystrom(&self) -> bool {
+        M::NYSTROM
+    }
+
+    #[inline]
+    fn flow(
+        &self,
+        piece: usize,
+        t: f64,
+        h: f64,
+        constants: &M::Constants<f64>,
+        state: &mut Sum<M::Reduced<f64>>,
+    ) {
+        self.0.flow(piece, t, h, constants, &mut state.value, &mut state.carry);
+    }
+}
+
+impl<S, C> Pieces<S, C> for NotEmitted {
+    fn count(&self) -> usize {
+        match *self {}
+    }
+
+    fn is_nystrom(&self) -> bool {
+        match *self {}
+    }
+
+    fn flow(&self, _: usize, _: f64, _: f64, _: &C, _: &mut Sum<S>) {
         match *self {}
     }
 }

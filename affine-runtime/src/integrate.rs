@@ -5,6 +5,7 @@ pub mod gauss;
 pub mod lie;
 pub mod rattle;
 pub mod runge_kutta;
+pub mod splitting;
 mod step_size;
 pub mod taylor;
 
@@ -14,6 +15,7 @@ pub use gauss::Gauss;
 pub use rattle::Rattle;
 
 pub use runge_kutta::RungeKutta8;
+pub use splitting::Splitting;
 pub use taylor::Taylor;
 
 use core::fmt;

@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use crate::capability::NotEmitted;
 use crate::frames::{Matrix, Vector};
+use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::Series;
 use crate::metrics::Bases;
 pub use crate::regularity::Regularity;
@@ -103,6 +104,11 @@ pub trait Model<const N: usize> {
 
     /// The Taylor coefficients of the reduced motion, where `emit(taylor)` asked for them.
     fn taylor(&self) -> Option<impl Series<Self::Reduced<f64>, Self::Constants<f64>>> {
+        None::<NotEmitted>
+    }
+
+    /// The exact flows of the pieces of the reduced motion, where `emit(splitting)` asked for them.
+    fn splitting(&self) -> Option<impl Pieces<Self::Reduced<f64>, Self::Constants<f64>>> {
         None::<NotEmitted>
     }
 }

@@ -67,6 +67,10 @@ fn method_name(method: Method) -> &'static str {
         Method::Rattle { order: 4, .. } => "RATTLE 4",
         Method::Rattle { order: 6, .. } => "RATTLE 6",
         Method::Rattle { .. } => "RATTLE 8",
+        Method::Splitting { order: 2, .. } => "splitting 2",
+        Method::Splitting { order: 4, .. } => "splitting 4",
+        Method::Splitting { order: 6, .. } => "splitting 6",
+        Method::Splitting { .. } => "splitting 8",
     }
 }
 

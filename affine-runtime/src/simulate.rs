@@ -63,13 +63,25 @@ pub enum Method {
         /// Length of a step, positive; the interval is divided into equal steps that are not longer.
         step: f64,
     },
+    /// Exact flows of pieces of the Hamiltonian in turn, [`Splitting`](crate::integrate::Splitting), of a model with
+    /// `emit(splitting)`; an error for others. Explicit, symmetric, in equal steps; the tolerance plays no part. A step
+    /// is a symplectic (Poisson) map, and keeps momentum maps and Casimirs up to rounding. Output times between steps are
+    /// reached by a shorter step from the one before, which leaves the sequence of steps as it is.
+    Splitting {
+        /// The order, 2, 4, 6 or 8.
+        order: usize,
+        /// Length of a step, positive; the interval is divided into equal steps that are not longer.
+        step: f64,
+    },
 }
 
 impl Method {
     /// Length of the equal steps, where that is what the method takes.
     pub(crate) fn step(self) -> Option<f64> {
         match self {
-            Method::Gauss { step, .. } | Method::Rattle { step, .. } => Some(step),
+            Method::Gauss { step, .. } | Method::Rattle { step, .. } | Method::Splitting { step, .. } => {
+                Some(step)
+            }
             Method::Automatic | Method::ClosedForm | Method::RungeKutta8 | Method::Taylor { .. } => None,
         }
     }

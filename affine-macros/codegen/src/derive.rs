@@ -5,6 +5,7 @@ mod mixed;
 mod prepared;
 mod programs;
 mod quantities;
+pub mod splitting;
 mod stated;
 
 use crate::algebra::bind::Constants;
@@ -29,7 +30,7 @@ use crate::spec::{Capability, Spanned};
 
 pub use lattice::TwoPolar;
 use prepared::{coefficient_program, conditions, damping, numeric_blocks};
-use programs::{best_reduction, full_chart, full_equations, power_batch};
+use programs::{Reduced, best_reduction, full_chart, full_equations, power_batch};
 
 /// Everything that is emitted about a model.
 pub struct Model {
@@ -104,6 +105,8 @@ pub struct Model {
     pub two_polar: Option<TwoPolar>,
     /// Taylor coefficients of the reduced equations, if asked for.
     pub taylor: Option<Recurrence>,
+    /// Exact flows of the pieces of the reduced motion, if asked for.
+    pub splitting: Option<splitting::Programs>,
 }
 
 /// The Legendre transformation and the energy in velocities.
@@ -233,6 +236,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         potential,
         forces,
         metrics,
+        split,
         two_polar,
         unitary,
         quantities,
@@ -281,8 +285,8 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
 
     let (full_chart, full_h) = full_chart(arena, &h);
     let full = full_equations(arena, &h, &full_chart, &full_h, potential, &forces, &mut coefficients);
-    let (reduction, reduced, trajectory, fixed) =
-        best_reduction(arena, &h, potential, &forces, rotations, &mut coefficients)?;
+    let Reduced { reduction, equations: reduced, splitting, trajectory, fixed } =
+        best_reduction(arena, &h, potential, &forces, (rotations, split), &mut coefficients)?;
     let formulas = Formulas {
         kinetic_energy: match cubic {
             None => describe::kinetic_energy(arena, &kinetic),
@@ -408,6 +412,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         formulas,
         two_polar,
         taylor: None,
+        splitting,
     })
 }
 

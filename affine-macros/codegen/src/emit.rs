@@ -14,6 +14,7 @@ mod prepare;
 mod quantities;
 mod reduction;
 mod separated;
+mod splitting;
 mod taylor;
 mod two_polar;
 
@@ -56,6 +57,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let points = points::inherent(&context);
     let two_polar = two_polar::implementations(&context);
     let (bases, _) = metrics::bases(&context);
+    let splitting = splitting::splitting_impl(&context);
     let taylor = taylor::taylor_impl(&context);
     quote! {
         #item
@@ -67,6 +69,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #constants
             #implementation
             #points
+            #splitting
             #two_polar
             #taylor
         };
@@ -225,6 +228,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let reduction = reduction::methods(context);
     let geodesic = closed_form::geodesic(context);
     let (_, bases) = metrics::bases(context);
+    let splitting = splitting::capability(context);
     let taylor = taylor::capability(context);
     let power = forces::power(context);
     quote! {
@@ -239,6 +243,7 @@ fn model_impl(context: &Context) -> TokenStream {
             #dynamics
             #reduction
             #geodesic
+            #splitting
             #taylor
             #power
         }

@@ -24,5 +24,6 @@ pub mod potential;
 pub mod reduce;
 pub mod separation;
 mod shared;
+pub mod splitting;
 pub mod symmetry;
 pub mod two_polar;

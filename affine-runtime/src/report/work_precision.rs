@@ -75,8 +75,8 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
         Self { t0, ..self }
     }
 
-    /// The methods, in this order. A closed form has no tolerance and gives one row, and so does Gauss collocation,
-    /// whose accuracy is its step: list it once for each step.
+    /// The methods, in this order. A closed form has no tolerance and gives one row, and so does a method whose
+    /// accuracy is its step: list it once for each step.
     #[must_use]
     pub fn methods(self, methods: impl IntoIterator<Item = Method>) -> Self {
         Self { methods: methods.into_iter().collect(), ..self }
@@ -211,7 +211,7 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
 
 /// Accuracy is set by a tolerance: not by the step, and not exact.
 fn has_tolerance(method: Method) -> bool {
-    !matches!(method, Method::ClosedForm | Method::Gauss { .. } | Method::Rattle { .. })
+    !matches!(method, Method::ClosedForm) && method.step().is_none()
 }
 
 /// `|a - b|/|b|`, 0 where they agree even in a vanishing reference.

@@ -109,7 +109,7 @@ pub enum Setting {
         /// The number of stages asked for.
         given: usize,
     },
-    /// RATTLE is available with the orders 2, 4, 6 and 8, Taylor polynomials with 2 to 32.
+    /// RATTLE and splitting are available with the orders 2, 4, 6 and 8, Taylor polynomials with 2 to 32.
     Order {
         /// The order asked for.
         given: usize,
@@ -198,7 +198,7 @@ impl fmt::Display for Setting {
             ),
             Setting::Order { given } => write!(
                 f,
-                "order {given}: RATTLE has the orders 2, 4, 6 and 8; Taylor series have {LOWEST_ORDER} to \
+                "order {given}: RATTLE and splitting have the orders 2, 4, 6 and 8; Taylor series have {LOWEST_ORDER} to \
                  {HIGHEST_ORDER}, or `None` for the one that suits the tolerance"
             ),
             Setting::NotIsochoric { model } => write!(

@@ -14,6 +14,7 @@ use crate::geodesic::{Geodesic, Motion};
 use crate::integrate::gauss::{Tableau, step_count};
 use crate::integrate::lie::{Chart, Coordinates, Flat};
 use crate::integrate::rattle::{Composition, Reaction};
+use crate::integrate::splitting::{Splitting, Sweeps};
 use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER, Taylor};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics, norm};
 use crate::kinematics::LogDeterminant;
@@ -99,6 +100,9 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             (Method::Rattle { order, step }, _) => {
                 self.integrate_by_rattle((order, step), t_end, &mut recorder)
             }
+            (Method::Splitting { order, step }, _) => {
+                self.integrate_by_splitting((order, step), t_end, &mut recorder)
+            }
             _ => match (chart::<N, M>(), self.chosen(&mut recorder.trajectory.computation)) {
                 (_, Method::Taylor { order }) => self.integrate_by_series(order, t_end, &mut recorder),
                 (Some(_), _) if is_canonical::<N, M>() => self.integrate_with_reaction(t_end, &mut recorder),
@@ -133,6 +137,9 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 if M::DESCRIPTION.constraint != Some(Constraint::Isochoric) {
                     return Err(Setting::NotIsochoric { model: M::DESCRIPTION.name });
                 }
+            }
+            Method::Splitting { order, .. } if Sweeps::of_order(order, false).is_none() => {
+                return Err(Setting::Order { given: order });
             }
             _ => {}
         }
@@ -300,6 +307,27 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let outcome = self.step_through(&mut integration, expand, groups, t_end, recorder);
         recorder.trajectory.computation.residual = Some(integration.residual());
         outcome
+    }
+
+    /// The reduced state by the exact flows of pieces.
+    fn integrate_by_splitting(
+        &mut self,
+        (order, step): (usize, f64),
+        t_end: f64,
+        recorder: &mut Recorder<'_, '_, N, M>,
+    ) -> Result<(), Reason> {
+        let model = self.model;
+        recorder.begin(self.t0, self.start)?;
+        let (reduced, constants) = model.reduce(self.t0, &self.start);
+        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
+        let pieces = model.splitting();
+        let pieces = pieces.ok_or(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "splitting" })?;
+        let begin = (self.t0, reduced);
+        let integration = Splitting::new((pieces, constants), order, begin, t_end, step);
+        let integration = integration.ok_or(Setting::Order { given: order })?;
+        let mut integration = integration.map_err(|failure| self.reason(failure))?;
+        recorder.trajectory.computation.method = self.method;
+        self.step_through(&mut integration, expand, M::DESCRIPTION.reduced, t_end, recorder)
     }
 
     /// Steps to the end with output on the way, and the expansion of the last good step.

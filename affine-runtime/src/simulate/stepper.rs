@@ -2,6 +2,7 @@
 
 use crate::integrate::lie::Coordinates;
 use crate::integrate::runge_kutta::Dense;
+use crate::integrate::splitting::{Pieces, Splitting};
 use crate::integrate::taylor::{Series, Taylor};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics};
 use crate::model::StateVector;
@@ -116,5 +117,26 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Ra
     }
     fn statistics(&self) -> Statistics {
         Rattle::statistics(self)
+    }
+}
+
+impl<S: StateVector<f64>, C, P: Pieces<S, C>> Stepper<S> for Splitting<S, C, P> {
+    fn advance(&mut self) -> Result<(), Failure> {
+        Splitting::advance(self)
+    }
+    fn between(&mut self, t: f64) -> Result<S, Failure> {
+        self.at(t)
+    }
+    fn t(&self) -> f64 {
+        Splitting::t(self)
+    }
+    fn y(&self) -> &S {
+        Splitting::y(self)
+    }
+    fn is_finished(&self) -> bool {
+        Splitting::is_finished(self)
+    }
+    fn statistics(&self) -> Statistics {
+        Splitting::statistics(self)
     }
 }

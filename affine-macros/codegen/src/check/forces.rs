@@ -38,7 +38,7 @@ impl Force {
 }
 
 /// What may be stated beside a force, and whether it is and refuses it.
-fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 8] {
+fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 9] {
     let emitted = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
     let cubic = |terms: &Vec<_>| {
         terms.iter().any(|term: &crate::spec::Term<MomentumKind>| term.kind.value == MomentumKind::Casimir3)
@@ -50,6 +50,7 @@ fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 8] {
         ("`group = unitary`", spec.group.is_some()),
         ("terms of different frames", frames::are_mixed(spec)),
         ("`emit(taylor)`", emitted(Capability::Taylor)),
+        ("`emit(splitting)`", emitted(Capability::Splitting)),
         ("`emit(two_polar)`", emitted(Capability::TwoPolar)),
         ("`emit(acceleration)`", emitted(Capability::Acceleration)),
     ]

@@ -40,6 +40,8 @@ pub struct Form {
     pub unitary: bool,
     /// Metrics other than the identity; everything else stands in bases in which they are.
     pub metrics: Option<Metrics>,
+    /// Are the exact flows of pieces of the Hamiltonian asked for?
+    pub split: bool,
     /// What else is emitted.
     pub quantities: Quantities,
 }
@@ -89,6 +91,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     found.verdict()?;
     let potential = potential(&mut arena, spec, kinetic.constraint, found);
     super::capabilities::series(spec, potential.as_ref(), found);
+    super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     found.verdict()?;
     let space_group = largest_group(&free, Side::Space);
     let body_group = largest_group(&free, Side::Body);
@@ -104,6 +107,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         potential,
         forces,
         metrics: lower::metrics(spec),
+        split: super::capabilities::asked(spec, Capability::Splitting),
         quantities: Quantities::of(spec),
         two_polar,
         unitary,
@@ -136,6 +140,7 @@ fn momentum_form(
     let body_group = largest_group(&on_momenta, Side::Body);
     let potential = potential(&mut arena, spec, None, found);
     super::capabilities::series(spec, potential.as_ref(), found);
+    super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     found.verdict()?;
     let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
     Ok(Form {
@@ -148,6 +153,7 @@ fn momentum_form(
         potential,
         forces,
         metrics: lower::metrics(spec),
+        split: super::capabilities::asked(spec, Capability::Splitting),
         quantities: Quantities::of(spec),
         two_polar,
         unitary: false,

@@ -59,6 +59,7 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
             Diagnostic::LatticeWithout { part, lacks: "mass matrix that depends on phi" },
         );
     }
+    super::capabilities::one_frame(spec, found);
     let mut arena = Arena::new();
     let (places, terms): (Vec<usize>, Vec<Term>) =
         lower::terms(&mut arena, spec.dim.value, &spec.kinetic).into_iter().unzip();

@@ -16,6 +16,7 @@ use crate::mechanics::separation::{Separation, Slope};
 use crate::optimise::{Batch, straight_line};
 
 use super::Equations;
+use super::splitting::Programs;
 
 /// Chart and Hamiltonian of the equations that users of other codes write down: all momenta in the model's frames.
 pub(super) fn full_chart(arena: &mut Arena, h: &Hamiltonian) -> (Chart, Polynomial) {
@@ -169,27 +170,40 @@ fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> Batch {
     result
 }
 
-/// The reduction with the shortest equations, and its programs.
+/// A reduction with its programs.
+pub(super) struct Reduced {
+    pub(super) reduction: Reduction,
+    pub(super) equations: Equations,
+    pub(super) splitting: Option<Programs>,
+    pub(super) trajectory: Program,
+    pub(super) fixed: Vec<String>,
+}
+
+/// The reduction with the shortest equations, and its programs; `split` asks for its sub-flows as well.
 pub(super) fn best_reduction(
     arena: &mut Arena,
     h: &Hamiltonian,
     potential: Option<&Potential>,
     forces: &Forces,
-    rotations: bool,
+    (rotations, split): (bool, bool),
     coefficients: &mut Constants,
-) -> Option<(Reduction, Equations, Program, Vec<String>)> {
+) -> Option<Reduced> {
     let candidates = reduce::candidates(arena, h, potential, forces, rotations);
     let time = time(arena, potential, forces);
-    shortest_reduction(arena, candidates, time, coefficients)
+    let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
+        split.then(|| Programs::of(arena, h, potential, reduction, constants)).flatten()
+    };
+    shortest_reduction(arena, candidates, time, pieces, coefficients)
 }
 
-/// The reduction of several with the shortest equations, and its programs.
+/// The reduction of several with the shortest equations, its programs, and those of its `pieces`.
 pub(super) fn shortest_reduction(
     arena: &mut Arena,
     candidates: Vec<Reduction>,
     time: Option<Expr>,
+    pieces: impl FnOnce(&mut Arena, &Reduction, &mut Constants) -> Option<Programs>,
     coefficients: &mut Constants,
-) -> Option<(Reduction, Equations, Program, Vec<String>)> {
+) -> Option<Reduced> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
     for candidate in candidates {
         let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
@@ -202,7 +216,8 @@ pub(super) fn shortest_reduction(
             best = Some((weight, candidate, program, constants));
         }
     }
-    let (_, reduction, program, constants) = best?;
+    let (_, reduction, program, mut constants) = best?;
+    let splitting = pieces(arena, &reduction, &mut constants);
     let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {
         results: constants
@@ -220,7 +235,8 @@ pub(super) fn shortest_reduction(
         Layout::Constant => Program::default(),
         Layout::Entries => dependent(arena, &reduction.chart),
     };
-    Some((reduction, Equations { groups, dependent, program: fuse(&program) }, trajectory, fixed))
+    let equations = Equations { groups, dependent, program: fuse(&program) };
+    Some(Reduced { reduction, equations, splitting, trajectory, fixed })
 }
 
 /// What `trajectory` reads: `p` where the state depends on it, and the constant part of the affine momentum.

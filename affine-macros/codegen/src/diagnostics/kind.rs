@@ -97,6 +97,13 @@ pub enum Diagnostic {
         /// The other thing.
         beside: &'static str,
     },
+    /// `emit(splitting)` for a Hamiltonian without pieces whose flows are known.
+    NoExactPieces {
+        /// What stands against it.
+        beside: String,
+        /// The reason.
+        why: String,
+    },
     /// A capability that this version does not have.
     UnavailableCapability {
         /// The capability.
@@ -673,6 +680,7 @@ names! {
     EmptyList => "empty-list",
     UnknownName => "unknown-name",
     CapabilityBeside => "capability-beside",
+    NoExactPieces => "no-exact-pieces",
     UnavailableCapability => "unavailable-capability",
     NotDoublyIsotropic => "not-doubly-isotropic",
     UnitaryTerm => "unitary-term",

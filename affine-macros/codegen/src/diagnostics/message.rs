@@ -120,10 +120,16 @@ impl Diagnostic {
                     "remove `{capability}` from `emit(...)`: Runge-Kutta and Gauss methods integrate the model"
                 ),
             ),
+            Self::NoExactPieces { beside, why } => text(
+                format!("`emit(splitting)` does not go with {beside}"),
+                why.clone(),
+                "remove `splitting` from `emit(...)`: Gauss collocation is symmetric and integrates the model",
+            ),
             Self::UnavailableCapability { capability, gives } => text(
                 format!("the capability `{capability}` is not available in this version"),
                 format!(
-                    "it will give {gives}; this version emits the default, Hamilton's equations, `taylor` and `two_polar`"
+                    "it will give {gives}; this version emits the default, Hamilton's equations, `splitting`, `taylor` and \
+                     `two_polar`"
                 ),
                 format!("remove `{capability}` from `emit(...)`"),
             ),

@@ -369,7 +369,7 @@ fn states(
 }
 
 /// Components that vanish once space is turned.
-fn gauge(chart: &Chart, turned: bool, layout: Layout) -> Vec<Expr> {
+pub(super) fn gauge(chart: &Chart, turned: bool, layout: Layout) -> Vec<Expr> {
     let mut zero = Vec::new();
     if turned {
         zero.extend(chart.p.iter().skip(1));
