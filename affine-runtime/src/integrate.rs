@@ -7,6 +7,7 @@ pub mod rattle;
 pub mod runge_kutta;
 mod step_size;
 pub mod taylor;
+mod widest;
 
 pub use error_norm::ErrorNorm;
 pub(crate) use error_norm::norm;

@@ -78,6 +78,7 @@ impl ErrorNorm {
 
     /// `max_g value(range of g) / s_g` for a step of length `h`; zero where `value` is, and NaN where a scale is
     /// not finite.
+    #[inline(always)]
     pub(crate) fn largest(
         &self,
         h: f64,
@@ -106,6 +107,7 @@ impl ErrorNorm {
         largest
     }
 
+    #[inline(always)]
     fn scale(&self, name: &str, range: Range<usize>, before: &[f64], after: &[f64]) -> f64 {
         if name == "q" {
             return 1.0;
