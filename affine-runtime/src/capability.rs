@@ -41,6 +41,7 @@ pub trait Taylor<const N: usize>: Model<N> {
 
     /// Fills in all coefficients after the first, which is the reduced state at time `t`. The order is one less than
     /// the shorter of the number of coefficients, and of rows and one.
+    #[inline(always)]
     fn coefficients<T: Scalar>(
         &self,
         t: T,
@@ -74,7 +75,7 @@ pub enum NotEmitted {}
 impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> for Emitted<'_, M, N> {
     type Row = M::Row<f64>;
 
-    #[inline]
+    #[inline(always)]
     fn coefficients(
         &self,
         t: f64,

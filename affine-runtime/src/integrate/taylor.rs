@@ -7,6 +7,7 @@ pub use lanes::{add_multiple, add_products, lanes, subtract_multiple, subtract_p
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, norm};
+use super::widest::{Work, widest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
 
@@ -80,7 +81,8 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     ) -> Result<Self, Failure> {
         let slope = |t: f64, y: &S| {
             let mut coefficients = [*y, S::zeros()];
-            series.coefficients(t, &constants, &mut coefficients, &mut [R::Row::zeros()]);
+            let rows = &mut [R::Row::zeros()];
+            widest(Expansion { series: &series, t, constants: &constants, coefficients: &mut coefficients, rows });
             coefficients[1]
         };
         let first = slope(t0, &y0);
@@ -127,8 +129,13 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
 
     fn step(&mut self) -> Result<(), Failure> {
         self.coefficients[0] = self.y;
-        let coefficients = &mut self.coefficients[..=self.order];
-        self.series.coefficients(self.t, &self.constants, coefficients, &mut self.rows[..self.order]);
+        widest(Expansion {
+            series: &self.series,
+            t: self.t,
+            constants: &self.constants,
+            coefficients: &mut self.coefficients[..=self.order],
+            rows: &mut self.rows[..self.order],
+        });
         self.statistics.evaluations += 1;
         let length = self.longest();
         if length.is_nan() {
@@ -233,6 +240,23 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     fn shortest(&self) -> f64 {
         let (t, span) = (self.t.abs(), (self.t_end - self.t).abs());
         16.0 * f64::EPSILON * if t > f64::EPSILON * span { t } else { f64::EPSILON * span }
+    }
+}
+
+/// The coefficients around a state.
+struct Expansion<'a, S, C, R: Series<S, C>> {
+    series: &'a R,
+    t: f64,
+    constants: &'a C,
+    coefficients: &'a mut [S],
+    rows: &'a mut [R::Row],
+}
+
+impl<S, C, R: Series<S, C>> Work for Expansion<'_, S, C, R> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        self.series.coefficients(self.t, self.constants, self.coefficients, self.rows);
     }
 }
 

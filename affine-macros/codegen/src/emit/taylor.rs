@@ -119,6 +119,7 @@ impl Writer<'_> {
             _ => quote!(#t::zero()),
         });
         quote! {
+            #[inline(always)]
             fn start<#t: #rt::Scalar>(
                 &self,
                 _t: #t,
@@ -167,6 +168,7 @@ impl Writer<'_> {
         let rows = if self.recurrence.row.is_empty() { quote!(_rows) } else { quote!(rows) };
         let order = if self.reads_order() { quote!(order) } else { quote!(_order) };
         quote! {
+            #[inline(always)]
             fn next<#t: #rt::Scalar>(
                 &self,
                 #order: #t,
