@@ -4,7 +4,7 @@
 //! bound. A [`Simulation`](crate::Simulation), which takes any model, asks [`Model`] instead: a provided method gives
 //! `Some` of the capability where it was emitted and `None::<NotEmitted>` elsewhere, a type without values.
 
-use crate::integrate::taylor::Series;
+use crate::integrate::taylor::{Portable, Series, Vectors};
 use crate::model::{Model, StateVector};
 use crate::scalar::Scalar;
 
@@ -33,6 +33,7 @@ pub trait Taylor<const N: usize>: Model<N> {
     /// `(k + 1) y_(k+1)` from `y_k`, `order = k > 0`. The rows are those of the orders 0 to k; fills the last one.
     fn next<T: Scalar>(
         &self,
+        vectors: impl Vectors,
         order: T,
         constants: &Self::Constants<T>,
         coefficient: &Self::Reduced<T>,
@@ -41,9 +42,21 @@ pub trait Taylor<const N: usize>: Model<N> {
 
     /// Fills in all coefficients after the first, which is the reduced state at time `t`. The order is one less than
     /// the shorter of the number of coefficients, and of rows and one.
-    #[inline(always)]
     fn coefficients<T: Scalar>(
         &self,
+        t: T,
+        constants: &Self::Constants<T>,
+        coefficients: &mut [Self::Reduced<T>],
+        rows: &mut [Self::Row<T>],
+    ) {
+        self.coefficients_on(Portable, t, constants, coefficients, rows);
+    }
+
+    /// The same coefficients, on the vectors of a processor.
+    #[inline(always)]
+    fn coefficients_on<T: Scalar>(
+        &self,
+        vectors: impl Vectors,
         t: T,
         constants: &Self::Constants<T>,
         coefficients: &mut [Self::Reduced<T>],
@@ -54,7 +67,7 @@ pub trait Taylor<const N: usize>: Model<N> {
             let coefficient = coefficients[k];
             let mut rate = match k {
                 0 => self.start(t, constants, &coefficient, &mut rows[0]),
-                _ => self.next(order, constants, &coefficient, &mut rows[..=k]),
+                _ => self.next(vectors, order, constants, &coefficient, &mut rows[..=k]),
             };
             rate.as_mut().iter_mut().for_each(|rate| *rate *= scale);
             coefficients[k + 1] = rate;
@@ -75,7 +88,6 @@ pub enum NotEmitted {}
 impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> for Emitted<'_, M, N> {
     type Row = M::Row<f64>;
 
-    #[inline(always)]
     fn coefficients(
         &self,
         t: f64,
@@ -84,6 +96,18 @@ impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> fo
         rows: &mut [Self::Row],
     ) {
         self.0.coefficients(t, constants, coefficients, rows);
+    }
+
+    #[inline(always)]
+    fn coefficients_on(
+        &self,
+        vectors: impl Vectors,
+        t: f64,
+        constants: &M::Constants<f64>,
+        coefficients: &mut [M::Reduced<f64>],
+        rows: &mut [Self::Row],
+    ) {
+        self.0.coefficients_on(vectors, t, constants, coefficients, rows);
     }
 }
 

@@ -10,6 +10,7 @@ use core::fmt;
 use super::error_norm::{ErrorNorm, sum_of_squares};
 use super::lie::{Coordinates, Flat, Sum};
 use super::step_size::{Controller, first_step};
+use super::taylor::Vectors;
 use super::widest::{Work, widest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
@@ -257,7 +258,7 @@ struct Trial<'a, S, F, C> {
 impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Work for Trial<'_, S, F, C> {
     type Output = (Sum<S>, f64);
     #[inline(always)]
-    fn run(self) -> (Sum<S>, f64) {
+    fn run(self, _vectors: impl Vectors) -> (Sum<S>, f64) {
         self.integration.attempt(self.end)
     }
 }

@@ -2,7 +2,9 @@
 
 mod lanes;
 
-pub use lanes::{add_multiple, add_products, lanes, subtract_multiple, subtract_products};
+pub use lanes::{
+    Portable, Vectors, add_multiple, add_products, lanes, subtract_multiple, subtract_products,
+};
 
 use core::fmt;
 
@@ -24,6 +26,19 @@ pub trait Series<S, C> {
     /// Fills in all coefficients after the first, which is the state at time `t`; as many rows as coefficients, less
     /// one.
     fn coefficients(&self, t: f64, constants: &C, coefficients: &mut [S], rows: &mut [Self::Row]);
+
+    /// The same coefficients, on the vectors of a processor where that is worth the while.
+    #[inline(always)]
+    fn coefficients_on(
+        &self,
+        _vectors: impl Vectors,
+        t: f64,
+        constants: &C,
+        coefficients: &mut [S],
+        rows: &mut [Self::Row],
+    ) {
+        self.coefficients(t, constants, coefficients, rows);
+    }
 }
 
 /// Adaptive integration from `t0` to `t_end`, in either direction of time, by Taylor polynomials.
@@ -255,8 +270,8 @@ struct Expansion<'a, S, C, R: Series<S, C>> {
 impl<S, C, R: Series<S, C>> Work for Expansion<'_, S, C, R> {
     type Output = ();
     #[inline(always)]
-    fn run(self) {
-        self.series.coefficients(self.t, self.constants, self.coefficients, self.rows);
+    fn run(self, vectors: impl Vectors) {
+        self.series.coefficients_on(vectors, self.t, self.constants, self.coefficients, self.rows);
     }
 }
 

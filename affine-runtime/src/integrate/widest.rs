@@ -4,12 +4,14 @@
 //! through [`widest`] is compiled a second time for AVX2 and runs so where the processor, asked once, has it. Nothing
 //! is fused and no sum is reordered in either: the results are the same to the last bit.
 
+use super::taylor::{Portable, Vectors};
+
 /// What is worth compiling twice. Only what is inlined into `run` is.
 pub(crate) trait Work {
     /// What comes out.
     type Output;
     /// Does it; to be `#[inline(always)]`.
-    fn run(self) -> Self::Output;
+    fn run(self, vectors: impl Vectors) -> Self::Output;
 }
 
 /// The work done, with the widest vectors there are.
@@ -17,8 +19,8 @@ pub(crate) trait Work {
 #[inline(always)]
 pub(crate) fn widest<W: Work>(work: W) -> W::Output {
     match pulp::x86::V3::try_new() {
-        Some(vectors) => vectors.vectorize(Once(work)),
-        None => work.run(),
+        Some(vectors) => vectors.vectorize(Once { work, vectors }),
+        None => work.run(Portable),
     }
 }
 
@@ -26,17 +28,20 @@ pub(crate) fn widest<W: Work>(work: W) -> W::Output {
 #[cfg(not(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2"))))]
 #[inline(always)]
 pub(crate) fn widest<W: Work>(work: W) -> W::Output {
-    work.run()
+    work.run(Portable)
 }
 
 #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
-struct Once<W>(W);
+struct Once<W> {
+    work: W,
+    vectors: pulp::x86::V3,
+}
 
 #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
 impl<W: Work> pulp::NullaryFnOnce for Once<W> {
     type Output = W::Output;
     #[inline(always)]
     fn call(self) -> W::Output {
-        self.0.run()
+        self.work.run(self.vectors)
     }
 }
