@@ -121,6 +121,7 @@ impl ErrorNorm {
     }
 
     /// Size of the placement, and of the position with it where that is asked for.
+    #[inline(always)]
     fn extent(&self, configuration: Range<usize>, y: &[f64]) -> f64 {
         let own = norm(&y[configuration.clone()]);
         match self.phi {
@@ -154,15 +155,18 @@ impl ErrorNorm {
 }
 
 /// Euclidean norm.
+#[inline(always)]
 pub(crate) fn norm(components: &[f64]) -> f64 {
     Scalar::sqrt(sum_of_squares(components))
 }
 
 /// Sum of squares.
+#[inline(always)]
 pub(crate) fn sum_of_squares(components: &[f64]) -> f64 {
     components.iter().map(|v| square(*v)).sum()
 }
 
+#[inline(always)]
 fn square(value: f64) -> f64 {
     value * value
 }

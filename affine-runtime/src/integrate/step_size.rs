@@ -34,6 +34,7 @@ impl Controller {
     }
 
     /// Factor of the step size after an accepted step with `error <= 1`.
+    #[inline]
     pub(crate) fn accept(&mut self, error: f64) -> f64 {
         let root = eighth_root(if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR });
         let trend = Scalar::sqrt(Scalar::sqrt(self.previous));
@@ -55,6 +56,7 @@ impl Controller {
 }
 
 /// The root of the order of the error estimate.
+#[inline]
 fn eighth_root(error: f64) -> f64 {
     Scalar::sqrt(Scalar::sqrt(Scalar::sqrt(error)))
 }
