@@ -45,3 +45,36 @@ impl<W: Work> pulp::NullaryFnOnce for Once<W> {
         self.work.run(self.vectors)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Products added and subtracted in lanes, and a loop over components that compilers turn into vectors.
+    #[derive(Clone, Copy)]
+    struct Sums([f64; 4]);
+
+    impl Work for Sums {
+        type Output = [f64; 4];
+        #[inline(always)]
+        fn run(self, vectors: impl Vectors) -> [f64; 4] {
+            let mut sum = self.0;
+            for _ in 0..50 {
+                sum = vectors.plus_product(sum, sum, [0.37, -0.81, 1e-3, 0.1]);
+                sum = vectors.minus_product(self.0, sum, [0.29, 0.7, -0.3, 0.9]);
+                for (sum, start) in sum.iter_mut().zip(&self.0) {
+                    *sum = *sum * 0.3 + start * (1.0 - *sum);
+                }
+            }
+            sum
+        }
+    }
+
+    #[test]
+    fn wider_vectors_round_the_same() {
+        let sums = Sums([0.1, 1.0 / 3.0, -0.7, 0.9]);
+        let plain = sums.run(Portable);
+        assert!(plain.iter().all(|v| v.is_finite() && *v != 0.0), "{plain:?}");
+        assert_eq!(widest(sums).map(f64::to_bits), plain.map(f64::to_bits));
+    }
+}

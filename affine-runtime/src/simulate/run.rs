@@ -43,7 +43,11 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let mut trajectory = self.empty_trajectory();
         let model = self.model;
         let outcome = self.drive(&mut trajectory);
-        trajectory.energies.end = model.hamiltonian(trajectory.end.0, &trajectory.end.1);
+        // The end is the last output, as a rule.
+        trajectory.energies.end = match (trajectory.times.last(), trajectory.energies.outputs.last()) {
+            (Some(t), Some(energy)) if *t == trajectory.end.0 => *energy,
+            _ => model.hamiltonian(trajectory.end.0, &trajectory.end.1),
+        };
         match outcome {
             Ok(()) => Ok(trajectory),
             Err(reason) => {
