@@ -2,9 +2,7 @@
 
 mod lanes;
 
-pub use lanes::{
-    Portable, Vectors, add_multiple, add_products, lanes, subtract_multiple, subtract_products,
-};
+pub use lanes::{Portable, Vectors, add_multiple, add_products, lanes, subtract_multiple, subtract_products};
 
 use core::fmt;
 
@@ -186,7 +184,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             // The logarithm of `(tolerance/|y_j|)^(1/j)`; no error is no bound, and NaN stays.
             let logarithm = |j: usize| {
                 let (y, term) = (self.coefficients[0].as_ref(), self.coefficients[j].as_ref());
-                let error = self.error_norm.largest(h, y, y, |r| norm(&term[r]));
+                let error = self.error_norm.largest(h, y, y, |r| size(&term[r]));
                 libm::log(self.tolerance / error) / j as f64
             };
             let (last, before) = (logarithm(self.order), logarithm(self.order - 1));
@@ -283,6 +281,24 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> fmt::Debug for Taylor<S, C, R> {
             .field("statistics", &self.statistics)
             .finish_non_exhaustive()
     }
+}
+
+/// The Euclidean norm, also where squares leave the range of numbers: a coefficient of order 30 may be large.
+#[inline(always)]
+fn size(components: &[f64]) -> f64 {
+    let plain = norm(components);
+    if plain > 0.0 && plain < f64::INFINITY { plain } else { scaled_norm(components) }
+}
+
+fn scaled_norm(components: &[f64]) -> f64 {
+    // A NaN is kept.
+    let largest =
+        components.iter().fold(0.0, |largest: f64, v| if v.abs() <= largest { largest } else { v.abs() });
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    let squares: f64 = components.iter().map(|v| v / largest * (v / largest)).sum();
+    largest * crate::scalar::Scalar::sqrt(squares)
 }
 
 fn is_finite<S: StateVector<f64>>(y: &S) -> bool {

@@ -19,7 +19,8 @@ use problems::Visitor;
 fn main() -> affine_runtime::Result<()> {
     // A folder that cannot be made shows in the first file that cannot be written.
     let _ = fs::create_dir_all("output");
-    let mut comparison = Comparison { only: std::env::args().skip(1).collect(), rows: Vec::new(), csv: CSV_HEAD.to_owned() };
+    let mut comparison =
+        Comparison { only: std::env::args().skip(1).collect(), rows: Vec::new(), csv: CSV_HEAD.to_owned() };
     problems::visit(&mut comparison)?;
     println!(
         "run time over that of DOP853 at equal errors of phi, the best method and tolerance for each:\n"
