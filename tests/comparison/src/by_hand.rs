@@ -185,7 +185,7 @@ fn sweep<const D: usize, F: System<f64, SVector<f64, D>>>(
                 6.0,
                 t_end,
                 0.0,
-                10_000_000,
+                1_000_000,
                 u32::MAX,
                 OutputType::Sparse,
             );
