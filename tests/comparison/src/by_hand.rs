@@ -168,7 +168,7 @@ fn sweep<const D: usize, F: System<f64, SVector<f64, D>>>(
     end: &Matrix3<f64>,
 ) -> Vec<Measured> {
     let mut runs = Vec::new();
-    for k in 1..=29 {
+    for k in 4..=29 {
         let tolerance = 10f64.powf(-0.5 * f64::from(k));
         let run = || {
             let mut solver = Dop853::from_param(
@@ -185,7 +185,7 @@ fn sweep<const D: usize, F: System<f64, SVector<f64, D>>>(
                 6.0,
                 t_end,
                 0.0,
-                1_000_000,
+                10_000_000,
                 u32::MAX,
                 OutputType::Sparse,
             );

@@ -59,7 +59,7 @@ impl Visitor for Comparison {
         if !self.only.is_empty() && !self.only.iter().any(|asked| asked == name) {
             return Ok(());
         }
-        let tolerances: Vec<f64> = (1..=29).map(|k| 10f64.powf(-0.5 * f64::from(k))).collect();
+        let tolerances: Vec<f64> = (4..=29).map(|k| 10f64.powf(-0.5 * f64::from(k))).collect();
         let report = WorkPrecision::new(model, start, t_end)
             .against(end)
             .tolerances(tolerances)
