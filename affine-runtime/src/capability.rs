@@ -6,7 +6,7 @@
 
 use crate::integrate::lie::Sum;
 use crate::integrate::splitting::Pieces;
-use crate::integrate::taylor::Series;
+use crate::integrate::taylor::{Portable, Series, Vectors};
 use crate::model::{Model, StateVector};
 use crate::scalar::{Real, Scalar};
 
@@ -35,6 +35,7 @@ pub trait Taylor<const N: usize>: Model<N> {
     /// `(k + 1) y_(k+1)` from `y_k`, `order = k > 0`. The rows are those of the orders 0 to k; fills the last one.
     fn next<T: Scalar>(
         &self,
+        vectors: impl Vectors,
         order: T,
         constants: &Self::Constants<T>,
         coefficient: &Self::Reduced<T>,
@@ -50,12 +51,25 @@ pub trait Taylor<const N: usize>: Model<N> {
         coefficients: &mut [Self::Reduced<T>],
         rows: &mut [Self::Row<T>],
     ) {
+        self.coefficients_on(Portable, t, constants, coefficients, rows);
+    }
+
+    /// The same coefficients, on the vectors of a processor.
+    #[inline(always)]
+    fn coefficients_on<T: Scalar>(
+        &self,
+        vectors: impl Vectors,
+        t: T,
+        constants: &Self::Constants<T>,
+        coefficients: &mut [Self::Reduced<T>],
+        rows: &mut [Self::Row<T>],
+    ) {
         let (mut order, mut scale) = (T::zero(), T::one());
         for k in 0..rows.len().min(coefficients.len().saturating_sub(1)) {
             let coefficient = coefficients[k];
             let mut rate = match k {
                 0 => self.start(t, constants, &coefficient, &mut rows[0]),
-                _ => self.next(order, constants, &coefficient, &mut rows[..=k]),
+                _ => self.next(vectors, order, constants, &coefficient, &mut rows[..=k]),
             };
             rate.as_mut().iter_mut().for_each(|rate| *rate *= scale);
             coefficients[k + 1] = rate;
@@ -102,7 +116,6 @@ pub enum NotEmitted {}
 impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> for Emitted<'_, M, N> {
     type Row = M::Row<f64>;
 
-    #[inline]
     fn coefficients(
         &self,
         t: f64,
@@ -111,6 +124,18 @@ impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> fo
         rows: &mut [Self::Row],
     ) {
         self.0.coefficients(t, constants, coefficients, rows);
+    }
+
+    #[inline(always)]
+    fn coefficients_on(
+        &self,
+        vectors: impl Vectors,
+        t: f64,
+        constants: &M::Constants<f64>,
+        coefficients: &mut [M::Reduced<f64>],
+        rows: &mut [Self::Row],
+    ) {
+        self.0.coefficients_on(vectors, t, constants, coefficients, rows);
     }
 }
 

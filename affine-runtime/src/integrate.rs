@@ -8,9 +8,10 @@ pub mod runge_kutta;
 pub mod splitting;
 mod step_size;
 pub mod taylor;
+mod widest;
 
 pub use error_norm::ErrorNorm;
-pub(crate) use error_norm::norm;
+pub(crate) use error_norm::{norm, sum_of_squares};
 pub use gauss::Gauss;
 pub use rattle::Rattle;
 

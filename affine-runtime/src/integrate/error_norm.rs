@@ -80,6 +80,7 @@ impl ErrorNorm {
 
     /// `max_g value(range of g) / s_g` for a step of length `h`; zero where `value` is, and NaN where a scale is
     /// not finite.
+    #[inline(always)]
     pub(crate) fn largest(
         &self,
         h: f64,
@@ -111,6 +112,7 @@ impl ErrorNorm {
         largest
     }
 
+    #[inline(always)]
     fn scale(&self, name: &str, range: Range<usize>, before: &[f64], after: &[f64]) -> f64 {
         if name == "q" {
             return 1.0;
@@ -124,6 +126,7 @@ impl ErrorNorm {
     }
 
     /// Size of the placement, and of the position with it where that is asked for.
+    #[inline(always)]
     fn extent(&self, configuration: Range<usize>, y: &[f64]) -> f64 {
         let own = norm(&y[configuration.clone()]);
         match self.phi {
@@ -157,15 +160,18 @@ impl ErrorNorm {
 }
 
 /// Euclidean norm.
+#[inline(always)]
 pub(crate) fn norm(components: &[f64]) -> f64 {
     Scalar::sqrt(sum_of_squares(components))
 }
 
 /// Sum of squares.
+#[inline(always)]
 pub(crate) fn sum_of_squares(components: &[f64]) -> f64 {
     components.iter().map(|v| square(*v)).sum()
 }
 
+#[inline(always)]
 fn square(value: f64) -> f64 {
     value * value
 }

@@ -16,7 +16,7 @@ use crate::integrate::lie::{Chart, Coordinates, Flat};
 use crate::integrate::rattle::{Composition, Reaction};
 use crate::integrate::splitting::{Splitting, Sweeps};
 use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER, Taylor};
-use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics, norm};
+use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics, norm, sum_of_squares};
 use crate::kinematics::LogDeterminant;
 use crate::model::{Constraint, Group, Model, StateVector, WORK};
 use crate::state::Phase;
@@ -45,7 +45,11 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let mut trajectory = self.empty_trajectory();
         let model = self.model;
         let outcome = self.drive(&mut trajectory);
-        trajectory.energies.end = model.hamiltonian(trajectory.end.0, &trajectory.end.1);
+        // The end is the last output, as a rule.
+        trajectory.energies.end = match (trajectory.times.last(), trajectory.energies.outputs.last()) {
+            (Some(t), Some(energy)) if *t == trajectory.end.0 => *energy,
+            _ => model.hamiltonian(trajectory.end.0, &trajectory.end.1),
+        };
         match outcome {
             Ok(()) => Ok(trajectory),
             Err(reason) => {
@@ -488,13 +492,17 @@ fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<(), Reason> {
 /// is left to the careful way.
 fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
     let minor = |a: usize, b: usize| phi[(1, a)] * phi[(2, b)] - phi[(1, b)] * phi[(2, a)];
-    let size = norm(phi.as_slice());
+    let scale = sum_of_squares(phi.as_slice());
+    // `det > c |phi|^n` without the root.
+    let exceeds = |determinant: f64, power: f64| {
+        determinant > 0.0 && determinant * determinant > CLEARLY_POSITIVE * CLEARLY_POSITIVE * power
+    };
     match N {
-        2 => phi[(0, 0)] * phi[(1, 1)] - phi[(0, 1)] * phi[(1, 0)] > CLEARLY_POSITIVE * size * size,
+        2 => exceeds(phi[(0, 0)] * phi[(1, 1)] - phi[(0, 1)] * phi[(1, 0)], scale * scale),
         3 => {
             let determinant =
                 phi[(0, 0)] * minor(1, 2) - phi[(0, 1)] * minor(0, 2) + phi[(0, 2)] * minor(0, 1);
-            determinant > CLEARLY_POSITIVE * size * size * size
+            exceeds(determinant, scale * scale * scale)
         }
         _ => false,
     }

@@ -186,7 +186,7 @@ mod tests {
 
     #[test]
     fn small_growth_keeps_its_digits() {
-        let [[diagonal, upper], [lower, _]] = growth([[1e-20, 3e-17], [-2e-18, -1e-20]]);
+        let [[diagonal, upper], [lower, _]]: [[f64; 2]; 2] = growth([[1e-20_f64, 3e-17], [-2e-18, -1e-20]]);
         assert!(
             (diagonal - 1e-20).abs() < 1e-33
                 && (upper - 3e-17).abs() < 1e-32
