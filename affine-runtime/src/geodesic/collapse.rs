@@ -45,9 +45,7 @@ impl<const N: usize> Geodesic<N> {
 }
 
 /// The real eigenvalues of a small matrix.
-fn real_parts<D: DimName>(
-    matrix: nalgebra::OMatrix<f64, D, D>,
-) -> [Option<f64>; 3]
+fn real_parts<D: DimName>(matrix: nalgebra::OMatrix<f64, D, D>) -> [Option<f64>; 3]
 where
     D: nalgebra::DimSub<nalgebra::U1>,
     nalgebra::DefaultAllocator: nalgebra::allocator::Allocator<D, nalgebra::DimDiff<D, nalgebra::U1>>
