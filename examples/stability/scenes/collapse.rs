@@ -50,11 +50,18 @@ pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> 
         collapses(report, ("d'Alembert", "to a line"), (&Disc, start), method, (-1.0 / least, 3.0));
     }
     // phi = phi0 cos t + phi_dot0 sin t: the first column vanishes at t = pi/4.
-    let start = Spring.at_velocity(phi, phi * Matrix::<3>::from_diagonal(&Vector::<3>::new(-1.0, 0.3, 0.2)))?;
+    let start =
+        Spring.at_velocity(phi, phi * Matrix::<3>::from_diagonal(&Vector::<3>::new(-1.0, 0.3, 0.2)))?;
     let quarter = core::f64::consts::FRAC_PI_4;
     collapses(report, ("d'Alembert, springs", "once"), (&Spring, start), Method::Automatic, (quarter, 2.0));
     let start = PlanarSpring.at_velocity(unit, Matrix::<2>::new(-1.0, 0.0, 0.0, 0.3))?;
-    collapses(report, ("d'Alembert, springs", "once"), (&PlanarSpring, start), Method::Automatic, (quarter, 1.6));
+    collapses(
+        report,
+        ("d'Alembert, springs", "once"),
+        (&PlanarSpring, start),
+        Method::Automatic,
+        (quarter, 1.6),
+    );
     Ok(())
 }
 

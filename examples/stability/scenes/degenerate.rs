@@ -75,8 +75,7 @@ pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> 
             };
             // Momenta are known to eps, velocities to eps times the condition of the energy.
             let rounding = 32.0 * f64::EPSILON * 2.0 / size;
-            let demand =
-                if size >= 1e-12 { Demand::Held(rounding) } else { Demand::HeldOrRefused(rounding) };
+            let demand = if size >= 1e-12 { Demand::Held(rounding) } else { Demand::HeldOrRefused(rounding) };
 
             let [i, a, b] = small.coefficients(size, 2.0);
             report.case(named("body-metric", 2), demand, || {

@@ -29,7 +29,8 @@ pub(super) fn cases(report: &mut StabilityReport, extent: Extent) -> affine_runt
     let unit = Matrix::<3>::identity();
     let top = run(&Top, Top.at_velocity(unit, omega_hat)?, t)?;
     for k in extent.up_to(1e7, &STIFFNESSES) {
-        let named = |n, quantity, oracle| scene("d'Alembert", n, format!("k = {k:e}, t = {t}"), quantity, oracle);
+        let named =
+            |n, quantity, oracle| scene("d'Alembert", n, format!("k = {k:e}, t = {t}"), quantity, oracle);
         let distance = Demand::Held((1.0 / k).max(1e-9));
         // U = 4 k tr E^2 with E = (G - 1)/2: omega^2 is at most 8 k times the largest inverse inertia.
         let drift = Demand::Held(floor((8.0 * k).sqrt(), t));

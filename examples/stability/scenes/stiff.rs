@@ -94,7 +94,8 @@ pub(super) fn cases(report: &mut StabilityReport, extent: Extent) -> affine_runt
 
 /// The isochoric part of the motion does not know `kappa`: it is that of the reference for `kappa = 10`.
 fn separable(report: &mut StabilityReport) -> affine_runtime::Result<()> {
-    let error = |phi: &Matrix<3>, row: &Row| relative_distance(&isochoric_part(phi), &isochoric_part(&row.phi));
+    let error =
+        |phi: &Matrix<3>, row: &Row| relative_distance(&isochoric_part(phi), &isochoric_part(&row.phi));
     for kappa in KAPPAS {
         let named = |model, quantity, oracle| scene(model, 3, format!("kappa = {kappa:e}"), quantity, oracle);
         let (reference, mirrored) = (rows(P2), rows(P2R));
@@ -163,7 +164,13 @@ fn elastic(report: &mut StabilityReport, extent: Extent) -> affine_runtime::Resu
     for kappa in extent.up_to(1e8, &[1e2, 1e4, 1e6, 1e8, 1e10, 1e12]) {
         let model = Elastic { kappa }.prepare()?;
         let solution = run(&model, model.at_velocity(phi, velocity)?, t);
-        both(report, ("d'Alembert", kappa, t), solution, &confined, (kappa / 9.0 * (1.0 + 1.0 / 1.5 + 0.5)).sqrt());
+        both(
+            report,
+            ("d'Alembert", kappa, t),
+            solution,
+            &confined,
+            (kappa / 9.0 * (1.0 + 1.0 / 1.5 + 0.5)).sqrt(),
+        );
     }
     Ok(())
 }
@@ -175,7 +182,8 @@ fn missile(report: &mut StabilityReport, extent: Extent) -> affine_runtime::Resu
         let model = Missile { kappa: 1e4 }.prepare()?;
         let at = model.at_momentum(start.x, start.phi, p, Comoving(start.spin))?;
         let solution = run(&model, at, end.t);
-        let named = scene("drunk missile", 3, format!("kappa = 1e4, t = {}", end.t), "phi", Oracle::Reference);
+        let named =
+            scene("drunk missile", 3, format!("kappa = 1e4, t = {}", end.t), "phi", Oracle::Reference);
         report.case(named, Demand::Held(1e-9), || {
             let solution = solution?;
             Ok((relative_distance(solution.end().1.phi(), &end.phi), solution.statistics().steps))
@@ -205,7 +213,9 @@ fn both<P: Phase<3>, Q: Phase<3>>(
     let named = |quantity, oracle| scene(model, 3, format!("kappa = {kappa:e}, t = {t}"), quantity, oracle);
     // The pressure that holds det phi = 1 is of order 1, the compliance 1/kappa.
     let distance = Demand::Held((4.0 / kappa).max(1e-9));
-    report.case(named("phi", Oracle::Limit), distance, || solution.as_ref().map(|s| apart(s, confined)).map_err(Clone::clone));
+    report.case(named("phi", Oracle::Limit), distance, || {
+        solution.as_ref().map(|s| apart(s, confined)).map_err(Clone::clone)
+    });
     report.case(named("energy", Oracle::Invariance), Demand::Held(floor(omega, t)), || {
         solution.as_ref().map(|s| (energy(s), s.statistics().steps)).map_err(Clone::clone)
     });

@@ -41,7 +41,10 @@ pub(crate) struct Hooke;
 )]
 pub(crate) struct Bound;
 
-#[affine_model(dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1))]
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1)
+)]
 pub(crate) struct Missile;
 
 /// Roundings of a hundred steps; the two motions are one, number by number in other units.
