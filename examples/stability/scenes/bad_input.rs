@@ -128,7 +128,7 @@ fn harmless(report: &mut StabilityReport) -> affine_runtime::Result<()> {
     });
     report.case(named("backward and forward", "the start"), Demand::Held(1e-11), || {
         let back = simulation().until(-3.0).run()?;
-        let forth = Simulation::new(&Missile, back.end().1).tolerance(1e-13).from(-3.0).until(0.0).run()?;
+        let forth = Simulation::new(&Missile, *back.end().1).tolerance(1e-13).from(-3.0).until(0.0).run()?;
         Ok((relative_distance(forth.end().1.phi(), start.phi()), forth.statistics().steps))
     });
     for (what, method) in [
