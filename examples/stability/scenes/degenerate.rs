@@ -74,7 +74,7 @@ pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> 
                 scene(model, n, format!("{} = {size:e}", small.name()), "phi, t = 1", Oracle::ClosedForm)
             };
             // Momenta are known to eps, velocities to eps times the condition of the energy.
-            let rounding = 32.0 * f64::EPSILON * 2.0 / size;
+            let rounding = f64::EPSILON * 2.0 / size;
             let demand = if size >= 1e-12 { Demand::Held(rounding) } else { Demand::HeldOrRefused(rounding) };
 
             let [i, a, b] = small.coefficients(size, 2.0);
