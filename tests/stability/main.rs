@@ -1,6 +1,7 @@
 //! The fast subset of the stability report: what has to be held is held, what is refused is refused in words.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[allow(dead_code, reason = "the example tries more than the fast subset")]
 #[path = "../../examples/stability/scenes/mod.rs"]
 mod scenes;
 
