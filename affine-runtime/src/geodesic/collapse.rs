@@ -45,9 +45,9 @@ impl<const N: usize> Geodesic<N> {
 }
 
 /// The real eigenvalues of a small matrix.
-fn real_parts<D: DimName>(matrix: nalgebra::OMatrix<f64, D, D>) -> [Option<f64>; 3]
+fn real_parts<D>(matrix: nalgebra::OMatrix<f64, D, D>) -> [Option<f64>; 3]
 where
-    D: nalgebra::DimSub<nalgebra::U1>,
+    D: DimName + nalgebra::DimSub<nalgebra::U1>,
     nalgebra::DefaultAllocator: nalgebra::allocator::Allocator<D, nalgebra::DimDiff<D, nalgebra::U1>>
         + nalgebra::allocator::Allocator<nalgebra::DimDiff<D, nalgebra::U1>>
         + nalgebra::allocator::Allocator<D, D>
