@@ -24,6 +24,11 @@
 //! single interruptions, not a busy machine. Times below a microsecond are near the resolution of the clock.
 //! Nothing is said about the error on the way: a method may be wrong in between and right at the end.
 //!
+//! # Stability
+//!
+//! [`StabilityReport`] gathers stiff and extreme cases: each has an [`Oracle`], a [`Demand`] and a [`Finding`], and displays as
+//! held, refused in words, or fell short; `cargo run --release --example stability` fills one.
+//!
 //! # Pictures
 //!
 //! [`Trajectory::save_svg`](crate::Trajectory::save_svg) draws the motion, the log-stretches and the drift of what
@@ -37,6 +42,7 @@ mod drift;
 mod palette;
 mod picture;
 mod scene;
+mod stability;
 mod table;
 mod view;
 mod work_precision;
@@ -46,6 +52,10 @@ use std::path::Path;
 
 pub use curves::{Curve, CurveDiagram, CurvePanel};
 pub use diagram::{LEAST_ERROR, Series, WorkPrecisionDiagram, WorkPrecisionPoint};
+pub use stability::{
+    Demand, Finding, Oracle, Scene, StabilityCase, StabilityReport, Verdict, relative_distance,
+    relative_distance_by_rows,
+};
 pub use work_precision::{
     DEFAULT_REPEATS, DEFAULT_TIME_CAP, DEFAULT_TOLERANCES, Measurement, Row, WorkPrecision,
     WorkPrecisionReport,

@@ -1,5 +1,6 @@
 //! Simulations: from a start to output times, with everything that can stop them.
 
+mod collapse;
 mod conservation;
 mod csv;
 mod halt;

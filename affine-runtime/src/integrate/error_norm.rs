@@ -29,7 +29,7 @@ const PART_OF_DISPLACEMENT: f64 = 0.1;
 /// The inertia `mu_g` is found at the start from the equations themselves, as the least `|dg| |phi|/|d phi'|`
 /// over single components of `g` (with `x` in place of `phi` for the groups `p` and `p_hat`).
 ///
-/// Sums of squares are formed without scaling: groups between about 1e-150 and 1e150 in norm.
+/// Groups between about 1e-150 and 1e150 in norm: sums of squares of errors are formed without scaling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorNorm {
     groups: &'static [Group],
@@ -159,10 +159,26 @@ impl ErrorNorm {
     }
 }
 
+/// Sums of squares within these bounds have neither overflowed nor lost digits to underflow.
+const IN_RANGE: core::ops::RangeInclusive<f64> = 1e-280..=1e300;
+
 /// Euclidean norm.
 #[inline(always)]
 pub(crate) fn norm(components: &[f64]) -> f64 {
-    Scalar::sqrt(sum_of_squares(components))
+    let sum = sum_of_squares(components);
+    if IN_RANGE.contains(&sum) { Scalar::sqrt(sum) } else { scaled_norm(components) }
+}
+
+/// The same of numbers whose squares leave the range; NaN where one is.
+#[cold]
+fn scaled_norm(components: &[f64]) -> f64 {
+    let largest =
+        components.iter().fold(0.0_f64, |largest, v| if v.abs() <= largest { largest } else { v.abs() });
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    let scaled = components.iter().map(|v| square(v / largest)).sum::<f64>();
+    largest * Scalar::sqrt(scaled)
 }
 
 /// Sum of squares.
@@ -206,6 +222,16 @@ mod tests {
         }
         assert_eq!(error([1.0; 5], [1.0; 5], [f64::INFINITY, 0.0, 0.0, 0.0, 0.0]), f64::INFINITY);
         assert!(error([1.0; 5], [1.0; 5], [f64::NAN, 0.0, 0.0, 0.0, 1.0]).is_nan(), "NaN is not dropped");
+    }
+
+    #[test]
+    fn norms_of_any_size() {
+        for unit in [1.0, 1e200, 1e-200] {
+            assert!((norm(&[3.0 * unit, 0.0, -4.0 * unit]) / unit - 5.0).abs() < 1e-14);
+        }
+        assert_eq!(norm(&[0.0, 0.0]), 0.0);
+        assert_eq!(norm(&[f64::NEG_INFINITY, 0.0]), f64::INFINITY);
+        assert!(norm(&[f64::NAN, 1.0]).is_nan() && norm(&[1e300, f64::NAN]).is_nan());
     }
 
     #[test]

@@ -40,9 +40,10 @@ pub enum Reason {
     NotFinite,
     /// The placement lost its orientation or degenerated.
     Placement {
-        /// `det phi` of the first bad phase point.
+        /// `det phi` of the first bad phase point met.
         determinant: f64,
-        /// Its time.
+        /// The time at which `det phi` fell to zero: the zero itself of the closed form, else, to the rounding of times,
+        /// that of the dense output of the step in which it lies; the time of a start that is bad.
         t: f64,
     },
     /// The mass matrix, which depends on the placement, became degenerate or changed its signature: the momentum no
@@ -260,8 +261,9 @@ impl fmt::Display for Reason {
             ),
             Reason::Placement { determinant, t } => write!(
                 f,
-                "det phi = {determinant:e} at t = {t}: the body has collapsed or turned inside out, and leaves the \
-                 configuration space GL+(n); a potential that grows without bound as det phi -> 0 prevents it"
+                "det phi = {determinant:e}, and not positive from t = {t} on: the body has collapsed or turned inside out, \
+                 and leaves the configuration space GL+(n); a potential that grows without bound as det phi -> 0 \
+                 prevents it"
             ),
             Reason::Degenerate { weakest, t } => write!(
                 f,
