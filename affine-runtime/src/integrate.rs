@@ -6,6 +6,7 @@ pub mod lie;
 pub mod rattle;
 pub mod runge_kutta;
 mod step_size;
+pub(crate) mod tape;
 pub mod taylor;
 
 pub use error_norm::ErrorNorm;

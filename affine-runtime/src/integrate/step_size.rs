@@ -1,6 +1,7 @@
 //! Step sizes: the first one, and how they follow the error.
 
 use super::error_norm::{ErrorNorm, norm};
+use super::tape::Tape;
 use crate::model::StateVector;
 use crate::scalar::Scalar;
 
@@ -34,6 +35,12 @@ pub(crate) struct Controller {
 impl Controller {
     pub(crate) fn new() -> Self {
         Self { previous: libm::log(SMALLEST_ERROR), rejected: false }
+    }
+
+    /// What the next step sizes depend on.
+    pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
+        tape.number(&mut self.previous);
+        tape.flag(&mut self.rejected);
     }
 
     /// Factor of the step size after an accepted step with `error <= 1`.

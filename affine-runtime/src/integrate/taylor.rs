@@ -7,6 +7,7 @@ pub use lanes::{add_multiple, add_products, lanes, subtract_multiple, subtract_p
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, norm};
+use super::tape::Tape;
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
 
@@ -197,6 +198,16 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             *y += begin;
         }
         y
+    }
+
+    /// Everything that the next steps depend on.
+    pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
+        tape.number(&mut self.t);
+        tape.state(&mut self.y);
+        tape.state(&mut self.carry);
+        tape.number(&mut self.length);
+        tape.statistics(&mut self.statistics);
+        self.begin = self.t;
     }
 
     /// The order.

@@ -2,12 +2,15 @@
 
 use core::ops::{ControlFlow, Range};
 
+use super::checkpoint::{Checkpoint, Place};
 use super::conservation::larger;
 use super::halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
-use super::output::{Schedule, without_steps};
+use super::output::Schedule;
+use super::recorder::{Recorder, Turn};
 use super::stepper::{Explicit, Stepper};
 use super::trajectory::{Computation, Energies, Trajectory};
-use super::{Method, Observe, Progress, Simulation, TAYLOR_TOLERANCE, Watch};
+use super::watcher::Watcher;
+use super::{Method, Progress, Simulation, TAYLOR_TOLERANCE, Watch};
 use crate::frames::Matrix;
 use crate::geodesic::{Geodesic, Motion};
 use crate::integrate::gauss::{Tableau, step_count};
@@ -21,6 +24,8 @@ use crate::state::Phase;
 
 /// The finest tolerance: about four roundings.
 const FINEST_TOLERANCE: f64 = 1e-15;
+/// Equal parts of a step at whose ends events are looked at.
+const WITHIN_A_STEP: u32 = 4;
 /// Part of `|phi|^n` above which a determinant is positive whatever the rounding of a few products.
 const CLEARLY_POSITIVE: f64 = 1e-12;
 
@@ -69,6 +74,9 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 scale: energy_scale(self.model, &self.start, energy),
             },
             statistics: Statistics::default(),
+            events: Vec::new(),
+            stopped_by: None,
+            checkpoint: None,
             computation: Computation {
                 asked: self.method,
                 method: Method::RungeKutta8,
@@ -85,22 +93,90 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     fn drive(mut self, trajectory: &mut Trajectory<N, M::Point<f64>>) -> Result<(), Reason> {
         let (t_end, schedule) = self.checked_settings()?;
         check(self.t0, &self.start)?;
+        let run = self.fingerprint(t_end);
+        let place = Place::starting((self.t0, &self.start), None, Statistics::default());
+        let mut recorder = Recorder {
+            model: self.model,
+            trajectory,
+            schedule,
+            observe: self.observe.take(),
+            watcher: Watcher::new(core::mem::take(&mut self.events)),
+            origin: self.t0,
+            backward: t_end < self.t0,
+            place,
+            is_lost: false,
+            turn: None,
+        };
+        if let Some(checkpoint) = self.checkpoint.take() {
+            self.take_up(checkpoint, &run, &mut recorder)?;
+        }
+        let outcome = self.legs(t_end, &mut recorder);
+        let interrupted = matches!(outcome, Err(Reason::Interrupted(_) | Reason::StepLimit { .. }));
+        if (interrupted || recorder.trajectory.stopped_by.is_some()) && !recorder.is_lost {
+            let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
+            recorder.trajectory.checkpoint = Some(Checkpoint { run, place });
+        }
+        outcome
+    }
+
+    /// What a checkpoint fits: runs that take the same steps from the same place.
+    fn fingerprint(&self, t_end: f64) -> String {
+        let [t0, t_end, tolerance] = [self.t0, t_end, self.tolerance].map(f64::to_bits);
+        let (model, method, events) = (M::DESCRIPTION.name, self.method, self.events.len());
+        format!("{model} {method:?} {tolerance:x} {t0:x} {t_end:x} {events}")
+    }
+
+    /// Goes back to where a run was interrupted.
+    fn take_up(
+        &mut self,
+        checkpoint: Checkpoint,
+        run: &str,
+        recorder: &mut Recorder<'_, '_, N, M>,
+    ) -> Result<(), Setting> {
+        if checkpoint.run != run {
+            return Err(Setting::Checkpoint { model: M::DESCRIPTION.name });
+        }
+        (self.t0, self.start) = checkpoint.place.origin(&self.start);
+        recorder.place = checkpoint.place;
+        recorder.trajectory.end = (self.t0, self.start);
+        recorder.schedule.resume(recorder.place.outputs);
+        Ok(())
+    }
+
+    /// One integration after the other: where an event changes the point, the next one starts.
+    fn legs(&mut self, t_end: f64, recorder: &mut Recorder<'_, '_, N, M>) -> Result<(), Reason> {
+        let mut changes = 0;
+        loop {
+            self.leg(t_end, recorder)?;
+            let Some(Turn::Changed { t, point, event }) = recorder.turn.take() else { return Ok(()) };
+            check(t, &point)?;
+            changes += 1;
+            if changes > self.max_steps {
+                return Err(Reason::StepLimit { limit: self.max_steps });
+            }
+            (self.t0, self.start) = (t, point);
+            recorder.trajectory.end = (t, point);
+            recorder.trajectory.computation.at_rest &= point.p().iter().all(|p| *p == 0.0);
+            let cost = recorder.trajectory.statistics;
+            recorder.place = Place::starting((t, &point), Some(event), cost);
+        }
+    }
+
+    /// The motion from a point to the end, or to an event that changes it.
+    fn leg(&mut self, t_end: f64, recorder: &mut Recorder<'_, '_, N, M>) -> Result<(), Reason> {
         let geodesic = self.model.geodesic(self.t0, &self.start);
-        trajectory.computation.closed_form_exists = geodesic.is_some();
-        let mut recorder = Recorder { model: self.model, trajectory, schedule, observe: self.observe.take() };
+        recorder.trajectory.computation.closed_form_exists = geodesic.is_some();
         match (self.method, geodesic) {
             (Method::ClosedForm, None) => Err(Setting::NoClosedForm { model: M::DESCRIPTION.name }.into()),
             (Method::Automatic | Method::ClosedForm, Some(geodesic)) => {
-                self.evaluate(&geodesic, t_end, &mut recorder)
+                self.evaluate(&geodesic, t_end, recorder)
             }
-            (Method::Rattle { order, step }, _) => {
-                self.integrate_by_rattle((order, step), t_end, &mut recorder)
-            }
+            (Method::Rattle { order, step }, _) => self.integrate_by_rattle((order, step), t_end, recorder),
             _ => match (chart::<N, M>(), self.chosen(&mut recorder.trajectory.computation)) {
-                (_, Method::Taylor { order }) => self.integrate_by_series(order, t_end, &mut recorder),
-                (Some(_), _) if is_canonical::<N, M>() => self.integrate_with_reaction(t_end, &mut recorder),
-                (Some(chart), _) => self.integrate(chart, t_end, &mut recorder),
-                (None, _) => self.integrate(Flat, t_end, &mut recorder),
+                (_, Method::Taylor { order }) => self.integrate_by_series(order, t_end, recorder),
+                (Some(_), _) if is_canonical::<N, M>() => self.integrate_with_reaction(t_end, recorder),
+                (Some(chart), _) => self.integrate(chart, t_end, recorder),
+                (None, _) => self.integrate(Flat, t_end, recorder),
             },
         }
     }
@@ -117,6 +193,11 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         }
         if self.max_steps == 0 {
             return Err(Setting::NoSteps);
+        }
+        for event in &self.events {
+            if let Some(index) = event.out_of_range {
+                return Err(Setting::EventIndex { event: event.name, index });
+            }
         }
         match self.method {
             Method::Taylor { order: Some(given) } if !(LOWEST_ORDER..=HIGHEST_ORDER).contains(&given) => {
@@ -152,20 +233,26 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         computation.method = Method::ClosedForm;
         computation.no_whirl =
             matches!(geodesic.motion, Motion::Body { whirl: None, .. } | Motion::Space { whirl: None, .. });
-        if recorder.schedule == Schedule::Steps {
-            recorder.schedule = without_steps(self.t0, t_end);
-        }
         let at = |t| if t == self.t0 { self.start } else { self.model.on_geodesic(geodesic, t, &self.start) };
+        let begin = recorder.begin_closed_form(self.t0, t_end, at);
+        recorder.trajectory.statistics = recorder.place.cost();
+        let mut reached = begin;
         let mut outputs = 0;
-        while let Some(t) = recorder.schedule.take_through(t_end, t_end < self.t0) {
+        loop {
+            let due = recorder.schedule.peek();
+            if recorder.meet(due.unwrap_or(t_end), WITHIN_A_STEP, |t| Ok::<_, Reason>(at(t)))? {
+                return Ok(());
+            }
+            let Some(t) = due else { break };
+            recorder.schedule.take_through(t, recorder.backward);
             recorder.record(t, at(t))?;
-            outputs += 1;
-            report(&mut self.progress, Progress { t0: self.t0, t, t_end, steps: outputs })?;
+            (reached, outputs) = (t, outputs + 1);
+            recorder.place.passed(vec![reached.to_bits()]);
+            report(&mut self.progress, Progress { t0: recorder.origin, t, t_end, steps: outputs })?;
         }
         recorder.reach(t_end, at(t_end))
     }
 
-    /// Reduction, integration with output on the way, expansion.
     /// The integrator to take, noted with what was missing for a better one.
     fn chosen(&self, computation: &mut Computation) -> Method {
         computation.method = match self.method {
@@ -311,7 +398,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let mut last = None;
         let outcome = self.follow(integration, (&expand, groups), t_end, recorder, &mut last);
         let trajectory = &mut *recorder.trajectory;
-        trajectory.statistics = integration.statistics();
+        trajectory.statistics = sum(recorder.place.cost(), integration.statistics());
         if let Some((t, reduced)) = last.filter(|(t, _)| (t - trajectory.end.0) * (t_end - self.t0) > 0.0) {
             trajectory.end = (t, expand(t, &reduced));
         }
@@ -329,23 +416,31 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         last: &mut Option<(f64, S)>,
     ) -> Result<(), Reason> {
         let placement = placement_in(groups, N);
+        let cost = recorder.place.cost().steps;
+        recorder.take_up(integration, expand);
+        let is_watched = self.progress.is_some() || recorder.is_watched();
         while !integration.is_finished() {
-            let steps = integration.statistics().steps;
-            if steps == self.max_steps {
+            let steps = cost + integration.statistics().steps;
+            if steps >= self.max_steps {
+                recorder.pass(integration);
                 return Err(Reason::StepLimit { limit: self.max_steps });
             }
             integration.advance().map_err(|failure| self.reason(failure))?;
             let (t, reduced) = (integration.t(), *integration.y());
-            while let Some(due) = recorder.schedule.take_through(t, t_end < self.t0) {
-                if due == t {
-                    recorder.record(t, expand(t, &reduced))?;
-                } else {
-                    let between = integration.between(due).map_err(|failure| self.reason(failure))?;
-                    recorder.record(due, expand(due, &between))?;
-                }
+            let mut at = |due: f64| match due == t {
+                true => Ok(expand(t, &reduced)),
+                false => integration
+                    .between(due)
+                    .map(|between| expand(due, &between))
+                    .map_err(|failure| self.reason(failure)),
+            };
+            let parts = if self.method.step().is_some() { 1 } else { WITHIN_A_STEP };
+            if recorder.meet(t, parts, &mut at)? {
+                return Ok(());
             }
+            recorder.record_through(t, &mut at)?;
             if recorder.schedule == Schedule::Steps {
-                recorder.record(t, expand(t, &reduced))?;
+                recorder.record_step(t, expand(t, &reduced))?;
             } else if recorder.trajectory.end.0 != t {
                 let phi =
                     placement.clone().map(|range| Matrix::<N>::from_row_slice(&reduced.as_ref()[range]));
@@ -354,7 +449,10 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 }
             }
             *last = Some((t, reduced));
-            report(&mut self.progress, Progress { t0: self.t0, t, t_end, steps: steps + 1 })?;
+            if is_watched {
+                recorder.pass(integration);
+            }
+            report(&mut self.progress, Progress { t0: recorder.origin, t, t_end, steps: steps + 1 })?;
         }
         Ok(())
     }
@@ -372,46 +470,6 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     }
 }
 
-/// A trajectory in the making.
-struct Recorder<'r, 'a, const N: usize, M: Model<N>> {
-    model: &'a M,
-    trajectory: &'r mut Trajectory<N, M::Point<f64>>,
-    schedule: Schedule,
-    observe: Option<Observe<'a, M::Point<f64>>>,
-}
-
-impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
-    /// Records the start where it is an output.
-    fn begin(&mut self, t0: f64, start: M::Point<f64>) -> Result<(), Reason> {
-        if self.schedule == Schedule::Steps || self.schedule.take_through(t0, false).is_some() {
-            self.record(t0, start)?;
-        }
-        Ok(())
-    }
-
-    /// Checks a phase point, which becomes the last good one.
-    fn reach(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
-        check(t, &point)?;
-        self.trajectory.end = (t, point);
-        Ok(())
-    }
-
-    /// Checks a phase point, records it as an output and shows it to the observer.
-    fn record(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
-        self.reach(t, point)?;
-        self.trajectory.times.push(t);
-        self.trajectory.points.push(point);
-        let energy = self.model.hamiltonian(t, &point);
-        let energies = &mut self.trajectory.energies;
-        energies.outputs.push(energy);
-        energies.scale = larger(energies.scale, energy_scale(self.model, &point, energy));
-        match &mut self.observe {
-            Some(observe) => go_on(observe(t, &point), Callback::Observer),
-            None => Ok(()),
-        }
-    }
-}
-
 fn report(watch: &mut Option<Watch<'_>>, progress: Progress) -> Result<(), Reason> {
     match watch {
         Some(watch) => go_on(watch(&progress), Callback::Progress),
@@ -419,7 +477,16 @@ fn report(watch: &mut Option<Watch<'_>>, progress: Progress) -> Result<(), Reaso
     }
 }
 
-fn go_on(flow: ControlFlow<()>, callback: Callback) -> Result<(), Reason> {
+/// Costs one after the other.
+fn sum(before: Statistics, after: Statistics) -> Statistics {
+    Statistics {
+        steps: before.steps + after.steps,
+        rejected: before.rejected + after.rejected,
+        evaluations: before.evaluations + after.evaluations,
+    }
+}
+
+pub(super) fn go_on(flow: ControlFlow<()>, callback: Callback) -> Result<(), Reason> {
     match flow {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(Reason::Interrupted(callback)),
@@ -427,7 +494,7 @@ fn go_on(flow: ControlFlow<()>, callback: Callback) -> Result<(), Reason> {
 }
 
 /// Refuses a phase point that is not finite or whose placement does not keep orientation.
-fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<(), Reason> {
+pub(super) fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<(), Reason> {
     if !point.is_finite() {
         return Err(Reason::NotFinite);
     }
@@ -458,7 +525,11 @@ fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
 }
 
 /// What an energy is measured against: `|H|`, or `(|Pi| |phi_dot| + |p| |x_dot|)/2`, which is at least `|T|`.
-fn energy_scale<const N: usize, M: Model<N>>(model: &M, point: &M::Point<f64>, energy: f64) -> f64 {
+pub(super) fn energy_scale<const N: usize, M: Model<N>>(
+    model: &M,
+    point: &M::Point<f64>,
+    energy: f64,
+) -> f64 {
     let velocity = model.velocity(point);
     let internal = norm(point.pi().0.0.as_slice()) * norm(velocity.phi_dot.as_slice());
     let translational = norm(point.p().as_slice()) * norm(velocity.x_dot.as_slice());

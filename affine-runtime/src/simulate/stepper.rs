@@ -2,6 +2,7 @@
 
 use crate::integrate::lie::Coordinates;
 use crate::integrate::runge_kutta::Dense;
+use crate::integrate::tape::Tape;
 use crate::integrate::taylor::{Series, Taylor};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics};
 use crate::model::StateVector;
@@ -20,6 +21,12 @@ pub(super) trait Stepper<S> {
     fn is_finished(&self) -> bool;
     /// Cost so far.
     fn statistics(&self) -> Statistics;
+    /// Hands over, or takes back, everything that the next steps depend on.
+    fn exchange(&mut self, tape: &mut impl Tape);
+    /// That is all that they depend on.
+    fn is_exchanged(&self) -> bool {
+        true
+    }
 }
 
 /// The explicit method with the dense output of its last step, which is formed once for all times in it.
@@ -54,6 +61,10 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for
     fn statistics(&self) -> Statistics {
         self.integration.statistics()
     }
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        self.dense = None;
+        self.integration.exchange(tape);
+    }
 }
 
 impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for Gauss<S, F, C> {
@@ -74,6 +85,12 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for
     }
     fn statistics(&self) -> Statistics {
         Gauss::statistics(self)
+    }
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        Gauss::exchange(self, tape);
+    }
+    fn is_exchanged(&self) -> bool {
+        !self.is_stiff()
     }
 }
 
@@ -96,6 +113,9 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Stepper<S> for Taylor<S, C, R> {
     fn statistics(&self) -> Statistics {
         Taylor::statistics(self)
     }
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        Taylor::exchange(self, tape);
+    }
 }
 
 impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Rattle<N, S, F> {
@@ -116,5 +136,8 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Ra
     }
     fn statistics(&self) -> Statistics {
         Rattle::statistics(self)
+    }
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        Rattle::exchange(self, tape);
     }
 }

@@ -1,0 +1,202 @@
+//! A trajectory in the making.
+
+use super::Observe;
+use super::checkpoint::{Place, Reader, Writer};
+use super::conservation::larger;
+use super::event::{Action, Occurrence};
+use super::halt::{Callback, Reason};
+use super::output::{Schedule, without_steps};
+use super::run::{check, energy_scale, go_on};
+use super::stepper::Stepper;
+use super::trajectory::Trajectory;
+use super::watcher::{Met, Watcher};
+use crate::error::Error;
+use crate::model::{Model, StateVector};
+use crate::state::Phase;
+
+/// What is recorded of a run, and how far it has come.
+pub(super) struct Recorder<'r, 'a, const N: usize, M: Model<N>> {
+    pub(super) model: &'a M,
+    pub(super) trajectory: &'r mut Trajectory<N, M::Point<f64>>,
+    pub(super) schedule: Schedule,
+    pub(super) observe: Option<Observe<'a, M::Point<f64>>>,
+    pub(super) watcher: Watcher<'a, N, M::Point<f64>>,
+    /// Time of the start of the run.
+    pub(super) origin: f64,
+    /// The run goes backward in time.
+    pub(super) backward: bool,
+    pub(super) place: Place,
+    /// The integrator's state cannot be kept.
+    pub(super) is_lost: bool,
+    /// What an event has led to.
+    pub(super) turn: Option<Turn<M::Point<f64>>>,
+}
+
+/// Where a run does not go straight on.
+pub(super) enum Turn<P> {
+    /// It ends.
+    Stopped,
+    /// It goes on from another point.
+    Changed { t: f64, point: P, event: usize },
+}
+
+impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
+    /// Records the start of an integration where it is an output.
+    pub(super) fn begin(&mut self, t0: f64, start: M::Point<f64>) -> Result<(), Reason> {
+        self.watcher.begin(t0, &start, self.place.changed_by);
+        if !self.place.integrator.is_empty() {
+            return Ok(());
+        }
+        match self.schedule {
+            Schedule::Steps => self.record_step(t0, start),
+            _ if self.schedule.take_through(t0, false).is_some() => self.record(t0, start),
+            _ => Ok(()),
+        }
+    }
+
+    /// The time from which a closed form goes on, with output times of its own where none were asked for.
+    pub(super) fn begin_closed_form(
+        &mut self,
+        t0: f64,
+        t_end: f64,
+        at: impl Fn(f64) -> M::Point<f64>,
+    ) -> f64 {
+        if self.schedule == Schedule::Steps {
+            self.schedule = without_steps(self.origin, t_end);
+            self.schedule.resume(self.place.outputs);
+            while t0 != self.origin && self.schedule.take_through(t0, self.backward).is_some() {}
+        }
+        let reached = self.place.integrator.first();
+        let begin = reached.map_or(t0, |bits| f64::from_bits(*bits));
+        self.watcher.begin(begin, &at(begin), self.place.changed_by.filter(|_| reached.is_none()));
+        begin
+    }
+
+    /// Something may end the run, or ask where it is.
+    pub(super) fn is_watched(&self) -> bool {
+        self.observe.is_some() || !self.watcher.is_idle()
+    }
+
+    /// Gives an integrator the state in which an interrupted run left it.
+    pub(super) fn take_up<S: StateVector<f64>>(
+        &mut self,
+        integration: &mut impl Stepper<S>,
+        expand: impl Fn(f64, &S) -> M::Point<f64>,
+    ) {
+        if !self.place.integrator.is_empty() {
+            integration.exchange(&mut Reader(self.place.integrator.iter()));
+            let point = expand(integration.t(), integration.y());
+            self.watcher.begin(integration.t(), &point, None);
+            self.trajectory.end = (integration.t(), point);
+        }
+    }
+
+    /// A step is done with.
+    pub(super) fn pass<S: StateVector<f64>>(&mut self, integration: &mut impl Stepper<S>) {
+        self.is_lost = !integration.is_exchanged();
+        let mut tape = Writer::default();
+        integration.exchange(&mut tape);
+        self.place.passed(tape.0);
+    }
+
+    /// The events on the way to `t` with the outputs before them; whether the motion does not go straight on there.
+    pub(super) fn meet<E: Into<Reason>>(
+        &mut self,
+        t: f64,
+        parts: u32,
+        mut at: impl FnMut(f64) -> Result<M::Point<f64>, E>,
+    ) -> Result<bool, Reason> {
+        if self.watcher.is_idle() {
+            return Ok(false);
+        }
+        let met = self.watcher.advance(t, parts, &mut at).map_err(Into::into)?;
+        for (index, met) in met.into_iter().enumerate().skip(self.place.met) {
+            self.record_through(met.t, &mut at)?;
+            self.place.met = index + 1;
+            self.happen(met)?;
+            if self.turn.is_some() {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn happen(&mut self, met: Met<M::Point<f64>>) -> Result<(), Reason> {
+        let Met { t, point, rising, event: index } = met;
+        let event = &self.watcher.events[index];
+        let name = event.name;
+        if !point.is_finite() {
+            return Err(Reason::NotFinite);
+        }
+        self.trajectory.events.push(Occurrence { name, t, point, rising });
+        match &event.action {
+            Action::Record => Ok(()),
+            Action::Stop => {
+                self.turn = Some(Turn::Stopped);
+                self.trajectory.stopped_by = Some(name);
+                // A collapse is a placement without inverse, and may be the event.
+                self.trajectory.end = (t, point);
+                if self.schedule.ends_with_output() { self.push(t, point) } else { Ok(()) }
+            }
+            Action::Change(change) => {
+                let changed = change(t, &point).map_err(|error| match error {
+                    Error::Placement { determinant } => Reason::Placement { determinant, t },
+                    Error::NotFinite { .. } => Reason::NotFinite,
+                    _ => Reason::Change { event: name },
+                })?;
+                if self.schedule == Schedule::Steps {
+                    self.record(t, point)?;
+                }
+                self.turn = Some(Turn::Changed { t, point: changed, event: index });
+                Ok(())
+            }
+        }
+    }
+
+    /// Records the outputs that are due up to a time.
+    pub(super) fn record_through<E: Into<Reason>>(
+        &mut self,
+        t: f64,
+        mut at: impl FnMut(f64) -> Result<M::Point<f64>, E>,
+    ) -> Result<(), Reason> {
+        while let Some(due) = self.schedule.take_through(t, self.backward) {
+            self.record(due, at(due).map_err(Into::into)?)?;
+        }
+        Ok(())
+    }
+
+    /// Records the end of a step, once.
+    pub(super) fn record_step(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
+        if core::mem::replace(&mut self.place.recorded, true) {
+            self.reach(t, point)
+        } else {
+            self.record(t, point)
+        }
+    }
+
+    /// Checks a phase point, which becomes the last good one.
+    pub(super) fn reach(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
+        check(t, &point)?;
+        self.trajectory.end = (t, point);
+        Ok(())
+    }
+
+    /// Checks a phase point, records it as an output and shows it to the observer.
+    pub(super) fn record(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
+        self.reach(t, point)?;
+        self.push(t, point)
+    }
+
+    fn push(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
+        self.trajectory.times.push(t);
+        self.trajectory.points.push(point);
+        let energy = self.model.hamiltonian(t, &point);
+        let energies = &mut self.trajectory.energies;
+        energies.outputs.push(energy);
+        energies.scale = larger(energies.scale, energy_scale(self.model, &point, energy));
+        match &mut self.observe {
+            Some(observe) => go_on(observe(t, &point), Callback::Observer),
+            None => Ok(()),
+        }
+    }
+}
