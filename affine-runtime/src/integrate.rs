@@ -13,6 +13,8 @@ pub use error_norm::ErrorNorm;
 pub(crate) use error_norm::norm;
 pub use gauss::Gauss;
 pub use rattle::Rattle;
+#[cfg(feature = "std")]
+pub(crate) use runge_kutta::in_lanes;
 
 pub use runge_kutta::RungeKutta8;
 pub use taylor::Taylor;

@@ -3,7 +3,7 @@
 pub use core::primitive::f64;
 
 pub use crate::breathing::Breathing;
-pub use crate::capability::{Emitted, Taylor};
+pub use crate::capability::{Emitted, InLanes, Taylor};
 pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
 pub use crate::error::Result;
@@ -15,6 +15,7 @@ pub use crate::integrate::taylor::{
     Series, add_multiple, add_products, lanes, subtract_multiple, subtract_products,
 };
 pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
+pub use crate::lanes::{Lanes, gathered};
 pub use crate::metrics::Bases;
 pub use crate::model::{
     Conserved, Constraint, Description, Formula, Group, Model, Operations, Velocity,

@@ -3,6 +3,7 @@
 mod checkpoint;
 mod conservation;
 mod csv;
+mod ensemble;
 mod event;
 mod halt;
 mod output;
@@ -18,6 +19,7 @@ use core::ops::ControlFlow;
 
 pub use checkpoint::Checkpoint;
 pub use conservation::{Conservation, Drift};
+pub use ensemble::Ensemble;
 pub use event::{Direction, Event, Occurrence};
 pub use halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
 pub use trajectory::{Computation, Trajectory};

@@ -39,6 +39,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let points = points::inherent(&context);
     let (bases, _) = metrics::bases(&context);
     let taylor = taylor::taylor_impl(&context);
+    let lanes = reduction::lanes::implementation(&context);
     quote! {
         #item
         #prepared_type
@@ -50,6 +51,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #implementation
             #points
             #taylor
+            #lanes
         };
     }
 }

@@ -1,6 +1,8 @@
 //! Embedded explicit Runge-Kutta method of order 8 with step size control and dense output.
 
 mod dormand_prince_853;
+#[cfg(feature = "std")]
+pub(crate) mod in_lanes;
 mod step;
 
 pub use step::{Dense, Step};

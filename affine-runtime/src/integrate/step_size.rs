@@ -6,7 +6,7 @@ use crate::model::StateVector;
 use crate::scalar::Scalar;
 
 /// Order of the leading term of the error estimate in the step size.
-const ERROR_ORDER: f64 = 8.0;
+pub(super) const ERROR_ORDER: f64 = 8.0;
 
 /// Below 1, so that the next step is accepted although the error grows along the way: steps settle where the error
 /// is `SAFETY^(8/INTEGRAL)`, a third of the tolerance.

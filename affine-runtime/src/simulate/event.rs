@@ -4,6 +4,7 @@ use core::fmt;
 
 use crate::decompose::log_stretches;
 use crate::error::Result;
+use crate::kinematics::LogDeterminant;
 use crate::state::Phase;
 
 type Function<'a, P> = Box<dyn Fn(f64, &P) -> f64 + 'a>;
@@ -80,7 +81,7 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
     /// at a phase point without inverse.
     #[must_use]
     pub fn determinant(value: f64) -> Self {
-        Self::new("det phi", move |_, point| point.phi().determinant() - value)
+        Self::new("det phi", move |_, point| LogDeterminant::of(point.phi()).to_f64() - value)
     }
 
     /// `max_a Q_a = value`, by logarithms.

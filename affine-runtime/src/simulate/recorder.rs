@@ -47,20 +47,16 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
         if !self.place.integrator.is_empty() {
             return Ok(());
         }
-        match self.schedule {
-            Schedule::Steps => self.record_step(t0, start),
-            _ if self.schedule.take_through(t0, false).is_some() => self.record(t0, start),
-            _ => Ok(()),
+        if self.schedule == Schedule::Steps {
+            self.record_step(t0, start)?;
+        } else if self.schedule.take_through(t0, false).is_some() {
+            self.record(t0, start)?;
         }
+        Ok(())
     }
 
-    /// The time from which a closed form goes on, with output times of its own where none were asked for.
-    pub(super) fn begin_closed_form(
-        &mut self,
-        t0: f64,
-        t_end: f64,
-        at: impl Fn(f64) -> M::Point<f64>,
-    ) -> f64 {
+    /// Begins or goes on with a closed form, with output times of its own where none were asked for.
+    pub(super) fn begin_closed_form(&mut self, t0: f64, t_end: f64, at: impl Fn(f64) -> M::Point<f64>) {
         if self.schedule == Schedule::Steps {
             self.schedule = without_steps(self.origin, t_end);
             self.schedule.resume(self.place.outputs);
@@ -69,7 +65,6 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
         let reached = self.place.integrator.first();
         let begin = reached.map_or(t0, |bits| f64::from_bits(*bits));
         self.watcher.begin(begin, &at(begin), self.place.changed_by.filter(|_| reached.is_none()));
-        begin
     }
 
     /// Something may end the run, or ask where it is.
@@ -83,12 +78,21 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
         integration: &mut impl Stepper<S>,
         expand: impl Fn(f64, &S) -> M::Point<f64>,
     ) {
-        if !self.place.integrator.is_empty() {
-            integration.exchange(&mut Reader(self.place.integrator.iter()));
-            let point = expand(integration.t(), integration.y());
-            self.watcher.begin(integration.t(), &point, None);
-            self.trajectory.end = (integration.t(), point);
+        if self.place.integrator.is_empty() {
+            if self.is_watched() {
+                self.pass(integration);
+            }
+            return;
         }
+        integration.exchange(&mut Reader(self.place.integrator.iter()));
+        let t = integration.t();
+        let point = expand(t, integration.y());
+        self.watcher.begin(
+            t,
+            &point,
+            self.place.changed_by.filter(|_| self.place.from.first() == Some(&t.to_bits())),
+        );
+        self.trajectory.end = (t, point);
     }
 
     /// A step is done with.
@@ -167,11 +171,14 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
 
     /// Records the end of a step, once.
     pub(super) fn record_step(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
+        // Left set where the observer ends the run.
         if core::mem::replace(&mut self.place.recorded, true) {
-            self.reach(t, point)
+            self.reach(t, point)?;
         } else {
-            self.record(t, point)
+            self.record(t, point)?;
         }
+        self.place.recorded = false;
+        Ok(())
     }
 
     /// Checks a phase point, which becomes the last good one.

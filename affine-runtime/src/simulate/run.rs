@@ -181,7 +181,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         }
     }
 
-    fn checked_settings(&self) -> Result<(f64, Schedule), Setting> {
+    pub(super) fn checked_settings(&self) -> Result<(f64, Schedule), Setting> {
         let t_end = self.t_end.ok_or(Setting::NoEnd)?;
         for (name, given) in [("the time of the start", self.t0), ("the time of the end", t_end)] {
             if !given.is_finite() {
@@ -234,9 +234,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         computation.no_whirl =
             matches!(geodesic.motion, Motion::Body { whirl: None, .. } | Motion::Space { whirl: None, .. });
         let at = |t| if t == self.t0 { self.start } else { self.model.on_geodesic(geodesic, t, &self.start) };
-        let begin = recorder.begin_closed_form(self.t0, t_end, at);
+        recorder.begin_closed_form(self.t0, t_end, at);
         recorder.trajectory.statistics = recorder.place.cost();
-        let mut reached = begin;
         let mut outputs = 0;
         loop {
             let due = recorder.schedule.peek();
@@ -246,8 +245,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             let Some(t) = due else { break };
             recorder.schedule.take_through(t, recorder.backward);
             recorder.record(t, at(t))?;
-            (reached, outputs) = (t, outputs + 1);
-            recorder.place.passed(vec![reached.to_bits()]);
+            outputs += 1;
+            recorder.place.passed(vec![t.to_bits()]);
             report(&mut self.progress, Progress { t0: recorder.origin, t, t_end, steps: outputs })?;
         }
         recorder.reach(t_end, at(t_end))
@@ -510,7 +509,7 @@ pub(super) fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<()
 
 /// A few products settle the sign of most determinants; what is close to zero, or out of the range of numbers,
 /// is left to the careful way.
-fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
+pub(super) fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
     let minor = |a: usize, b: usize| phi[(1, a)] * phi[(2, b)] - phi[(1, b)] * phi[(2, a)];
     let size = norm(phi.as_slice());
     match N {
@@ -549,7 +548,7 @@ fn is_canonical<const N: usize, M: Model<N>>() -> bool {
 
 /// Components of a state that are the placement, row by row, up to factors of positive determinant that
 /// the expansion restores.
-fn placement_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
+pub(super) fn placement_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
     let k = groups.iter().position(|group| group.is_placement() && group.len == n * n)?;
     let start = total(&groups[..k]);
     Some(start..start + n * n)

@@ -7,7 +7,7 @@ use crate::spec::{Capability, Named, Spec};
 /// A capability that cannot be emitted is refused rather than ignored: code that relies on it would fail far
 /// from here.
 pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
-    let available = [Capability::Taylor];
+    let available = [Capability::Taylor, Capability::Lanes];
     for capability in spec.emit.iter().filter(|c| !available.contains(&c.value)) {
         let name = capability.value;
         found.report(

@@ -123,7 +123,7 @@ impl Diagnostic {
             Self::UnavailableCapability { capability, gives } => text(
                 format!("the capability `{capability}` is not available in this version"),
                 format!(
-                    "it will give {gives}; this version emits the default, Hamilton's equations, and `taylor`"
+                    "it will give {gives}; this version emits the default, Hamilton's equations, `taylor` and `lanes`"
                 ),
                 format!("remove `{capability}` from `emit(...)`"),
             ),
