@@ -19,7 +19,7 @@ use core::ops::ControlFlow;
 
 pub use checkpoint::Checkpoint;
 pub use conservation::{Conservation, Drift};
-pub use ensemble::Ensemble;
+pub use ensemble::{Ends, Ensemble};
 pub use event::{Direction, Event, Occurrence};
 pub use halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
 pub use trajectory::{Computation, Trajectory};

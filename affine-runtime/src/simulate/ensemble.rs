@@ -219,7 +219,7 @@ fn failing(lanes: usize, is_good: impl Fn(usize) -> bool) -> core::result::Resul
 fn over_groups<P: Send + Sync>(
     starts: &[P],
     lanes: usize,
-    group: impl Fn(&[P]) -> Ends<P> + Sync,
+    group: impl Fn(&[P]) -> Ends<P> + Send + Sync,
 ) -> Ends<P> {
     starts.chunks(lanes).flat_map(group).collect()
 }
@@ -229,7 +229,7 @@ fn over_groups<P: Send + Sync>(
 fn over_groups<P: Send + Sync>(
     starts: &[P],
     lanes: usize,
-    group: impl Fn(&[P]) -> Ends<P> + Sync,
+    group: impl Fn(&[P]) -> Ends<P> + Send + Sync,
 ) -> Ends<P> {
     use rayon::prelude::*;
     starts.par_chunks(lanes).flat_map_iter(group).collect()

@@ -116,8 +116,7 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
         let met = self.watcher.advance(t, parts, &mut at).map_err(Into::into)?;
         for (index, met) in met.into_iter().enumerate().skip(self.place.met) {
             self.record_through(met.t, &mut at)?;
-            self.place.met = index + 1;
-            self.happen(met)?;
+            self.happen(index + 1, met)?;
             if self.turn.is_some() {
                 return Ok(true);
             }
@@ -125,17 +124,24 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
         Ok(false)
     }
 
-    fn happen(&mut self, met: Met<M::Point<f64>>) -> Result<(), Reason> {
+    /// An event that is the `count`th of its step happens. A change is not done with before the point is recorded.
+    fn happen(&mut self, count: usize, met: Met<M::Point<f64>>) -> Result<(), Reason> {
         let Met { t, point, rising, event: index } = met;
         let event = &self.watcher.events[index];
         let name = event.name;
         if !point.is_finite() {
             return Err(Reason::NotFinite);
         }
-        self.trajectory.events.push(Occurrence { name, t, point, rising });
+        let occurrence = Occurrence { name, t, point, rising };
         match &event.action {
-            Action::Record => Ok(()),
+            Action::Record => {
+                self.trajectory.events.push(occurrence);
+                self.place.met = count;
+                Ok(())
+            }
             Action::Stop => {
+                self.trajectory.events.push(occurrence);
+                self.place.met = count;
                 self.turn = Some(Turn::Stopped);
                 self.trajectory.stopped_by = Some(name);
                 // A collapse is a placement without inverse, and may be the event.
@@ -149,8 +155,9 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
                     _ => Reason::Change { event: name },
                 })?;
                 if self.schedule == Schedule::Steps {
-                    self.record(t, point)?;
+                    self.record_step(t, point)?;
                 }
+                self.trajectory.events.push(occurrence);
                 self.turn = Some(Turn::Changed { t, point: changed, event: index });
                 Ok(())
             }

@@ -6,7 +6,6 @@ use crate::integrate::error_norm::{NormInLanes, norm_in_lanes, squares_in_lanes}
 use crate::integrate::step_size::{Controller, ERROR_ORDER};
 use crate::lanes::Lanes;
 use crate::model::{Group, StateVector};
-use crate::scalar::Scalar;
 
 const STAGES: usize = 13;
 
