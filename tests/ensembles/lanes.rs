@@ -102,7 +102,7 @@ where
     M::Point<f64>: Send + Sync,
 {
     for start in model.samples(3, 11) {
-        for t_end in [2.0, -1.0] {
+        for t_end in [1.2, -1.0] {
             let alone = Simulation::new(model, start)
                 .until(t_end)
                 .tolerance(1e-9)
