@@ -111,6 +111,28 @@ fn stretches() {
     assert_eq!(counts::<3, Traced>(&Traced, &sample::<3, Traced>(&Traced)), [(81, 60), (60, 30)]);
 }
 
+/// Mass matrices that depend on the placement: a factorisation, with one division for each pivot and one for `det phi`.
+#[test]
+fn mixed_sums() {
+    #[affine_model(dim = 2, kinetic(dalembert = 2, casimir2 = 0.2, casimir1_squared = 0.1))]
+    struct FlatAffine;
+    #[affine_model(dim = 3, kinetic(body_inertia = 1, space_inertia = diag(1, 1.5, 2)))]
+    struct BodySpace;
+    #[affine_model(dim = 3, kinetic(dalembert = 2, body_inertia = 1))]
+    struct FlatBody;
+    let divisions = |o: Operations| (o.div, o.sqrt, o.exp, o.ln);
+    assert_eq!(divisions(FlatAffine::DESCRIPTION.full_operations), (5, 0, 0, 0));
+    assert_eq!(divisions(BodySpace::DESCRIPTION.full_operations), (10, 0, 0, 0));
+    // Three equal blocks are factorised once.
+    assert_eq!(divisions(FlatBody::DESCRIPTION.full_operations), (4, 0, 0, 0));
+    let counted = counts::<2, FlatAffine>(&FlatAffine, &sample::<2, FlatAffine>(&FlatAffine));
+    assert_eq!(counted, [(76, 41), (76, 41)]);
+    let counted = counts::<3, BodySpace>(&BodySpace, &sample::<3, BodySpace>(&BodySpace));
+    assert_eq!(counted, [(381, 281), (381, 281)]);
+    let counted = counts::<3, FlatBody>(&FlatBody, &sample::<3, FlatBody>(&FlatBody));
+    assert_eq!(counted, [(145, 93), (145, 93)]);
+}
+
 // (multiplications, additions); 0.2, 0.1, 1 are the coefficients of problem P1.
 pinned! {
     Left2 2 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1) = full (19, 11), reduced (8, 4);
@@ -144,4 +166,47 @@ pinned! {
     SpaceInertia3 3 (casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = diag(1, 1.5, 2)) = full (78, 63), reduced (78, 63);
     FlatTensor2 2 (flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])
         = full (11, 11), reduced (0, 0);
+}
+
+macro_rules! pinned_lattices {
+    ($($name:ident $n:literal ($($terms:tt)*) = $counts:expr;)*) => {
+        $(
+            #[affine_model(dim = $n, kinetic($($terms)*), emit(two_polar))]
+            pub struct $name;
+        )*
+
+        /// Multiplications, additions, divisions and exponentials of the equations of `(q, p, M, N)`.
+        #[test]
+        fn every_lattice() {
+            use affine_runtime::lattice::LatticeForm;
+            use affine_runtime::model::StateVector;
+            let mut wrong = Vec::new();
+            $(
+                let mut state = <$name as LatticeForm<$n>>::Places::<Counting>::zeros();
+                for (k, value) in state.as_mut().iter_mut().enumerate() {
+                    *value = Counting::from([1.1, 0.4, -0.3, 0.7, 0.2][k % 5] + 0.01 * k as f64);
+                }
+                let mut couplings = <$name as LatticeForm<$n>>::Couplings::<Counting>::zeros();
+                couplings.as_mut().fill(Counting::from(0.3));
+                let (_, counted) = Counting::count(|| $name.lattice_equations(&couplings, &state));
+                assert_eq!(counted, $name::LATTICE.operations, "{}", stringify!($name));
+                if (counted.mul, counted.add, counted.div, counted.exp) != $counts {
+                    wrong.push(format!("{}: {counted:?}", stringify!($name)));
+                }
+                assert_eq!(counted.sqrt + counted.ln, 0, "{}", stringify!($name));
+            )*
+            assert!(wrong.is_empty(), "{wrong:#?}");
+        }
+    };
+}
+
+pinned_lattices! {
+    AffineLattice2 2 (casimir2 = 1.2, casimir1_squared = 0.1) = (20, 6, 1, 1);
+    // Problem P4.
+    AffineLattice3 3 (casimir2 = 1.2, casimir1_squared = 0.1) = (82, 40, 3, 2);
+    // The frames alone differ from the affine-affine lattice.
+    LeftLattice3 3 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1) = (82, 40, 3, 2);
+    RightLattice3 3 (casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1) = (82, 40, 3, 2);
+    DAlembertLattice2 2 (dalembert = 1.5) = (15, 4, 1, 0);
+    DAlembertLattice3 3 (dalembert = 1.5) = (72, 33, 3, 0);
 }

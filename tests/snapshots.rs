@@ -147,6 +147,24 @@ families! {
     taylor_functions_2: "dim = 2, emit(taylor), kinetic(dalembert = 1), \
         potential = exp(tr(G)/4) + ln(1 + det^2) + sin(phi[1,2])*tan(det/4) + 1/sqrt(1 + tr(G))";
     taylor_straight_2: "dim = 2, emit(taylor), kinetic(dalembert = 3)";
+    splitting_vibrating_3: "dim = 3, emit(splitting), kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1), \
+        potential = hyperbolic_dilatation(10) + neo_hookean(0.5)";
+    splitting_fibred_2: "dim = 2, emit(splitting), kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), \
+        potential = tr(G)/2 - ln(det) + G[1,2]*cos(t) + norm(x)^2/2";
+    splitting_elastic_2: "dim = 2, emit(splitting), kinetic(dalembert = diag(1, 2)), \
+        potential = hyperbolic_dilatation(10) + neo_hookean(0.5)";
+    mixed_flat_affine_2: "dim = 2, kinetic(dalembert = 2, casimir2 = 0.2, space_translation = 1)";
+    mixed_body_space_3: "dim = 3, kinetic(body_inertia = 1, space_inertia = diag(1, 1.5, 2))";
+    mixed_masses_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1, space_translation = 2), \
+        emit(metric, acceleration)";
+    damped_bulk_missile_3: "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, \
+        body_translation = 1), potential = hyperbolic_dilatation(10) + neo_hookean(0.5), \
+        dissipation(casimir1_squared = 0.3)";
+    damped_shear_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1), dissipation(body_inertia = 0.5, casimir2 = 0.5)";
+    damped_across_frames_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, space_translation = 2), \
+        dissipation(space_inertia = 0.5, dalembert = diag(1, 2), body_translation = 0.25)";
+    damped_dalembert_3: "dim = 3, kinetic(dalembert = diag(1, 1.5, 2), space_translation = 2), \
+        dissipation(dalembert = diag(1, 2, 3), space_translation = 3)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.
@@ -203,6 +221,42 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         pub struct Cubic { a: f64, d: f64, k: f64 }",
     ),
     (
+        "fields_damped_2",
+        "dim = 2, kinetic(casimir2 = 0.2, space_inertia = i), \
+         dissipation(space_inertia = [[a, b], [b, c]], casimir2 = a)",
+        "/// A body.
+        pub struct Damped { i: f64, a: f64, b: f64, c: f64 }",
+    ),
+    (
+        "custom_force_2",
+        "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 2), forces = custom(wind, spatial)",
+        "/// A body.
+        pub struct Custom<F: affine_runtime::force::Force<2, Form = affine_runtime::force::Spatial>> {
+            /// What blows.
+            pub wind: F,
+        }",
+    ),
+    (
+        "gyroscopic_force_2",
+        "dim = 2, kinetic(dalembert = 1, space_translation = 2), forces = custom(magnet, translation, gyroscopic)",
+        "/// A body.
+        pub struct Charged<F: affine_runtime::force::Force<2, Form = affine_runtime::force::Translation>> {
+            /// What turns.
+            pub magnet: F,
+        }",
+    ),
+    (
+        "custom_potential_3",
+        "dim = 3, kinetic(casimir2 = 0.2, body_inertia = i), potential = q^2 + custom(gravity, isotropic)",
+        "/// A body.
+        pub struct Heavy<U: affine_runtime::potential::Potential<3> + Clone> {
+            /// The inertia.
+            pub i: f64,
+            /// What attracts.
+            pub gravity: U,
+        }",
+    ),
+    (
         "generics_2",
         "dim = 2, kinetic(casimir2 = a, casimir1_squared = 0.1)",
         "/// A body with a label.
@@ -228,6 +282,30 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "dim = 2, crate = crate::renamed::runtime, kinetic(casimir2 = 0.2)",
         "/// A body.
         pub struct Renamed;",
+    ),
+    (
+        "two_polar_3",
+        "dim = 3, kinetic(casimir2 = 1.2, casimir1_squared = 0.1), emit(two_polar)",
+        "/// A lattice of three stretches.
+        pub struct Lattice;",
+    ),
+    (
+        "two_polar_fields_2",
+        "dim = 2, kinetic(casimir2 = a, body_inertia = i), potential = neo_hookean(c), emit(two_polar)",
+        "/// A lattice of two stretches.
+        pub struct Lattice { a: f64, i: f64, c: f64 }",
+    ),
+    (
+        "unitary_fields_3",
+        "dim = 3, kinetic(casimir2 = a, casimir1_squared = 0.3), group = unitary",
+        "/// A lattice of three angles.
+        pub struct Lattice { a: f64 }",
+    ),
+    (
+        "two_polar_dalembert_2",
+        "dim = 2, kinetic(dalembert = 1.5), potential = hyperbolic_dilatation(2), emit(two_polar)",
+        "/// A lattice of two stretches.
+        pub struct Lattice;",
     ),
 ];
 

@@ -10,12 +10,16 @@ use proc_macro::TokenStream;
 /// |---|---|---|
 /// | `dim` | `2`, `3` | dimension; `n` in expressions |
 /// | `kinetic(...)` | terms | the kinetic energy, a sum of the terms below |
+/// | `group` | `unitary` | placements in U(n) instead of GL(n, R): `-A/2 tr Om^2 - B/2 (tr Om)^2`, emitted as its lattice on the circle |
 /// | `hamiltonian(...)` | terms | instead of `kinetic(...)`: the same, stated through momenta, below |
 /// | `metrics(space = g, body = eta)` | matrices of numbers | constant metrics other than the identity, below |
 /// | `constraint` | `isochoric`, `rigid`, `conformal` | motion confined to SL(n), SO(n), R+ SO(n), below; without it GL+(n) |
 /// | `potential` | expression | the potential energy, below |
+/// | `dissipation(...)` | terms | Rayleigh's function `R`, a sum of the same terms, positive semidefinite |
+/// | `forces` | sum of `custom(..)` | forces that fields compute, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
+/// | `emit(...)` | `taylor`, `two_polar`, `metric`, `acceleration` | what is emitted beyond the default, below; `two_polar` is the lattice form `(q, p, M, N)` of doubly isotropic models |
 /// | `crate` | path | the runtime, where it has another name than `affine_runtime` |
 ///
 /// | term | energy |
@@ -49,6 +53,13 @@ use proc_macro::TokenStream;
 /// With `metrics(...)`, `g` and `eta` symmetric and positive definite, every transpose and norm is the metric one
 /// (`g^-1 Y^T g` in space, `eta^-1 X^T eta` in the body), and `det phi`, `q` are those of orthonormal bases. Points have
 /// the user's coordinates; equations, reduced states and plain arrays those of orthonormal bases.
+/// Terms of different frames add: the mass matrix then depends on `phi`, and is factorised in the equations. A sum that
+/// is not positive definite at every placement is checked at each start, and a motion into a degenerate mass matrix ends
+/// with `Reason::Degenerate`.
+///
+/// `emit(metric)` adds the methods `metric(&phi)` and `inverse_metric(&phi)`, the configuration metric over
+/// `(x_dot, phi_dot)` with `phi_dot` row by row, and its inverse; `emit(acceleration)` adds `acceleration(&point)`, the
+/// acceleration of the centre of mass.
 ///
 /// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
 /// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)`, their entries `G[1,2]`, with
@@ -81,6 +92,22 @@ use proc_macro::TokenStream;
 /// vanishes on the group and a potential that is constant there are mistakes; a symmetry is claimed of the energy
 /// without the constraint. Starting points off the constraint by more than 32 roundings times the condition of `phi`
 /// are refused with their defect.
+///
+/// A summand `custom(field, class)` is computed by a field whose type implements `affine_runtime::potential::Potential`;
+/// the class is `isotropic`, `green` (a function of `G`), `finger` (of `Ct`) or `general`, with `position` after it where
+/// it depends on `x`. What stays conserved follows from the class, which is compared with the one that the type declares.
+///
+/// `dissipation(...)` adds the forces `Q_hat = -(dR/dOh)^T`, `Q = -(dR/dOm)^T`, `N = -(dR/dphi_dot)^T`, `Q_tr = -dR/dx_dot`,
+/// each in the frame of its term, whatever the frame of `T`; `dH/dt = -2 R`. `R >= 0` is proved, or checked by `prepare()`,
+/// frame by frame; the Casimir terms count with those of the body, or else with those of space.
+///
+/// `forces = custom(field, form) + ..` calls fields whose types implement `affine_runtime::force::Force`; the form is
+/// `spatial` (`Q`), `comoving` (`Q_hat`) or `translation` (`Q_tr`), with `gyroscopic` after it where the force has no power:
+/// the energy then stays conserved.
+///
+/// Dissipation and fields are refused beside `constraint`, `metrics(...)`, `casimir3`, terms of different frames,
+/// `group = unitary`, `emit(taylor)`, `emit(two_polar)` and `emit(acceleration)`; but a potential of a field goes with
+/// `constraint = isochoric` and `dalembert`, where the multiplier keeps the constraint.
 ///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
 /// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`.

@@ -4,10 +4,12 @@
 //! bound. A [`Simulation`](crate::Simulation), which takes any model, asks [`Model`] instead: a provided method gives
 //! `Some` of the capability where it was emitted and `None::<NotEmitted>` elsewhere, a type without values.
 
-use crate::integrate::taylor::Series;
+use crate::integrate::lie::Sum;
+use crate::integrate::splitting::Pieces;
+use crate::integrate::taylor::{Portable, Series, Vectors};
 use crate::lanes::Lanes;
 use crate::model::{Model, StateVector};
-use crate::scalar::Scalar;
+use crate::scalar::{Real, Scalar};
 
 /// `emit(taylor)`: Taylor coefficients of the reduced motion to any order, `y(t + h) = sum_k y_k h^k`.
 ///
@@ -34,6 +36,7 @@ pub trait Taylor<const N: usize>: Model<N> {
     /// `(k + 1) y_(k+1)` from `y_k`, `order = k > 0`. The rows are those of the orders 0 to k; fills the last one.
     fn next<T: Scalar>(
         &self,
+        vectors: impl Vectors,
         order: T,
         constants: &Self::Constants<T>,
         coefficient: &Self::Reduced<T>,
@@ -49,12 +52,25 @@ pub trait Taylor<const N: usize>: Model<N> {
         coefficients: &mut [Self::Reduced<T>],
         rows: &mut [Self::Row<T>],
     ) {
+        self.coefficients_on(Portable, t, constants, coefficients, rows);
+    }
+
+    /// The same coefficients, on the vectors of a processor.
+    #[inline(always)]
+    fn coefficients_on<T: Scalar>(
+        &self,
+        vectors: impl Vectors,
+        t: T,
+        constants: &Self::Constants<T>,
+        coefficients: &mut [Self::Reduced<T>],
+        rows: &mut [Self::Row<T>],
+    ) {
         let (mut order, mut scale) = (T::zero(), T::one());
         for k in 0..rows.len().min(coefficients.len().saturating_sub(1)) {
             let coefficient = coefficients[k];
             let mut rate = match k {
                 0 => self.start(t, constants, &coefficient, &mut rows[0]),
-                _ => self.next(order, constants, &coefficient, &mut rows[..=k]),
+                _ => self.next(vectors, order, constants, &coefficient, &mut rows[..=k]),
             };
             rate.as_mut().iter_mut().for_each(|rate| *rate *= scale);
             coefficients[k + 1] = rate;
@@ -79,6 +95,32 @@ pub trait InLanes<const N: usize>: Model<N> {
     fn constants_in_lanes<T: Lanes>(constants: &[Self::Constants<f64>]) -> Self::Constants<T>;
 }
 
+/// `emit(splitting)`: exact flows of pieces of the Hamiltonian over the reduced state, those of the kinetic energy first.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no exact sub-flows",
+    label = "`emit(splitting)` is missing",
+    note = "write `emit(splitting)` in its `#[affine_model(...)]`"
+)]
+pub trait Splitting<const N: usize>: Model<N> {
+    /// The pieces, in words.
+    const PIECES: &'static [&'static str];
+    /// There are two pieces, `A` and `B`, with `[B, [B, [B, A]]] = 0`.
+    const NYSTROM: bool;
+
+    /// Moves the reduced state along a piece for the time `h`, adding to each component and to what rounding left out
+    /// of it; `t` is the time that a potential reads. What is a function of the rest, `1/D`, stays as it is:
+    /// [`renewed`](Model::renewed).
+    fn flow<T: Real>(
+        &self,
+        piece: usize,
+        t: T,
+        h: T,
+        constants: &Self::Constants<T>,
+        state: &mut Self::Reduced<T>,
+        carry: &mut Self::Reduced<T>,
+    );
+}
+
 /// A model that has the capability in question.
 #[derive(Clone, Copy, Debug)]
 pub struct Emitted<'a, M, const N: usize>(pub &'a M);
@@ -90,7 +132,6 @@ pub enum NotEmitted {}
 impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> for Emitted<'_, M, N> {
     type Row = M::Row<f64>;
 
-    #[inline]
     fn coefficients(
         &self,
         t: f64,
@@ -100,12 +141,62 @@ impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> fo
     ) {
         self.0.coefficients(t, constants, coefficients, rows);
     }
+
+    #[inline(always)]
+    fn coefficients_on(
+        &self,
+        vectors: impl Vectors,
+        t: f64,
+        constants: &M::Constants<f64>,
+        coefficients: &mut [M::Reduced<f64>],
+        rows: &mut [Self::Row],
+    ) {
+        self.0.coefficients_on(vectors, t, constants, coefficients, rows);
+    }
 }
 
 impl<S, C> Series<S, C> for NotEmitted {
     type Row = [f64; 0];
 
     fn coefficients(&self, _: f64, _: &C, _: &mut [S], _: &mut [[f64; 0]]) {
+        match *self {}
+    }
+}
+
+impl<const N: usize, M: Splitting<N>> Pieces<M::Reduced<f64>, M::Constants<f64>> for Emitted<'_, M, N> {
+    #[inline]
+    fn count(&self) -> usize {
+        M::PIECES.len()
+    }
+
+    #[inline]
+    fn is_nystrom(&self) -> bool {
+        M::NYSTROM
+    }
+
+    #[inline]
+    fn flow(
+        &self,
+        piece: usize,
+        t: f64,
+        h: f64,
+        constants: &M::Constants<f64>,
+        state: &mut Sum<M::Reduced<f64>>,
+    ) {
+        self.0.flow(piece, t, h, constants, &mut state.value, &mut state.carry);
+    }
+}
+
+impl<S, C> Pieces<S, C> for NotEmitted {
+    fn count(&self) -> usize {
+        match *self {}
+    }
+
+    fn is_nystrom(&self) -> bool {
+        match *self {}
+    }
+
+    fn flow(&self, _: usize, _: f64, _: f64, _: &C, _: &mut Sum<S>) {
         match *self {}
     }
 }

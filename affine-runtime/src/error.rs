@@ -21,6 +21,8 @@ pub enum Error {
         /// The quantity, as the paper names it.
         quantity: &'static str,
     },
+    /// Two stretches of a lattice are equal: its variables do not determine the momentum there.
+    CoincidentStretches,
     /// A placement, velocity or momentum violates the constraint of the model by more than rounding.
     OffConstraint {
         /// The constraint.
@@ -52,7 +54,7 @@ pub enum Error {
     },
 }
 
-/// A condition on the kinetic energy that fails.
+/// A condition on the kinetic energy or the dissipation that fails.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IllPosed {
     /// The condition, in the model's own parameters: `I + A != 0`.
@@ -77,6 +79,10 @@ impl fmt::Display for Error {
             Error::NotFinite { quantity } => {
                 write!(f, "{quantity} is not finite; give finite numbers")
             }
+            Error::CoincidentStretches => f.write_str(
+                "two stretches are equal, where (q, p, M, N) do not determine the momentum: M vanishes with their \
+                 difference; give the phase point itself",
+            ),
             Error::OffConstraint { constraint, quantity, defect, threshold } => write!(
                 f,
                 "{quantity} violates the {constraint} constraint by {defect:e} (threshold {threshold:e}): {}",
@@ -106,7 +112,7 @@ impl fmt::Display for IllPosed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "the kinetic energy is ill-posed: {} fails with the value {:e} (threshold {:e}): {}",
+            "the model is ill-posed: {} fails with the value {:e} (threshold {:e}): {}",
             self.condition, self.value, self.threshold, self.reason
         )
     }

@@ -3,6 +3,8 @@
 //! Every instant is computed from the start, with at most two exponentials: output times may come in any
 //! order, and errors do not add up from one to the next.
 
+mod collapse;
+
 use crate::decompose::{exponential, skew_exponential};
 use crate::frames::{Matrix, Vector};
 use crate::state::Phase;

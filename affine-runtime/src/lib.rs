@@ -21,19 +21,26 @@ pub mod conserved;
 mod constraint;
 #[cfg(feature = "std")]
 pub mod counting;
+mod custom;
 pub mod decompose;
+mod dissipation;
 mod elliptic;
 pub mod error;
+pub mod force;
 pub mod frames;
 pub mod geodesic;
 pub mod integrate;
 pub mod kinematics;
 pub mod lanes;
+pub mod lattice;
 pub mod metrics;
 pub mod model;
+pub mod potential;
 mod reduction;
+mod regularity;
 #[cfg(feature = "report")]
 pub mod report;
+pub mod sampling;
 pub mod scalar;
 #[cfg(feature = "std")]
 pub mod simulate;

@@ -4,8 +4,10 @@ use core::fmt::Debug;
 
 use crate::capability::NotEmitted;
 use crate::frames::{Matrix, Vector};
+use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::Series;
 use crate::metrics::Bases;
+pub use crate::regularity::Regularity;
 use crate::scalar::{Real, Scalar};
 use crate::state::Phase;
 
@@ -39,6 +41,12 @@ pub trait Model<const N: usize> {
     /// The Hamiltonian `H` of a phase point at time `t`, which only a potential that contains the time reads.
     fn hamiltonian<T: Real>(&self, t: T, point: &Self::Point<T>) -> T;
 
+    /// The power of the forces that no potential has, `dH/dt`: `-2 R` of a dissipation function `R`. Zero for a
+    /// model without such forces.
+    fn power<T: Real>(&self, _t: T, _point: &Self::Point<T>) -> T {
+        T::zero()
+    }
+
     /// The point as a plain array.
     fn flatten<T: Real>(&self, point: &Self::Point<T>) -> Self::Full<T>;
     /// The point from a plain array, unchecked.
@@ -70,6 +78,12 @@ pub trait Model<const N: usize> {
         *reduced
     }
 
+    /// Signs and weakest pivot of the mass matrix at a placement, for a model whose kinetic energy has a mass matrix
+    /// that depends on it and is not known to be definite; `None` for every other one, which is regular everywhere.
+    fn regularity(&self, _phi: &Matrix<N>) -> Option<Regularity> {
+        None
+    }
+
     /// The bases of space and body in which the model's metrics are the identity, from the user's own; `None` where
     /// they are the identity there. Plain arrays, reduced states and closed forms stand in them, phase points do not.
     fn bases(&self) -> Option<Bases<N>> {
@@ -90,6 +104,11 @@ pub trait Model<const N: usize> {
 
     /// The Taylor coefficients of the reduced motion, where `emit(taylor)` asked for them.
     fn taylor(&self) -> Option<impl Series<Self::Reduced<f64>, Self::Constants<f64>>> {
+        None::<NotEmitted>
+    }
+
+    /// The exact flows of the pieces of the reduced motion, where `emit(splitting)` asked for them.
+    fn splitting(&self) -> Option<impl Pieces<Self::Reduced<f64>, Self::Constants<f64>>> {
         None::<NotEmitted>
     }
 }
@@ -188,7 +207,8 @@ pub struct Formula {
 /// A run of components of a state vector that form one geometric object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Group {
-    /// The object: `x`, `phi`, `Sigma_hat`, ...
+    /// The object: `x`, `phi`, `Sigma_hat`, ...; `work`, the integral of [`Model::power`] since the start, where
+    /// there are forces that no potential has.
     pub name: &'static str,
     /// Number of components, row-major.
     pub len: usize,
@@ -200,6 +220,9 @@ impl Group {
         matches!(self.name, "phi" | "Psi")
     }
 }
+
+/// Name of the group of one component that holds the integral of [`Model::power`] since the start.
+pub const WORK: &str = "work";
 
 /// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

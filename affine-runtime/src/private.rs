@@ -3,28 +3,38 @@
 pub use core::primitive::f64;
 
 pub use crate::breathing::Breathing;
-pub use crate::capability::{Emitted, InLanes, Taylor};
+pub use crate::capability::{Emitted, InLanes, Splitting, Taylor};
 pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
+pub use crate::custom::{
+    comoving_force, potential_energy, potential_slopes, spatial_force, translational_force,
+};
 pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
+pub use crate::dissipation::{semidefinite, semidefinite_form};
 pub use crate::error::Result;
 pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,
 };
 pub use crate::geodesic::{Geodesic, Motion};
+pub use crate::integrate::splitting::{Pieces, accumulate, conjugated, growth, left_product, right_product};
 pub use crate::integrate::taylor::{
-    Series, add_multiple, add_products, lanes, subtract_multiple, subtract_products,
+    Series, Vectors, add_multiple, add_products, lanes, subtract_multiple, subtract_products,
 };
 pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
 pub use crate::lanes::{Lanes, gathered};
+pub use crate::lattice::{
+    Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, MetricSide, PotentialClass,
+    TwoPolarForm, Variables,
+};
 pub use crate::metrics::Bases;
 pub use crate::model::{
-    Conserved, Constraint, Description, Formula, Group, Model, Operations, Velocity,
+    Conserved, Constraint, Description, Formula, Group, Model, Operations, Regularity, Velocity,
     VelocityDeterminesMomentum,
 };
 pub use crate::reduction::{
     Condition, finite, from_shear_and_turn, inverse_form, shear_and_turn, total_affine_momentum, total_size,
     turn, well_posed,
 };
+pub use crate::regularity::regular;
 pub use crate::scalar::{Real, Scalar};
 pub use crate::state::{Centre, Phase, PhasePoint, Pinned};
 
@@ -93,4 +103,26 @@ pub fn components<const N: usize, T: Real>(vector: &Vector<N, T>) -> [T; N] {
 /// The vector with the given components.
 pub fn vector<const N: usize, T: Real>(components: [T; N]) -> Vector<N, T> {
     Vector::from(components)
+}
+
+/// The lattice of a placement and its affine spin in the frame `F`, with labels and frames nearest to those before.
+///
+/// # Errors
+/// [`Error::Placement`](crate::Error::Placement) where the stretches cannot be told from zero.
+pub fn lattice_of<const N: usize, F: LatticeFrame>(
+    phi: &Matrix<N>,
+    spin: &Matrix<N>,
+    before: Option<&Lattice<N>>,
+) -> Result<Lattice<N>> {
+    crate::lattice::lattice_of::<N, F>(phi, spin, before)
+}
+
+/// The placement of a lattice and its affine spin in the frame `F`.
+///
+/// # Errors
+/// [`Error::CoincidentStretches`](crate::Error::CoincidentStretches) where two stretches are equal.
+pub fn placement_and_spin<const N: usize, F: LatticeFrame>(
+    lattice: &Lattice<N>,
+) -> Result<(Matrix<N>, Matrix<N>)> {
+    crate::lattice::placement_and_spin::<N, F>(lattice)
 }

@@ -152,12 +152,7 @@ pub fn inverse_form<const K: usize, const M: usize>(
     size: f64,
     positive: bool,
 ) -> Result<[f64; M]> {
-    let at = |i: usize, j: usize| {
-        let (a, b) = (i.min(j), i.max(j));
-        a * K - a * (a + 1) / 2 + b
-    };
-    let form = nalgebra::SMatrix::<f64, K, K>::from_fn(|i, j| upper[at(i, j)]);
-    let eigen = jacobi::<K>(form);
+    let eigen = jacobi::<K>(symmetric(&upper));
     let threshold = f64::EPSILON * size;
     for value in eigen.values {
         let held = if positive { value } else { value.abs() };
@@ -178,22 +173,33 @@ pub fn inverse_form<const K: usize, const M: usize>(
     let mut inverse = [0.0; M];
     for i in 0..K {
         for j in i..K {
-            inverse[at(i, j)] =
+            inverse[place::<K>(i, j)] =
                 (0..K).map(|k| eigen.vectors[(i, k)] * eigen.vectors[(j, k)] / eigen.values[k]).sum();
         }
     }
     Ok(inverse)
 }
 
+/// The symmetric matrix with this upper triangle, row after row.
+pub(crate) fn symmetric<const K: usize, const M: usize>(upper: &[f64; M]) -> nalgebra::SMatrix<f64, K, K> {
+    nalgebra::SMatrix::from_fn(|i, j| upper[place::<K>(i, j)])
+}
+
+/// Where the entry stands in an upper triangle.
+fn place<const K: usize>(i: usize, j: usize) -> usize {
+    let (a, b) = (i.min(j), i.max(j));
+    a * K - a * (a + 1) / 2 + b
+}
+
 /// Eigenvalues and orthonormal eigenvectors (columns).
-struct Eigen<const K: usize> {
-    values: [f64; K],
+pub(crate) struct Eigen<const K: usize> {
+    pub(crate) values: [f64; K],
     vectors: nalgebra::SMatrix<f64, K, K>,
 }
 
 /// Cyclic Jacobi rotations (Golub and Van Loan, section 8.5): small symmetric matrices of any size `K` without
 /// the dimension arithmetic that nalgebra's solver asks of its types.
-fn jacobi<const K: usize>(mut form: nalgebra::SMatrix<f64, K, K>) -> Eigen<K> {
+pub(crate) fn jacobi<const K: usize>(mut form: nalgebra::SMatrix<f64, K, K>) -> Eigen<K> {
     let mut vectors = nalgebra::SMatrix::<f64, K, K>::identity();
     for _sweep in 0..30 {
         let mut off = 0.0;

@@ -24,6 +24,11 @@
 //! single interruptions, not a busy machine. Times below a microsecond are near the resolution of the clock.
 //! Nothing is said about the error on the way: a method may be wrong in between and right at the end.
 //!
+//! # Stability
+//!
+//! [`StabilityReport`] gathers stiff and extreme cases: each has an [`Oracle`], a [`Demand`] and a [`Finding`], and displays as
+//! held, refused in words, or fell short; `cargo run --release --example stability` fills one.
+//!
 //! # Pictures
 //!
 //! [`Trajectory::save_svg`](crate::Trajectory::save_svg) draws the motion, the log-stretches and the drift of what
@@ -31,11 +36,13 @@
 
 mod axes;
 mod canvas;
+mod curves;
 mod diagram;
 mod drift;
 mod palette;
 mod picture;
 mod scene;
+mod stability;
 mod table;
 mod view;
 mod work_precision;
@@ -43,7 +50,12 @@ mod work_precision;
 use std::io;
 use std::path::Path;
 
+pub use curves::{Curve, CurveDiagram, CurvePanel};
 pub use diagram::{LEAST_ERROR, Series, WorkPrecisionDiagram, WorkPrecisionPoint};
+pub use stability::{
+    Demand, Finding, Oracle, Scene, StabilityCase, StabilityReport, Verdict, relative_distance,
+    relative_distance_by_rows,
+};
 pub use work_precision::{
     DEFAULT_REPEATS, DEFAULT_TIME_CAP, DEFAULT_TOLERANCES, Measurement, Row, WorkPrecision,
     WorkPrecisionReport,
@@ -65,6 +77,10 @@ fn method_name(method: Method) -> &'static str {
         Method::Rattle { order: 4, .. } => "RATTLE 4",
         Method::Rattle { order: 6, .. } => "RATTLE 6",
         Method::Rattle { .. } => "RATTLE 8",
+        Method::Splitting { order: 2, .. } => "splitting 2",
+        Method::Splitting { order: 4, .. } => "splitting 4",
+        Method::Splitting { order: 6, .. } => "splitting 6",
+        Method::Splitting { .. } => "splitting 8",
     }
 }
 

@@ -206,3 +206,18 @@ fn units_of_time_and_state_do_not_matter() {
     assert!(other.is_finished());
     assert_eq!(other.statistics(), plain.statistics());
 }
+
+/// The integration may run on wider vectors than the step by itself, which is compiled for every processor.
+#[test]
+fn steps_do_not_depend_on_the_vectors() {
+    let start = four_exact(0.0);
+    let mut run = RungeKutta8::new(four, FOUR, (0.0, start), 2.0, 1e-9).unwrap();
+    let mut step = Step::start(&four, 0.0, start);
+    for _ in 0..20 {
+        run.advance().unwrap();
+        step.attempt(&four, run.t());
+        step.accept(&four);
+        step.begin_next();
+        assert_eq!(step.end().map(f64::to_bits), run.y().map(f64::to_bits), "at t = {}", run.t());
+    }
+}

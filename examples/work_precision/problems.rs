@@ -7,6 +7,7 @@ use affine_runtime::prelude::*;
     dim = 3,
     symmetry(space = affine, body = metric),
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
+    emit(taylor),
 )]
 pub(crate) struct DrunkMissile;
 
@@ -16,6 +17,7 @@ pub(crate) struct DrunkMissile;
     symmetry(space = affine, body = metric),
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(c1),
+    emit(taylor),
 )]
 pub(crate) struct Vibrating {
     /// Stiffness of the dilatation.
@@ -30,6 +32,7 @@ pub(crate) struct Vibrating {
     symmetry(space = metric, body = affine),
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1),
     potential = hyperbolic_dilatation(10) + neo_hookean(0.5),
+    emit(taylor),
 )]
 pub(crate) struct Mirrored;
 
@@ -38,6 +41,7 @@ pub(crate) struct Mirrored;
     dim = 3,
     kinetic(dalembert = diag(1, 1.5, 2)),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
+    emit(taylor),
 )]
 pub(crate) struct Elastic {
     /// Stiffness of the dilatation.
@@ -50,6 +54,7 @@ pub(crate) struct Elastic {
     symmetry(space = affine, body = metric),
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
+    emit(taylor),
 )]
 pub(crate) struct StiffMissile {
     /// Stiffness of the dilatation.

@@ -17,10 +17,14 @@ mod conserved;
 mod constraints;
 mod driven;
 mod drunk_missile;
+mod forces;
 mod geodesics;
+mod laws;
+mod mixed;
 mod momentum_side;
 #[macro_use]
 mod potentials;
 mod prepare;
+mod quantities;
 mod stretches;
 mod undeformed;

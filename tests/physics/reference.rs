@@ -10,7 +10,7 @@ pub(crate) struct Reference {
     /// Condition of the mass matrix.
     pub(crate) condition: f64,
     state: State,
-    /// What a potential adds to the sizes; all zero without.
+    /// What forces add to the sizes; all zero without.
     potential: Slopes,
 }
 
@@ -54,6 +54,30 @@ impl Reference {
             condition: kinetic.constrained_condition(constraint, &state.phi).unwrap(),
             state: state.clone(),
             potential: Slopes::of(&potential, t, &state.x.to_f64(), &state.phi.to_f64()),
+        }
+    }
+
+    /// The motion with a dissipation function, stated as a kinetic energy is.
+    pub(crate) fn damped(kinetic: &Kinetic, state: &State, dissipation: &Kinetic) -> Self {
+        let free = kinetic.motion(state).unwrap();
+        let motion = free.clone().damped(dissipation).unwrap();
+        let push = |before: &Exact, after: &Exact| (after - before).to_f64();
+        let x = push(&free.rate().p, &motion.rate().p);
+        let phi = push(&free.rate().pi, &motion.rate().pi);
+        Reference {
+            expected: motion.expected().unwrap(),
+            potential: Slopes { value: 0.0, t: 0.0, x, phi },
+            ..Reference::new(kinetic, state)
+        }
+    }
+
+    /// The motion with forces on `p` and, row-major, on `Pi`.
+    pub(crate) fn pushed(kinetic: &Kinetic, state: &State, on_p: &[f64], on_pi: &[f64]) -> Self {
+        let motion = kinetic.motion(state).unwrap().pushed(on_p, on_pi).unwrap();
+        Reference {
+            expected: motion.expected().unwrap(),
+            potential: Slopes { value: 0.0, t: 0.0, x: on_p.to_vec(), phi: on_pi.to_vec() },
+            ..Reference::new(kinetic, state)
         }
     }
 

@@ -159,7 +159,7 @@ fn what_runs_and_why() {
     let fine = run(1e-12, Method::Automatic);
     assert_eq!(fine.computation().method, Method::Taylor { order: None });
     let why = fine.why().to_string();
-    assert!(why.contains("Taylor series of order 15, relative error 1e-12 per step"), "{why}");
+    assert!(why.contains("Taylor series of order 21, relative error 1e-12 per step"), "{why}");
     assert_eq!(run(1e-6, Method::Automatic).computation().method, Method::RungeKutta8);
     let given = run(1e-6, Method::Taylor { order: Some(6) });
     assert!(given.why().to_string().contains("Taylor series of order 6"), "{}", given.why());

@@ -7,24 +7,31 @@ mod arithmetic;
 mod capabilities;
 mod constant;
 mod constraint;
+mod custom;
 mod dimension;
+mod dissipation;
+mod forces;
 mod form;
 mod frames;
 mod identity;
 mod inertia;
 mod metrics;
+mod mixed;
 mod momentum_side;
 mod potential;
 mod shapes;
 mod smooth;
 mod symbols;
 mod tensors;
+mod two_polar;
+mod unitary;
 
 use crate::diagnostics::{Diagnostics, Reported};
 use crate::spec::Spec;
 
 pub use constant::constant;
-pub use form::{Form, eigenvalues, form, signature};
+pub use form::{Form, Quantities, eigenvalues, form, signature};
+pub use mixed::{MixedForm, Positive};
 
 /// The rules that need only what the user wrote.
 ///
@@ -34,10 +41,16 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     symbols::hidden(spec, found);
     symbols::resolved(spec, found);
     capabilities::available(spec, found);
+    unitary::casimirs_alone(spec, found);
     constraint::stands_alone(spec, found);
+    capabilities::centre(spec, found);
     potential::differences(spec, found);
     potential::scalar(spec, found);
     potential::centre(spec, found);
+    custom::fields(spec, found);
+    custom::centre(spec, found);
+    dissipation::centre(spec, found);
+    forces::stand_alone(spec, found);
     frames::internal_motion(spec, found);
     frames::affine_translation(spec, found);
     shapes::shapes(spec, found);
@@ -50,7 +63,6 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     potential::indices(spec, found);
     arithmetic::computable(spec, found)?;
     potential::in_domain(spec, found);
-    frames::same_frame(spec, found);
     momentum_side::one_frame(spec, found);
     momentum_side::third_casimir(spec, found);
     momentum_side::inverse_masses(spec, found);
@@ -64,4 +76,29 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     tensors::symmetric(spec, found);
     constraint::constant_mass_matrix(spec, found);
     found.verdict()
+}
+
+/// A kinetic energy, with a potential, that passed all rules.
+pub enum Energy {
+    /// Its mass matrix is constant in one frame.
+    Constant(Box<Form>),
+    /// Its mass matrix depends on the placement.
+    Mixed(Box<MixedForm>),
+}
+
+impl From<Form> for Energy {
+    fn from(form: Form) -> Self {
+        Self::Constant(Box::new(form))
+    }
+}
+
+/// The rules on the kinetic energy as a quadratic form.
+///
+/// # Errors
+/// [`Reported`] if any rule is broken; all broken ones are in the bag.
+pub fn energy(spec: &Spec, found: &mut Diagnostics) -> Result<Energy, Reported> {
+    match frames::are_mixed(spec) {
+        false => form(spec, found).map(Energy::from),
+        true => mixed::form(spec, found).map(|form| Energy::Mixed(Box::new(form))),
+    }
 }

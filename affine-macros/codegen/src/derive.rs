@@ -1,12 +1,16 @@
 //! The derivation of one model: from its quadratic form to straight-line programs, ready to be written down.
 
+mod lattice;
+mod mixed;
 mod prepared;
 mod programs;
+mod quantities;
+pub mod splitting;
 mod stated;
 
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
-use crate::check::{Form, eigenvalues, signature};
+use crate::check::{Energy, Form, eigenvalues, signature};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::ir::taylor::Recurrence;
@@ -14,6 +18,7 @@ use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{self, Formula};
+use crate::mechanics::equations::{self, hamilton};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::mechanics::metrics::Metrics;
@@ -23,8 +28,9 @@ use crate::mechanics::symmetry::Group;
 use crate::optimise::{Batch, straight_line};
 use crate::spec::{Capability, Spanned};
 
-use prepared::{coefficient_program, conditions, numeric_blocks};
-use programs::{best_reduction, full_chart, full_equations};
+pub use lattice::TwoPolar;
+use prepared::{coefficient_program, conditions, damping, numeric_blocks};
+use programs::{Reduced, best_reduction, full_chart, full_equations, power_batch};
 
 /// Everything that is emitted about a model.
 pub struct Model {
@@ -44,14 +50,27 @@ pub struct Model {
     pub numeric_blocks: Vec<NumericBlock>,
     /// What `prepare()` must find different from zero.
     pub conditions: Vec<Condition>,
-    /// What starts from velocities; `None` where they do not determine the momentum.
+    /// What `prepare()` must find not negative in the dissipation.
+    pub damping: Damping,
+    /// What starts from velocities; with `phi` where the mass matrix depends on it, as in the next ones. `None` where
+    /// they do not determine the momentum.
     pub velocity_side: Option<VelocitySide>,
     /// `X -> O`.
     pub velocity: Program,
     /// `1/m` and `m` of the translation.
     pub mass: Option<Program>,
+    /// Translation with masses in body and space.
+    pub mixed_masses: Option<MixedMasses>,
+    /// What decides whether the mass matrix is regular at a placement, where that is not known for all.
+    pub regularity: Option<Regularity>,
+    /// The configuration metric, where asked for.
+    pub metric: Option<Metric>,
+    /// Point -> acceleration of the centre of mass, where asked for.
+    pub acceleration: Option<Program>,
     /// Point -> `H`.
     pub hamiltonian: Program,
+    /// Point -> power of the forces that no potential has.
+    pub power: Option<Program>,
     /// Hamilton's equations in the model's own frames.
     pub full: Equations,
     /// The reduced equations.
@@ -74,16 +93,20 @@ pub struct Model {
     pub conserved_at_rest: Vec<Candidate>,
     /// Numbers of positive and negative squares.
     pub signature: Option<(usize, usize)>,
-    /// Is there a potential?
-    pub has_potential: bool,
+    /// Is there a potential or any other force?
+    pub has_forces: bool,
     /// Symmetry groups of space and body that leave the kinetic energy unchanged.
     pub groups: (Group, Group),
     /// Metrics other than the identity.
     pub metrics: Option<Metrics>,
     /// `T`, `H`, and the equations.
     pub formulas: Formulas,
+    /// The two-polar form, where it is asked for.
+    pub two_polar: Option<TwoPolar>,
     /// Taylor coefficients of the reduced equations, if asked for.
     pub taylor: Option<Recurrence>,
+    /// Exact flows of the pieces of the reduced motion, if asked for.
+    pub splitting: Option<splitting::Programs>,
 }
 
 /// The Legendre transformation and the energy in velocities.
@@ -118,6 +141,32 @@ pub struct Equations {
     pub program: Program,
 }
 
+/// Legendre transformation of the centre of mass where it depends on `phi`.
+pub struct MixedMasses {
+    /// `(phi, x_dot) -> p`.
+    pub momentum: Program,
+    /// `(phi, p) -> x_dot`.
+    pub velocity: Program,
+}
+
+/// The mass matrix in blocks that do not mix.
+pub struct Regularity {
+    /// `phi ->` upper triangle, row after row, then the sizes of the summands of each diagonal entry.
+    pub blocks: Vec<(Program, usize)>,
+    /// Must it be positive definite?
+    pub positive: bool,
+}
+
+/// The configuration metric over `(x_dot, phi_dot)`.
+pub struct Metric {
+    /// Number of rows.
+    pub size: usize,
+    /// `phi ->` entries, row after row.
+    pub entries: Program,
+    /// `phi ->` entries of the inverse, row after row.
+    pub inverse: Program,
+}
+
 /// A quantity that must not vanish once the fields have values.
 pub struct Condition {
     /// `I + A`.
@@ -141,6 +190,15 @@ pub enum Relation {
     VelocityOfMomentum,
 }
 
+/// What must not be negative once the fields have values.
+#[derive(Default)]
+pub struct Damping {
+    /// Eigenvalues and coefficients.
+    pub conditions: Vec<Condition>,
+    /// Blocks whose eigenvalues need numbers; no inverse is formed.
+    pub blocks: Vec<NumericBlock>,
+}
+
 /// A block to invert numerically.
 pub struct NumericBlock {
     /// Computes the upper triangle, row after row, then the terms whose sizes make the threshold.
@@ -153,16 +211,37 @@ pub struct NumericBlock {
     pub positive: bool,
 }
 
-/// Derives a model; `None` only for forms that the checks refuse.
-pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
+/// Derives a model; `None` only for energies that the checks refuse.
+pub fn derive(energy: impl Into<Energy>, require_positive: bool) -> Option<Model> {
+    match energy.into() {
+        Energy::Constant(form) => constant(*form, require_positive),
+        Energy::Mixed(form) => mixed::derive(*form, require_positive),
+    }
+}
+
+/// A model whose mass matrix is constant in one frame.
+fn constant(form: Form, require_positive: bool) -> Option<Model> {
     let signature = match require_positive || form.kinetic.is_dalembert() {
         // `prepare()` refuses anything else.
         true => Some((form.kinetic.degrees_of_freedom(), 0)),
         false => signature(&form),
     };
     let groups = (form.space_group, form.body_group);
-    let eigenvalues = eigenvalues(&form);
-    let Form { mut arena, kinetic, stated, hessian, potential, metrics, .. } = form;
+    let eigenvalues = eigenvalues(&form.hessian);
+    let Form {
+        mut arena,
+        kinetic,
+        stated,
+        hessian,
+        potential,
+        forces,
+        metrics,
+        split,
+        two_polar,
+        unitary,
+        quantities,
+        ..
+    } = form;
     let potential = potential.as_ref();
     let arena = &mut arena;
     let cubic = stated.as_ref().filter(|stated| stated.is_cubic());
@@ -176,9 +255,9 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
 
     let mut conserved_now = conserved(arena, &own, &own_h);
     let mut conserved_at_rest = at_rest(arena, &h, &conserved_now);
-    if let Some(forces) = multiplier(arena, &h) {
-        conserved_now.retain(|candidate| forces.keeps(*candidate));
-        conserved_at_rest.retain(|candidate| forces.keeps(*candidate));
+    if let Some(reaction) = multiplier(arena, &h) {
+        conserved_now.retain(|candidate| reaction.keeps(*candidate));
+        conserved_at_rest.retain(|candidate| reaction.keeps(*candidate));
     }
     if let Some(u) = potential {
         conserved_now.retain(|candidate| u.keeps(*candidate));
@@ -188,24 +267,33 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
             conserved_at_rest.clone_from(&conserved_now);
         }
     }
-    let commuting = reduce::commuting(arena, &h, potential);
+    // Of the undamped motion: the forces are held against the same rotations on their own.
+    let rotations =
+        conserved_now.contains(&Candidate::TotalAngularMomentum) && forces.are_isotropic_in_space();
+    if !forces.is_empty() {
+        conserved_now = forces.keep(arena, &own, &h, conserved_now);
+        conserved_at_rest = match forces.push_from_rest() {
+            true => conserved_now.clone(),
+            false => forces.at_rest().keep(arena, &own, &h, conserved_at_rest),
+        };
+    }
+    let commuting = reduce::commuting(arena, &h, potential, &forces);
     let closed_form = match potential {
-        None => reduce::closed_form(arena, &h, &commuting),
-        Some(_) => None,
+        None if forces.is_empty() => reduce::closed_form(arena, &h, &commuting),
+        _ => None,
     };
 
     let (full_chart, full_h) = full_chart(arena, &h);
-    let full = full_equations(arena, &h, &full_chart, &full_h, potential, &mut coefficients);
-    let rotations = conserved_now.contains(&Candidate::TotalAngularMomentum);
-    let (reduction, reduced, trajectory, fixed) =
-        best_reduction(arena, &h, potential, rotations, &mut coefficients)?;
+    let full = full_equations(arena, &h, &full_chart, &full_h, potential, &forces, &mut coefficients);
+    let Reduced { reduction, equations: reduced, splitting, trajectory, fixed } =
+        best_reduction(arena, &h, potential, &forces, (rotations, split), &mut coefficients)?;
     let formulas = Formulas {
         kinetic_energy: match cubic {
             None => describe::kinetic_energy(arena, &kinetic),
             Some(_) => describe::kinetic_energy_of_momenta(arena, &h),
         },
-        hamiltonian: describe::hamiltonian(arena, &h, &full_h, potential),
-        equations: describe::equations(arena, &h, &full_chart, &full_h, potential),
+        hamiltonian: describe::hamiltonian(arena, &h, &full_h, potential, &forces),
+        equations: describe::equations(arena, &h, &full_chart, &full_h, potential, &forces),
         reduced: describe::system(arena, &reduction.system),
         left_out: describe::left_out(&h, &reduction, closed_form),
     };
@@ -240,6 +328,15 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         points.extend((0..kinetic.dim).map(|a| Base::LogStretch(a).symbol(arena)));
         points.extend(u.time());
     }
+    for custom in &forces.customs {
+        if let Some((value, kernel)) = custom.energy(arena, &full_chart) {
+            energy.results[0].1.add_scaled(&value, &Rational::ONE);
+            energy.kernels.push(kernel);
+        }
+    }
+    points.extend(forces.time(arena));
+    let power = power_batch(arena, &h, &full_chart, &full_h, &forces);
+    let power = power.map(|batch| inline(arena, batch, points.clone()));
     let hamiltonian = inline(arena, energy, points);
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {
         let mut results = vec![("inverse_mass".into(), inverse.clone())];
@@ -261,7 +358,21 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         inline(arena, Batch { results, ..Batch::default() }, Vec::new())
     });
     let dilatation = reduction.separation.as_ref().map(|s| inline(arena, s.batch(), Vec::new()));
+    if unitary {
+        // Nothing but the lattice is emitted: no other coefficient is computed.
+        coefficients = Constants::new("c");
+    }
+    let two_polar = two_polar.then(|| lattice::two_polar(arena, &h, potential, unitary, &mut coefficients));
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
+    let metric = match quantities.metric {
+        true => Some(quantities::metric(arena, std::slice::from_ref(&kinetic), Some(&h), &mut coefficients)?),
+        false => None,
+    };
+    let acceleration = quantities.acceleration.then(|| {
+        let mut system = hamilton(arena, &full_chart, &full_h, equations::Form::ThroughVelocity);
+        system.add(&potential.map(|u| u.load(arena, &full_chart)).unwrap_or_default());
+        quantities::acceleration(arena, &full_chart, &system, &mut coefficients)
+    });
     Some(Model {
         dim: kinetic.dim,
         constraint: kinetic.constraint,
@@ -274,10 +385,16 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         },
         coefficients: coefficient_program(arena, &coefficients),
         numeric_blocks,
+        damping: damping(arena, &forces),
         velocity_side,
         velocity,
         mass,
+        mixed_masses: None,
+        regularity: None,
+        metric,
+        acceleration,
         hamiltonian,
+        power,
         full,
         reduced,
         reduction,
@@ -289,11 +406,13 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         conserved: conserved_now,
         conserved_at_rest,
         signature,
-        has_potential: potential.is_some(),
+        has_forces: potential.is_some() || !forces.is_empty(),
         groups,
         metrics,
         formulas,
+        two_polar,
         taylor: None,
+        splitting,
     })
 }
 

@@ -4,18 +4,24 @@ mod body;
 mod closed_form;
 mod description;
 mod dynamics;
+mod forces;
 mod kernel;
 mod metrics;
+mod mixed;
 mod names;
 mod points;
 mod prepare;
+mod quantities;
 mod reduction;
 mod separated;
+mod splitting;
 mod taylor;
+mod two_polar;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::algebra::kernel::Callee;
 use crate::derive::{Equations, Model};
 use crate::ir::Program;
 use crate::mechanics::kinetic::Frame;
@@ -34,10 +40,24 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let rt = &names.rt;
     let prepared_type = prepare::prepared_type(&context);
     let prepare = prepare::method(&context);
+    if spec.group.is_some() {
+        let lattice = two_polar::lattice_of_circle(&context);
+        return quote! {
+            #item
+            #prepared_type
+            const _: () = {
+                use #runtime::__private as #rt;
+                #prepare
+                #lattice
+            };
+        };
+    }
     let constants = reduction::constants_type(&context);
     let implementation = model_impl(&context);
     let points = points::inherent(&context);
+    let two_polar = two_polar::implementations(&context);
     let (bases, _) = metrics::bases(&context);
+    let splitting = splitting::splitting_impl(&context);
     let taylor = taylor::taylor_impl(&context);
     let lanes = reduction::lanes::implementation(&context);
     quote! {
@@ -50,6 +70,8 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #constants
             #implementation
             #points
+            #splitting
+            #two_polar
             #taylor
             #lanes
         };
@@ -124,7 +146,7 @@ impl Context<'_> {
 
     /// Generics of the type that implements the model.
     fn generics(&self) -> (TokenStream, TokenStream, TokenStream) {
-        if self.has_fields {
+        if self.has_fields && self.spec.customs.is_empty() {
             return (TokenStream::new(), TokenStream::new(), TokenStream::new());
         }
         let (implementation, ty, clause) = self.spec.item.generics.split_for_impl();
@@ -153,7 +175,16 @@ impl Context<'_> {
             let value = number.of_double(quote!(self.coefficients[#index]));
             Some(quote!(let #name = #value;))
         });
-        Body { lets: coefficients.chain([lets]).collect(), results }
+        let fields = self.spec.customs.iter().enumerate().filter_map(|(k, custom)| {
+            program
+                .calls
+                .iter()
+                .find(|call| matches!(call.callee, Callee::Custom(place, _) if place == k + 1))?;
+            let name = format_ident!("custom_{}", k + 1);
+            let field = if self.has_fields { &name } else { &custom.field };
+            Some(quote!(let #name = &self.#field;))
+        });
+        Body { lets: coefficients.chain(fields).chain([lets]).collect(), results }
     }
 }
 
@@ -199,7 +230,9 @@ fn model_impl(context: &Context) -> TokenStream {
     let reduction = reduction::methods(context);
     let geodesic = closed_form::geodesic(context);
     let (_, bases) = metrics::bases(context);
+    let splitting = splitting::capability(context);
     let taylor = taylor::capability(context);
+    let power = forces::power(context);
     quote! {
         #(#[doc = #docs])*
         impl #generics #rt::Model<#n> for #prepared #types #clause {
@@ -212,7 +245,9 @@ fn model_impl(context: &Context) -> TokenStream {
             #dynamics
             #reduction
             #geodesic
+            #splitting
             #taylor
+            #power
         }
     }
 }

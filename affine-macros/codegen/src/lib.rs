@@ -42,9 +42,9 @@ pub fn expand(args: TokenStream, item: TokenStream) -> TokenStream {
 fn model(args: TokenStream, item: TokenStream) -> Result<TokenStream, Rejected> {
     let spec = gate(|found| spec::parse(args, item, found))?;
     gate(|found| check::as_written(&spec, found))?;
-    let form = gate(|found| check::form(&spec, found))?;
+    let energy = gate(|found| check::energy(&spec, found))?;
     // Past the second gate nothing can fail: a form that passed has an invertible Legendre transformation.
     let positive = spec.require.iter().any(|r| r.value == spec::Requirement::PositiveDefinite);
-    let tokens = derive::derive(form, positive).map(|model| emit::emit(&spec, &model.with(&spec.emit)));
+    let tokens = derive::derive(energy, positive).map(|model| emit::emit(&spec, &model.with(&spec.emit)));
     Ok(tokens.unwrap_or(spec.item.tokens))
 }

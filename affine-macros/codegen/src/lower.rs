@@ -7,7 +7,10 @@ mod potential;
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 use crate::check::constant;
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::kinetic::{Coefficient, Term, TermKind};
+use crate::mechanics::custom::{Class, Custom, On, Role};
+use crate::mechanics::dissipation::Dissipation;
+use crate::mechanics::forces::Forces;
+use crate::mechanics::kinetic::{Coefficient, Frame, Term, TermKind};
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 
 pub use metrics::metrics;
@@ -18,10 +21,9 @@ pub(crate) use potential::{difference_of, energy};
 /// Stem of the symbols of fields: kept apart from the names that the derivation makes.
 pub const FIELD: &str = "self.";
 
-/// The terms of the kinetic energy that are not exactly zero, each with its place in `spec.kinetic`.
-pub fn terms(arena: &mut Arena, spec: &Spec) -> Vec<(usize, Term)> {
-    let n = spec.dim.value;
-    spec.kinetic
+/// The terms of a quadratic form in dimension `n` that are not exactly zero, each with its place in `written`.
+pub fn terms(arena: &mut Arena, n: usize, written: &[spec::Term]) -> Vec<(usize, Term)> {
+    written
         .iter()
         .enumerate()
         .filter(|(_, term)| {
@@ -44,7 +46,33 @@ pub fn constraint(constraint: spec::Constraint) -> Constraint {
     }
 }
 
-fn kind(kind: spec::TermKind) -> TermKind {
+/// The forces besides those of the potential, for a kinetic energy that is constant in the frame `own`.
+pub fn forces(arena: &mut Arena, spec: &Spec, own: Frame) -> Forces {
+    let n = spec.dim.value;
+    let damping: Vec<Term> = terms(arena, n, &spec.dissipation).into_iter().map(|(_, term)| term).collect();
+    let dissipation = (!damping.is_empty()).then(|| Dissipation::new(arena, n, own, &damping));
+    let customs = spec.customs.iter().enumerate().map(|(k, custom)| custom_field(k + 1, custom)).collect();
+    Forces { dissipation, customs }
+}
+
+fn custom_field(place: usize, written: &spec::Custom) -> Custom {
+    let force = |on: On| Role::Force { on, gyroscopic: written.marked };
+    let potential = |class: Class| Role::Potential { class, moves: written.marked };
+    let role = match written.role.value {
+        spec::Role::Spatial => force(On::Space),
+        spec::Role::Comoving => force(On::Body),
+        spec::Role::Translation => force(On::Centre),
+        spec::Role::Isotropic => potential(Class::Isotropic),
+        spec::Role::Green => potential(Class::Green),
+        spec::Role::Finger => potential(Class::Finger),
+        spec::Role::General => potential(Class::General),
+    };
+    Custom { place, name: written.field.to_string(), role }
+}
+
+/// The term's form in the derivation.
+#[must_use]
+pub fn kind(kind: spec::TermKind) -> TermKind {
     match kind {
         spec::TermKind::Casimir2 => TermKind::Casimir2,
         spec::TermKind::Casimir1Squared => TermKind::Casimir1Squared,

@@ -19,6 +19,27 @@ pub struct Batch {
     pub results: Vec<(String, Polynomial)>,
 }
 
+impl Batch {
+    /// Without the shared quantities that no result needs.
+    #[must_use]
+    pub fn pruned(self, arena: &Arena) -> Self {
+        let Self { shared, results, kernels } = self;
+        let mut needed: HashSet<Expr> = HashSet::new();
+        let mut open: Vec<&Polynomial> = results.iter().map(|(_, p)| p).collect();
+        open.extend(kernels.iter().flat_map(Kernel::inputs));
+        while let Some(polynomial) = open.pop() {
+            polynomial.any_symbol(arena, &mut |symbol| {
+                if needed.insert(symbol) {
+                    open.extend(shared.iter().filter(|(s, _)| *s == symbol).map(|(_, p)| p));
+                }
+                false
+            });
+        }
+        let kept = shared.iter().filter(|(symbol, _)| needed.contains(symbol)).cloned().collect();
+        Self { shared: kept, results, kernels }
+    }
+}
+
 /// A program for the batch: slow coefficients become `constants`, the rest is factored.
 pub fn straight_line(
     arena: &mut Arena,

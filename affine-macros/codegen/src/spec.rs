@@ -1,5 +1,6 @@
 //! What the user wrote, as plain data with its places in the source; nothing is judged here but the notation.
 
+mod custom;
 mod entries;
 mod expression;
 mod expression_parser;
@@ -16,11 +17,12 @@ use proc_macro2::TokenStream;
 use crate::diagnostics::{Diagnostics, Region, Reported};
 use expression_parser::Language;
 
+pub use custom::{Custom, Role};
 pub use expression::{Expression, ExpressionKind, MatrixName, Operator};
 pub use item::{Field, Item};
 pub use momentum_side::MomentumKind;
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
-pub use names::{Capability, Claim, Constraint, Named, Requirement, TermKind, nearest};
+pub use names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
 pub(crate) use symbol::numbered;
 pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
 
@@ -53,6 +55,12 @@ pub struct Spec {
     pub constraint: Option<Spanned<Constraint>>,
     /// `potential = ...`.
     pub potential: Option<Potential>,
+    /// The summands `custom(...)` of `potential` and `forces`, in the user's order.
+    pub customs: Vec<Custom>,
+    /// The terms of `dissipation(...)`, in the user's order, each kind at most once.
+    pub dissipation: Vec<Term>,
+    /// `group = ...`; GL(n, R) without it.
+    pub group: Option<Spanned<PlacementGroup>>,
     /// `require(...)`.
     pub require: Vec<Spanned<Requirement>>,
     /// `emit(...)`.
@@ -70,7 +78,7 @@ pub struct Symmetry {
     pub body: Spanned<Claim>,
 }
 
-/// One summand of the kinetic energy, or of the Hamiltonian.
+/// One summand of the kinetic energy, of the Hamiltonian or of the dissipation.
 #[derive(Clone, Debug)]
 pub struct Term<K = TermKind> {
     /// Its kind, at its name.
@@ -135,6 +143,11 @@ impl Value {
 }
 
 impl Spec {
+    /// The terms of all quadratic forms: the kinetic energy, then the dissipation.
+    pub fn forms(&self) -> impl Iterator<Item = &Term> {
+        self.kinetic.iter().chain(&self.dissipation)
+    }
+
     /// The term of a kind.
     #[must_use]
     pub fn term(&self, kind: TermKind) -> Option<&Term> {
@@ -147,11 +160,11 @@ impl Spec {
         self.metrics.iter().any(Option::is_some)
     }
 
-    /// Every coefficient of the kinetic energy or of the Hamiltonian, and every entry of the metrics.
+    /// Every coefficient of the kinetic energy, of the Hamiltonian and of the dissipation, and every entry of the metrics.
     pub fn coefficients(&self) -> impl Iterator<Item = &Expression> {
         let stated = self.hamiltonian.iter().flatten().flat_map(|term| term.value.expressions());
         let metrics = self.metrics.iter().flatten().flat_map(|metric| metric.value.expressions());
-        self.kinetic.iter().flat_map(|term| term.value.expressions()).chain(stated).chain(metrics)
+        self.forms().flat_map(|term| term.value.expressions()).chain(stated).chain(metrics)
     }
 
     /// The name and the place of the first translation term, on either side.

@@ -9,7 +9,7 @@ use crate::spec::{self, Field, Item, Spec};
 use crate::{check, derive, emit};
 
 /// The user's item with the reasons for its refusal. Where the item can be read, it gets the methods of a
-/// well-posed model of the same dimension, with translation, potential, Taylor coefficients and fields as written, so that its uses
+/// well-posed model of the same dimension, with translation, potential, capabilities and fields as written, so that its uses
 /// raise no errors of their own.
 #[must_use]
 pub fn stub(args: TokenStream, item: &TokenStream, rejected: &Rejected) -> TokenStream {
@@ -90,9 +90,14 @@ impl Outline {
         let translation = moving.then(|| quote!(, body_translation = 1));
         let potential = self.potential.then(|| quote!(, potential = q^2));
         let runtime = self.runtime.as_ref().map(|path| quote!(, crate = #path));
-        let taylor = self.names.iter().any(|name| name == "taylor").then(|| quote!(, emit(taylor)));
+        let capabilities = ["splitting", "taylor"]
+            .map(|key| self.names.iter().find(|name| *name == key))
+            .into_iter()
+            .flatten();
+        let capabilities: Vec<&Ident> = capabilities.collect();
+        let emit = (!capabilities.is_empty()).then(|| quote!(, emit(#(#capabilities),*)));
         let args =
-            quote!(dim = #dim, kinetic(casimir2 = #coefficient #translation) #potential #taylor #runtime);
+            quote!(dim = #dim, kinetic(casimir2 = #coefficient #translation) #potential #emit #runtime);
         gate(|found| {
             spec::parse(
                 args,

@@ -35,7 +35,7 @@ fn refusal(args: &str, item: &str) -> Rejected {
     gate(|found| spec::parse(tokens(args), tokens(item), found))
         .and_then(|spec| {
             gate(|found| check::as_written(&spec, found))?;
-            gate(|found| check::form(&spec, found))
+            gate(|found| check::energy(&spec, found))
         })
         .err()
         .unwrap_or_else(|| panic!("accepted: {args}"))

@@ -161,7 +161,7 @@ fn refusal(args: TokenStream, item: TokenStream) -> Option<Rejected> {
         Err(rejected) => return Some(rejected),
     };
     gate(|found| check::as_written(&spec, found))
-        .and_then(|()| gate(|found| check::form(&spec, found)).map(|_| ()))
+        .and_then(|()| gate(|found| check::energy(&spec, found)).map(|_| ()))
         .err()
 }
 

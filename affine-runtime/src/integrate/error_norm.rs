@@ -8,7 +8,7 @@ pub(crate) use in_lanes::{NormInLanes, norm as norm_in_lanes, sum_of_squares as 
 
 use core::ops::Range;
 
-use crate::model::{Group, StateVector};
+use crate::model::{Group, StateVector, WORK};
 use crate::scalar::Scalar;
 
 /// A state vector has at most so many groups with a floor of their own.
@@ -30,10 +30,12 @@ const PART_OF_DISPLACEMENT: f64 = 0.1;
 ///   that, a body that vibrates by `1e-9` would need its momentum to digits that the forces do not have, and one
 ///   at rest would take ever shorter steps.
 ///
+/// `work`, which nothing depends on, is not measured: it is an integral over the rest, and as good as that.
+///
 /// The inertia `mu_g` is found at the start from the equations themselves, as the least `|dg| |phi|/|d phi'|`
 /// over single components of `g` (with `x` in place of `phi` for the groups `p` and `p_hat`).
 ///
-/// Sums of squares are formed without scaling: groups between about 1e-150 and 1e150 in norm.
+/// Groups between about 1e-150 and 1e150 in norm: sums of squares of errors are formed without scaling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorNorm {
     groups: &'static [Group],
@@ -84,6 +86,7 @@ impl ErrorNorm {
 
     /// `max_g value(range of g) / s_g` for a step of length `h`; zero where `value` is, and NaN where a scale is
     /// not finite.
+    #[inline(always)]
     pub(crate) fn largest(
         &self,
         h: f64,
@@ -96,6 +99,9 @@ impl ErrorNorm {
         for (k, group) in self.groups.iter().enumerate() {
             let range = start..start + group.len;
             start = range.end;
+            if group.name == WORK {
+                continue;
+            }
             let floor = self.inertia.get(k).map_or(0.0, |inertia| PART_OF_DISPLACEMENT * inertia / h);
             let scale = self.scale(group.name, range.clone(), before, after);
             let value = value(range);
@@ -112,6 +118,7 @@ impl ErrorNorm {
         largest
     }
 
+    #[inline(always)]
     fn scale(&self, name: &str, range: Range<usize>, before: &[f64], after: &[f64]) -> f64 {
         if name == "q" {
             return 1.0;
@@ -125,6 +132,7 @@ impl ErrorNorm {
     }
 
     /// Size of the placement, and of the position with it where that is asked for.
+    #[inline(always)]
     fn extent(&self, configuration: Range<usize>, y: &[f64]) -> f64 {
         let own = norm(&y[configuration.clone()]);
         match self.phi {
@@ -136,7 +144,7 @@ impl ErrorNorm {
     /// Components of the configuration that a momentum moves; `None` for what is no momentum.
     fn moved_by(&self, group: &Group) -> Option<Range<usize>> {
         match group.name {
-            "x" | "q" | "1/D" => None,
+            "x" | "q" | "1/D" | WORK => None,
             _ if group.is_placement() => None,
             "p" | "p_hat" => self.range_of("x"),
             _ => self.placement(),
@@ -157,16 +165,35 @@ impl ErrorNorm {
     }
 }
 
+/// Sums of squares within these bounds have neither overflowed nor lost digits to underflow.
+const IN_RANGE: core::ops::RangeInclusive<f64> = 1e-280..=1e300;
+
 /// Euclidean norm.
+#[inline(always)]
 pub(crate) fn norm(components: &[f64]) -> f64 {
-    Scalar::sqrt(sum_of_squares(components))
+    let sum = sum_of_squares(components);
+    if IN_RANGE.contains(&sum) { Scalar::sqrt(sum) } else { scaled_norm(components) }
+}
+
+/// The same of numbers whose squares leave the range; NaN where one is.
+#[cold]
+fn scaled_norm(components: &[f64]) -> f64 {
+    let largest =
+        components.iter().fold(0.0_f64, |largest, v| if v.abs() <= largest { largest } else { v.abs() });
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    let scaled = components.iter().map(|v| square(v / largest)).sum::<f64>();
+    largest * Scalar::sqrt(scaled)
 }
 
 /// Sum of squares.
+#[inline(always)]
 pub(crate) fn sum_of_squares(components: &[f64]) -> f64 {
     components.iter().map(|v| square(*v)).sum()
 }
 
+#[inline(always)]
 fn square(value: f64) -> f64 {
     value * value
 }
@@ -201,6 +228,16 @@ mod tests {
         }
         assert_eq!(error([1.0; 5], [1.0; 5], [f64::INFINITY, 0.0, 0.0, 0.0, 0.0]), f64::INFINITY);
         assert!(error([1.0; 5], [1.0; 5], [f64::NAN, 0.0, 0.0, 0.0, 1.0]).is_nan(), "NaN is not dropped");
+    }
+
+    #[test]
+    fn norms_of_any_size() {
+        for unit in [1.0, 1e200, 1e-200] {
+            assert!((norm(&[3.0 * unit, 0.0, -4.0 * unit]) / unit - 5.0).abs() < 1e-14);
+        }
+        assert_eq!(norm(&[0.0, 0.0]), 0.0);
+        assert_eq!(norm(&[f64::NEG_INFINITY, 0.0]), f64::INFINITY);
+        assert!(norm(&[f64::NAN, 1.0]).is_nan() && norm(&[1e300, f64::NAN]).is_nan());
     }
 
     #[test]

@@ -9,6 +9,7 @@ pub use coefficients::Tableau;
 use core::fmt;
 
 use super::lie::{Coordinates, Flat, Sum};
+#[cfg(feature = "std")]
 use super::tape::Tape;
 use super::{Failure, Statistics};
 use crate::model::StateVector;
@@ -177,6 +178,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
 
     /// Everything that the next steps depend on, as long as these do not take Newton's iteration, which keeps a
     /// Jacobian with its factors.
+    #[cfg(feature = "std")]
     pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
         tape.bits(&mut self.taken);
         tape.sum(&mut self.end);

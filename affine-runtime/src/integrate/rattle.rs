@@ -12,6 +12,7 @@ use core::fmt;
 
 use super::gauss::step_count;
 use super::lie::{Sum, adjugate};
+#[cfg(feature = "std")]
 use super::tape::Tape;
 use super::{Failure, Statistics};
 use crate::frames::Matrix;
@@ -162,6 +163,7 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
     }
 
     /// Everything that the next steps depend on.
+    #[cfg(feature = "std")]
     pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
         tape.bits(&mut self.taken);
         tape.sum(&mut self.end.state);

@@ -12,7 +12,10 @@ use core::fmt;
 use super::error_norm::{ErrorNorm, sum_of_squares};
 use super::lie::{Coordinates, Flat, Sum};
 use super::step_size::{Controller, first_step};
+#[cfg(feature = "std")]
 use super::tape::Tape;
+use super::taylor::Vectors;
+use super::widest::{Work, widest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
 use crate::scalar::Scalar;
@@ -126,14 +129,11 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
         self.begin_next();
         loop {
             let end = self.next_time();
-            let (f, coordinates, begin) = (&self.f, self.coordinates, self.begin);
-            self.step.attempt(&in_coordinates(f, coordinates, begin), end);
             self.statistics.evaluations += 11;
-            let reached = coordinates.state(&begin, self.step.trial_end());
-            let mut error = self.error(&reached.value);
+            let (reached, mut error) = widest(Trial { integration: self, end });
             if error <= 1.0 {
-                self.rate = f(end, &reached.value);
-                let slope = coordinates.velocity(&reached.value, self.step.trial_end(), &self.rate);
+                self.rate = (self.f)(end, &reached.value);
+                let slope = self.coordinates.velocity(&reached.value, self.step.trial_end(), &self.rate);
                 self.step.accept_with(slope);
                 self.statistics.evaluations += 1;
                 if is_finite(&slope) {
@@ -158,11 +158,12 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
     /// Dense output over the last accepted step: three evaluations.
     pub fn dense(&mut self) -> Dense<S, C> {
         self.statistics.evaluations += 3;
-        let dense = self.step.dense(&in_coordinates(&self.f, self.coordinates, self.begin));
+        let dense = self.step.dense(&in_coordinates(&self.f, self.coordinates, &self.begin));
         dense.around(self.coordinates, self.begin, self.end.value)
     }
 
     /// Everything that the next steps depend on, of an integration between two steps.
+    #[cfg(feature = "std")]
     pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
         let mut t = self.t();
         tape.number(&mut t);
@@ -200,6 +201,15 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
         self.statistics
     }
 
+    /// Computes a step to the time `end`: the state there, and its error.
+    #[inline(always)]
+    fn attempt(&mut self, end: f64) -> (Sum<S>, f64) {
+        self.step.attempt(&in_coordinates(&self.f, self.coordinates, &self.begin), end);
+        let reached = self.coordinates.state(&self.begin, self.step.trial_end());
+        let error = self.error(&reached.value);
+        (reached, error)
+    }
+
     /// Turns to the next step, in coordinates around the state reached.
     fn begin_next(&mut self) {
         let origin = self.coordinates.origin(&self.end).value;
@@ -230,6 +240,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
     }
 
     /// Estimated error of the attempted step relative to the tolerance; NaN where something is not finite.
+    #[inline(always)]
     fn error(&self, reached: &S) -> f64 {
         let (fifth, third) = self.step.error_slopes();
         let fifth = self.coordinates.change(&self.begin, &fifth);
@@ -257,15 +268,29 @@ impl<S: StateVector<f64>, F, C> fmt::Debug for RungeKutta8<S, F, C> {
     }
 }
 
+/// A step of an integration to the time `end`.
+struct Trial<'a, S, F, C> {
+    integration: &'a mut RungeKutta8<S, F, C>,
+    end: f64,
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Work for Trial<'_, S, F, C> {
+    type Output = (Sum<S>, f64);
+    #[inline(always)]
+    fn run(self, _vectors: impl Vectors) -> (Sum<S>, f64) {
+        self.integration.attempt(self.end)
+    }
+}
+
 /// `z'` as a function of `t` and of the coordinates `z` around `base`.
 #[inline(always)]
 fn in_coordinates<S: StateVector<f64>, C: Coordinates<S>>(
     f: &impl Fn(f64, &S) -> S,
     coordinates: C,
-    base: Sum<S>,
+    base: &Sum<S>,
 ) -> impl Fn(f64, &S) -> S {
     move |t, z| {
-        let state = coordinates.state(&base, z).value;
+        let state = coordinates.state(base, z).value;
         coordinates.velocity(&state, z, &f(t, &state))
     }
 }

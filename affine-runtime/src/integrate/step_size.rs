@@ -1,6 +1,7 @@
 //! Step sizes: the first one, and how they follow the error.
 
 use super::error_norm::{ErrorNorm, norm};
+#[cfg(feature = "std")]
 use super::tape::Tape;
 use crate::model::StateVector;
 use crate::scalar::Scalar;
@@ -38,6 +39,7 @@ impl Controller {
     }
 
     /// What the next step sizes depend on.
+    #[cfg(feature = "std")]
     pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
         tape.number(&mut self.previous);
         tape.flag(&mut self.rejected);

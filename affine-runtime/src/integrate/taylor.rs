@@ -2,12 +2,14 @@
 
 mod lanes;
 
-pub use lanes::{add_multiple, add_products, lanes, subtract_multiple, subtract_products};
+pub use lanes::{Portable, Vectors, add_multiple, add_products, lanes, subtract_multiple, subtract_products};
 
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, norm};
+#[cfg(feature = "std")]
 use super::tape::Tape;
+use super::widest::{Work, widest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
 
@@ -24,13 +26,28 @@ pub trait Series<S, C> {
     /// Fills in all coefficients after the first, which is the state at time `t`; as many rows as coefficients, less
     /// one.
     fn coefficients(&self, t: f64, constants: &C, coefficients: &mut [S], rows: &mut [Self::Row]);
+
+    /// The same coefficients, on the vectors of a processor where that is worth the while.
+    #[inline(always)]
+    fn coefficients_on(
+        &self,
+        _vectors: impl Vectors,
+        t: f64,
+        constants: &C,
+        coefficients: &mut [S],
+        rows: &mut [Self::Row],
+    ) {
+        self.coefficients(t, constants, coefficients, rows);
+    }
 }
 
 /// Adaptive integration from `t0` to `t_end`, in either direction of time, by Taylor polynomials.
 ///
-/// After Jorba and Zou, Experimental Mathematics 14 (2005) 99-117, sections 3.2 and 3.3: the order for a tolerance is
-/// `p = ceil(1 - ln(tolerance)/2)`, with which a step of the radius of convergence over `e^2` just meets it; the step
-/// is the longest for which the last two terms do, `|y_j| h^j <= tolerance` in the [`ErrorNorm`] for `j = p - 1` and
+/// After Jorba and Zou, Experimental Mathematics 14 (2005) 99-117, sections 3.2 and 3.3: with the order
+/// `p = ceil(1 - ln(tolerance)/2)` a step of the radius of convergence over `e^2` just meets the tolerance, which is the
+/// least work where a set of coefficients costs `p^2`. Here it costs about `p`, since vectors make the convolutions
+/// cheap beside the rest, and [`order_for`] takes six orders more: on the benchmark problems a quarter to a half less
+/// run time, the same within a few percent from four to ten more. The step is the longest for which the last two terms do, `|y_j| h^j <= tolerance` in the [`ErrorNorm`] for `j = p - 1` and
 /// `p`, times `exp(-0.7/(p - 1))`. No step is rejected. Two terms, since every other one vanishes for an even or odd
 /// solution.
 ///
@@ -58,10 +75,13 @@ pub struct Taylor<S, C, R: Series<S, C>> {
     statistics: Statistics,
 }
 
-/// `ceil(1 - ln(tolerance)/2)`, within what there is.
+/// Orders beyond those of Jorba and Zou, for the cost of coefficients that is linear in the order.
+const MORE_ORDERS: f64 = 6.0;
+
+/// `ceil(7 - ln(tolerance)/2)`, within what there is.
 #[must_use]
 pub fn order_for(tolerance: f64) -> usize {
-    let order = libm::ceil(1.0 - 0.5 * libm::log(tolerance));
+    let order = libm::ceil(1.0 - 0.5 * libm::log(tolerance)) + MORE_ORDERS;
     (order as usize).clamp(LOWEST_ORDER, HIGHEST_ORDER)
 }
 
@@ -123,13 +143,15 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         if self.is_finished() {
             return Ok(());
         }
-        self.step().inspect_err(|failure| self.failure = Some(*failure))
+        widest(Advance(self)).inspect_err(|failure| self.failure = Some(*failure))
     }
 
-    fn step(&mut self) -> Result<(), Failure> {
+    #[inline(always)]
+    fn step(&mut self, vectors: impl Vectors) -> Result<(), Failure> {
         self.coefficients[0] = self.y;
         let coefficients = &mut self.coefficients[..=self.order];
-        self.series.coefficients(self.t, &self.constants, coefficients, &mut self.rows[..self.order]);
+        let rows = &mut self.rows[..self.order];
+        self.series.coefficients_on(vectors, self.t, &self.constants, coefficients, rows);
         self.statistics.evaluations += 1;
         let length = self.longest();
         if length.is_nan() {
@@ -158,12 +180,13 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     }
 
     /// The longest step that the last two coefficients allow.
+    #[inline(always)]
     fn longest(&self) -> f64 {
         let within = |h: f64| {
             // The logarithm of `(tolerance/|y_j|)^(1/j)`; no error is no bound, and NaN stays.
             let logarithm = |j: usize| {
                 let (y, term) = (self.coefficients[0].as_ref(), self.coefficients[j].as_ref());
-                let error = self.error_norm.largest(h, y, y, |r| norm(&term[r]));
+                let error = self.error_norm.largest(h, y, y, |r| size(&term[r]));
                 libm::log(self.tolerance / error) / j as f64
             };
             let (last, before) = (logarithm(self.order), logarithm(self.order - 1));
@@ -176,6 +199,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     }
 
     /// `sum_(k > 0) y_k h^k`.
+    #[inline(always)]
     fn rise(&self, h: f64) -> S {
         let mut rise = self.coefficients[self.order];
         for coefficient in self.coefficients[1..self.order].iter().rev() {
@@ -201,6 +225,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     }
 
     /// Everything that the next steps depend on.
+    #[cfg(feature = "std")]
     pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
         tape.number(&mut self.t);
         tape.state(&mut self.y);
@@ -247,6 +272,17 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     }
 }
 
+/// A step of an integration.
+struct Advance<'a, S, C, R: Series<S, C>>(&'a mut Taylor<S, C, R>);
+
+impl<S: StateVector<f64>, C, R: Series<S, C>> Work for Advance<'_, S, C, R> {
+    type Output = Result<(), Failure>;
+    #[inline(always)]
+    fn run(self, vectors: impl Vectors) -> Result<(), Failure> {
+        self.0.step(vectors)
+    }
+}
+
 impl<S: StateVector<f64>, C, R: Series<S, C>> fmt::Debug for Taylor<S, C, R> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Taylor")
@@ -258,6 +294,24 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> fmt::Debug for Taylor<S, C, R> {
             .field("statistics", &self.statistics)
             .finish_non_exhaustive()
     }
+}
+
+/// The Euclidean norm, also where squares leave the range of numbers: a coefficient of order 30 may be large.
+#[inline(always)]
+fn size(components: &[f64]) -> f64 {
+    let plain = norm(components);
+    if plain > 0.0 && plain < f64::INFINITY { plain } else { scaled_norm(components) }
+}
+
+fn scaled_norm(components: &[f64]) -> f64 {
+    // A NaN is kept.
+    let largest =
+        components.iter().fold(0.0, |largest: f64, v| if v.abs() <= largest { largest } else { v.abs() });
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    let squares: f64 = components.iter().map(|v| v / largest * (v / largest)).sum();
+    largest * crate::scalar::Scalar::sqrt(squares)
 }
 
 fn is_finite<S: StateVector<f64>>(y: &S) -> bool {

@@ -53,7 +53,8 @@ pub struct WorkPrecision<'a, const N: usize, M: Model<N>> {
 
 impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     /// A comparison on the motion of `model` from the phase point `start` at time 0 to `t_end`, of
-    /// [`Method::RungeKutta8`] at [`DEFAULT_TOLERANCES`] and, where there is one, the closed form.
+    /// [`Method::RungeKutta8`] at [`DEFAULT_TOLERANCES`], of [`Method::Taylor`] where it was emitted and, where there is
+    /// one, of the closed form.
     #[must_use]
     pub fn new(model: &'a M, start: M::Point<f64>, t_end: f64) -> Self {
         Self {
@@ -75,8 +76,8 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
         Self { t0, ..self }
     }
 
-    /// The methods, in this order. A closed form has no tolerance and gives one row, and so does Gauss collocation,
-    /// whose accuracy is its step: list it once for each step.
+    /// The methods, in this order. A closed form has no tolerance and gives one row, and so does a method whose
+    /// accuracy is its step: list it once for each step.
     #[must_use]
     pub fn methods(self, methods: impl IntoIterator<Item = Method>) -> Self {
         Self { methods: methods.into_iter().collect(), ..self }
@@ -131,6 +132,7 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
         let mut methods = self.methods.clone();
         if methods.is_empty() {
             methods.push(Method::RungeKutta8);
+            methods.extend(self.model.taylor().map(|_| Method::Taylor { order: None }));
             methods.extend(geodesic.map(|_| Method::ClosedForm));
         }
         let mut rows = Vec::new();
@@ -211,7 +213,7 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
 
 /// Accuracy is set by a tolerance: not by the step, and not exact.
 fn has_tolerance(method: Method) -> bool {
-    !matches!(method, Method::ClosedForm | Method::Gauss { .. } | Method::Rattle { .. })
+    !matches!(method, Method::ClosedForm) && method.step().is_none()
 }
 
 /// `|a - b|/|b|`, 0 where they agree even in a vanishing reference.

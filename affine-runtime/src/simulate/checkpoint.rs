@@ -26,6 +26,8 @@ pub(super) struct Place {
     pub(super) changed_by: Option<usize>,
     /// Bits of the cost before.
     pub(super) cost: [u64; 3],
+    /// Bits of the work before.
+    pub(super) work: u64,
     /// State of the integrator, or the time reached in closed form; empty where it has not begun.
     pub(super) integrator: Vec<u64>,
     /// Output times done.
@@ -41,11 +43,12 @@ impl Place {
     pub(super) fn starting<const N: usize, P: Phase<N>>(
         (t, point): (f64, &P),
         changed_by: Option<usize>,
-        cost: Statistics,
+        (cost, work): (Statistics, f64),
     ) -> Self {
         let mut from = vec![t.to_bits()];
         point.entries(&mut |entry| from.push(entry.to_bits()));
-        Self { from, changed_by, cost: [cost.steps, cost.rejected, cost.evaluations], ..Self::default() }
+        let cost = [cost.steps, cost.rejected, cost.evaluations];
+        Self { from, changed_by, cost, work: work.to_bits(), ..Self::default() }
     }
 
     /// Time and point from which the integration started; `like` is any point of the model.
@@ -58,6 +61,11 @@ impl Place {
     /// A step is done with.
     pub(super) fn passed(&mut self, integrator: Vec<u64>) {
         (self.integrator, self.met, self.recorded) = (integrator, 0, false);
+    }
+
+    /// The work before.
+    pub(super) fn work(&self) -> f64 {
+        f64::from_bits(self.work)
     }
 
     /// The cost before.

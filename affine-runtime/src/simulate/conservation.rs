@@ -2,16 +2,19 @@
 
 use core::fmt;
 
+use super::power_balance::PowerBalance;
 use super::trajectory::Trajectory;
 use crate::conserved::{Components, evaluate, scale};
 use crate::model::Conserved;
 use crate::state::Phase;
 
-/// Drifts of all conserved quantities over the outputs of a trajectory; displays as a table.
+/// Drifts of all conserved quantities over the outputs of a trajectory; displays as a table, with the balance of
+/// energy where forces change it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conservation {
     model: &'static str,
     drifts: Vec<Drift>,
+    balance: Option<PowerBalance>,
 }
 
 /// Drift of one quantity `Q`.
@@ -41,6 +44,12 @@ impl Conservation {
         &self.drifts
     }
 
+    /// The balance of energy and work, where there are forces that no potential has.
+    #[must_use]
+    pub fn balance(&self) -> Option<&PowerBalance> {
+        self.balance.as_ref()
+    }
+
     /// The row of a quantity, if this motion conserves it.
     #[must_use]
     pub fn of(&self, quantity: Conserved) -> Option<&Drift> {
@@ -64,7 +73,11 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
             self.description.conserved
         };
         let drift = |&quantity: &Conserved| self.drift(quantity);
-        Conservation { model: self.description.name, drifts: quantities.iter().map(drift).collect() }
+        Conservation {
+            model: self.description.name,
+            drifts: quantities.iter().map(drift).collect(),
+            balance: self.power_balance(),
+        }
     }
 
     /// The drift of one of the quantities of [`conservation`](Self::conservation) at each output,
@@ -127,6 +140,9 @@ impl fmt::Display for Conservation {
                 drift.absolute,
                 drift.scale
             )?;
+        }
+        if let Some(balance) = &self.balance {
+            writeln!(f, "{balance}")?;
         }
         Ok(())
     }

@@ -151,7 +151,9 @@ where
         if self.model.geodesic(self.t0, start).is_some() {
             return Some(Method::ClosedForm);
         }
-        let alone = M::DESCRIPTION.constraint.is_some() || t_end == self.t0 || check(self.t0, start).is_err();
+        // The signature of a mass matrix that depends on the placement is looked after step by step.
+        let is_special = M::DESCRIPTION.constraint.is_some() || self.model.regularity(start.phi()).is_some();
+        let alone = is_special || t_end == self.t0 || check(self.t0, start).is_err();
         alone.then_some(Method::RungeKutta8)
     }
 

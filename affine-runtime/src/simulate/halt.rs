@@ -40,9 +40,19 @@ pub enum Reason {
     NotFinite,
     /// The placement lost its orientation or degenerated.
     Placement {
-        /// `det phi` of the first bad phase point.
+        /// `det phi` of the first bad phase point met.
         determinant: f64,
-        /// Its time.
+        /// The time at which `det phi` fell to zero: the zero itself of the closed form, else, to the rounding of times,
+        /// that of the dense output of the step in which it lies; the time of a start that is bad.
+        t: f64,
+    },
+    /// The mass matrix, which depends on the placement, became degenerate or changed its signature: the momentum no
+    /// longer determines the velocity.
+    Degenerate {
+        /// The weakest pivot of its factorisation, relative to what it is a difference of, at the first bad placement,
+        /// or at the last good one where no step leads on from it; see [`Regularity`](crate::model::Regularity).
+        weakest: f64,
+        /// The time of that placement.
         t: f64,
     },
     /// The error stays above the tolerance however short the step.
@@ -105,7 +115,7 @@ pub enum Setting {
         /// The number of stages asked for.
         given: usize,
     },
-    /// RATTLE is available with the orders 2, 4, 6 and 8, Taylor polynomials with 2 to 32.
+    /// RATTLE and splitting are available with the orders 2, 4, 6 and 8, Taylor polynomials with 2 to 32.
     Order {
         /// The order asked for.
         given: usize,
@@ -206,7 +216,7 @@ impl fmt::Display for Setting {
             ),
             Setting::Order { given } => write!(
                 f,
-                "order {given}: RATTLE has the orders 2, 4, 6 and 8; Taylor series have {LOWEST_ORDER} to \
+                "order {given}: RATTLE and splitting have the orders 2, 4, 6 and 8; Taylor series have {LOWEST_ORDER} to \
                  {HIGHEST_ORDER}, or `None` for the one that suits the tolerance"
             ),
             Setting::NotIsochoric { model } => write!(
@@ -279,8 +289,15 @@ impl fmt::Display for Reason {
             ),
             Reason::Placement { determinant, t } => write!(
                 f,
-                "det phi = {determinant:e} at t = {t}: the body has collapsed or turned inside out, and leaves the \
-                 configuration space GL+(n); a potential that grows without bound as det phi -> 0 prevents it"
+                "det phi = {determinant:e}, and not positive from t = {t} on: the body has collapsed or turned inside out, \
+                 and leaves the configuration space GL+(n); a potential that grows without bound as det phi -> 0 \
+                 prevents it"
+            ),
+            Reason::Degenerate { weakest, t } => write!(
+                f,
+                "the mass matrix degenerates at t = {t}, its weakest pivot is {weakest:e} of what it is a difference of: \
+                 the momentum does not determine the velocity there; end the run before, start elsewhere, or choose \
+                 coefficients whose sum is definite at every placement"
             ),
             Reason::StepUnderflow { tolerance } => write!(
                 f,

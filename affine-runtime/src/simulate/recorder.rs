@@ -37,8 +37,11 @@ pub(super) enum Turn<P> {
     /// It ends.
     Stopped,
     /// It goes on from another point.
-    Changed { t: f64, point: P, event: usize },
+    Changed { t: f64, point: P, event: usize, work: f64 },
 }
+
+/// A phase point with the work done since the integration started.
+pub(super) type WithWork<P> = (P, f64);
 
 impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     /// Records the start of an integration where it is an output.
@@ -48,9 +51,9 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
             return Ok(());
         }
         if self.schedule == Schedule::Steps {
-            self.record_step(t0, start)?;
+            self.record_step(t0, (start, 0.0))?;
         } else if self.schedule.take_through(t0, false).is_some() {
-            self.record(t0, start)?;
+            self.record(t0, (start, 0.0))?;
         }
         Ok(())
     }
@@ -76,7 +79,7 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     pub(super) fn take_up<S: StateVector<f64>>(
         &mut self,
         integration: &mut impl Stepper<S>,
-        expand: impl Fn(f64, &S) -> M::Point<f64>,
+        expand: impl Fn(f64, &S) -> WithWork<M::Point<f64>>,
     ) {
         if self.place.integrator.is_empty() {
             if self.is_watched() {
@@ -86,13 +89,14 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
         }
         integration.exchange(&mut Reader(self.place.integrator.iter()));
         let t = integration.t();
-        let point = expand(t, integration.y());
+        let (point, work) = expand(t, integration.y());
         self.watcher.begin(
             t,
             &point,
             self.place.changed_by.filter(|_| self.place.from.first() == Some(&t.to_bits())),
         );
         self.trajectory.end = (t, point);
+        self.trajectory.energies.work_at_end = self.place.work() + work;
     }
 
     /// A step is done with.
@@ -108,7 +112,7 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
         &mut self,
         t: f64,
         parts: u32,
-        mut at: impl FnMut(f64) -> Result<M::Point<f64>, E>,
+        mut at: impl FnMut(f64) -> Result<WithWork<M::Point<f64>>, E>,
     ) -> Result<bool, Reason> {
         if self.watcher.is_idle() {
             return Ok(false);
@@ -126,7 +130,7 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
 
     /// An event that is the `count`th of its step happens. A change is not done with before the point is recorded.
     fn happen(&mut self, count: usize, met: Met<M::Point<f64>>) -> Result<(), Reason> {
-        let Met { t, point, rising, event: index } = met;
+        let Met { t, point, work, rising, event: index } = met;
         let event = &self.watcher.events[index];
         let name = event.name;
         if !point.is_finite() {
@@ -146,6 +150,7 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
                 self.trajectory.stopped_by = Some(name);
                 // A collapse is a placement without inverse, and may be the event.
                 self.trajectory.end = (t, point);
+                self.trajectory.energies.work_at_end = self.place.work() + work;
                 if self.schedule.ends_with_output() { self.push(t, point) } else { Ok(()) }
             }
             Action::Change(change) => {
@@ -155,10 +160,10 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
                     _ => Reason::Change { event: name },
                 })?;
                 if self.schedule == Schedule::Steps {
-                    self.record_step(t, point)?;
+                    self.record_step(t, (point, work))?;
                 }
                 self.trajectory.events.push(occurrence);
-                self.turn = Some(Turn::Changed { t, point: changed, event: index });
+                self.turn = Some(Turn::Changed { t, point: changed, event: index, work: self.place.work() + work });
                 Ok(())
             }
         }
@@ -168,7 +173,7 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     pub(super) fn record_through<E: Into<Reason>>(
         &mut self,
         t: f64,
-        mut at: impl FnMut(f64) -> Result<M::Point<f64>, E>,
+        mut at: impl FnMut(f64) -> Result<WithWork<M::Point<f64>>, E>,
     ) -> Result<(), Reason> {
         while let Some(due) = self.schedule.take_through(t, self.backward) {
             self.record(due, at(due).map_err(Into::into)?)?;
@@ -177,7 +182,7 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     }
 
     /// Records the end of a step, once.
-    pub(super) fn record_step(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
+    pub(super) fn record_step(&mut self, t: f64, point: WithWork<M::Point<f64>>) -> Result<(), Reason> {
         // Left set where the observer ends the run.
         if core::mem::replace(&mut self.place.recorded, true) {
             self.reach(t, point)?;
@@ -189,24 +194,27 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     }
 
     /// Checks a phase point, which becomes the last good one.
-    pub(super) fn reach(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
+    pub(super) fn reach(&mut self, t: f64, (point, work): WithWork<M::Point<f64>>) -> Result<(), Reason> {
         check(t, &point)?;
         self.trajectory.end = (t, point);
+        self.trajectory.energies.work_at_end = self.place.work() + work;
         Ok(())
     }
 
     /// Checks a phase point, records it as an output and shows it to the observer.
-    pub(super) fn record(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
+    pub(super) fn record(&mut self, t: f64, point: WithWork<M::Point<f64>>) -> Result<(), Reason> {
         self.reach(t, point)?;
-        self.push(t, point)
+        self.push(t, point.0)
     }
 
+    /// The point is the end so far, and the work that of the end.
     fn push(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
         self.trajectory.times.push(t);
         self.trajectory.points.push(point);
         let energy = self.model.hamiltonian(t, &point);
         let energies = &mut self.trajectory.energies;
         energies.outputs.push(energy);
+        energies.work.push(energies.work_at_end);
         energies.scale = larger(energies.scale, energy_scale(self.model, &point, energy));
         match &mut self.observe {
             Some(observe) => go_on(observe(t, &point), Callback::Observer),

@@ -3,10 +3,12 @@
 use core::ops::{ControlFlow, Range};
 
 use super::checkpoint::{Checkpoint, Place};
+use super::collapse::first_failure;
 use super::conservation::larger;
 use super::halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
 use super::output::Schedule;
-use super::recorder::{Recorder, Turn};
+use super::recorder::{Recorder, Turn, WithWork};
+use super::signature::Signature;
 use super::stepper::{Explicit, Stepper};
 use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;
@@ -16,24 +18,30 @@ use crate::geodesic::{Geodesic, Motion};
 use crate::integrate::gauss::{Tableau, step_count};
 use crate::integrate::lie::{Chart, Coordinates, Flat};
 use crate::integrate::rattle::{Composition, Reaction};
+use crate::integrate::splitting::{Splitting, Sweeps};
 use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER, Taylor};
-use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics, norm};
+use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics, norm, sum_of_squares};
 use crate::kinematics::LogDeterminant;
-use crate::model::{Constraint, Group, Model, StateVector};
+use crate::model::{Constraint, Group, Model, StateVector, WORK};
 use crate::state::Phase;
 
 /// The finest tolerance: about four roundings.
 const FINEST_TOLERANCE: f64 = 1e-15;
 /// Equal parts of a step at whose ends events are looked at.
 const WITHIN_A_STEP: u32 = 4;
+/// Part of the way to a collapse within which an event that follows belongs to it: times of a collapse and of the zero of
+/// an event have errors of their own.
+const PAST_A_COLLAPSE: f64 = 1e-8;
 /// Part of `|phi|^n` above which a determinant is positive whatever the rounding of a few products.
 const CLEARLY_POSITIVE: f64 = 1e-12;
 
 impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     /// Runs the simulation.
     ///
-    /// Every step and every output is checked: finite, and `det phi > 0`. What happens between two of them is not
-    /// seen: a body without a potential that prevents it may collapse and turn inside out twice in between.
+    /// Every step and every output is checked: finite, and `det phi > 0`; the time of a collapse is found within the step,
+    /// see [`Reason::Placement`]. What happens between two good steps is not seen: a body without a potential that
+    /// prevents it may collapse and turn inside out twice in between. On a straight line, the closed form of a free
+    /// body in a flat metric, every collapse is seen.
     ///
     /// # Errors
     /// [`Halt`] with the [`Reason`], the time, the step and the trajectory so far; the conversion to
@@ -48,7 +56,11 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let mut trajectory = self.empty_trajectory();
         let model = self.model;
         let outcome = self.drive(&mut trajectory);
-        trajectory.energies.end = model.hamiltonian(trajectory.end.0, &trajectory.end.1);
+        // The end is the last output, as a rule; an event may have changed it since.
+        trajectory.energies.end = match (trajectory.times.last(), trajectory.energies.outputs.last()) {
+            (Some(t), Some(energy)) if *t == trajectory.end.0 && trajectory.events.is_empty() => *energy,
+            _ => model.hamiltonian(trajectory.end.0, &trajectory.end.1),
+        };
         match outcome {
             Ok(()) => Ok(trajectory),
             Err(reason) => {
@@ -71,6 +83,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 start: energy,
                 end: energy,
                 outputs: Vec::new(),
+                work: Vec::new(),
+                work_at_end: 0.0,
                 scale: energy_scale(self.model, &self.start, energy),
             },
             statistics: Statistics::default(),
@@ -94,7 +108,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let (t_end, schedule) = self.checked_settings()?;
         check(self.t0, &self.start)?;
         let run = self.fingerprint(t_end);
-        let place = Place::starting((self.t0, &self.start), None, Statistics::default());
+        let place = Place::starting((self.t0, &self.start), None, (Statistics::default(), 0.0));
         let mut recorder = Recorder {
             model: self.model,
             trajectory,
@@ -139,6 +153,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         (self.t0, self.start) = checkpoint.place.origin(&self.start);
         recorder.place = checkpoint.place;
         recorder.trajectory.end = (self.t0, self.start);
+        recorder.trajectory.energies.work_at_end = recorder.place.work();
         recorder.schedule.resume(recorder.place.outputs);
         Ok(())
     }
@@ -148,7 +163,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let mut changes = 0;
         loop {
             self.leg(t_end, recorder)?;
-            let Some(Turn::Changed { t, point, event }) = recorder.turn.take() else { return Ok(()) };
+            let Some(Turn::Changed { t, point, event, work }) = recorder.turn.take() else { return Ok(()) };
             check(t, &point)?;
             changes += 1;
             if changes > self.max_steps {
@@ -156,9 +171,10 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             }
             (self.t0, self.start) = (t, point);
             recorder.trajectory.end = (t, point);
+            recorder.trajectory.energies.work_at_end = work;
             recorder.trajectory.computation.at_rest &= point.p().iter().all(|p| *p == 0.0);
             let cost = recorder.trajectory.statistics;
-            recorder.place = Place::starting((t, &point), Some(event), cost);
+            recorder.place = Place::starting((t, &point), Some(event), (cost, work));
         }
     }
 
@@ -172,6 +188,9 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 self.evaluate(&geodesic, t_end, recorder)
             }
             (Method::Rattle { order, step }, _) => self.integrate_by_rattle((order, step), t_end, recorder),
+            (Method::Splitting { order, step }, _) => {
+                self.integrate_by_splitting((order, step), t_end, recorder)
+            }
             _ => match (chart::<N, M>(), self.chosen(&mut recorder.trajectory.computation)) {
                 (_, Method::Taylor { order }) => self.integrate_by_series(order, t_end, recorder),
                 (Some(_), _) if is_canonical::<N, M>() => self.integrate_with_reaction(t_end, recorder),
@@ -212,6 +231,9 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                     return Err(Setting::NotIsochoric { model: M::DESCRIPTION.name });
                 }
             }
+            Method::Splitting { order, .. } if Sweeps::of_order(order, false).is_none() => {
+                return Err(Setting::Order { given: order });
+            }
             _ => {}
         }
         if let Some(step) = self.method.step()
@@ -234,22 +256,36 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         computation.no_whirl =
             matches!(geodesic.motion, Motion::Body { whirl: None, .. } | Motion::Space { whirl: None, .. });
         let at = |t| if t == self.t0 { self.start } else { self.model.on_geodesic(geodesic, t, &self.start) };
+        let collapse = geodesic.collapse(t_end, self.start.phi());
+        let is_behind = |t: f64, end: f64| (t - end) * (t_end - self.t0) >= 0.0;
+        let stands = |t: f64| match collapse {
+            Some(end) if is_behind(t, end) => {
+                Err(Reason::Placement { determinant: LogDeterminant::of(at(t).phi()).to_f64(), t: end })
+            }
+            _ => Ok(()),
+        };
+        // Events behind a collapse do not happen; the collapse may be one.
+        let last_event = collapse.map(|end| end + PAST_A_COLLAPSE * (end - self.t0));
         recorder.begin_closed_form(self.t0, t_end, at);
         recorder.trajectory.statistics = recorder.place.cost();
         let mut outputs = 0;
         loop {
             let due = recorder.schedule.peek();
-            if recorder.meet(due.unwrap_or(t_end), WITHIN_A_STEP, |t| Ok::<_, Reason>(at(t)))? {
+            let until = due.unwrap_or(t_end);
+            let until = last_event.filter(|last| is_behind(until, *last)).unwrap_or(until);
+            if recorder.meet(until, WITHIN_A_STEP, |t| Ok::<_, Reason>((at(t), 0.0)))? {
                 return Ok(());
             }
             let Some(t) = due else { break };
+            stands(t)?;
             recorder.schedule.take_through(t, recorder.backward);
-            recorder.record(t, at(t))?;
+            recorder.record(t, (at(t), 0.0))?;
             outputs += 1;
             recorder.place.passed(vec![t.to_bits()]);
             report(&mut self.progress, Progress { t0: recorder.origin, t, t_end, steps: outputs })?;
         }
-        recorder.reach(t_end, at(t_end))
+        stands(t_end)?;
+        recorder.reach(t_end, (at(t_end), 0.0))
     }
 
     /// The integrator to take, noted with what was missing for a better one.
@@ -385,6 +421,27 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         outcome
     }
 
+    /// The reduced state by the exact flows of pieces.
+    fn integrate_by_splitting(
+        &mut self,
+        (order, step): (usize, f64),
+        t_end: f64,
+        recorder: &mut Recorder<'_, '_, N, M>,
+    ) -> Result<(), Reason> {
+        let model = self.model;
+        recorder.begin(self.t0, self.start)?;
+        let (reduced, constants) = model.reduce(self.t0, &self.start);
+        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
+        let pieces = model.splitting();
+        let pieces = pieces.ok_or(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "splitting" })?;
+        let begin = (self.t0, reduced);
+        let integration = Splitting::new((pieces, constants), order, begin, t_end, step);
+        let integration = integration.ok_or(Setting::Order { given: order })?;
+        let mut integration = integration.map_err(|failure| self.reason(failure))?;
+        recorder.trajectory.computation.method = self.method;
+        self.step_through(&mut integration, expand, M::DESCRIPTION.reduced, t_end, recorder)
+    }
+
     /// Steps to the end with output on the way, and the expansion of the last good step.
     fn step_through<S: StateVector<f64>>(
         &mut self,
@@ -396,10 +453,19 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     ) -> Result<(), Reason> {
         let mut last = None;
         let outcome = self.follow(integration, (&expand, groups), t_end, recorder, &mut last);
+        let outcome = outcome.map_err(|reason| match reason {
+            Reason::Placement { determinant, t } => {
+                let good = last.as_ref().map_or(recorder.trajectory.end.0, |(t, _)| *t);
+                let stands = |t| integration.between(t).is_ok_and(|y| check(t, &expand(t, &y)).is_ok());
+                Reason::Placement { determinant, t: first_failure(good, t, stands) }
+            }
+            other => other,
+        });
         let trajectory = &mut *recorder.trajectory;
         trajectory.statistics = sum(recorder.place.cost(), integration.statistics());
         if let Some((t, reduced)) = last.filter(|(t, _)| (t - trajectory.end.0) * (t_end - self.t0) > 0.0) {
             trajectory.end = (t, expand(t, &reduced));
+            trajectory.energies.work_at_end = recorder.place.work() + work(groups, &reduced);
         }
         outcome
     }
@@ -415,8 +481,12 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         last: &mut Option<(f64, S)>,
     ) -> Result<(), Reason> {
         let placement = placement_in(groups, N);
+        let signature = Signature::of(self.model.regularity(self.start.phi()));
+        let regularity = |t: f64, reduced: &S| self.model.regularity(expand(t, reduced).phi());
+        let with_work =
+            |t: f64, reduced: &S| -> WithWork<M::Point<f64>> { (expand(t, reduced), work(groups, reduced)) };
         let cost = recorder.place.cost().steps;
-        recorder.take_up(integration, expand);
+        recorder.take_up(integration, with_work);
         let is_watched = self.progress.is_some() || recorder.is_watched();
         while !integration.is_finished() {
             let steps = cost + integration.statistics().steps;
@@ -424,13 +494,20 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 recorder.pass(integration);
                 return Err(Reason::StepLimit { limit: self.max_steps });
             }
-            integration.advance().map_err(|failure| self.reason(failure))?;
+            if let Err(failure) = integration.advance() {
+                let (t, last) = (integration.t(), integration.y());
+                let degenerate = signature.failing(regularity(t, last), t);
+                return Err(degenerate.unwrap_or_else(|| self.reason(failure)));
+            }
             let (t, reduced) = (integration.t(), *integration.y());
+            if signature.may_change() {
+                signature.kept(regularity(t, &reduced), t)?;
+            }
             let mut at = |due: f64| match due == t {
-                true => Ok(expand(t, &reduced)),
+                true => Ok(with_work(t, &reduced)),
                 false => integration
                     .between(due)
-                    .map(|between| expand(due, &between))
+                    .map(|between| with_work(due, &between))
                     .map_err(|failure| self.reason(failure)),
             };
             let parts = if self.method.step().is_some() { 1 } else { WITHIN_A_STEP };
@@ -439,12 +516,12 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             }
             recorder.record_through(t, &mut at)?;
             if recorder.schedule == Schedule::Steps {
-                recorder.record_step(t, expand(t, &reduced))?;
+                recorder.record_step(t, with_work(t, &reduced))?;
             } else if recorder.trajectory.end.0 != t {
                 let phi =
                     placement.clone().map(|range| Matrix::<N>::from_row_slice(&reduced.as_ref()[range]));
                 if integration.is_finished() || !phi.is_some_and(|phi| is_clearly_positive(&phi)) {
-                    recorder.reach(t, expand(t, &reduced))?;
+                    recorder.reach(t, with_work(t, &reduced))?;
                 }
             }
             *last = Some((t, reduced));
@@ -511,13 +588,17 @@ pub(super) fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<()
 /// is left to the careful way.
 pub(super) fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
     let minor = |a: usize, b: usize| phi[(1, a)] * phi[(2, b)] - phi[(1, b)] * phi[(2, a)];
-    let size = norm(phi.as_slice());
+    let scale = sum_of_squares(phi.as_slice());
+    // `det > c |phi|^n` without the root.
+    let exceeds = |determinant: f64, power: f64| {
+        determinant > 0.0 && determinant * determinant > CLEARLY_POSITIVE * CLEARLY_POSITIVE * power
+    };
     match N {
-        2 => phi[(0, 0)] * phi[(1, 1)] - phi[(0, 1)] * phi[(1, 0)] > CLEARLY_POSITIVE * size * size,
+        2 => exceeds(phi[(0, 0)] * phi[(1, 1)] - phi[(0, 1)] * phi[(1, 0)], scale * scale),
         3 => {
             let determinant =
                 phi[(0, 0)] * minor(1, 2) - phi[(0, 1)] * minor(0, 2) + phi[(0, 2)] * minor(0, 1);
-            determinant > CLEARLY_POSITIVE * size * size * size
+            exceeds(determinant, scale * scale * scale)
         }
         _ => false,
     }
@@ -552,6 +633,12 @@ pub(super) fn placement_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
     let k = groups.iter().position(|group| group.is_placement() && group.len == n * n)?;
     let start = total(&groups[..k]);
     Some(start..start + n * n)
+}
+
+/// The work of the forces that no potential has, where the state holds it.
+fn work<S: StateVector<f64>>(groups: &[Group], state: &S) -> f64 {
+    let place = groups.iter().position(|group| group.name == WORK).map(|k| total(&groups[..k]));
+    place.map_or(0.0, |place| state.as_ref()[place])
 }
 
 const fn total(groups: &[Group]) -> usize {

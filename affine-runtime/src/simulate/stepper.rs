@@ -2,6 +2,7 @@
 
 use crate::integrate::lie::Coordinates;
 use crate::integrate::runge_kutta::Dense;
+use crate::integrate::splitting::{Pieces, Splitting};
 use crate::integrate::tape::Tape;
 use crate::integrate::taylor::{Series, Taylor};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics};
@@ -139,5 +140,29 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Ra
     }
     fn exchange(&mut self, tape: &mut impl Tape) {
         Rattle::exchange(self, tape);
+    }
+}
+
+impl<S: StateVector<f64>, C, P: Pieces<S, C>> Stepper<S> for Splitting<S, C, P> {
+    fn advance(&mut self) -> Result<(), Failure> {
+        Splitting::advance(self)
+    }
+    fn between(&mut self, t: f64) -> Result<S, Failure> {
+        self.at(t)
+    }
+    fn t(&self) -> f64 {
+        Splitting::t(self)
+    }
+    fn y(&self) -> &S {
+        Splitting::y(self)
+    }
+    fn is_finished(&self) -> bool {
+        Splitting::is_finished(self)
+    }
+    fn statistics(&self) -> Statistics {
+        Splitting::statistics(self)
+    }
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        Splitting::exchange(self, tape);
     }
 }

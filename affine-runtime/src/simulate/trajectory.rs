@@ -53,6 +53,9 @@ pub(super) struct Energies {
     pub(super) start: f64,
     pub(super) end: f64,
     pub(super) outputs: Vec<f64>,
+    /// Work of the forces that no potential has, at the outputs and at the end; zero where there are none.
+    pub(super) work: Vec<f64>,
+    pub(super) work_at_end: f64,
     /// Largest of `|H|` and `(|Pi| |phi_dot| + |p| |x_dot|)/2`, which bounds the kinetic energy whatever its sign.
     pub(super) scale: f64,
 }

@@ -10,6 +10,7 @@ pub(super) struct Met<P> {
     pub(super) event: usize,
     pub(super) rising: bool,
     pub(super) point: P,
+    pub(super) work: f64,
 }
 
 /// The events of a run, with their values where the next step begins.
@@ -41,12 +42,12 @@ impl<'a, const N: usize, P: Copy> Watcher<'a, N, P> {
     /// All that happens on the way to `t_end`, in the order of the run, from samples at the ends of equal parts of it.
     ///
     /// # Errors
-    /// Those of `at`, which gives the phase point at a time on the way.
+    /// Those of `at`, which gives the phase point at a time on the way, and the work.
     pub(super) fn advance<E>(
         &mut self,
         t_end: f64,
         parts: u32,
-        mut at: impl FnMut(f64) -> Result<P, E>,
+        mut at: impl FnMut(f64) -> Result<(P, f64), E>,
     ) -> Result<Vec<Met<P>>, E> {
         let mut met = Vec::new();
         let begin = self.t;
@@ -55,7 +56,7 @@ impl<'a, const N: usize, P: Copy> Watcher<'a, N, P> {
                 true => t_end,
                 false => begin + (t_end - begin) * (f64::from(part) / f64::from(parts)),
             };
-            let point = at(t)?;
+            let (point, _) = at(t)?;
             let first = met.len();
             for (index, event) in self.events.iter().enumerate() {
                 let (before, value) = (self.values[index], (event.function)(t, &point));
@@ -63,9 +64,10 @@ impl<'a, const N: usize, P: Copy> Watcher<'a, N, P> {
                 let Some(rising) = crossing(before, value).filter(|rising| event.counts(*rising)) else {
                     continue;
                 };
-                let function = |t: f64| Ok((event.function)(t, &at(t)?));
+                let function = |t: f64| Ok((event.function)(t, &at(t)?.0));
                 let time = root(function, (self.t, before), (t, value))?;
-                met.push(Met { t: time, event: index, rising, point: at(time)? });
+                let (point, work) = at(time)?;
+                met.push(Met { t: time, event: index, rising, point, work });
             }
             let sign = if t_end < begin { -1.0 } else { 1.0 };
             met[first..].sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)));

@@ -66,6 +66,7 @@ impl Why {
             }
             Method::Gauss { stages, step } => self.gauss(f, stages, step),
             Method::Rattle { order, step } => self.rattle(f, order, step),
+            Method::Splitting { order, step } => self.splitting(f, order, step),
         }
     }
 
@@ -81,6 +82,24 @@ impl Why {
              vorticity"
         )?;
         writeln!(f, "symplectic: the energy error stays bounded while steps resolve the motion")
+    }
+
+    fn splitting(&self, f: &mut fmt::Formatter<'_>, order: usize, step: f64) -> fmt::Result {
+        writeln!(
+            f,
+            "splitting of order {order} by exact flows of pieces of H, equal steps of at most {step:e}: as asked for{}",
+            if self.computation.closed_form_exists {
+                "; Method::Automatic would take the closed form"
+            } else {
+                ""
+            }
+        )?;
+        writeln!(
+            f,
+            "symplectic: a Poisson map; kept up to rounding: momenta that every piece conserves (p, spin, vorticity, \
+             angular momenta, where the model conserves them) and Casimirs; the energy error stays bounded while steps \
+             resolve the motion"
+        )
     }
 
     /// The group on which the steps were taken.
@@ -134,11 +153,12 @@ impl Why {
         }
     }
 
-    /// The reduced variables are positions and their momenta, all of them canonical.
+    /// The reduced variables are positions and their momenta, all of them canonical; of `x` and a constant `p` the
+    /// method takes the same step as of `x` and `p`.
     fn is_canonical(&self) -> bool {
         let groups = self.description.reduced;
         let holds = |name: &str| groups.iter().any(|group| group.name == name);
-        let paired = holds("phi") && holds("Pi") && holds("x") == holds("p");
+        let paired = holds("phi") && holds("Pi") && (holds("x") || !holds("p"));
         paired && groups.iter().all(|group| ["x", "phi", "p", "Pi", "1/D"].contains(&group.name))
     }
 

@@ -81,6 +81,46 @@ impl Motion<'_> {
         Ok(self)
     }
 
+    /// The same point with the forces of a dissipation function `R(phi; x_dot, phi_dot)`, given as a kinetic energy is:
+    /// `p_dot -= dR/dx_dot`, `Pi_dot -= (dR/dphi_dot)^T` (Lagrange's equations with Rayleigh's function), the slopes by
+    /// dual numbers through `R`.
+    ///
+    /// # Errors
+    /// As [`Kinetic::energy`].
+    pub fn damped(mut self, dissipation: &Kinetic) -> Result<Self, Error> {
+        let n = self.state.dimension();
+        let phi = Matrix::constant(&self.state.phi);
+        let slope = |x_direction: &Matrix, phi_direction: &Matrix| {
+            let x_dot = Matrix::along(&self.rate.x, x_direction);
+            let phi_dot = Matrix::along(&self.rate.phi, phi_direction);
+            Ok::<_, Error>(dissipation.energy(&phi, &x_dot, &phi_dot)?.slope().entry(0, 0))
+        };
+        let (mut on_p, mut on_pi) = (Vec::with_capacity(n), Vec::with_capacity(n * n));
+        for i in 0..n {
+            on_p.push(slope(&Matrix::unit(n, 0, i).rows(0, 1).transpose(), &Matrix::zeros(n, n))?);
+        }
+        // Row-major in (A, i), as Pi is.
+        for place in 0..n * n {
+            on_pi.push(slope(&Matrix::zeros(n, 1), &Matrix::unit(n, place % n, place / n))?);
+        }
+        if self.kinetic.has_translation() {
+            self.rate.p = &self.rate.p - &Matrix::from_rationals(n, 1, &on_p);
+        }
+        self.rate.pi = &self.rate.pi - &Matrix::from_rationals(n, n, &on_pi);
+        Ok(self)
+    }
+
+    /// The same point with forces on the canonical momenta: `p_dot += on_p`, `Pi_dot += on_pi` (row-major in `(A, i)`).
+    ///
+    /// # Errors
+    /// [`Error::Shape`], [`Error::NotFinite`].
+    pub fn pushed(mut self, on_p: &[f64], on_pi: &[f64]) -> Result<Self, Error> {
+        let n = self.state.dimension();
+        self.rate.p = &self.rate.p + &Matrix::from_f64("the force on p", n, 1, on_p)?;
+        self.rate.pi = &self.rate.pi + &Matrix::from_f64("the force on Pi", n, n, on_pi)?;
+        Ok(self)
+    }
+
     /// The point.
     pub fn state(&self) -> &State {
         &self.state

@@ -344,6 +344,7 @@ impl Arena {
         };
         match function {
             Function::Exp => value,
+            Function::ExpM1 => self.apply(Function::Exp, argument),
             Function::Ln => reciprocal(self, argument, -1, (1, 1)),
             Function::Sqrt => reciprocal(self, value, -1, (1, 2)),
             Function::Cbrt => reciprocal(self, value, -2, (1, 3)),

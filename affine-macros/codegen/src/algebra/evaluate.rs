@@ -54,6 +54,7 @@ impl Field for f64 {
     fn apply(&self, function: Function) -> Option<Self> {
         Some(match function {
             Function::Exp => self.exp(),
+            Function::ExpM1 => self.exp_m1(),
             Function::Ln => self.ln(),
             Function::Sqrt => self.sqrt(),
             Function::Cbrt => self.cbrt(),

@@ -5,6 +5,8 @@
 pub enum Function {
     /// Exponential.
     Exp,
+    /// `exp(x) - 1`; for right-hand sides that know where it matters, not for specifications.
+    ExpM1,
     /// Natural logarithm.
     Ln,
     /// Square root.
@@ -33,6 +35,7 @@ impl Function {
     pub fn name(self) -> &'static str {
         match self {
             Self::Exp => "exp",
+            Self::ExpM1 => "exp_m1",
             Self::Ln => "ln",
             Self::Sqrt => "sqrt",
             Self::Cbrt => "cbrt",

@@ -20,6 +20,19 @@ pub struct Kernel {
 pub enum Callee {
     /// Placement -> stretches and principal axes.
     Stretches,
+    /// The field `custom_k` of the model, `k` from 1, asked for a force or a potential.
+    Custom(usize, Asked),
+}
+
+/// What a field of the model is asked for, with what was said of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// `Q`, or `Q_hat`, or `Q_tr`: the name of the runtime function; and whether it has no power.
+    Force(&'static str, bool),
+    /// `U`; the class as a number, and whether it depends on `x`.
+    Energy(u8, bool),
+    /// `dU/dx` and `dU/dphi`; likewise.
+    Slopes(u8, bool),
 }
 
 /// Numbers that travel together.

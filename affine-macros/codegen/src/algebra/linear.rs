@@ -123,6 +123,50 @@ fn bring_pivot(form: &mut Whole, k: usize) -> bool {
     true
 }
 
+/// A vector on which a symmetric form is negative; `None` where the form is positive semidefinite. Congruences by
+/// positive squares, whose basis vectors are followed along.
+#[must_use]
+pub fn negative_direction(matrix: &Square) -> Option<Vec<Rational>> {
+    let n = matrix.len();
+    let mut form = matrix.clone();
+    let unit = |i: usize| (0..n).map(|j| if i == j { Rational::ONE } else { Rational::ZERO }).collect();
+    let mut basis: Vec<Vec<Rational>> = (0..n).map(unit).collect();
+    let mut open: Vec<usize> = (0..n).collect();
+    loop {
+        if let Some(k) = open.iter().find(|k| form[**k][**k].is_negative()) {
+            return Some(basis[*k].clone());
+        }
+        let Some(k) = open.iter().copied().find(|k| !form[*k][*k].is_zero()) else { break };
+        open.retain(|other| *other != k);
+        let reciprocal = form[k][k].recip()?;
+        for &j in &open {
+            let factor = &form[k][j] * &reciprocal;
+            if factor.is_zero() {
+                continue;
+            }
+            basis[j] = combined(&basis[j], &-&factor, &basis[k]);
+            let pivot_row = form[k].clone();
+            for &l in &open {
+                form[j][l] = &form[j][l] - &(&factor * &pivot_row[l]);
+            }
+        }
+    }
+    // No squares are left: along e_i - a_ij e_j the form is -2 a_ij^2.
+    for &i in &open {
+        for &j in &open {
+            if !form[i][j].is_zero() {
+                return Some(combined(&basis[i], &-&form[i][j], &basis[j]));
+            }
+        }
+    }
+    None
+}
+
+/// `a + weight b`.
+fn combined(a: &[Rational], weight: &Rational, b: &[Rational]) -> Vec<Rational> {
+    a.iter().zip(b).map(|(a, b)| a + &(weight * b)).collect()
+}
+
 /// A vector that a singular matrix maps to zero.
 fn kernel(matrix: &Square) -> Option<Vec<Rational>> {
     let n = matrix.len();

@@ -2,18 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use super::momentum_side;
+use super::{dissipation, momentum_side, two_polar};
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, Directions, Reported};
 use crate::lower;
 use crate::mechanics::constraint::Constraint;
+use crate::mechanics::forces::Forces;
 use crate::mechanics::hessian::{Block, Direction, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
 use crate::mechanics::metrics::Metrics;
 use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
-use crate::spec::{self, Claim, Named, Requirement, Spec, Value};
+use crate::spec::{self, Capability, Claim, Named, Requirement, Spec, Value};
 
 /// A kinetic energy that passed all rules that can be decided before its fields have values.
 pub struct Form {
@@ -31,8 +32,34 @@ pub struct Form {
     pub body_group: Group,
     /// The potential energy.
     pub potential: Option<Potential>,
+    /// The forces that no potential has, and the potentials that fields compute.
+    pub forces: Forces,
+    /// Is the two-polar form asked for?
+    pub two_polar: bool,
+    /// Are the placements those of U(n)?
+    pub unitary: bool,
     /// Metrics other than the identity; everything else stands in bases in which they are.
     pub metrics: Option<Metrics>,
+    /// Are the exact flows of pieces of the Hamiltonian asked for?
+    pub split: bool,
+    /// What else is emitted.
+    pub quantities: Quantities,
+}
+
+/// Quantities that are emitted when asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Quantities {
+    /// The configuration metric and its inverse.
+    pub metric: bool,
+    /// The acceleration of the centre of mass.
+    pub acceleration: bool,
+}
+
+impl Quantities {
+    pub(super) fn of(spec: &Spec) -> Self {
+        let asked = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
+        Self { metric: asked(Capability::Metric), acceleration: asked(Capability::Acceleration) }
+    }
 }
 
 /// Builds the form and holds it against every rule.
@@ -44,7 +71,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     if let Some(stated) = lower::stated(&mut arena, spec) {
         return momentum_form(arena, spec, stated, found);
     }
-    let (places, terms): (Vec<usize>, Vec<Term>) = lower::terms(&mut arena, spec).into_iter().unzip();
+    let (places, terms): (Vec<usize>, Vec<Term>) =
+        lower::terms(&mut arena, spec.dim.value, &spec.kinetic).into_iter().unzip();
     let kinetic = Kinetic::new(&mut arena, spec.dim.value, &terms)
         .ok()
         .filter(|k| !k.internal.is_empty())
@@ -57,14 +85,18 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     positive(spec, &kinetic, &hessian, found);
     // Symmetries are those of the energy as stated, on all of GL(n).
     claims(spec, &free, |place| spec.kinetic[places[place]].kind.value.name(), found);
+    let forces = forces(&mut arena, spec, kinetic.frame, found);
     found.verdict()?;
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
     let potential = potential(&mut arena, spec, kinetic.constraint, found);
     super::capabilities::series(spec, potential.as_ref(), found);
+    super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     found.verdict()?;
     let space_group = largest_group(&free, Side::Space);
     let body_group = largest_group(&free, Side::Body);
+    let unitary = spec.group.is_some();
+    let two_polar = unitary || two_polar::asked(spec, &free, &places, potential.as_ref(), found)?;
     Ok(Form {
         arena,
         kinetic,
@@ -73,7 +105,12 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         space_group,
         body_group,
         potential,
+        forces,
         metrics: lower::metrics(spec),
+        split: super::capabilities::asked(spec, Capability::Splitting),
+        quantities: Quantities::of(spec),
+        two_polar,
+        unitary,
     })
 }
 
@@ -97,12 +134,15 @@ fn momentum_form(
     let kinetic = stated
         .kinetic(&mut arena)
         .ok_or_else(|| found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy))?;
+    let forces = forces(&mut arena, spec, kinetic.frame, found);
     let hessian = Hessian::new(&kinetic);
     let space_group = largest_group(&on_momenta, Side::Space);
     let body_group = largest_group(&on_momenta, Side::Body);
     let potential = potential(&mut arena, spec, None, found);
     super::capabilities::series(spec, potential.as_ref(), found);
+    super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     found.verdict()?;
+    let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
     Ok(Form {
         arena,
         kinetic,
@@ -111,8 +151,22 @@ fn momentum_form(
         space_group,
         body_group,
         potential,
+        forces,
         metrics: lower::metrics(spec),
+        split: super::capabilities::asked(spec, Capability::Splitting),
+        quantities: Quantities::of(spec),
+        two_polar,
+        unitary: false,
     })
+}
+
+/// The forces besides those of the potential, the dissipation held against its rule.
+fn forces(arena: &mut Arena, spec: &Spec, own: Frame, found: &mut Diagnostics) -> Forces {
+    let forces = lower::forces(arena, spec, own);
+    if let Some(damping) = &forces.dissipation {
+        dissipation::semidefinite(spec, damping, found);
+    }
+    forces
 }
 
 /// The energy of a motion that is confined to a group.
@@ -143,7 +197,7 @@ fn nothing_vanishes(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mu
 
 /// The potential on the group that is left: one that is constant there moves nothing, and one without a value there is
 /// none.
-fn potential(
+pub(super) fn potential(
     arena: &mut Arena,
     spec: &Spec,
     group: Option<Constraint>,
@@ -166,12 +220,12 @@ fn potential(
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic
 /// form is zero, and a tensor has no kernel. Blocks with fields are left to `prepare()`.
-fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics) {
+pub(super) fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics) {
     let mut reported = Vec::new();
     for block in &hessian.blocks {
         let kind = block.basis[0].kind;
         let vanishes = block.eigenvalue().is_some_and(|e| e.is_zero());
-        if vanishes && only_isotropic(spec) && kind != Direction::Entry {
+        if vanishes && kinetic_terms(spec).only_isotropic() && kind != Direction::Entry {
             if !reported.contains(&kind) {
                 reported.push(kind);
                 found.report(spec.kinetic_key, degenerate(spec, kind));
@@ -204,12 +258,16 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
         let kind = block.basis[0].kind;
         let Some(inertia) = block.inertia(kinetic.dim).filter(|i| i.negative > 0) else { continue };
         let defect = match block.eigenvalue().and_then(|e| e.as_constant()) {
-            Some(_) if only_isotropic(spec) && kind != Direction::Entry => {
+            Some(_) if kinetic_terms(spec).only_isotropic() && kind != Direction::Entry => {
                 if reported.contains(&kind) {
                     continue;
                 }
                 reported.push(kind);
-                format!("{} = {} is negative", eigenvalue_name(kind).0, eigenvalue_in_numbers(spec, kind))
+                format!(
+                    "{} = {} is negative",
+                    eigenvalue_name(kind).0,
+                    kinetic_terms(spec).eigenvalue_in_numbers(kind)
+                )
             }
             _ if inertia.negative == 1 => "T has a negative square".to_owned(),
             _ => format!("T has {} negative squares", inertia.negative),
@@ -217,7 +275,7 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
         found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
     }
     let mass = spec.kinetic.iter().find(|t| t.kind.value.is_translation());
-    if let Some((term, value)) = mass.and_then(|t| Some((t, scalar(spec, t)?)))
+    if let Some((term, value)) = mass.and_then(|t| Some((t, kinetic_terms(spec).scalar(t)?)))
         && value.is_negative()
     {
         let defect = format!("the mass `{} = {value}` is negative", term.kind.value.name());
@@ -227,7 +285,12 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
 
 /// A claimed symmetry is a theorem about the form: its derivative along every generator of the group vanishes,
 /// and for O(n) one reflection leaves it unchanged as well.
-fn claims(spec: &Spec, kinetic: &Kinetic, term: impl Fn(usize) -> &'static str, found: &mut Diagnostics) {
+pub(super) fn claims(
+    spec: &Spec,
+    kinetic: &Kinetic,
+    term: impl Fn(usize) -> &'static str,
+    found: &mut Diagnostics,
+) {
     let Some(symmetry) = &spec.symmetry else { return };
     for (side, name, claim) in [(Side::Space, "space", symmetry.space), (Side::Body, "body", symmetry.body)] {
         let (group, letters) = match claim.value {
@@ -258,9 +321,14 @@ fn internal_terms(spec: &Spec) -> impl Iterator<Item = &spec::Term> {
     spec.kinetic.iter().filter(|t| !t.kind.value.is_translation())
 }
 
-/// Are all internal terms multiples of the three rotation-invariant squares?
-fn only_isotropic(spec: &Spec) -> bool {
-    internal_terms(spec).all(|t| matches!(t.value, Value::Scalar(_)))
+fn kinetic_terms(spec: &Spec) -> Written<'_> {
+    Written { n: spec.dim.value, terms: internal_terms(spec).collect() }
+}
+
+/// The internal terms of a quadratic form as the user wrote them.
+pub(super) struct Written<'a> {
+    pub(super) n: usize,
+    pub(super) terms: Vec<&'a spec::Term>,
 }
 
 fn frame_of(kind: spec::TermKind) -> Option<Frame> {
@@ -272,24 +340,17 @@ fn frame_of(kind: spec::TermKind) -> Option<Frame> {
     }
 }
 
-fn scalar(spec: &Spec, term: &spec::Term) -> Option<Rational> {
-    match &term.value {
-        Value::Scalar(e) => super::constant(e, spec.dim.value),
-        _ => None,
-    }
-}
-
 fn degenerate(spec: &Spec, kind: Direction) -> Diagnostic {
     let (eigenvalue, directions) = eigenvalue_name(kind);
     Diagnostic::Degenerate {
         eigenvalue: eigenvalue.to_owned(),
-        numbers: eigenvalue_in_numbers(spec, kind),
+        numbers: kinetic_terms(spec).eigenvalue_in_numbers(kind),
         directions,
     }
 }
 
 /// Eigenvalues of the isotropic form and the velocities they belong to.
-fn eigenvalue_name(kind: Direction) -> (&'static str, Directions) {
+pub(super) fn eigenvalue_name(kind: Direction) -> (&'static str, Directions) {
     match kind {
         Direction::Rotation => ("I - A", Directions::Skew),
         Direction::Dilatation => ("I + A + n B", Directions::Trace),
@@ -297,33 +358,50 @@ fn eigenvalue_name(kind: Direction) -> (&'static str, Directions) {
     }
 }
 
-/// An eigenvalue with the user's coefficients in it: `1 + 0.2 + 3*(-0.4)`.
-fn eigenvalue_in_numbers(spec: &Spec, kind: Direction) -> String {
-    let written: BTreeMap<&str, String> = internal_terms(spec)
-        .filter_map(|t| match &t.value {
-            Value::Scalar(e) => Some((t.kind.value.name(), e.to_string())),
+impl Written<'_> {
+    /// Are all of them multiples of the three rotation-invariant squares?
+    pub(super) fn only_isotropic(&self) -> bool {
+        self.terms.iter().all(|t| matches!(t.value, Value::Scalar(_)))
+    }
+
+    /// The value of a scalar coefficient.
+    pub(super) fn scalar(&self, term: &spec::Term) -> Option<Rational> {
+        match &term.value {
+            Value::Scalar(e) => super::constant(e, self.n),
             _ => None,
-        })
-        .collect();
-    let get = |names: &[&str]| {
-        names.iter().find_map(|name| written.get(name)).cloned().unwrap_or_else(|| "0".to_owned())
-    };
-    let bracket = |text: String| {
-        let simple = text.chars().all(|c| c.is_alphanumeric() || c == '.' || c == '_');
-        if simple { text } else { format!("({text})") }
-    };
-    let i = get(&["body_inertia", "space_inertia", "dalembert"]);
-    let a = bracket(get(&["casimir2"]));
-    let b = bracket(get(&["casimir1_squared"]));
-    match kind {
-        Direction::Rotation => format!("{i} - {a}"),
-        Direction::Dilatation => format!("{i} + {a} + {}*{b}", spec.dim.value),
-        Direction::Shear | Direction::Entry => format!("{i} + {a}"),
+        }
+    }
+
+    /// An eigenvalue with the user's coefficients in it: `1 + 0.2 + 3*(-0.4)`.
+    pub(super) fn eigenvalue_in_numbers(&self, kind: Direction) -> String {
+        let written: BTreeMap<&str, String> = self
+            .terms
+            .iter()
+            .filter_map(|t| match &t.value {
+                Value::Scalar(e) => Some((t.kind.value.name(), e.to_string())),
+                _ => None,
+            })
+            .collect();
+        let get = |names: &[&str]| {
+            names.iter().find_map(|name| written.get(name)).cloned().unwrap_or_else(|| "0".to_owned())
+        };
+        let bracket = |text: String| {
+            let simple = text.chars().all(|c| c.is_alphanumeric() || c == '.' || c == '_');
+            if simple { text } else { format!("({text})") }
+        };
+        let i = get(&["body_inertia", "space_inertia", "dalembert"]);
+        let a = bracket(get(&["casimir2"]));
+        let b = bracket(get(&["casimir1_squared"]));
+        match kind {
+            Direction::Rotation => format!("{i} - {a}"),
+            Direction::Dilatation => format!("{i} + {a} + {}*{b}", self.n),
+            Direction::Shear | Direction::Entry => format!("{i} + {a}"),
+        }
     }
 }
 
 /// An affine velocity as a nested matrix.
-fn matrix_text(n: usize, entries: &[Rational]) -> String {
+pub(super) fn matrix_text(n: usize, entries: &[Rational]) -> String {
     let rows: Vec<String> = entries
         .chunks(n)
         .map(|row| format!("[{}]", row.iter().map(Rational::to_string).collect::<Vec<_>>().join(", ")))
@@ -356,9 +434,9 @@ pub fn signature(form: &Form) -> Option<(usize, usize)> {
 
 /// The eigenvalues that decide whether a model with fields is well posed: condition, reason, value.
 #[must_use]
-pub fn eigenvalues(form: &Form) -> Vec<(Direction, Polynomial)> {
+pub fn eigenvalues(hessian: &Hessian) -> Vec<(Direction, Polynomial)> {
     let mut list: Vec<(Direction, Polynomial)> = Vec::new();
-    for block in &form.hessian.blocks {
+    for block in &hessian.blocks {
         if let Some(value) = block.eigenvalue() {
             let kind = block.basis[0].kind;
             if value.as_constant().is_none() && !list.contains(&(kind, value.clone())) {

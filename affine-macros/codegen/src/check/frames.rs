@@ -1,15 +1,31 @@
-//! Terms that go together, and with the claims.
+//! Frames of the terms, and the claims.
 
 use super::constant::constant;
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::spec::{Claim, Named, Spec, Term, TermKind};
+use crate::spec::{Claim, Spec, Term, TermKind};
+
+/// Where H is derived by inverting a matrix that depends on phi: the terms that are not exactly zero have constant
+/// coefficients in different velocities. Internal and translational ones are inverted apart, and count apart. The
+/// Casimirs have constant coefficients in Oh as well as in Om.
+pub(super) fn are_mixed(spec: &Spec) -> bool {
+    let terms = |translation: bool| {
+        let of_motion = move |term: &&Term| term.kind.value.is_translation() == translation;
+        spec.kinetic.iter().filter(of_motion).filter(|term| !is_zero(term, spec.dim.value))
+    };
+    [false, true].into_iter().any(|translation| {
+        let frames: Vec<Frame> = terms(translation).map(|term| frame(term.kind.value)).collect();
+        let has = |wanted: Frame| frames.contains(&wanted);
+        let affine = has(Frame::Comoving) || has(Frame::Spatial) || has(Frame::Both);
+        (has(Frame::Flat) && affine) || (has(Frame::Comoving) && has(Frame::Spatial))
+    })
+}
 
 /// The velocity in which a term has constant coefficients.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Frame {
     /// `Oh = phi^-1 phi_dot` and `phi^-1 x_dot`.
     Comoving,
-    /// `Om = phi_dot phi^-1`.
+    /// `Om = phi_dot phi^-1` and `x_dot`.
     Spatial,
     /// `Oh` as well as `Om`: the Casimirs.
     Both,
@@ -23,51 +39,6 @@ fn frame(kind: TermKind) -> Frame {
         TermKind::BodyInertia | TermKind::BodyTensor | TermKind::BodyTranslation => Frame::Comoving,
         TermKind::SpaceInertia | TermKind::SpaceTensor | TermKind::SpaceTranslation => Frame::Spatial,
         TermKind::Dalembert | TermKind::FlatTensor => Frame::Flat,
-    }
-}
-
-fn velocity(kind: TermKind) -> &'static str {
-    match (frame(kind), kind.is_translation()) {
-        (Frame::Comoving, true) => "phi^-1 x_dot",
-        (Frame::Spatial, true) => "x_dot",
-        (Frame::Comoving, false) => "Oh = phi^-1 phi_dot",
-        (Frame::Spatial, false) => "Om = phi_dot phi^-1",
-        (Frame::Both, _) => "Oh = phi^-1 phi_dot and in Om = phi_dot phi^-1",
-        (Frame::Flat, _) => "phi_dot",
-    }
-}
-
-/// H is derived by inverting a constant matrix. A sum of terms that are constant in different frames has none:
-/// its mass matrix depends on phi, and so would its inverse. Internal and translational velocities are inverted
-/// apart, so the rule holds for each. A term that is exactly zero does not count.
-pub(super) fn same_frame(spec: &Spec, found: &mut Diagnostics) {
-    for translation in [false, true] {
-        let terms: Vec<&Term> = spec
-            .kinetic
-            .iter()
-            .filter(|term| term.kind.value.is_translation() == translation && !is_zero(term, spec.dim.value))
-            .collect();
-        for (index, second) in terms.iter().enumerate() {
-            let clash = |first: &&&Term| !compatible(first.kind.value, second.kind.value);
-            if let Some(first) = terms[..index].iter().find(clash) {
-                let (first, other) = (first.kind.value, second.kind.value);
-                let mistake = Diagnostic::MixedFrames {
-                    first: first.name(),
-                    first_velocity: velocity(first),
-                    second: other.name(),
-                    second_velocity: velocity(other),
-                };
-                found.report(second.kind.span, mistake);
-            }
-        }
-    }
-}
-
-fn compatible(first: TermKind, second: TermKind) -> bool {
-    match (frame(first), frame(second)) {
-        (Frame::Both, Frame::Flat) | (Frame::Flat, Frame::Both) => false,
-        (Frame::Both, _) | (_, Frame::Both) => true,
-        (first, second) => first == second,
     }
 }
 

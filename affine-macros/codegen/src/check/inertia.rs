@@ -26,7 +26,7 @@ pub(super) fn masses(spec: &Spec, found: &mut Diagnostics) {
 /// J = J^T in every frame: T sees only the symmetric part of J (4.17), which for d'Alembert is the second moment of
 /// the mass distribution in the body (2.1). Entries with fields must be equal whatever the fields are.
 pub(super) fn symmetric(spec: &Spec, found: &mut Diagnostics) {
-    for term in spec.kinetic.iter().filter(|term| term.kind.value.is_inertia()) {
+    for term in spec.forms().filter(|term| term.kind.value.is_inertia()) {
         if let Value::Matrix(rows) = &term.value {
             symmetric_rows(spec, term, rows, found);
         }

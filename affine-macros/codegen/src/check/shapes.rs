@@ -6,7 +6,7 @@ use crate::spec::{Expression, Named, Spec, Term, TermKind, Value};
 /// Casimirs and masses are multiples of one invariant form, an inertia J is of any kind (4.17), a tensor has n^4
 /// entries.
 pub(super) fn shapes(spec: &Spec, found: &mut Diagnostics) {
-    for term in &spec.kinetic {
+    for term in spec.forms() {
         let written = match term.value {
             Value::Scalar(_) => "a scalar",
             Value::Diagonal(_) => "a diagonal matrix",
@@ -59,7 +59,7 @@ fn accepted(term: &Term) -> (bool, &'static str, &'static str) {
 /// or too long is reported on its own.
 pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
     let n = spec.dim.value;
-    for term in &spec.kinetic {
+    for term in spec.forms() {
         let kind = term.kind.value;
         let (expected, because) = match kind {
             kind if kind.is_inertia() => (n, format!("n = {n}")),

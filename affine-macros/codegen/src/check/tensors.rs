@@ -8,7 +8,7 @@ use crate::spec::{Expression, Named, Spec, Term, Value};
 /// The inverse of a tensor is found by exact elimination, whose pivots must be known when the model is
 /// compiled: the entries are numbers.
 pub(super) fn literal(spec: &Spec, found: &mut Diagnostics) {
-    for term in tensors(spec) {
+    for term in spec.kinetic.iter().filter(|term| term.kind.value.is_tensor()) {
         let entries = term.value.expressions();
         for entry in entries.filter(|entry| has_field(spec, entry)) {
             let mistake = Diagnostic::TensorEntry { term: term.kind.value.name(), entry: entry.to_string() };
@@ -42,7 +42,7 @@ pub(super) fn symmetric(spec: &Spec, found: &mut Diagnostics) {
 }
 
 fn tensors(spec: &Spec) -> impl Iterator<Item = &Term> {
-    spec.kinetic.iter().filter(|term| term.kind.value.is_tensor())
+    spec.forms().filter(|term| term.kind.value.is_tensor())
 }
 
 fn entry(rows: &[Vec<Expression>], row: usize, column: usize) -> Option<&Expression> {

@@ -4,12 +4,13 @@ use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::Direction;
 use crate::mechanics::kinetic::{Coefficient, Kinetic, TermKind};
 use crate::optimise::{Batch, straight_line};
 
-use super::{Condition, NumericBlock, Relation};
+use super::{Condition, Damping, NumericBlock, Relation};
 
 /// What `prepare()` has to check once the fields have values.
 pub(super) fn conditions(
@@ -58,8 +59,51 @@ pub(super) fn conditions(
         .collect()
 }
 
+/// What `prepare()` has to find not negative in the dissipation.
+pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Damping {
+    let mut damping = Damping::default();
+    let Some(dissipation) = &forces.dissipation else { return damping };
+    let mut known: Vec<(&'static str, &'static str, Polynomial)> = Vec::new();
+    for part in &dissipation.parts {
+        let isotropic = part.form.terms.iter().all(|term| matches!(term.value, Coefficient::Scalar(_)));
+        for block in &part.hessian.blocks {
+            match block.eigenvalue() {
+                Some(value) => {
+                    let (name, directions) = match block.basis[0].kind {
+                        Direction::Shear if isotropic => ("I + A", "symmetric traceless velocities (shear)"),
+                        Direction::Rotation if isotropic => ("I - A", "skew velocities (rotation)"),
+                        Direction::Dilatation if isotropic => {
+                            ("I + A + n B", "multiples of the identity (dilatation)")
+                        }
+                        _ => ("an eigenvalue of R", "one direction of the velocity"),
+                    };
+                    known.push((name, directions, value));
+                }
+                None if block.numbers().is_none() => {
+                    damping.blocks.push(form_block(arena, &block.form, false))
+                }
+                None => {}
+            }
+        }
+    }
+    for (_, coefficient) in &dissipation.centre {
+        known.push(("the coefficient", "the velocity of the centre of mass", coefficient.clone()));
+    }
+    let mut listed: Vec<(&'static str, &'static str, Polynomial)> = Vec::new();
+    for (name, directions, value) in known {
+        let again = listed.contains(&(name, directions, value.clone()));
+        if value.as_constant().is_none() && !again {
+            listed.push((name, directions, value.clone()));
+            let program = unbound(arena, std::iter::once(value.clone()).chain(summands(&value)));
+            let relation = Relation::MomentumOfVelocity;
+            damping.conditions.push(Condition { name, directions, relation, positive: false, program });
+        }
+    }
+    damping
+}
+
 /// The leading minors of `J`, all positive iff `J` is (Sylvester); `I` for `J = I 1`.
-fn leading_minors(arena: &mut Arena, inertia: &Coefficient) -> Vec<Polynomial> {
+pub(super) fn leading_minors(arena: &mut Arena, inertia: &Coefficient) -> Vec<Polynomial> {
     match inertia {
         Coefficient::Scalar(i) => vec![Polynomial::normal_form(arena, *i)],
         Coefficient::Matrix(j) => {
@@ -112,14 +156,23 @@ pub(super) fn numeric_blocks(arena: &mut Arena, h: &Hamiltonian, positive: bool)
     h.numeric_blocks
         .iter()
         .map(|block| {
-            let size = block.form.len();
-            let upper: Vec<(usize, usize)> = (0..size).flat_map(|i| (i..size).map(move |j| (i, j))).collect();
             let name = |s: Expr| arena.name(s).unwrap_or("inverse").to_owned();
-            let inverse = upper.iter().map(|(i, j)| name(block.inverse[*i][*j])).collect();
-            let entries: Vec<Polynomial> = upper.iter().map(|(i, j)| block.form[*i][*j].clone()).collect();
-            let sizes: Vec<Polynomial> = entries.iter().flat_map(summands).collect();
-            let program = unbound(arena, entries.into_iter().chain(sizes));
-            NumericBlock { program, inverse, size, positive }
+            let inverse = upper(block.form.len()).map(|(i, j)| name(block.inverse[i][j])).collect();
+            NumericBlock { inverse, ..form_block(arena, &block.form, positive) }
         })
         .collect()
+}
+
+/// A symmetric form to be looked at in numbers.
+fn form_block(arena: &mut Arena, form: &[Vec<Polynomial>], positive: bool) -> NumericBlock {
+    let size = form.len();
+    let entries: Vec<Polynomial> = upper(size).map(|(i, j)| form[i][j].clone()).collect();
+    let sizes: Vec<Polynomial> = entries.iter().flat_map(summands).collect();
+    let program = unbound(arena, entries.into_iter().chain(sizes));
+    NumericBlock { program, inverse: Vec::new(), size, positive }
+}
+
+/// Places of an upper triangle, row after row.
+fn upper(size: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..size).flat_map(move |i| (i..size).map(move |j| (i, j)))
 }

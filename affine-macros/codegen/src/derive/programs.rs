@@ -6,7 +6,8 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::equations::{self, System, hamilton};
+use crate::mechanics::equations::{self, Load, System, hamilton};
+use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::potential::Potential;
@@ -15,6 +16,7 @@ use crate::mechanics::separation::{Separation, Slope};
 use crate::optimise::{Batch, straight_line};
 
 use super::Equations;
+use super::splitting::Programs;
 
 /// Chart and Hamiltonian of the equations that users of other codes write down: all momenta in the model's frames.
 pub(super) fn full_chart(arena: &mut Arena, h: &Hamiltonian) -> (Chart, Polynomial) {
@@ -34,23 +36,44 @@ pub(super) fn full_equations(
     chart: &Chart,
     full_h: &Polynomial,
     potential: Option<&Potential>,
+    forces: &Forces,
     coefficients: &mut Constants,
 ) -> Equations {
-    let load = potential.map(|u| u.load(arena, chart)).unwrap_or_default();
-    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
-    inputs.extend(potential.and_then(Potential::time));
+    let mut loads: Vec<Load> = potential.iter().map(|u| u.load(arena, chart)).collect();
+    loads.extend(forces.loads(arena, chart, h));
+    // The plain array has no place for the work.
+    loads.iter_mut().for_each(|load| load.work = None);
     let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
-    through_velocity.add(&load);
+    loads.iter().for_each(|load| through_velocity.add(load));
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
     if !h.is_tensor() {
         let mut expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
-        expanded.add(&load);
+        loads.iter().for_each(|load| expanded.add(load));
         ways.push(batch(arena, &expanded));
         // Symmetric and skew parts are entries already where a constraint leaves only one of them.
         if chart.confined.is_none_or(|group| group == Constraint::Isochoric) {
             ways.push(split_batch(arena, chart, &expanded));
         }
     }
+    let time = time(arena, potential, forces);
+    shortest(arena, chart, &ways, time, coefficients)
+}
+
+/// The time as a symbol, where any force depends on it.
+fn time(arena: &mut Arena, potential: Option<&Potential>, forces: &Forces) -> Option<Expr> {
+    potential.and_then(Potential::time).or_else(|| forces.time(arena))
+}
+
+/// Equations over the coordinates of a chart, in the shortest of several ways.
+pub(super) fn shortest(
+    arena: &mut Arena,
+    chart: &Chart,
+    ways: &[Batch],
+    time: Option<Expr>,
+    coefficients: &mut Constants,
+) -> Equations {
+    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    inputs.extend(time);
     let (program, chosen) = ways
         .iter()
         .map(|way| {
@@ -106,14 +129,15 @@ fn dependent(arena: &mut Arena, chart: &Chart) -> Program {
     fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
 }
 
-fn batch(arena: &Arena, system: &System) -> Batch {
+pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
+    let rates = system.rates.iter().map(|(_, symbol, rate)| (*symbol, rate));
+    let work = system.work.iter().map(|(symbol, power)| (*symbol, power));
     Batch {
         shared: system.shared.clone(),
         kernels: system.kernels.clone(),
-        results: system
-            .rates
-            .iter()
-            .map(|(_, symbol, rate)| (format!("d_{}", arena.name(*symbol).unwrap_or("state")), rate.clone()))
+        results: rates
+            .chain(work)
+            .map(|(symbol, rate)| (format!("d_{}", arena.name(symbol).unwrap_or("state")), rate.clone()))
             .collect(),
     }
 }
@@ -146,34 +170,54 @@ fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> Batch {
     result
 }
 
-/// The reduction with the shortest equations, and its programs.
+/// A reduction with its programs.
+pub(super) struct Reduced {
+    pub(super) reduction: Reduction,
+    pub(super) equations: Equations,
+    pub(super) splitting: Option<Programs>,
+    pub(super) trajectory: Program,
+    pub(super) fixed: Vec<String>,
+}
+
+/// The reduction with the shortest equations, and its programs; `split` asks for its sub-flows as well.
 pub(super) fn best_reduction(
     arena: &mut Arena,
     h: &Hamiltonian,
     potential: Option<&Potential>,
-    rotations: bool,
+    forces: &Forces,
+    (rotations, split): (bool, bool),
     coefficients: &mut Constants,
-) -> Option<(Reduction, Equations, Program, Vec<String>)> {
+) -> Option<Reduced> {
+    let candidates = reduce::candidates(arena, h, potential, forces, rotations);
+    let time = time(arena, potential, forces);
+    let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
+        split.then(|| Programs::of(arena, h, potential, reduction, constants)).flatten()
+    };
+    shortest_reduction(arena, candidates, time, pieces, coefficients)
+}
+
+/// The reduction of several with the shortest equations, its programs, and those of its `pieces`.
+pub(super) fn shortest_reduction(
+    arena: &mut Arena,
+    candidates: Vec<Reduction>,
+    time: Option<Expr>,
+    pieces: impl FnOnce(&mut Arena, &Reduction, &mut Constants) -> Option<Programs>,
+    coefficients: &mut Constants,
+) -> Option<Reduced> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
-    for candidate in reduce::candidates(arena, h, potential, rotations) {
+    for candidate in candidates {
         let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
-        states.extend(potential.and_then(Potential::time));
+        states.extend(time);
         let mut constants = Constants::new("k");
         let way = batch(arena, &candidate.system);
         let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
         let weight = program.operations().weight() + states.len();
-        eprintln!(
-            "cand {:?} carried {} weight {} {:?}",
-            candidate.chart.momentum,
-            candidate.carried,
-            weight,
-            program.operations()
-        );
         if best.as_ref().is_none_or(|(least, ..)| weight < *least) {
             best = Some((weight, candidate, program, constants));
         }
     }
-    let (_, reduction, program, constants) = best?;
+    let (_, reduction, program, mut constants) = best?;
+    let splitting = pieces(arena, &reduction, &mut constants);
     let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {
         results: constants
@@ -191,7 +235,8 @@ pub(super) fn best_reduction(
         Layout::Constant => Program::default(),
         Layout::Entries => dependent(arena, &reduction.chart),
     };
-    Some((reduction, Equations { groups, dependent, program: fuse(&program) }, trajectory, fixed))
+    let equations = Equations { groups, dependent, program: fuse(&program) };
+    Some(Reduced { reduction, equations, splitting, trajectory, fixed })
 }
 
 /// What `trajectory` reads: `p` where the state depends on it, and the constant part of the affine momentum.
@@ -202,4 +247,21 @@ fn trajectory_symbols(reduction: &Reduction) -> Vec<Expr> {
         Layout::Entries => reduction.fixed.clone(),
     };
     [chart.p.clone(), momentum].concat()
+}
+
+/// The power of the forces at a point, with what it shares; `None` where there are no forces.
+pub(super) fn power_batch(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    chart: &Chart,
+    full_h: &Polynomial,
+    forces: &Forces,
+) -> Option<Batch> {
+    let mut system = System {
+        shared: equations::velocities(arena, chart, full_h).into_iter().flatten().collect(),
+        ..System::default()
+    };
+    forces.loads(arena, chart, h).iter().for_each(|load| system.add(load));
+    let (_, power) = system.work?;
+    Some(Batch { shared: system.shared, kernels: system.kernels, results: vec![("power".to_owned(), power)] })
 }

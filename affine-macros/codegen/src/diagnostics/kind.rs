@@ -31,14 +31,7 @@ pub enum Diagnostic {
         /// All keys of the list.
         known: Vec<&'static str>,
     },
-    /// A key or term of the specification language that this version does not have.
-    UnavailableKey {
-        /// The list it stands in.
-        list: &'static str,
-        /// The key.
-        key: &'static str,
-    },
-    /// A term of `kinetic(...)` in `hamiltonian(...)`, or the other way round.
+    /// A term of `kinetic(...)` in `hamiltonian(...)`, or the other way round, or such a one in `dissipation(...)`.
     OtherSide {
         /// The list it stands in.
         list: &'static str,
@@ -104,12 +97,40 @@ pub enum Diagnostic {
         /// The other thing.
         beside: &'static str,
     },
+    /// `emit(splitting)` for a Hamiltonian without pieces whose flows are known.
+    NoExactPieces {
+        /// What stands against it.
+        beside: String,
+        /// The reason.
+        why: String,
+    },
     /// A capability that this version does not have.
     UnavailableCapability {
         /// The capability.
         capability: &'static str,
         /// What it will give.
         gives: &'static str,
+    },
+    /// `two_polar` for a model that rotations of space or body change.
+    NotDoublyIsotropic {
+        /// What they change: a term, or the potential.
+        part: String,
+        /// `space` or `body`.
+        side: &'static str,
+        /// The rotation or reflection.
+        transformation: String,
+    },
+    /// A part that U(n) does not have.
+    UnitaryTerm {
+        /// A term, `potential`, or a capability.
+        part: &'static str,
+    },
+    /// `two_polar` for a model with what the lattice does not have.
+    LatticeWithout {
+        /// What the model has.
+        part: String,
+        /// What the lattice has not.
+        lacks: &'static str,
     },
     /// A dimension other than the literals 2 and 3.
     Dimension {
@@ -217,13 +238,6 @@ pub enum Diagnostic {
     },
 
     // ---- the potential ----
-    /// A form of potentials that this version does not have.
-    UnavailableForm {
-        /// The form: `pairs`, `q1`, ...
-        form: String,
-        /// What to write.
-        instead: &'static str,
-    },
     /// `f(...)` with a name that is no function.
     UnknownFunction {
         /// The name.
@@ -476,6 +490,18 @@ pub enum Diagnostic {
         form: String,
     },
     // ---- the constraint ----
+    /// A sum of energies of different frames beside a key that does not go with it.
+    SumBeside {
+        /// The other key.
+        key: &'static str,
+    },
+    /// A dissipation, or a force or potential of a field, beside something that does not go with it.
+    ForceBeside {
+        /// The part of the model, as written.
+        force: String,
+        /// The other thing.
+        key: &'static str,
+    },
     /// A constraint beside a key that does not go with it.
     ConstraintBeside {
         /// The other key.
@@ -537,6 +563,11 @@ pub enum Diagnostic {
         /// A velocity on which it vanishes.
         kernel: String,
     },
+    /// A sum of terms of different frames that is degenerate at every placement.
+    DegenerateSum {
+        /// The terms, joined by `+`.
+        terms: String,
+    },
     /// `require(positive_definite)` fails.
     NotPositiveDefinite {
         /// What shows it, in the user's numbers: `I - A = 1 - 2 is negative`.
@@ -559,6 +590,40 @@ pub enum Diagnostic {
     AffineTranslation {
         /// The translation term.
         term: &'static str,
+    },
+
+    // ---- the forces ----
+    /// `custom(...)` that does not say what the field computes, or something else in its place.
+    MalformedCustom {
+        /// `potential` or `forces`.
+        key: &'static str,
+        /// What stands there.
+        found: String,
+        /// What it takes besides the field.
+        takes: &'static str,
+        /// How it may look.
+        example: &'static str,
+    },
+    /// `custom(...)` of something that is no field.
+    UnknownField {
+        /// The name.
+        name: String,
+        /// The field probably meant.
+        nearest: Option<String>,
+        /// The fields.
+        fields: Vec<String>,
+    },
+    /// A force on a centre that stands still.
+    FixedCentreForce {
+        /// The translation term, or `custom(..)`.
+        term: String,
+        /// The key it stands in.
+        key: &'static str,
+    },
+    /// A dissipation function that is negative at some velocity.
+    NegativeDissipation {
+        /// What shows it, in the user's numbers: `I - A = 0.1 - 0.2 = -1/10 on skew velocities (rotation)`.
+        defect: String,
     },
 }
 
@@ -606,7 +671,6 @@ names! {
     ExpectedKey => "expected-key",
     MalformedItem => "malformed-item",
     UnknownKey => "unknown-key",
-    UnavailableKey => "unavailable-key",
     OtherSide => "other-side",
     TwoStatements => "two-statements",
     RepeatedKey => "repeated-key",
@@ -616,7 +680,11 @@ names! {
     EmptyList => "empty-list",
     UnknownName => "unknown-name",
     CapabilityBeside => "capability-beside",
+    NoExactPieces => "no-exact-pieces",
     UnavailableCapability => "unavailable-capability",
+    NotDoublyIsotropic => "not-doubly-isotropic",
+    UnitaryTerm => "unitary-term",
+    LatticeWithout => "lattice-without",
     Dimension => "dimension",
     RuntimePath => "runtime-path",
     ItemKind => "item-kind",
@@ -636,7 +704,6 @@ names! {
     Exponent => "exponent",
     Degree => "degree",
     DivisionByZero => "division-by-zero",
-    UnavailableForm => "unavailable-form",
     UnknownFunction => "unknown-function",
     ArgumentCount => "argument-count",
     Argument => "argument",
@@ -669,14 +736,21 @@ names! {
     MetricNotPositive => "metric-not-positive",
     MetricTerm => "metric-term",
     MetricForm => "metric-form",
+    ForceBeside => "force-beside",
     ConstraintBeside => "constraint-beside",
+    SumBeside => "sum-beside",
     VanishingTerm => "vanishing-term",
     ConstrainedMassMatrix => "constrained-mass-matrix",
     ConstrainedPotential => "constrained-potential",
     Degenerate => "degenerate",
     DegenerateHamiltonian => "degenerate-hamiltonian",
     DegenerateTensor => "degenerate-tensor",
+    DegenerateSum => "degenerate-sum",
     NotPositiveDefinite => "not-positive-definite",
     ClaimBroken => "claim-broken",
     AffineTranslation => "affine-translation",
+    MalformedCustom => "malformed-custom",
+    UnknownField => "unknown-field",
+    FixedCentreForce => "fixed-centre-force",
+    NegativeDissipation => "negative-dissipation",
 }

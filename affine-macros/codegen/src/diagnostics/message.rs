@@ -55,25 +55,25 @@ impl Diagnostic {
                 format!("its items are {}", listed(known)),
                 suggestion(*nearest, "use one of these, or remove it"),
             ),
-            Self::UnavailableKey { list, key } => text(
-                format!("`{key}` in `{list}(...)` is not available in this version"),
-                format!(
-                    "`{key}` belongs to the specification language, but nothing can be derived from it yet"
-                ),
-                format!("state the model without `{key}`"),
-            ),
             Self::OtherSide { list, key, other } => text(
                 format!("`{key}` does not belong to `{list}(...)`"),
-                if *list == "kinetic" {
-                    format!(
+                match *list {
+                    "kinetic" => format!(
                         "`{key}` is a function of the momentum, and `kinetic(...)` states T through velocities"
-                    )
-                } else {
-                    format!(
+                    ),
+                    "dissipation" => format!(
+                        "`{key}` is a function of the momentum, and `dissipation(...)` states R through velocities"
+                    ),
+                    _ => format!(
                         "`{key}` is a form in the velocity, and `hamiltonian(...)` states H through momenta"
-                    )
+                    ),
                 },
-                format!("state all terms in `{other}(...)`, with the coefficients that they have there"),
+                match *list {
+                    "dissipation" => format!("remove `{key}`, or state R through forms in the velocity"),
+                    _ => format!(
+                        "state all terms in `{other}(...)`, with the coefficients that they have there"
+                    ),
+                },
             ),
             Self::TwoStatements => text(
                 "the kinetic energy is stated twice, in `kinetic(...)` and in `hamiltonian(...)`",
@@ -120,12 +120,40 @@ impl Diagnostic {
                     "remove `{capability}` from `emit(...)`: Runge-Kutta and Gauss methods integrate the model"
                 ),
             ),
+            Self::NoExactPieces { beside, why } => text(
+                format!("`emit(splitting)` does not go with {beside}"),
+                why.clone(),
+                "remove `splitting` from `emit(...)`: Gauss collocation is symmetric and integrates the model",
+            ),
             Self::UnavailableCapability { capability, gives } => text(
                 format!("the capability `{capability}` is not available in this version"),
                 format!(
-                    "it will give {gives}; this version emits the default, Hamilton's equations, `taylor` and `lanes`"
+                    "it will give {gives}; this version emits the default, Hamilton's equations, `splitting`, `taylor`, \
+                      `two_polar` and `lanes`"
                 ),
                 format!("remove `{capability}` from `emit(...)`"),
+            ),
+            Self::NotDoublyIsotropic { part, side, transformation } => text(
+                format!("`two_polar` needs a doubly isotropic model, and {part} is not isotropic in {side}"),
+                format!(
+                    "{transformation} of {side} changes it: the motion of the stretches in phi = L D R^T then depends \
+                     on the frames L and R, and (q, p, M, N) do not form a system of their own, (6.2) to (6.5)"
+                ),
+                format!(
+                    "remove `two_polar` from `emit(...)`, or state a model that rotations of {side} do not change"
+                ),
+            ),
+            Self::UnitaryTerm { part } => text(
+                format!("`{part}` has no place beside `group = unitary`"),
+                "on U(n) the energy is -A/2 tr Om^2 - B/2 (tr Om)^2 (89), which U(n) leaves unchanged from both sides; it is \
+                 emitted as its lattice on the circle and nothing else",
+                format!("remove `{part}`, and keep `casimir2` and `casimir1_squared`"),
+            ),
+            Self::LatticeWithout { part, lacks } => text(
+                format!("`two_polar` with {part}: the lattice has no {lacks}"),
+                "(q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, of an energy in velocities, in \
+                 orthonormal coordinates",
+                format!("remove `two_polar` from `emit(...)`, or state a model without {part}"),
             ),
             Self::Dimension { found } => text(
                 format!("`dim = {found}`: the dimension is 2 or 3"),
@@ -229,13 +257,6 @@ impl Diagnostic {
                 format!("division by `{divisor}`, which is zero"),
                 "a quotient by zero has no value; coefficients are exact, so that no rounding made this one vanish",
                 "write a divisor that is not zero",
-            ),
-            Self::UnavailableForm { form, instead } => text(
-                format!("`{form}` in `potential` is not available in this version"),
-                format!(
-                    "`{form}` belongs to the specification language, but nothing can be derived from it yet"
-                ),
-                *instead,
             ),
             Self::UnknownFunction { name, nearest, known } => text(
                 format!("there is no function `{name}`"),
@@ -429,6 +450,32 @@ impl Diagnostic {
                 "equations stand in orthonormal bases of the metrics, and this form depends on the bases",
                 "write the potential through `q`, `det`, `I1..In`, `norm(x)` and traces of powers of `G` or of `Ct`",
             ),
+            Self::SumBeside { key } => text(
+                format!("`{key}` does not go with terms of different frames in this version"),
+                "their sum has a mass matrix that depends on phi, and is derived on all of GL(n) in orthonormal bases",
+                format!("keep the terms of one frame, or remove `{key}`"),
+            ),
+            Self::ForceBeside { force, key } => text(
+                format!("`{force}` does not go with {key} in this version"),
+                match *key {
+                    "`constraint`" => {
+                        "its force is not projected to the group that is left; only a potential of an isochoric body \
+                         with `dalembert` needs no projection, since there the multiplier keeps the constraint"
+                    }
+                    "`metrics(...)`" => {
+                        "velocities and placements would reach it in other bases than those that points stand in"
+                    }
+                    "`casimir3`" => {
+                        "what it leaves conserved is decided for velocities that are linear in the momenta"
+                    }
+                    "`group = unitary`" => "the lattice of U(n) is that of the Casimir terms alone",
+                    "terms of different frames" => {
+                        "what it leaves conserved is decided for a mass matrix that is constant in one frame"
+                    }
+                    _ => "what is emitted there is derived from T and from potentials that are formulas",
+                },
+                "remove one of the two",
+            ),
             Self::ConstraintBeside { key } => text(
                 format!("`constraint` does not go with `{key}` in this version"),
                 match *key {
@@ -505,6 +552,13 @@ impl Diagnostic {
                  there; the momentum does not determine the velocity",
                 "change a coefficient, or add a term that is not zero on this velocity",
             ),
+            Self::DegenerateSum { terms } => text(
+                format!("the kinetic energy `{terms}` is degenerate at every placement"),
+                "its terms have constant coefficients in different velocities, so that the mass matrix over phi_dot \
+                 depends on phi; its determinant is zero for all phi, and the momentum Pi = (dT/dphi_dot)^T does not \
+                 determine the velocity",
+                "add a term that is not zero on any velocity, such as `dalembert` or `body_inertia`",
+            ),
             Self::NotPositiveDefinite { defect } => text(
                 format!("the kinetic energy is not positive definite: {defect}"),
                 "`require(positive_definite)` asks for T > 0 at every velocity that is not zero; an isotropic form has it iff \
@@ -532,6 +586,35 @@ impl Diagnostic {
                 "every form on the affine group that is invariant on both sides is degenerate (section 4, \
                  after (4.5)): a translational energy needs a metric on one side",
                 format!("claim `metric` on one side, or remove `{term}`"),
+            ),
+            Self::MalformedCustom { key, found, takes, example } => text(
+                format!("`{key}` has {found} where `custom(field, ..)` should say what a field computes"),
+                format!("it is a summand by itself, and takes {takes}"),
+                format!("write `{key} = {example}`"),
+            ),
+            Self::UnknownField { name, nearest, fields } => text(
+                format!("there is no field `{name}`"),
+                format!("`custom(field, ..)` calls a field of the struct, which has {}", listed(fields)),
+                suggestion(
+                    nearest.as_deref(),
+                    "add the field, of a type that implements `affine_runtime::force::Force` or \
+                     `affine_runtime::potential::Potential`",
+                ),
+            ),
+            Self::FixedCentreForce { term, key } => text(
+                format!("`{term}` in `{key}` acts on a centre that stands still"),
+                "without a translational kinetic energy the centre is fixed in space: x_dot = 0, and p is not part of \
+                 the state",
+                format!(
+                    "add `space_translation = m` or `body_translation = m` to `kinetic(...)`, or remove `{term}`"
+                ),
+            ),
+            Self::NegativeDissipation { defect } => text(
+                format!("the dissipation is negative: {defect}"),
+                "the forces of R have the power -2 R; where R < 0 they would feed energy in. The terms of each frame \
+                 count together; casimir terms count with those of the body, or else with those of space",
+                "change a coefficient so that R >= 0 at every velocity; an isotropic R has it iff I >= |A| and \
+                 I + A + n B >= 0, where I is the inertia, A is `casimir2`, B is `casimir1_squared`",
             ),
         }
     }

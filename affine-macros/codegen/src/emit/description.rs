@@ -42,6 +42,11 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
             depends on the momentum, and is singular on a hypersurface of it."
                 .to_owned()
         }
+        None if model.regularity.is_some() => {
+            "The signature of the kinetic metric depends on the placement: it is checked at every start and kept along \
+             every motion."
+                .to_owned()
+        }
         None => "The signature of the kinetic metric depends on the fields.".to_owned(),
     });
     lines.push(String::new());
@@ -51,7 +56,7 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         Group::Metric => format!("O({n})"),
         Group::Less => format!("a proper subgroup of O({n})"),
     };
-    let invariant = match (model.has_potential, model.constraint) {
+    let invariant = match (model.has_forces, model.constraint) {
         (_, Some(_)) => "Without its constraint the kinetic energy is invariant",
         (true, None) => "The kinetic energy is invariant",
         (false, None) => "Invariant",
@@ -84,7 +89,7 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
 }
 
 /// A line of documentation as `///` writes it.
-fn indented(line: String) -> String {
+pub(super) fn indented(line: String) -> String {
     if line.is_empty() { line } else { format!(" {line}") }
 }
 
@@ -92,7 +97,7 @@ fn names(list: &[Candidate]) -> String {
     list.iter().map(|c| format!("`{c:?}`")).collect::<Vec<_>>().join(", ")
 }
 
-fn counts(operations: Operations) -> String {
+pub(super) fn counts(operations: Operations) -> String {
     let mut parts =
         vec![format!("{} multiplications", operations.mul), format!("{} additions", operations.add)];
     for (count, one, several) in [
@@ -106,6 +111,13 @@ fn counts(operations: Operations) -> String {
         }
     }
     parts.join(", ")
+}
+
+/// Operation counts as an expression.
+pub(super) fn operations(context: &Context, o: Operations) -> TokenStream {
+    let rt = &context.names.rt;
+    let [mul, add, div, sqrt, exp, ln] = [o.mul, o.add, o.div, o.sqrt, o.exp, o.ln].map(number);
+    quote!(#rt::Operations { mul: #mul, add: #add, div: #div, sqrt: #sqrt, exp: #exp, ln: #ln })
 }
 
 /// The description as an expression.
@@ -144,16 +156,12 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         quote!(&[#(#entries),*])
     };
     let (full, reduced) = (groups(&model.full.groups), groups(&model.reduced.groups));
-    let operations = |o: Operations| {
-        let [mul, add, div, sqrt, exp, ln] = [o.mul, o.add, o.div, o.sqrt, o.exp, o.ln].map(number);
-        quote!(#rt::Operations { mul: #mul, add: #add, div: #div, sqrt: #sqrt, exp: #exp, ln: #ln })
-    };
     let constraint = match context.constraint() {
         Some(group) => quote!(::core::option::Option::Some(#group)),
         None => quote!(::core::option::Option::None),
     };
-    let full_operations = operations(model.full.program.operations());
-    let reduced_operations = operations(model.reduced.program.operations());
+    let full_operations = operations(context, model.full.program.operations());
+    let reduced_operations = operations(context, model.reduced.program.operations());
     quote! {
         #rt::Description {
             name: #name,

@@ -11,7 +11,7 @@ use crate::mechanics::potential::TIME;
 
 use super::body::Body;
 use super::points::{affine_velocity, components, wrapper};
-use super::{Context, identifiers, inputs, pattern};
+use super::{Context, identifiers, inputs, mixed, pattern};
 
 /// The methods of the model trait that do not reduce.
 pub(super) fn methods(context: &Context) -> TokenStream {
@@ -20,7 +20,8 @@ pub(super) fn methods(context: &Context) -> TokenStream {
     let hamiltonian = hamiltonian(context);
     let flat = flat(context);
     let equations = hamilton_equations(context);
-    quote!(#velocity #kinetic_energy #hamiltonian #flat #equations)
+    let regularity = mixed::regularity(context);
+    quote!(#velocity #kinetic_energy #hamiltonian #flat #equations #regularity)
 }
 
 /// The model's own affine spin of `point`, as a matrix.
@@ -47,7 +48,9 @@ fn velocity(context: &Context) -> TokenStream {
         Frame::Space => quote!(#velocity * #rt::Phase::phi(point)),
         Frame::Flat => velocity,
     };
+    let placement = mixed::placement(context, &context.model.velocity, &quote!(#rt::Phase::phi(point)));
     let (mass, x_dot) = match (&context.model.mass, context.model.translation) {
+        (None, Some(_)) => mixed::velocity_of_centre(context),
         (Some(program), Some(frame)) => {
             let body = context.generic(&program.only("inverse_mass"));
             let (lets, inverse_mass) = (&body.lets, body.result());
@@ -69,6 +72,7 @@ fn velocity(context: &Context) -> TokenStream {
         fn velocity<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
             #inward
             let [#(#rows),*] = #rt::rows(&#spin);
+            #placement
             #lets
             let phi_dot = #phi_dot;
             #mass
@@ -94,7 +98,10 @@ fn kinetic_energy(context: &Context) -> TokenStream {
     let names = components(context.model.frame.velocity_name(), context.model.dim);
     let rows = names.iter().map(|row| pattern(row, &used));
     let o = affine_velocity(context, &quote!(phi));
-    let reads_phi = context.model.frame != Frame::Flat || context.model.translation == Some(Frame::Body);
+    let placement = mixed::placement(context, program, &quote!(phi));
+    let reads_phi = context.model.frame != Frame::Flat
+        || context.model.translation == Some(Frame::Body)
+        || !placement.is_empty();
     let phi = if reads_phi { quote!(phi) } else { quote!(_phi) };
     let centre = match context.model.translation {
         None => TokenStream::new(),
@@ -125,6 +132,7 @@ fn kinetic_energy(context: &Context) -> TokenStream {
             #inward
             let phi_dot = velocity.phi_dot;
             let [#(#rows),*] = #rt::rows(&#o);
+            #placement
             #centre
             #lets
             #energy
@@ -133,7 +141,7 @@ fn kinetic_energy(context: &Context) -> TokenStream {
 }
 
 /// `let` statements that bind the components of `point` that a program reads.
-fn bind_point(context: &Context, program: &Program) -> TokenStream {
+pub(super) fn bind_point(context: &Context, program: &Program) -> TokenStream {
     let rt = &context.names.rt;
     let used = inputs(program);
     let spin = own_spin(context);

@@ -1,19 +1,37 @@
 //! Calls of runtime functions in emitted code: `let (results) = rt::function(arguments);`
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::algebra::kernel::{Callee, Group};
+use crate::algebra::kernel::{Asked, Callee, Group};
 
 /// The statement of a call. One group of results is bound by itself, several as a tuple.
 pub(super) fn statement(
     rt: &Ident,
     callee: Callee,
-    arguments: &[TokenStream],
+    mut arguments: Vec<TokenStream>,
     results: impl Iterator<Item = TokenStream>,
 ) -> TokenStream {
     let function = match callee {
         Callee::Stretches => quote!(#rt::principal_stretches),
+        Callee::Custom(k, asked) => {
+            let field = format_ident!("custom_{k}");
+            arguments.insert(0, quote!(#field));
+            match asked {
+                Asked::Force(name, gyroscopic) => {
+                    let function = format_ident!("{name}");
+                    quote!(#rt::#function::<_, #gyroscopic, _, _>)
+                }
+                Asked::Energy(class, moves) => {
+                    let class = Literal::u8_unsuffixed(class);
+                    quote!(#rt::potential_energy::<_, #class, #moves, _, _>)
+                }
+                Asked::Slopes(class, moves) => {
+                    let class = Literal::u8_unsuffixed(class);
+                    quote!(#rt::potential_slopes::<_, #class, #moves, _, _>)
+                }
+            }
+        }
     };
     let results: Vec<TokenStream> = results.collect();
     let results = match results.as_slice() {

@@ -8,7 +8,7 @@ use crate::ir::Program;
 use crate::mechanics::kinetic::Frame;
 
 use super::body::Body;
-use super::{Context, inputs, pattern};
+use super::{Context, inputs, mixed, pattern, quantities};
 
 /// `at_momentum` and `at_velocity`.
 pub(super) fn inherent(context: &Context) -> TokenStream {
@@ -34,6 +34,14 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
     let at_momentum = format!(
         " The phase point at the placement {q} with {m}: `Spatial(sigma)`, `Comoving(sigma_hat)` or `TwoPoint(pi)`."
     );
+    let refusal = mixed::refusal(context);
+    let quantities = quantities::inherent(context);
+    let errors = |of: &str| {
+        format!(
+            " `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a {of}{refusal}."
+        )
+    };
+    let (momentum_errors, velocity_errors) = (errors("momentum"), errors("velocity"));
     let at_velocity = match &context.model.velocity_side {
         None => without_velocity(context, &point),
         Some(VelocitySide { legendre: program, .. }) => {
@@ -56,7 +64,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
                 #[doc = #doc]
                 ///
                 /// # Errors
-                /// `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a velocity.
+                #[doc = #velocity_errors]
                 #off
                 #visibility fn at_velocity(
                     &self,
@@ -79,7 +87,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
             #[doc = #at_momentum]
             ///
             /// # Errors
-            /// `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a momentum.
+            #[doc = #momentum_errors]
             #off
             #visibility fn at_momentum(
                 &self,
@@ -92,6 +100,8 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
             }
 
             #at_velocity
+
+            #quantities
         }
     }
 }
@@ -142,7 +152,7 @@ struct Confinement {
 
 fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
     let rt = &context.names.rt;
-    let free = quote!(#rt::phase_point(phi, spin, #centre));
+    let free = mixed::regular(context, quote!(#rt::phase_point(phi, spin, #centre)));
     let Some(group) = context.constraint() else {
         return Confinement {
             off: TokenStream::new(),
@@ -182,8 +192,10 @@ fn legendre(context: &Context, program: &Program) -> TokenStream {
     let rows_out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
     let velocity = affine_velocity(context, &quote!(&phi));
     let wrapper = wrapper(context);
+    let placement = mixed::placement(context, program, &quote!(&phi));
     quote! {
         let [#(#rows),*] = #rt::rows(&#velocity);
+        #placement
         #lets
         let spin = #wrapper(#rt::matrix([#(#rows_out),*]));
     }
@@ -212,7 +224,7 @@ pub(super) fn wrapper(context: &Context) -> TokenStream {
 /// `p = m x_dot` or `p = m C x_dot`, (4.7).
 fn momentum_of_centre(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
-    let Some(program) = &context.model.mass else { return TokenStream::new() };
+    let Some(program) = &context.model.mass else { return mixed::momentum_of_centre(context) };
     let body = context.double(&program.only("mass"));
     let (lets, mass) = (&body.lets, body.result());
     let p = match context.model.translation {

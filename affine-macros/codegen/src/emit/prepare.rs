@@ -3,8 +3,9 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::derive::{Condition, NumericBlock, Relation};
+use crate::derive::{Condition, Damping, NumericBlock, Relation};
 use crate::lower::FIELD;
+use crate::spec::Field;
 
 use super::body::{Body, Number, Scope, body};
 use super::{Context, number};
@@ -19,6 +20,26 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
     let visibility = &context.spec.item.visibility;
     let count = number(context.model.coefficients.outputs.len());
     let summary = format!(" [`{model}`] with values of its fields that make it well posed.");
+    if !context.spec.customs.is_empty() {
+        let generics = &context.spec.item.generics;
+        let (_, types, clause) = generics.split_for_impl();
+        let fields = called(context).map(|(name, field)| {
+            let ty = &field.ty;
+            quote!(#name: #ty,)
+        });
+        return quote! {
+            #[doc = #summary]
+            ///
+            /// Made by `prepare()`; holds the coefficients that the equations need, computed once, and the fields
+            /// that they call.
+            #[derive(::core::clone::Clone)]
+            #visibility struct #prepared #generics #clause {
+                coefficients: [::core::primitive::f64; #count],
+                #(#fields)*
+                model: ::core::marker::PhantomData<fn() -> #model #types>,
+            }
+        };
+    }
     quote! {
         #[doc = #summary]
         ///
@@ -35,6 +56,14 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
     }
 }
 
+/// The fields that the equations call: the name in the prepared model, and the field.
+fn called<'a>(context: &'a Context) -> impl Iterator<Item = (Ident, &'a Field)> {
+    context.spec.customs.iter().enumerate().filter_map(|(k, custom)| {
+        let field = context.spec.item.fields.iter().find(|field| field.ident == custom.field)?;
+        Some((format_ident!("custom_{}", k + 1), field))
+    })
+}
+
 /// The method that makes it.
 pub(super) fn method(context: &Context) -> TokenStream {
     if !context.has_fields {
@@ -44,8 +73,16 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let visibility = &context.spec.item.visibility;
     let (generics, types, clause) = context.spec.item.generics.split_for_impl();
     let conditions = conditions(context, rt);
+    let clones = called(context).map(|(name, field)| {
+        let field = &field.ident;
+        quote!(, #name: ::core::clone::Clone::clone(&self.#field))
+    });
+    let marker = (!context.spec.customs.is_empty()).then(|| quote!(, model: ::core::marker::PhantomData));
+    let fields: Vec<TokenStream> = clones.chain(marker).collect();
+    let of = (!context.spec.customs.is_empty()).then(|| quote!(#types));
     let blocks: TokenStream =
         context.model.numeric_blocks.iter().map(|block| numeric_block(block, rt)).collect();
+    let damping = damping(&context.model.damping, rt);
     let Body { lets, results } = over_fields(rt, &context.model.coefficients);
     quote! {
         impl #generics #model #types #clause {
@@ -54,12 +91,13 @@ pub(super) fn method(context: &Context) -> TokenStream {
             /// # Errors
             /// `IllPosed` with the condition, its value and its threshold, where the Legendre transformation
             /// is degenerate to rounding, a required sign is missing, or a coefficient overflows.
-            #visibility fn prepare(&self) -> #rt::Result<#prepared> {
+            #visibility fn prepare(&self) -> #rt::Result<#prepared #of> {
                 #conditions
                 #blocks
+                #damping
                 #lets
                 let coefficients = #rt::finite([#(#results),*])?;
-                ::core::result::Result::Ok(#prepared { coefficients })
+                ::core::result::Result::Ok(#prepared { coefficients #(#fields)* })
             }
         }
     }
@@ -109,6 +147,43 @@ fn condition(condition: &Condition, rt: &Ident) -> TokenStream {
     };
     let reason =
         format!("on {} the {sought} is {} times the {given}; {remedy}", condition.directions, condition.name);
+    held(condition, &text, &reason, rt)
+}
+
+/// What the dissipation must not be: negative.
+fn damping(damping: &Damping, rt: &Ident) -> TokenStream {
+    let entries: Vec<TokenStream> = damping
+        .conditions
+        .iter()
+        .map(|condition| {
+            let text = format!("{} >= 0", condition.name);
+            let reason = format!(
+                "on {} the dissipation function R is half of {} times the square of the velocity; where R < 0 its \
+                 forces would feed energy in",
+                condition.directions, condition.name,
+            );
+            held(condition, &text, &reason, rt)
+        })
+        .collect();
+    let conditions = (!entries.is_empty()).then(|| quote!(#rt::semidefinite(&[#(#entries),*])?;));
+    let blocks = damping.blocks.iter().map(|block| {
+        let Body { lets, results } = over_fields(rt, &block.program);
+        let (size, count) = (block.size, block.size * (block.size + 1) / 2);
+        let (entries, terms) = results.split_at(count);
+        let (size, count) = (number(size), number(count));
+        quote! {
+            {
+                #lets
+                #rt::semidefinite_form::<#size, #count>([#(#entries),*], #rt::total_size([#(#terms),*]))?;
+            }
+        }
+    });
+    quote!(#conditions #(#blocks)*)
+}
+
+/// A condition with the program of its value and of the sizes that rounding errors are measured by.
+fn held(condition: &Condition, text: &str, reason: &str, rt: &Ident) -> TokenStream {
+    let positive = condition.positive;
     let Body { lets, results } = over_fields(rt, &condition.program);
     let (value, sizes) = results.split_first().map_or((quote!(0.0), &[][..]), |(v, s)| (v.clone(), s));
     quote! {

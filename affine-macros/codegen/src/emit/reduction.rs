@@ -176,6 +176,7 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
     let (trajectory, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
     let state: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let work = state.iter().any(|name| name == "work").then(|| quote!(let work = #t::zero();));
     let state = identifiers(&state);
     let mut fields = TokenStream::new();
     let mut field = |wanted: bool, tokens: TokenStream| {
@@ -209,6 +210,7 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
             #lets
             #trajectory
             #whirl
+            #work
             ([#(#state),*], #constants { #fields })
         }
     }
@@ -316,8 +318,12 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
     let chart = &context.model.reduction.chart;
     let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
-    let needed: Vec<&str> =
-        all.iter().map(String::as_str).filter(|name| *name != "inverse_dilatation").collect();
+    // No phase point holds the work, and 1/D follows from phi.
+    let needed: Vec<&str> = all
+        .iter()
+        .map(String::as_str)
+        .filter(|name| !["inverse_dilatation", "work"].contains(name))
+        .collect();
     let bound = pattern(&all, &needed);
     let mut lets = quote!(let #bound = *reduced;);
     let rows = |stem: &str| {

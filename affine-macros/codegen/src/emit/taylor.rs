@@ -119,6 +119,7 @@ impl Writer<'_> {
             _ => quote!(#t::zero()),
         });
         quote! {
+            #[inline(always)]
             fn start<#t: #rt::Scalar>(
                 &self,
                 _t: #t,
@@ -165,10 +166,14 @@ impl Writer<'_> {
         let open = (!self.recurrence.row.is_empty())
             .then(|| quote!(let [first, middle @ .., row] = rows else { return [#t::zero(); #zeros] };));
         let rows = if self.recurrence.row.is_empty() { quote!(_rows) } else { quote!(rows) };
+        let passes = self.recurrence.full.len() + self.recurrence.inner.len();
+        let vectors = if passes > 0 { quote!(vectors) } else { quote!(_vectors) };
         let order = if self.reads_order() { quote!(order) } else { quote!(_order) };
         quote! {
+            #[inline(always)]
             fn next<#t: #rt::Scalar>(
                 &self,
+                #vectors: impl #rt::Vectors,
                 #order: #t,
                 #constants: &Self::Constants<#t>,
                 #coefficient: &Self::Reduced<#t>,
@@ -360,7 +365,7 @@ impl Writer<'_> {
             (true, Factor::Slot(_)) => "subtract_multiple",
         };
         let function = format_ident!("{name}");
-        quote!(#rt::#function(&mut #sum, #left, #right);)
+        quote!(#rt::#function(vectors, &mut #sum, #left, #right);)
     }
 
     fn place(&self, place: Place) -> TokenStream {

@@ -78,6 +78,8 @@ fn kernel_operations(call: &Call) -> Operations {
         _ => 0,
     };
     match call.callee {
+        // What a field of the model computes is not known here.
+        Callee::Custom(..) => Operations::default(),
         // One-sided Jacobi: scaling, so many rotations of two columns of two matrices, lengths.
         Callee::Stretches => {
             let rotations = if n == 2 { 2 } else { 12 };

@@ -5,7 +5,7 @@ use crate::algebra::residue::Residue;
 use crate::algebra::ring::{Ring, Square, deviator, skew, sum};
 use crate::algebra::{Arena, Polynomial};
 
-use super::charts::Chart;
+use super::charts::{Chart, Coordinate};
 use super::constraint::Constraint;
 use super::equations::gradient;
 use super::flow::{Flow, at_a_point, norm_rate, power_rate};
@@ -123,6 +123,21 @@ pub fn conserved(arena: &Arena, chart: &Chart, h: &Polynomial) -> Vec<Candidate>
     still(arena, chart, h, Candidate::ALL.into_iter().filter(exists).collect())
 }
 
+/// The candidates whose brackets vanish at the points that `points` evaluate at; `slopes` are the derivatives of `H`.
+pub(super) fn conserved_at_points(
+    chart: &Chart,
+    slopes: &[(Coordinate, Polynomial)],
+    points: &[&dyn Fn(&Polynomial) -> Residue],
+) -> Vec<Candidate> {
+    let mut list = Candidate::ALL.to_vec();
+    list.retain(|c| c.exists(chart.dim, chart.linear.is_some()));
+    for point in points {
+        let flow = Flow::new(chart, slopes, point);
+        list.retain(|c| flow.bracket(*c).iter().all(Ring::vanishes));
+    }
+    list
+}
+
 /// Those of the candidates whose brackets with `h` vanish.
 fn still(arena: &Arena, chart: &Chart, h: &Polynomial, candidates: Vec<Candidate>) -> Vec<Candidate> {
     let slopes = gradient(chart, h);
@@ -139,13 +154,16 @@ fn still(arena: &Arena, chart: &Chart, h: &Polynomial, candidates: Vec<Candidate
     let sample = Flow::new(chart, &slopes, &residue);
     let symbolic = Flow::new(chart, &slopes, &itself);
     let mut list = candidates;
-    list.retain(|c| {
-        sample.bracket(*c).iter().all(Ring::vanishes) && symbolic.bracket(*c).iter().all(Ring::vanishes)
-    });
+    list.retain(|c| sample.leaves(*c) && symbolic.leaves(*c));
     list
 }
 
 impl<R: Ring> Flow<'_, R> {
+    /// Does the flow leave the candidate at rest?
+    pub(super) fn leaves(&self, candidate: Candidate) -> bool {
+        self.bracket(candidate).iter().all(Ring::vanishes)
+    }
+
     /// The components of `{candidate, H}`, up to common factors that do not vanish.
     fn bracket(&self, candidate: Candidate) -> Vec<R> {
         match candidate {

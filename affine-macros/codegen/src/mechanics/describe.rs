@@ -8,8 +8,9 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::constraint::Constraint;
 use super::equations::{Form, System, gradient, rate, velocities};
+use super::forces::Forces;
 use super::hamiltonian::{Hamiltonian, Isotropic};
-use super::kinetic::{Coefficient, Frame, Kinetic, TermKind};
+use super::kinetic::{Coefficient, Frame, Kinetic, Term, TermKind};
 use super::notation::{latex, plain};
 use super::potential::Potential;
 use super::reduce::{ClosedForm, Commuting, Layout, Reduction};
@@ -25,18 +26,18 @@ pub struct Formula {
 }
 
 /// A sum under construction.
-struct Sum {
+pub(super) struct Sum {
     text: String,
     latex: String,
 }
 
 impl Sum {
-    fn new(left: &str, left_latex: &str) -> Self {
+    pub(super) fn new(left: &str, left_latex: &str) -> Self {
         Self { text: format!("{left} ="), latex: format!("{left_latex} =") }
     }
 
     /// Adds `coefficient * body`, with the sign in front.
-    fn add(&mut self, arena: &mut Arena, coefficient: &Polynomial, body: (&str, &str)) {
+    pub(super) fn add(&mut self, arena: &mut Arena, coefficient: &Polynomial, body: (&str, &str)) {
         if coefficient.is_zero() {
             return;
         }
@@ -63,7 +64,7 @@ impl Sum {
         self.latex.push_str(body.1);
     }
 
-    fn finish(mut self) -> Formula {
+    pub(super) fn finish(mut self) -> Formula {
         if self.text.ends_with('=') {
             self.text.push_str(" 0");
             self.latex.push_str(" 0");
@@ -74,14 +75,20 @@ impl Sum {
 
 /// `T` as the sum of its terms.
 pub fn kinetic_energy(arena: &mut Arena, kinetic: &Kinetic) -> Formula {
-    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
     let mut sum = Sum::new("T", "T");
-    let (o, o_latex) = match kinetic.frame {
+    quadratic_terms(arena, &mut sum, kinetic.frame, &kinetic.terms);
+    sum.finish()
+}
+
+/// Adds the terms of a quadratic form in the velocity of `frame`.
+pub(super) fn quadratic_terms(arena: &mut Arena, sum: &mut Sum, frame: Frame, terms: &[Term]) {
+    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+    let (o, o_latex) = match frame {
         Frame::Body => ("Omega_hat", "\\hat\\Omega"),
         Frame::Space => ("Omega", "\\Omega"),
         Frame::Flat => ("phi_dot", "\\dot\\varphi"),
     };
-    for term in &kinetic.terms {
+    for term in terms {
         let (coefficient, (text, latex)) = match (term.kind, &term.value) {
             (TermKind::Casimir2, Coefficient::Scalar(c)) => {
                 (*c, (format!("tr({o}^2)"), format!("\\operatorname{{tr}}{o_latex}^2")))
@@ -113,7 +120,6 @@ pub fn kinetic_energy(arena: &mut Arena, kinetic: &Kinetic) -> Formula {
         let weight = Polynomial::normal_form(arena, coefficient).scaled(&half);
         sum.add(arena, &weight, (&text, &latex));
     }
-    sum.finish()
 }
 
 /// `T = tr(X O) - H` of a Hamiltonian with `C(3)`, on momenta: the cubic term counts twice (Euler).
@@ -133,6 +139,7 @@ pub fn hamiltonian(
     h: &Hamiltonian,
     full: &Polynomial,
     potential: Option<&Potential>,
+    forces: &Forces,
 ) -> Formula {
     let dependent = h.confined().map_or_else(Vec::new, |group| group.dependent(&h.momentum));
     let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
@@ -140,6 +147,10 @@ pub fn hamiltonian(
     if let Some(u) = potential {
         formula.text += &format!(" + {}", plain(arena, u.energy));
         formula.latex += &format!(" + {}", latex(arena, u.energy));
+    }
+    for custom in forces.potentials() {
+        formula.text += &format!(" + {}", custom.text);
+        formula.latex += &format!(" + {}", custom.latex);
     }
     formula
 }
@@ -201,6 +212,7 @@ pub fn equations(
     chart: &Chart,
     full: &Polynomial,
     potential: Option<&Potential>,
+    forces: &Forces,
 ) -> Vec<Formula> {
     let velocity = velocities(arena, chart, full);
     let slopes = gradient(chart, full);
@@ -222,7 +234,7 @@ pub fn equations(
         ),
         (momentum_names(chart.momentum).2, momentum_names(chart.momentum).3, pairs(chart.dim, Coordinate::M)),
     ];
-    let forces = potential.map_or([None, None], |u| force_names(chart, u));
+    let names = force_names(chart, potential, forces);
     for (left, left_latex, coordinates) in groups.into_iter().filter(|(_, _, c)| !c.is_empty()) {
         let derived: Vec<Polynomial> =
             coordinates.iter().map(|z| rate(chart, &slopes, &velocity, form, *z)).collect();
@@ -230,8 +242,8 @@ pub fn equations(
             k.components.len() == derived.len() && k.components.iter().zip(&derived).all(|(a, b)| a == b)
         });
         let force = match coordinates[0] {
-            Coordinate::P(_) => forces[0],
-            Coordinate::M(..) => forces[1],
+            Coordinate::P(_) => names[0].as_ref(),
+            Coordinate::M(..) => names[1].as_ref(),
             Coordinate::X(_) | Coordinate::Phi(..) | Coordinate::Carried(_) => None,
         };
         match (known, force) {
@@ -278,9 +290,13 @@ pub fn equations(
             })),
         }
     }
-    for (name, name_latex, text, latex) in forces.into_iter().flatten() {
-        list.push(Formula { text: format!("{name} = {text}"), latex: format!("{name_latex} = {latex}") });
+    for (name, name_latex, definition) in names.into_iter().flatten() {
+        list.push(Formula {
+            text: format!("{name} = {}", definition.text),
+            latex: format!("{name_latex} = {}", definition.latex),
+        });
     }
+    list.extend(forces.formulas(arena));
     match h.constraint {
         Some(group) => under_constraint(h, group, list),
         None => list,
@@ -324,24 +340,41 @@ fn under_constraint(h: &Hamiltonian, group: Constraint, mut list: Vec<Formula>) 
     list
 }
 
-/// Name and definition, in text and LaTeX, of the generalised forces on the linear and the affine momentum.
-type ForceName = (&'static str, &'static str, &'static str, &'static str);
+/// Name in text and LaTeX, and definition, of the generalised forces on the linear and the affine momentum.
+type ForceName = (&'static str, &'static str, Formula);
 
-fn force_names(chart: &Chart, potential: &Potential) -> [Option<ForceName>; 2] {
-    let linear: ForceName = match chart.linear {
-        Some(Linear::Body) => ("F_hat", "\\hat F", "-phi^T dU/dx", "-\\varphi^T \\partial U/\\partial x"),
-        _ => ("F", "F", "-dU/dx", "-\\partial U/\\partial x"),
+fn force_names(chart: &Chart, potential: Option<&Potential>, forces: &Forces) -> [Option<ForceName>; 2] {
+    let (linear, of_linear) = match chart.linear {
+        Some(Linear::Body) => (("F_hat", "\\hat F"), ("-phi^T dU/dx", "-\\varphi^T \\partial U/\\partial x")),
+        _ => (("F", "F"), ("-dU/dx", "-\\partial U/\\partial x")),
     };
-    let affine: ForceName = match chart.momentum {
+    let (affine, of_affine) = match chart.momentum {
         Momentum::Body => {
-            ("Q_hat", "\\hat Q", "-(dU/dphi)^T phi", "-(\\partial U/\\partial\\varphi)^T \\varphi")
+            (("Q_hat", "\\hat Q"), ("-(dU/dphi)^T phi", "-(\\partial U/\\partial\\varphi)^T \\varphi"))
         }
         Momentum::Space | Momentum::Total => {
-            ("Q", "Q", "-phi (dU/dphi)^T", "-\\varphi (\\partial U/\\partial\\varphi)^T")
+            (("Q", "Q"), ("-phi (dU/dphi)^T", "-\\varphi (\\partial U/\\partial\\varphi)^T"))
         }
-        Momentum::Canonical => ("N", "N", "-(dU/dphi)^T", "-(\\partial U/\\partial\\varphi)^T"),
+        Momentum::Canonical => (("N", "N"), ("-(dU/dphi)^T", "-(\\partial U/\\partial\\varphi)^T")),
     };
-    [potential.moves_the_centre().then_some(linear), Some(affine)]
+    let moves = potential.is_some_and(Potential::moves_the_centre);
+    let mut on_linear: Vec<(String, String)> = Vec::new();
+    let mut on_affine: Vec<(String, String)> = Vec::new();
+    let owned = |(text, latex): (&str, &str)| (text.to_owned(), latex.to_owned());
+    on_linear.extend(moves.then(|| owned(of_linear)));
+    on_affine.extend(potential.map(|_| owned(of_affine)));
+    forces.name_on(chart, &mut on_linear, &mut on_affine);
+    let joined = |(name, latex): (&'static str, &'static str), parts: Vec<(String, String)>| {
+        let sum = |parts: Vec<String>| {
+            parts.into_iter().reduce(|sum, part| match part.strip_prefix('-') {
+                Some(size) => format!("{sum} - {size}"),
+                None => format!("{sum} + {part}"),
+            })
+        };
+        let (texts, formulas) = parts.into_iter().unzip();
+        Some((name, latex, Formula { text: sum(texts)?, latex: sum(formulas)? }))
+    };
+    [joined(linear, on_linear), joined(affine, on_affine)]
 }
 
 /// The index of a component: `12` of `pi_12`.
@@ -460,7 +493,8 @@ pub fn system(arena: &mut Arena, system: &System) -> Vec<Formula> {
     let shared = system.shared.iter().filter(|(s, _)| !is_rate(*s)).map(|(s, p)| (*s, p.clone(), false));
     let rates =
         system.rates.iter().map(|(_, s, p)| (*s, value_of_rate(p).unwrap_or_else(|| p.clone()), true));
-    let equations: Vec<(Expr, Polynomial, bool)> = shared.chain(rates).collect();
+    let work = system.work.iter().map(|(s, p)| (*s, p.clone(), true));
+    let equations: Vec<(Expr, Polynomial, bool)> = shared.chain(rates).chain(work).collect();
     equations
         .into_iter()
         .map(|(symbol, p, rate)| {

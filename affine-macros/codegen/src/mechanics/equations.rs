@@ -15,9 +15,11 @@ pub struct System {
     pub kernels: Vec<Kernel>,
     /// Coordinates and their time derivatives.
     pub rates: Vec<(Coordinate, Expr, Polynomial)>,
+    /// The work of forces that no potential has, as one more variable, and its rate, their power.
+    pub work: Option<(Expr, Polynomial)>,
 }
 
-/// What a potential adds to a system.
+/// What a potential, a dissipation or a force adds to a system.
 #[derive(Clone, Debug, Default)]
 pub struct Load {
     /// Quantities that the forces share.
@@ -26,6 +28,8 @@ pub struct Load {
     pub kernels: Vec<Kernel>,
     /// Coordinates and what their rates gain.
     pub forces: Vec<(Coordinate, Polynomial)>,
+    /// The symbol of the work and the power of the forces, where no potential has them.
+    pub work: Option<(Expr, Polynomial)>,
 }
 
 /// How the rate of a coordinate is written.
@@ -105,7 +109,7 @@ pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form)
         .collect();
     let symbols =
         Matrix(velocity.iter().map(|row| row.iter().map(|(symbol, _)| *symbol).collect()).collect());
-    let system = System { shared: velocity.into_iter().flatten().collect(), kernels: Vec::new(), rates };
+    let system = System { shared: velocity.into_iter().flatten().collect(), rates, ..System::default() };
     system.confined(chart, &symbols)
 }
 
@@ -142,17 +146,27 @@ impl System {
             shared: self.shared.iter().map(|(s, p)| (*s, each(p))).collect(),
             kernels: self.kernels.iter().map(|kernel| kernel.with_arguments(each)).collect(),
             rates: self.rates.iter().map(|(z, s, p)| (*z, *s, each(p))).collect(),
+            work: self.work.as_ref().map(|(s, p)| (*s, each(p))),
         }
     }
 
     /// Adds quantities and what they add to the rates.
     pub fn add(&mut self, load: &Load) {
-        self.shared.extend(load.shared.iter().cloned());
+        for (symbol, definition) in &load.shared {
+            // Two loads may share a quantity; either definition has its value.
+            if !self.shared.iter().any(|(known, _)| known == symbol) {
+                self.shared.push((*symbol, definition.clone()));
+            }
+        }
         self.kernels.extend(load.kernels.iter().cloned());
         for (coordinate, force) in &load.forces {
             for (_, _, rate) in self.rates.iter_mut().filter(|(z, _, _)| z == coordinate) {
                 rate.add_scaled(force, &Rational::ONE);
             }
+        }
+        if let Some((symbol, power)) = &load.work {
+            let (_, sum) = self.work.get_or_insert_with(|| (*symbol, Polynomial::zero()));
+            sum.add_scaled(power, &Rational::ONE);
         }
     }
 
@@ -180,6 +194,7 @@ impl System {
                 shared
                     .chain(self.kernels.iter().flat_map(Kernel::inputs))
                     .chain(self.rates.iter().map(|(_, _, p)| p))
+                    .chain(self.work.iter().map(|(_, p)| p))
                     .any(|p| p.any_symbol(arena, &mut |a| a == symbol))
             };
             let idle: Vec<Expr> = self.shared.iter().map(|(s, _)| *s).filter(|s| !used(*s)).collect();

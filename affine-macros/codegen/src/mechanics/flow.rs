@@ -20,6 +20,16 @@ pub(super) struct Flow<'a, R> {
     gradient: Vec<(Coordinate, R)>,
     sigma_dot: OnceCell<Square<R>>,
     sigma_hat_dot: OnceCell<Square<R>>,
+    /// What moves the momenta alone, beside which nothing else moves.
+    push: Option<Push<R>>,
+}
+
+/// Forces: the rates of the momenta at rest of the placement, all times one factor that does not vanish.
+pub(super) struct Push<R> {
+    /// On `p`.
+    pub(super) p: Vec<R>,
+    /// On `Pi`.
+    pub(super) pi: Square<R>,
 }
 
 /// The value of a polynomial at one point modulo a prime, parameters included.
@@ -38,7 +48,16 @@ impl<'a, R: Ring> Flow<'a, R> {
         lift: &'a dyn Fn(&Polynomial) -> R,
     ) -> Self {
         let gradient = gradient.iter().map(|(z, slope)| (*z, lift(slope))).collect();
-        Self { chart, lift, gradient, sigma_dot: OnceCell::new(), sigma_hat_dot: OnceCell::new() }
+        Self { chart, lift, gradient, sigma_dot: OnceCell::new(), sigma_hat_dot: OnceCell::new(), push: None }
+    }
+
+    /// The flow of forces alone, seen through `lift`.
+    pub(super) fn vertical(chart: &'a Chart, push: Push<R>, lift: &'a dyn Fn(&Polynomial) -> R) -> Self {
+        let flow = Self::new(chart, &[], lift);
+        let phi = flow.phi();
+        // Sigma = phi Pi and Sigma_hat = Pi phi at fixed phi.
+        let (sigma_dot, sigma_hat_dot) = (product(&phi, &push.pi), product(&push.pi, &phi));
+        Self { sigma_dot: sigma_dot.into(), sigma_hat_dot: sigma_hat_dot.into(), push: Some(push), ..flow }
     }
 
     fn value(&self, coordinate: Coordinate) -> R {
@@ -70,6 +89,9 @@ impl<'a, R: Ring> Flow<'a, R> {
     }
 
     pub(super) fn p_dot(&self) -> Vec<R> {
+        if let Some(push) = &self.push {
+            return push.p.clone();
+        }
         (0..self.chart.p.len()).map(|i| self.rate(Coordinate::P(i))).collect()
     }
 
@@ -134,6 +156,9 @@ impl<'a, R: Ring> Flow<'a, R> {
 
     /// Rate of `Pi`, times `phi` on the side where that makes it a polynomial.
     pub(super) fn canonical_rate(&self) -> Square<R> {
+        if let Some(push) = &self.push {
+            return push.pi.clone();
+        }
         let slope = |a: usize, b: usize| {
             let found = self.gradient.iter().find(|(z, _)| *z == Coordinate::M(b, a));
             found.map_or_else(R::zero, |(_, slope)| slope.clone())

@@ -70,16 +70,32 @@ impl Block {
     #[must_use]
     pub fn inertia(&self, dim: usize) -> Option<Inertia> {
         let mut inertia = linear::inertia(&self.numbers()?);
-        inertia.kernel = inertia.kernel.map(|kernel| {
-            let mut direction = vec![Rational::ZERO; dim * dim];
-            for (weight, vector) in kernel.iter().zip(&self.basis) {
-                for (k, w) in &vector.entries {
-                    direction[*k] = &direction[*k] + &(weight * w);
-                }
-            }
-            direction
-        });
+        inertia.kernel = inertia.kernel.map(|kernel| self.velocity(dim, &kernel));
         Some(inertia)
+    }
+
+    /// The affine velocity of `n^2` entries with these components in the basis.
+    #[must_use]
+    pub fn velocity(&self, dim: usize, components: &[Rational]) -> Vec<Rational> {
+        let mut direction = vec![Rational::ZERO; dim * dim];
+        for (weight, vector) in components.iter().zip(&self.basis) {
+            for (k, w) in &vector.entries {
+                direction[*k] = &direction[*k] + &(weight * w);
+            }
+        }
+        direction
+    }
+
+    /// The value of the form at these components, if it is numeric.
+    #[must_use]
+    pub fn square(&self, components: &[Rational]) -> Option<Rational> {
+        let mut sum = Rational::ZERO;
+        for (row, left) in self.numbers()?.iter().zip(components) {
+            for (value, right) in row.iter().zip(components) {
+                sum = &sum + &(&(left * right) * value);
+            }
+        }
+        Some(sum)
     }
 }
 

@@ -196,6 +196,19 @@ impl Kinetic {
         {
             return Err((flat.min(affine), flat.max(affine)));
         }
+        Ok(Self::in_frame(arena, dim, frame, terms, constraint))
+    }
+
+    /// Writes terms that have constant coefficients in `frame`, under the constraint if there is one, in the velocity of
+    /// that frame.
+    pub(super) fn in_frame(
+        arena: &mut Arena,
+        dim: usize,
+        frame: Frame,
+        terms: &[Term],
+        constraint: Option<Constraint>,
+    ) -> Self {
+        let form = |kind: TermKind| constraint.map_or(kind, |group| group.form_of(kind));
         let velocity = Matrix::symbols(arena, frame.velocity_name(), dim);
         let mut kinetic = Self {
             dim,
@@ -217,7 +230,7 @@ impl Kinetic {
                 }
             }
         }
-        Ok(kinetic)
+        kinetic
     }
 
     /// The internal energy `T_int`.

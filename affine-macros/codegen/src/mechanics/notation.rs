@@ -119,6 +119,7 @@ fn symbol_latex(name: &str) -> String {
         ("dilatation", "D"),
         ("inverse_dilatation", "r"),
         ("inverse_det", "\\delta"),
+        ("work", "W"),
     ];
     if let Some((_, latex)) = whole.iter().find(|(known, _)| *known == name) {
         return (*latex).to_owned();
@@ -141,6 +142,13 @@ fn symbol_latex(name: &str) -> String {
         ("green_", "G"),
         ("finger_", "\\tilde C"),
         ("phi_dot_", "\\dot\\varphi"),
+        ("phi_inverse_", "\\varphi^{-1}"),
+        ("drag_hat_", "\\hat Q"),
+        ("drag_flat_", "N"),
+        ("drag_centre_", "F"),
+        ("drag_", "Q"),
+        ("push_", "N'"),
+        ("v_hat_", "\\hat v"),
         ("velocity_", "\\dot\\varphi"),
         ("phi_", "\\varphi"),
         ("omega_hat_", "\\hat\\Omega"),
@@ -148,6 +156,10 @@ fn symbol_latex(name: &str) -> String {
         ("p_hat_", "\\hat p"),
         ("p_", "p"),
         ("x_", "x"),
+        ("q_", "q"),
+        ("stretch_", "Q"),
+        ("m_", "M"),
+        ("n_", "N"),
         ("k_", "k"),
         ("c_", "c"),
     ];

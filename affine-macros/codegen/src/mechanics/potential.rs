@@ -4,6 +4,7 @@
 //! chain rule does the rest. `Q_hat = -(dU/dphi)^T phi`, `Q = -phi (dU/dphi)^T`, `Q_tr = -dU/dx` (MATH: section 3
 //! of the paper).
 
+mod axes;
 mod dilatation;
 mod invariance;
 mod principal;
@@ -18,6 +19,7 @@ use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::conserved::Candidate;
 use super::constraint::Constraint;
 use super::equations::Load;
+pub use axes::OnAxes;
 use invariance::Evidence;
 use principal::Principal;
 use restriction::restricted;

@@ -8,6 +8,7 @@ use super::carried::carrying_the_dilatation;
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::conserved::Candidate;
 use super::equations::{Form, Load, System, hamilton};
+use super::forces::Forces;
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetic::Frame;
 use super::potential::Potential;
@@ -77,7 +78,9 @@ pub fn closed_form(arena: &mut Arena, h: &Hamiltonian, moving: &[Commuting]) -> 
     let iso = h.isotropic.as_ref()?;
     // The translational energy is quadratic in p: at p = 0 its flow stands still, and only the internal pieces have
     // to commute.
-    let resting = at_rest.then(|| commuting(arena, &Hamiltonian { translation: None, ..h.clone() }, None));
+    let forces = Forces::default();
+    let resting =
+        at_rest.then(|| commuting(arena, &Hamiltonian { translation: None, ..h.clone() }, None, &forces));
     let pieces = resting.as_deref().unwrap_or(moving);
     if !iso.skew.is_zero() && pieces.iter().all(|c| matches!(c, Commuting::Drift(_))) {
         return None;
@@ -100,7 +103,12 @@ pub fn own_hamiltonian(h: &Hamiltonian, chart: &Chart) -> Polynomial {
 }
 
 /// The pieces of `H` that can be split off, each proved to commute with the rest.
-pub fn commuting(arena: &mut Arena, h: &Hamiltonian, potential: Option<&Potential>) -> Vec<Commuting> {
+pub fn commuting(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    potential: Option<&Potential>,
+    forces: &Forces,
+) -> Vec<Commuting> {
     let keeps = |candidate| potential.is_none_or(|u| u.keeps(candidate));
     let chart = own_chart(arena, h);
     let translation = h.translation_in(&chart);
@@ -113,7 +121,10 @@ pub fn commuting(arena: &mut Arena, h: &Hamiltonian, potential: Option<&Potentia
             Frame::Body => Candidate::Vorticity,
             _ => Candidate::Spin,
         };
-        if poisson(&chart, &iso.skew_norm(&spin), &rest).is_zero() && keeps(norm) {
+        if poisson(&chart, &iso.skew_norm(&spin), &rest).is_zero()
+            && keeps(norm)
+            && forces.commute_with_rotation(&chart, h, iso)
+        {
             found.push(match h.frame {
                 Frame::Body => Commuting::Vorticity(iso.skew.clone()),
                 _ => Commuting::Spin(iso.skew.clone()),
@@ -123,6 +134,7 @@ pub fn commuting(arena: &mut Arena, h: &Hamiltonian, potential: Option<&Potentia
     if let Some((Frame::Space, inverse_mass)) = &h.translation
         && poisson(&chart, &translation, &h.internal()).is_zero()
         && potential.is_none_or(|u| !u.moves_the_centre())
+        && forces.leave_the_centre()
     {
         found.push(Commuting::Drift(inverse_mass.clone()));
     }
@@ -135,9 +147,10 @@ pub fn candidates(
     arena: &mut Arena,
     h: &Hamiltonian,
     potential: Option<&Potential>,
+    forces: &Forces,
     rotations: bool,
 ) -> Vec<Reduction> {
-    let commuting = commuting(arena, h, potential);
+    let commuting = commuting(arena, h, potential, forces);
     let drift = commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
     let without_skew = commuting.iter().any(|c| !matches!(c, Commuting::Drift(_)));
     let linear = (h.translation.is_some() && !drift).then_some(Linear::Space);
@@ -148,7 +161,11 @@ pub fn candidates(
             momenta.push(other);
         }
     }
-    let separated = separated(arena, h, potential, &commuting);
+    // Proved of potentials that are formulas alone: forces couple the dilatation to the rest, or are unknown.
+    let separated = match forces.is_empty() {
+        true => separated(arena, h, potential, &commuting),
+        false => Vec::new(),
+    };
     let entire: Vec<Reduction> = momenta
         .into_iter()
         .flat_map(|momentum| {
@@ -157,9 +174,10 @@ pub fn candidates(
             if linear.is_some() {
                 main.add_scaled(&h.translation_in(&chart), &Rational::ONE);
             }
-            let load = potential.map(|u| u.load(arena, &chart));
+            let mut loads: Vec<Load> = potential.iter().map(|u| u.load(arena, &chart)).collect();
+            loads.extend(forces.loads(arena, &chart, h));
             let multiplier = h.constraint.is_some() && h.confined().is_none();
-            let plan = Plan { chart, commuting: commuting.clone(), turn, load, multiplier };
+            let plan = Plan { chart, commuting: commuting.clone(), turn, loads, multiplier };
             plan.reduced(arena, &main, h.is_tensor())
         })
         .collect();
@@ -223,13 +241,29 @@ fn take_constants(system: &mut System) -> Vec<Expr> {
     fixed
 }
 
+/// A system whose affine momentum is state, reduced: `p` leaves it where it is conserved, and space is turned on
+/// demand.
+pub fn reduced(
+    arena: &Arena,
+    chart: Chart,
+    commuting: Vec<Commuting>,
+    turn: bool,
+    system: System,
+) -> Reduction {
+    Plan { chart, commuting, turn, loads: Vec::new(), multiplier: false }.state_only(
+        arena,
+        system,
+        Layout::Entries,
+    )
+}
+
 /// What is known about a reduction before its equations are.
 struct Plan {
     chart: Chart,
     commuting: Vec<Commuting>,
     turn: bool,
-    /// The forces of the potential.
-    load: Option<Load>,
+    /// The forces.
+    loads: Vec<Load>,
     /// Does the multiplier of a constraint act besides? Then no affine momentum is taken for conserved.
     multiplier: bool,
 }
@@ -263,11 +297,9 @@ impl Plan {
         reductions
     }
 
-    /// The equations with the forces of the potential.
+    /// The equations with the forces.
     fn loaded(&self, mut system: System) -> System {
-        if let Some(load) = &self.load {
-            system.add(load);
-        }
+        self.loads.iter().for_each(|load| system.add(load));
         system
     }
 
@@ -328,6 +360,8 @@ fn states(
         group("p", |z| matches!(z, Coordinate::P(_))),
         group(momentum, |z| matches!(z, Coordinate::M(..))),
         group("1/D", |z| matches!(z, Coordinate::Carried(_))),
+        // After all rates.
+        ("work", system.work.iter().map(|(symbol, _)| *symbol).collect()),
     ]
     .into_iter()
     .filter(|(_, symbols)| !symbols.is_empty())
@@ -335,7 +369,7 @@ fn states(
 }
 
 /// Components that vanish once space is turned.
-fn gauge(chart: &Chart, turned: bool, layout: Layout) -> Vec<Expr> {
+pub(super) fn gauge(chart: &Chart, turned: bool, layout: Layout) -> Vec<Expr> {
     let mut zero = Vec::new();
     if turned {
         zero.extend(chart.p.iter().skip(1));

@@ -33,7 +33,7 @@ pub(super) fn extent(tokens: &TokenStream) -> Option<Region> {
     region(&tokens.clone().into_iter().collect::<Vec<_>>())
 }
 
-fn region(tokens: &[TokenTree]) -> Option<Region> {
+pub(super) fn region(tokens: &[TokenTree]) -> Option<Region> {
     Some(Region { start: tokens.first()?.span(), end: tokens.last()?.span() })
 }
 
@@ -91,20 +91,18 @@ pub(super) fn unwrapped(mut tokens: Vec<TokenTree>) -> Vec<TokenTree> {
     tokens
 }
 
-/// The entries of a list whose keys are the names of `K`, and the keys of `later` versions or, for terms, of the
-/// other side. Whatever is not an
-/// entry with a known key, or repeats one, is reported; where the key meant is plain, a refused entry stands
-/// for it.
+/// The entries of a list whose keys are the names of `K`; `elsewhere` are the terms of the other side. Whatever is not an
+/// entry with a known key, or repeats one, is reported; where the key meant is plain, a refused entry stands for it.
 pub(super) fn entries<K: Named + PartialEq>(
     list: &'static str,
     tokens: TokenStream,
     end: Span,
-    later: &[&'static str],
+    elsewhere: &[&'static str],
     found: &mut Diagnostics,
 ) -> Vec<Entry<K>> {
     let mut entries: Vec<Entry<K>> = Vec::new();
     for piece in pieces(tokens, end) {
-        let Some(entry) = entry(list, piece, later, found) else { continue };
+        let Some(entry) = entry(list, piece, elsewhere, found) else { continue };
         match entries.iter_mut().find(|earlier: &&mut Entry<K>| earlier.key == entry.key) {
             None => entries.push(entry),
             Some(earlier) if matches!(earlier.body, Body::Refused(_)) => *earlier = entry,
@@ -120,7 +118,7 @@ pub(super) fn entries<K: Named + PartialEq>(
 fn entry<K: Named>(
     list: &'static str,
     piece: Piece,
-    later: &[&'static str],
+    elsewhere: &[&'static str],
     found: &mut Diagnostics,
 ) -> Option<Entry<K>> {
     let mut tokens = unwrapped(piece.tokens).into_iter();
@@ -139,7 +137,7 @@ fn entry<K: Named>(
     match K::named(&name.to_string()) {
         Some(key) => Some(Entry { key, at, body: body(list, tokens, found) }),
         None => {
-            let (meant, reported) = unknown(list, &name, later, found);
+            let (meant, reported) = unknown(list, &name, elsewhere, found);
             meant.map(|key| Entry { key, at, body: Body::Refused(reported) })
         }
     }
@@ -167,20 +165,19 @@ fn malformed(list: &'static str, token: &TokenTree, found: &mut Diagnostics) -> 
     found.report(token.span(), Diagnostic::MalformedItem { list, found: describe(token) })
 }
 
-/// Reports a name that is no key. A key of a later version is told apart from a slip; for a slip, the key
-/// probably meant.
+/// Reports a name that is no key. A term of the other side is told apart from a slip; for a slip, the key probably
+/// meant.
 fn unknown<K: Named>(
     list: &'static str,
     name: &Ident,
-    later: &[&'static str],
+    elsewhere: &[&'static str],
     found: &mut Diagnostics,
 ) -> (Option<K>, Reported) {
     let text = name.to_string();
-    if let Some(key) = later.iter().find(|key| **key == text) {
+    if let Some(key) = elsewhere.iter().find(|key| **key == text) {
         let mistake = match list {
-            "kinetic" => Diagnostic::OtherSide { list, key, other: "hamiltonian" },
             "hamiltonian" => Diagnostic::OtherSide { list, key, other: "kinetic" },
-            _ => Diagnostic::UnavailableKey { list, key },
+            _ => Diagnostic::OtherSide { list, key, other: "hamiltonian" },
         };
         return (None, found.report(name.span(), mistake));
     }

@@ -6,8 +6,8 @@ use syn::parse::Parser;
 use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
 use super::expression_parser::{self, Language};
 use super::momentum_side::{self, MomentumKind};
-use super::names::{Capability, Claim, Constraint, Named, Requirement, TermKind, nearest};
-use super::{Item, Metric, Potential, Spanned, Spec, Symmetry, Term, value};
+use super::names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
+use super::{Custom, Item, Metric, Potential, Spanned, Spec, Symmetry, Term, custom, value};
 use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
 
 /// The keys of `affine_model(...)`.
@@ -19,16 +19,16 @@ enum Key {
     Hamiltonian,
     Metrics,
     Constraint,
+    Group,
     Potential,
+    Dissipation,
+    Forces,
     Require,
     Emit,
     Crate,
 }
 
-/// Keys of the specification language that later versions read.
-const LATER_KEYS: [&str; 3] = ["group", "dissipation", "forces"];
-
-/// Terms that `hamiltonian(...)` has and `kinetic(...)` has not.
+/// Terms that `hamiltonian(...)` has, and `kinetic(...)` and `dissipation(...)` have not.
 const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
 
 /// Terms that `kinetic(...)` has and `hamiltonian(...)` has not.
@@ -43,7 +43,10 @@ impl Named for Key {
         Self::Hamiltonian,
         Self::Metrics,
         Self::Constraint,
+        Self::Group,
         Self::Potential,
+        Self::Dissipation,
+        Self::Forces,
         Self::Require,
         Self::Emit,
         Self::Crate,
@@ -57,7 +60,10 @@ impl Named for Key {
             Self::Hamiltonian => "hamiltonian",
             Self::Metrics => "metrics",
             Self::Constraint => "constraint",
+            Self::Group => "group",
             Self::Potential => "potential",
+            Self::Dissipation => "dissipation",
+            Self::Forces => "forces",
             Self::Require => "require",
             Self::Emit => "emit",
             Self::Crate => "crate",
@@ -76,7 +82,10 @@ impl Key {
             }
             Self::Metrics => "metrics(space = diag(1, 1, 2), body = [[2, 1, 0], [1, 2, 0], [0, 0, 1]])",
             Self::Constraint => "constraint = isochoric",
+            Self::Group => "group = unitary",
             Self::Potential => "potential = kappa/2*sinh(q)^2",
+            Self::Dissipation => "dissipation(body_inertia = 0.1, casimir2 = 0.1)",
+            Self::Forces => "forces = custom(wind, spatial)",
             Self::Require => "require(positive_definite)",
             Self::Emit => "emit(taylor)",
             Self::Crate => "crate = ::affine_runtime",
@@ -109,7 +118,10 @@ pub(super) struct Arguments {
     energy: Energy,
     metrics: [Option<Metric>; 2],
     constraint: Option<Spanned<Constraint>>,
+    group: Option<Spanned<PlacementGroup>>,
     potential: Option<Potential>,
+    customs: Vec<Custom>,
+    dissipation: Vec<Term>,
     require: Vec<Spanned<Requirement>>,
     emit: Vec<Spanned<Capability>>,
     runtime: Option<syn::Path>,
@@ -123,7 +135,20 @@ enum Energy {
 
 impl Arguments {
     pub(super) fn of(self, item: Item) -> Spec {
-        let Self { dim, symmetry, energy, metrics, constraint, potential, require, emit, runtime } = self;
+        let Self {
+            dim,
+            symmetry,
+            energy,
+            metrics,
+            constraint,
+            group,
+            potential,
+            customs,
+            dissipation,
+            require,
+            emit,
+            runtime,
+        } = self;
         let (kinetic, hamiltonian, kinetic_key) = match energy {
             Energy::Kinetic(terms) => (terms.value, None, terms.span),
             Energy::Hamiltonian(terms) => (Vec::new(), Some(terms.value), terms.span),
@@ -137,7 +162,10 @@ impl Arguments {
             kinetic_key,
             metrics,
             constraint,
+            group,
             potential,
+            customs,
+            dissipation,
             require,
             emit,
             runtime,
@@ -147,12 +175,13 @@ impl Arguments {
 
 pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Arguments, Reported> {
     let here = Span::call_site();
-    let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &LATER_KEYS, found);
+    let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &[], found);
     let (mut dim, mut symmetry, mut kinetic, mut runtime) = (None, None, None, None);
     let mut hamiltonian = None;
     let mut metric = [None, None];
     let (mut require, mut emit) = (Vec::new(), Vec::new());
-    let (mut constraint, mut energy) = (None, None);
+    let (mut constraint, mut energy, mut group) = (None, None, None);
+    let (mut dissipation, mut customs) = (Vec::new(), Vec::new());
     for entry in entries {
         let at = entry.at;
         match entry.key {
@@ -169,7 +198,17 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
                 let piece = expect_value(entry, found).ok();
                 constraint = piece.and_then(|Piece { tokens, at }| member("constraint", tokens, at, found));
             }
-            Key::Potential => energy = potential(expect_value(entry, found), at, found),
+            Key::Potential => energy = potential(expect_value(entry, found), at, &mut customs, found),
+            Key::Forces => forces(expect_value(entry, found), &mut customs, found),
+            Key::Dissipation => {
+                let terms = terms(DISSIPATION, expect_list(entry, found), at, found);
+                dissipation = terms.map_or_else(|_| Vec::new(), |terms| terms.value);
+            }
+            Key::Group => {
+                group = expect_value(entry, found)
+                    .ok()
+                    .and_then(|Piece { tokens, at }| member("group", tokens, at, found));
+            }
             Key::Require => require = members("requirement", expect_list(entry, found), found),
             Key::Emit => emit = members("capability", expect_list(entry, found), found),
             Key::Crate => runtime = path(expect_value(entry, found), found),
@@ -188,7 +227,10 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
         energy: stated?,
         metrics: metric,
         constraint,
+        group,
         potential: energy,
+        customs,
+        dissipation,
         require,
         emit,
         runtime,
@@ -276,8 +318,9 @@ const KINETIC: TermList<TermKind> =
     TermList { name: "kinetic", elsewhere: &MOMENTUM_TERMS, example: value::example };
 const HAMILTONIAN: TermList<MomentumKind> =
     TermList { name: "hamiltonian", elsewhere: &VELOCITY_TERMS, example: momentum_side::example };
+const DISSIPATION: TermList<TermKind> = TermList { name: "dissipation", ..KINETIC };
 
-/// `kinetic(...)` and `hamiltonian(...)`.
+/// `kinetic(...)`, `hamiltonian(...)` and `dissipation(...)`.
 fn terms<K: Named + PartialEq>(
     side: TermList<K>,
     list: Result<Group, Reported>,
@@ -331,10 +374,25 @@ fn metrics(list: Result<Group, Reported>, found: &mut Diagnostics) -> [Option<Me
 }
 
 /// `potential = ...`.
-fn potential(piece: Result<Piece, Reported>, key: Span, found: &mut Diagnostics) -> Option<Potential> {
-    let Piece { tokens, at } = piece.ok()?;
+fn potential(
+    piece: Result<Piece, Reported>,
+    key: Span,
+    customs: &mut Vec<Custom>,
+    found: &mut Diagnostics,
+) -> Option<Potential> {
+    let (fields, rest) = custom::taken(piece.ok()?, custom::Place::Potential, found);
+    customs.extend(fields);
+    let Piece { tokens, at } = rest?;
     let energy = expression_parser::parse(tokens, at, Language::Potential(&[]), found).ok()?;
     Some(Potential { key: key.into(), energy, span: at })
+}
+
+/// `forces = ...`.
+fn forces(piece: Result<Piece, Reported>, customs: &mut Vec<Custom>, found: &mut Diagnostics) {
+    let Ok(piece) = piece else { return };
+    let (fields, rest) = custom::taken(piece, custom::Place::Forces, found);
+    customs.extend(fields);
+    custom::only(rest, custom::Place::Forces, found);
 }
 
 /// `require(...)` and `emit(...)`: names and nothing else.

@@ -42,6 +42,23 @@ impl Named for Claim {
     }
 }
 
+/// A group in place of GL(n, R) as the space of placements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlacementGroup {
+    /// U(n), the compact real form of GL(n, C).
+    Unitary,
+}
+
+impl Named for PlacementGroup {
+    const ALL: &'static [Self] = &[Self::Unitary];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Unitary => "unitary",
+        }
+    }
+}
+
 /// The group that the motion is confined to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Constraint {
@@ -117,10 +134,22 @@ pub enum Capability {
     Tangent,
     /// SIMD lanes.
     Lanes,
+    /// The configuration metric and its inverse.
+    Metric,
+    /// The acceleration of the centre of mass.
+    Acceleration,
 }
 
 impl Named for Capability {
-    const ALL: &'static [Self] = &[Self::Splitting, Self::Taylor, Self::TwoPolar, Self::Tangent, Self::Lanes];
+    const ALL: &'static [Self] = &[
+        Self::Splitting,
+        Self::Taylor,
+        Self::TwoPolar,
+        Self::Tangent,
+        Self::Lanes,
+        Self::Metric,
+        Self::Acceleration,
+    ];
 
     fn name(self) -> &'static str {
         match self {
@@ -129,6 +158,8 @@ impl Named for Capability {
             Self::TwoPolar => "two_polar",
             Self::Tangent => "tangent",
             Self::Lanes => "lanes",
+            Self::Metric => "metric",
+            Self::Acceleration => "acceleration",
         }
     }
 }
@@ -143,6 +174,8 @@ impl Capability {
             Self::TwoPolar => "the lattice form (q, p, M, N)",
             Self::Tangent => "the variational equations",
             Self::Lanes => "evaluation over SIMD lanes",
+            Self::Metric => "the configuration metric and its inverse",
+            Self::Acceleration => "the acceleration of the centre of mass",
         }
     }
 }

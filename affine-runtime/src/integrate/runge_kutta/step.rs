@@ -51,7 +51,7 @@ impl<S: StateVector<f64>> Step<S> {
     }
 
     /// Computes the step to the time `end`, from the same point as before. 11 evaluations.
-    #[inline]
+    #[inline(always)]
     pub fn attempt(&mut self, f: &impl Fn(f64, &S) -> S, end: f64) {
         self.t_trial = end;
         self.accepted = false;
@@ -171,7 +171,7 @@ impl<S: StateVector<f64>> Step<S> {
     }
 
     /// Differences, divided by `h`, of the solution to the embedded ones of orders 5 and 3.
-    #[inline]
+    #[inline(always)]
     pub(super) fn error_slopes(&self) -> (S, S) {
         (self.combination(&E5), self.combination(&E3))
     }
@@ -203,8 +203,10 @@ impl<S: StateVector<f64>> Step<S> {
     #[inline(always)]
     fn combination<const TERMS: usize>(&self, row: &[(usize, f64); TERMS]) -> S {
         let mut sum = S::zeros();
+        let [(first, leading), ref rest @ ..] = row[..] else { return sum };
         for (i, sum) in sum.as_mut().iter_mut().enumerate() {
-            for (stage, coefficient) in row {
+            *sum = self.stages[first - 1].as_ref()[i] * leading;
+            for (stage, coefficient) in rest {
                 *sum = self.stages[stage - 1].as_ref()[i].fma(*coefficient, *sum);
             }
         }

@@ -9,6 +9,44 @@ use wide::{f64x2, f64x4};
 
 use crate::scalar::Scalar;
 
+/// Vectors of four doubles, as a processor has them; what it rounds is the same on all.
+pub trait Vectors: Copy {
+    /// `sum + left right`, lane by lane.
+    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
+    /// `sum - left right`, lane by lane.
+    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
+}
+
+/// The vectors that every processor of the target has.
+#[derive(Clone, Copy, Debug)]
+pub struct Portable;
+
+impl Vectors for Portable {
+    #[inline(always)]
+    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        f64x4::from(left).mul_add(f64x4::from(right), f64x4::from(sum)).into()
+    }
+    #[inline(always)]
+    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        f64x4::from(left).mul_neg_add(f64x4::from(right), f64x4::from(sum)).into()
+    }
+}
+
+/// AVX2: found at run time on targets that do not promise it, so nothing is fused there either.
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+impl Vectors for pulp::x86::V3 {
+    #[inline(always)]
+    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        let product = self.mul_f64x4(pulp::cast(left), pulp::cast(right));
+        pulp::cast(self.add_f64x4(pulp::cast(sum), product))
+    }
+    #[inline(always)]
+    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        let product = self.mul_f64x4(pulp::cast(left), pulp::cast(right));
+        pulp::cast(self.sub_f64x4(pulp::cast(sum), product))
+    }
+}
+
 /// The lanes of a row that begin at a slot.
 #[inline(always)]
 pub fn lanes<T: Scalar, const W: usize>(row: &[T], slot: usize) -> [T; W] {
@@ -21,9 +59,14 @@ pub fn lanes<T: Scalar, const W: usize>(row: &[T], slot: usize) -> [T; W] {
 
 /// `sum += left right`, lane by lane.
 #[inline(always)]
-pub fn add_products<T: Scalar, const W: usize>(sum: &mut [T; W], left: [T; W], right: [T; W]) {
+pub fn add_products<T: Scalar, const W: usize>(
+    vectors: impl Vectors,
+    sum: &mut [T; W],
+    left: [T; W],
+    right: [T; W],
+) {
     if let Some((sum, left, right)) = doubles(sum, &left, &right) {
-        *sum = f64x4::from(left).mul_add(f64x4::from(right), f64x4::from(*sum)).into();
+        *sum = vectors.plus_product(*sum, left, right);
     } else if let Some((sum, left, right)) = doubles(sum, &left, &right) {
         *sum = f64x2::from(left).mul_add(f64x2::from(right), f64x2::from(*sum)).into();
     } else {
@@ -35,9 +78,14 @@ pub fn add_products<T: Scalar, const W: usize>(sum: &mut [T; W], left: [T; W], r
 
 /// `sum -= left right`, lane by lane.
 #[inline(always)]
-pub fn subtract_products<T: Scalar, const W: usize>(sum: &mut [T; W], left: [T; W], right: [T; W]) {
+pub fn subtract_products<T: Scalar, const W: usize>(
+    vectors: impl Vectors,
+    sum: &mut [T; W],
+    left: [T; W],
+    right: [T; W],
+) {
     if let Some((sum, left, right)) = doubles(sum, &left, &right) {
-        *sum = f64x4::from(left).mul_neg_add(f64x4::from(right), f64x4::from(*sum)).into();
+        *sum = vectors.minus_product(*sum, left, right);
     } else if let Some((sum, left, right)) = doubles(sum, &left, &right) {
         *sum = f64x2::from(left).mul_neg_add(f64x2::from(right), f64x2::from(*sum)).into();
     } else {
@@ -49,14 +97,24 @@ pub fn subtract_products<T: Scalar, const W: usize>(sum: &mut [T; W], left: [T; 
 
 /// `sum += factor left`.
 #[inline(always)]
-pub fn add_multiple<T: Scalar, const W: usize>(sum: &mut [T; W], left: [T; W], factor: T) {
-    add_products(sum, left, [factor; W]);
+pub fn add_multiple<T: Scalar, const W: usize>(
+    vectors: impl Vectors,
+    sum: &mut [T; W],
+    left: [T; W],
+    factor: T,
+) {
+    add_products(vectors, sum, left, [factor; W]);
 }
 
 /// `sum -= factor left`.
 #[inline(always)]
-pub fn subtract_multiple<T: Scalar, const W: usize>(sum: &mut [T; W], left: [T; W], factor: T) {
-    subtract_products(sum, left, [factor; W]);
+pub fn subtract_multiple<T: Scalar, const W: usize>(
+    vectors: impl Vectors,
+    sum: &mut [T; W],
+    left: [T; W],
+    factor: T,
+) {
+    subtract_products(vectors, sum, left, [factor; W]);
 }
 
 /// The same, where the lanes are `V` doubles: known when the call is compiled.

@@ -79,8 +79,8 @@ impl Evidence {
 /// Derivatives of `U` along the generators, as polynomials in `phi`, `x` and functions.
 #[derive(Clone, Debug)]
 pub(super) struct Invariance<R> {
-    space: Square<R>,
-    body: Square<R>,
+    pub(super) space: Square<R>,
+    pub(super) body: Square<R>,
     centre: Vec<R>,
     orbital: Square<R>,
 }

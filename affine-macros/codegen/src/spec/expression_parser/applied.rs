@@ -5,6 +5,7 @@ use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use super::{Language, Parser};
 use crate::algebra::Function;
 use crate::diagnostics::{Diagnostic, Region, Reported};
+use crate::spec::custom;
 use crate::spec::entries::{Piece, describe, pieces, shortened, unwrapped};
 use crate::spec::named_potentials::{NAMED_POTENTIALS, NamedPotential};
 use crate::spec::names::{Named, nearest};
@@ -46,10 +47,7 @@ impl Parser<'_> {
             "norm" => self.norm(group)?,
             "pairs" => ExpressionKind::Pairs(Box::new(self.argument("pairs", group, span)?)),
             "custom" => {
-                let mistake = Diagnostic::UnavailableForm {
-                    form: text,
-                    instead: "state the potential as an expression",
-                };
+                let mistake = custom::within_an_expression();
                 return Err(self.found.report(name.span(), mistake));
             }
             _ => match FUNCTIONS.into_iter().find(|function| function.name() == text) {

@@ -1,0 +1,78 @@
+//! Rules on the dissipation function `R`.
+
+use super::form::{Written, eigenvalue_name, matrix_text};
+use crate::algebra::Rational;
+use crate::algebra::linear::negative_direction;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::mechanics::dissipation::{Dissipation, Part};
+use crate::mechanics::hessian::{Block, Direction};
+use crate::mechanics::kinetic::Frame;
+use crate::spec::{self, Named, Spec};
+
+/// Without a translational kinetic energy the centre of mass stands still, and nothing slows it.
+pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
+    if spec.translation().is_some() {
+        return;
+    }
+    for term in spec.dissipation.iter().filter(|term| term.kind.value.is_translation()) {
+        let term_name = term.kind.value.name().to_owned();
+        found.report(term.kind.span, Diagnostic::FixedCentreForce { term: term_name, key: "dissipation" });
+    }
+}
+
+/// `dE/dt = -2 R`: a dissipation takes energy or nothing, whatever the velocity. The terms of each frame are decided
+/// together, exactly: `R >= 0` for all placements as soon as it holds in each. Blocks with fields are left to
+/// `prepare()`.
+pub(super) fn semidefinite(spec: &Spec, dissipation: &Dissipation, found: &mut Diagnostics) {
+    for term in spec.dissipation.iter().filter(|term| term.kind.value.is_translation()) {
+        let written = Written { n: spec.dim.value, terms: vec![term] };
+        if let Some(value) = written.scalar(term).filter(Rational::is_negative) {
+            let defect = format!("`{}` is {value}", term.kind.value.name());
+            found.report(term.span, Diagnostic::NegativeDissipation { defect });
+        }
+    }
+    let internal = || spec.dissipation.iter().filter(|term| !term.kind.value.is_translation());
+    for part in &dissipation.parts {
+        let terms: Vec<&spec::Term> =
+            part.form.terms.iter().filter_map(|term| internal().find(|t| same_kind(t, term))).collect();
+        let Some(first) = terms.first() else { continue };
+        let written = Written { n: spec.dim.value, terms: terms.clone() };
+        let mut reported = Vec::new();
+        for block in &part.hessian.blocks {
+            let kind = block.basis[0].kind;
+            let Some(defect) = defect(&written, part, block).filter(|_| !reported.contains(&kind)) else {
+                continue;
+            };
+            reported.push(kind);
+            found.report(first.kind.span, Diagnostic::NegativeDissipation { defect });
+            if !written.only_isotropic() {
+                break;
+            }
+        }
+    }
+}
+
+fn same_kind(written: &spec::Term, term: &crate::mechanics::kinetic::Term) -> bool {
+    crate::lower::kind(written.kind.value) == term.kind
+}
+
+/// A velocity of the block on which `R` is negative.
+fn defect(written: &Written, part: &Part, block: &Block) -> Option<String> {
+    let kind = block.basis[0].kind;
+    if let Some(value) = block.eigenvalue().filter(|_| written.only_isotropic() && kind != Direction::Entry) {
+        let value = value.as_constant().filter(Rational::is_negative)?;
+        let (name, directions) = eigenvalue_name(kind);
+        let numbers = written.eigenvalue_in_numbers(kind);
+        return Some(format!("{name} = {numbers} = {value} on {directions}"));
+    }
+    let direction = negative_direction(&block.numbers()?)?;
+    let velocity = block.velocity(written.n, &direction);
+    let half = Rational::ratio(1, 2)?;
+    let value = &block.square(&direction)? * &half;
+    let name = match part.form.frame {
+        Frame::Body => "Oh",
+        Frame::Space => "Om",
+        Frame::Flat => "phi_dot",
+    };
+    Some(format!("R = {value} at {name} = {}", matrix_text(written.n, &velocity)))
+}

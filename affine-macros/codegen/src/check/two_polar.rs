@@ -1,0 +1,58 @@
+//! The rule of the two-polar form.
+
+use crate::diagnostics::{Diagnostic, Diagnostics, Reported};
+use crate::mechanics::kinetic::Kinetic;
+use crate::mechanics::potential::Potential;
+use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by};
+use crate::spec::{Capability, Named, Spec};
+
+/// Is `two_polar` asked for? The stretches and `M`, `N` move by themselves only in doubly isotropic models: kinetic and
+/// potential energy unchanged by O(n) in space and in the body, (6.2) to (6.5).
+pub(super) fn asked(
+    spec: &Spec,
+    kinetic: &Kinetic,
+    places: &[usize],
+    potential: Option<&Potential>,
+    found: &mut Diagnostics,
+) -> Result<bool, Reported> {
+    let Some(asked) = spec.emit.iter().find(|capability| capability.value == Capability::TwoPolar) else {
+        return Ok(false);
+    };
+    let mut without = |holds: bool, part: &str, lacks: &'static str| {
+        if holds {
+            found.report(asked.span, Diagnostic::LatticeWithout { part: part.to_owned(), lacks });
+        }
+    };
+    without(spec.hamiltonian.is_some(), "`hamiltonian(...)`", "momentum side");
+    without(spec.constraint.is_some(), "a constraint", "constraint");
+    without(spec.metrics.iter().any(Option::is_some), "`metrics(...)`", "metrics");
+    without(potential.is_some_and(Potential::depends_on_time), "a potential of the time", "time");
+    if let Some(t) = kinetic.translation {
+        let term = spec.kinetic.get(places[t.place]).map_or("translation", |term| term.kind.value.name());
+        without(true, &format!("`{term}`"), "centre of mass");
+    }
+    found.verdict()?;
+    let mut anisotropic = |part: String, side: Side, transformation: String| {
+        let side = if side == Side::Space { "space" } else { "the body" };
+        found.report(asked.span, Diagnostic::NotDoublyIsotropic { part, side, transformation });
+    };
+    for side in [Side::Space, Side::Body] {
+        if let Some((breaker, place)) = broken_by(kinetic, side, Group::Metric) {
+            let term = spec.kinetic[places[place]].kind.value.name();
+            let transformation = match breaker {
+                Breaker::Reflection => "the reflection of the first axis".to_owned(),
+                Breaker::Rotation(a, b) | Breaker::Generator(a, b) => rotation(a, b),
+            };
+            anisotropic(format!("the term `{term}`"), side, transformation);
+        }
+    }
+    if let Some((side, (a, b))) = potential.and_then(Potential::anisotropy) {
+        anisotropic("the potential".to_owned(), side, rotation(a, b));
+    }
+    found.verdict()?;
+    Ok(true)
+}
+
+fn rotation(a: usize, b: usize) -> String {
+    format!("the rotation E[{a},{b}] - E[{b},{a}]")
+}

@@ -1,0 +1,40 @@
+//! The rule of U(n).
+
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::spec::{Named, Spec, TermKind};
+
+/// On U(n) the Casimir terms stand, `-A/2 tr Om^2 - B/2 (tr Om)^2` (89): `Om` is anti-Hermitian, every other term breaks
+/// the symmetry from both sides that the lattice form rests on, and there are no coordinates of a centre or stretches
+/// for a potential.
+pub(super) fn casimirs_alone(spec: &Spec, found: &mut Diagnostics) {
+    if spec.group.is_none() {
+        return;
+    }
+    for term in &spec.kinetic {
+        if !matches!(term.kind.value, TermKind::Casimir2 | TermKind::Casimir1Squared) {
+            found.report(term.kind.span, Diagnostic::UnitaryTerm { part: term.kind.value.name() });
+        }
+    }
+    if let Some(potential) = &spec.potential {
+        found.report(potential.key, Diagnostic::UnitaryTerm { part: "potential" });
+    }
+    // Claims and requirements speak of GL(n, R).
+    if let Some(symmetry) = &spec.symmetry {
+        found.report(symmetry.space.span, Diagnostic::UnitaryTerm { part: "symmetry" });
+    }
+    if let Some(constraint) = &spec.constraint {
+        found.report(constraint.span, Diagnostic::UnitaryTerm { part: "constraint" });
+    }
+    if spec.hamiltonian.is_some() {
+        found.report(spec.kinetic_key, Diagnostic::UnitaryTerm { part: "hamiltonian" });
+    }
+    for metric in spec.metrics.iter().flatten() {
+        found.report(metric.span, Diagnostic::UnitaryTerm { part: "metrics" });
+    }
+    for requirement in &spec.require {
+        found.report(requirement.span, Diagnostic::UnitaryTerm { part: requirement.value.name() });
+    }
+    for capability in &spec.emit {
+        found.report(capability.span, Diagnostic::UnitaryTerm { part: capability.value.name() });
+    }
+}

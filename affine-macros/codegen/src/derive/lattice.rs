@@ -1,0 +1,183 @@
+//! Programs of the two-polar form.
+
+use crate::algebra::bind::Constants;
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::ir::Program;
+use crate::ir::fuse::fuse;
+use crate::mechanics::describe::Formula;
+use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::potential::{OnAxes, Potential};
+use crate::mechanics::two_polar::{self, Equations, Lattice, Stable, Variables};
+use crate::optimise::{Batch, straight_line};
+
+/// The two-polar form of a doubly isotropic model.
+pub struct TwoPolar {
+    /// What the places are.
+    pub variables: Variables,
+    /// Symbols of the state, group after group.
+    pub state: Vec<(&'static str, Vec<String>)>,
+    /// Symbols of the frames, beside the state.
+    pub frames: Vec<(&'static str, Vec<String>)>,
+    /// Symbols of `M` and `N` where they are constants.
+    pub couplings: Vec<String>,
+    /// State -> its rate.
+    pub rates: Program,
+    /// State and frames -> their rates.
+    pub framed: Program,
+    /// State -> `H`.
+    pub energy: Program,
+    /// `H` and the equations.
+    pub formulas: (Formula, Vec<Formula>),
+    /// Does the potential depend on `q = ln(det phi)/n` alone?
+    pub dilatation_only: bool,
+}
+
+/// Derives it.
+pub(super) fn two_polar(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    potential: Option<&Potential>,
+    unitary: bool,
+    coefficients: &mut Constants,
+) -> TwoPolar {
+    let lattice = Lattice::of(arena, h, unitary);
+    let mut equations = lattice.equations(arena, h);
+    let formulas = two_polar::formulas(arena, &equations, potential);
+    let on_axes = potential.map(|u| u.on_axes(arena, &lattice));
+    if let Some(on_axes) = &on_axes {
+        equations.add(on_axes);
+    }
+    let stable = Stable::new(arena, &lattice);
+    let name = |arena: &Arena, s: &Expr| arena.name(*s).unwrap_or("place").to_owned();
+    let names = |arena: &Arena, symbols: &[Expr]| symbols.iter().map(|s| name(arena, s)).collect::<Vec<_>>();
+    let (place, momentum) = match lattice.variables {
+        Variables::LogStretches | Variables::Angles => ("q", "p"),
+        Variables::Stretches => ("Q", "P"),
+    };
+    let mut state = vec![(place, names(arena, &lattice.q)), (momentum, names(arena, &lattice.p))];
+    let skew = [names(arena, &lattice.m), names(arena, &lattice.n)];
+    let [m, n] = skew.clone();
+    let couplings = match lattice.dim {
+        2 => skew.concat(),
+        _ => {
+            state.extend([("M", m), ("N", n)]);
+            Vec::new()
+        }
+    };
+    let frames = Frames::new(arena, lattice.dim);
+    let inputs: Vec<Expr> = [&lattice.q[..], &lattice.p, &lattice.m, &lattice.n, &frames.symbols()].concat();
+    let mut program = |arena: &mut Arena, batch: &Batch| {
+        fuse(&straight_line(arena, batch, coefficients, &|a| inputs.contains(&a)))
+    };
+    let rates = rates(arena, &lattice, &equations, &stable, on_axes.as_ref());
+    let framed = frames.framed(arena, &equations, &stable, rates.clone());
+    let energy = energy(&equations, &stable, on_axes.as_ref());
+    TwoPolar {
+        variables: lattice.variables,
+        couplings,
+        rates: program(arena, &rates),
+        framed: program(arena, &framed),
+        energy: program(arena, &energy),
+        frames: frames.groups(arena),
+        state,
+        formulas,
+        dilatation_only: potential.is_some_and(Potential::is_dilatational),
+    }
+}
+
+/// The rates of the state; for `n = 2`, `M` and `N` do not move.
+fn rates(
+    arena: &Arena,
+    lattice: &Lattice,
+    equations: &Equations,
+    stable: &Stable,
+    potential: Option<&OnAxes>,
+) -> Batch {
+    let mut shared = stable.shared.clone();
+    shared.extend(potential.map(|u| u.shared.clone()).unwrap_or_default());
+    let moving = if lattice.dim == 2 { 4 } else { equations.rates.len() };
+    let rate = |(_, symbol, rate): &(_, Expr, Polynomial)| {
+        (format!("d_{}", arena.name(*symbol).unwrap_or("place")), stable.rewritten(rate))
+    };
+    Batch { shared, results: equations.rates.iter().take(moving).map(rate).collect(), ..Batch::default() }
+}
+
+fn energy(equations: &Equations, stable: &Stable, potential: Option<&OnAxes>) -> Batch {
+    let mut shared = stable.shared.clone();
+    let mut energy = stable.rewritten(&equations.kinetic);
+    if let Some(potential) = potential {
+        shared.extend(potential.energy_shared.iter().cloned());
+        energy.add_scaled(&potential.energy, &Rational::ONE);
+    }
+    Batch { shared, results: vec![("energy".to_owned(), energy)], ..Batch::default() }
+}
+
+/// Symbols of the frames: an angle each in the plane, the entries of `L` and `R` in space.
+struct Frames {
+    dim: usize,
+    left: Vec<Expr>,
+    right: Vec<Expr>,
+}
+
+impl Frames {
+    fn new(arena: &mut Arena, dim: usize) -> Self {
+        let mut of = |stem: &str| -> Vec<Expr> {
+            match dim {
+                2 => vec![arena.symbol(&format!("{stem}_angle"))],
+                _ => (0..dim * dim)
+                    .map(|k| arena.symbol(&format!("{stem}_{}{}", k / dim + 1, k % dim + 1)))
+                    .collect(),
+            }
+        };
+        Self { dim, left: of("left"), right: of("right") }
+    }
+
+    fn symbols(&self) -> Vec<Expr> {
+        [&self.left[..], &self.right].concat()
+    }
+
+    fn groups(&self, arena: &Arena) -> Vec<(&'static str, Vec<String>)> {
+        let names = |symbols: &[Expr]| {
+            symbols.iter().map(|s| arena.name(*s).unwrap_or("frame").to_owned()).collect::<Vec<_>>()
+        };
+        vec![("L", names(&self.left)), ("R", names(&self.right))]
+    }
+
+    /// `dL/dt = L chi_hat`, `dR/dt = R theta_hat`, beside the rates of the state. A rotation by the angle `w` has
+    /// `L^T dL/dt = [[0, -1], [1, 0]] dw/dt`.
+    fn framed(&self, arena: &mut Arena, equations: &Equations, stable: &Stable, rates: Batch) -> Batch {
+        let Batch { mut shared, mut results, .. } = rates;
+        for (stem, frame, angular) in
+            [("chi", &self.left, &equations.chi), ("theta", &self.right, &equations.theta)]
+        {
+            let symbols: Vec<Expr> =
+                (1..=angular.len()).map(|k| arena.symbol(&format!("{stem}_{k}"))).collect();
+            shared.extend(symbols.iter().copied().zip(angular.iter().map(|p| stable.rewritten(p))));
+            for (k, entry) in frame.iter().enumerate() {
+                let name = format!("d_{}", arena.name(*entry).unwrap_or("frame"));
+                results.push((name, self.rate(frame, &symbols, k)));
+            }
+        }
+        Batch { shared, results, ..Batch::default() }
+    }
+
+    /// Entry `k` of `L chi_hat`, or the rate of the angle.
+    fn rate(&self, frame: &[Expr], angular: &[Expr], k: usize) -> Polynomial {
+        if self.dim == 2 {
+            return Polynomial::term(vec![angular[0]], Rational::MINUS_ONE);
+        }
+        let (row, column) = (k / self.dim, k % self.dim);
+        let mut sum = Polynomial::zero();
+        let pairs = (0..self.dim).flat_map(|a| (a + 1..self.dim).map(move |b| (a, b)));
+        for ((a, b), value) in pairs.zip(angular) {
+            // chi_hat_ab = value = -chi_hat_ba
+            if column == b {
+                sum.add_term(vec![frame[row * self.dim + a], *value], &Rational::ONE);
+            }
+            if column == a {
+                sum.add_term(vec![frame[row * self.dim + b], *value], &Rational::MINUS_ONE);
+            }
+        }
+        sum
+    }
+}

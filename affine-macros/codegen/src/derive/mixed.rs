@@ -1,0 +1,285 @@
+//! The derivation of a model whose mass matrix depends on the placement.
+
+mod checks;
+mod programs;
+
+use crate::algebra::bind::Constants;
+use crate::algebra::{Arena, Expr, Polynomial};
+use crate::check::MixedForm;
+use crate::mechanics::charts::{Chart, Linear, Momentum};
+use crate::mechanics::conserved::Candidate;
+use crate::mechanics::describe;
+use crate::mechanics::equations::{self, System, gradient, hamilton};
+use crate::mechanics::forces::Forces;
+use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::hessian::Hessian;
+use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::mixed::{self, Internal, Masses, Mixed};
+use crate::mechanics::potential::Potential;
+use crate::mechanics::reduce::{self, ClosedForm, Commuting, Reduction};
+use crate::optimise::Batch;
+
+use super::prepared::coefficient_program;
+use super::programs::{Reduced, batch, shortest, shortest_reduction};
+use super::{Damping, Formulas, Model, VelocitySide, quantities};
+
+/// The internal motion: of one frame, or of several.
+enum Inner {
+    /// Its mass matrix is constant; only the translation mixes frames.
+    Constant(Box<Kinetic>, Box<Hamiltonian>),
+    /// Its mass matrix depends on `phi`.
+    Varying(Box<Internal>),
+}
+
+/// Derives a model; `None` only for energies that the checks refuse.
+pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
+    let MixedForm { mut arena, mixed, hessian, positive, space_group, body_group, potential, quantities } =
+        form;
+    let arena = &mut arena;
+    let inner = Inner::new(arena, &mixed, hessian.as_ref())?;
+    let body = Body { inner, masses: Masses::of(&mixed), potential: potential.as_ref(), mixed: &mixed };
+    let mut coefficients = Constants::new("c");
+    let chart = body.chart(arena, true);
+    let systems = body.systems(arena, &chart)?;
+    let ways: Vec<Batch> = systems.iter().map(|system| batch(arena, system)).collect();
+    let time = potential.as_ref().and_then(Potential::time);
+    let full = shortest(arena, &chart, &ways, time, &mut coefficients);
+    let (conserved, conserved_at_rest) = body.conserved(arena, &chart)?;
+    let rotations = conserved.contains(&Candidate::TotalAngularMomentum);
+    let reductions = body.reductions(arena, rotations)?;
+    let Reduced { reduction, equations: reduced, splitting, trajectory, fixed } =
+        shortest_reduction(arena, reductions, time, |_, _, _| None, &mut coefficients)?;
+    let closed_form = body.closed_form(arena);
+    let formulas = body.formulas(arena, &chart, &reduction, closed_form);
+    let programs = body.programs(arena, &chart, &mut coefficients)?;
+    let regularity = body.regularity(arena, positive, require_positive, &mut coefficients)?;
+    let metric = match quantities.metric {
+        true => Some(quantities::metric(arena, &mixed.parts(), None, &mut coefficients)?),
+        false => None,
+    };
+    let acceleration = quantities
+        .acceleration
+        .then(|| quantities::acceleration(arena, &chart, &systems[0], &mut coefficients));
+    let signature = body.signature(hessian.as_ref(), positive, require_positive);
+    Some(Model {
+        dim: mixed.dim,
+        constraint: None,
+        projected: false,
+        frame: body.inner.frame(),
+        translation: body.translation(),
+        conditions: body.conditions(arena, hessian.as_ref(), require_positive),
+        numeric_blocks: body.numeric_blocks(arena, require_positive),
+        coefficients: coefficient_program(arena, &coefficients),
+        damping: Damping::default(),
+        velocity_side: Some(VelocitySide {
+            legendre: programs.legendre,
+            kinetic_energy: programs.kinetic_energy,
+        }),
+        velocity: programs.velocity,
+        mass: programs.mass,
+        mixed_masses: programs.mixed_masses,
+        regularity,
+        metric,
+        acceleration,
+        hamiltonian: programs.hamiltonian,
+        power: None,
+        full,
+        reduced,
+        reduction,
+        trajectory,
+        fixed,
+        closed_form,
+        isotropic: programs.isotropic,
+        dilatation: None,
+        conserved,
+        conserved_at_rest,
+        signature,
+        has_forces: potential.is_some(),
+        groups: (space_group, body_group),
+        metrics: None,
+        two_polar: None,
+        formulas,
+        taylor: None,
+        splitting,
+    })
+}
+
+impl Inner {
+    fn new(arena: &mut Arena, mixed: &Mixed, hessian: Option<&Hessian>) -> Option<Self> {
+        match (mixed.internal.as_slice(), hessian) {
+            ([one], Some(hessian)) => {
+                let h = Hamiltonian::new(arena, one, hessian)?;
+                Some(Self::Constant(Box::new(one.clone()), Box::new(h)))
+            }
+            _ => Some(Self::Varying(Box::new(Internal::new(arena, mixed)?))),
+        }
+    }
+
+    fn frame(&self) -> Frame {
+        match self {
+            Self::Constant(kinetic, _) => kinetic.frame,
+            Self::Varying(_) => Frame::Flat,
+        }
+    }
+}
+
+/// What the equations are derived from.
+struct Body<'a> {
+    inner: Inner,
+    masses: Masses,
+    potential: Option<&'a Potential>,
+    mixed: &'a Mixed,
+}
+
+impl Body<'_> {
+    /// The frame of the translational energy, of `x_dot` where there are two.
+    fn translation(&self) -> Option<Frame> {
+        match (self.masses.body, self.masses.space) {
+            (None, None) => None,
+            (Some(_), None) => Some(Frame::Body),
+            (_, Some(_)) => Some(Frame::Space),
+        }
+    }
+
+    /// The chart of the internal motion with spatial `p`, or without translation.
+    fn chart(&self, arena: &mut Arena, moving: bool) -> Chart {
+        let linear = (moving && !self.masses.are_none()).then_some(Linear::Space);
+        Chart::new(arena, self.mixed.dim, Momentum::of(self.inner.frame()), linear)
+    }
+
+    /// Hamilton's equations of a chart, in each form that may be the shortest.
+    fn systems(&self, arena: &mut Arena, chart: &Chart) -> Option<Vec<System>> {
+        let internal = match &self.inner {
+            Inner::Varying(internal) => vec![internal.system(arena, self.mixed, chart)],
+            Inner::Constant(_, h) => {
+                let energy = h.internal();
+                let mut forms = vec![hamilton(arena, chart, &energy, equations::Form::ThroughVelocity)];
+                if !h.is_tensor() {
+                    forms.push(hamilton(arena, chart, &energy, equations::Form::Expanded));
+                }
+                forms
+            }
+        };
+        let mut loads = Vec::new();
+        if chart.linear.is_some() {
+            loads.push(self.masses.load(arena, chart)?);
+        }
+        // Last: where it has a root of det phi, 1/det phi comes from that.
+        loads.extend(self.potential.iter().map(|u| u.load(arena, chart)));
+        let joined = |mut system: System| {
+            for load in &loads {
+                // What two of them use has one name.
+                system.shared.retain(|(symbol, _)| !load.shared.iter().any(|(s, _)| s == symbol));
+                system.add(load);
+            }
+            system.tidied(arena)
+        };
+        Some(internal.into_iter().map(joined).collect())
+    }
+
+    /// What is conserved, and what is with `p = 0`.
+    fn conserved(&self, arena: &mut Arena, chart: &Chart) -> Option<(Vec<Candidate>, Vec<Candidate>)> {
+        let still = self.chart(arena, false);
+        let (slopes, mut shared) = match &self.inner {
+            Inner::Varying(internal) => {
+                let system = internal.system(arena, self.mixed, &still);
+                (mixed::slopes_of(&system), system.shared)
+            }
+            Inner::Constant(_, h) => (gradient(&still, &h.internal()), Vec::new()),
+        };
+        let mut at_rest = mixed::conserved(arena, &still, &slopes, &shared);
+        let mut moving = at_rest.clone();
+        if chart.linear.is_some() {
+            let load = self.masses.load(arena, chart)?;
+            shared.extend(load.shared);
+            let slopes = [slopes, self.masses.slopes(arena)].concat();
+            moving = mixed::conserved(arena, chart, &slopes, &shared);
+        }
+        if let Some(u) = self.potential {
+            moving.retain(|candidate| u.keeps(*candidate));
+            at_rest.retain(|candidate| u.keeps(*candidate));
+            // A force on the centre of mass does not leave it at rest.
+            if u.moves_the_centre() {
+                at_rest.clone_from(&moving);
+            }
+        }
+        Some((moving, at_rest))
+    }
+
+    /// `|p|^2/(2m)` commutes with what contains neither `x` nor `p`.
+    fn drifts(&self) -> Option<Expr> {
+        let free = self.masses.body.is_none() && self.potential.is_none_or(|u| !u.moves_the_centre());
+        self.masses.space.filter(|_| free)
+    }
+
+    fn reductions(&self, arena: &mut Arena, rotations: bool) -> Option<Vec<Reduction>> {
+        let drift = self.drifts();
+        let chart = self.chart(arena, drift.is_none());
+        let systems = self.systems(arena, &chart)?;
+        let commuting = match drift {
+            Some(mass) => {
+                let reciprocal = arena.pow(mass, -1)?;
+                vec![Commuting::Drift(Polynomial::normal_form(arena, reciprocal))]
+            }
+            None => Vec::new(),
+        };
+        let turn = rotations && chart.linear.is_some();
+        let reduced = |system: System| reduce::reduced(arena, chart.clone(), commuting.clone(), turn, system);
+        Some(systems.into_iter().map(reduced).collect())
+    }
+
+    /// Geodesics with `p = 0` are those of the internal motion.
+    fn closed_form(&self, arena: &mut Arena) -> Option<(ClosedForm, bool)> {
+        let Inner::Constant(_, h) = &self.inner else { return None };
+        if self.potential.is_some() {
+            return None;
+        }
+        let commuting = reduce::commuting(arena, h, None, &Forces::default());
+        reduce::closed_form(arena, h, &commuting).map(|(form, _)| (form, true))
+    }
+
+    fn formulas(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        reduction: &Reduction,
+        closed: Option<(ClosedForm, bool)>,
+    ) -> Formulas {
+        let (internal, mut equations) = match &self.inner {
+            Inner::Varying(_) => {
+                let mut list = mixed::internal_equations(self.mixed, &self.masses, self.potential);
+                list.extend(mixed::centre_equations(&self.masses, self.potential));
+                (mixed::internal_hamiltonian(), list)
+            }
+            Inner::Constant(_, h) => {
+                let system = describe::system(arena, &reduction.system);
+                (describe::hamiltonian(arena, h, &h.internal(), None, &Forces::default()), system)
+            }
+        };
+        let hamiltonian = mixed::hamiltonian(arena, internal, &self.masses, self.potential);
+        let reduced = equations.clone();
+        if matches!(self.inner, Inner::Constant(..)) {
+            equations = self.systems(arena, chart).map_or_else(Vec::new, |s| describe::system(arena, &s[0]));
+        }
+        let mut left_out = Vec::new();
+        if self.masses.are_none() {
+            left_out.push("x and p: the model has no translation".to_owned());
+        }
+        if !reduction.commuting.is_empty() {
+            left_out.push("x and p: the centre of mass moves freely, x = x0 + t p/m".to_owned());
+        } else if reduction.turned {
+            left_out
+                .push("p: conserved; space is turned so that only its first component is left".to_owned());
+        }
+        if closed.is_some() {
+            left_out.push("integration of motions with p = 0: they have a closed form".to_owned());
+        }
+        Formulas {
+            kinetic_energy: mixed::energy(arena, self.mixed),
+            hamiltonian,
+            equations,
+            reduced,
+            left_out,
+        }
+    }
+}

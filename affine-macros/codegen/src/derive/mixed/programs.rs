@@ -1,0 +1,204 @@
+//! Legendre transformation and energies at one placement.
+
+use crate::algebra::bind::Constants;
+use crate::algebra::ring::table;
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::derive::{MixedMasses, legendre_batch, matrix_batch, result};
+use crate::ir::Program;
+use crate::ir::fuse::fuse;
+use crate::mechanics::charts::Chart;
+use crate::mechanics::metric::{Definitions, inverse_placement};
+use crate::mechanics::mixed::Legendre;
+use crate::mechanics::potential::Base;
+use crate::optimise::{Batch, straight_line};
+
+use super::{Body, Inner};
+
+/// The programs of one placement.
+pub(super) struct Programs {
+    pub(super) legendre: Program,
+    pub(super) velocity: Program,
+    pub(super) mass: Option<Program>,
+    pub(super) mixed_masses: Option<MixedMasses>,
+    pub(super) kinetic_energy: Program,
+    pub(super) hamiltonian: Program,
+    pub(super) isotropic: Option<Program>,
+}
+
+impl Body<'_> {
+    pub(super) fn programs(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        coefficients: &mut Constants,
+    ) -> Option<Programs> {
+        let n = self.mixed.dim;
+        let phi = chart.phi.0.concat();
+        let mut inline = |arena: &mut Arena, batch: &Batch, inputs: &[Expr]| {
+            fuse(&straight_line(arena, batch, coefficients, &|a| inputs.contains(&a) || phi.contains(&a)))
+        };
+        let velocities = Matrix::symbols(arena, self.inner.frame().velocity_name(), n);
+        let momenta = Matrix::symbols(arena, self.inner.frame().momentum_name(), n);
+        let [v, x_dot, p] = ["v", "x_dot", "p"]
+            .map(|stem| (1..=n).map(|i| arena.symbol(&format!("{stem}_{i}"))).collect::<Vec<_>>());
+        let [legendre, velocity, mut energy] = self.internal(arena, &velocities, &momenta);
+        self.centre_energy(arena, &v, &mut energy);
+        let inputs = [velocities.0.concat(), v].concat();
+        let mass = self.mass(arena).map(|batch| inline(arena, &batch, &[]));
+        let mixed_masses = match self.masses.are_mixed() {
+            true => {
+                let [momentum, velocity] = self.centre(arena, &x_dot)?;
+                let (momentum, velocity) = (inline(arena, &momentum, &x_dot), inline(arena, &velocity, &p));
+                Some(MixedMasses { momentum, velocity })
+            }
+            false => None,
+        };
+        let (hamiltonian, at_a_point) = self.hamiltonian(arena, chart)?;
+        Some(Programs {
+            legendre: inline(arena, &legendre, &inputs),
+            velocity: inline(arena, &velocity, &momenta.0.concat()),
+            mass,
+            mixed_masses,
+            kinetic_energy: inline(arena, &energy, &inputs),
+            hamiltonian: inline(arena, &hamiltonian, &at_a_point),
+            isotropic: self.isotropic().map(|batch| inline(arena, &batch, &[])),
+        })
+    }
+
+    /// The Legendre transformation of the internal motion, its inverse, and `T_int`.
+    fn internal(&self, arena: &mut Arena, velocities: &Matrix, momenta: &Matrix) -> [Batch; 3] {
+        match &self.inner {
+            Inner::Constant(kinetic, h) => [
+                legendre_batch(arena, kinetic),
+                matrix_batch(arena, velocities, &h.velocity),
+                result("energy", kinetic.internal_energy()),
+            ],
+            Inner::Varying(internal) => {
+                let Legendre { shared, momentum, energy } = Legendre::new(arena, self.mixed);
+                let n = self.mixed.dim;
+                let solution = table(n, |i, a| Polynomial::atom(internal.velocity.0[i][a]));
+                [
+                    Batch { shared: shared.clone(), ..matrix_batch(arena, momenta, &momentum) },
+                    Batch { shared: internal.shared.clone(), ..matrix_batch(arena, velocities, &solution) },
+                    Batch { shared, ..result("energy", energy) },
+                ]
+            }
+        }
+    }
+
+    /// `1/m` and `m`, where there is one mass.
+    fn mass(&self, arena: &mut Arena) -> Option<Batch> {
+        let mass = match (self.masses.body, self.masses.space) {
+            (Some(mass), None) | (None, Some(mass)) => mass,
+            _ => return None,
+        };
+        let reciprocal = arena.pow(mass, -1)?;
+        let [inverse, mass] = [reciprocal, mass].map(|m| Polynomial::normal_form(arena, m));
+        let results = vec![("inverse_mass".into(), inverse), ("mass".into(), mass)];
+        Some(Batch { results, ..Batch::default() })
+    }
+
+    /// The Legendre transformation of a centre of mass with two masses, and its inverse.
+    fn centre(&self, arena: &mut Arena, x_dot: &[Expr]) -> Option<[Batch; 2]> {
+        let (_, shared) = self.masses.velocity(arena)?;
+        let momentum = self.centre_momentum(arena, x_dot);
+        let named = |s: &Expr| (arena.name(*s).unwrap_or("x_dot").to_owned(), Polynomial::atom(*s));
+        Some([momentum, Batch { shared, results: x_dot.iter().map(named).collect(), ..Batch::default() }])
+    }
+
+    /// `1/alpha`, `1/beta`, `1/mu` of an isotropic internal energy.
+    fn isotropic(&self) -> Option<Batch> {
+        let Inner::Constant(_, h) = &self.inner else { return None };
+        let iso = h.isotropic.as_ref()?;
+        let named = [
+            ("inverse_alpha", &iso.casimir2),
+            ("inverse_beta", &iso.casimir1_squared),
+            ("inverse_mu", &iso.skew),
+        ];
+        let results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
+        Some(Batch { results, ..Batch::default() })
+    }
+
+    /// Adds `m/2 |v|^2` in the frame of the translation; with two masses `v = x_dot`, and `phi^-1 v` beside it.
+    fn centre_energy(&self, arena: &mut Arena, v: &[Expr], energy: &mut Batch) {
+        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        let mut comoving_velocity = v.to_vec();
+        if self.masses.are_mixed() {
+            comoving_velocity = (1..=v.len()).map(|a| arena.symbol(&format!("v_hat_{a}"))).collect();
+            let known: Vec<Expr> = energy.shared.iter().map(|(symbol, _)| *symbol).collect();
+            energy.shared.extend(comoving(arena, v).into_iter().filter(|(s, _)| !known.contains(s)));
+        }
+        for (mass, symbols) in [(self.masses.space, v), (self.masses.body, comoving_velocity.as_slice())] {
+            let Some(mass) = mass else { continue };
+            let mass = Polynomial::normal_form(arena, mass);
+            for s in symbols {
+                let square = Polynomial::term(vec![*s, *s], Rational::ONE);
+                energy.results[0].1.add_product(&square, &mass, &half);
+            }
+        }
+    }
+
+    /// `p = m_space x_dot + m_body phi^-T phi^-1 x_dot`.
+    fn centre_momentum(&self, arena: &mut Arena, x_dot: &[Expr]) -> Batch {
+        let n = x_dot.len();
+        let inverse = Matrix::symbols(arena, "inverse_phi", n).0;
+        let shared = comoving(arena, x_dot);
+        let mass = |arena: &mut Arena, mass: Option<Expr>| {
+            mass.map_or_else(Polynomial::zero, |m| Polynomial::normal_form(arena, m))
+        };
+        let (body, space) = (mass(arena, self.masses.body), mass(arena, self.masses.space));
+        let results = (0..n)
+            .map(|i| {
+                let mut pulled = Polynomial::zero();
+                for (a, row) in inverse.iter().enumerate() {
+                    let v_hat = arena.symbol(&format!("v_hat_{}", a + 1));
+                    pulled.add_term(vec![row[i], v_hat], &Rational::ONE);
+                }
+                let mut momentum = space.mul(&Polynomial::atom(x_dot[i]));
+                momentum.add_product(&body, &pulled, &Rational::ONE);
+                (format!("p_{}", i + 1), momentum)
+            })
+            .collect();
+        Batch { shared, results, ..Batch::default() }
+    }
+
+    /// `H` at a point, with its inputs.
+    fn hamiltonian(&self, arena: &mut Arena, chart: &Chart) -> Option<(Batch, Vec<Expr>)> {
+        let mut batch = match &self.inner {
+            Inner::Varying(internal) => {
+                Batch { shared: internal.shared.clone(), ..result("energy", internal.energy(chart)) }
+            }
+            Inner::Constant(_, h) => result("energy", h.internal()),
+        };
+        let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+        let join = |batch: &mut Batch, value: &Polynomial, shared: Definitions| {
+            batch.results[0].1.add_scaled(value, &Rational::ONE);
+            let fresh: Definitions = shared
+                .into_iter()
+                .filter(|(s, _)| !batch.shared.iter().any(|(known, _)| known == s))
+                .collect();
+            batch.shared.extend(fresh);
+        };
+        if !self.masses.are_none() {
+            let (_, shared) = self.masses.velocity(arena)?;
+            join(&mut batch, &self.masses.energy(arena, chart), shared);
+        }
+        if let Some(u) = self.potential {
+            let (value, shared) = u.energy_at_a_point(arena, chart);
+            join(&mut batch, &value, shared);
+            inputs.push(Base::MeanLogStretch.symbol(arena));
+        }
+        Some((batch, inputs))
+    }
+}
+
+/// `v_hat = phi^-1 x_dot`, with what leads there.
+fn comoving(arena: &mut Arena, x_dot: &[Expr]) -> Definitions {
+    let (inverse, mut shared) = inverse_placement(arena, x_dot.len());
+    for (a, row) in inverse.0.iter().enumerate() {
+        let mut value = Polynomial::zero();
+        row.iter().zip(x_dot).for_each(|(psi, v)| value.add_term(vec![*psi, *v], &Rational::ONE));
+        shared.push((arena.symbol(&format!("v_hat_{}", a + 1)), value));
+    }
+    shared
+}

@@ -1,0 +1,191 @@
+//! Quantities that are emitted when asked for.
+
+use crate::algebra::bind::Constants;
+use crate::algebra::ring::{Square, table};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::ir::Program;
+use crate::ir::fuse::fuse;
+use crate::mechanics::charts::{Chart, Coordinate};
+use crate::mechanics::equations::System;
+use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::metric::{self, Definitions};
+use crate::mechanics::mixed::Factorisation;
+use crate::optimise::{Batch, straight_line};
+
+use super::Metric;
+
+/// The mass matrix over `(x_dot, phi_dot)` of a sum of energies, and its inverse.
+pub(super) fn metric(
+    arena: &mut Arena,
+    parts: &[Kinetic],
+    hamiltonian: Option<&Hamiltonian>,
+    coefficients: &mut Constants,
+) -> Option<Metric> {
+    let dim = parts.first()?.dim;
+    let metric::Metric { shared, internal, centre } = metric::Metric::new(arena, dim, parts);
+    let entries = joined(&centre, &internal);
+    let inverse = match hamiltonian {
+        Some(h) => inverse_of(arena, h),
+        None => inverse(arena, &entries, shared.clone())?,
+    };
+    let phi = Matrix::symbols(arena, "phi", dim).0.concat();
+    let mut program = |batch: &Batch| fuse(&straight_line(arena, batch, coefficients, &|a| phi.contains(&a)));
+    let size = entries.len();
+    let entries = program(&Batch { shared, results: numbered(&entries), ..Batch::default() });
+    Some(Metric { size, entries, inverse: program(&inverse) })
+}
+
+/// Centre of mass and internal motion side by side.
+fn joined(centre: &Square<Polynomial>, internal: &Square<Polynomial>) -> Square<Polynomial> {
+    let (moving, size) = (centre.len(), centre.len() + internal.len());
+    let mut entries = vec![vec![Polynomial::zero(); size]; size];
+    for (offset, block) in [(0, centre), (moving, internal)] {
+        for (i, row) in block.iter().enumerate() {
+            entries[offset + i][offset..offset + row.len()].clone_from_slice(row);
+        }
+    }
+    entries
+}
+
+/// The inverse from the inverse Legendre transformation in the energy's own frame, `d(phi_dot)_iA/dPi_Bj`: with
+/// `phi_dot = phi Oh`, `Sigma_hat = Pi phi` or `phi_dot = Om phi`, `Sigma = phi Pi` a polynomial in `phi`.
+fn inverse_of(arena: &mut Arena, h: &Hamiltonian) -> Batch {
+    let n = h.dim;
+    let phi = Matrix::symbols(arena, "phi", n).0;
+    let product = |left: Expr, right: Expr| Polynomial::term(vec![left, right], Rational::ONE);
+    let pairs = || (0..n).flat_map(|k| (0..n).map(move |l| (k, l)));
+    let slope = |i: usize, a: usize, b: usize, j: usize| {
+        let mut sum = Polynomial::zero();
+        match h.frame {
+            Frame::Flat => sum = h.velocity[i][a].derivative(h.momentum.0[b][j]),
+            Frame::Body => pairs().for_each(|(c, e)| {
+                let inner = h.velocity[c][a].derivative(h.momentum.0[b][e]);
+                sum.add_product(&inner, &product(phi[i][c], phi[j][e]), &Rational::ONE);
+            }),
+            Frame::Space => pairs().for_each(|(k, l)| {
+                let inner = h.velocity[i][k].derivative(h.momentum.0[l][j]);
+                sum.add_product(&inner, &product(phi[k][a], phi[l][b]), &Rational::ONE);
+            }),
+        }
+        sum
+    };
+    let internal: Square<Polynomial> =
+        pairs().map(|(i, a)| pairs().map(|(j, b)| slope(i, a, b, j)).collect()).collect();
+    let centre = h.translation.as_ref().map_or_else(Vec::new, |(frame, inverse_mass)| {
+        table(n, |i, j| {
+            let mut form = Polynomial::zero();
+            match frame {
+                Frame::Body => {
+                    (0..n).for_each(|a| form.add_scaled(&product(phi[i][a], phi[j][a]), &Rational::ONE));
+                }
+                _ if i == j => form = Polynomial::constant(Rational::ONE),
+                _ => {}
+            }
+            form.mul(inverse_mass)
+        })
+    });
+    Batch { results: numbered(&joined(&centre, &internal)), ..Batch::default() }
+}
+
+/// The columns of the inverse of a matrix that depends on the placement: the solutions for unit momenta.
+fn inverse(arena: &mut Arena, entries: &Square<Polynomial>, mut shared: Definitions) -> Option<Batch> {
+    let size = entries.len();
+    let factorisation = Factorisation::new(arena, "", entries, &mut shared)?;
+    let columns: Square<Polynomial> = (0..size)
+        .map(|column| {
+            let mut unit = vec![Polynomial::zero(); size];
+            unit[column] = Polynomial::constant(Rational::ONE);
+            let column = column + 1;
+            let solution: Vec<Expr> =
+                (1..=size).map(|row| arena.symbol(&format!("inverse_{row}_{column}"))).collect();
+            factorisation.solve(arena, &format!("{column}_"), &unit, &solution, &mut shared);
+            solution.into_iter().map(Polynomial::atom).collect()
+        })
+        .collect();
+    Some(Batch { shared, results: numbered(&columns), ..Batch::default() }.pruned(arena))
+}
+
+fn numbered(entries: &[Vec<Polynomial>]) -> Vec<(String, Polynomial)> {
+    let name = |(row, values): (usize, &Vec<Polynomial>)| {
+        let entry = |(column, value): (usize, &Polynomial)| {
+            (format!("entry_{}_{}", row + 1, column + 1), value.clone())
+        };
+        values.iter().enumerate().map(entry).collect::<Vec<_>>()
+    };
+    entries.iter().enumerate().flat_map(name).collect()
+}
+
+/// `x'' = sum over z of dx'/dz z'`, by the chain rule through every quantity on the way to `x'`.
+pub(super) fn acceleration(
+    arena: &mut Arena,
+    chart: &Chart,
+    system: &System,
+    coefficients: &mut Constants,
+) -> Program {
+    let mut flow = Flow { system, slopes: Vec::new(), definitions: Definitions::new() };
+    let velocities = system.rates.iter().filter(|(z, _, _)| matches!(z, Coordinate::X(_)));
+    let results = velocities
+        .enumerate()
+        .map(|(i, (_, _, rate))| (format!("acceleration_{}", i + 1), flow.along(arena, rate)))
+        .collect();
+    let shared = system.shared.iter().cloned().chain(flow.definitions).collect();
+    let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let batch = Batch { shared, results, kernels: system.kernels.clone() }.pruned(arena);
+    fuse(&straight_line(arena, &batch, coefficients, &|a| inputs.contains(&a)))
+}
+
+/// Derivatives along the flow of a system.
+struct Flow<'a> {
+    system: &'a System,
+    /// Quantities and coordinates whose derivative has been formed.
+    slopes: Vec<(Expr, Polynomial)>,
+    definitions: Definitions,
+}
+
+impl Flow<'_> {
+    /// The derivative of a polynomial in coordinates and shared quantities.
+    fn along(&mut self, arena: &mut Arena, polynomial: &Polynomial) -> Polynomial {
+        let mut symbols = Vec::new();
+        polynomial.any_symbol(arena, &mut |symbol| {
+            if !symbols.contains(&symbol) {
+                symbols.push(symbol);
+            }
+            false
+        });
+        let whole = polynomial.expression(arena);
+        let mut sum = Polynomial::zero();
+        for symbol in symbols {
+            let slope = self.slope(arena, symbol);
+            if slope.is_zero() {
+                continue;
+            }
+            let outer = arena.derivative(whole, symbol);
+            sum.add_product(&Polynomial::normal_form(arena, outer), &slope, &Rational::ONE);
+        }
+        sum
+    }
+
+    /// The derivative of a symbol: a rate of the system, that of a definition, or zero for a parameter.
+    fn slope(&mut self, arena: &mut Arena, symbol: Expr) -> Polynomial {
+        if let Some((_, known)) = self.slopes.iter().find(|(s, _)| *s == symbol) {
+            return known.clone();
+        }
+        let rate = self.system.rates.iter().find(|(_, s, _)| *s == symbol).map(|(_, _, rate)| rate.clone());
+        let definition = self.system.shared.iter().find(|(s, _)| *s == symbol).map(|(_, p)| p.clone());
+        let value = match (rate, definition) {
+            (Some(rate), _) => rate,
+            (None, Some(definition)) => self.along(arena, &definition),
+            (None, None) => Polynomial::zero(),
+        };
+        let slope = if value.terms().len() > 1 {
+            let rate = arena.symbol(&format!("rate_{}", arena.name(symbol).unwrap_or("quantity")));
+            self.definitions.push((rate, value));
+            Polynomial::atom(rate)
+        } else {
+            value
+        };
+        self.slopes.push((symbol, slope.clone()));
+        slope
+    }
+}

@@ -1,0 +1,103 @@
+//! The flows of the pieces as programs over the reduced state.
+
+use crate::algebra::bind::Constants;
+use crate::algebra::{Arena, Expr, Polynomial};
+use crate::ir::Program;
+use crate::ir::fuse::fuse;
+use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::potential::Potential;
+use crate::mechanics::reduce::Reduction;
+use crate::mechanics::splitting::{Flow, splitting};
+use crate::optimise::{Batch, straight_line};
+
+use super::programs::batch;
+
+/// The pieces of a reduced motion.
+pub struct Programs {
+    /// Name and flows of each.
+    pub pieces: Vec<(String, Vec<FlowProgram>)>,
+    /// See [`Splitting`](crate::mechanics::splitting::Splitting).
+    pub nystrom: bool,
+}
+
+/// The program of a flow.
+pub enum FlowProgram {
+    /// State components and their constant rates.
+    Shift {
+        /// What moves.
+        moved: Vec<String>,
+        /// The rates.
+        program: Program,
+    },
+    /// An exponential on one side of the placement.
+    Exponential {
+        /// Components of the placement.
+        placement: Vec<Vec<String>>,
+        /// Components of the affine momentum, where it turns along.
+        momentum: Option<Vec<Vec<String>>>,
+        /// Does the exponential stand on the right?
+        right: bool,
+        /// The generator, row after row.
+        program: Program,
+    },
+}
+
+impl Programs {
+    /// The pieces of the chosen reduction; coefficients that a trajectory fixes join `constants`.
+    pub(super) fn of(
+        arena: &mut Arena,
+        h: &Hamiltonian,
+        potential: Option<&Potential>,
+        reduction: &Reduction,
+        constants: &mut Constants,
+    ) -> Option<Self> {
+        let split = splitting(arena, h, potential, reduction)?;
+        let mut varying: Vec<Expr> =
+            reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
+        varying.extend(potential.and_then(Potential::time));
+        let mut pieces = Vec::new();
+        for piece in split.pieces {
+            let flows = piece.flows.iter();
+            let flows = flows.map(|flow| written(arena, flow, reduction, &varying, constants)).collect();
+            pieces.push((piece.name, flows));
+        }
+        Some(Self { pieces, nystrom: split.nystrom })
+    }
+}
+
+fn written(
+    arena: &mut Arena,
+    flow: &Flow,
+    reduction: &Reduction,
+    varying: &[Expr],
+    constants: &mut Constants,
+) -> FlowProgram {
+    let name = |arena: &Arena, s: Expr| arena.name(s).unwrap_or("state").to_owned();
+    let mut program = |arena: &mut Arena, batch: &Batch| {
+        fuse(&straight_line(arena, batch, constants, &|atom| varying.contains(&atom)))
+    };
+    match flow {
+        Flow::Shift(system) => {
+            let moved = system.rates.iter().map(|(_, symbol, _)| name(arena, *symbol)).collect();
+            let rates = batch(arena, system);
+            FlowProgram::Shift { moved, program: program(arena, &rates) }
+        }
+        Flow::Exponential { generator, right, turns_momentum } => {
+            let results = generator.iter().enumerate().flat_map(|(a, row)| {
+                row.iter().enumerate().map(move |(b, y)| (format!("generator_{}{}", a + 1, b + 1), y.clone()))
+            });
+            let results: Vec<(String, Polynomial)> = results.collect();
+            let table = |symbols: &[Expr]| -> Vec<Vec<String>> {
+                symbols
+                    .chunks(reduction.chart.dim)
+                    .map(|row| row.iter().map(|s| name(arena, *s)).collect())
+                    .collect()
+            };
+            let placement = reduction.states.iter().find(|(group, _)| matches!(*group, "phi" | "Psi"));
+            let placement = placement.map_or_else(Vec::new, |(_, symbols)| table(symbols));
+            let momentum = turns_momentum.then(|| table(&reduction.chart.m.0.concat()));
+            let program = program(arena, &Batch { results, ..Batch::default() });
+            FlowProgram::Exponential { placement, momentum, right: *right, program }
+        }
+    }
+}

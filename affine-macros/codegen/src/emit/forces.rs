@@ -1,0 +1,24 @@
+//! Forces that no potential has.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::Context;
+use super::dynamics::{bind_point, time};
+
+/// `power`: nothing where the energy is that of the trait's default, conserved.
+pub(super) fn power(context: &Context) -> TokenStream {
+    let Some(program) = &context.model.power else { return TokenStream::new() };
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let bound = bind_point(context, program);
+    let time = time(program);
+    let body = context.generic(program);
+    let (lets, power) = (&body.lets, body.result());
+    quote! {
+        fn power<#t: #rt::Real>(&self, #time: #t, point: &Self::Point<#t>) -> #t {
+            #bound
+            #lets
+            #power
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! `emit(splitting)`: the exact flows of the pieces.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use crate::derive::splitting::{FlowProgram, Programs};
+use crate::ir::Program;
+use crate::mechanics::potential::TIME;
+
+use super::body::{Body, inputs};
+use super::{Context, identifiers, number, pattern};
+
+/// The implementation of the capability.
+pub(super) fn splitting_impl(context: &Context) -> TokenStream {
+    let Some(Programs { pieces, nystrom }) = &context.model.splitting else { return TokenStream::new() };
+    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
+    let (generics, types, clause) = context.generics();
+    let t = &context.names.scalar;
+    let names = pieces.iter().map(|(name, _)| name);
+    let bodies: Vec<TokenStream> =
+        pieces.iter().map(|(_, flows)| flows.iter().map(|flow| written(context, flow)).collect()).collect();
+    // There is no other piece than those that are counted.
+    let arms = bodies.iter().enumerate().map(|(k, body)| {
+        let piece = number(k);
+        let place = if k + 1 == bodies.len() { quote!(_) } else { quote!(#piece) };
+        quote!(#place => { #body })
+    });
+    let (body, piece) = match bodies.as_slice() {
+        [only] => (only.clone(), quote!(_piece)),
+        _ => (quote!(match piece { #(#arms)* }), quote!(piece)),
+    };
+    let programs = || pieces.iter().flat_map(|(_, flows)| flows).map(program);
+    let reads = |name: &str| programs().any(|program| inputs(program).contains(&name));
+    let time = if reads(TIME) { quote!(t) } else { quote!(_t) };
+    let constants = match coefficient_names(context).iter().any(|name| reads(name)) {
+        true => quote!(constants),
+        false => quote!(_constants),
+    };
+    quote! {
+        impl #generics #rt::Splitting<#n> for #prepared #types #clause {
+            const PIECES: &'static [&'static str] = &[#(#names),*];
+            const NYSTROM: bool = #nystrom;
+
+            #[inline]
+            fn flow<#t: #rt::Real>(
+                &self,
+                #piece: usize,
+                #time: #t,
+                h: #t,
+                #constants: &Self::Constants<#t>,
+                state: &mut Self::Reduced<#t>,
+                carry: &mut Self::Reduced<#t>,
+            ) {
+                #body
+            }
+        }
+    }
+}
+
+/// The hook by which a simulation finds the capability.
+pub(super) fn capability(context: &Context) -> TokenStream {
+    if context.model.splitting.is_none() {
+        return TokenStream::new();
+    }
+    let rt = &context.names.rt;
+    quote! {
+        fn splitting(
+            &self,
+        ) -> ::core::option::Option<impl #rt::Pieces<Self::Reduced<#rt::f64>, Self::Constants<#rt::f64>>> {
+            ::core::option::Option::Some(#rt::Emitted(self))
+        }
+    }
+}
+
+fn program(flow: &FlowProgram) -> &Program {
+    match flow {
+        FlowProgram::Shift { program, .. } | FlowProgram::Exponential { program, .. } => program,
+    }
+}
+
+fn coefficient_names(context: &Context) -> Vec<String> {
+    (1..=context.model.trajectory.outputs.len()).map(|k| format!("k_{k}")).collect()
+}
+
+fn states(context: &Context) -> Vec<String> {
+    context.model.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect()
+}
+
+/// What a flow reads: components of the state, besides `more`, and coefficients of the trajectory.
+fn bound(context: &Context, program: &Program, more: &[String]) -> TokenStream {
+    let mut used = inputs(program);
+    let coefficients = coefficient_names(context);
+    let read = coefficients.iter().any(|name| used.contains(&name.as_str())).then(|| {
+        let bound = pattern(&coefficients, &used);
+        quote!(let #bound = constants.coefficients;)
+    });
+    used.extend(more.iter().map(String::as_str));
+    let states = states(context);
+    let bind = states.iter().any(|name| used.contains(&name.as_str())).then(|| {
+        let bound = pattern(&states, &used);
+        quote!(let #bound = *state;)
+    });
+    quote!(#read #bind)
+}
+
+/// Adds to a component of the state.
+fn accumulated(context: &Context, component: &str, rise: TokenStream) -> TokenStream {
+    let rt = &context.names.rt;
+    let at = states(context).iter().position(|name| name == component).map_or_else(|| number(0), number);
+    quote!(#rt::accumulate(&mut state[#at], &mut carry[#at], #rise);)
+}
+
+fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
+    match flow {
+        FlowProgram::Shift { moved, program } => {
+            let bind = bound(context, program, &[]);
+            let Body { lets, results } = context.generic(program);
+            // Several results are names or numbers; a single one may be a sum.
+            let (only, results) = match results.as_slice() {
+                [one] => (quote!(let rate = #one;), vec![quote!(rate)]),
+                _ => (TokenStream::new(), results),
+            };
+            let rises =
+                moved.iter().zip(&results).map(|(name, rate)| accumulated(context, name, quote!(h * #rate)));
+            quote!({ #bind #lets #only #(#rises)* })
+        }
+        FlowProgram::Exponential { placement, momentum, right, program } => {
+            let rt = &context.names.rt;
+            let moved: Vec<String> =
+                placement.iter().chain(momentum.iter().flatten()).flatten().cloned().collect();
+            let bind = bound(context, program, &moved);
+            let Body { lets, results } = context.generic(program);
+            let rows = results.chunks(context.model.dim);
+            let times = |sign: TokenStream| {
+                let rows = rows.clone().map(|row| quote!([#(#sign h * #row),*]));
+                quote!(#rt::growth([#(#rows),*]))
+            };
+            let growth = times(quote!());
+            let product = if *right { quote!(right_product) } else { quote!(left_product) };
+            let matrix = table(placement);
+            let placed = added(context, placement, "rise");
+            let turned = momentum.as_ref().map(|momentum| {
+                let (inverse, matrix) = (times(quote!(-)), table(momentum));
+                let sides = match right {
+                    true => quote!(&inverse, &growth),
+                    false => quote!(&growth, &inverse),
+                };
+                let turned = added(context, momentum, "turned");
+                quote! {
+                    let inverse = #inverse;
+                    let turned = #rt::conjugated(#matrix, #sides);
+                    #turned
+                }
+            });
+            quote!({
+                #bind
+                #lets
+                let growth = #growth;
+                let rise = #rt::#product(#matrix, &growth);
+                #placed
+                #turned
+            })
+        }
+    }
+}
+
+fn table(names: &[Vec<String>]) -> TokenStream {
+    let rows = names.iter().map(|row| {
+        let row = identifiers(row);
+        quote!([#(#row),*])
+    });
+    quote!([#(#rows),*])
+}
+
+/// Adds the entries of a matrix to components of the state.
+fn added(context: &Context, names: &[Vec<String>], rise: &str) -> TokenStream {
+    let rise = quote::format_ident!("{rise}");
+    let entries =
+        names.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, n)| (i, j, n)));
+    entries
+        .map(|(i, j, name)| {
+            let [i, j]: [Literal; 2] = [i, j].map(number);
+            accumulated(context, name, quote!(#rise[#i][#j]))
+        })
+        .collect()
+}

@@ -1,0 +1,197 @@
+//! The two-polar form.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use crate::derive::TwoPolar;
+use crate::ir::Program;
+use crate::mechanics::describe::Formula;
+use crate::mechanics::kinetic::Frame;
+use crate::mechanics::two_polar::Variables;
+
+use super::body::Body;
+use super::dynamics::own_spin;
+use super::points::wrapper;
+use super::{Context, description, inputs, number, pattern};
+
+/// The implementations of the lattice traits, where they were asked for.
+pub(super) fn implementations(context: &Context) -> TokenStream {
+    let Some(form) = &context.model.two_polar else { return TokenStream::new() };
+    let lattice = lattice(context, form);
+    let conversions = conversions(context);
+    quote!(#lattice #conversions)
+}
+
+/// The lattice of U(n), which has no real phase points to convert to.
+pub(super) fn lattice_of_circle(context: &Context) -> TokenStream {
+    context.model.two_polar.as_ref().map(|form| lattice(context, form)).unwrap_or_default()
+}
+
+fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
+    let (prepared, rt, t, n) =
+        (&context.names.prepared, &context.names.rt, &context.names.scalar, context.dim());
+    let (generics, types, clause) = context.generics();
+    let state: Vec<String> = form.state.iter().flat_map(|(_, names)| names.clone()).collect();
+    let frames = form.frames.iter().flat_map(|(_, names)| names.clone());
+    let framed: Vec<String> = state.iter().cloned().chain(frames).collect();
+    let (size, framed_size, constants) =
+        (number(state.len()), number(framed.len()), number(form.couplings.len()));
+    let description = description(context, form);
+    let docs = docs(form);
+    let function = |program: &Program, variables: &[String]| {
+        let used = inputs(program);
+        let (couplings, bound) = (pattern(&form.couplings, &used), pattern(variables, &used));
+        let body = context.generic(program);
+        let lets = &body.lets;
+        let couplings =
+            if form.couplings.is_empty() { quote!() } else { quote!(let #couplings = *couplings;) };
+        (quote!(#couplings let #bound = *state; #lets), body)
+    };
+    let (rates, Body { results: rate_results, .. }) = function(&form.rates, &state);
+    let (framed_rates, Body { results: framed_results, .. }) = function(&form.framed, &framed);
+    let (energy, body) = function(&form.energy, &state);
+    let energy_result = body.result();
+    let couplings = if form.couplings.is_empty() { quote!(_couplings) } else { quote!(couplings) };
+    quote! {
+        #(#[doc = #docs])*
+        impl #generics #rt::LatticeForm<#n> for #prepared #types #clause {
+            const LATTICE: #rt::LatticeDescription = #description;
+            type Places<#t: #rt::Scalar> = [#t; #size];
+            type Framed<#t: #rt::Scalar> = [#t; #framed_size];
+            type Couplings<#t: #rt::Scalar> = [#t; #constants];
+
+            fn lattice_hamiltonian<#t: #rt::Real>(
+                &self,
+                #couplings: &Self::Couplings<#t>,
+                state: &Self::Places<#t>,
+            ) -> #t {
+                #energy
+                #energy_result
+            }
+
+            #[inline]
+            fn lattice_equations<#t: #rt::Scalar>(
+                &self,
+                #couplings: &Self::Couplings<#t>,
+                state: &Self::Places<#t>,
+            ) -> Self::Places<#t> {
+                #rates
+                [#(#rate_results),*]
+            }
+
+            #[inline]
+            fn framed_equations<#t: #rt::Scalar>(
+                &self,
+                #couplings: &Self::Couplings<#t>,
+                state: &Self::Framed<#t>,
+            ) -> Self::Framed<#t> {
+                #framed_rates
+                [#(#framed_results),*]
+            }
+        }
+    }
+}
+
+fn conversions(context: &Context) -> TokenStream {
+    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
+    let (generics, types, clause) = context.generics();
+    let (frame, spin, wrap) = (context.frame(), own_spin(context), wrapper(context));
+    let f64 = quote!(#rt::f64);
+    let some = quote!(::core::option::Option::Some);
+    let isotropic = match &context.model.isotropic {
+        None => quote!(::core::option::Option::None),
+        Some(program) => {
+            let Body { lets, results } = context.double(program);
+            let side = match context.model.frame {
+                Frame::Body => quote!(Body),
+                _ => quote!(Space),
+            };
+            let [inverse_alpha, inverse_beta, inverse_mu] = &results[..] else { return TokenStream::new() };
+            quote! {
+                #lets
+                #some(#rt::Isotropic {
+                    inverse_alpha: #inverse_alpha,
+                    inverse_beta: #inverse_beta,
+                    inverse_mu: #inverse_mu,
+                    side: #rt::MetricSide::#side,
+                })
+            }
+        }
+    };
+    quote! {
+        impl #generics #rt::TwoPolarForm<#n> for #prepared #types #clause {
+            fn lattice(&self, point: &Self::Point<#f64>) -> #rt::Result<#rt::Lattice<#n>> {
+                #rt::lattice_of::<#n, #frame>(#rt::Phase::phi(point), &#spin, ::core::option::Option::None)
+            }
+
+            fn lattice_after(
+                &self,
+                point: &Self::Point<#f64>,
+                before: &#rt::Lattice<#n>,
+            ) -> #rt::Result<#rt::Lattice<#n>> {
+                #rt::lattice_of::<#n, #frame>(#rt::Phase::phi(point), &#spin, #some(before))
+            }
+
+            fn at_lattice(&self, lattice: &#rt::Lattice<#n>) -> #rt::Result<Self::Point<#f64>> {
+                let (phi, spin) = #rt::placement_and_spin::<#n, #frame>(lattice)?;
+                #rt::phase_point(phi, #wrap(spin), #rt::Pinned)
+            }
+
+            fn isotropic(&self) -> ::core::option::Option<#rt::Isotropic> {
+                #isotropic
+            }
+        }
+    }
+}
+
+fn docs(form: &TwoPolar) -> Vec<String> {
+    let mut lines = vec![
+        format!("`{}`", form.formulas.0.text),
+        String::new(),
+        format!("Equations of the lattice, {}:", description::counts(form.rates.operations())),
+        "```text".to_owned(),
+    ];
+    lines.extend(form.formulas.1.iter().map(|formula| formula.text.clone()));
+    lines.push("```".to_owned());
+    lines.into_iter().map(description::indented).collect()
+}
+
+fn description(context: &Context, form: &TwoPolar) -> TokenStream {
+    let rt = &context.names.rt;
+    let formula = |f: &Formula| {
+        let (text, latex) = (&f.text, &f.latex);
+        quote!(#rt::Formula { text: #text, latex: #latex })
+    };
+    let (hamiltonian, equations) = (formula(&form.formulas.0), form.formulas.1.iter().map(formula));
+    let variables = match form.variables {
+        Variables::LogStretches => format_ident!("LogStretches"),
+        Variables::Stretches => format_ident!("Stretches"),
+        Variables::Angles => format_ident!("Angles"),
+    };
+    let potential = match (context.model.has_forces, form.dilatation_only) {
+        (false, _) => format_ident!("None"),
+        (true, true) => format_ident!("Dilatation"),
+        (true, false) => format_ident!("Stretches"),
+    };
+    let groups = |groups: &mut dyn Iterator<Item = &(&'static str, Vec<String>)>| {
+        let entries = groups.map(|(name, components)| {
+            let len = number(components.len());
+            quote!(#rt::Group { name: #name, len: #len })
+        });
+        quote!(&[#(#entries),*])
+    };
+    let state = groups(&mut form.state.iter());
+    let framed = groups(&mut form.state.iter().chain(&form.frames));
+    let operations = description::operations(context, form.rates.operations());
+    quote! {
+        #rt::LatticeDescription {
+            variables: #rt::Variables::#variables,
+            potential: #rt::PotentialClass::#potential,
+            hamiltonian: #hamiltonian,
+            equations: &[#(#equations),*],
+            state: #state,
+            framed: #framed,
+            operations: #operations,
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! Forces and potentials that a field of the model computes.
+//!
+//! The equations call the field: its results are quantities like any other. What is known of it is what the
+//! specification says: the form of a force and whether it has power, the class of a potential.
+
+use crate::algebra::kernel::{Asked, Callee, Group};
+use crate::algebra::ring::{Square, product, table, transpose};
+use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
+
+use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::conserved::Candidate;
+use super::equations::Load;
+use super::hamiltonian::Hamiltonian;
+use super::kinetic::Frame;
+use super::potential::TIME;
+use super::shared::{Shared, atoms, frame_of};
+
+/// A field that computes a force or a potential.
+#[derive(Clone, Debug)]
+pub struct Custom {
+    /// Its place among them, from 1.
+    pub place: usize,
+    /// Its name.
+    pub name: String,
+    /// What it computes.
+    pub role: Role,
+}
+
+/// What a field computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// A force.
+    Force {
+        /// On which momentum.
+        on: On,
+        /// It has no power.
+        gyroscopic: bool,
+    },
+    /// A potential.
+    Potential {
+        /// Under which rotations it does not change.
+        class: Class,
+        /// It depends on `x`.
+        moves: bool,
+    },
+}
+
+/// The momentum that a force acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum On {
+    /// `Q` on `Sigma`.
+    Space,
+    /// `Q_hat` on `Sigma_hat`.
+    Body,
+    /// `Q_tr` on `p`.
+    Centre,
+}
+
+/// Rotations that leave a potential unchanged, `U(A phi B) = U(phi)`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// All.
+    Isotropic,
+    /// Those of space: a function of `G`.
+    Green,
+    /// Those of the body: a function of `Ct`.
+    Finger,
+    /// None that is known.
+    General,
+}
+
+impl Class {
+    /// The number by which the runtime knows it.
+    fn number(self) -> u8 {
+        match self {
+            Self::Isotropic => 0,
+            Self::Green => 1,
+            Self::Finger => 2,
+            Self::General => 3,
+        }
+    }
+
+    fn keeps_spin(self) -> bool {
+        matches!(self, Self::Isotropic | Self::Green)
+    }
+
+    fn keeps_vorticity(self) -> bool {
+        matches!(self, Self::Isotropic | Self::Finger)
+    }
+}
+
+impl Custom {
+    /// What it adds to Hamilton's equations of a chart.
+    pub fn load(&self, arena: &mut Arena, chart: &Chart, h: &Hamiltonian) -> Load {
+        let mut shared = Shared { arena, list: Vec::new() };
+        let (kernel, affine, centre, work) = match self.role {
+            Role::Force { on, gyroscopic } => self.force(&mut shared, chart, h, on, gyroscopic),
+            Role::Potential { class, moves } => self.slopes(&mut shared, chart, class, moves),
+        };
+        let mut forces = Vec::new();
+        for (a, b) in (0..chart.dim).flat_map(|a| (0..chart.dim).map(move |b| (a, b))) {
+            let mut force = affine[a][b].clone();
+            if let (Momentum::Total, Some(push)) = (chart.momentum, centre.get(b)) {
+                force.add_product(&Polynomial::atom(chart.x[a]), push, &Rational::ONE);
+            }
+            forces.push((Coordinate::M(a, b), force));
+        }
+        let centre = match chart.linear {
+            // phi^T Q_tr
+            Some(Linear::Body) if !centre.is_empty() => {
+                crate::algebra::ring::times(&transpose(&atoms(&chart.phi)), &centre)
+            }
+            _ => centre,
+        };
+        forces.extend(centre.into_iter().enumerate().map(|(i, force)| (Coordinate::P(i), force)));
+        let work = work.map(|power| (shared.arena.symbol("work"), power));
+        Load { shared: shared.list, kernels: vec![kernel], forces, work }
+    }
+
+    fn force(&self, shared: &mut Shared, chart: &Chart, h: &Hamiltonian, on: On, gyroscopic: bool) -> Parts {
+        let n = chart.dim;
+        let phi_dot = shared.phi_dot(chart);
+        let phi_dot = shared.matrix("phi_dot", &phi_dot);
+        let x_dot = shared.x_dot(chart, h);
+        let mut arguments = placed(shared.arena, chart);
+        arguments.push(Group::Vector(or_zero(x_dot.clone(), n)));
+        arguments.push(Group::Matrix(phi_dot.clone()));
+        let zero = table(n, |_, _| Polynomial::zero());
+        let mut centre = vec![Polynomial::zero(); chart.p.len()];
+        let mut affine = zero;
+        let mut power = Polynomial::zero();
+        let (name, results) = match on {
+            On::Centre => {
+                let push = self.vector(shared.arena, n);
+                for (i, velocity) in x_dot.iter().enumerate() {
+                    centre[i] = Polynomial::atom(push[i]);
+                    power.add_product(&centre[i], velocity, &Rational::ONE);
+                }
+                ("translational_force", Group::Vector(push))
+            }
+            On::Space | On::Body => {
+                let (home, name) = match on {
+                    On::Space => (Frame::Space, "spatial_force"),
+                    _ => (Frame::Body, "comoving_force"),
+                };
+                let symbols = self.matrix(shared.arena, "force", n);
+                let force = atoms(&symbols);
+                let phi = atoms(&chart.phi);
+                if home == frame_of(chart) {
+                    let own = atoms(&Matrix::symbols(shared.arena, chart.momentum.velocity_name(), n));
+                    pair(&mut power, &force, &own);
+                    affine = force;
+                } else {
+                    let push = match home {
+                        Frame::Space => product(&shared.inverse(&phi), &force),
+                        _ => product(&force, &shared.inverse(&phi)),
+                    };
+                    let push = shared.matrix(&format!("push_{}", self.place), &push);
+                    pair(&mut power, &push, &phi_dot);
+                    affine = shared.on_own(chart, &push);
+                }
+                (name, Group::Matrix(symbols.0))
+            }
+        };
+        let callee = Callee::Custom(self.place, Asked::Force(name, gyroscopic));
+        let kernel = Kernel { callee, arguments, results: vec![results] };
+        (kernel, affine, centre, (!gyroscopic).then_some(power))
+    }
+
+    /// `Q_tr = -dU/dx` and the force `-(dU/dphi)^T` on `Pi`.
+    fn slopes(&self, shared: &mut Shared, chart: &Chart, class: Class, moves: bool) -> Parts {
+        let n = chart.dim;
+        let (along_x, along_phi) = (self.vector(shared.arena, n), self.matrix(shared.arena, "slope", n));
+        let negative = |symbol: &Expr| Polynomial::term(vec![*symbol], Rational::MINUS_ONE);
+        let push = table(n, |a, i| negative(&along_phi.0[i][a]));
+        let affine = shared.on_own(chart, &push);
+        let centre = match (moves, chart.linear) {
+            (true, Some(_)) => along_x.iter().map(negative).collect(),
+            _ => vec![Polynomial::zero(); chart.p.len()],
+        };
+        let kernel = Kernel {
+            callee: Callee::Custom(self.place, Asked::Slopes(class.number(), moves)),
+            arguments: placed(shared.arena, chart),
+            results: vec![Group::Vector(along_x), Group::Matrix(along_phi.0)],
+        };
+        (kernel, affine, centre, None)
+    }
+
+    /// The energy of a potential at a point of a chart, and the call that gives it.
+    pub fn energy(&self, arena: &mut Arena, chart: &Chart) -> Option<(Polynomial, Kernel)> {
+        let Role::Potential { class, moves } = self.role else { return None };
+        let energy = arena.symbol(&format!("potential_{}", self.place));
+        let kernel = Kernel {
+            callee: Callee::Custom(self.place, Asked::Energy(class.number(), moves)),
+            arguments: placed(arena, chart),
+            results: vec![Group::Scalar(energy)],
+        };
+        Some((Polynomial::atom(energy), kernel))
+    }
+
+    /// Does it leave the candidate at rest, whatever the field computes?
+    #[must_use]
+    pub fn keeps(&self, candidate: Candidate) -> bool {
+        use Candidate::{
+            ComovingLinearMomentum, Energy, LinearMomentum, OrbitalAngularMomentum, Spin, SpinNorm,
+            TotalAffineMomentum, TotalAngularMomentum, Vorticity, VorticityNorm,
+        };
+        let of_the_centre =
+            matches!(candidate, LinearMomentum | ComovingLinearMomentum | OrbitalAngularMomentum);
+        match self.role {
+            Role::Force { on, gyroscopic } => match candidate {
+                Energy => gyroscopic,
+                TotalAffineMomentum | TotalAngularMomentum => false,
+                _ => of_the_centre != (on == On::Centre),
+            },
+            Role::Potential { class, moves } => match candidate {
+                Energy => true,
+                _ if of_the_centre => !moves,
+                Spin | SpinNorm => class.keeps_spin(),
+                TotalAngularMomentum => class.keeps_spin() && !moves,
+                Vorticity | VorticityNorm => class.keeps_vorticity(),
+                _ => false,
+            },
+        }
+    }
+
+    /// Does the centre of mass move as without it, and need not be known to it?
+    #[must_use]
+    pub fn leaves_the_centre(&self) -> bool {
+        matches!(self.role, Role::Potential { moves: false, .. })
+    }
+
+    /// Can it push a centre of mass that is at rest?
+    #[must_use]
+    pub fn pushes_from_rest(&self) -> bool {
+        matches!(self.role, Role::Force { on: On::Centre, .. } | Role::Potential { moves: true, .. })
+    }
+
+    /// Does it look the same from every direction of space?
+    #[must_use]
+    pub fn is_isotropic_in_space(&self) -> bool {
+        matches!(self.role, Role::Potential { class, moves: false } if class.keeps_spin())
+    }
+
+    /// A potential that the squared vorticity (body) or spin (space) of `H` commutes with?
+    #[must_use]
+    pub fn commutes_with_rotation(&self, frame: Frame) -> bool {
+        match (self.role, frame) {
+            (Role::Potential { class, .. }, Frame::Body) => class.keeps_vorticity(),
+            (Role::Potential { class, .. }, _) => class.keeps_spin(),
+            (Role::Force { .. }, _) => false,
+        }
+    }
+
+    fn vector(&self, arena: &mut Arena, n: usize) -> Vec<Expr> {
+        (1..=n).map(|i| arena.symbol(&format!("pull_{}_{i}", self.place))).collect()
+    }
+
+    fn matrix(&self, arena: &mut Arena, stem: &str, n: usize) -> Matrix {
+        Matrix::symbols(arena, &format!("{stem}_{}", self.place), n)
+    }
+}
+
+/// A call, forces on the affine momentum of the chart and on `p`, power of what is no potential.
+type Parts = (Kernel, Square<Polynomial>, Vec<Polynomial>, Option<Polynomial>);
+
+/// `t, x, phi`; `x = 0` where the chart has none.
+fn placed(arena: &mut Arena, chart: &Chart) -> Vec<Group<Polynomial>> {
+    let x = chart.x.iter().map(|x| Polynomial::atom(*x)).collect();
+    vec![
+        Group::Scalar(Polynomial::atom(arena.symbol(TIME))),
+        Group::Vector(or_zero(x, chart.dim)),
+        Group::Matrix(atoms(&chart.phi)),
+    ]
+}
+
+fn or_zero(vector: Vec<Polynomial>, n: usize) -> Vec<Polynomial> {
+    if vector.is_empty() { vec![Polynomial::zero(); n] } else { vector }
+}
+
+/// Adds `tr(force velocity)`.
+fn pair(power: &mut Polynomial, force: &Square<Polynomial>, velocity: &Square<Polynomial>) {
+    for (a, row) in force.iter().enumerate() {
+        for (b, force) in row.iter().enumerate() {
+            power.add_product(force, &velocity[b][a], &Rational::ONE);
+        }
+    }
+}

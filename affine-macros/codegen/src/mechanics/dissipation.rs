@@ -1,0 +1,205 @@
+//! Rayleigh's dissipation function `R`: a quadratic form in the velocities, whose slopes are forces.
+//!
+//! `Q_hat = -(dR/dOh)^T`, `Q = -(dR/dOm)^T`, `N = -(dR/dphi_dot)^T`, each in the frame in which its part of `R` has
+//! constant coefficients, and `Q_tr = -dR/dx_dot`. By Euler's theorem on homogeneous functions their power is `-2 R`
+//! (Goldstein, *Classical Mechanics*, section 1.5).
+
+mod invariance;
+
+use crate::algebra::ring::{Square, product, sum, table, times, transpose};
+use crate::algebra::{Arena, Matrix, Polynomial, Rational};
+
+use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::equations::Load;
+use super::hamiltonian::Hamiltonian;
+use super::hessian::Hessian;
+use super::kinetic::{Coefficient, Frame, Kinetic, Term};
+use super::shared::{Shared, atoms, frame_of};
+
+/// A dissipation function.
+#[derive(Clone, Debug)]
+pub struct Dissipation {
+    dim: usize,
+    /// The forms in the affine velocity, one for each frame in which some terms are constant.
+    pub parts: Vec<Part>,
+    /// The coefficients of `1/2 |phi^-1 x_dot|^2` (`Body`) and `1/2 |x_dot|^2` (`Space`).
+    pub centre: Vec<(Frame, Polynomial)>,
+}
+
+/// The terms that have constant coefficients in one frame.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// The form, written as a kinetic energy is.
+    pub form: Kinetic,
+    /// Its Hessian on the affine velocities.
+    pub hessian: Hessian,
+}
+
+impl Part {
+    /// `-(dR/dO)^T` at a velocity `o` of its frame, in the ring of the velocity.
+    fn force(&self, o: &Square<Polynomial>) -> Square<Polynomial> {
+        let flat = o.concat();
+        table(o.len(), |a, b| {
+            let mut force = Polynomial::zero();
+            let row = &self.hessian.matrix[b * o.len() + a];
+            row.iter().zip(&flat).for_each(|(h, o)| force.add_product(h, o, &Rational::MINUS_ONE));
+            force
+        })
+    }
+}
+
+impl Dissipation {
+    /// The sum of `terms`. The Casimir terms, which have constant coefficients in both affine frames, count with the
+    /// terms of the body, or else with those of space, or else with the frame `own` of the kinetic energy.
+    pub fn new(arena: &mut Arena, dim: usize, own: Frame, terms: &[Term]) -> Self {
+        let has = |frame: Frame| terms.iter().any(|term| term.kind.internal_frame() == Some(frame));
+        let either = match own {
+            _ if has(Frame::Body) => Frame::Body,
+            _ if has(Frame::Space) => Frame::Space,
+            Frame::Flat => Frame::Body,
+            own => own,
+        };
+        let mut parts = Vec::new();
+        for frame in [Frame::Body, Frame::Space, Frame::Flat] {
+            let internal = terms.iter().filter(|term| term.kind.translation_frame().is_none());
+            let of_frame = |term: &&Term| term.kind.internal_frame().unwrap_or(either) == frame;
+            let of_frame: Vec<Term> = internal.filter(of_frame).cloned().collect();
+            if !of_frame.is_empty() {
+                let form = Kinetic::in_frame(arena, dim, frame, &of_frame, None);
+                parts.push(Part { hessian: Hessian::new(&form), form });
+            }
+        }
+        let mut centre = Vec::new();
+        for term in terms {
+            if let (Some(frame), Coefficient::Scalar(c)) = (term.kind.translation_frame(), &term.value) {
+                centre.push((frame, Polynomial::normal_form(arena, *c)));
+            }
+        }
+        Self { dim, parts, centre }
+    }
+
+    /// What is left of it while the centre of mass is at rest.
+    #[must_use]
+    pub fn at_rest(&self) -> Option<Self> {
+        (!self.parts.is_empty()).then(|| Self { centre: Vec::new(), ..self.clone() })
+    }
+
+    /// Does it slow the centre of mass?
+    #[must_use]
+    pub fn slows_the_centre(&self) -> bool {
+        !self.centre.is_empty()
+    }
+
+    /// What it adds to Hamilton's equations of a chart, with its power `-2 R`.
+    pub fn load(&self, arena: &mut Arena, chart: &Chart, h: &Hamiltonian) -> Load {
+        let mut shared = Shared { arena, list: Vec::new() };
+        let (affine, mut power) = self.affine_force(&mut shared, chart);
+        let centre = self.centre_force(&mut shared, chart, h, &mut power);
+        let mut forces = Vec::new();
+        for (a, b) in (0..self.dim).flat_map(|a| (0..self.dim).map(move |b| (a, b))) {
+            let mut force = affine[a][b].clone();
+            if let (Momentum::Total, Some(push)) = (chart.momentum, centre.get(b)) {
+                force.add_product(&Polynomial::atom(chart.x[a]), push, &Rational::ONE);
+            }
+            forces.push((Coordinate::M(a, b), force));
+        }
+        forces.extend(centre.into_iter().enumerate().map(|(i, force)| (Coordinate::P(i), force)));
+        let work = shared.arena.symbol("work");
+        Load { shared: shared.list, kernels: Vec::new(), forces, work: Some((work, power)) }
+    }
+
+    /// The force on the affine momentum of the chart, and its power. What has constant coefficients in another frame
+    /// goes through `phi_dot` and the force `N` on `Pi`, so that `phi^-1` stands once on each way.
+    fn affine_force(&self, shared: &mut Shared, chart: &Chart) -> (Square<Polynomial>, Polynomial) {
+        let n = self.dim;
+        let phi = atoms(&chart.phi);
+        let own = atoms(&Matrix::symbols(shared.arena, chart.momentum.velocity_name(), n));
+        let phi_dot = shared.phi_dot(chart);
+        let zero = table(n, |_, _| Polynomial::zero());
+        let (mut force, mut push, mut power) = (zero.clone(), zero, Polynomial::zero());
+        for part in &self.parts {
+            let frame = part.form.frame;
+            let at_home = frame == frame_of(chart);
+            let velocity = match frame {
+                _ if at_home => own.clone(),
+                Frame::Body => product(&shared.inverse(&phi), &shared.matrix("phi_dot", &phi_dot)),
+                Frame::Space => product(&shared.matrix("phi_dot", &phi_dot), &shared.inverse(&phi)),
+                Frame::Flat => phi_dot.clone(),
+            };
+            let velocity = if at_home { velocity } else { shared.matrix(frame.velocity_name(), &velocity) };
+            let drag = shared.matrix(drag_name(frame), &part.force(&velocity));
+            for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+                power.add_product(&drag[a][b], &velocity[b][a], &Rational::ONE);
+            }
+            match frame {
+                _ if at_home => force = sum(&force, &drag),
+                Frame::Body => push = sum(&push, &product(&drag, &shared.inverse(&phi))),
+                Frame::Space => push = sum(&push, &product(&shared.inverse(&phi), &drag)),
+                Frame::Flat => push = sum(&push, &drag),
+            }
+        }
+        let push = shared.matrix("push", &push);
+        let rest = shared.on_own(chart, &push);
+        (sum(&force, &rest), power)
+    }
+
+    /// `Q_tr`, or `phi^T Q_tr` beside `p_hat`; nothing where the chart has no `p`. Adds its power.
+    fn centre_force(
+        &self,
+        shared: &mut Shared,
+        chart: &Chart,
+        h: &Hamiltonian,
+        power: &mut Polynomial,
+    ) -> Vec<Polynomial> {
+        let (Some(linear), Some((own, inverse_mass))) = (chart.linear, &h.translation) else {
+            return Vec::new();
+        };
+        let phi = atoms(&chart.phi);
+        let p: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
+        let p_hat = match linear {
+            Linear::Body => p.clone(),
+            Linear::Space if self.centre.iter().any(|(frame, _)| frame != own) || *own == Frame::Body => {
+                shared.vector("p_hat", &times(&transpose(&phi), &p))
+            }
+            Linear::Space => Vec::new(),
+        };
+        let per_mass =
+            |v: &[Polynomial]| -> Vec<Polynomial> { v.iter().map(|c| c.mul(inverse_mass)).collect() };
+        // The velocity conjugate to the chart's linear momentum.
+        let velocity = match (linear, own) {
+            (Linear::Space, Frame::Body) => times(&phi, &per_mass(&p_hat)),
+            _ => per_mass(&p),
+        };
+        let mut force = vec![Polynomial::zero(); self.dim];
+        for (frame, coefficient) in &self.centre {
+            // p = m v in the frame of the mass: there the force is a multiple of the momentum.
+            let slope = match (frame == own, linear, frame) {
+                (true, ..) => per_mass(&p),
+                (false, Linear::Body, _) => times(&transpose(&phi), &times(&phi, &per_mass(&p))),
+                (false, Linear::Space, Frame::Space) => velocity.clone(),
+                (false, Linear::Space, _) => {
+                    let inverse = shared.inverse(&phi);
+                    let v_hat = shared.vector("v_hat", &times(&inverse, &per_mass(&p)));
+                    times(&transpose(&inverse), &v_hat)
+                }
+            };
+            for (sum, slope) in force.iter_mut().zip(&slope) {
+                sum.add_product(slope, coefficient, &Rational::MINUS_ONE);
+            }
+        }
+        let force = shared.vector("drag_centre", &force);
+        for (force, velocity) in force.iter().zip(&velocity) {
+            power.add_product(force, velocity, &Rational::ONE);
+        }
+        force
+    }
+}
+
+/// Stem of the names of the force in a frame.
+fn drag_name(frame: Frame) -> &'static str {
+    match frame {
+        Frame::Body => "drag_hat",
+        Frame::Space => "drag",
+        Frame::Flat => "drag_flat",
+    }
+}

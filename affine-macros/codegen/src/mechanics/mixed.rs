@@ -1,0 +1,88 @@
+//! Kinetic energies whose terms have constant coefficients in different frames: the mass matrix depends on `phi`.
+//!
+//! The internal motion of such a sum is written over `phi_dot` and `Pi`, whatever the frames: every other velocity is
+//! `phi^-1 phi_dot` or `phi_dot phi^-1`, so that only `phi^-1` enters, products stay short, and the momentum is
+//! canonical. Energies that agree on the internal motion and differ in the translation keep their own frame.
+
+mod centre;
+mod conserved;
+mod factorisation;
+mod formulas;
+mod motion;
+mod sample;
+
+use crate::algebra::Arena;
+
+use super::kinetic::{Frame, Kinetic, Term};
+use super::symmetry::{Group, Side, largest_group};
+
+pub use centre::Masses;
+pub use conserved::conserved;
+pub use factorisation::{Factorisation, SymmetricBlock};
+pub use formulas::{centre_equations, energy, hamiltonian, internal_equations, internal_hamiltonian};
+pub use motion::{Internal, Legendre, slopes_of};
+pub use sample::Sample;
+
+/// A sum of energies, each with constant coefficients in its frame.
+#[derive(Clone, Debug)]
+pub struct Mixed {
+    /// Dimension of space.
+    pub dim: usize,
+    /// Internal energies of different frames.
+    pub internal: Vec<Kinetic>,
+    /// Translational energies of different frames.
+    pub translations: Vec<Kinetic>,
+}
+
+impl Mixed {
+    /// Sorts the terms by their frames. The Casimirs, which have constant coefficients in body and space, go with
+    /// `casimirs` where it has other terms, and to the affine frame that has some otherwise.
+    pub fn new(arena: &mut Arena, dim: usize, terms: &[Term], casimirs: Frame) -> Self {
+        let has = |frame: Frame| terms.iter().any(|term| term.kind.internal_frame() == Some(frame));
+        let affine = match (has(Frame::Body), has(Frame::Space)) {
+            (true, true) => casimirs,
+            (false, true) => Frame::Space,
+            _ => Frame::Body,
+        };
+        let internal = |term: &Term| match term.kind.translation_frame() {
+            Some(_) => None,
+            None => Some(term.kind.internal_frame().unwrap_or(affine)),
+        };
+        let mut part = |wanted: &dyn Fn(&Term) -> bool| {
+            let places: Vec<usize> = (0..terms.len()).filter(|place| wanted(&terms[*place])).collect();
+            let chosen: Vec<Term> = places.iter().map(|place| terms[*place].clone()).collect();
+            // Terms of one frame have a common one.
+            let mut kinetic = Kinetic::new(arena, dim, &chosen).ok().filter(|_| !chosen.is_empty())?;
+            kinetic.internal.iter_mut().for_each(|(place, _)| *place = places[*place]);
+            kinetic.translation.iter_mut().for_each(|t| t.place = places[t.place]);
+            Some(kinetic)
+        };
+        let frames = [Frame::Body, Frame::Space, Frame::Flat];
+        let inner = frames.iter().filter_map(|frame| part(&|term| internal(term) == Some(*frame))).collect();
+        let outer = frames
+            .iter()
+            .filter_map(|frame| part(&|term| term.kind.translation_frame() == Some(*frame)))
+            .collect();
+        Self { dim, internal: inner, translations: outer }
+    }
+
+    /// All energies.
+    #[must_use]
+    pub fn parts(&self) -> Vec<Kinetic> {
+        [self.internal.clone(), self.translations.clone()].concat()
+    }
+
+    /// The largest of the named groups that leaves the energy invariant. Under `phi -> c phi` the energies of affine
+    /// frames scale by `1/c^2` against flat ones, and on either side only one affine frame is moved: the sum is
+    /// invariant exactly if every part is.
+    #[must_use]
+    pub fn largest_group(&self, side: Side) -> Group {
+        self.parts().iter().map(|part| largest_group(part, side)).min().unwrap_or(Group::Affine)
+    }
+
+    /// `n^2`, and `n` more with translation.
+    #[must_use]
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.dim * self.dim + if self.translations.is_empty() { 0 } else { self.dim }
+    }
+}

@@ -1,0 +1,130 @@
+//! A mixed energy and its equations as formulas.
+
+use crate::algebra::Arena;
+use crate::mechanics::describe::{Formula, kinetic_energy};
+use crate::mechanics::kinetic::Frame;
+use crate::mechanics::notation::{latex, plain};
+use crate::mechanics::potential::Potential;
+
+use super::{Masses, Mixed};
+
+/// A formula from text and LaTeX.
+fn formula(text: impl Into<String>, latex: impl Into<String>) -> Formula {
+    Formula { text: text.into(), latex: latex.into() }
+}
+
+/// `T` as the sum of its terms, frame after frame.
+pub fn energy(arena: &mut Arena, mixed: &Mixed) -> Formula {
+    let mut sum = formula("T =", "T =");
+    for part in mixed.parts() {
+        let Formula { text, latex } = kinetic_energy(arena, &part);
+        for (sum, part) in [(&mut sum.text, text), (&mut sum.latex, latex)] {
+            let part = part.trim_start_matches("T = ");
+            *sum += &match (sum.ends_with('='), part.strip_prefix('-')) {
+                (true, _) => format!(" {part}"),
+                (false, Some(rest)) => format!(" - {rest}"),
+                (false, None) => format!(" + {part}"),
+            };
+        }
+    }
+    sum
+}
+
+/// `H` through the velocities.
+pub fn hamiltonian(
+    arena: &Arena,
+    internal: Formula,
+    masses: &Masses,
+    potential: Option<&Potential>,
+) -> Formula {
+    let mut sum = internal;
+    if !masses.are_none() {
+        sum.text += " + 1/2 p^T dx/dt";
+        sum.latex += " + \\frac{1}{2} p^T\\dot x";
+    }
+    if let Some(u) = potential {
+        sum.text += &format!(" + {}", plain(arena, u.energy));
+        sum.latex += &format!(" + {}", latex(arena, u.energy));
+    }
+    sum
+}
+
+/// `H` of the internal motion.
+#[must_use]
+pub fn internal_hamiltonian() -> Formula {
+    formula("H = 1/2 tr(Pi dphi/dt)", "H = \\frac{1}{2}\\operatorname{tr}(\\Pi\\dot\\varphi)")
+}
+
+/// The Legendre transformation and the balance of `Pi`, in the parts that the energy has.
+#[must_use]
+pub fn internal_equations(mixed: &Mixed, masses: &Masses, potential: Option<&Potential>) -> Vec<Formula> {
+    let has = |frame: Frame| mixed.internal.iter().any(|part| part.frame == frame);
+    let mut parts: Vec<(&str, &str)> = Vec::new();
+    let mut rate: Vec<(String, String)> = Vec::new();
+    let mut momenta: Vec<(&str, &str)> = Vec::new();
+    if has(Frame::Body) {
+        momenta.push((
+            "Sigma_hat = (dT_body/dOmega_hat)^T",
+            "\\hat\\Sigma = (\\partial T_{body}/\\partial\\hat\\Omega)^T",
+        ));
+        parts.push(("Sigma_hat phi^-1", "\\hat\\Sigma\\varphi^{-1}"));
+        rate.push(("- Omega_hat Sigma_hat phi^-1".into(), "- \\hat\\Omega\\hat\\Sigma\\varphi^{-1}".into()));
+    }
+    if has(Frame::Space) {
+        momenta.push(("Sigma = (dT_space/dOmega)^T", "\\Sigma = (\\partial T_{space}/\\partial\\Omega)^T"));
+        parts.push(("phi^-1 Sigma", "\\varphi^{-1}\\Sigma"));
+        rate.push(("- phi^-1 Sigma Omega".into(), "- \\varphi^{-1}\\Sigma\\,\\Omega".into()));
+    }
+    if has(Frame::Flat) {
+        parts.push(("(dT_flat/dphi_dot)^T", "(\\partial T_{flat}/\\partial\\dot\\varphi)^T"));
+    }
+    if masses.body.is_some() {
+        rate.push((
+            "- phi^-1 dx/dt (p - m dx/dt)^T"
+                .replace(" - m dx/dt", if masses.are_mixed() { " - m dx/dt" } else { "" }),
+            if masses.are_mixed() {
+                "- \\varphi^{-1}\\dot x (p - m\\dot x)^T"
+            } else {
+                "- \\varphi^{-1}\\dot x\\,p^T"
+            }
+            .into(),
+        ));
+    }
+    if potential.is_some() {
+        rate.push(("+ N".into(), "+ N".into()));
+    }
+    let mut list: Vec<Formula> = momenta.into_iter().map(|(text, latex)| formula(text, latex)).collect();
+    list.push(formula(
+        format!(
+            "Pi = {}, solved for dphi/dt by L D L^T",
+            parts.iter().map(|p| p.0).collect::<Vec<_>>().join(" + ")
+        ),
+        format!("\\Pi = {}", parts.iter().map(|p| p.1).collect::<Vec<_>>().join(" + ")),
+    ));
+    let joined = |rate: Vec<String>| rate.join(" ").trim_start_matches("+ ").replacen("- ", "-", 1);
+    let (text, tex): (Vec<String>, Vec<String>) = rate.into_iter().unzip();
+    list.push(formula(format!("dPi/dt = {}", joined(text)), format!("\\dot\\Pi = {}", joined(tex))));
+    if potential.is_some() {
+        list.push(formula("N = -(dU/dphi)^T", "N = -(\\partial U/\\partial\\varphi)^T"));
+    }
+    list
+}
+
+/// The velocity of the centre of mass and the balance of `p`.
+#[must_use]
+pub fn centre_equations(masses: &Masses, potential: Option<&Potential>) -> Vec<Formula> {
+    let velocity = match (masses.body.is_some(), masses.space.is_some()) {
+        (false, false) => return Vec::new(),
+        (true, false) => formula("dx/dt = phi phi^T p / m", "\\dot x = \\varphi\\varphi^T p / m"),
+        (false, true) => formula("dx/dt = p / m", "\\dot x = p / m"),
+        (true, true) => formula(
+            "dx/dt = phi (m_body 1 + m_space G)^-1 phi^T p",
+            "\\dot x = \\varphi (m_b 1 + m_s G)^{-1}\\varphi^T p",
+        ),
+    };
+    let force = match potential.is_some_and(Potential::moves_the_centre) {
+        true => formula("dp/dt = -dU/dx", "\\dot p = -\\partial U/\\partial x"),
+        false => formula("dp/dt = 0", "\\dot p = 0"),
+    };
+    vec![velocity, force]
+}

@@ -1,0 +1,243 @@
+//! Isotropic potentials on the principal axes: `phi = L D R^T` has the potential of `D`.
+
+use crate::algebra::arena::Node;
+use crate::algebra::ring::Square;
+use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
+use crate::mechanics::symmetry::Side;
+use crate::mechanics::two_polar::{Lattice, Variables};
+
+use super::invariance::Evidence;
+use super::rewriting::{about_undeformed, through_dilatation};
+use super::{Base, Potential, is_parameter};
+
+/// A potential as a function of the places of a lattice.
+#[derive(Clone, Debug)]
+pub struct OnAxes {
+    /// What the forces share.
+    pub shared: Vec<(Expr, Polynomial)>,
+    /// `-dU/dq_a` or `-dU/dQ_a`.
+    pub forces: Vec<Polynomial>,
+    /// `U`, counted from the undeformed state.
+    pub energy: Polynomial,
+    /// What it shares.
+    pub energy_shared: Vec<(Expr, Polynomial)>,
+}
+
+impl Potential {
+    /// The first rotation that changes the potential: its side and plane, axes from 1.
+    #[must_use]
+    pub fn anisotropy(&self) -> Option<(Side, (usize, usize))> {
+        // The evidence of a constraint is another; the two-polar form has none.
+        let Evidence::Identities(invariance) = &self.invariance else { return None };
+        let turns = |square: &Square<Polynomial>| {
+            let planes = (0..self.dim).flat_map(|a| (a + 1..self.dim).map(move |b| (a, b)));
+            planes.into_iter().find(|(a, b)| square[*a][*b] != square[*b][*a]).map(|(a, b)| (a + 1, b + 1))
+        };
+        let space = turns(&invariance.space).map(|plane| (Side::Space, plane));
+        space.or_else(|| turns(&invariance.body).map(|plane| (Side::Body, plane)))
+    }
+
+    /// Does it depend on `q = ln(det phi)/n` alone?
+    #[must_use]
+    pub fn is_dilatational(&self) -> bool {
+        self.slopes.iter().all(|(base, _)| *base == Base::MeanLogStretch)
+    }
+
+    /// The potential on the principal axes, where it is isotropic: off-diagonal entries of tensors are zero there.
+    pub fn on_axes(&self, arena: &mut Arena, lattice: &Lattice) -> OnAxes {
+        let stretches: Vec<Expr> = (1..=self.dim).map(|a| arena.symbol(&format!("stretch_{a}"))).collect();
+        let diagonal = |arena: &mut Arena, expr: Expr| {
+            let zeros = off_diagonal(arena, self.dim);
+            let zero = arena.constant(Rational::ZERO);
+            replaced(arena, expr, &|e| zeros.contains(&e).then_some(zero))
+        };
+        let mut axes = OnAxes {
+            shared: Vec::new(),
+            forces: vec![Polynomial::zero(); self.dim],
+            energy: Polynomial::zero(),
+            energy_shared: Vec::new(),
+        };
+        for (base, slope) in &self.slopes {
+            let form = diagonal(arena, *slope);
+            let form = through_dilatation(arena, form);
+            let form = Polynomial::normal_form(arena, form).scaled(&base.weight(self.dim));
+            let moves = form.any_symbol(arena, &mut |s| !is_parameter(arena, s));
+            let symbol = arena.symbol(&base.slope_name());
+            let slope = if moves { Polynomial::atom(symbol) } else { form.clone() };
+            if moves {
+                axes.shared.push((symbol, form));
+            }
+            for (a, force) in axes.forces.iter_mut().enumerate() {
+                let step = along_axis(arena, *base, lattice.variables, &stretches, a);
+                force.add_product(&slope, &step, &Rational::ONE);
+            }
+        }
+        let definitions = definitions(arena, lattice, &stretches);
+        axes.shared.extend(definitions.iter().cloned());
+        let energy = diagonal(arena, self.energy);
+        let energy = about_undeformed(arena, energy);
+        let counted = counted_from_undeformed(arena, lattice, &mut axes.energy_shared);
+        axes.energy = Polynomial::normal_form(arena, energy)
+            .substitute(&|atom| counted.iter().find(|(symbol, _)| *symbol == atom).map(|(_, p)| p.clone()));
+        axes.energy_shared.extend(definitions);
+        axes
+    }
+}
+
+/// Symbols of entries beside the diagonal.
+fn off_diagonal(arena: &mut Arena, n: usize) -> Vec<Expr> {
+    let pairs = (0..n).flat_map(|a| (0..n).map(move |b| (a, b))).filter(|(a, b)| a != b);
+    pairs
+        .flat_map(|(a, b)| [Base::Green(a, b), Base::Finger(a, b), Base::Placement(a, b)])
+        .map(|base| base.symbol(arena))
+        .collect()
+}
+
+/// The derivative of a base function by a place, divided by the number that its slope carries.
+fn along_axis(
+    arena: &mut Arena,
+    base: Base,
+    variables: Variables,
+    stretches: &[Expr],
+    a: usize,
+) -> Polynomial {
+    // d/dQ = (1/Q) d/dq
+    let less = usize::from(variables == Variables::Stretches);
+    let mut power = |exponent: usize, number: i64| match exponent.checked_sub(less) {
+        Some(exponent) => Polynomial::term(vec![stretches[a]; exponent], Rational::from(number)),
+        // A symbol is not the number zero.
+        None => Polynomial::atom(arena.pow(stretches[a], -1).unwrap_or(stretches[a])),
+    };
+    match base {
+        Base::MeanLogStretch => power(0, 1),
+        Base::LogStretch(k) if k == a => power(0, 1),
+        Base::Trace => power(2, 1),
+        Base::TraceOfSquare => power(4, 1),
+        Base::Green(c, d) | Base::Finger(c, d) if c == a && d == a => power(2, 2),
+        Base::Placement(c, d) if c == a && d == a => power(1, 1),
+        Base::LogStretch(_)
+        | Base::Green(..)
+        | Base::Finger(..)
+        | Base::Placement(..)
+        | Base::Position(_) => Polynomial::zero(),
+    }
+}
+
+/// Base functions through the places.
+fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<(Expr, Polynomial)> {
+    let n = lattice.dim;
+    let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+    let mut list = Vec::new();
+    let (mut trace, mut of_square) = (Polynomial::zero(), Polynomial::zero());
+    for (a, stretch) in stretches.iter().enumerate() {
+        let inverse = arena.symbol(&format!("inverse_stretch_{}", a + 1));
+        // A symbol is not the number zero.
+        list.push((inverse, Polynomial::atom(arena.pow(*stretch, -1).unwrap_or(*stretch))));
+        let square = arena.symbol(&format!("square_{}", a + 1));
+        list.push((square, Polynomial::term(vec![*stretch, *stretch], Rational::ONE)));
+        trace.add_term(vec![square], &Rational::ONE);
+        of_square.add_term(vec![square, square], &Rational::ONE);
+        for base in [Base::Green(a, a), Base::Finger(a, a)] {
+            list.push((base.symbol(arena), Polynomial::atom(square)));
+        }
+        list.push((Base::Placement(a, a).symbol(arena), Polynomial::atom(*stretch)));
+    }
+    list.push((Base::Trace.symbol(arena), trace));
+    list.push((Base::TraceOfSquare.symbol(arena), of_square));
+    let [q, d, inverse_d] = ["q", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
+    match lattice.variables {
+        // U(n) has no potentials.
+        Variables::LogStretches | Variables::Angles => {
+            let mut mean = Polynomial::zero();
+            for (place, stretch) in lattice.q.iter().zip(stretches) {
+                mean.add_term(vec![*place], &nth);
+                list.push((*stretch, Polynomial::atom(arena.apply(Function::Exp, *place))));
+            }
+            list.push((q, mean));
+            list.push((d, Polynomial::atom(arena.apply(Function::Exp, q))));
+            let opposite = arena.neg(q);
+            list.push((inverse_d, Polynomial::atom(arena.apply(Function::Exp, opposite))));
+        }
+        Variables::Stretches => {
+            let det = arena.symbol("det");
+            list.push((det, Polynomial::term(stretches.to_vec(), Rational::ONE)));
+            let root = arena.apply(if n == 2 { Function::Sqrt } else { Function::Cbrt }, det);
+            list.push((d, Polynomial::atom(root)));
+            list.push((inverse_d, Polynomial::atom(arena.pow(d, -1).unwrap_or(d))));
+            list.push((q, Polynomial::term(vec![arena.apply(Function::Ln, det)], nth)));
+            for (a, stretch) in stretches.iter().enumerate() {
+                let own = Base::LogStretch(a).symbol(arena);
+                list.push((own, Polynomial::atom(arena.apply(Function::Ln, *stretch))));
+            }
+        }
+    }
+    list
+}
+
+/// `tr G = n + sum f_a`, `tr G^2 = n + sum f_a (2 + f_a)` with `f_a = Q_a^2 - 1` free of cancellation near `Q_a = 1`.
+fn counted_from_undeformed(
+    arena: &mut Arena,
+    lattice: &Lattice,
+    shared: &mut Vec<(Expr, Polynomial)>,
+) -> Vec<(Expr, Polynomial)> {
+    let n = Rational::from(i64::try_from(lattice.dim).unwrap_or(1));
+    let (mut trace, mut of_square) = (Polynomial::constant(n.clone()), Polynomial::constant(n));
+    let mut list = Vec::new();
+    for (a, place) in lattice.q.iter().enumerate() {
+        let strain = arena.symbol(&format!("strain_{}", a + 1));
+        let value = match lattice.variables {
+            Variables::LogStretches | Variables::Angles => {
+                let twice = arena.scale(*place, &Rational::from(2));
+                Polynomial::atom(arena.apply(Function::ExpM1, twice))
+            }
+            Variables::Stretches => {
+                let one = arena.constant(Rational::ONE);
+                let factors = [arena.sub(*place, one), arena.add(*place, one)];
+                // The product stays one: its factors are exact near 1.
+                let names = ["less", "more"].map(|stem| arena.symbol(&format!("{stem}_{}", a + 1)));
+                for (name, factor) in names.iter().zip(factors) {
+                    shared.push((*name, Polynomial::normal_form(arena, factor)));
+                }
+                Polynomial::term(names.to_vec(), Rational::ONE)
+            }
+        };
+        shared.push((strain, value));
+        trace.add_term(vec![strain], &Rational::ONE);
+        of_square.add_term(vec![strain], &Rational::from(2));
+        of_square.add_term(vec![strain, strain], &Rational::ONE);
+        let mut square = Polynomial::constant(Rational::ONE);
+        square.add_term(vec![strain], &Rational::ONE);
+        for base in [Base::Green(a, a), Base::Finger(a, a)] {
+            list.push((base.symbol(arena), square.clone()));
+        }
+    }
+    list.push((Base::Trace.symbol(arena), trace));
+    list.push((Base::TraceOfSquare.symbol(arena), of_square));
+    list
+}
+
+/// The expression with symbols replaced.
+fn replaced(arena: &mut Arena, expr: Expr, value: &dyn Fn(Expr) -> Option<Expr>) -> Expr {
+    match arena.node(expr).clone() {
+        Node::Constant(_) => expr,
+        Node::Symbol(_) => value(expr).unwrap_or(expr),
+        Node::Sum(constant, terms) => {
+            let constant = arena.constant(constant);
+            let mut summands = vec![(constant, Rational::ONE)];
+            for (term, c) in terms {
+                summands.push((replaced(arena, term, value), c));
+            }
+            arena.linear(&summands)
+        }
+        Node::Product(factors) => {
+            let factors: Vec<(Expr, i32)> =
+                factors.into_iter().map(|(base, e)| (replaced(arena, base, value), e)).collect();
+            // An isotropic function that is smooth has no pole on the axes.
+            arena.product(&factors).unwrap_or(expr)
+        }
+        Node::Function(function, argument) => {
+            let argument = replaced(arena, argument, value);
+            arena.apply(function, argument)
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Quantities that forces share: velocities, `phi^-1`, forces themselves.
+
+use crate::algebra::ring::{Square, adjugate, product, table, times, transpose};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+
+use super::charts::{Chart, Linear, Momentum};
+use super::hamiltonian::Hamiltonian;
+use super::kinetic::Frame;
+
+/// Quantities that forces share.
+pub(super) struct Shared<'a> {
+    pub(super) arena: &'a mut Arena,
+    pub(super) list: Vec<(Expr, Polynomial)>,
+}
+
+impl Shared<'_> {
+    /// The value under a name; what needs no name has none.
+    pub(super) fn named(&mut self, name: &str, value: &Polynomial) -> Polynomial {
+        let is_name =
+            value.terms().len() == 1 && value.terms().all(|(monomial, c)| monomial.len() == 1 && c.is_one());
+        if value.is_zero() || is_name {
+            return value.clone();
+        }
+        let symbol = self.arena.symbol(name);
+        if !self.list.iter().any(|(known, _)| *known == symbol) {
+            self.list.push((symbol, value.clone()));
+        }
+        Polynomial::atom(symbol)
+    }
+
+    pub(super) fn vector(&mut self, stem: &str, values: &[Polynomial]) -> Vec<Polynomial> {
+        values.iter().enumerate().map(|(i, value)| self.named(&format!("{stem}_{}", i + 1), value)).collect()
+    }
+
+    pub(super) fn matrix(&mut self, stem: &str, values: &Square<Polynomial>) -> Square<Polynomial> {
+        let mut result = values.clone();
+        for (i, j) in (0..values.len()).flat_map(|i| (0..values.len()).map(move |j| (i, j))) {
+            result[i][j] = self.named(&format!("{stem}_{}{}", i + 1, j + 1), &values[i][j]);
+        }
+        result
+    }
+
+    /// `phi^-1`, with the names that potentials have for the determinant and its reciprocal.
+    pub(super) fn inverse(&mut self, phi: &Square<Polynomial>) -> Square<Polynomial> {
+        let cofactors = adjugate(phi);
+        let mut determinant = Polynomial::zero();
+        for (entry, row) in phi[0].iter().zip(&cofactors) {
+            determinant.add_product(entry, &row[0], &Rational::ONE);
+        }
+        self.named("det", &determinant);
+        let det = self.arena.symbol("det");
+        // A symbol is not the number zero.
+        let reciprocal = Polynomial::atom(self.arena.pow(det, -1).unwrap_or(det));
+        let inverse_det = self.arena.symbol("inverse_det");
+        if !self.list.iter().any(|(known, _)| *known == inverse_det) {
+            self.list.push((inverse_det, reciprocal));
+        }
+        let inverse_det = Polynomial::atom(inverse_det);
+        let inverse = table(phi.len(), |a, i| cofactors[a][i].mul(&inverse_det));
+        self.matrix("phi_inverse", &inverse)
+    }
+}
+
+impl Shared<'_> {
+    /// `phi_dot` through the affine velocity of the chart.
+    pub(super) fn phi_dot(&mut self, chart: &Chart) -> Square<Polynomial> {
+        let phi = atoms(&chart.phi);
+        let own = atoms(&Matrix::symbols(self.arena, chart.momentum.velocity_name(), chart.dim));
+        match frame_of(chart) {
+            Frame::Body => product(&phi, &own),
+            Frame::Space => product(&own, &phi),
+            Frame::Flat => own,
+        }
+    }
+
+    /// `x_dot`; nothing where the chart has no `p`.
+    pub(super) fn x_dot(&mut self, chart: &Chart, h: &Hamiltonian) -> Vec<Polynomial> {
+        let (Some(linear), Some((own, inverse_mass))) = (chart.linear, &h.translation) else {
+            return Vec::new();
+        };
+        let phi = atoms(&chart.phi);
+        let per_mass: Vec<Polynomial> =
+            chart.p.iter().map(|p| Polynomial::atom(*p).mul(inverse_mass)).collect();
+        match (linear, own) {
+            (Linear::Body, _) => times(&phi, &per_mass),
+            (Linear::Space, Frame::Body) => {
+                let v_hat = self.vector("v_hat", &times(&transpose(&phi), &per_mass));
+                times(&phi, &v_hat)
+            }
+            (Linear::Space, _) => per_mass,
+        }
+    }
+
+    /// The force on the affine momentum of the chart that a force on `Pi` is.
+    pub(super) fn on_own(&mut self, chart: &Chart, push: &Square<Polynomial>) -> Square<Polynomial> {
+        let phi = atoms(&chart.phi);
+        match frame_of(chart) {
+            Frame::Body => product(push, &phi),
+            Frame::Space => product(&phi, push),
+            Frame::Flat => push.clone(),
+        }
+    }
+}
+
+/// The frame whose affine momentum the chart has.
+pub(super) fn frame_of(chart: &Chart) -> Frame {
+    match chart.momentum {
+        Momentum::Body => Frame::Body,
+        Momentum::Space | Momentum::Total => Frame::Space,
+        Momentum::Canonical => Frame::Flat,
+    }
+}
+
+pub(super) fn atoms(symbols: &Matrix) -> Square<Polynomial> {
+    symbols.0.iter().map(|row| row.iter().map(|e| Polynomial::atom(*e)).collect()).collect()
+}

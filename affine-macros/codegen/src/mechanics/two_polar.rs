@@ -1,0 +1,305 @@
+//! The two-polar form `phi = L D R^T` (section 6): a lattice of stretches, coupled by `M` and `N`.
+//!
+//! ```text
+//! rho_hat = L^T S L,  tau_hat = -R^T Vort R,  M = -rho_hat - tau_hat,  N = rho_hat - tau_hat
+//! Z_aa = p_a,  Z_ab = (N_ab/ch x_ab - M_ab/sh x_ab)/4,  x_ab = (q_a - q_b)/2,  C(k) = tr Z^k           (6.1)
+//! ```
+//!
+//! From these and the brackets of `q, p, M, N` everything else is derived. The paper prints the last two terms of
+//! `{M, M}` and `{M, N}` with the opposite sign, which is not antisymmetric in the indices, and calls `tau_hat` the
+//! vorticity, which is `-tau_hat`.
+
+mod describe;
+mod stable;
+
+use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
+
+use super::hamiltonian::Hamiltonian;
+use super::kinetic::Frame;
+use super::potential::OnAxes;
+
+pub use describe::formulas;
+pub use stable::Stable;
+
+/// What is written on the diagonal of `D`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variables {
+    /// `q_a`, `D_aa = exp(q_a)`: affine models, (6.2) to (6.4).
+    LogStretches,
+    /// `Q_a = D_aa`: d'Alembert's model, (6.5).
+    Stretches,
+    /// `q_a`, `D_aa = exp(i q_a)`: U(n), (89).
+    Angles,
+}
+
+/// The phase space of the lattice and its symbols.
+#[derive(Clone, Debug)]
+pub struct Lattice {
+    /// `n`.
+    pub dim: usize,
+    /// What the places are.
+    pub variables: Variables,
+    /// `q_a` or `Q_a`.
+    pub q: Vec<Expr>,
+    /// The conjugate momenta.
+    pub p: Vec<Expr>,
+    /// `M_ab`, `a < b`, in the order of [`Lattice::pairs`].
+    pub m: Vec<Expr>,
+    /// `N_ab`, likewise.
+    pub n: Vec<Expr>,
+}
+
+/// One coordinate, indices from 0, those of skew matrices ascending.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinate {
+    /// `q_a` or `Q_a`.
+    Q(usize),
+    /// Its momentum.
+    P(usize),
+    /// `M_ab`.
+    M(usize, usize),
+    /// `N_ab`.
+    N(usize, usize),
+}
+
+/// The equations of the lattice.
+#[derive(Clone, Debug)]
+pub struct Equations {
+    /// `H`, the potential apart.
+    pub kinetic: Polynomial,
+    /// Coordinates and their kinetic rates.
+    pub rates: Vec<(Coordinate, Expr, Polynomial)>,
+    /// `chi_hat_ab`, `a < b`, of `dL/dt = L chi_hat`.
+    pub chi: Vec<Polynomial>,
+    /// `theta_hat_ab`, `a < b`, of `dR/dt = R theta_hat`.
+    pub theta: Vec<Polynomial>,
+}
+
+impl Lattice {
+    /// The lattice of a model: stretches for energies with constant coefficients in `phi_dot`, their logarithms for those
+    /// in an affine velocity, angles for U(n).
+    pub fn of(arena: &mut Arena, h: &Hamiltonian, unitary: bool) -> Self {
+        let (variables, stem) = match h.frame {
+            _ if unitary => (Variables::Angles, "q"),
+            Frame::Flat => (Variables::Stretches, "stretch"),
+            Frame::Body | Frame::Space => (Variables::LogStretches, "q"),
+        };
+        let mut vector =
+            |stem: &str| -> Vec<Expr> { (1..=h.dim).map(|a| arena.symbol(&format!("{stem}_{a}"))).collect() };
+        let (q, p) = (vector(stem), vector("p"));
+        let mut skew = |stem: &str| -> Vec<Expr> {
+            let name = |(a, b): (usize, usize)| format!("{stem}_{}{}", a + 1, b + 1);
+            pairs(h.dim).map(|pair| arena.symbol(&name(pair))).collect()
+        };
+        let (m, n) = (skew("m"), skew("n"));
+        Self { dim: h.dim, variables, q, p, m, n }
+    }
+
+    /// `(a, b)` with `a < b`.
+    pub fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        pairs(self.dim)
+    }
+
+    /// All coordinates, group after group.
+    #[must_use]
+    pub fn coordinates(&self) -> Vec<Coordinate> {
+        let mut all: Vec<Coordinate> = (0..self.dim).map(Coordinate::Q).collect();
+        all.extend((0..self.dim).map(Coordinate::P));
+        all.extend(self.pairs().map(|(a, b)| Coordinate::M(a, b)));
+        all.extend(self.pairs().map(|(a, b)| Coordinate::N(a, b)));
+        all
+    }
+
+    /// Symbol of a coordinate.
+    #[must_use]
+    pub fn symbol(&self, coordinate: Coordinate) -> Expr {
+        let place = |a: usize, b: usize| self.pairs().position(|pair| pair == (a, b)).unwrap_or(0);
+        match coordinate {
+            Coordinate::Q(a) => self.q[a],
+            Coordinate::P(a) => self.p[a],
+            Coordinate::M(a, b) => self.m[place(a, b)],
+            Coordinate::N(a, b) => self.n[place(a, b)],
+        }
+    }
+
+    /// Entry of a skew matrix, any indices.
+    fn skew(&self, entry: fn(usize, usize) -> Coordinate, a: usize, b: usize) -> Polynomial {
+        match a.cmp(&b) {
+            std::cmp::Ordering::Less => Polynomial::atom(self.symbol(entry(a, b))),
+            std::cmp::Ordering::Equal => Polynomial::zero(),
+            std::cmp::Ordering::Greater => {
+                Polynomial::term(vec![self.symbol(entry(b, a))], Rational::MINUS_ONE)
+            }
+        }
+    }
+
+    /// `{z, y}`: `{q_a, p_b} = d_ab`; `{M, M} = {N, N} = -f(M)`, `{M, N} = -f(N)` with
+    /// `f(X)_ab,cd = X_ad d_cb - X_cb d_ad + X_db d_ac - X_ac d_db`; all others vanish.
+    #[must_use]
+    pub fn bracket(&self, z: Coordinate, y: Coordinate) -> Polynomial {
+        use Coordinate::{M, N, P, Q};
+        match (z, y) {
+            (Q(a), P(b)) if a == b => Polynomial::constant(Rational::ONE),
+            (P(a), Q(b)) if a == b => Polynomial::constant(Rational::MINUS_ONE),
+            (M(a, b), M(c, d)) | (N(a, b), N(c, d)) => self.minus_f(M, [a, b, c, d]),
+            (M(a, b), N(c, d)) | (N(a, b), M(c, d)) => self.minus_f(N, [a, b, c, d]),
+            _ => Polynomial::zero(),
+        }
+    }
+
+    fn minus_f(&self, entry: fn(usize, usize) -> Coordinate, [a, b, c, d]: [usize; 4]) -> Polynomial {
+        let mut sum = Polynomial::zero();
+        let mut add = |holds: bool, i: usize, j: usize, sign: i64| {
+            if holds {
+                sum.add_scaled(&self.skew(entry, i, j), &Rational::from(sign));
+            }
+        };
+        add(a == d, c, b, 1);
+        add(c == b, a, d, -1);
+        add(a == c, d, b, -1);
+        add(d == b, a, c, 1);
+        sum
+    }
+
+    /// The kinetic Hamiltonian: of isotropic affine models from `tr Z^k` and `rho_hat` or `tau_hat`, of d'Alembert's from
+    /// `P = R^T Pi L`, `P_ab = (M_ab/(Q_b - Q_a) + N_ab/(Q_a + Q_b))/2`. Both are functions of `R^T .. L` alone since the
+    /// energy is invariant under rotations of space and body.
+    pub fn hamiltonian(&self, arena: &mut Arena, h: &Hamiltonian) -> Polynomial {
+        match &h.isotropic {
+            // (89): Z is Hermitian, Z_ab = (M_ab/sin x_ab + i N_ab/cos x_ab)/4.
+            Some(iso) if self.variables == Variables::Angles => {
+                let mut places = vec![vec![Polynomial::zero(); self.dim]; self.dim];
+                (0..self.dim).for_each(|a| places[a][a] = Polynomial::atom(self.p[a]));
+                let mut sum = iso.casimirs(&places);
+                for (a, b) in self.pairs() {
+                    let [m, n] = self.coupled(arena, a, b);
+                    for z in [m, n] {
+                        sum.add_product(&z.mul(&z), &iso.casimir2, &(&quarter() * &quarter()));
+                    }
+                }
+                sum
+            }
+            Some(iso) => {
+                let z = self.momentum_on_axes(arena, &quarter());
+                let mut sum = iso.casimirs(&z);
+                sum.add_scaled(&iso.skew_norm(&self.conserved_spin(h.frame)), &Rational::ONE);
+                sum
+            }
+            None => {
+                let p = self.momentum_on_axes(arena, &half());
+                let entry = |atom: Expr| {
+                    let place = h.momentum.0.iter().flatten().position(|entry| *entry == atom)?;
+                    Some(p[place / self.dim][place % self.dim].clone())
+                };
+                h.internal().substitute(&entry)
+            }
+        }
+    }
+
+    /// `p_a` on the diagonal, `weight (N_ab/even_ab - M_ab/odd_ab)` beside it, with the even and the odd function of the
+    /// places of `a` and `b`.
+    fn momentum_on_axes(&self, arena: &mut Arena, weight: &Rational) -> Vec<Vec<Polynomial>> {
+        let mut rows = vec![vec![Polynomial::zero(); self.dim]; self.dim];
+        for (a, b) in self.pairs() {
+            let [m, n] = self.coupled(arena, a, b);
+            rows[a][b].add_scaled(&n, weight);
+            rows[a][b].add_scaled(&m, &-weight);
+            // M and the odd function change their signs, N alone changes its own.
+            rows[b][a].add_scaled(&n, &-weight);
+            rows[b][a].add_scaled(&m, &-weight);
+        }
+        for (a, p) in self.p.iter().enumerate() {
+            rows[a][a] = Polynomial::atom(*p);
+        }
+        rows
+    }
+
+    /// `M_ab/odd_ab` and `N_ab/even_ab`.
+    fn coupled(&self, arena: &mut Arena, a: usize, b: usize) -> [Polynomial; 2] {
+        // Functions of symbols are not the number zero.
+        let [odd, even] =
+            self.couplings(arena, a, b).map(|e| Polynomial::atom(arena.pow(e, -1).unwrap_or(e)));
+        [self.skew(Coordinate::M, a, b).mul(&odd), self.skew(Coordinate::N, a, b).mul(&even)]
+    }
+
+    /// `sh x_ab` and `ch x_ab`, `sin x_ab` and `cos x_ab`, or `Q_a - Q_b` and `Q_a + Q_b`, `a < b`.
+    fn couplings(&self, arena: &mut Arena, a: usize, b: usize) -> [Expr; 2] {
+        let (qa, qb) = (self.q[a], self.q[b]);
+        let mut of_half = |functions: [Function; 2]| {
+            let x = arena.linear(&[(qa, half()), (qb, -&half())]);
+            functions.map(|function| arena.apply(function, x))
+        };
+        match self.variables {
+            Variables::LogStretches => of_half([Function::Sinh, Function::Cosh]),
+            Variables::Angles => of_half([Function::Sin, Function::Cos]),
+            Variables::Stretches => [arena.sub(qa, qb), arena.add(qa, qb)],
+        }
+    }
+
+    /// A matrix `X` with `X - X^T = tau_hat` (body) or `rho_hat` (space): `|Vort|^2` and `|S|^2` in the energy.
+    fn conserved_spin(&self, frame: Frame) -> Vec<Vec<Polynomial>> {
+        let mut rows = vec![vec![Polynomial::zero(); self.dim]; self.dim];
+        let sign = if frame == Frame::Body { half() } else { -&half() };
+        for (a, b) in self.pairs() {
+            // tau_hat = -(N + M)/2, rho_hat = (N - M)/2; the norm is even.
+            rows[a][b].add_scaled(&self.skew(Coordinate::N, a, b), &half());
+            rows[a][b].add_scaled(&self.skew(Coordinate::M, a, b), &sign);
+        }
+        rows
+    }
+
+    /// `dz/dt = sum over y of {z, y} dH/dy`, and the rotation of the frames: with `rho_hat_ab` and `tau_hat_ab`, `a < b`,
+    /// as independent momenta, `chi_hat_ab = -dH/drho_hat_ab = dH/dM_ab - dH/dN_ab` and
+    /// `theta_hat_ab = -dH/dtau_hat_ab = dH/dM_ab + dH/dN_ab`.
+    pub fn equations(&self, arena: &mut Arena, h: &Hamiltonian) -> Equations {
+        let kinetic = self.hamiltonian(arena, h);
+        let energy = kinetic.expression(arena);
+        let coordinates = self.coordinates();
+        let mut slope = |z: Coordinate| {
+            let slope = arena.derivative(energy, self.symbol(z));
+            Polynomial::normal_form(arena, slope)
+        };
+        let slopes: Vec<(Coordinate, Polynomial)> = coordinates.iter().map(|z| (*z, slope(*z))).collect();
+        let rate = |z: Coordinate| {
+            let mut sum = Polynomial::zero();
+            for (y, slope) in &slopes {
+                sum.add_product(&self.bracket(z, *y), slope, &Rational::ONE);
+            }
+            sum
+        };
+        let rates = coordinates.iter().map(|z| (*z, self.symbol(*z), rate(*z))).collect();
+        let of = |z: Coordinate| slopes.iter().find(|(y, _)| *y == z).map(|(_, slope)| slope.clone());
+        let angular = |sign: Rational| {
+            let one = |(a, b)| {
+                let mut sum = of(Coordinate::M(a, b)).unwrap_or_default();
+                sum.add_scaled(&of(Coordinate::N(a, b)).unwrap_or_default(), &sign);
+                sum
+            };
+            self.pairs().map(one).collect()
+        };
+        Equations { kinetic, rates, chi: angular(Rational::MINUS_ONE), theta: angular(Rational::ONE) }
+    }
+}
+
+impl Equations {
+    /// Adds the forces of a potential to the rates of the momenta.
+    pub fn add(&mut self, potential: &OnAxes) {
+        for (z, _, rate) in &mut self.rates {
+            if let Coordinate::P(a) = z {
+                rate.add_scaled(&potential.forces[*a], &Rational::ONE);
+            }
+        }
+    }
+}
+
+fn pairs(dim: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..dim).flat_map(move |a| (a + 1..dim).map(move |b| (a, b)))
+}
+
+fn half() -> Rational {
+    Rational::ratio(1, 2).unwrap_or(Rational::ONE)
+}
+
+fn quarter() -> Rational {
+    Rational::ratio(1, 4).unwrap_or(Rational::ONE)
+}

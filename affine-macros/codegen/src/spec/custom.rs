@@ -1,0 +1,208 @@
+//! `custom(field, ..)`: a field whose type computes a potential or a force.
+
+use proc_macro2::{Delimiter, Ident, TokenTree};
+
+use super::Spanned;
+use super::entries::{Piece, pieces, region, shortened, unwrapped};
+use super::names::Named;
+use crate::diagnostics::{Diagnostic, Diagnostics, Region};
+
+/// A field that computes a potential or a force.
+#[derive(Clone, Debug)]
+pub struct Custom {
+    /// The field.
+    pub field: Ident,
+    /// What it computes.
+    pub role: Spanned<Role>,
+    /// Is more said: `gyroscopic` of a force, `position` of a potential?
+    pub marked: bool,
+    /// `custom(...)`.
+    pub span: Region,
+}
+
+/// What a field computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// The force `Q` on `Sigma`.
+    Spatial,
+    /// The force `Q_hat` on `Sigma_hat`.
+    Comoving,
+    /// The force `Q_tr` on `p`.
+    Translation,
+    /// A potential with `U(A phi B) = U(phi)` for all rotations `A`, `B`.
+    Isotropic,
+    /// A potential that is a function of `G = phi^T phi`.
+    Green,
+    /// A potential that is a function of `Ct = phi phi^T`.
+    Finger,
+    /// Any other potential.
+    General,
+}
+
+impl Named for Role {
+    const ALL: &'static [Self] = &[
+        Self::Spatial,
+        Self::Comoving,
+        Self::Translation,
+        Self::Isotropic,
+        Self::Green,
+        Self::Finger,
+        Self::General,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Spatial => "spatial",
+            Self::Comoving => "comoving",
+            Self::Translation => "translation",
+            Self::Isotropic => "isotropic",
+            Self::Green => "green",
+            Self::Finger => "finger",
+            Self::General => "general",
+        }
+    }
+}
+
+impl Role {
+    /// A force rather than a potential?
+    #[must_use]
+    pub fn is_force(self) -> bool {
+        matches!(self, Self::Spatial | Self::Comoving | Self::Translation)
+    }
+}
+
+/// Which key `custom(...)` stands in.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    Potential,
+    Forces,
+}
+
+impl Place {
+    fn example(self) -> &'static str {
+        match self {
+            Self::Potential => "custom(gravity, isotropic)",
+            Self::Forces => "custom(wind, spatial)",
+        }
+    }
+
+    fn takes(self) -> &'static str {
+        match self {
+            Self::Potential => {
+                "the class of the potential, `isotropic`, `green` (a function of G), `finger` (of Ct) or `general`, \
+                 and `position` where it depends on x"
+            }
+            Self::Forces => {
+                "the form of the force, `spatial` (Q), `comoving` (Q_hat) or `translation` (Q_tr), and `gyroscopic` \
+                 where it has no power"
+            }
+        }
+    }
+
+    fn mark(self) -> &'static str {
+        match self {
+            Self::Potential => "position",
+            Self::Forces => "gyroscopic",
+        }
+    }
+}
+
+/// Takes the summands `custom(...)` out of a sum; what is left of it.
+pub(super) fn taken(piece: Piece, place: Place, found: &mut Diagnostics) -> (Vec<Custom>, Option<Piece>) {
+    let mut customs = Vec::new();
+    let mut rest: Vec<TokenTree> = Vec::new();
+    let mut summand: Vec<TokenTree> = Vec::new();
+    let mut sign: Option<TokenTree> = None;
+    let mut tokens = unwrapped(piece.tokens).into_iter();
+    loop {
+        let token = tokens.next();
+        match &token {
+            Some(TokenTree::Punct(plus)) if plus.as_char() == '+' => {}
+            Some(_) => {
+                summand.extend(token);
+                continue;
+            }
+            None => {}
+        }
+        let summand = std::mem::take(&mut summand);
+        match summand.as_slice() {
+            [TokenTree::Ident(name), TokenTree::Group(group)]
+                if name == "custom" && group.delimiter() == Delimiter::Parenthesis =>
+            {
+                let at = Region { start: name.span(), end: group.span() };
+                let list = pieces(group.stream(), group.span_close());
+                customs.extend(custom(list, at, place, found));
+            }
+            _ => {
+                rest.extend(sign.take().filter(|_| !rest.is_empty()));
+                rest.extend(summand);
+            }
+        }
+        sign = token;
+        if sign.is_none() {
+            break;
+        }
+    }
+    let rest = region(&rest).map(|at| Piece { tokens: rest, at });
+    (customs, rest)
+}
+
+/// The field and what is said of it.
+fn custom(list: Vec<Piece>, at: Region, place: Place, found: &mut Diagnostics) -> Option<Custom> {
+    let mut names: Vec<(Ident, Region)> = Vec::new();
+    for Piece { tokens, at } in list {
+        match unwrapped(tokens).as_slice() {
+            [TokenTree::Ident(name)] => names.push((name.clone(), at)),
+            other => {
+                let text = other.iter().cloned().collect::<proc_macro2::TokenStream>().to_string();
+                found.report(at, malformed(place, format!("`{}`", shortened(&text))));
+                return None;
+            }
+        }
+    }
+    let mut names = names.into_iter();
+    let (field, _) = names.next().or_else(|| {
+        found.report(at, malformed(place, "no field".to_owned()));
+        None
+    })?;
+    let (mut role, mut marked) = (None, false);
+    for (name, at) in names {
+        let text = name.to_string();
+        let named = Role::named(&text).filter(|role| role.is_force() == (place == Place::Forces));
+        match named {
+            Some(value) if role.is_none() => role = Some(Spanned { value, span: at }),
+            None if text == place.mark() && !marked => marked = true,
+            _ => {
+                found.report(at, malformed(place, format!("`{text}`")));
+                return None;
+            }
+        }
+    }
+    let Some(role) = role else {
+        found.report(at, malformed(place, "the field alone".to_owned()));
+        return None;
+    };
+    Some(Custom { field, role, marked, span: at })
+}
+
+/// A force that is no `custom(...)`.
+pub(super) fn only(rest: Option<Piece>, place: Place, found: &mut Diagnostics) {
+    if let Some(Piece { tokens, at }) = rest {
+        let text = tokens.into_iter().collect::<proc_macro2::TokenStream>().to_string();
+        found.report(at, malformed(place, format!("`{}`", shortened(&text))));
+    }
+}
+
+/// `2*custom(..)`.
+pub(super) fn within_an_expression() -> Diagnostic {
+    malformed(Place::Potential, "`custom(..)` within an expression".to_owned())
+}
+
+fn malformed(place: Place, found: String) -> Diagnostic {
+    Diagnostic::MalformedCustom {
+        key: if place == Place::Potential { "potential" } else { "forces" },
+        found,
+        takes: place.takes(),
+        example: place.example(),
+    }
+}

@@ -1,0 +1,268 @@
+//! Sums of terms of different frames: every program equal to the oracle's velocity form and canonical brackets.
+
+use affine_codegen::check;
+use affine_codegen::derive::{Model, derive};
+use affine_codegen::diagnostics::gate;
+use affine_codegen::mechanics::kinetic::Frame;
+use affine_codegen::mechanics::reduce::Commuting;
+use affine_codegen::spec;
+use affine_oracle::{Kinetic, Matrix, Observable, Random, State, Term, rational};
+
+use super::derivation::point;
+use super::models::{literal, matrix_literal, symmetric};
+use super::points::{Values, agree, coordinates, exact, fraction, own, put, rates, run, velocities};
+use super::reduction::{equations, turned};
+
+/// Internal and translational terms, by the names of the specification.
+const SUMS: [&[&str]; 16] = [
+    &["dalembert", "casimir2"],
+    &["dalembert", "casimir2", "casimir1_squared", "space_translation"],
+    &["dalembert", "body_inertia", "body_translation"],
+    &["dalembert_matrix", "body_inertia_matrix", "casimir2"],
+    &["dalembert_matrix", "space_inertia_matrix", "space_translation"],
+    &["dalembert", "body_inertia", "space_inertia", "casimir1_squared"],
+    &["body_inertia", "space_inertia"],
+    &["body_inertia_matrix", "space_inertia_matrix", "casimir2", "body_translation", "space_translation"],
+    &["flat_tensor", "body_inertia"],
+    &["dalembert", "body_tensor"],
+    &["dalembert", "space_tensor", "casimir1_squared"],
+    &["body_inertia", "space_tensor"],
+    &["body_inertia", "casimir2", "body_translation", "space_translation"],
+    &["space_inertia_matrix", "body_translation", "space_translation"],
+    &["dalembert_matrix", "body_translation", "space_translation"],
+    &["body_tensor", "casimir2", "body_translation", "space_translation"],
+];
+
+/// A random sum of terms, as text and for the oracle.
+struct Sum {
+    text: String,
+    terms: Vec<Term>,
+    kinetic: Kinetic,
+}
+
+impl Sum {
+    fn new(random: &mut Random, n: usize, names: &[&str]) -> Self {
+        loop {
+            let (mut texts, mut terms) = (Vec::new(), Vec::new());
+            for name in names {
+                let key = name.strip_suffix("_matrix").unwrap_or(name);
+                let (value, term) = term(random, n, name);
+                texts.push(format!("{key} = {value}"));
+                terms.push(term);
+            }
+            let kinetic = Kinetic::new(n, terms.clone()).unwrap();
+            let text = format!("dim = {n}, kinetic({}), emit(metric, acceleration)", texts.join(", "));
+            if kinetic.signature(&Matrix::identity(n)).unwrap().zero == 0 {
+                let moving = kinetic.has_translation();
+                let text = if moving { text } else { text.replace(", acceleration", "") };
+                return Sum { text, terms, kinetic };
+            }
+        }
+    }
+}
+
+fn term(random: &mut Random, n: usize, name: &str) -> (String, Term) {
+    let number = fraction(random);
+    let size = if number < rational(0, 1) { -number.clone() } else { number.clone() };
+    let mass = rational(1, 3) * &size;
+    let (inertia, tensor) = (random.inertia(n), symmetric(random, n * n));
+    match name {
+        "dalembert" => (literal(&size), Term::dalembert(n, size)),
+        "dalembert_matrix" => (matrix_literal(&inertia), Term::DAlembert(inertia)),
+        "casimir2" => (literal(&number), Term::Casimir2(number)),
+        "casimir1_squared" => (literal(&number), Term::Casimir1Squared(number)),
+        "body_inertia" => (literal(&number), Term::body_inertia(n, number)),
+        "space_inertia" => (literal(&number), Term::space_inertia(n, number)),
+        "body_inertia_matrix" => (matrix_literal(&inertia), Term::BodyInertia(inertia)),
+        "space_inertia_matrix" => (matrix_literal(&inertia), Term::SpaceInertia(inertia)),
+        "body_tensor" => (matrix_literal(&tensor), Term::BodyTensor(tensor)),
+        "space_tensor" => (matrix_literal(&tensor), Term::SpaceTensor(tensor)),
+        "flat_tensor" => (matrix_literal(&tensor), Term::FlatTensor(tensor)),
+        "body_translation" => (literal(&mass), Term::BodyTranslation(mass)),
+        "space_translation" => (literal(&mass), Term::SpaceTranslation(mass)),
+        other => panic!("no term {other}"),
+    }
+}
+
+fn derived(args: &str) -> Model {
+    let spec = gate(|found| spec::parse(args.parse().unwrap(), "struct Model;".parse().unwrap(), found))
+        .unwrap_or_else(|_| panic!("{args}"));
+    assert!(gate(|found| check::as_written(&spec, found)).is_ok(), "{args}");
+    let energy = gate(|found| check::energy(&spec, found)).unwrap_or_else(|_| panic!("{args}"));
+    derive(energy, false).expect("a derivation")
+}
+
+/// Every sum in the plane and in space.
+fn sums(random: &mut Random) -> Vec<(Sum, Model)> {
+    let mut list = Vec::new();
+    for n in [2, 3] {
+        for names in SUMS {
+            let sum = Sum::new(random, n, names);
+            let model = derived(&sum.text);
+            list.push((sum, model));
+        }
+    }
+    list
+}
+
+/// The affine velocity and spin of a frame.
+fn names(frame: Frame) -> (&'static str, &'static str) {
+    match frame {
+        Frame::Body => ("omega_hat_", "sigma_hat_"),
+        Frame::Space => ("omega_", "sigma_"),
+        Frame::Flat => ("phi_dot_", "pi_"),
+    }
+}
+
+fn stem(values: &Values, stem: &str) -> Values {
+    values.iter().filter_map(|(k, v)| Some((k.strip_prefix(stem)?.to_owned(), v.clone()))).collect()
+}
+
+#[test]
+fn every_sum_is_derived_exactly() {
+    let mut random = Random::new(51);
+    for (sum, model) in sums(&mut random) {
+        for _ in 0..2 {
+            let state = point(&mut random, &sum.kinetic);
+            programs_agree(&sum, &model, &state);
+            reduction_agrees(&sum, &model, &state);
+            quantities_agree(&sum, &model, &state);
+        }
+    }
+}
+
+fn programs_agree(sum: &Sum, model: &Model, state: &State) {
+    let (what, kinetic, n) = (&sum.text, &sum.kinetic, model.dim);
+    let motion = kinetic.motion(state).unwrap();
+    let here = coordinates(kinetic, state);
+    let mut moving = velocities(kinetic, state, model.translation == Some(Frame::Body));
+    put(&mut moving, "phi", &state.phi);
+    put(&mut moving, "x_dot", &motion.rate().x);
+    let (velocity, spin) = names(model.frame);
+    agree(what, &run(&model.velocity, &here), velocity, &stem(&moving, velocity), n * n);
+    agree(
+        what,
+        &run(&model.velocity_side.as_ref().unwrap().legendre, &moving),
+        spin,
+        &stem(&here, spin),
+        n * n,
+    );
+    if let Some(masses) = &model.mixed_masses {
+        agree(what, &run(&masses.velocity, &here), "x_dot_", &stem(&moving, "x_dot_"), n);
+        agree(what, &run(&masses.momentum, &moving), "p_", &stem(&here, "p_"), n);
+    }
+    assert_eq!(
+        run(&model.velocity_side.as_ref().unwrap().kinetic_energy, &moving)["energy"],
+        own(motion.energy()),
+        "{what}: T"
+    );
+    assert_eq!(run(&model.hamiltonian, &here)["energy"], own(motion.energy()), "{what}: H");
+    let size = n * n + if kinetic.has_translation() { n } else { 0 };
+    agree(what, &run(&model.full.program, &here), "d_", &rates(&motion), 2 * size);
+}
+
+/// The reduced equations: those of the energy that a free centre of mass leaves, at a point in turned space.
+fn reduction_agrees(sum: &Sum, model: &Model, state: &State) {
+    let reduction = &model.reduction;
+    let drifts = reduction.commuting.iter().any(|piece| matches!(piece, Commuting::Drift(_)));
+    let mut state = if reduction.turned { turned(state.clone()) } else { state.clone() };
+    let rest = match drifts {
+        false => sum.kinetic.clone(),
+        true => {
+            state = State { x: Matrix::zeros(model.dim, 1), ..state.at_rest() };
+            let pinned = sum.terms.iter().filter(|term| !matches!(term, Term::SpaceTranslation(_)));
+            Kinetic::new(model.dim, pinned.cloned().collect()).unwrap()
+        }
+    };
+    equations(&sum.text, model, &rest, &state, &Values::new());
+}
+
+/// Metric and inverse, and the acceleration as the derivative of the velocity along the exact motion.
+fn quantities_agree(sum: &Sum, model: &Model, state: &State) {
+    let (what, kinetic) = (&sum.text, &sum.kinetic);
+    let here = coordinates(kinetic, state);
+    let metric = model.metric.as_ref().expect("asked for");
+    let expected = kinetic.mass_matrix(&state.phi).unwrap();
+    let square = |values: &Values| {
+        let entry = |i: usize, j: usize| exact(&values[&format!("entry_{}_{}", i + 1, j + 1)]);
+        let entries: Vec<_> = (0..metric.size)
+            .flat_map(|i| (0..metric.size).map(move |j| (i, j)))
+            .map(|(i, j)| entry(i, j))
+            .collect();
+        Matrix::from_rationals(metric.size, metric.size, &entries)
+    };
+    assert!((&square(&run(&metric.entries, &here)) - &expected).is_zero(), "{what}: Gamma");
+    let product = &square(&run(&metric.inverse, &here)) * &expected;
+    assert!((&product - &Matrix::identity(metric.size)).is_zero(), "{what}: Gamma^-1");
+    if let Some(program) = &model.acceleration {
+        let motion = kinetic.motion(state).unwrap();
+        let (x_dot, _) = kinetic.velocity(&state.along(motion.rate())).unwrap();
+        let mut expected = Values::new();
+        put(&mut expected, "acceleration", &x_dot.slope());
+        agree(what, &run(program, &here), "", &expected, model.dim);
+    }
+}
+
+#[test]
+fn the_lists_are_exactly_what_is_conserved() {
+    let mut random = Random::new(52);
+    for (sum, model) in sums(&mut random) {
+        let n = model.dim;
+        for at_rest in [false, true] {
+            let translation = sum.kinetic.has_translation() && !at_rest;
+            let states: Vec<State> = (0..2)
+                .map(|_| {
+                    let state = point(&mut random, &sum.kinetic);
+                    if at_rest { state.at_rest() } else { state }
+                })
+                .collect();
+            let motions: Vec<_> = states.iter().map(|state| sum.kinetic.motion(state).unwrap()).collect();
+            let expected: Vec<&str> = Observable::ALL
+                .iter()
+                .filter(|observable| match observable {
+                    Observable::LinearMomentum
+                    | Observable::ComovingLinearMomentum
+                    | Observable::OrbitalAngularMomentum
+                    | Observable::TotalAffineMomentum
+                    | Observable::TotalAngularMomentum => translation,
+                    Observable::Casimir3 | Observable::DeviatorCasimir3 => n == 3,
+                    _ => true,
+                })
+                .filter(|observable| motions.iter().all(|m| m.bracket(**observable).unwrap().is_zero()))
+                .map(|observable| observable.name())
+                .collect();
+            let list = if at_rest { &model.conserved_at_rest } else { &model.conserved };
+            let listed: Vec<String> = list.iter().map(|candidate| format!("{candidate:?}")).collect();
+            assert_eq!(listed, expected, "{}, at rest: {at_rest}", sum.text);
+        }
+    }
+}
+
+/// A sum of squares is known to be positive definite at every placement; anything else is checked at run time.
+#[test]
+fn sums_of_squares_are_positive_definite() {
+    let regular = |terms: &str| {
+        let model = derived(&format!("dim = 2, kinetic({terms})"));
+        (model.signature, model.regularity.is_some())
+    };
+    assert_eq!(regular("dalembert = 1, body_inertia = 2"), (Some((4, 0)), false));
+    assert_eq!(regular("dalembert = 1, casimir1_squared = 2"), (Some((4, 0)), false));
+    assert_eq!(regular("dalembert = 1, casimir2 = 1"), (None, true));
+    // The Casimir goes with either inertia.
+    assert_eq!(regular("space_inertia = 2, body_inertia = 0.5, casimir2 = 1"), (Some((4, 0)), false));
+    assert_eq!(regular("space_inertia = 0.5, body_inertia = 2, casimir2 = 1"), (Some((4, 0)), false));
+    assert_eq!(regular("space_inertia = 1, body_inertia = -2"), (None, true));
+    assert_eq!(
+        regular("casimir2 = 0.5, body_inertia = 1, body_translation = 1, space_translation = 2"),
+        (Some((6, 0)), false)
+    );
+    assert_eq!(
+        regular("casimir2 = 0.5, body_inertia = 1, body_translation = 1, space_translation = -2"),
+        (None, true)
+    );
+    // Only the translation mixes frames, and its masses are positive.
+    assert_eq!(
+        regular("casimir2 = 2, body_inertia = 1, body_translation = 1, space_translation = 2"),
+        (Some((5, 1)), false)
+    );
+}

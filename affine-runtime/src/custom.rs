@@ -1,0 +1,124 @@
+//! Calls of fields from emitted code: arrays in, arrays out.
+
+use crate::force::{Comoving, Force, Form, Motion, Spatial, Translation};
+use crate::frames::{Matrix, Vector};
+use crate::potential::{Place, Potential, Slopes};
+use crate::scalar::Scalar;
+
+type Rows<const N: usize, T> = [[T; N]; N];
+
+fn matrix<const N: usize, T: Scalar>(rows: Rows<N, T>) -> Matrix<N, T> {
+    Matrix::from_fn(|i, j| rows[i][j])
+}
+
+fn rows<const N: usize, T: Scalar>(matrix: &Matrix<N, T>) -> Rows<N, T> {
+    core::array::from_fn(|i| core::array::from_fn(|j| matrix[(i, j)]))
+}
+
+fn components<const N: usize, T: Scalar>(vector: &Vector<N, T>) -> [T; N] {
+    core::array::from_fn(|i| vector[i])
+}
+
+fn asked<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N>>(
+    force: &F,
+    t: T,
+    x: [T; N],
+    phi: Rows<N, T>,
+    x_dot: [T; N],
+    phi_dot: Rows<N, T>,
+) -> <F::Form as Form<N>>::Value<T> {
+    const {
+        assert!(
+            F::GYROSCOPIC == GYROSCOPIC,
+            "`gyroscopic` in `forces = custom(..)` and `Force::GYROSCOPIC` of the field's type differ"
+        );
+    }
+    let motion = Motion { t, x: x.into(), phi: matrix(phi), x_dot: x_dot.into(), phi_dot: matrix(phi_dot) };
+    force.force(&motion)
+}
+
+/// `Q`.
+#[inline]
+pub fn spatial_force<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Spatial>>(
+    force: &F,
+    t: T,
+    x: [T; N],
+    phi: Rows<N, T>,
+    x_dot: [T; N],
+    phi_dot: Rows<N, T>,
+) -> Rows<N, T> {
+    rows(&asked::<N, GYROSCOPIC, T, F>(force, t, x, phi, x_dot, phi_dot))
+}
+
+/// `Q_hat`.
+#[inline]
+pub fn comoving_force<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Comoving>>(
+    force: &F,
+    t: T,
+    x: [T; N],
+    phi: Rows<N, T>,
+    x_dot: [T; N],
+    phi_dot: Rows<N, T>,
+) -> Rows<N, T> {
+    rows(&asked::<N, GYROSCOPIC, T, F>(force, t, x, phi, x_dot, phi_dot))
+}
+
+/// `Q_tr`.
+#[inline]
+pub fn translational_force<
+    const N: usize,
+    const GYROSCOPIC: bool,
+    T: Scalar,
+    F: Force<N, Form = Translation>,
+>(
+    force: &F,
+    t: T,
+    x: [T; N],
+    phi: Rows<N, T>,
+    x_dot: [T; N],
+    phi_dot: Rows<N, T>,
+) -> [T; N] {
+    components(&asked::<N, GYROSCOPIC, T, F>(force, t, x, phi, x_dot, phi_dot))
+}
+
+fn place<const N: usize, const CLASS: u8, const POSITION: bool, T: Scalar, P: Potential<N>>(
+    t: T,
+    x: [T; N],
+    phi: Rows<N, T>,
+) -> Place<N, T> {
+    const {
+        assert!(
+            P::CLASS.is_within(CLASS),
+            "`potential = custom(..)` states a class of more symmetry than `Potential::CLASS` of the field's type"
+        );
+        assert!(
+            P::POSITION == POSITION,
+            "`position` in `potential = custom(..)` and `Potential::POSITION` of the field's type differ"
+        );
+    }
+    let x = if POSITION { x.into() } else { Vector::from([T::zero(); N]) };
+    Place { t, x, phi: matrix(phi) }
+}
+
+/// `U`.
+#[inline]
+pub fn potential_energy<const N: usize, const CLASS: u8, const POSITION: bool, T: Scalar, P: Potential<N>>(
+    potential: &P,
+    t: T,
+    x: [T; N],
+    phi: Rows<N, T>,
+) -> T {
+    potential.energy(&place::<N, CLASS, POSITION, T, P>(t, x, phi))
+}
+
+/// `dU/dx` and `dU/dphi`.
+#[inline]
+pub fn potential_slopes<const N: usize, const CLASS: u8, const POSITION: bool, T: Scalar, P: Potential<N>>(
+    potential: &P,
+    t: T,
+    x: [T; N],
+    phi: Rows<N, T>,
+) -> ([T; N], Rows<N, T>) {
+    let Slopes { x, phi } = potential.slopes(&place::<N, CLASS, POSITION, T, P>(t, x, phi));
+    (components(&x), rows(&phi))
+}

@@ -1,0 +1,165 @@
+//! Forces of a type of your own: what `forces = custom(field, form)` calls.
+//!
+//! ```text
+//! dSigma/dt = ... + Q        dSigma_hat/dt = ... + Q_hat,  Q_hat = phi^-1 Q phi        dp/dt = ... + Q_tr
+//! power = tr(Q Omega) = tr(Q_hat Omega_hat),  Q_tr . dx/dt
+//! ```
+//!
+//! (balance laws (3.1), (4.9), (4.11) of Slawianowski et al.).
+
+use core::fmt;
+
+use crate::frames::{Matrix, Vector, inverse};
+use crate::scalar::Scalar;
+
+/// What a force is told: a placement and its velocity at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion<const N: usize, T = f64> {
+    /// Time.
+    pub t: T,
+    /// Position of the centre of mass; zero for a model without translation.
+    pub x: Vector<N, T>,
+    /// Placement.
+    pub phi: Matrix<N, T>,
+    /// Velocity of the centre of mass; zero for a model without translation.
+    pub x_dot: Vector<N, T>,
+    /// Velocity of the placement; `Omega = phi_dot phi^-1`.
+    pub phi_dot: Matrix<N, T>,
+}
+
+/// A generalised force as a function of the motion.
+///
+/// Written once for all numbers: the equations are evaluated over `f64` and over whatever else a user integrates with.
+///
+/// ```
+/// use affine_runtime::force::{Force, Motion, Translation};
+/// use affine_runtime::frames::Vector;
+/// use affine_runtime::scalar::Scalar;
+///
+/// /// Air that drags the centre of mass along.
+/// struct Wind { strength: f64 }
+///
+/// impl Force<3> for Wind {
+///     type Form = Translation;
+///     fn force<T: Scalar>(&self, motion: &Motion<3, T>) -> Vector<3, T> {
+///         let strength = T::constant(self.strength, 0.0);
+///         Vector::<3, T>::from_fn(|i, _| if i == 0 { strength } else { T::zero() } - motion.x_dot[i])
+///     }
+/// }
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` computes no force in dimension {N}",
+    label = "no force here",
+    note = "implement `affine_runtime::force::Force<{N}>` for the type of the field that `forces = custom(..)` names"
+)]
+pub trait Force<const N: usize> {
+    /// Which force it is: [`Spatial`], [`Comoving`] or [`Translation`]; the specification says the same.
+    type Form: Form<N>;
+    /// It has no power, whatever the motion: `tr(Q Omega) = 0`, `Q_tr . x_dot = 0`. The specification then says
+    /// `gyroscopic`, and the energy stays conserved; [`check`] looks whether it is true.
+    const GYROSCOPIC: bool = false;
+
+    /// The force.
+    fn force<T: Scalar>(&self, motion: &Motion<N, T>) -> <Self::Form as Form<N>>::Value<T>;
+}
+
+/// The momentum that a force acts on.
+pub trait Form<const N: usize>: sealed::Sealed {
+    /// A matrix or a vector.
+    type Value<T: Scalar>;
+
+    /// The power of a force along a motion with this `phi^-1`.
+    #[doc(hidden)]
+    fn power(force: &Self::Value<f64>, motion: &Motion<N>) -> (f64, f64);
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Spatial {}
+    impl Sealed for super::Comoving {}
+    impl Sealed for super::Translation {}
+}
+
+/// `spatial`: `Q`, an `N` by `N` matrix that acts on `Sigma`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Spatial;
+
+/// `comoving`: `Q_hat`, an `N` by `N` matrix that acts on `Sigma_hat`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Comoving;
+
+/// `translation`: `Q_tr`, a vector that acts on `p`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Translation;
+
+impl<const N: usize> Form<N> for Spatial {
+    type Value<T: Scalar> = Matrix<N, T>;
+
+    fn power(force: &Matrix<N>, motion: &Motion<N>) -> (f64, f64) {
+        let omega = motion.phi_dot * inverse(&motion.phi);
+        ((force * omega).trace(), force.norm() * omega.norm())
+    }
+}
+
+impl<const N: usize> Form<N> for Comoving {
+    type Value<T: Scalar> = Matrix<N, T>;
+
+    fn power(force: &Matrix<N>, motion: &Motion<N>) -> (f64, f64) {
+        let omega_hat = inverse(&motion.phi) * motion.phi_dot;
+        ((force * omega_hat).trace(), force.norm() * omega_hat.norm())
+    }
+}
+
+impl<const N: usize> Form<N> for Translation {
+    type Value<T: Scalar> = Vector<N, T>;
+
+    fn power(force: &Vector<N>, motion: &Motion<N>) -> (f64, f64) {
+        (force.dot(&motion.x_dot), force.norm() * motion.x_dot.norm())
+    }
+}
+
+/// A force that is said to be gyroscopic and has power.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HasPower<const N: usize> {
+    /// Where.
+    pub motion: Motion<N>,
+    /// The power there.
+    pub power: f64,
+    /// `|Q| |Omega|`, which the power is held against.
+    pub scale: f64,
+}
+
+impl<const N: usize> fmt::Display for HasPower<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the force is said to be gyroscopic, but has the power {:e} (of {:e}) at {:?}",
+            self.power, self.scale, self.motion
+        )
+    }
+}
+
+impl<const N: usize> core::error::Error for HasPower<N> {}
+
+/// Holds a force that says it is gyroscopic against its power at the given motions; see
+/// [`motions`](crate::sampling::motions) for some.
+///
+/// # Errors
+/// [`HasPower`] at the first motion along which the power is more than rounding, 1e-12 of `|Q| |Omega|`.
+pub fn check<const N: usize, F: Force<N>>(
+    force: &F,
+    motions: impl IntoIterator<Item = Motion<N>>,
+) -> Result<(), HasPower<N>> {
+    if !F::GYROSCOPIC {
+        return Ok(());
+    }
+    for motion in motions {
+        let (power, scale) = F::Form::power(&force.force(&motion), &motion);
+        // NaN is no zero.
+        let vanishes = power.abs() <= 1e-12 * scale;
+        if !vanishes {
+            return Err(HasPower { motion, power, scale });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,225 @@
+//! Stiff and extreme cases: what was promised of each, and what came out.
+
+mod picture;
+mod table;
+
+use crate::error::Error;
+use crate::frames::Matrix;
+use crate::integrate::norm;
+
+/// What a result is held against. None of them is the method under test at another tolerance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Oracle {
+    /// A formula for the motion.
+    ClosedForm,
+    /// A reference solution of more digits than a double has.
+    Reference,
+    /// Two motions that are one by an exact symmetry of the equations, or a constant of the motion.
+    Invariance,
+    /// The body under the constraint that a stiff potential tends to; the distance between the two is of the order of the
+    /// compliance and part of the demand.
+    Limit,
+    /// The text of the interface: what is refused, and how.
+    Documentation,
+}
+
+impl Oracle {
+    /// In a word or two.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ClosedForm => "closed form",
+            Self::Reference => "reference",
+            Self::Invariance => "invariance",
+            Self::Limit => "limit",
+            Self::Documentation => "documented",
+        }
+    }
+}
+
+/// What is demanded of a case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Demand {
+    /// It runs, with an error of at most so much; to refuse it is to fall short.
+    Held(f64),
+    /// It is refused, in words that contain these.
+    Refused(&'static str),
+    /// It runs with an error of at most so much, or is refused in words: beyond what is promised, but nothing is
+    /// silently wrong.
+    HeldOrRefused(f64),
+}
+
+/// What came out.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Finding {
+    /// It ran.
+    Ran {
+        /// Error against the oracle.
+        error: f64,
+        /// Steps taken; 0 for a closed form.
+        steps: u64,
+    },
+    /// It was refused or stopped, with these words.
+    Stopped(String),
+}
+
+/// Finding against demand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// As accurate as demanded.
+    Held,
+    /// Refused, as demanded or allowed.
+    Refused,
+    /// Neither.
+    FellShort,
+}
+
+impl Verdict {
+    /// In a word or two.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Held => "held",
+            Self::Refused => "refused",
+            Self::FellShort => "fell short",
+        }
+    }
+}
+
+/// One row: what was tried, what was demanded, what came out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StabilityCase {
+    /// Under which heading it stands.
+    pub heading: &'static str,
+    /// The model: frames and special terms of its energy.
+    pub model: &'static str,
+    /// Dimension.
+    pub n: usize,
+    /// The extreme, with its number.
+    pub scene: String,
+    /// What the error is an error of.
+    pub quantity: &'static str,
+    /// What it is held against.
+    pub oracle: Oracle,
+    /// What is demanded.
+    pub demand: Demand,
+    /// What came out.
+    pub finding: Finding,
+}
+
+impl StabilityCase {
+    /// Finding against demand; an error that is not a number is never held.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        match (self.demand, &self.finding) {
+            (Demand::Held(most) | Demand::HeldOrRefused(most), Finding::Ran { error, .. })
+                if *error <= most =>
+            {
+                Verdict::Held
+            }
+            (Demand::Refused(words), Finding::Stopped(text)) if text.contains(words) => Verdict::Refused,
+            (Demand::HeldOrRefused(_), Finding::Stopped(_)) => Verdict::Refused,
+            _ => Verdict::FellShort,
+        }
+    }
+}
+
+/// Cases in the order in which they were tried; displays as a table.
+///
+/// ```
+/// use affine_runtime::report::{Demand, Oracle, Scene, StabilityReport};
+///
+/// let mut report = StabilityReport::new();
+/// report.heading("long roads");
+/// let scene = Scene { model: "straight line", n: 2, scene: "t = 1e9".into(), quantity: "phi", oracle: Oracle::ClosedForm };
+/// report.case(scene, Demand::Held(1e-12), || Ok((3e-16, 0)));
+/// assert_eq!(report.fell_short().count(), 0);
+/// assert!(report.to_string().contains("held"));
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StabilityReport {
+    heading: &'static str,
+    cases: Vec<StabilityCase>,
+}
+
+/// What a case is about.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// The model: frames and special terms of its energy.
+    pub model: &'static str,
+    /// Dimension.
+    pub n: usize,
+    /// The extreme, with its number.
+    pub scene: String,
+    /// What the error is an error of.
+    pub quantity: &'static str,
+    /// What it is held against.
+    pub oracle: Oracle,
+}
+
+impl StabilityReport {
+    /// Without cases.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The heading of the cases to follow.
+    pub fn heading(&mut self, heading: &'static str) {
+        self.heading = heading;
+    }
+
+    /// Tries a case: the error and the number of steps, or what stopped it.
+    pub fn case(
+        &mut self,
+        scene: Scene,
+        demand: Demand,
+        attempt: impl FnOnce() -> Result<(f64, u64), Error>,
+    ) -> &StabilityCase {
+        let finding = match attempt() {
+            Ok((error, steps)) => Finding::Ran { error, steps },
+            Err(error) => Finding::Stopped(error.to_string()),
+        };
+        let Scene { model, n, scene, quantity, oracle } = scene;
+        let index = self.cases.len();
+        let heading = self.heading;
+        self.cases.push(StabilityCase { heading, model, n, scene, quantity, oracle, demand, finding });
+        &self.cases[index]
+    }
+
+    /// All cases.
+    #[must_use]
+    pub fn cases(&self) -> &[StabilityCase] {
+        &self.cases
+    }
+
+    /// The cases that are neither as accurate as demanded nor refused as allowed.
+    pub fn fell_short(&self) -> impl Iterator<Item = &StabilityCase> {
+        self.cases.iter().filter(|case| case.verdict() == Verdict::FellShort)
+    }
+}
+
+/// `|a - b|/|b|` in the Frobenius norm; 0 where they agree even in a vanishing `b`. Both are scaled by the largest
+/// entry first, so that squares stay in range.
+#[must_use]
+pub fn relative_distance<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> f64 {
+    let largest = b.iter().fold(0.0_f64, |largest, v| if v.abs() > largest { v.abs() } else { largest });
+    let (a, b) = if largest > 0.0 { (a / largest, b / largest) } else { (*a, *b) };
+    let distance = norm((a - b).as_slice());
+    if distance == 0.0 { 0.0 } else { distance / norm(b.as_slice()) }
+}
+
+/// The largest `|a_i - b_i|/|b_i|` over rows: every row against its own size, as an affine map of space that scales the axes
+/// differently demands.
+#[must_use]
+pub fn relative_distance_by_rows<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> f64 {
+    let row = |i: usize| {
+        let largest = (0..N)
+            .fold(0.0_f64, |largest, j| if b[(i, j)].abs() > largest { b[(i, j)].abs() } else { largest });
+        let scaled = |m: &Matrix<N>| -> [f64; N] { core::array::from_fn(|j| m[(i, j)] / largest) };
+        let (a, b) = (scaled(a), scaled(b));
+        let difference: [f64; N] = core::array::from_fn(|j| a[j] - b[j]);
+        norm(&difference) / norm(&b)
+    };
+    (0..N).map(row).fold(0.0, |largest, error| if error <= largest { largest } else { error })
+}

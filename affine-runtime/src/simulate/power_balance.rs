@@ -1,0 +1,71 @@
+//! Energy against the work of the forces that no potential has.
+
+use core::fmt;
+
+use super::conservation::larger;
+use super::trajectory::Trajectory;
+use crate::model::WORK;
+use crate::state::Phase;
+
+/// The balance `H(t) - H(t0) = W(t)`, `W` the integral of the power over time, along a trajectory.
+///
+/// The power of a dissipation function `R` is `-2 R` (Goldstein, *Classical Mechanics*, section 1.5). `W` is
+/// integrated with the motion, as one more variable that the steps do not depend on, so that the balance closes to
+/// the error of the integration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PowerBalance {
+    /// `H(t_end) - H(t0)`.
+    pub energy: f64,
+    /// `W(t_end)`.
+    pub work: f64,
+    /// Largest `|H(t) - H(t0) - W(t)|` over the outputs and the end.
+    pub defect: f64,
+    /// The size it is held against: the largest of `|H|` and `(|Pi| |phi_dot| + |p| |x_dot|)/2`.
+    pub scale: f64,
+}
+
+impl PowerBalance {
+    /// `defect / scale`; 0 where the balance is exact.
+    #[must_use]
+    pub fn relative(&self) -> f64 {
+        if self.defect == 0.0 { 0.0 } else { self.defect / self.scale }
+    }
+}
+
+impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
+    /// The balance of energy and work; `None` for a model without forces other than those of a potential, whose
+    /// energy stands among what [`conservation`](Self::conservation) lists.
+    #[must_use]
+    pub fn power_balance(&self) -> Option<PowerBalance> {
+        self.description.reduced.iter().find(|group| group.name == WORK)?;
+        let energies = &self.energies;
+        let points = energies.outputs.iter().zip(&energies.work);
+        let end = (&energies.end, &energies.work_at_end);
+        let defects = points.chain([end]).map(|(energy, work)| (energy - energies.start - work).abs());
+        Some(PowerBalance {
+            energy: energies.end - energies.start,
+            work: energies.work_at_end,
+            defect: defects.fold(0.0, larger),
+            scale: energies.scale,
+        })
+    }
+
+    /// The work of the forces that no potential has, from the start to each output.
+    #[must_use]
+    pub fn work(&self) -> &[f64] {
+        &self.energies.work
+    }
+}
+
+impl fmt::Display for PowerBalance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "H changed by {:.6e}, the work of the forces is {:.6e}: defect {:.2e}, relative {:.2e}",
+            self.energy,
+            self.work,
+            self.defect,
+            self.relative()
+        )
+    }
+}

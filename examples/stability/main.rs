@@ -1,0 +1,30 @@
+//! Stiff and extreme cases, each against an oracle: held, refused in words, or fell short.
+//!
+//! ```sh
+//! cargo run --release --example stability           # a few minutes at most
+//! cargo run --release --example stability -- long   # 1e5 units of time in the long runs
+//! ```
+//!
+//! The table goes to the terminal, and with the picture to `output/`.
+
+mod scenes;
+
+use std::fs;
+use std::path::Path;
+
+use scenes::Extent;
+
+fn main() -> affine_runtime::Result<()> {
+    let output = Path::new("output");
+    // A folder that cannot be made shows in the first file that cannot be written.
+    let _ = fs::create_dir_all(output);
+    let extent = match std::env::args().nth(1).as_deref() {
+        Some("fast") => Extent::Fast,
+        Some("long") => Extent::Long,
+        _ => Extent::Full,
+    };
+    let report = scenes::report(extent)?;
+    println!("{report}");
+    report.save_csv(output.join("stability.csv"))?;
+    report.save_svg(output.join("stability.svg"))
+}

@@ -1,0 +1,47 @@
+//! What several kinds of cases need.
+
+use affine_runtime::model::Conserved;
+use affine_runtime::prelude::*;
+use affine_runtime::report::{Oracle, Scene, relative_distance};
+
+/// Tolerance of all integrations.
+pub(super) const TOLERANCE: f64 = 1e-13;
+
+/// A run to its end without output on the way.
+pub(super) fn run<const N: usize, M: Model<N>>(
+    model: &M,
+    start: M::Point<f64>,
+    t_end: f64,
+) -> affine_runtime::Result<Trajectory<N, M::Point<f64>>> {
+    let simulation = Simulation::new(model, start).until(t_end).tolerance(TOLERANCE);
+    Ok(simulation.output([t_end]).max_steps(1_000_000_000).run()?)
+}
+
+/// `max(tolerance, 10 eps omega t)`: ten roundings of the phase of a vibration.
+pub(super) fn floor(omega: f64, t: f64) -> f64 {
+    (10.0 * f64::EPSILON * omega * t).max(1e-12)
+}
+
+/// Relative drift of the energy.
+pub(super) fn energy<const N: usize, P: Phase<N>>(run: &Trajectory<N, P>) -> f64 {
+    run.conservation().of(Conserved::Energy).map_or(f64::NAN, |drift| drift.relative())
+}
+
+/// Distance of the placements at the ends of two runs, and the steps of the first.
+pub(super) fn apart<const N: usize, P: Phase<N>, Q: Phase<N>>(
+    a: &Trajectory<N, P>,
+    b: &Trajectory<N, Q>,
+) -> (f64, u64) {
+    (relative_distance(a.end().1.phi(), b.end().1.phi()), a.statistics().steps)
+}
+
+/// A scene by its names.
+pub(super) fn scene(
+    model: &'static str,
+    n: usize,
+    scene: String,
+    quantity: &'static str,
+    oracle: Oracle,
+) -> Scene {
+    Scene { model, n, scene, quantity, oracle }
+}

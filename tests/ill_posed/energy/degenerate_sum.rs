@@ -1,0 +1,6 @@
+use affine_runtime::affine_model;
+
+#[affine_model(dim = 2, kinetic(body_inertia = 1, space_inertia = -1))]
+struct Model;
+
+fn main() {}

@@ -1,0 +1,11 @@
+//! The two-polar form of emitted models: against the full flow, the closed form, and the paper's statements.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod classification;
+mod closed_form;
+// Every model has constructors for momenta and for velocities.
+#[allow(dead_code)]
+mod models;
+mod reduced_flow;
+mod sutherland;
+mod unitary;

@@ -1,0 +1,569 @@
+//! Forces and potentials that fields compute: in every form, under kinetic energies of every frame, against forces on
+//! the canonical momenta, `N = phi^-1 Q = Q_hat phi^-1`.
+
+use affine_oracle::{Differential, Kinetic, Place as OraclePlace, Random, State, Term, rational};
+use affine_runtime::force::{
+    self, Comoving as ComovingForce, Force, Motion, Spatial as SpatialForce, Translation,
+};
+use affine_runtime::model::{Conserved, Description, WORK};
+use affine_runtime::potential::{self, Class, Place, Potential, Slopes};
+use affine_runtime::prelude::*;
+use affine_runtime::sampling;
+use affine_runtime::scalar::Scalar;
+
+use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
+use crate::families::{matrix, vector};
+use crate::reference::{Reference, assert_close, entries};
+use crate::tolerances::{POWER_BALANCE, UNDER_POTENTIAL};
+
+/// States per model.
+const SAMPLES: u64 = 3;
+
+/// `Q = c (x_dot phi[1]^T - Omega Ct) cos t`, which needs everything that a force is told.
+#[derive(Clone)]
+struct Stirring {
+    strength: f64,
+}
+
+impl<const N: usize> Force<N> for Stirring {
+    type Form = SpatialForce;
+    fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {
+        let c = T::constant(self.strength, 0.0) * m.t.cos();
+        let friction = m.phi_dot * m.phi.transpose();
+        Matrix::<N, T>::from_fn(|i, j| c * ((m.x_dot[i] + m.x[j]) * m.phi[(j, 0)] - friction[(i, j)]))
+    }
+}
+
+/// `Q_hat = c phi^T phi_dot`.
+#[derive(Clone)]
+struct Kneading {
+    strength: f64,
+}
+
+impl<const N: usize> Force<N> for Kneading {
+    type Form = ComovingForce;
+    fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {
+        (m.phi.transpose() * m.phi_dot) * T::constant(self.strength, 0.0)
+    }
+}
+
+/// `Q_tr = c (tr phi, ..) - x_dot`.
+#[derive(Clone)]
+struct Wind {
+    strength: f64,
+}
+
+impl<const N: usize> Force<N> for Wind {
+    type Form = Translation;
+    fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Vector<N, T> {
+        let c = T::constant(self.strength, 0.0);
+        Vector::<N, T>::from_fn(|i, _| c * m.phi[(i, i)] - m.x_dot[i])
+    }
+}
+
+/// `Q_tr = c J x_dot`, `J` skew: a magnetic field.
+#[derive(Clone)]
+struct Magnet {
+    strength: f64,
+}
+
+impl<const N: usize> Force<N> for Magnet {
+    type Form = Translation;
+    const GYROSCOPIC: bool = true;
+    fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Vector<N, T> {
+        let c = T::constant(self.strength, 0.0);
+        let mut force = Vector::<N, T>::from_fn(|_, _| T::zero());
+        force[0] = c * m.x_dot[1];
+        force[1] = -(c * m.x_dot[0]);
+        force
+    }
+}
+
+/// `Q_hat = c (Omega_hat_12, -Omega_hat_11; ..)`: `tr(Q_hat Omega_hat) = 0` although `Q_hat` is not skew.
+#[derive(Clone)]
+struct Gyroscope {
+    strength: f64,
+}
+
+impl<const N: usize> Force<N> for Gyroscope {
+    type Form = SpatialForce;
+    const GYROSCOPIC: bool = true;
+    /// `Q = c phi (phi_dot^T S phi_dot - ..)` would do; here `N = c S phi_dot^T` with a skew `S`, and `Q = phi N`.
+    fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {
+        let c = T::constant(self.strength, 0.0);
+        let turned = Matrix::<N, T>::from_fn(|a, i| match a {
+            0 => c * m.phi_dot[(i, 1)],
+            1 => -(c * m.phi_dot[(i, 0)]),
+            _ => T::zero(),
+        });
+        m.phi * turned
+    }
+}
+
+/// `U = c tr G`, isotropic.
+#[derive(Clone)]
+struct Spring {
+    strength: f64,
+}
+
+impl<const N: usize> Potential<N> for Spring {
+    const CLASS: Class = Class::Isotropic;
+    fn energy<T: Scalar>(&self, place: &Place<N, T>) -> T {
+        let squares = place.phi.iter().fold(T::zero(), |sum, entry| entry.fma(*entry, sum));
+        T::constant(self.strength, 0.0) * squares
+    }
+    fn slopes<T: Scalar>(&self, place: &Place<N, T>) -> Slopes<N, T> {
+        let twice = T::constant(2.0 * self.strength, 0.0);
+        Slopes { x: Vector::<N, T>::from_fn(|_, _| T::zero()), phi: place.phi * twice }
+    }
+}
+
+/// `U = c G_11^2`, a function of `G`.
+#[derive(Clone)]
+struct Fibre {
+    strength: f64,
+}
+
+impl<const N: usize> Potential<N> for Fibre {
+    const CLASS: Class = Class::Green;
+    fn energy<T: Scalar>(&self, place: &Place<N, T>) -> T {
+        let square = (0..N).fold(T::zero(), |sum, i| sum + place.phi[(i, 0)] * place.phi[(i, 0)]);
+        T::constant(self.strength, 0.0) * square * square
+    }
+    fn slopes<T: Scalar>(&self, place: &Place<N, T>) -> Slopes<N, T> {
+        let square = (0..N).fold(T::zero(), |sum, i| sum + place.phi[(i, 0)] * place.phi[(i, 0)]);
+        let four = T::constant(4.0 * self.strength, 0.0) * square;
+        let phi = Matrix::<N, T>::from_fn(|i, a| if a == 0 { four * place.phi[(i, 0)] } else { T::zero() });
+        Slopes { x: Vector::<N, T>::from_fn(|_, _| T::zero()), phi }
+    }
+}
+
+/// `U = c Ct_12^2`, a function of `Ct`.
+#[derive(Clone)]
+struct Wall {
+    strength: f64,
+}
+
+impl<const N: usize> Potential<N> for Wall {
+    const CLASS: Class = Class::Finger;
+    fn energy<T: Scalar>(&self, place: &Place<N, T>) -> T {
+        let entry = (0..N).fold(T::zero(), |sum, a| sum + place.phi[(0, a)] * place.phi[(1, a)]);
+        T::constant(self.strength, 0.0) * entry * entry
+    }
+    fn slopes<T: Scalar>(&self, place: &Place<N, T>) -> Slopes<N, T> {
+        let entry = (0..N).fold(T::zero(), |sum, a| sum + place.phi[(0, a)] * place.phi[(1, a)]);
+        let twice = T::constant(2.0 * self.strength, 0.0) * entry;
+        let phi = Matrix::<N, T>::from_fn(|i, a| match i {
+            0 => twice * place.phi[(1, a)],
+            1 => twice * place.phi[(0, a)],
+            _ => T::zero(),
+        });
+        Slopes { x: Vector::<N, T>::from_fn(|_, _| T::zero()), phi }
+    }
+}
+
+/// `U = c x_1 tr G`.
+#[derive(Clone)]
+struct Field {
+    strength: f64,
+}
+
+impl<const N: usize> Potential<N> for Field {
+    const CLASS: Class = Class::General;
+    const POSITION: bool = true;
+    fn energy<T: Scalar>(&self, place: &Place<N, T>) -> T {
+        let squares = place.phi.iter().fold(T::zero(), |sum, entry| entry.fma(*entry, sum));
+        T::constant(self.strength, 0.0) * place.x[0] * squares
+    }
+    fn slopes<T: Scalar>(&self, place: &Place<N, T>) -> Slopes<N, T> {
+        let c = T::constant(self.strength, 0.0);
+        let squares = place.phi.iter().fold(T::zero(), |sum, entry| entry.fma(*entry, sum));
+        let x = Vector::<N, T>::from_fn(|i, _| if i == 0 { c * squares } else { T::zero() });
+        Slopes { x, phi: place.phi * (c * (place.x[0] + place.x[0])) }
+    }
+}
+
+/// What acts on the canonical momenta at a motion, `on_p` and `on_pi` row-major.
+fn canonical<const N: usize>(
+    q: Option<Matrix<N>>,
+    q_hat: Option<Matrix<N>>,
+    q_tr: Option<Vector<N>>,
+    phi: &Matrix<N>,
+) -> (Vec<f64>, Vec<f64>) {
+    let inverse = phi.try_inverse().unwrap();
+    let mut push = Matrix::<N>::zeros();
+    push += q.map_or_else(Matrix::<N>::zeros, |q| inverse * q);
+    push += q_hat.map_or_else(Matrix::<N>::zeros, |q_hat| q_hat * inverse);
+    (q_tr.unwrap_or_else(Vector::<N>::zeros).as_slice().to_vec(), entries(&push))
+}
+
+/// A model with forces, and the forces on its canonical momenta.
+trait Pushed<const N: usize>: Model<N> + Sized {
+    const TRANSLATION: bool;
+    /// What motion after motion conserves.
+    const CONSERVED: &'static [Conserved];
+
+    fn body() -> Self;
+    fn kinetic() -> Kinetic;
+    fn push(motion: &Motion<N>) -> (Vec<f64>, Vec<f64>);
+    fn at(&self, state: &State) -> Self::Point<f64>;
+
+    fn states() -> impl Iterator<Item = State> {
+        (0..SAMPLES).map(|seed| {
+            let state = Random::new(8101 + seed).state(N);
+            if Self::TRANSLATION {
+                state
+            } else {
+                let still = state.at_rest();
+                State { x: still.p.clone(), ..still }
+            }
+        })
+    }
+
+    fn reference(kinetic: &Kinetic, t: f64, state: &State) -> Reference {
+        let free = kinetic.expected(state).unwrap();
+        let motion = Motion {
+            t,
+            x: vector(&state.x.to_f64()),
+            phi: matrix(&state.phi.to_f64()),
+            x_dot: vector(&free.x_dot),
+            phi_dot: matrix(&free.phi_dot),
+        };
+        let (on_p, on_pi) = Self::push(&motion);
+        Reference::pushed(kinetic, state, &on_p, &on_pi)
+    }
+}
+
+fn agrees_with_the_oracle<const N: usize, M: Pushed<N>>() {
+    let (model, kinetic) = (M::body(), M::kinetic());
+    for state in M::states() {
+        let reference = M::reference(&kinetic, T0, &state);
+        let point = model.at(&state);
+        let rates = model.hamilton_equations(T0, &model.flatten(&point));
+        for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
+            reference.assert_rate(name, rate, UNDER_POTENTIAL);
+        }
+        let tolerance = UNDER_POTENTIAL * reference.condition;
+        assert_charts_lead_back(&model, &point, &state, tolerance);
+        assert_reduced_equations_move(&model, &point, UNDER_POTENTIAL, |t, state| {
+            M::reference(&kinetic, t, state)
+        });
+    }
+    assert_eq!(M::DESCRIPTION.conserved, M::CONSERVED);
+}
+
+/// Energy against work, or conserved where the forces have no power.
+fn energy_is_accounted_for<const N: usize, M: Pushed<N>>() {
+    let model = M::body();
+    let start = model.at(&M::states().next().unwrap());
+    let run = Simulation::new(&model, start).from(T0).until(T0 + 0.25).tolerance(1e-12).run().unwrap();
+    match run.power_balance() {
+        Some(balance) => {
+            assert!(balance.relative() <= POWER_BALANCE, "{balance}");
+            assert!(balance.work.abs() > 1e-3 * balance.scale, "{balance}");
+            assert!(!has(M::DESCRIPTION, Conserved::Energy));
+            assert!((model.power(T0, &start) - slope(&model, &start)).abs() < 1e-6 * balance.scale);
+        }
+        None => {
+            assert!(has(M::DESCRIPTION, Conserved::Energy));
+            assert!(M::DESCRIPTION.reduced.iter().all(|group| group.name != WORK));
+            assert!(run.conservation().worst() <= POWER_BALANCE, "{}", run.conservation());
+            assert_eq!(model.power(T0, &start), 0.0);
+        }
+    }
+}
+
+fn has(description: Description, quantity: Conserved) -> bool {
+    description.conserved.contains(&quantity)
+}
+
+/// The rate of `H` over a short run, by differences.
+fn slope<const N: usize, M: Model<N>>(model: &M, start: &M::Point<f64>) -> f64 {
+    let h = 1e-4;
+    let at = |t: f64| {
+        let run = Simulation::new(model, *start).from(T0).until(T0 + t).tolerance(1e-13).run().unwrap();
+        model.hamiltonian(T0 + t, run.end().1)
+    };
+    (at(h) - at(-h)) / (2.0 * h)
+}
+
+fn body_inertia(n: usize) -> Term {
+    Term::body_inertia(n, rational(3, 2))
+}
+
+fn space_inertia(n: usize) -> Term {
+    Term::space_inertia(n, rational(3, 2))
+}
+
+fn dalembert(n: usize) -> Term {
+    Term::dalembert(n, rational(3, 2))
+}
+
+fn casimir2(_n: usize) -> Term {
+    Term::Casimir2(rational(1, 4))
+}
+
+fn body_translation(_n: usize) -> Term {
+    Term::BodyTranslation(rational(5, 4))
+}
+
+fn space_translation(_n: usize) -> Term {
+    Term::SpaceTranslation(rational(5, 4))
+}
+
+macro_rules! pushed {
+    ($($name:ident $n:literal $centre:ident [$($term:ident)*] ($($kinetic:tt)*) ($($spec:tt)*) $field:ident
+        [$($conserved:ident)*] |$motion:ident| $push:expr;)*) => { $(
+        mod $name {
+            #[allow(clippy::wildcard_imports)]
+            use super::*;
+
+            #[affine_model(dim = $n, kinetic($($kinetic)*), $($spec)*)]
+            struct Body {
+                field: $field,
+            }
+
+            impl Pushed<$n> for Body {
+                const TRANSLATION: bool = pushed!(@translation $centre);
+                const CONSERVED: &'static [Conserved] = &[$(Conserved::$conserved),*];
+
+                fn body() -> Self {
+                    Body { field: $field { strength: 0.75 } }
+                }
+                fn kinetic() -> Kinetic {
+                    Kinetic::new($n, vec![$($term($n)),*]).unwrap()
+                }
+                fn push($motion: &Motion<$n>) -> (Vec<f64>, Vec<f64>) {
+                    $push
+                }
+                fn at(&self, state: &State) -> Self::Point<f64> {
+                    let (phi, pi) = (matrix(&state.phi.to_f64()), TwoPoint(matrix(&state.pi.to_f64())));
+                    pushed!(@point $centre self state phi pi)
+                }
+            }
+
+            #[test]
+            fn equations() {
+                agrees_with_the_oracle::<$n, Body>();
+            }
+            #[test]
+            fn energy() {
+                energy_is_accounted_for::<$n, Body>();
+            }
+        }
+    )* };
+    (@translation pinned) => { false };
+    (@translation moving) => { true };
+    (@point pinned $model:ident $state:ident $phi:ident $pi:ident) => {
+        $model.at_momentum($phi, $pi).unwrap()
+    };
+    (@point moving $model:ident $state:ident $phi:ident $pi:ident) => {
+        $model
+            .at_momentum(vector(&$state.x.to_f64()), $phi, vector(&$state.p.to_f64()), $pi)
+            .unwrap()
+    };
+}
+
+fn stirred<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+    let omega = m.phi_dot * m.phi.try_inverse().unwrap();
+    let friction = omega * m.phi * m.phi.transpose();
+    let along = (m.x_dot * Vector::<N>::from_element(1.0).transpose()
+        + Vector::<N>::from_element(1.0) * m.x.transpose())
+        * Matrix::<N>::from_diagonal(&m.phi.column(0).into_owned());
+    canonical(Some((along - friction) * (0.75 * m.t.cos())), None, None, &m.phi)
+}
+
+fn kneaded<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+    canonical(None, Some(m.phi.tr_mul(&m.phi_dot) * 0.75), None, &m.phi)
+}
+
+fn blown<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+    canonical(None, None, Some(m.phi.diagonal() * 0.75 - m.x_dot), &m.phi)
+}
+
+/// The force on `Pi` of a skew form in the body: `S phi_dot^T`.
+fn gyrated<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+    let mut s = Matrix::<N>::zeros();
+    (s[(0, 1)], s[(1, 0)]) = (0.75, -0.75);
+    (vec![0.0; N], entries(&(s * m.phi_dot.transpose())))
+}
+
+fn deflected<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+    let mut force = Vector::<N>::zeros();
+    (force[0], force[1]) = (0.75 * m.x_dot[1], -0.75 * m.x_dot[0]);
+    canonical(None, None, Some(force), &m.phi)
+}
+
+/// The forces of a potential by forward differentiation of its plain definition.
+fn under<const N: usize>(m: &Motion<N>, energy: fn(&OraclePlace) -> Differential) -> (Vec<f64>, Vec<f64>) {
+    let slopes = affine_oracle::Slopes::of(energy, m.t, m.x.as_slice(), &entries(&m.phi));
+    let on_phi = matrix::<N>(&slopes.phi);
+    (slopes.x.iter().map(|slope| -slope).collect(), entries(&-on_phi.transpose()))
+}
+
+pushed! {
+    stirring_left 3 pinned [body_inertia casimir2] (body_inertia = 1.5, casimir2 = 0.25)
+        (forces = custom(field, spatial)) Stirring [] |motion| stirred(motion);
+    stirring_missile 2 moving [body_inertia casimir2 body_translation]
+        (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25)
+        (forces = custom(field, spatial)) Stirring [LinearMomentum] |motion| stirred(motion);
+    stirring_right 2 moving [space_inertia casimir2 space_translation]
+        (space_inertia = 1.5, casimir2 = 0.25, space_translation = 1.25)
+        (forces = custom(field, spatial)) Stirring [LinearMomentum OrbitalAngularMomentum] |motion| stirred(motion);
+    stirring_dalembert 3 pinned [dalembert] (dalembert = 1.5)
+        (forces = custom(field, spatial)) Stirring [] |motion| stirred(motion);
+    kneading_left 2 pinned [body_inertia casimir2] (body_inertia = 1.5, casimir2 = 0.25)
+        (forces = custom(field, comoving)) Kneading [] |motion| kneaded(motion);
+    kneading_right 3 pinned [space_inertia casimir2] (space_inertia = 1.5, casimir2 = 0.25)
+        (forces = custom(field, comoving)) Kneading [] |motion| kneaded(motion);
+    kneading_dalembert 2 pinned [dalembert] (dalembert = 1.5)
+        (forces = custom(field, comoving)) Kneading [] |motion| kneaded(motion);
+    wind_missile 3 moving [body_inertia casimir2 body_translation]
+        (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25)
+        (forces = custom(field, translation)) Wind [Vorticity VorticityNorm] |motion| blown(motion);
+    wind_right 2 moving [space_inertia casimir2 space_translation]
+        (space_inertia = 1.5, casimir2 = 0.25, space_translation = 1.25)
+        (forces = custom(field, translation)) Wind
+        [Spin SpinNorm ComovingAffineSpin ComovingDeviator Vorticity VorticityNorm
+            Casimir1 Casimir2 DeviatorCasimir2]
+        |motion| blown(motion);
+    magnet 2 moving [dalembert space_translation] (dalembert = 1.5, space_translation = 1.25)
+        (forces = custom(field, translation, gyroscopic)) Magnet
+        [Energy Spin SpinNorm Vorticity VorticityNorm CanonicalMomentum] |motion| deflected(motion);
+    gyroscope_left 2 pinned [body_inertia casimir2] (body_inertia = 1.5, casimir2 = 0.25)
+        (forces = custom(field, spatial, gyroscopic)) Gyroscope [Energy] |motion| gyrated(motion);
+    gyroscope_dalembert 3 pinned [dalembert] (dalembert = 1.5)
+        (forces = custom(field, spatial, gyroscopic)) Gyroscope [Energy] |motion| gyrated(motion);
+    spring_left 2 pinned [body_inertia casimir2] (body_inertia = 1.5, casimir2 = 0.25)
+        (potential = custom(field, isotropic)) Spring [Energy Spin SpinNorm Vorticity VorticityNorm]
+        |motion| under(motion, |place| place.trace_green() * 0.75);
+    spring_and_more 3 pinned [dalembert] (dalembert = 1.5)
+        (potential = q^2/2 + custom(field, isotropic)) Spring [Energy Spin SpinNorm Vorticity VorticityNorm]
+        |motion| under(motion, |place| place.trace_green() * 0.75 + place.q() * place.q() * 0.5);
+    spring_missile 3 moving [body_inertia casimir2 body_translation]
+        (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25)
+        (potential = custom(field, isotropic)) Spring
+        [Energy LinearMomentum TotalAngularMomentum Vorticity VorticityNorm]
+        |motion| under(motion, |place| place.trace_green() * 0.75);
+    fibre_left 3 pinned [body_inertia casimir2] (body_inertia = 1.5, casimir2 = 0.25)
+        (potential = custom(field, green)) Fibre [Energy Spin SpinNorm]
+        |motion| under(motion, |place| place.green(1, 1).power(2) * 0.75);
+    fibre_right 2 pinned [space_inertia casimir2] (space_inertia = 1.5, casimir2 = 0.25)
+        (potential = custom(field, green)) Fibre [Energy Spin SpinNorm]
+        |motion| under(motion, |place| place.green(1, 1).power(2) * 0.75);
+    wall_left 2 pinned [body_inertia casimir2] (body_inertia = 1.5, casimir2 = 0.25)
+        (potential = custom(field, finger)) Wall [Energy Vorticity VorticityNorm]
+        |motion| under(motion, |place| place.finger(1, 2).power(2) * 0.75);
+    field_missile 2 moving [body_inertia casimir2 body_translation]
+        (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25)
+        (potential = custom(field, general, position)) Field [Energy]
+        |motion| under(motion, |place| place.x(1) * place.trace_green() * 0.75);
+    field_right 3 moving [space_inertia casimir2 space_translation]
+        (space_inertia = 1.5, casimir2 = 0.25, space_translation = 1.25)
+        (potential = custom(field, general, position)) Field [Energy]
+        |motion| under(motion, |place| place.x(1) * place.trace_green() * 0.75);
+}
+
+/// Two forces, a dissipation, parameters and generics in one model.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = a, body_inertia = i, space_translation = 1),
+    potential = a*q^2 + custom(spring, isotropic),
+    dissipation(body_inertia = r),
+    forces = custom(push, translation) + custom(stirring, spatial),
+)]
+struct Everything<F: Force<2, Form = Translation> + Clone> {
+    a: f64,
+    i: f64,
+    r: f64,
+    spring: Spring,
+    push: F,
+    stirring: Stirring,
+}
+
+#[test]
+fn forces_of_all_kinds_go_together() {
+    let everything = Everything {
+        a: 0.25,
+        i: 1.5,
+        r: 0.5,
+        spring: Spring { strength: 0.5 },
+        push: Wind { strength: 0.25 },
+        stirring: Stirring { strength: 0.125 },
+    };
+    let model = everything.prepare().unwrap();
+    let state = Random::new(5).state(2);
+    let (phi, pi) = (matrix(&state.phi.to_f64()), TwoPoint(matrix(&state.pi.to_f64())));
+    let start = model.at_momentum(vector(&state.x.to_f64()), phi, vector(&state.p.to_f64()), pi).unwrap();
+    let run = Simulation::new(&model, start).until(0.5).tolerance(1e-12).run().unwrap();
+    let balance = run.power_balance().unwrap();
+    assert!(balance.relative() <= POWER_BALANCE, "{balance}");
+    assert_close("power", &[model.power(0.0, &start)], &[slope_at(&model, &start)], balance.scale, 1e-6);
+    let description = <PreparedEverything<Wind> as Model<2>>::DESCRIPTION;
+    assert_eq!(description.conserved, []);
+    let equations: Vec<&str> = description.equations.iter().map(|formula| formula.text).collect();
+    assert!(equations.contains(&"dH/dt = -2 R + F[push].dx/dt + tr(Q[stirring] Omega)"), "{equations:?}");
+    assert!(description.hamiltonian.text.ends_with("+ U[spring]"), "{}", description.hamiltonian.text);
+    let defect = Everything { r: -0.5, ..everything }.prepare().map(|_| ()).unwrap_err().to_string();
+    assert!(defect.contains("I + A >= 0"), "{defect}");
+}
+
+fn slope_at<const N: usize, M: Model<N>>(model: &M, start: &M::Point<f64>) -> f64 {
+    let h = 1e-4;
+    let at = |t: f64| {
+        let run = Simulation::new(model, *start).until(t).tolerance(1e-13).run().unwrap();
+        model.hamiltonian(t, run.end().1)
+    };
+    (at(h) - at(-h)) / (2.0 * h)
+}
+
+#[test]
+fn gyroscopic_forces_are_found_out() {
+    force::check::<2, _>(&Gyroscope { strength: 0.75 }, sampling::motions(20)).unwrap();
+    force::check::<3, _>(&Magnet { strength: 2.0 }, sampling::motions(20)).unwrap();
+    // What claims nothing is not held against anything.
+    force::check::<3, _>(&Wind { strength: 2.0 }, sampling::motions(20)).unwrap();
+
+    struct False;
+    impl Force<2> for False {
+        type Form = ComovingForce;
+        const GYROSCOPIC: bool = true;
+        fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Matrix<2, T> {
+            motion.phi_dot
+        }
+    }
+    let found = force::check::<2, _>(&False, sampling::motions(20)).unwrap_err();
+    assert!(found.power.abs() > 0.01 * found.scale);
+    assert!(found.to_string().contains("gyroscopic"), "{found}");
+}
+
+#[test]
+fn classes_and_slopes_are_found_out() {
+    fn sound<P: Potential<2> + Potential<3>>(potential: &P) {
+        potential::check::<2, _>(potential, sampling::places(20)).unwrap();
+        potential::check::<3, _>(potential, sampling::places(20)).unwrap();
+    }
+    sound(&Spring { strength: 0.75 });
+    sound(&Fibre { strength: 0.75 });
+    sound(&Wall { strength: 0.75 });
+    sound(&Field { strength: 0.75 });
+
+    /// Another potential with a false claim or a false slope.
+    struct Off<const WRONG_SLOPE: bool>;
+    impl<const WRONG_SLOPE: bool> Potential<3> for Off<WRONG_SLOPE> {
+        const CLASS: Class = if WRONG_SLOPE { Class::Green } else { Class::Isotropic };
+        fn energy<T: Scalar>(&self, place: &Place<3, T>) -> T {
+            Fibre { strength: 1.0 }.energy(place)
+        }
+        fn slopes<T: Scalar>(&self, place: &Place<3, T>) -> Slopes<3, T> {
+            let slopes = Fibre { strength: 1.0 }.slopes(place);
+            if WRONG_SLOPE { Slopes { phi: slopes.phi.transpose(), ..slopes } } else { slopes }
+        }
+    }
+    let class = potential::check::<3, _>(&Off::<false>, sampling::places(20)).unwrap_err();
+    assert!(matches!(class, potential::Unsound::Class { class: Class::Isotropic, .. }), "{class}");
+    assert!(class.to_string().contains("Isotropic"), "{class}");
+    let slope = potential::check::<3, _>(&Off::<true>, sampling::places(20)).unwrap_err();
+    assert!(matches!(slope, potential::Unsound::Slope { coordinate: (1, 2), .. }), "{slope}");
+    assert!(slope.to_string().contains("phi[1,2]"), "{slope}");
+}

@@ -1,0 +1,332 @@
+//! Rayleigh's dissipation function, in every frame under kinetic energies of every frame.
+
+use affine_oracle::{Kinetic, Motion, Observable, Random, State, Term, rational};
+use affine_runtime::model::{Conserved, StateVector, WORK};
+use affine_runtime::prelude::*;
+
+use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
+use crate::conserved::exists;
+use crate::families::{matrix, vector};
+use crate::reference::{Reference, assert_close};
+use crate::tolerances::{DAMPED, POWER_BALANCE};
+
+/// States per model.
+const SAMPLES: u64 = 3;
+
+/// A damped model, with both forms stated a second time for the oracle.
+trait Damped<const N: usize>: Model<N> + Sized {
+    const TRANSLATION: bool;
+
+    fn body() -> Self;
+    fn kinetic() -> Kinetic;
+    fn dissipation() -> Kinetic;
+    fn at(&self, state: &State) -> Self::Point<f64>;
+
+    fn states() -> impl Iterator<Item = State> {
+        (0..SAMPLES).map(|seed| {
+            let state = Random::new(7001 + seed).state(N);
+            if Self::TRANSLATION {
+                state
+            } else {
+                let still = state.at_rest();
+                State { x: still.p.clone(), ..still }
+            }
+        })
+    }
+}
+
+fn motion<'k>(kinetic: &'k Kinetic, state: &State, dissipation: &Kinetic) -> Motion<'k> {
+    kinetic.motion(state).unwrap().damped(dissipation).unwrap()
+}
+
+fn number(value: &affine_oracle::Matrix) -> f64 {
+    value.to_f64()[0]
+}
+
+/// Hamilton's equations with the forces, and their power: the derivative of `H` along the exact vector field.
+fn agrees_with_the_oracle<const N: usize, M: Damped<N>>() {
+    let (model, kinetic, dissipation) = (M::body(), M::kinetic(), M::dissipation());
+    for state in M::states() {
+        let reference = Reference::damped(&kinetic, &state, &dissipation);
+        let point = model.at(&state);
+        let rates = model.hamilton_equations(T0, &model.flatten(&point));
+        for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
+            reference.assert_rate(name, rate, DAMPED);
+        }
+        let exact = number(&motion(&kinetic, &state, &dissipation).bracket(Observable::Energy).unwrap());
+        assert!(exact < 0.0, "the samples lose energy: {exact}");
+        let tolerance = DAMPED * reference.condition * reference.condition;
+        assert_close("power", &[model.power(T0, &point)], &[exact], exact.abs(), tolerance);
+
+        let (reduced, constants) = model.reduce(T0, &point);
+        let rates = model.reduced_equations(T0, &constants, &reduced);
+        let work = groups(M::DESCRIPTION.reduced, rates.as_ref()).into_iter().find(|(name, _)| *name == WORK);
+        assert_close("work", work.unwrap().1, &[exact], exact.abs(), tolerance);
+        assert_eq!(*reduced.as_ref().last().unwrap(), 0.0, "no work at the start");
+        assert_eq!(M::Reduced::<f64>::LEN, reduced.as_ref().len());
+    }
+}
+
+/// `expand` undoes `reduce`; its derivative along the reduced equations is the vector field of the oracle.
+fn reduction_keeps_the_motion<const N: usize, M: Damped<N>>() {
+    let (model, kinetic, dissipation) = (M::body(), M::kinetic(), M::dissipation());
+    for state in M::states().flat_map(|state| [state.at_rest(), state]) {
+        let point = model.at(&state);
+        let tolerance = DAMPED * kinetic.condition(&state.phi).unwrap();
+        assert_charts_lead_back(&model, &point, &state, tolerance);
+        assert_reduced_equations_move(&model, &point, DAMPED, |_, state| {
+            Reference::damped(&kinetic, state, &dissipation)
+        });
+    }
+}
+
+/// What is listed has rate 0 along the damped motion, exactly; what is not listed has not.
+fn lists_are_exact<const N: usize, M: Damped<N>>() {
+    let (kinetic, dissipation) = (M::kinetic(), M::dissipation());
+    let holds = |listed: &[Conserved], states: Vec<State>, translation: bool| {
+        let listed: Vec<Observable> =
+            listed.iter().map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap()).collect();
+        let motions: Vec<Motion> = states.iter().map(|state| motion(&kinetic, state, &dissipation)).collect();
+        for &quantity in Observable::ALL {
+            let conserved = exists(quantity, N, translation)
+                && motions.iter().all(|motion| motion.bracket(quantity).unwrap().is_zero());
+            assert_eq!(listed.contains(&quantity), conserved, "{quantity:?} listed");
+        }
+    };
+    holds(M::DESCRIPTION.conserved, M::states().collect(), M::TRANSLATION);
+    holds(M::DESCRIPTION.conserved_at_rest, M::states().map(|state| state.at_rest()).collect(), false);
+}
+
+/// `H(t) - H(t0)` is the work done, for the explicit and the implicit method. For a short time: an indefinite metric
+/// turns friction into a growing motion.
+fn balance_closes<const N: usize, M: Damped<N>>() {
+    let model = M::body();
+    let start = model.at(&M::states().next().unwrap());
+    for method in [Method::Automatic, Method::Gauss { stages: 3, step: 1e-3 }] {
+        let run = Simulation::new(&model, start).until(0.125).tolerance(1e-12).method(method).run().unwrap();
+        let balance = run.power_balance().unwrap();
+        assert!(balance.work < 0.0 && balance.energy < 0.0, "{balance}");
+        assert!(balance.relative() <= POWER_BALANCE, "{method:?}: {balance}");
+        assert_eq!(run.conservation().balance(), Some(&balance));
+        assert!(run.conservation().to_string().contains("work of the forces"));
+        assert_eq!(run.work().len(), run.len());
+        assert_eq!(run.work()[0], 0.0);
+    }
+}
+
+fn body_inertia(n: usize) -> Term {
+    Term::body_inertia(n, rational(3, 2))
+}
+
+fn space_inertia(n: usize) -> Term {
+    Term::space_inertia(n, rational(3, 2))
+}
+
+fn casimir2(_n: usize) -> Term {
+    Term::Casimir2(rational(1, 4))
+}
+
+fn casimir1_squared(_n: usize) -> Term {
+    Term::Casimir1Squared(rational(1, 8))
+}
+
+fn body_translation(_n: usize) -> Term {
+    Term::BodyTranslation(rational(5, 4))
+}
+
+fn space_translation(_n: usize) -> Term {
+    Term::SpaceTranslation(rational(5, 4))
+}
+
+/// `diag(1, 3/2, 2)`, or its first two rows and columns.
+fn dalembert(n: usize) -> Term {
+    Term::DAlembert(diagonal(n))
+}
+
+fn diagonal(n: usize) -> affine_oracle::Matrix {
+    (0..n).fold(affine_oracle::Matrix::zeros(n, n), |sum, a| {
+        &sum + &affine_oracle::Matrix::unit(n, a, a).scaled(&rational(2 + [0, 1, 2][a], 2))
+    })
+}
+
+fn body_friction(n: usize) -> Term {
+    Term::BodyInertia(diagonal(n))
+}
+
+fn space_friction(n: usize) -> Term {
+    Term::SpaceInertia(diagonal(n))
+}
+
+fn flat_friction(n: usize) -> Term {
+    Term::DAlembert(diagonal(n).scaled(&rational(1, 2)))
+}
+
+/// `1/4 tr (O + O^T)^2 / 2`: what does not turn.
+fn body_shear(n: usize) -> Term {
+    Term::body_inertia(n, rational(1, 4))
+}
+
+fn space_shear(n: usize) -> Term {
+    Term::space_inertia(n, rational(1, 4))
+}
+
+/// A square of one combination of the entries: `1/2 (O_11 + 2 O_12 - O_21)^2`.
+fn one_square(n: usize) -> affine_oracle::Matrix {
+    let mut weights = vec![0.0; n * n];
+    (weights[0], weights[1], weights[n]) = (1.0, 2.0, -1.0);
+    let row = affine_oracle::Matrix::from_f64("K", 1, n * n, &weights).unwrap();
+    &row.transpose() * &row
+}
+
+fn body_square(n: usize) -> Term {
+    Term::BodyTensor(one_square(n))
+}
+
+fn flat_square(n: usize) -> Term {
+    Term::FlatTensor(one_square(n))
+}
+
+fn body_drag(_n: usize) -> Term {
+    Term::BodyTranslation(rational(3, 4))
+}
+
+fn space_drag(_n: usize) -> Term {
+    Term::SpaceTranslation(rational(1, 2))
+}
+
+/// Tests of one model.
+macro_rules! damped {
+    ($n:literal $centre:ident [$($term:ident)*] ($($kinetic:tt)*) [$($drag:ident)*] ($($dissipation:tt)*)) => {
+        #[allow(clippy::wildcard_imports)]
+        use super::super::super::*;
+
+        #[affine_model(dim = $n, kinetic($($kinetic)*), dissipation($($dissipation)*))]
+        struct Body;
+
+        impl Damped<$n> for Body {
+            const TRANSLATION: bool = damped!(@translation $centre);
+
+            fn body() -> Self {
+                Body
+            }
+            fn kinetic() -> Kinetic {
+                Kinetic::new($n, vec![$($term($n)),*]).unwrap()
+            }
+            fn dissipation() -> Kinetic {
+                Kinetic::new($n, vec![$($drag($n)),*]).unwrap()
+            }
+            fn at(&self, state: &State) -> Self::Point<f64> {
+                let (phi, pi) = (matrix(&state.phi.to_f64()), TwoPoint(matrix(&state.pi.to_f64())));
+                damped!(@point $centre self state phi pi)
+            }
+        }
+
+        #[test]
+        fn full_equations() {
+            agrees_with_the_oracle::<$n, Body>();
+        }
+        #[test]
+        fn reduced_equations() {
+            reduction_keeps_the_motion::<$n, Body>();
+        }
+        #[test]
+        fn conserved_quantities() {
+            lists_are_exact::<$n, Body>();
+        }
+        #[test]
+        fn power_balance() {
+            balance_closes::<$n, Body>();
+        }
+    };
+    (@translation pinned) => { false };
+    (@translation moving) => { true };
+    (@point pinned $model:ident $state:ident $phi:ident $pi:ident) => {
+        $model.at_momentum($phi, $pi).unwrap()
+    };
+    (@point moving $model:ident $state:ident $phi:ident $pi:ident) => {
+        $model
+            .at_momentum(vector(&$state.x.to_f64()), $phi, vector(&$state.p.to_f64()), $pi)
+            .unwrap()
+    };
+}
+
+/// Every dissipation with one kind of kinetic energy, in the plane and in space.
+macro_rules! under_each {
+    ($($kind:ident: $centre:ident $terms:tt $plane:tt $space:tt;)*) => { $(
+        mod $kind {
+            under_each! { @$centre $terms $plane $space }
+        }
+    )* };
+    (@pinned $terms:tt $plane:tt $space:tt) => {
+        under_each! { @each pinned $terms $plane $space
+            bulk: [casimir1_squared] (casimir1_squared = 1/8) (casimir1_squared = 1/8);
+            body_shear: [body_shear casimir2] (body_inertia = 1/4, casimir2 = 1/4) (body_inertia = 1/4, casimir2 = 1/4);
+            space_shear: [space_shear casimir2]
+                (space_inertia = 1/4, casimir2 = 1/4) (space_inertia = 1/4, casimir2 = 1/4);
+            of_the_body: [body_friction casimir2]
+                (body_inertia = diag(1, 1.5), casimir2 = 1/4) (body_inertia = diag(1, 1.5, 2), casimir2 = 1/4);
+            of_space: [space_friction] (space_inertia = diag(1, 1.5)) (space_inertia = diag(1, 1.5, 2));
+            flat: [flat_friction] (dalembert = diag(0.5, 0.75)) (dalembert = diag(0.5, 0.75, 1));
+        }
+    };
+    (@moving $terms:tt $plane:tt $space:tt) => {
+        under_each! { @each moving $terms $plane $space
+            bulk: [casimir1_squared] (casimir1_squared = 1/8) (casimir1_squared = 1/8);
+            body_drag: [body_drag] (body_translation = 3/4) (body_translation = 3/4);
+            space_drag: [space_drag] (space_translation = 1/2) (space_translation = 1/2);
+            everything: [body_friction space_friction flat_friction casimir1_squared body_drag space_drag]
+                (body_inertia = diag(1, 1.5), space_inertia = diag(1, 1.5), dalembert = diag(0.5, 0.75),
+                    casimir1_squared = 1/8, body_translation = 3/4, space_translation = 1/2)
+                (body_inertia = diag(1, 1.5, 2), space_inertia = diag(1, 1.5, 2), dalembert = diag(0.5, 0.75, 1),
+                    casimir1_squared = 1/8, body_translation = 3/4, space_translation = 1/2);
+        }
+    };
+    (@each $centre:ident $terms:tt $plane:tt $space:tt
+        $($name:ident: $drag:tt $dissipation:tt $dissipation3:tt;)*) => { $(
+        mod $name {
+            mod plane {
+                damped! { 2 $centre $terms $plane $drag $dissipation }
+            }
+            mod space {
+                damped! { 3 $centre $terms $space $drag $dissipation3 }
+            }
+        }
+    )* };
+}
+
+under_each! {
+    left: pinned [body_inertia casimir2 casimir1_squared]
+        (body_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125)
+        (body_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125);
+    right: pinned [space_inertia casimir2 casimir1_squared]
+        (space_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125)
+        (space_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125);
+    affine_affine: pinned [casimir2 casimir1_squared]
+        (casimir2 = 0.25, casimir1_squared = 0.125)
+        (casimir2 = 0.25, casimir1_squared = 0.125);
+    dalembert: pinned [dalembert]
+        (dalembert = diag(1, 1.5))
+        (dalembert = diag(1, 1.5, 2));
+    left_missile: moving [body_inertia casimir2 body_translation]
+        (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25)
+        (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25);
+    right_drift: moving [space_inertia casimir2 space_translation]
+        (space_inertia = 1.5, casimir2 = 0.25, space_translation = 1.25)
+        (space_inertia = 1.5, casimir2 = 0.25, space_translation = 1.25);
+    affine_missile: moving [casimir2 casimir1_squared body_translation]
+        (casimir2 = 0.25, casimir1_squared = 0.125, body_translation = 1.25)
+        (casimir2 = 0.25, casimir1_squared = 0.125, body_translation = 1.25);
+}
+
+mod special {
+    mod squares {
+        mod of_the_body {
+            damped! { 2 pinned [body_inertia casimir2] (body_inertia = 1.5, casimir2 = 0.25)
+            [body_square] (body_tensor = [[1, 2, -1, 0], [2, 4, -2, 0], [-1, -2, 1, 0], [0, 0, 0, 0]]) }
+        }
+        mod flat {
+            damped! { 2 moving [dalembert space_translation] (dalembert = diag(1, 1.5), space_translation = 1.25)
+            [flat_square] (flat_tensor = [[1, 2, -1, 0], [2, 4, -2, 0], [-1, -2, 1, 0], [0, 0, 0, 0]]) }
+        }
+    }
+}

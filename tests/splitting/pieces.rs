@@ -1,0 +1,75 @@
+//! Flows of pieces: their slopes add up to the equations of motion, and their times add.
+
+use affine_runtime::capability::Splitting;
+use affine_runtime::model::StateVector;
+use affine_runtime::prelude::*;
+
+use crate::models::each_model;
+
+/// Central differences of flows with steps of 1e-4: `h^2` times third derivatives, `eps/h`.
+const SLOPE: f64 = 1e-6;
+/// Flows in one and in two parts: roundings of a few products.
+const GROUP: f64 = 1e-14;
+
+/// The component of the state that is a function of the rest stands last.
+fn moved<const N: usize, M: Model<N>>() -> usize {
+    let groups = M::DESCRIPTION.reduced;
+    groups.iter().filter(|group| group.name != "1/D").map(|group| group.len).sum()
+}
+
+fn after<const N: usize, M: Splitting<N>>(
+    model: &M,
+    constants: &M::Constants<f64>,
+    state: &M::Reduced<f64>,
+    piece: usize,
+    h: f64,
+) -> M::Reduced<f64> {
+    let (mut state, mut carry) = (*state, M::Reduced::<f64>::zeros());
+    model.flow(piece, 0.3, h, constants, &mut state, &mut carry);
+    state
+}
+
+fn check<const N: usize, M: Splitting<N>>(name: &str, model: &M, start: M::Point<f64>) {
+    let (state, constants) = model.reduce(0.0, &start);
+    let exact = model.reduced_equations(0.3, &constants, &state);
+    let h = 1e-4;
+    let mut sum = M::Reduced::<f64>::zeros();
+    for piece in 0..M::PIECES.len() {
+        let [there, back] = [h, -h].map(|h| after(model, &constants, &state, piece, h));
+        for (k, slope) in sum.as_mut().iter_mut().enumerate() {
+            *slope += (there.as_ref()[k] - back.as_ref()[k]) / (2.0 * h);
+        }
+        let whole = after(model, &constants, &state, piece, 0.7);
+        let parts = after(model, &constants, &after(model, &constants, &state, piece, 0.4), piece, 0.3);
+        let return_trip = after(model, &constants, &whole, piece, -0.7);
+        for k in 0..moved::<N, M>() {
+            let size = 1.0 + whole.as_ref()[k].abs();
+            assert!(
+                (whole.as_ref()[k] - parts.as_ref()[k]).abs() <= GROUP * size,
+                "{name}: piece {piece}, {k}"
+            );
+            assert!(
+                (return_trip.as_ref()[k] - state.as_ref()[k]).abs() <= GROUP * size,
+                "{name}: back, {piece}, {k}"
+            );
+        }
+        assert!(whole != state, "{name}: piece {piece} moves nothing");
+    }
+    for k in 0..moved::<N, M>() {
+        let (sum, exact) = (sum.as_ref()[k], exact.as_ref()[k]);
+        assert!((sum - exact).abs() <= SLOPE * (1.0 + exact.abs()), "{name}: component {k}: {sum} {exact}");
+    }
+}
+
+#[test]
+fn slopes_add_up_and_times_add() {
+    let mut count = 0;
+    macro_rules! visit {
+        ($name:literal, $n:literal, $model:expr, $start:expr) => {
+            check::<$n, _>($name, $model, $start);
+            count += 1;
+        };
+    }
+    each_model!(visit);
+    assert_eq!(count, 12);
+}
