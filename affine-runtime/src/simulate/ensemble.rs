@@ -10,6 +10,7 @@ use crate::frames::Matrix;
 use crate::integrate::in_lanes::{Failing, RungeKutta8InLanes};
 use crate::lanes::{Lanes, Widest};
 use crate::model::{Model, StateVector};
+use crate::state::Phase;
 
 /// Where each body of an ensemble is in the end, or why it did not get there.
 pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
