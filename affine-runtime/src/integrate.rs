@@ -13,7 +13,9 @@ pub mod taylor;
 mod widest;
 
 pub use error_norm::ErrorNorm;
-pub(crate) use error_norm::{norm, sum_of_squares};
+pub(crate) use error_norm::norm;
+#[cfg(feature = "std")]
+pub(crate) use error_norm::sum_of_squares;
 pub use gauss::Gauss;
 pub use rattle::Rattle;
 #[cfg(feature = "std")]
