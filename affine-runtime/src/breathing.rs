@@ -8,7 +8,7 @@
 //! ```
 
 use crate::elliptic::{Jacobi, argument, jacobi, quarter_period};
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// A motion `q(t)` of one degree of freedom that is known in closed form.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +16,15 @@ pub struct Breathing<T> {
     t0: T,
     inverse_mass: T,
     path: Path<T>,
+}
+
+impl<T: Scalar> Breathing<T> {
+    /// No motion: what stands in lanes, whose bodies move along paths of different kinds that no equation reads.
+    #[must_use]
+    pub fn none() -> Self {
+        let path = Path::Free { q: T::zero(), v: T::zero() };
+        Self { t0: T::zero(), inverse_mass: T::zero(), path }
+    }
 }
 
 #[derive(Clone, Copy, Debug)]

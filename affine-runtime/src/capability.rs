@@ -7,6 +7,7 @@
 use crate::integrate::lie::Sum;
 use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::{Portable, Series, Vectors};
+use crate::lanes::Lanes;
 use crate::model::{Model, StateVector};
 use crate::scalar::{Real, Scalar};
 
@@ -77,6 +78,21 @@ pub trait Taylor<const N: usize>: Model<N> {
             scale = T::one() / (order + T::one());
         }
     }
+}
+
+/// `emit(lanes)`: several bodies of one model at once, each in a lane with constants of its own.
+///
+/// The reduced equations are generic over the scalar as they stand; what has to be emitted is how the constants of
+/// several trajectories become those of one in lanes.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot gather the constants of several trajectories in lanes",
+    label = "`emit(lanes)` is missing",
+    note = "write `emit(lanes)` in its `#[affine_model(...)]`"
+)]
+pub trait InLanes<const N: usize>: Model<N> {
+    /// The constants of one trajectory to a lane, those of the last in the lanes that are left. Of what moves in closed
+    /// form the reduced equations read nothing, and lanes hold nothing.
+    fn constants_in_lanes<T: Lanes>(constants: &[Self::Constants<f64>]) -> Self::Constants<T>;
 }
 
 /// `emit(splitting)`: exact flows of pieces of the Hamiltonian over the reduced state, those of the kinetic energy first.

@@ -7,13 +7,19 @@ pub mod rattle;
 pub mod runge_kutta;
 pub mod splitting;
 mod step_size;
+#[cfg(feature = "std")]
+pub(crate) mod tape;
 pub mod taylor;
 mod widest;
 
 pub use error_norm::ErrorNorm;
-pub(crate) use error_norm::{norm, sum_of_squares};
+pub(crate) use error_norm::norm;
+#[cfg(feature = "std")]
+pub(crate) use error_norm::sum_of_squares;
 pub use gauss::Gauss;
 pub use rattle::Rattle;
+#[cfg(feature = "std")]
+pub(crate) use runge_kutta::in_lanes;
 
 pub use runge_kutta::RungeKutta8;
 pub use splitting::Splitting;

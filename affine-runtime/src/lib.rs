@@ -31,6 +31,7 @@ pub mod frames;
 pub mod geodesic;
 pub mod integrate;
 pub mod kinematics;
+pub mod lanes;
 pub mod lattice;
 pub mod metrics;
 pub mod model;
@@ -52,7 +53,7 @@ pub mod __private;
 pub use error::{Error, Result};
 pub use model::Model;
 #[cfg(feature = "std")]
-pub use simulate::{Method, Simulation, Trajectory};
+pub use simulate::{Ensemble, Method, Simulation, Trajectory};
 
 #[cfg(feature = "macros")]
 pub use affine_macros::affine_model;
@@ -65,7 +66,7 @@ pub mod prelude {
     pub use crate::state::Phase;
 
     #[cfg(feature = "std")]
-    pub use crate::simulate::{Method, Simulation, Trajectory};
+    pub use crate::simulate::{Ensemble, Event, Method, Simulation, Trajectory};
 
     #[cfg(feature = "macros")]
     pub use crate::affine_model;

@@ -3,7 +3,7 @@
 pub use core::primitive::f64;
 
 pub use crate::breathing::Breathing;
-pub use crate::capability::{Emitted, Splitting, Taylor};
+pub use crate::capability::{Emitted, InLanes, Splitting, Taylor};
 pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::custom::{
     comoving_force, potential_energy, potential_slopes, spatial_force, translational_force,
@@ -20,6 +20,7 @@ pub use crate::integrate::taylor::{
     Series, Vectors, add_multiple, add_products, lanes, subtract_multiple, subtract_products,
 };
 pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
+pub use crate::lanes::{Lanes, gathered};
 pub use crate::lattice::{
     Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, MetricSide, PotentialClass,
     TwoPolarForm, Variables,

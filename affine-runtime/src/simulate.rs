@@ -1,20 +1,29 @@
 //! Simulations: from a start to output times, with everything that can stop them.
 
+mod checkpoint;
 mod collapse;
 mod conservation;
 mod csv;
+mod ensemble;
+mod event;
 mod halt;
 mod output;
 mod power_balance;
+mod recorder;
+mod root;
 mod run;
 mod signature;
 mod stepper;
 mod trajectory;
+mod watcher;
 mod why;
 
 use core::ops::ControlFlow;
 
+pub use checkpoint::Checkpoint;
 pub use conservation::{Conservation, Drift};
+pub use ensemble::{Ends, Ensemble};
+pub use event::{Direction, Event, Occurrence};
 pub use halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
 pub use power_balance::PowerBalance;
 pub use trajectory::{Computation, Trajectory};
@@ -139,6 +148,8 @@ pub struct Simulation<'a, const N: usize, M: Model<N>> {
     max_steps: u64,
     progress: Option<Watch<'a>>,
     observe: Option<Observe<'a, M::Point<f64>>>,
+    events: Vec<Event<'a, N, M::Point<f64>>>,
+    checkpoint: Option<Checkpoint>,
 }
 
 impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
@@ -156,6 +167,8 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
             max_steps: DEFAULT_MAX_STEPS,
             progress: None,
             observe: None,
+            events: Vec::new(),
+            checkpoint: None,
         }
     }
 
@@ -213,6 +226,22 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     #[must_use]
     pub fn observe(self, callback: impl FnMut(f64, &M::Point<f64>) -> ControlFlow<()> + 'a) -> Self {
         Self { observe: Some(Box::new(callback)), ..self }
+    }
+
+    /// An event to look for, in addition to those named before. Events at one time happen in the order of their
+    /// statements; a change of the point leaves out those after it.
+    #[must_use]
+    pub fn event(mut self, event: Event<'a, N, M::Point<f64>>) -> Self {
+        self.events.push(event);
+        self
+    }
+
+    /// Goes on where a run of the same settings was interrupted, [`Trajectory::checkpoint`]: with the same bits, on the
+    /// same machine, as if it had not been. Outputs and events are those from there on; the end that was asked for is
+    /// that of both runs. Functions of events have no memory. An event that stopped the run is not met again.
+    #[must_use]
+    pub fn resume(self, checkpoint: &Checkpoint) -> Self {
+        Self { checkpoint: Some(checkpoint.clone()), ..self }
     }
 }
 

@@ -18,6 +18,9 @@ pub trait Translation<const N: usize, T: Real>: Copy + Debug + PartialEq {
     /// The same momentum at another position; a pinned body stays.
     #[must_use]
     fn moved(&self, x: Vector<N, T>) -> Self;
+    /// The same at another position and with another momentum; a pinned body stays.
+    #[must_use]
+    fn replaced(&self, x: Vector<N, T>, p: Vector<N, T>) -> Self;
     /// The same in another basis of space: `x' = A x`, `p' = A^-T p`; a pinned body stays.
     #[must_use]
     fn rebased(&self, bases: &Bases<N, T>) -> Self;
@@ -35,6 +38,9 @@ impl<const N: usize, T: Real> Translation<N, T> for Pinned {
         Vector::<N, T>::zeros()
     }
     fn moved(&self, _x: Vector<N, T>) -> Self {
+        *self
+    }
+    fn replaced(&self, _x: Vector<N, T>, _p: Vector<N, T>) -> Self {
         *self
     }
     fn rebased(&self, _bases: &Bases<N, T>) -> Self {
@@ -60,6 +66,9 @@ impl<const N: usize, T: Real> Translation<N, T> for Centre<N, T> {
     }
     fn moved(&self, x: Vector<N, T>) -> Self {
         Self { x, p: self.p }
+    }
+    fn replaced(&self, x: Vector<N, T>, p: Vector<N, T>) -> Self {
+        Self { x, p }
     }
     fn rebased(&self, bases: &Bases<N, T>) -> Self {
         Self { x: bases.space * self.x, p: bases.space_inverse.tr_mul(&self.p) }
@@ -111,6 +120,11 @@ pub trait Phase<const N: usize, T: Real = f64>: Copy + Debug + PartialEq {
     /// The same point in other bases of space and body.
     #[must_use]
     fn rebased(&self, bases: &Bases<N, T>) -> Self;
+    /// All numbers of the point as it stands, in its own frame and unconverted: `phi`, the affine spin, `x`, `p`.
+    fn entries(&self, each: &mut dyn FnMut(T));
+    /// The point with other numbers, in the order of [`entries`](Self::entries), unchecked.
+    #[must_use]
+    fn with_entries(&self, next: &mut dyn FnMut() -> T) -> Self;
     /// Placement, momentum and centre of mass are finite.
     fn is_finite(&self) -> bool;
 }
@@ -202,6 +216,15 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> Phase<N, T> for Ph
     }
     fn rebased(&self, bases: &Bases<N, T>) -> Self {
         Self::new(bases.placement(&self.phi), F::rebased(bases, &self.spin), self.centre.rebased(bases))
+    }
+    fn entries(&self, each: &mut dyn FnMut(T)) {
+        self.phi.iter().chain(self.spin.iter()).for_each(|entry| each(*entry));
+        self.x().iter().chain(self.p().iter()).for_each(|entry| each(*entry));
+    }
+    fn with_entries(&self, next: &mut dyn FnMut() -> T) -> Self {
+        let (phi, spin) = (Matrix::<N, T>::from_fn(|_, _| next()), Matrix::<N, T>::from_fn(|_, _| next()));
+        let (x, p) = (Vector::<N, T>::from_fn(|_, _| next()), Vector::<N, T>::from_fn(|_, _| next()));
+        Self::new(phi, spin, self.centre.replaced(x, p))
     }
     fn is_finite(&self) -> bool {
         is_finite(self.phi.as_slice())

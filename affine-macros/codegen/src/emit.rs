@@ -59,6 +59,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let (bases, _) = metrics::bases(&context);
     let splitting = splitting::splitting_impl(&context);
     let taylor = taylor::taylor_impl(&context);
+    let lanes = reduction::lanes::implementation(&context);
     quote! {
         #item
         #prepared_type
@@ -72,6 +73,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #splitting
             #two_polar
             #taylor
+            #lanes
         };
     }
 }

@@ -1,5 +1,11 @@
 //! The norm in which integrators measure errors.
 
+#[cfg(feature = "std")]
+mod in_lanes;
+
+#[cfg(feature = "std")]
+pub(crate) use in_lanes::{NormInLanes, norm as norm_in_lanes, sum_of_squares as squares_in_lanes};
+
 use core::ops::Range;
 
 use crate::model::{Group, StateVector, WORK};

@@ -9,6 +9,8 @@ pub use coefficients::Tableau;
 use core::fmt;
 
 use super::lie::{Coordinates, Flat, Sum};
+#[cfg(feature = "std")]
+use super::tape::Tape;
 use super::{Failure, Statistics};
 use crate::model::StateVector;
 use coefficients::MOST_STAGES;
@@ -172,6 +174,18 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
         self.equations = steps;
         self.equations.evaluations = evaluations;
         between.map(|(end, ..)| end.value)
+    }
+
+    /// Everything that the next steps depend on, as long as these do not take Newton's iteration, which keeps a
+    /// Jacobian with its factors.
+    #[cfg(feature = "std")]
+    pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
+        tape.bits(&mut self.taken);
+        tape.sum(&mut self.end);
+        self.increments.iter_mut().for_each(|increment| tape.state(increment));
+        tape.number(&mut self.residual);
+        tape.bits(&mut self.equations.evaluations);
+        self.begin = self.end;
     }
 
     /// Time reached.

@@ -12,6 +12,8 @@ use core::fmt;
 
 use super::gauss::step_count;
 use super::lie::{Sum, adjugate};
+#[cfg(feature = "std")]
+use super::tape::Tape;
 use super::{Failure, Statistics};
 use crate::frames::Matrix;
 use crate::model::{Group, StateVector};
@@ -158,6 +160,18 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
         }
         let begin = self.time(self.taken - 1);
         self.composed(begin, self.begin, t - begin).map(|between| between.state.value)
+    }
+
+    /// Everything that the next steps depend on.
+    #[cfg(feature = "std")]
+    pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
+        tape.bits(&mut self.taken);
+        tape.sum(&mut self.end.state);
+        tape.state(&mut self.end.rates);
+        tape.number(&mut self.end.multiplier);
+        tape.number(&mut self.residual);
+        tape.bits(&mut self.evaluations);
+        self.begin = self.end;
     }
 
     /// Time reached.

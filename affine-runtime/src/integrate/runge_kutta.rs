@@ -1,6 +1,8 @@
 //! Embedded explicit Runge-Kutta method of order 8 with step size control and dense output.
 
 mod dormand_prince_853;
+#[cfg(feature = "std")]
+pub(crate) mod in_lanes;
 mod step;
 
 pub use step::{Dense, Step};
@@ -10,6 +12,8 @@ use core::fmt;
 use super::error_norm::{ErrorNorm, sum_of_squares};
 use super::lie::{Coordinates, Flat, Sum};
 use super::step_size::{Controller, first_step};
+#[cfg(feature = "std")]
+use super::tape::Tape;
 use super::taylor::Vectors;
 use super::widest::{Work, widest};
 use super::{Failure, Statistics};
@@ -156,6 +160,21 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
         self.statistics.evaluations += 3;
         let dense = self.step.dense(&in_coordinates(&self.f, self.coordinates, &self.begin));
         dense.around(self.coordinates, self.begin, self.end.value)
+    }
+
+    /// Everything that the next steps depend on, of an integration between two steps.
+    #[cfg(feature = "std")]
+    pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
+        let mut t = self.t();
+        tape.number(&mut t);
+        tape.sum(&mut self.end);
+        tape.state(&mut self.rate);
+        tape.number(&mut self.length);
+        self.controller.exchange(tape);
+        tape.statistics(&mut self.statistics);
+        let origin = self.coordinates.origin(&self.end).value;
+        self.step = Step::at(t, origin, self.coordinates.velocity(&self.end.value, &origin, &self.rate));
+        self.begin = self.end;
     }
 
     /// Time reached.

@@ -10,6 +10,8 @@ use core::fmt;
 
 use super::gauss::step_count;
 use super::lie::Sum;
+#[cfg(feature = "std")]
+use super::tape::Tape;
 use super::{Failure, Statistics};
 use crate::model::StateVector;
 
@@ -131,6 +133,14 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
         let begin = self.time(self.taken - 1);
         let between = self.composed(begin, self.begin, t - begin).value;
         if is_finite(&between) { Ok(between) } else { Err(Failure::NotFinite) }
+    }
+
+    /// Everything that the next steps depend on.
+    #[cfg(feature = "std")]
+    pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
+        tape.bits(&mut self.taken);
+        tape.sum(&mut self.end);
+        tape.bits(&mut self.evaluations);
     }
 
     /// Time reached.

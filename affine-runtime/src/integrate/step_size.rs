@@ -1,11 +1,13 @@
 //! Step sizes: the first one, and how they follow the error.
 
 use super::error_norm::{ErrorNorm, norm};
+#[cfg(feature = "std")]
+use super::tape::Tape;
 use crate::model::StateVector;
 use crate::scalar::Scalar;
 
 /// Order of the leading term of the error estimate in the step size.
-const ERROR_ORDER: f64 = 8.0;
+pub(super) const ERROR_ORDER: f64 = 8.0;
 
 /// Below 1, so that the next step is accepted although the error grows along the way: steps settle where the error
 /// is `SAFETY^(8/INTEGRAL)`, a third of the tolerance.
@@ -34,6 +36,13 @@ pub(crate) struct Controller {
 impl Controller {
     pub(crate) fn new() -> Self {
         Self { previous: libm::log(SMALLEST_ERROR), rejected: false }
+    }
+
+    /// What the next step sizes depend on.
+    #[cfg(feature = "std")]
+    pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
+        tape.number(&mut self.previous);
+        tape.flag(&mut self.rejected);
     }
 
     /// Factor of the step size after an accepted step with `error <= 1`.

@@ -7,6 +7,8 @@ pub use lanes::{Portable, Vectors, add_multiple, add_products, lanes, subtract_m
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, norm};
+#[cfg(feature = "std")]
+use super::tape::Tape;
 use super::widest::{Work, widest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
@@ -220,6 +222,17 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             *y += begin;
         }
         y
+    }
+
+    /// Everything that the next steps depend on.
+    #[cfg(feature = "std")]
+    pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
+        tape.number(&mut self.t);
+        tape.state(&mut self.y);
+        tape.state(&mut self.carry);
+        tape.number(&mut self.length);
+        tape.statistics(&mut self.statistics);
+        self.begin = self.t;
     }
 
     /// The order.

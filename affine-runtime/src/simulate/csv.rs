@@ -42,6 +42,24 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         }
         Ok(())
     }
+
+    /// Writes the events likewise, a line per event: `event`, its name as it stands, `rising`, `true` or `false`, and
+    /// then the columns of [`csv`](Self::csv).
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn events_csv(&self, mut writer: impl Write) -> io::Result<()> {
+        let columns = Columns::<N, P>::of(self);
+        writeln!(writer, "event,rising,t{}", columns.names())?;
+        for event in self.events() {
+            write!(writer, "{},{},{:e}", event.name, event.rising, event.t)?;
+            for value in columns.values(&event.point) {
+                write!(writer, ",{value:e}")?;
+            }
+            writeln!(writer)?;
+        }
+        Ok(())
+    }
 }
 
 /// What a line holds besides the time.

@@ -72,6 +72,11 @@ pub enum Reason {
         /// That number.
         limit: u64,
     },
+    /// The point that an event should have been changed to is none.
+    Change {
+        /// Name of the event.
+        event: &'static str,
+    },
     /// A callback said `Break`.
     Interrupted(Callback),
 }
@@ -136,6 +141,18 @@ pub enum Setting {
         model: &'static str,
         /// What `emit(...)` should list.
         key: &'static str,
+    },
+    /// An event asks for a component that vectors of this dimension do not have.
+    EventIndex {
+        /// Name of the event.
+        event: &'static str,
+        /// The index.
+        index: usize,
+    },
+    /// The checkpoint is of a run with another model, method, tolerance, interval or number of events.
+    Checkpoint {
+        /// Name of the model.
+        model: &'static str,
     },
     /// The length of a fixed step is not positive, not finite, or lost in the rounding of times.
     Step {
@@ -222,6 +239,17 @@ impl fmt::Display for Setting {
                 "{model} was not given `{key}`: write `emit({key})` in its `#[affine_model(...)]`, or use \
                  Method::Automatic, which takes what there is"
             ),
+            Setting::EventIndex { event, index } => {
+                write!(
+                    f,
+                    "the event `{event}` asks for component {index}: components are counted from 1 to n"
+                )
+            }
+            Setting::Checkpoint { model } => write!(
+                f,
+                "the checkpoint is not of this run of {model}: resume with the model, method, tolerance, times and events \
+                 of the run that was interrupted"
+            ),
             Setting::Step { given, t0, t_end } => write!(
                 f,
                 "a step of {given:e} between {t0} and {t_end}: it is a positive number, coarser than the rounding of \
@@ -287,6 +315,9 @@ impl fmt::Display for Reason {
                 "the largest number of steps, {limit}, is used up: raise it with `.max_steps(n)`, loosen the \
                  tolerance, or, if the model is stiff, soften what makes it so"
             ),
+            Reason::Change { event } => {
+                write!(f, "the event `{event}` should change the phase point, and its function gave an error")
+            }
             Reason::Interrupted(Callback::Progress) => f.write_str("the progress callback ended the run"),
             Reason::Interrupted(Callback::Observer) => f.write_str("the observer ended the run"),
         }

@@ -80,7 +80,7 @@ fn listed(t0: f64, t_end: f64, times: &[f64]) -> Result<Schedule, Setting> {
 
 impl Schedule {
     /// The next output time, if there is one before the schedule's end.
-    fn peek(&self) -> Option<f64> {
+    pub(super) fn peek(&self) -> Option<f64> {
         match self {
             Schedule::Steps => None,
             Schedule::Equidistant { t0, dt, t_end, next, count } => match next.cmp(count) {
@@ -90,6 +90,29 @@ impl Schedule {
             },
             Schedule::Listed { times, next } => times.get(*next).copied(),
         }
+    }
+
+    /// Number of output times taken.
+    pub(super) fn taken(&self) -> u64 {
+        match self {
+            Schedule::Steps => 0,
+            Schedule::Equidistant { next, .. } => *next,
+            Schedule::Listed { next, .. } => *next as u64,
+        }
+    }
+
+    /// Goes on after so many output times.
+    pub(super) fn resume(&mut self, taken: u64) {
+        match self {
+            Schedule::Steps => {}
+            Schedule::Equidistant { next, .. } => *next = taken,
+            Schedule::Listed { next, .. } => *next = taken as usize,
+        }
+    }
+
+    /// The end of the run is an output.
+    pub(super) fn ends_with_output(&self) -> bool {
+        !matches!(self, Schedule::Listed { .. })
     }
 
     /// Takes the next output time out of the queue if it lies at or before `t`.

@@ -2,14 +2,17 @@
 
 use core::ops::{ControlFlow, Range};
 
+use super::checkpoint::{Checkpoint, Place};
 use super::collapse::first_failure;
 use super::conservation::larger;
 use super::halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
-use super::output::{Schedule, without_steps};
+use super::output::Schedule;
+use super::recorder::{Recorder, Turn, WithWork};
 use super::signature::Signature;
 use super::stepper::{Explicit, Stepper};
 use super::trajectory::{Computation, Energies, Trajectory};
-use super::{Method, Observe, Progress, Simulation, TAYLOR_TOLERANCE, Watch};
+use super::watcher::Watcher;
+use super::{Method, Progress, Simulation, TAYLOR_TOLERANCE, Watch};
 use crate::frames::Matrix;
 use crate::geodesic::{Geodesic, Motion};
 use crate::integrate::gauss::{Tableau, step_count};
@@ -24,6 +27,11 @@ use crate::state::Phase;
 
 /// The finest tolerance: about four roundings.
 const FINEST_TOLERANCE: f64 = 1e-15;
+/// Equal parts of a step at whose ends events are looked at.
+const WITHIN_A_STEP: u32 = 4;
+/// Part of the way to a collapse within which an event that follows belongs to it: times of a collapse and of the zero of
+/// an event have errors of their own.
+const PAST_A_COLLAPSE: f64 = 1e-8;
 /// Part of `|phi|^n` above which a determinant is positive whatever the rounding of a few products.
 const CLEARLY_POSITIVE: f64 = 1e-12;
 
@@ -48,9 +56,9 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let mut trajectory = self.empty_trajectory();
         let model = self.model;
         let outcome = self.drive(&mut trajectory);
-        // The end is the last output, as a rule.
+        // The end is the last output, as a rule; an event may have changed it since.
         trajectory.energies.end = match (trajectory.times.last(), trajectory.energies.outputs.last()) {
-            (Some(t), Some(energy)) if *t == trajectory.end.0 => *energy,
+            (Some(t), Some(energy)) if *t == trajectory.end.0 && trajectory.events.is_empty() => *energy,
             _ => model.hamiltonian(trajectory.end.0, &trajectory.end.1),
         };
         match outcome {
@@ -80,6 +88,9 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 scale: energy_scale(self.model, &self.start, energy),
             },
             statistics: Statistics::default(),
+            events: Vec::new(),
+            stopped_by: None,
+            checkpoint: None,
             computation: Computation {
                 asked: self.method,
                 method: Method::RungeKutta8,
@@ -96,30 +107,100 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     fn drive(mut self, trajectory: &mut Trajectory<N, M::Point<f64>>) -> Result<(), Reason> {
         let (t_end, schedule) = self.checked_settings()?;
         check(self.t0, &self.start)?;
+        let run = self.fingerprint(t_end);
+        let place = Place::starting((self.t0, &self.start), None, (Statistics::default(), 0.0));
+        let mut recorder = Recorder {
+            model: self.model,
+            trajectory,
+            schedule,
+            observe: self.observe.take(),
+            watcher: Watcher::new(core::mem::take(&mut self.events)),
+            origin: self.t0,
+            backward: t_end < self.t0,
+            place,
+            is_lost: false,
+            turn: None,
+        };
+        if let Some(checkpoint) = self.checkpoint.take() {
+            self.take_up(checkpoint, &run, &mut recorder)?;
+        }
+        let outcome = self.legs(t_end, &mut recorder);
+        let interrupted = matches!(outcome, Err(Reason::Interrupted(_) | Reason::StepLimit { .. }));
+        if (interrupted || recorder.trajectory.stopped_by.is_some()) && !recorder.is_lost {
+            let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
+            recorder.trajectory.checkpoint = Some(Checkpoint { run, place });
+        }
+        outcome
+    }
+
+    /// What a checkpoint fits: runs that take the same steps from the same place.
+    fn fingerprint(&self, t_end: f64) -> String {
+        let [t0, t_end, tolerance] = [self.t0, t_end, self.tolerance].map(f64::to_bits);
+        let (model, method, events) = (M::DESCRIPTION.name, self.method, self.events.len());
+        format!("{model} {method:?} {tolerance:x} {t0:x} {t_end:x} {events}")
+    }
+
+    /// Goes back to where a run was interrupted.
+    fn take_up(
+        &mut self,
+        checkpoint: Checkpoint,
+        run: &str,
+        recorder: &mut Recorder<'_, '_, N, M>,
+    ) -> Result<(), Setting> {
+        if checkpoint.run != run {
+            return Err(Setting::Checkpoint { model: M::DESCRIPTION.name });
+        }
+        (self.t0, self.start) = checkpoint.place.origin(&self.start);
+        recorder.place = checkpoint.place;
+        recorder.trajectory.end = (self.t0, self.start);
+        recorder.trajectory.energies.work_at_end = recorder.place.work();
+        recorder.schedule.resume(recorder.place.outputs);
+        Ok(())
+    }
+
+    /// One integration after the other: where an event changes the point, the next one starts.
+    fn legs(&mut self, t_end: f64, recorder: &mut Recorder<'_, '_, N, M>) -> Result<(), Reason> {
+        let mut changes = 0;
+        loop {
+            self.leg(t_end, recorder)?;
+            let Some(Turn::Changed { t, point, event, work }) = recorder.turn.take() else { return Ok(()) };
+            check(t, &point)?;
+            changes += 1;
+            if changes > self.max_steps {
+                return Err(Reason::StepLimit { limit: self.max_steps });
+            }
+            (self.t0, self.start) = (t, point);
+            recorder.trajectory.end = (t, point);
+            recorder.trajectory.energies.work_at_end = work;
+            recorder.trajectory.computation.at_rest &= point.p().iter().all(|p| *p == 0.0);
+            let cost = recorder.trajectory.statistics;
+            recorder.place = Place::starting((t, &point), Some(event), (cost, work));
+        }
+    }
+
+    /// The motion from a point to the end, or to an event that changes it.
+    fn leg(&mut self, t_end: f64, recorder: &mut Recorder<'_, '_, N, M>) -> Result<(), Reason> {
         let geodesic = self.model.geodesic(self.t0, &self.start);
-        trajectory.computation.closed_form_exists = geodesic.is_some();
-        let mut recorder = Recorder { model: self.model, trajectory, schedule, observe: self.observe.take() };
+        recorder.trajectory.computation.closed_form_exists = geodesic.is_some();
         match (self.method, geodesic) {
             (Method::ClosedForm, None) => Err(Setting::NoClosedForm { model: M::DESCRIPTION.name }.into()),
             (Method::Automatic | Method::ClosedForm, Some(geodesic)) => {
-                self.evaluate(&geodesic, t_end, &mut recorder)
+                self.evaluate(&geodesic, t_end, recorder)
             }
-            (Method::Rattle { order, step }, _) => {
-                self.integrate_by_rattle((order, step), t_end, &mut recorder)
-            }
+            (Method::Rattle { order, step }, _) => self.integrate_by_rattle((order, step), t_end, recorder),
             (Method::Splitting { order, step }, _) => {
-                self.integrate_by_splitting((order, step), t_end, &mut recorder)
+                self.integrate_by_splitting((order, step), t_end, recorder)
             }
             _ => match (chart::<N, M>(), self.chosen(&mut recorder.trajectory.computation)) {
-                (_, Method::Taylor { order }) => self.integrate_by_series(order, t_end, &mut recorder),
-                (Some(_), _) if is_canonical::<N, M>() => self.integrate_with_reaction(t_end, &mut recorder),
-                (Some(chart), _) => self.integrate(chart, t_end, &mut recorder),
-                (None, _) => self.integrate(Flat, t_end, &mut recorder),
+                (_, Method::Taylor { order }) => self.integrate_by_series(order, t_end, recorder),
+                (Some(_), _) if is_canonical::<N, M>() => self.integrate_with_reaction(t_end, recorder),
+                (Some(chart), _) => self.integrate(chart, t_end, recorder),
+                (None, _) => self.integrate(Flat, t_end, recorder),
             },
         }
     }
 
-    fn checked_settings(&self) -> Result<(f64, Schedule), Setting> {
+    pub(super) fn checked_settings(&self) -> Result<(f64, Schedule), Setting> {
         let t_end = self.t_end.ok_or(Setting::NoEnd)?;
         for (name, given) in [("the time of the start", self.t0), ("the time of the end", t_end)] {
             if !given.is_finite() {
@@ -131,6 +212,11 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         }
         if self.max_steps == 0 {
             return Err(Setting::NoSteps);
+        }
+        for event in &self.events {
+            if let Some(index) = event.out_of_range {
+                return Err(Setting::EventIndex { event: event.name, index });
+            }
         }
         match self.method {
             Method::Taylor { order: Some(given) } if !(LOWEST_ORDER..=HIGHEST_ORDER).contains(&given) => {
@@ -169,29 +255,39 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         computation.method = Method::ClosedForm;
         computation.no_whirl =
             matches!(geodesic.motion, Motion::Body { whirl: None, .. } | Motion::Space { whirl: None, .. });
-        if recorder.schedule == Schedule::Steps {
-            recorder.schedule = without_steps(self.t0, t_end);
-        }
         let at = |t| if t == self.t0 { self.start } else { self.model.on_geodesic(geodesic, t, &self.start) };
         let collapse = geodesic.collapse(t_end, self.start.phi());
+        let is_behind = |t: f64, end: f64| (t - end) * (t_end - self.t0) >= 0.0;
         let stands = |t: f64| match collapse {
-            Some(end) if (t - end) * (t_end - self.t0) >= 0.0 => {
+            Some(end) if is_behind(t, end) => {
                 Err(Reason::Placement { determinant: LogDeterminant::of(at(t).phi()).to_f64(), t: end })
             }
             _ => Ok(()),
         };
+        // Events behind a collapse do not happen; the collapse may be one.
+        let last_event = collapse.map(|end| end + PAST_A_COLLAPSE * (end - self.t0));
+        recorder.begin_closed_form(self.t0, t_end, at);
+        recorder.trajectory.statistics = recorder.place.cost();
         let mut outputs = 0;
-        while let Some(t) = recorder.schedule.take_through(t_end, t_end < self.t0) {
+        loop {
+            let due = recorder.schedule.peek();
+            let until = due.unwrap_or(t_end);
+            let until = last_event.filter(|last| is_behind(until, *last)).unwrap_or(until);
+            if recorder.meet(until, WITHIN_A_STEP, |t| Ok::<_, Reason>((at(t), 0.0)))? {
+                return Ok(());
+            }
+            let Some(t) = due else { break };
             stands(t)?;
-            recorder.record(t, at(t), 0.0)?;
+            recorder.schedule.take_through(t, recorder.backward);
+            recorder.record(t, (at(t), 0.0))?;
             outputs += 1;
-            report(&mut self.progress, Progress { t0: self.t0, t, t_end, steps: outputs })?;
+            recorder.place.passed(vec![t.to_bits()]);
+            report(&mut self.progress, Progress { t0: recorder.origin, t, t_end, steps: outputs })?;
         }
         stands(t_end)?;
-        recorder.reach(t_end, at(t_end), 0.0)
+        recorder.reach(t_end, (at(t_end), 0.0))
     }
 
-    /// Reduction, integration with output on the way, expansion.
     /// The integrator to take, noted with what was missing for a better one.
     fn chosen(&self, computation: &mut Computation) -> Method {
         computation.method = match self.method {
@@ -359,17 +455,17 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let outcome = self.follow(integration, (&expand, groups), t_end, recorder, &mut last);
         let outcome = outcome.map_err(|reason| match reason {
             Reason::Placement { determinant, t } => {
-                let good = last.as_ref().map_or(self.t0, |(t, _)| *t);
+                let good = last.as_ref().map_or(recorder.trajectory.end.0, |(t, _)| *t);
                 let stands = |t| integration.between(t).is_ok_and(|y| check(t, &expand(t, &y)).is_ok());
                 Reason::Placement { determinant, t: first_failure(good, t, stands) }
             }
             other => other,
         });
         let trajectory = &mut *recorder.trajectory;
-        trajectory.statistics = integration.statistics();
+        trajectory.statistics = sum(recorder.place.cost(), integration.statistics());
         if let Some((t, reduced)) = last.filter(|(t, _)| (t - trajectory.end.0) * (t_end - self.t0) > 0.0) {
             trajectory.end = (t, expand(t, &reduced));
-            trajectory.energies.work_at_end = work(groups, &reduced);
+            trajectory.energies.work_at_end = recorder.place.work() + work(groups, &reduced);
         }
         outcome
     }
@@ -387,9 +483,15 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let placement = placement_in(groups, N);
         let signature = Signature::of(self.model.regularity(self.start.phi()));
         let regularity = |t: f64, reduced: &S| self.model.regularity(expand(t, reduced).phi());
+        let with_work =
+            |t: f64, reduced: &S| -> WithWork<M::Point<f64>> { (expand(t, reduced), work(groups, reduced)) };
+        let cost = recorder.place.cost().steps;
+        recorder.take_up(integration, with_work);
+        let is_watched = self.progress.is_some() || recorder.is_watched();
         while !integration.is_finished() {
-            let steps = integration.statistics().steps;
-            if steps == self.max_steps {
+            let steps = cost + integration.statistics().steps;
+            if steps >= self.max_steps {
+                recorder.pass(integration);
                 return Err(Reason::StepLimit { limit: self.max_steps });
             }
             if let Err(failure) = integration.advance() {
@@ -401,25 +503,32 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             if signature.may_change() {
                 signature.kept(regularity(t, &reduced), t)?;
             }
-            while let Some(due) = recorder.schedule.take_through(t, t_end < self.t0) {
-                if due == t {
-                    recorder.record(t, expand(t, &reduced), work(groups, &reduced))?;
-                } else {
-                    let between = integration.between(due).map_err(|failure| self.reason(failure))?;
-                    recorder.record(due, expand(due, &between), work(groups, &between))?;
-                }
+            let mut at = |due: f64| match due == t {
+                true => Ok(with_work(t, &reduced)),
+                false => integration
+                    .between(due)
+                    .map(|between| with_work(due, &between))
+                    .map_err(|failure| self.reason(failure)),
+            };
+            let parts = if self.method.step().is_some() { 1 } else { WITHIN_A_STEP };
+            if recorder.meet(t, parts, &mut at)? {
+                return Ok(());
             }
+            recorder.record_through(t, &mut at)?;
             if recorder.schedule == Schedule::Steps {
-                recorder.record(t, expand(t, &reduced), work(groups, &reduced))?;
+                recorder.record_step(t, with_work(t, &reduced))?;
             } else if recorder.trajectory.end.0 != t {
                 let phi =
                     placement.clone().map(|range| Matrix::<N>::from_row_slice(&reduced.as_ref()[range]));
                 if integration.is_finished() || !phi.is_some_and(|phi| is_clearly_positive(&phi)) {
-                    recorder.reach(t, expand(t, &reduced), work(groups, &reduced))?;
+                    recorder.reach(t, with_work(t, &reduced))?;
                 }
             }
             *last = Some((t, reduced));
-            report(&mut self.progress, Progress { t0: self.t0, t, t_end, steps: steps + 1 })?;
+            if is_watched {
+                recorder.pass(integration);
+            }
+            report(&mut self.progress, Progress { t0: recorder.origin, t, t_end, steps: steps + 1 })?;
         }
         Ok(())
     }
@@ -437,48 +546,6 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     }
 }
 
-/// A trajectory in the making.
-struct Recorder<'r, 'a, const N: usize, M: Model<N>> {
-    model: &'a M,
-    trajectory: &'r mut Trajectory<N, M::Point<f64>>,
-    schedule: Schedule,
-    observe: Option<Observe<'a, M::Point<f64>>>,
-}
-
-impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
-    /// Records the start where it is an output.
-    fn begin(&mut self, t0: f64, start: M::Point<f64>) -> Result<(), Reason> {
-        if self.schedule == Schedule::Steps || self.schedule.take_through(t0, false).is_some() {
-            self.record(t0, start, 0.0)?;
-        }
-        Ok(())
-    }
-
-    /// Checks a phase point, which becomes the last good one.
-    fn reach(&mut self, t: f64, point: M::Point<f64>, work: f64) -> Result<(), Reason> {
-        check(t, &point)?;
-        self.trajectory.end = (t, point);
-        self.trajectory.energies.work_at_end = work;
-        Ok(())
-    }
-
-    /// Checks a phase point, records it as an output and shows it to the observer.
-    fn record(&mut self, t: f64, point: M::Point<f64>, work: f64) -> Result<(), Reason> {
-        self.reach(t, point, work)?;
-        self.trajectory.times.push(t);
-        self.trajectory.points.push(point);
-        let energy = self.model.hamiltonian(t, &point);
-        let energies = &mut self.trajectory.energies;
-        energies.outputs.push(energy);
-        energies.work.push(work);
-        energies.scale = larger(energies.scale, energy_scale(self.model, &point, energy));
-        match &mut self.observe {
-            Some(observe) => go_on(observe(t, &point), Callback::Observer),
-            None => Ok(()),
-        }
-    }
-}
-
 fn report(watch: &mut Option<Watch<'_>>, progress: Progress) -> Result<(), Reason> {
     match watch {
         Some(watch) => go_on(watch(&progress), Callback::Progress),
@@ -486,7 +553,16 @@ fn report(watch: &mut Option<Watch<'_>>, progress: Progress) -> Result<(), Reaso
     }
 }
 
-fn go_on(flow: ControlFlow<()>, callback: Callback) -> Result<(), Reason> {
+/// Costs one after the other.
+fn sum(before: Statistics, after: Statistics) -> Statistics {
+    Statistics {
+        steps: before.steps + after.steps,
+        rejected: before.rejected + after.rejected,
+        evaluations: before.evaluations + after.evaluations,
+    }
+}
+
+pub(super) fn go_on(flow: ControlFlow<()>, callback: Callback) -> Result<(), Reason> {
     match flow {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(Reason::Interrupted(callback)),
@@ -494,7 +570,7 @@ fn go_on(flow: ControlFlow<()>, callback: Callback) -> Result<(), Reason> {
 }
 
 /// Refuses a phase point that is not finite or whose placement does not keep orientation.
-fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<(), Reason> {
+pub(super) fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<(), Reason> {
     if !point.is_finite() {
         return Err(Reason::NotFinite);
     }
@@ -510,7 +586,7 @@ fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<(), Reason> {
 
 /// A few products settle the sign of most determinants; what is close to zero, or out of the range of numbers,
 /// is left to the careful way.
-fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
+pub(super) fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
     let minor = |a: usize, b: usize| phi[(1, a)] * phi[(2, b)] - phi[(1, b)] * phi[(2, a)];
     let scale = sum_of_squares(phi.as_slice());
     // `det > c |phi|^n` without the root.
@@ -529,7 +605,11 @@ fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
 }
 
 /// What an energy is measured against: `|H|`, or `(|Pi| |phi_dot| + |p| |x_dot|)/2`, which is at least `|T|`.
-fn energy_scale<const N: usize, M: Model<N>>(model: &M, point: &M::Point<f64>, energy: f64) -> f64 {
+pub(super) fn energy_scale<const N: usize, M: Model<N>>(
+    model: &M,
+    point: &M::Point<f64>,
+    energy: f64,
+) -> f64 {
     let velocity = model.velocity(point);
     let internal = norm(point.pi().0.0.as_slice()) * norm(velocity.phi_dot.as_slice());
     let translational = norm(point.p().as_slice()) * norm(velocity.x_dot.as_slice());
@@ -549,7 +629,7 @@ fn is_canonical<const N: usize, M: Model<N>>() -> bool {
 
 /// Components of a state that are the placement, row by row, up to factors of positive determinant that
 /// the expansion restores.
-fn placement_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
+pub(super) fn placement_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
     let k = groups.iter().position(|group| group.is_placement() && group.len == n * n)?;
     let start = total(&groups[..k]);
     Some(start..start + n * n)

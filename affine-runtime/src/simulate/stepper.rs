@@ -3,6 +3,7 @@
 use crate::integrate::lie::Coordinates;
 use crate::integrate::runge_kutta::Dense;
 use crate::integrate::splitting::{Pieces, Splitting};
+use crate::integrate::tape::Tape;
 use crate::integrate::taylor::{Series, Taylor};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics};
 use crate::model::StateVector;
@@ -21,6 +22,12 @@ pub(super) trait Stepper<S> {
     fn is_finished(&self) -> bool;
     /// Cost so far.
     fn statistics(&self) -> Statistics;
+    /// Hands over, or takes back, everything that the next steps depend on.
+    fn exchange(&mut self, tape: &mut impl Tape);
+    /// That is all that they depend on.
+    fn is_exchanged(&self) -> bool {
+        true
+    }
 }
 
 /// The explicit method with the dense output of its last step, which is formed once for all times in it.
@@ -55,6 +62,10 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for
     fn statistics(&self) -> Statistics {
         self.integration.statistics()
     }
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        self.dense = None;
+        self.integration.exchange(tape);
+    }
 }
 
 impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for Gauss<S, F, C> {
@@ -75,6 +86,12 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for
     }
     fn statistics(&self) -> Statistics {
         Gauss::statistics(self)
+    }
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        Gauss::exchange(self, tape);
+    }
+    fn is_exchanged(&self) -> bool {
+        !self.is_stiff()
     }
 }
 
@@ -97,6 +114,9 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Stepper<S> for Taylor<S, C, R> {
     fn statistics(&self) -> Statistics {
         Taylor::statistics(self)
     }
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        Taylor::exchange(self, tape);
+    }
 }
 
 impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Rattle<N, S, F> {
@@ -118,6 +138,9 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Ra
     fn statistics(&self) -> Statistics {
         Rattle::statistics(self)
     }
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        Rattle::exchange(self, tape);
+    }
 }
 
 impl<S: StateVector<f64>, C, P: Pieces<S, C>> Stepper<S> for Splitting<S, C, P> {
@@ -138,5 +161,8 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Stepper<S> for Splitting<S, C, P> 
     }
     fn statistics(&self) -> Statistics {
         Splitting::statistics(self)
+    }
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        Splitting::exchange(self, tape);
     }
 }

@@ -1,6 +1,6 @@
 //! A computed trajectory.
 
-use super::Method;
+use super::{Checkpoint, Method, Occurrence};
 use crate::integrate::Statistics;
 use crate::metrics::Bases;
 use crate::model::Description;
@@ -18,6 +18,10 @@ pub struct Trajectory<const N: usize, P> {
     pub(super) energies: Energies,
     pub(super) statistics: Statistics,
     pub(super) computation: Computation,
+    pub(super) events: Vec<Occurrence<P>>,
+    /// Name of the event that ended the run.
+    pub(super) stopped_by: Option<&'static str>,
+    pub(super) checkpoint: Option<Checkpoint>,
     /// Bases in which the model's metrics are the identity.
     pub(super) bases: Option<Bases<N>>,
 }
@@ -96,6 +100,26 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     #[must_use]
     pub fn end(&self) -> (f64, &P) {
         (self.end.0, &self.end.1)
+    }
+
+    /// The events in the order in which they happened.
+    #[must_use]
+    pub fn events(&self) -> &[Occurrence<P>] {
+        &self.events
+    }
+
+    /// Name of the event that ended the run, if one did.
+    #[must_use]
+    pub fn stopped_by(&self) -> Option<&'static str> {
+        self.stopped_by
+    }
+
+    /// Where the run can go on, with [`Simulation::resume`](super::Simulation::resume): of a run that a callback, an
+    /// event or the largest number of steps has ended. None for a stiff run of Gauss collocation, whose steps depend on
+    /// the factors of a Jacobian.
+    #[must_use]
+    pub fn checkpoint(&self) -> Option<&Checkpoint> {
+        self.checkpoint.as_ref()
     }
 
     /// Energies `H` at the output times.

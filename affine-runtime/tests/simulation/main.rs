@@ -3,10 +3,12 @@
 
 mod accuracy;
 mod constraints;
+mod events;
 mod gauss;
 mod halts;
 mod models;
 mod outputs;
 mod reference;
 mod reports;
+mod resuming;
 mod small_motions;

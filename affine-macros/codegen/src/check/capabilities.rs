@@ -15,6 +15,7 @@ pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
         Capability::Splitting,
         Capability::Taylor,
         Capability::TwoPolar,
+        Capability::Lanes,
         Capability::Metric,
         Capability::Acceleration,
     ];

@@ -128,8 +128,8 @@ impl Diagnostic {
             Self::UnavailableCapability { capability, gives } => text(
                 format!("the capability `{capability}` is not available in this version"),
                 format!(
-                    "it will give {gives}; this version emits the default, Hamilton's equations, `splitting`, `taylor` and \
-                     `two_polar`"
+                    "it will give {gives}; this version emits the default, Hamilton's equations, `splitting`, `taylor`, \
+                      `two_polar` and `lanes`"
                 ),
                 format!("remove `{capability}` from `emit(...)`"),
             ),

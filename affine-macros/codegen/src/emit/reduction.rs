@@ -1,5 +1,7 @@
 //! Reduction, reduced equations, expansion, and closed forms.
 
+pub(super) mod lanes;
+
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 

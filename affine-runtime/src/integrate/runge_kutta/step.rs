@@ -8,7 +8,7 @@ use crate::scalar::Scalar;
 const STAGES: usize = 16;
 
 /// Solution less the embedded solution of order 3.
-const E3: [(usize, f64); B.len()] = {
+pub(super) const E3: [(usize, f64); B.len()] = {
     let mut difference = B;
     let mut k = 0;
     while k < B.len() {

@@ -1,0 +1,97 @@
+//! Where a run was interrupted, as numbers from which it goes on with the same bits.
+
+use crate::integrate::Statistics;
+use crate::integrate::tape::Tape;
+use crate::state::Phase;
+
+/// The state of an interrupted run between two steps, and what has been done of the step after.
+///
+/// All numbers are kept as their bits, so that no text format rounds them. With the feature `serde` it can be written
+/// and read.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Checkpoint {
+    /// Model, method, tolerance, interval and number of events of the run.
+    pub(super) run: String,
+    pub(super) place: Place,
+}
+
+/// How far a run has come.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Place {
+    /// Bits of the time and of the point from which the integration started: the start, or where an event changed it.
+    pub(super) from: Vec<u64>,
+    /// Index of that event.
+    pub(super) changed_by: Option<usize>,
+    /// Bits of the cost before.
+    pub(super) cost: [u64; 3],
+    /// Bits of the work before.
+    pub(super) work: u64,
+    /// State of the integrator, or the time reached in closed form; empty where it has not begun.
+    pub(super) integrator: Vec<u64>,
+    /// Output times done.
+    pub(super) outputs: u64,
+    /// Events of the step after that are done.
+    pub(super) met: usize,
+    /// The point at the end of that step has been recorded.
+    pub(super) recorded: bool,
+}
+
+impl Place {
+    /// At the start of an integration.
+    pub(super) fn starting<const N: usize, P: Phase<N>>(
+        (t, point): (f64, &P),
+        changed_by: Option<usize>,
+        (cost, work): (Statistics, f64),
+    ) -> Self {
+        let mut from = vec![t.to_bits()];
+        point.entries(&mut |entry| from.push(entry.to_bits()));
+        let cost = [cost.steps, cost.rejected, cost.evaluations];
+        Self { from, changed_by, cost, work: work.to_bits(), ..Self::default() }
+    }
+
+    /// Time and point from which the integration started; `like` is any point of the model.
+    pub(super) fn origin<const N: usize, P: Phase<N>>(&self, like: &P) -> (f64, P) {
+        let mut numbers = self.from.iter().map(|bits| f64::from_bits(*bits));
+        let t = numbers.next().unwrap_or(f64::NAN);
+        (t, like.with_entries(&mut || numbers.next().unwrap_or(f64::NAN)))
+    }
+
+    /// A step is done with.
+    pub(super) fn passed(&mut self, integrator: Vec<u64>) {
+        (self.integrator, self.met, self.recorded) = (integrator, 0, false);
+    }
+
+    /// The work before.
+    pub(super) fn work(&self) -> f64 {
+        f64::from_bits(self.work)
+    }
+
+    /// The cost before.
+    pub(super) fn cost(&self) -> Statistics {
+        let [steps, rejected, evaluations] = self.cost;
+        Statistics { steps, rejected, evaluations }
+    }
+}
+
+/// Writes a tape.
+#[derive(Default)]
+pub(super) struct Writer(pub(super) Vec<u64>);
+
+impl Tape for Writer {
+    fn bits(&mut self, bits: &mut u64) {
+        self.0.push(*bits);
+    }
+}
+
+/// Reads a tape; what is missing stays as it is.
+pub(super) struct Reader<'t>(pub(super) core::slice::Iter<'t, u64>);
+
+impl Tape for Reader<'_> {
+    fn bits(&mut self, bits: &mut u64) {
+        if let Some(kept) = self.0.next() {
+            *bits = *kept;
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Events: what a run looks for on its way, and what it does where it finds it.
+
+use core::fmt;
+
+use crate::decompose::log_stretches;
+use crate::error::Result;
+use crate::kinematics::LogDeterminant;
+use crate::state::Phase;
+
+type Function<'a, P> = Box<dyn Fn(f64, &P) -> f64 + 'a>;
+type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
+
+/// Something that happens where a function of time and phase point, continuous along the motion, changes its sign.
+///
+/// ```text
+/// Event::new("at rest", |_, point| point.sigma_hat().0.0.trace()).falling().stop()
+/// Event::position(1, 0.0).falling().change(|_, point| model.at_momentum(..))
+/// ```
+///
+/// Found are changes of sign between samples of the function: at both ends of every step and at three times within it,
+/// at the ends alone for methods of equal steps, and with a closed form at outputs and at three times between two of
+/// them. An even number of roots between two samples is not seen. The time is then located on the dense output of the
+/// step to the rounding of times: it has the error of the dense output over the rate of the function. The event is at
+/// the first floating-point time found at which the sign has changed. A function that is zero or not a number at the
+/// start is looked at from the next sample on.
+pub struct Event<'a, const N: usize, P> {
+    pub(super) name: &'static str,
+    pub(super) function: Function<'a, P>,
+    pub(super) direction: Direction,
+    pub(super) action: Action<'a, P>,
+    /// An index that no phase point of this dimension has.
+    pub(super) out_of_range: Option<usize>,
+}
+
+/// Changes of sign that count, as a run meets them: a run backward in time meets a rising function falling.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Direction {
+    /// From negative to positive.
+    Rising,
+    /// From positive to negative.
+    Falling,
+    /// Either.
+    #[default]
+    Any,
+}
+
+/// What a run does at an event, after it has recorded it.
+pub(super) enum Action<'a, P> {
+    Record,
+    Stop,
+    Change(Change<'a, P>),
+}
+
+/// An event as it happened.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Occurrence<P> {
+    /// Name of the event.
+    pub name: &'static str,
+    /// Its time.
+    pub t: f64,
+    /// The phase point there, before any change.
+    pub point: P,
+    /// The function rose.
+    pub rising: bool,
+}
+
+impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
+    /// The event that `function` changes its sign in either direction, to be recorded.
+    #[must_use]
+    pub fn new(name: &'static str, function: impl Fn(f64, &P) -> f64 + 'a) -> Self {
+        Self {
+            name,
+            function: Box::new(function),
+            direction: Direction::Any,
+            action: Action::Record,
+            out_of_range: None,
+        }
+    }
+
+    /// `det phi = value`. With the value 0 the collapse of a body that no potential protects: a run that stops there ends
+    /// at a phase point without inverse.
+    #[must_use]
+    pub fn determinant(value: f64) -> Self {
+        Self::new("det phi", move |_, point| LogDeterminant::of(point.phi()).to_f64() - value)
+    }
+
+    /// `max_a Q_a = value`, by logarithms.
+    #[must_use]
+    pub fn largest_stretch(value: f64) -> Self {
+        Self::stretch("largest stretch", value, |a, b| if a >= b { a } else { b })
+    }
+
+    /// `min_a Q_a = value`, by logarithms.
+    #[must_use]
+    pub fn smallest_stretch(value: f64) -> Self {
+        Self::stretch("smallest stretch", value, |a, b| if a <= b { a } else { b })
+    }
+
+    fn stretch(name: &'static str, value: f64, choice: fn(f64, f64) -> f64) -> Self {
+        let logarithm = libm::log(value);
+        Self::new(name, move |_, point| {
+            log_stretches(point.phi()).into_iter().reduce(choice).unwrap_or(f64::NAN) - logarithm
+        })
+    }
+
+    /// `x[i] = value`, `i` from 1.
+    #[must_use]
+    pub fn position(i: usize, value: f64) -> Self {
+        let component = move |point: &P| point.x().iter().nth(i.wrapping_sub(1)).copied();
+        let event =
+            Self::new("x", move |_, point| component(point).map_or(f64::NAN, |component| component - value));
+        Self { out_of_range: Some(i).filter(|i| !(1..=N).contains(i)), ..event }
+    }
+
+    /// With another name.
+    #[must_use]
+    pub fn named(self, name: &'static str) -> Self {
+        Self { name, ..self }
+    }
+
+    /// Changes from negative to positive alone, as the run meets them.
+    #[must_use]
+    pub fn rising(self) -> Self {
+        Self { direction: Direction::Rising, ..self }
+    }
+
+    /// Changes from positive to negative alone, as the run meets them.
+    #[must_use]
+    pub fn falling(self) -> Self {
+        Self { direction: Direction::Falling, ..self }
+    }
+
+    /// The run ends there, and is no failure: [`Trajectory::stopped_by`](super::Trajectory::stopped_by) says so.
+    #[must_use]
+    pub fn stop(self) -> Self {
+        Self { action: Action::Stop, ..self }
+    }
+
+    /// The motion goes on from another point: that is reduced anew, and the integration starts again, or the closed form
+    /// where the new point has one. An error of `change` ends the run.
+    #[must_use]
+    pub fn change(self, change: impl Fn(f64, &P) -> Result<P> + 'a) -> Self {
+        Self { action: Action::Change(Box::new(change)), ..self }
+    }
+}
+
+impl<const N: usize, P> fmt::Debug for Event<'_, N, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let action = match self.action {
+            Action::Record => "record",
+            Action::Stop => "stop",
+            Action::Change(_) => "change",
+        };
+        f.debug_struct("Event")
+            .field("name", &self.name)
+            .field("direction", &self.direction)
+            .field("action", &action)
+            .finish_non_exhaustive()
+    }
+}

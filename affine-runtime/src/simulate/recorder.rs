@@ -1,0 +1,225 @@
+//! A trajectory in the making.
+
+use super::Observe;
+use super::checkpoint::{Place, Reader, Writer};
+use super::conservation::larger;
+use super::event::{Action, Occurrence};
+use super::halt::{Callback, Reason};
+use super::output::{Schedule, without_steps};
+use super::run::{check, energy_scale, go_on};
+use super::stepper::Stepper;
+use super::trajectory::Trajectory;
+use super::watcher::{Met, Watcher};
+use crate::error::Error;
+use crate::model::{Model, StateVector};
+use crate::state::Phase;
+
+/// What is recorded of a run, and how far it has come.
+pub(super) struct Recorder<'r, 'a, const N: usize, M: Model<N>> {
+    pub(super) model: &'a M,
+    pub(super) trajectory: &'r mut Trajectory<N, M::Point<f64>>,
+    pub(super) schedule: Schedule,
+    pub(super) observe: Option<Observe<'a, M::Point<f64>>>,
+    pub(super) watcher: Watcher<'a, N, M::Point<f64>>,
+    /// Time of the start of the run.
+    pub(super) origin: f64,
+    /// The run goes backward in time.
+    pub(super) backward: bool,
+    pub(super) place: Place,
+    /// The integrator's state cannot be kept.
+    pub(super) is_lost: bool,
+    /// What an event has led to.
+    pub(super) turn: Option<Turn<M::Point<f64>>>,
+}
+
+/// Where a run does not go straight on.
+pub(super) enum Turn<P> {
+    /// It ends.
+    Stopped,
+    /// It goes on from another point.
+    Changed { t: f64, point: P, event: usize, work: f64 },
+}
+
+/// A phase point with the work done since the integration started.
+pub(super) type WithWork<P> = (P, f64);
+
+impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
+    /// Records the start of an integration where it is an output.
+    pub(super) fn begin(&mut self, t0: f64, start: M::Point<f64>) -> Result<(), Reason> {
+        self.watcher.begin(t0, &start, self.place.changed_by);
+        if !self.place.integrator.is_empty() {
+            return Ok(());
+        }
+        if self.schedule == Schedule::Steps {
+            self.record_step(t0, (start, 0.0))?;
+        } else if self.schedule.take_through(t0, false).is_some() {
+            self.record(t0, (start, 0.0))?;
+        }
+        Ok(())
+    }
+
+    /// Begins or goes on with a closed form, with output times of its own where none were asked for.
+    pub(super) fn begin_closed_form(&mut self, t0: f64, t_end: f64, at: impl Fn(f64) -> M::Point<f64>) {
+        if self.schedule == Schedule::Steps {
+            self.schedule = without_steps(self.origin, t_end);
+            self.schedule.resume(self.place.outputs);
+            while t0 != self.origin && self.schedule.take_through(t0, self.backward).is_some() {}
+        }
+        let reached = self.place.integrator.first();
+        let begin = reached.map_or(t0, |bits| f64::from_bits(*bits));
+        self.watcher.begin(begin, &at(begin), self.place.changed_by.filter(|_| reached.is_none()));
+    }
+
+    /// Something may end the run, or ask where it is.
+    pub(super) fn is_watched(&self) -> bool {
+        self.observe.is_some() || !self.watcher.is_idle()
+    }
+
+    /// Gives an integrator the state in which an interrupted run left it.
+    pub(super) fn take_up<S: StateVector<f64>>(
+        &mut self,
+        integration: &mut impl Stepper<S>,
+        expand: impl Fn(f64, &S) -> WithWork<M::Point<f64>>,
+    ) {
+        if self.place.integrator.is_empty() {
+            if self.is_watched() {
+                self.pass(integration);
+            }
+            return;
+        }
+        integration.exchange(&mut Reader(self.place.integrator.iter()));
+        let t = integration.t();
+        let (point, work) = expand(t, integration.y());
+        self.watcher.begin(
+            t,
+            &point,
+            self.place.changed_by.filter(|_| self.place.from.first() == Some(&t.to_bits())),
+        );
+        self.trajectory.end = (t, point);
+        self.trajectory.energies.work_at_end = self.place.work() + work;
+    }
+
+    /// A step is done with.
+    pub(super) fn pass<S: StateVector<f64>>(&mut self, integration: &mut impl Stepper<S>) {
+        self.is_lost = !integration.is_exchanged();
+        let mut tape = Writer::default();
+        integration.exchange(&mut tape);
+        self.place.passed(tape.0);
+    }
+
+    /// The events on the way to `t` with the outputs before them; whether the motion does not go straight on there.
+    pub(super) fn meet<E: Into<Reason>>(
+        &mut self,
+        t: f64,
+        parts: u32,
+        mut at: impl FnMut(f64) -> Result<WithWork<M::Point<f64>>, E>,
+    ) -> Result<bool, Reason> {
+        if self.watcher.is_idle() {
+            return Ok(false);
+        }
+        let met = self.watcher.advance(t, parts, &mut at).map_err(Into::into)?;
+        for (index, met) in met.into_iter().enumerate().skip(self.place.met) {
+            self.record_through(met.t, &mut at)?;
+            self.happen(index + 1, met)?;
+            if self.turn.is_some() {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// An event that is the `count`th of its step happens. A change is not done with before the point is recorded.
+    fn happen(&mut self, count: usize, met: Met<M::Point<f64>>) -> Result<(), Reason> {
+        let Met { t, point, work, rising, event: index } = met;
+        let event = &self.watcher.events[index];
+        let name = event.name;
+        if !point.is_finite() {
+            return Err(Reason::NotFinite);
+        }
+        let occurrence = Occurrence { name, t, point, rising };
+        match &event.action {
+            Action::Record => {
+                self.trajectory.events.push(occurrence);
+                self.place.met = count;
+                Ok(())
+            }
+            Action::Stop => {
+                self.trajectory.events.push(occurrence);
+                self.place.met = count;
+                self.turn = Some(Turn::Stopped);
+                self.trajectory.stopped_by = Some(name);
+                // A collapse is a placement without inverse, and may be the event.
+                self.trajectory.end = (t, point);
+                self.trajectory.energies.work_at_end = self.place.work() + work;
+                if self.schedule.ends_with_output() { self.push(t, point) } else { Ok(()) }
+            }
+            Action::Change(change) => {
+                let changed = change(t, &point).map_err(|error| match error {
+                    Error::Placement { determinant } => Reason::Placement { determinant, t },
+                    Error::NotFinite { .. } => Reason::NotFinite,
+                    _ => Reason::Change { event: name },
+                })?;
+                if self.schedule == Schedule::Steps {
+                    self.record_step(t, (point, work))?;
+                }
+                self.trajectory.events.push(occurrence);
+                self.turn =
+                    Some(Turn::Changed { t, point: changed, event: index, work: self.place.work() + work });
+                Ok(())
+            }
+        }
+    }
+
+    /// Records the outputs that are due up to a time.
+    pub(super) fn record_through<E: Into<Reason>>(
+        &mut self,
+        t: f64,
+        mut at: impl FnMut(f64) -> Result<WithWork<M::Point<f64>>, E>,
+    ) -> Result<(), Reason> {
+        while let Some(due) = self.schedule.take_through(t, self.backward) {
+            self.record(due, at(due).map_err(Into::into)?)?;
+        }
+        Ok(())
+    }
+
+    /// Records the end of a step, once.
+    pub(super) fn record_step(&mut self, t: f64, point: WithWork<M::Point<f64>>) -> Result<(), Reason> {
+        // Left set where the observer ends the run.
+        if core::mem::replace(&mut self.place.recorded, true) {
+            self.reach(t, point)?;
+        } else {
+            self.record(t, point)?;
+        }
+        self.place.recorded = false;
+        Ok(())
+    }
+
+    /// Checks a phase point, which becomes the last good one.
+    pub(super) fn reach(&mut self, t: f64, (point, work): WithWork<M::Point<f64>>) -> Result<(), Reason> {
+        check(t, &point)?;
+        self.trajectory.end = (t, point);
+        self.trajectory.energies.work_at_end = self.place.work() + work;
+        Ok(())
+    }
+
+    /// Checks a phase point, records it as an output and shows it to the observer.
+    pub(super) fn record(&mut self, t: f64, point: WithWork<M::Point<f64>>) -> Result<(), Reason> {
+        self.reach(t, point)?;
+        self.push(t, point.0)
+    }
+
+    /// The point is the end so far, and the work that of the end.
+    fn push(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
+        self.trajectory.times.push(t);
+        self.trajectory.points.push(point);
+        let energy = self.model.hamiltonian(t, &point);
+        let energies = &mut self.trajectory.energies;
+        energies.outputs.push(energy);
+        energies.work.push(energies.work_at_end);
+        energies.scale = larger(energies.scale, energy_scale(self.model, &point, energy));
+        match &mut self.observe {
+            Some(observe) => go_on(observe(t, &point), Callback::Observer),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Events of emitted models against closed forms.
+
+use affine_runtime::prelude::*;
+
+use crate::models::{Elastic, Sampled};
+
+/// Times: the error of the motion at the finest tolerances over rates of order 1.
+const TIME: f64 = 1e-12;
+
+/// Affine in space and in the body: `c = cosh(q1 - q2)` obeys `c'' = (4 E c + S V/A)/A`, `A = 1/2`.
+#[affine_model(dim = 2, symmetry(space = affine, body = affine), kinetic(casimir2 = 0.5), emit(taylor))]
+pub(crate) struct PlanarBody;
+
+const A: f64 = 0.5;
+
+type Planar = <PlanarBody as Model<2>>::Point<f64>;
+
+/// `cosh(q1 - q2) = tr G/(2 det phi)`.
+fn stretch(point: &Planar) -> f64 {
+    point.phi().norm_squared() / (2.0 * point.phi().determinant())
+}
+
+#[test]
+fn planar_geodesics_meet_a_stretch_when_they_should() {
+    let phi = Matrix::<2>::new(1.2, 0.3, -0.1, 0.9);
+    let start = PlanarBody.at_momentum(phi, Comoving(Matrix::<2>::new(0.3, 0.2, 0.1, -0.3))).unwrap();
+    let energy = PlanarBody.hamiltonian(0.0, &start);
+    assert!(energy > 0.0, "escaping");
+    let rest = -start.spin().0.0[(0, 1)] * start.vorticity().0.0[(0, 1)] / (4.0 * A * energy);
+    let w = 2.0 * (energy / A).sqrt();
+    let (c0, rate) =
+        (stretch(&start) - rest, phi.dot(&PlanarBody.velocity(&start).phi_dot) / phi.determinant());
+    for level in [1.5, 4.0, 20.0] {
+        // c0 cosh(w t) + rate/w sinh(w t) = level - rest, quadratic in exp(w t).
+        let (plus, minus, value) = (0.5 * (c0 + rate / w), 0.5 * (c0 - rate / w), level - rest);
+        let exact = ((value + (value * value - 4.0 * plus * minus).sqrt()) / (2.0 * plus)).ln() / w;
+        for method in [Method::ClosedForm, Method::RungeKutta8, Method::Taylor { order: None }] {
+            let run = Simulation::new(&PlanarBody, start)
+                .until(6.0)
+                .tolerance(1e-14)
+                .method(method)
+                .event(Event::new("level", |_, point| stretch(point) - level).rising().stop())
+                .run()
+                .unwrap();
+            assert_eq!(run.stopped_by(), Some("level"));
+            assert!((run.end().0 - exact).abs() < TIME, "{method:?}: {} and {exact}", run.end().0);
+        }
+    }
+}
+
+#[test]
+fn forward_and_back_through_events_with_resumption() {
+    let start = Elastic.samples(1, 31)[0];
+    let simulation = |method| {
+        Simulation::new(&Elastic, start)
+            .until(3.0)
+            .tolerance(1e-13)
+            .method(method)
+            .every(0.4)
+            .event(Event::determinant(1.0))
+            .event(Event::largest_stretch(1.2))
+    };
+    for method in [Method::RungeKutta8, Method::Taylor { order: None }] {
+        let whole = simulation(method).run().unwrap();
+        assert!(whole.events().len() > 2, "{}", whole.events().len());
+        // Backward the same events come in the opposite order and sense.
+        let back = Simulation::new(&Elastic, *whole.end().1)
+            .from(3.0)
+            .until(0.0)
+            .tolerance(1e-13)
+            .method(method)
+            .event(Event::determinant(1.0))
+            .event(Event::largest_stretch(1.2))
+            .run()
+            .unwrap();
+        assert_eq!(back.events().len(), whole.events().len());
+        for (back, there) in back.events().iter().rev().zip(whole.events()) {
+            assert!((back.t - there.t).abs() < 1e-11, "{} and {}", back.t, there.t);
+            assert_eq!((back.name, back.rising), (there.name, !there.rising));
+        }
+        assert!((back.end().1.phi() - start.phi()).norm() < 1e-11);
+
+        let first = simulation(method).max_steps(4).run().unwrap_err().trajectory;
+        let rest = simulation(method).resume(first.checkpoint().unwrap()).run().unwrap();
+        let points: Vec<_> = first.points().iter().chain(rest.points()).copied().collect();
+        assert_eq!(points, whole.points());
+        let events: Vec<_> = first.events().iter().chain(rest.events()).copied().collect();
+        assert_eq!(events, whole.events());
+        assert_eq!(rest.statistics(), whole.statistics());
+    }
+}

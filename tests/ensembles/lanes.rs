@@ -1,0 +1,129 @@
+//! Lanes give the bits of scalars.
+
+use affine_oracle::Random;
+use affine_runtime::lanes::{F64x4, F64x8, Lanes};
+use affine_runtime::model::StateVector;
+use affine_runtime::prelude::*;
+use affine_runtime::scalar::Scalar;
+
+use crate::models::{DrunkMissile, Elastic, Sampled, Unprotected, between, vibrating};
+
+/// Every function of a scalar, on numbers of all sizes, lane by lane.
+fn functions_agree<T: Lanes>() {
+    type Of<S> = fn(S) -> S;
+    fn all<S: Scalar>() -> [Of<S>; 15] {
+        [
+            S::sqrt,
+            S::cbrt,
+            S::exp,
+            S::exp_m1,
+            S::ln,
+            S::ln_1p,
+            S::sin,
+            S::cos,
+            S::tan,
+            S::sinh,
+            S::cosh,
+            S::tanh,
+            S::abs,
+            |a| -a,
+            |a| a.copysign(S::constant(-1.0, 0.0)),
+        ]
+    }
+    let same = |a: f64, b: f64| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
+    let mut random = Random::new(17);
+    for _ in 0..200 {
+        let mut number = || between(&mut random, -1.0, 1.0) * between(&mut random, -40.0, 40.0).exp2();
+        let mut numbers = || [(); 8].map(|()| number());
+        let (mut a, b, c) = (numbers(), numbers(), numbers());
+        (a[1], a[2], a[3]) = (-0.0, f64::INFINITY, f64::NAN);
+        let [x, y, z] = [a, b, c].map(|numbers| T::from_lanes(|lane| numbers[lane]));
+        for lane in 0..T::LANES {
+            let (a, b, c) = (a[lane], b[lane], c[lane]);
+            assert!(same(x.lane(lane), a));
+            for (in_lanes, of_one) in all::<T>().iter().zip(all::<f64>()) {
+                assert!(same(in_lanes(x).lane(lane), of_one(a)), "{a}");
+            }
+            let pairs = [
+                (x + y, a + b),
+                (x - y, a - b),
+                (x * y, a * b),
+                (x / y, a / b),
+                (x.fma(y, z), Scalar::fma(a, b, c)),
+                (y.copysign(x), Scalar::copysign(b, a)),
+            ];
+            assert!(pairs.iter().all(|(in_lanes, of_one)| same(in_lanes.lane(lane), *of_one)), "{a} {b} {c}");
+        }
+        assert!(x.lane(T::LANES).is_nan(), "there is no such lane");
+    }
+}
+
+#[test]
+fn numbers_in_lanes_are_those_of_scalars() {
+    functions_agree::<F64x4>();
+    functions_agree::<F64x8>();
+}
+
+/// Emitted right-hand sides of different bodies at different times, with constants of their own.
+fn equations_agree<const N: usize, M: Sampled<N>, T: Lanes>(model: &M) {
+    let starts = model.samples(T::LANES, 5);
+    let reduced: Vec<_> =
+        starts.iter().enumerate().map(|(k, start)| model.reduce(0.1 * k as f64, start)).collect();
+    let constants: Vec<_> = reduced.iter().map(|(_, constants)| *constants).collect();
+    let mut state = M::Reduced::<T>::zeros();
+    for (k, component) in state.as_mut().iter_mut().enumerate() {
+        *component = T::from_lanes(|lane| reduced[lane].0.as_ref()[k]);
+    }
+    let in_lanes = M::constants_in_lanes::<T>(&constants);
+    let t = T::from_lanes(|lane| 0.3 + lane as f64);
+    let rates = model.reduced_equations(t, &in_lanes, &state);
+    for (lane, (state, constants)) in reduced.iter().enumerate() {
+        let alone = model.reduced_equations(0.3 + lane as f64, constants, state);
+        let bits = |number: f64| number.to_bits();
+        let found: Vec<u64> = rates.as_ref().iter().map(|rate| bits(rate.lane(lane))).collect();
+        let expected: Vec<u64> = alone.as_ref().iter().map(|rate| bits(*rate)).collect();
+        assert_eq!(found, expected, "{} lane {lane}", M::DESCRIPTION.name);
+    }
+}
+
+#[test]
+fn emitted_equations_in_lanes_are_those_of_scalars() {
+    equations_agree::<3, _, F64x4>(&DrunkMissile);
+    equations_agree::<3, _, F64x8>(&DrunkMissile);
+    equations_agree::<3, _, F64x4>(&vibrating());
+    equations_agree::<3, _, F64x8>(&vibrating());
+    equations_agree::<3, _, F64x8>(&Elastic);
+    equations_agree::<2, _, F64x4>(&Unprotected);
+}
+
+/// Equal bodies share steps that each would take alone: the bits are those of a simulation.
+fn equal_bodies<const N: usize, M: Sampled<N>>(model: &M)
+where
+    M::Point<f64>: Send + Sync,
+{
+    for start in model.samples(3, 11) {
+        for t_end in [1.2, -1.0] {
+            let alone = Simulation::new(model, start)
+                .until(t_end)
+                .tolerance(1e-9)
+                .method(Method::RungeKutta8)
+                .run()
+                .unwrap();
+            let ensemble = || Ensemble::new(model, [start; 5]).until(t_end).tolerance(1e-9);
+            for ends in [ensemble().run_in::<F64x4>().unwrap(), ensemble().run_in::<F64x8>().unwrap()] {
+                assert_eq!(ends.len(), 5);
+                for end in ends {
+                    assert_eq!(end.unwrap(), *alone.end().1, "{} to {t_end}", M::DESCRIPTION.name);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_group_of_equal_bodies_has_the_bits_of_one() {
+    equal_bodies(&vibrating());
+    equal_bodies(&DrunkMissile);
+    equal_bodies(&Elastic);
+    equal_bodies(&Unprotected);
+}

@@ -1,0 +1,7 @@
+//! Emitted models in lanes, as ensembles and on their way to events.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod events;
+mod lanes;
+mod models;
+mod outcomes;

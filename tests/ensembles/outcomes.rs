@@ -1,0 +1,99 @@
+//! What becomes of each body of an ensemble.
+
+use affine_runtime::prelude::*;
+use affine_runtime::simulate::{Reason, Setting};
+
+use crate::models::{Sampled, Top, Unprotected, vibrating};
+
+/// Two integrations with the tolerance 1e-11 per step, over some tens of steps.
+const INTEGRATION: f64 = 1e-9;
+
+#[test]
+fn bodies_come_to_where_each_comes_alone() {
+    let model = vibrating();
+    let starts = model.samples(21, 3);
+    let ends = Ensemble::new(&model, starts.clone()).from(0.5).until(3.5).tolerance(1e-11).run().unwrap();
+    assert_eq!(ends.len(), starts.len());
+    for (start, end) in starts.iter().zip(&ends) {
+        let alone = Simulation::new(&model, *start).from(0.5).until(3.5).tolerance(1e-13).run().unwrap();
+        let (end, expected) = (end.as_ref().unwrap().phi(), alone.end().1.phi());
+        assert!((end - expected).norm() < INTEGRATION * expected.norm());
+    }
+}
+
+#[test]
+fn a_bad_body_does_not_touch_the_others() {
+    let good = Unprotected.samples(8, 7);
+    let collapsing = Unprotected
+        .at_momentum(
+            Vector::<2>::zeros(),
+            Matrix::<2>::identity(),
+            Vector::<2>::zeros(),
+            TwoPoint(Matrix::<2>::new(-5.0, 0.0, 0.0, 0.1)),
+        )
+        .unwrap();
+    let ensemble =
+        |starts: Vec<_>| Ensemble::new(&Unprotected, starts).until(0.6).tolerance(1e-10).run().unwrap();
+    for lane in [0, 3, 7] {
+        let mut with_bad = good.clone();
+        with_bad[lane] = collapsing;
+        let ends = ensemble(with_bad.clone());
+        let stop = ends[lane].as_ref().unwrap_err();
+        assert!(matches!(stop.reason, Reason::Placement { determinant, .. } if determinant < 0.0), "{stop}");
+        let alone = Simulation::new(&Unprotected, collapsing).until(0.6).tolerance(1e-10).output([]);
+        assert_eq!(*stop, alone.method(Method::RungeKutta8).run().unwrap_err().stop);
+        // As if the bad one were not there: one after the other in the same lanes, the last repeated.
+        let group = 8 / if cfg!(target_feature = "avx512f") { 1 } else { 2 };
+        for (k, end) in ends.iter().enumerate().filter(|(k, _)| *k != lane) {
+            let neighbours: Vec<_> = (0..8).filter(|j| j / group == k / group && *j != lane).collect();
+            let without = ensemble(neighbours.iter().map(|j| good[*j]).collect());
+            let place = neighbours.iter().position(|j| *j == k).unwrap();
+            assert_eq!(end, &without[place], "body {k} beside {lane}");
+        }
+    }
+}
+
+#[test]
+fn all_bad_and_none_at_all() {
+    let nan = Unprotected.unflatten(&[f64::NAN; 12]);
+    let ends = Ensemble::new(&Unprotected, vec![nan; 5]).until(1.0).run().unwrap();
+    assert!(ends.iter().all(|end| end.as_ref().unwrap_err().reason == Reason::NotFinite));
+    assert!(Ensemble::new(&Unprotected, []).until(1.0).run().unwrap().is_empty());
+    let one = Unprotected.samples(1, 2);
+    let ends = Ensemble::new(&Unprotected, one.clone()).until(0.0).run().unwrap();
+    assert_eq!(ends[0].as_ref().unwrap(), &one[0], "an empty interval");
+    let ends = Ensemble::new(&Unprotected, one.clone()).until(1.0).max_steps(1).run().unwrap();
+    assert_eq!(ends[0].as_ref().unwrap_err().reason, Reason::StepLimit { limit: 1 });
+    let refused = Ensemble::new(&Unprotected, one.clone()).until(1.0).tolerance(0.0).run().unwrap_err();
+    assert_eq!(refused, Setting::Tolerance { given: 0.0 });
+    assert_eq!(Ensemble::new(&Unprotected, one).run().unwrap_err(), Setting::NoEnd);
+}
+
+#[test]
+fn constrained_bodies_are_taken_one_by_one() {
+    let spin = |s: f64| Matrix::<3>::new(0.0, -2.0 * s, 0.1, 2.0 * s, 0.0, -0.3, -0.1, 0.3, 0.0);
+    let starts = [1.0, 1.3, 0.2].map(|s| Top.at_velocity(Matrix::<3>::identity(), spin(s)).unwrap());
+    let ends = Ensemble::new(&Top, starts).until(1.0).tolerance(1e-9).run().unwrap();
+    for (start, end) in starts.iter().zip(ends) {
+        let alone = Simulation::new(&Top, *start).until(1.0).tolerance(1e-9).run().unwrap();
+        assert_eq!(end.unwrap(), *alone.end().1);
+    }
+}
+
+/// Without the feature there is one thread, and the test shows that two runs agree.
+#[test]
+fn results_do_not_depend_on_threads() {
+    let model = vibrating();
+    let run = || {
+        let starts = model.samples(37, 23);
+        Ensemble::new(&model, starts).until(1.5).tolerance(1e-9).run().unwrap()
+    };
+    let in_pool = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(run)
+    };
+    let expected = run();
+    for threads in [1, 2, 3, 8] {
+        assert_eq!(in_pool(threads), expected, "{threads} threads");
+    }
+}
