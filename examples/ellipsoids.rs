@@ -93,8 +93,8 @@ fn carlson_d<T: Scalar>(squares: [T; 3]) -> T {
     for _ in 0..DUPLICATIONS {
         let roots = now.map(Scalar::sqrt);
         let lambda = sum_of_products(roots);
-        sum = sum + weight / (roots[2] * (now[2] + lambda));
-        weight = weight * rational(1, 4);
+        sum += weight / (roots[2] * (now[2] + lambda));
+        weight *= rational(1, 4);
         now = now.map(|x| (x + lambda) * rational(1, 4));
     }
     let mean = (now[0] + now[1] + now[2] * rational(3, 1)) * rational(1, 5);

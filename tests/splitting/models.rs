@@ -14,7 +14,7 @@ pub(crate) struct Missile;
     dim = 3,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = m),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
-    emit(splitting)
+    emit(splitting),
 )]
 pub(crate) struct VibratingMissile {
     pub(crate) m: f64,
@@ -25,7 +25,7 @@ pub(crate) struct VibratingMissile {
     dim = 3,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
     potential = hyperbolic_dilatation(10) + neo_hookean(0.5),
-    emit(splitting)
+    emit(splitting),
 )]
 pub(crate) struct Vibrating;
 
@@ -33,7 +33,7 @@ pub(crate) struct Vibrating;
     dim = 2,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1),
     potential = hyperbolic_dilatation(10) + neo_hookean(0.5),
-    emit(splitting)
+    emit(splitting),
 )]
 pub(crate) struct PlanarMirrored;
 
@@ -41,7 +41,7 @@ pub(crate) struct PlanarMirrored;
     dim = 3,
     kinetic(dalembert = diag(1, 1.5, 2)),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
-    emit(splitting)
+    emit(splitting),
 )]
 pub(crate) struct Elastic {
     pub(crate) kappa: f64,
@@ -51,7 +51,7 @@ pub(crate) struct Elastic {
     dim = 2,
     kinetic(dalembert = 1, space_translation = 2),
     potential = tr(G)/2 - ln(det) + x[1]^2/2 + x[2]^4/4 + x[1]*phi[1,2],
-    emit(splitting)
+    emit(splitting),
 )]
 pub(crate) struct Anchored;
 
@@ -60,7 +60,7 @@ pub(crate) struct Anchored;
     dim = 3,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
     potential = tr(G)/2 - ln(det) + G[1,1]^2/4 + G[1,2]/5,
-    emit(splitting)
+    emit(splitting),
 )]
 pub(crate) struct Fibred;
 
@@ -68,7 +68,7 @@ pub(crate) struct Fibred;
     dim = 2,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1, space_translation = 1),
     potential = tr(G)/2 - ln(det) + Ct[1,1]^2/4 + norm(x)^2/2,
-    emit(splitting)
+    emit(splitting),
 )]
 pub(crate) struct Pressed;
 
@@ -77,7 +77,7 @@ pub(crate) struct Pressed;
     dim = 3,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
     potential = tr(G)/2 - ln(det) + norm(x)^2/2,
-    emit(splitting)
+    emit(splitting),
 )]
 pub(crate) struct Attracted;
 
@@ -85,7 +85,7 @@ pub(crate) struct Attracted;
     dim = 2,
     kinetic(casimir2 = 0.2, body_inertia = 1),
     potential = (1 + sin(2*t)/2)*(tr(G)/2 - ln(det)),
-    emit(splitting)
+    emit(splitting),
 )]
 pub(crate) struct Driven;
 
@@ -94,7 +94,7 @@ pub(crate) struct Driven;
     dim = 3,
     hamiltonian(casimir2 = 5/6, casimir1_squared = -1/18, vorticity_squared = 25/24, casimir3 = 0.1),
     potential = tr(G)/2 - ln(det),
-    emit(splitting)
+    emit(splitting),
 )]
 pub(crate) struct Cubic;
 
@@ -102,7 +102,7 @@ pub(crate) struct Cubic;
     dim = 3,
     kinetic(casimir2 = 0.2, body_inertia = 1),
     potential = (q1^2 + q2^2 + q3^2)/2 + q^4 + pairs(tanh(d)^2),
-    emit(splitting)
+    emit(splitting),
 )]
 pub(crate) struct Stretched;
 

@@ -37,6 +37,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         false => quote!(_constants),
     };
     quote! {
+        #[allow(clippy::possibly_missing_comma)]
         impl #generics #rt::Splitting<#n> for #prepared #types #clause {
             const PIECES: &'static [&'static str] = &[#(#names),*];
             const NYSTROM: bool = #nystrom;

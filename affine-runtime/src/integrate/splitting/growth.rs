@@ -29,7 +29,7 @@ pub fn growth<const N: usize, T: Real>(a: [[T; N]; N]) -> [[T; N]; N] {
     let mut halvings: i32 = 0;
     let (mut scale, half) = (T::one(), T::from_f64(0.5));
     while largest * scale > T::from_f64(RADIUS) && halvings < 1100 {
-        scale = scale * half;
+        scale *= half;
         halvings += 1;
     }
     let mut g = series(a.map(|row| row.map(|entry| entry * scale)));
@@ -49,7 +49,7 @@ fn series<const N: usize, T: Real>(a: [[T; N]; N]) -> [[T; N]; N] {
     }
     let mut b = a;
     for i in 0..N {
-        b[i][i] = b[i][i] - mean;
+        b[i][i] -= mean;
     }
     let square = product(&b, &b);
     let half = T::from_f64(0.5);
