@@ -37,7 +37,6 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         false => quote!(_constants),
     };
     quote! {
-        #[allow(clippy::possibly_missing_comma)]
         impl #generics #rt::Splitting<#n> for #prepared #types #clause {
             const PIECES: &'static [&'static str] = &[#(#names),*];
             const NYSTROM: bool = #nystrom;
