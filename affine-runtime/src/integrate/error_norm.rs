@@ -178,8 +178,9 @@ pub(crate) fn norm(components: &[f64]) -> f64 {
 /// The same of numbers whose squares leave the range; NaN where one is.
 #[cold]
 fn scaled_norm(components: &[f64]) -> f64 {
-    let largest =
-        components.iter().fold(0.0_f64, |largest, v| if v.abs() <= largest { largest } else { v.abs() });
+    let largest = components
+        .iter()
+        .fold(0.0_f64, |largest, v| if v.abs() <= largest || largest.is_nan() { largest } else { v.abs() });
     if largest == 0.0 || !largest.is_finite() {
         return largest;
     }
