@@ -3,8 +3,10 @@
 
 mod classification;
 mod closed_form;
-// Every model has constructors for momenta and for velocities.
-#[allow(dead_code)]
+#[allow(
+    dead_code,
+    reason = "every model has constructors for momenta and for velocities; not all are called"
+)]
 mod models;
 mod reduced_flow;
 mod sutherland;

@@ -15,7 +15,7 @@ pub(crate) const BRACKET_ZERO: f64 = 1e-10;
 pub(crate) const BRACKET_VISIBLE: f64 = 1e-4;
 
 /// Generated code with a dissipation against exact values, per condition of the mass matrix: the roundings of
-/// [`CANONICAL`] and of one more product with `phi^-1` on each side. The largest error seen is 4e-16.
+/// [`CANONICAL`] and of one more product with `phi^-1` on each side.
 pub(crate) const DAMPED: f64 = 2e-14;
 
 /// The balance of energy and work over a run at tolerance 1e-12: the errors of some hundred steps.

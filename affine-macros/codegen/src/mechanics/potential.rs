@@ -1,8 +1,7 @@
 //! A potential `U`: its derivatives along the group, the forces in every chart, and what it leaves conserved.
 //!
 //! `U` is an expression in [base functions](Base) whose derivatives along the left and right action are known; the
-//! chain rule does the rest. `Q_hat = -(dU/dphi)^T phi`, `Q = -phi (dU/dphi)^T`, `Q_tr = -dU/dx` (MATH: section 3
-//! of the paper).
+//! chain rule does the rest. `Q_hat = -(dU/dphi)^T phi`, `Q = -phi (dU/dphi)^T`, `Q_tr = -dU/dx` (section 3).
 
 mod axes;
 mod dilatation;

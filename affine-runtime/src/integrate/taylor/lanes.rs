@@ -1,7 +1,7 @@
 //! Convolutions in lanes: what emitted recurrences do in their loops.
 //!
 //! Doubles go through vector types. Left to itself the compiler drops the lanes that nobody reads, finds the rest to be
-//! no vector any more, and computes lane by lane: two to three times slower.
+//! no vector any more, and computes lane by lane, which is slower.
 
 use core::any::Any;
 
