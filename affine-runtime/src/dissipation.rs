@@ -35,5 +35,5 @@ fn not_negative(condition: &'static str, reason: &'static str, value: f64, size:
     if value >= threshold && value.is_finite() {
         return Ok(());
     }
-    Err(Error::IllPosed(IllPosed { condition, reason, value, threshold }))
+    Err(Error::IllPosed(IllPosed { condition, reason, value, threshold, velocity: None }))
 }

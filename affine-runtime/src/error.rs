@@ -65,6 +65,44 @@ pub struct IllPosed {
     pub value: f64,
     /// The threshold it is held against.
     pub threshold: f64,
+    /// A velocity of unit size on which it is that value, for forms that are looked at in numbers.
+    pub velocity: Option<Direction>,
+}
+
+/// An affine velocity of the energy's frame: `Oh`, `Om` or `phi_dot`, `n x n`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Direction {
+    dim: usize,
+    entries: [f64; 9],
+}
+
+impl Direction {
+    /// With these entries, row after row; at most three rows.
+    pub(crate) fn new(dim: usize, entry: impl Fn(usize) -> f64) -> Self {
+        Self { dim, entries: core::array::from_fn(|k| if k < dim * dim { entry(k) } else { 0.0 }) }
+    }
+
+    /// The rows.
+    pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.entries.chunks(self.dim).take(self.dim)
+    }
+}
+
+impl fmt::Display for Direction {
+    /// `[[1.000, 0.000], [0.000, -1.000]]`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("[")?;
+        for (i, row) in self.rows().enumerate() {
+            f.write_str(if i == 0 { "[" } else { ", [" })?;
+            for (j, entry) in row.iter().enumerate() {
+                // No sign where nothing is left.
+                let entry = if entry.abs() < 5e-4 { 0.0 } else { *entry };
+                write!(f, "{}{entry:.3}", if j == 0 { "" } else { ", " })?;
+            }
+            f.write_str("]")?;
+        }
+        f.write_str("]")
+    }
 }
 
 impl fmt::Display for Error {
@@ -114,7 +152,8 @@ impl fmt::Display for IllPosed {
             f,
             "the model is ill-posed: {} fails with the value {:e} (threshold {:e}): {}",
             self.condition, self.value, self.threshold, self.reason
-        )
+        )?;
+        self.velocity.map_or(Ok(()), |velocity| write!(f, "; the velocity is {velocity}"))
     }
 }
 

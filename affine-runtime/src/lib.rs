@@ -33,6 +33,7 @@ pub mod integrate;
 pub mod kinematics;
 pub mod lanes;
 pub mod lattice;
+mod matrix_field;
 pub mod metrics;
 pub mod model;
 pub mod potential;

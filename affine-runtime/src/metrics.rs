@@ -1,5 +1,6 @@
 //! Constant metrics of space and body: bases in which they are the identity.
 
+use crate::error::{Error, IllPosed, Result};
 use crate::frames::Matrix;
 use crate::model::Velocity;
 use crate::scalar::Real;
@@ -44,4 +45,71 @@ impl<const N: usize, T: Real> Bases<N, T> {
     pub fn velocity(&self, velocity: &Velocity<N, T>) -> Velocity<N, T> {
         Velocity { x_dot: self.space * velocity.x_dot, phi_dot: self.placement(&velocity.phi_dot) }
     }
+}
+
+impl<const N: usize> Bases<N> {
+    /// With `A` and `B`, each beside its inverse.
+    #[must_use]
+    pub fn of_factors(
+        (space, space_inverse): (Matrix<N>, Matrix<N>),
+        (body, body_inverse): (Matrix<N>, Matrix<N>),
+    ) -> Self {
+        Self { space, space_inverse, body, body_inverse }
+    }
+
+    /// The same numbers as another scalar.
+    #[must_use]
+    pub fn over<T: Real>(&self) -> Bases<N, T> {
+        let over = |matrix: &Matrix<N>| matrix.map(|entry| T::constant(entry, 0.0));
+        Bases {
+            space: over(&self.space),
+            space_inverse: over(&self.space_inverse),
+            body: over(&self.body),
+            body_inverse: over(&self.body_inverse),
+        }
+    }
+}
+
+/// `A` upper triangular with `A^T A` the given symmetric metric (Cholesky), and `A^-1`.
+///
+/// # Errors
+/// [`Error::IllPosed`] with the first pivot that is not above `eps` times the summands that it is a difference of.
+pub fn orthonormal<const N: usize>(
+    metric: [[f64; N]; N],
+    condition: &'static str,
+) -> Result<(Matrix<N>, Matrix<N>)> {
+    let mut factor = Matrix::<N>::zeros();
+    for k in 0..N {
+        let known = |j: usize| (0..k).map(|i| factor[(i, k)] * factor[(i, j)]).sum::<f64>();
+        let (value, size) = (metric[k][k] - known(k), metric[k][k].abs() + known(k));
+        let threshold = f64::EPSILON * size;
+        // NaN holds nothing.
+        if !(value > threshold && value.is_finite()) {
+            return Err(Error::IllPosed(IllPosed {
+                condition,
+                reason: "the value is a pivot of the metric: one that is not positive definite to rounding gives a \
+                         vector no length; choose fields that make every vector but zero longer than zero",
+                value,
+                threshold,
+                velocity: None,
+            }));
+        }
+        let root = libm::sqrt(value);
+        let row: [f64; N] = core::array::from_fn(|j| match j {
+            j if j < k => 0.0,
+            j if j == k => root,
+            _ => (metric[k][j] - known(j)) / root,
+        });
+        row.into_iter().enumerate().for_each(|(j, entry)| factor[(k, j)] = entry);
+    }
+    // Upper triangular, column after column.
+    let mut inverse = Matrix::<N>::zeros();
+    for j in 0..N {
+        for i in (0..=j).rev() {
+            let unit = if i == j { 1.0 } else { 0.0 };
+            let known: f64 = (i + 1..=j).map(|k| factor[(i, k)] * inverse[(k, j)]).sum();
+            inverse[(i, j)] = (unit - known) / factor[(i, i)];
+        }
+    }
+    Ok((factor, inverse))
 }

@@ -25,7 +25,8 @@ pub use crate::lattice::{
     Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, MetricSide, PotentialClass,
     TwoPolarForm, Variables,
 };
-pub use crate::metrics::Bases;
+pub use crate::matrix_field::symmetric_part;
+pub use crate::metrics::{Bases, orthonormal};
 pub use crate::model::{
     Conserved, Constraint, Description, Formula, Group, Model, Operations, Regularity, Velocity,
     VelocityDeterminesMomentum,

@@ -1,6 +1,6 @@
 //! Support for emitted reductions: turning space, closed forms, well-posedness of prepared models.
 
-use crate::error::{Error, IllPosed, Result};
+use crate::error::{Direction, Error, IllPosed, Result};
 use crate::frames::{Matrix, Vector};
 use crate::geodesic::Motion;
 use crate::scalar::Real;
@@ -119,6 +119,7 @@ pub fn well_posed(conditions: &[Condition]) -> Result<()> {
                 reason: c.reason,
                 value: c.value,
                 threshold,
+                velocity: None,
             }));
         }
     }
@@ -138,23 +139,28 @@ pub fn finite<const K: usize>(coefficients: [f64; K]) -> Result<[f64; K]> {
                      other units",
             value,
             threshold: f64::MAX,
+            velocity: None,
         })),
     }
 }
 
-/// Inverse of a symmetric form given by its upper triangle, as an upper triangle: through its eigenvectors, so
-/// that the smallest eigenvalue is at hand. `M = K (K + 1)/2`; `size` is that of the terms of all entries.
+/// Inverse of a symmetric form on affine velocities of dimension `N`, given by its upper triangle in a basis, as an
+/// upper triangle: through its eigenvectors, so that the smallest eigenvalue is at hand. `M = K (K + 1)/2`; `size` is
+/// that of the terms of all entries, and `basis` has the entries of each vector that are not zero: row-major place and
+/// weight.
 ///
 /// # Errors
-/// [`Error::IllPosed`] where an eigenvalue is not above `eps` times `size`, or not positive on demand.
-pub fn inverse_form<const K: usize, const M: usize>(
+/// [`Error::IllPosed`] where an eigenvalue is not above `eps` times `size`, or not positive on demand, with its
+/// velocity.
+pub fn inverse_form<const N: usize, const K: usize, const M: usize>(
     upper: [f64; M],
     size: f64,
     positive: bool,
+    basis: [&[(usize, f64)]; K],
 ) -> Result<[f64; M]> {
     let eigen = jacobi::<K>(symmetric(&upper));
     let threshold = f64::EPSILON * size;
-    for value in eigen.values {
+    for (k, value) in eigen.values.into_iter().enumerate() {
         let held = if positive { value } else { value.abs() };
         if !(held > threshold && held.is_finite()) {
             return Err(Error::IllPosed(IllPosed {
@@ -167,6 +173,7 @@ pub fn inverse_form<const K: usize, const M: usize>(
                          choose fields that keep its eigenvalues away from zero",
                 value,
                 threshold,
+                velocity: value.is_finite().then(|| direction::<N, K>(&eigen, k, &basis)),
             }));
         }
     }
@@ -178,6 +185,22 @@ pub fn inverse_form<const K: usize, const M: usize>(
         }
     }
     Ok(inverse)
+}
+
+/// The eigenvector of place `k` as an affine velocity of unit size.
+fn direction<const N: usize, const K: usize>(
+    eigen: &Eigen<K>,
+    k: usize,
+    basis: &[&[(usize, f64)]; K],
+) -> Direction {
+    let mut velocity = [[0.0; N]; N];
+    for (i, vector) in basis.iter().enumerate() {
+        for (entry, weight) in vector.iter() {
+            velocity[entry / N][entry % N] += eigen.vectors[(i, k)] * weight;
+        }
+    }
+    let norm = libm::sqrt(velocity.iter().flatten().map(|entry| entry * entry).sum());
+    Direction::new(N, |entry| velocity[entry / N][entry % N] / norm)
 }
 
 /// The symmetric matrix with this upper triangle, row after row.

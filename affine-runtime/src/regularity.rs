@@ -71,6 +71,7 @@ pub fn regular(regularity: Option<Regularity>, positive: bool) -> Result<()> {
                      start from another placement, or change the coefficients",
             value: found.weakest,
             threshold: LEAST_PIVOT,
+            velocity: None,
         }));
     }
     if positive && found.negative > 0 {
@@ -80,6 +81,7 @@ pub fn regular(regularity: Option<Regularity>, positive: bool) -> Result<()> {
                      placement; start from another placement, or change the coefficients",
             value: found.negative as f64,
             threshold: 0.0,
+            velocity: None,
         }));
     }
     Ok(())

@@ -66,13 +66,11 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     momentum_side::one_frame(spec, found);
     momentum_side::third_casimir(spec, found);
     momentum_side::inverse_masses(spec, found);
-    metrics::literal(spec, found);
     metrics::positive(spec, found);
     metrics::invariant(spec, found);
     inertia::masses(spec, found);
     inertia::symmetric(spec, found);
     inertia::positive(spec, found);
-    tensors::literal(spec, found);
     tensors::symmetric(spec, found);
     constraint::constant_mass_matrix(spec, found);
     found.verdict()

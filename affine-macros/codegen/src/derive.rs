@@ -1,6 +1,7 @@
 //! The derivation of one model: from its quadratic form to straight-line programs, ready to be written down.
 
 mod lattice;
+mod metrics;
 mod mixed;
 mod prepared;
 mod programs;
@@ -21,7 +22,6 @@ use crate::mechanics::describe::{self, Formula};
 use crate::mechanics::equations::{self, hamilton};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
-use crate::mechanics::metrics::Metrics;
 use crate::mechanics::potential::{Base, Potential};
 use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
@@ -29,6 +29,7 @@ use crate::optimise::{Batch, straight_line};
 use crate::spec::{Capability, Spanned};
 
 pub use lattice::TwoPolar;
+pub use metrics::ChangeOfBases;
 use prepared::{coefficient_program, conditions, damping, numeric_blocks};
 use programs::{Reduced, best_reduction, full_chart, full_equations, power_batch};
 
@@ -98,7 +99,7 @@ pub struct Model {
     /// Symmetry groups of space and body that leave the kinetic energy unchanged.
     pub groups: (Group, Group),
     /// Metrics other than the identity.
-    pub metrics: Option<Metrics>,
+    pub metrics: Option<ChangeOfBases>,
     /// `T`, `H`, and the equations.
     pub formulas: Formulas,
     /// The two-polar form, where it is asked for.
@@ -205,6 +206,8 @@ pub struct NumericBlock {
     pub program: Program,
     /// Names of the entries of the inverse, upper triangle, row after row.
     pub inverse: Vec<String>,
+    /// The velocities that it is written in: row-major places and weights.
+    pub basis: Vec<Vec<(usize, Rational)>>,
     /// Size.
     pub size: usize,
     /// Must it be positive definite?
@@ -408,7 +411,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         signature,
         has_forces: potential.is_some() || !forces.is_empty(),
         groups,
-        metrics,
+        metrics: metrics.map(|metrics| ChangeOfBases::of(arena, metrics)),
         formulas,
         two_polar,
         taylor: None,

@@ -22,7 +22,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::algebra::kernel::Callee;
-use crate::derive::{Equations, Model};
+use crate::derive::{ChangeOfBases, Equations, Model};
 use crate::ir::Program;
 use crate::mechanics::kinetic::Frame;
 use crate::spec::Spec;
@@ -32,7 +32,8 @@ use names::Names;
 
 /// The user's item and everything that belongs to it.
 pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
-    let has_fields = !model.coefficients.outputs.is_empty();
+    let bases_of_fields = matches!(model.metrics, Some(ChangeOfBases::Prepared(_)));
+    let has_fields = !model.coefficients.outputs.is_empty() || bases_of_fields;
     let names = Names::new(spec, has_fields);
     let runtime = runtime(spec.runtime.as_ref());
     let context = Context { spec, model, names: &names, has_fields };

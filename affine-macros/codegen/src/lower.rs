@@ -21,6 +21,12 @@ pub(crate) use potential::{difference_of, energy};
 /// Stem of the symbols of fields: kept apart from the names that the derivation makes.
 pub const FIELD: &str = "self.";
 
+/// The symbol of an entry of a field of matrix type, indices from 1.
+#[must_use]
+pub fn field_entry(field: impl std::fmt::Display, row: usize, column: usize) -> String {
+    format!("{FIELD}{field}[{row},{column}]")
+}
+
 /// The terms of a quadratic form in dimension `n` that are not exactly zero, each with its place in `written`.
 pub fn terms(arena: &mut Arena, n: usize, written: &[spec::Term]) -> Vec<(usize, Term)> {
     written
@@ -116,6 +122,10 @@ pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<
     match &e.kind {
         ExpressionKind::Number(value) => Some(arena.constant(value.clone())),
         ExpressionKind::Symbol(name) => Some(arena.symbol(&format!("{FIELD}{name}"))),
+        // One symbol for both triangles: `prepare()` refuses a field that is not symmetric.
+        ExpressionKind::FieldEntry(field, row, column) => {
+            Some(arena.symbol(&field_entry(field, *row.min(column), *row.max(column))))
+        }
         ExpressionKind::Negate(a) => {
             let a = of(a)?;
             Some(arena.neg(a))

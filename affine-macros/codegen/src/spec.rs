@@ -6,6 +6,7 @@ mod expression;
 mod expression_parser;
 mod grammar;
 mod item;
+mod matrix_field;
 mod momentum_side;
 mod named_potentials;
 mod names;
@@ -20,6 +21,7 @@ use expression_parser::Language;
 pub use custom::{Custom, Role};
 pub use expression::{Expression, ExpressionKind, MatrixName, Operator};
 pub use item::{Field, Item};
+pub use matrix_field::Storage;
 pub use momentum_side::MomentumKind;
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
 pub use names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
@@ -185,7 +187,7 @@ pub fn parse(args: TokenStream, item: TokenStream, found: &mut Diagnostics) -> R
     let item = item::parse(item, found);
     let arguments = grammar::parse(args, found);
     let (item, arguments) = (item?, arguments?);
-    Ok(arguments.of(item))
+    Ok(arguments.of(item).with_entries())
 }
 
 /// Reads one expression, as a coefficient of the kinetic energy is read.

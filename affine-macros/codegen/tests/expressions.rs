@@ -28,6 +28,7 @@ fn grouped(expression: &Expression) -> String {
     match &expression.kind {
         ExpressionKind::Number(value) => value.to_string(),
         ExpressionKind::Symbol(name) => name.to_string(),
+        ExpressionKind::FieldEntry(field, row, column) => format!("{field}[{row},{column}]"),
         ExpressionKind::Negate(one) => format!("(-{})", grouped(one)),
         ExpressionKind::Add(left, right) => pair(left, "+", right),
         ExpressionKind::Subtract(left, right) => pair(left, "-", right),

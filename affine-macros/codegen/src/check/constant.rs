@@ -24,7 +24,8 @@ pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
         ExpressionKind::Divide(left, right) => value(left)?.checked_div(&value(right)?),
         ExpressionKind::Power(base, exponent) => value(base)?.pow(integer(exponent, n)?),
         // A function of a number has no exact value in general, and the others depend on the state.
-        ExpressionKind::Call(..)
+        ExpressionKind::FieldEntry(..)
+        | ExpressionKind::Call(..)
         | ExpressionKind::Trace(_)
         | ExpressionKind::Entry(..)
         | ExpressionKind::Component(_)

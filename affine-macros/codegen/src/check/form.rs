@@ -97,6 +97,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     let body_group = largest_group(&free, Side::Body);
     let unitary = spec.group.is_some();
     let two_polar = unitary || two_polar::asked(spec, &free, &places, potential.as_ref(), found)?;
+    let metrics = lower::metrics(&mut arena, spec);
     Ok(Form {
         arena,
         kinetic,
@@ -106,7 +107,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         body_group,
         potential,
         forces,
-        metrics: lower::metrics(spec),
+        metrics,
         split: super::capabilities::asked(spec, Capability::Splitting),
         quantities: Quantities::of(spec),
         two_polar,
@@ -143,6 +144,7 @@ fn momentum_form(
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     found.verdict()?;
     let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
+    let metrics = lower::metrics(&mut arena, spec);
     Ok(Form {
         arena,
         kinetic,
@@ -152,7 +154,7 @@ fn momentum_form(
         body_group,
         potential,
         forces,
-        metrics: lower::metrics(spec),
+        metrics,
         split: super::capabilities::asked(spec, Capability::Splitting),
         quantities: Quantities::of(spec),
         two_polar,

@@ -3,7 +3,7 @@
 use super::identity::equal;
 use super::inertia::defect;
 use super::shapes::counts;
-use super::symbols::has_field;
+use crate::algebra::Arena;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::spec::{Expression, ExpressionKind, MatrixName, Metric, Named, Spec, Value};
 
@@ -27,16 +27,6 @@ pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
                 };
                 found.report(at, mistake);
             }
-        }
-    }
-}
-
-/// The orthonormal bases are computed when the model is compiled, to the precision of every scalar.
-pub(super) fn literal(spec: &Spec, found: &mut Diagnostics) {
-    for metric in stated(spec) {
-        for entry in metric.value.expressions().filter(|entry| has_field(spec, entry)) {
-            let mistake = Diagnostic::MetricEntry { side: metric.side, entry: entry.to_string() };
-            found.report(entry.span, mistake);
         }
     }
 }
@@ -74,7 +64,7 @@ fn asymmetric(rows: &[Vec<Expression>], n: usize) -> Option<(usize, usize)> {
 /// coefficients are irrational: matrices J and K, entries and coordinates, and traces of `phi` itself or of products of
 /// tensors of the body with tensors of space, which depend on the bases.
 pub(super) fn invariant(spec: &Spec, found: &mut Diagnostics) {
-    if crate::lower::metrics(spec).is_none() {
+    if crate::lower::metrics(&mut Arena::new(), spec).is_none() {
         return;
     }
     for term in &spec.kinetic {

@@ -70,11 +70,6 @@ fn unresolved(spec: &Spec, name: &Ident, meaning: Option<Symbol<'_>>, more: &[&s
     }
 }
 
-/// Does the coefficient depend on a field?
-pub(super) fn has_field(spec: &Spec, coefficient: &Expression) -> bool {
-    names(coefficient).into_iter().any(|name| matches!(spec.resolve(name), Some(Symbol::Field(_))))
-}
-
 /// The names in an expression, from left to right.
 pub(super) fn names(expression: &Expression) -> Vec<&Ident> {
     match &expression.kind {

@@ -1,21 +1,8 @@
 //! Tensors `1/2 K[(A,B),(C,D)] O[A,B] O[C,D]` over `Oh`, `Om` or `phi_dot`.
 
 use super::identity::equal;
-use super::symbols::has_field;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::spec::{Expression, Named, Spec, Term, Value};
-
-/// The inverse of a tensor is found by exact elimination, whose pivots must be known when the model is
-/// compiled: the entries are numbers.
-pub(super) fn literal(spec: &Spec, found: &mut Diagnostics) {
-    for term in spec.kinetic.iter().filter(|term| term.kind.value.is_tensor()) {
-        let entries = term.value.expressions();
-        for entry in entries.filter(|entry| has_field(spec, entry)) {
-            let mistake = Diagnostic::TensorEntry { term: term.kind.value.name(), entry: entry.to_string() };
-            found.report(entry.span, mistake);
-        }
-    }
-}
 
 /// K[(A,B),(C,D)] = K[(C,D),(A,B)]: T sees only the part of K that is symmetric under exchange of the pairs,
 /// so a tensor without this symmetry has a slip in it. The row and column of (A,B) are n(A-1)+B.

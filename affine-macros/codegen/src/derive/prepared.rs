@@ -158,7 +158,8 @@ pub(super) fn numeric_blocks(arena: &mut Arena, h: &Hamiltonian, positive: bool)
         .map(|block| {
             let name = |s: Expr| arena.name(s).unwrap_or("inverse").to_owned();
             let inverse = upper(block.form.len()).map(|(i, j)| name(block.inverse[i][j])).collect();
-            NumericBlock { inverse, ..form_block(arena, &block.form, positive) }
+            let basis = block.basis.iter().map(|vector| vector.entries.clone()).collect();
+            NumericBlock { inverse, basis, ..form_block(arena, &block.form, positive) }
         })
         .collect()
 }
@@ -169,7 +170,7 @@ fn form_block(arena: &mut Arena, form: &[Vec<Polynomial>], positive: bool) -> Nu
     let entries: Vec<Polynomial> = upper(size).map(|(i, j)| form[i][j].clone()).collect();
     let sizes: Vec<Polynomial> = entries.iter().flat_map(summands).collect();
     let program = unbound(arena, entries.into_iter().chain(sizes));
-    NumericBlock { program, inverse: Vec::new(), size, positive }
+    NumericBlock { program, inverse: Vec::new(), basis: Vec::new(), size, positive }
 }
 
 /// Places of an upper triangle, row after row.

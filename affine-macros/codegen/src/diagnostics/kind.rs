@@ -372,13 +372,6 @@ pub enum Diagnostic {
         /// Where that number comes from: `n^2 = 9`.
         because: String,
     },
-    /// A tensor entry that contains a field.
-    TensorEntry {
-        /// The term.
-        term: &'static str,
-        /// The entry.
-        entry: String,
-    },
     /// `K[(A,B),(C,D)] != K[(C,D),(A,B)]`.
     TensorNotSymmetric {
         /// The term.
@@ -452,13 +445,6 @@ pub enum Diagnostic {
     NoKineticEnergy,
 
     // ---- the metrics ----
-    /// An entry of a metric that contains a field.
-    MetricEntry {
-        /// `space` or `body`.
-        side: &'static str,
-        /// The entry.
-        entry: String,
-    },
     /// `g_ij != g_ji`.
     MetricNotSymmetric {
         /// `space` or `body`.
@@ -721,7 +707,6 @@ names! {
     PotentialExponent => "potential-exponent",
     TermShape => "term-shape",
     MatrixSize => "matrix-size",
-    TensorEntry => "tensor-entry",
     TensorNotSymmetric => "tensor-not-symmetric",
     InertiaNotSymmetric => "inertia-not-symmetric",
     InertiaNotPositive => "inertia-not-positive",
@@ -731,7 +716,6 @@ names! {
     PlanarCasimir3 => "planar-casimir3",
     MixedFrames => "mixed-frames",
     NoKineticEnergy => "no-kinetic-energy",
-    MetricEntry => "metric-entry",
     MetricNotSymmetric => "metric-not-symmetric",
     MetricNotPositive => "metric-not-positive",
     MetricTerm => "metric-term",

@@ -233,8 +233,12 @@ impl Diagnostic {
             ),
             Self::FieldType { field, ty } => text(
                 format!("the field `{field}` has type `{ty}` and cannot stand in an expression"),
-                "a coefficient is a real number; fields of other types are left alone",
-                format!("write `{field}: f64` in the struct, spelled `f64` and not as an alias"),
+                "an expression is a real number; a field of matrix type stands alone, as in `body_inertia = j`, and fields \
+                 of other types are left alone",
+                format!(
+                    "write `{field}: f64` in the struct, spelled `f64` and not as an alias, or a matrix type written out, \
+                     as `Matrix3<f64>`"
+                ),
             ),
             Self::HiddenSymbol { name, meaning, place } => text(
                 format!("the field `{name}` hides the symbol `{name}`"),
@@ -359,12 +363,6 @@ impl Diagnostic {
                 format!("its size follows from the dimension: {because}"),
                 format!("write {expected} {counted}"),
             ),
-            Self::TensorEntry { term, entry } => text(
-                format!("the entry `{entry}` of `{term}` depends on a field"),
-                "this version inverts the tensor exactly when the model is compiled, which needs numbers",
-                "write numbers; isotropic energies with fields are `body_inertia`, `space_inertia`, `casimir2`, \
-                 `casimir1_squared`",
-            ),
             Self::TensorNotSymmetric { term, first, second, value, transposed } => text(
                 format!(
                     "`{term}` is not symmetric: K[{first},{second}] = {value}, K[{second},{first}] = {transposed}"
@@ -421,11 +419,6 @@ impl Diagnostic {
                 "there is no kinetic energy of the internal motion",
                 "without a term in phi_dot the Legendre transformation has no inverse: Sigma = (dT/dOm)^T = 0",
                 "add `casimir2`, `body_inertia`, `space_inertia`, `dalembert`, `body_tensor`, `space_tensor` or `flat_tensor`",
-            ),
-            Self::MetricEntry { side, entry } => text(
-                format!("the entry `{entry}` of the metric `{side}` depends on a field"),
-                "this version finds the orthonormal bases when the model is compiled, which needs numbers",
-                "write numbers",
             ),
             Self::MetricNotSymmetric { side, row, column, value, transposed } => text(
                 format!(

@@ -38,9 +38,10 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
         _ => quote!(let drift = #rt::Vector::<#n>::zeros();),
     };
     let spin = own_spin(context);
+    let (bases, typed) = (context.bases(None), context.bases(Some(&f64)));
     let velocity = match context.model.metrics {
         None => quote!(#rt::Model::velocity(self, point)),
-        Some(_) => quote!(bases::<#f64>().velocity(&#rt::Model::velocity(self, stated))),
+        Some(_) => quote!(#typed.velocity(&#rt::Model::velocity(self, stated))),
     };
     let stated = (context.model.metrics.is_some() && form == ClosedForm::Straight)
         .then(|| quote!(let stated = point;));
@@ -53,8 +54,8 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
             t: #f64,
             start: &Self::Point<#f64>,
         ) -> Self::Point<#f64> {
-            let point = geodesic.point(t, &#rt::Phase::rebased(start, &bases()));
-            #rt::Phase::rebased(&point, &bases::<#f64>().reversed())
+            let point = geodesic.point(t, &#rt::Phase::rebased(start, &#bases));
+            #rt::Phase::rebased(&point, &#typed.reversed())
         }
     });
     let motion = match (form, &context.model.isotropic) {

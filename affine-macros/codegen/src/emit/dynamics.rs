@@ -64,8 +64,9 @@ fn velocity(context: &Context) -> TokenStream {
     };
     let inward = context.inward();
     let velocity = quote!(#rt::Velocity { x_dot: #x_dot, phi_dot });
+    let bases = context.bases(Some(&quote!(#t)));
     let velocity = match context.model.metrics {
-        Some(_) => quote!(bases::<#t>().reversed().velocity(&#velocity)),
+        Some(_) => quote!(#bases.reversed().velocity(&#velocity)),
         None => velocity,
     };
     quote! {
@@ -117,11 +118,12 @@ fn kinetic_energy(context: &Context) -> TokenStream {
     };
     let body = context.generic(program);
     let (lets, energy) = (&body.lets, body.result());
+    let bases = context.bases(Some(&quote!(#t)));
     let inward = context.with_metrics(quote! {
-        let velocity = &bases::<#t>().velocity(velocity);
+        let velocity = &#bases.velocity(velocity);
     });
     let phi_inward = (reads_phi && context.model.metrics.is_some())
-        .then(|| quote!(let phi = &bases::<#t>().placement(phi);));
+        .then(|| quote!(let phi = &#bases.placement(phi);));
     let inward = quote!(#inward #phi_inward);
     quote! {
         fn kinetic_energy<#t: #rt::Real>(

@@ -49,8 +49,9 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
             let momentum_of_centre = momentum_of_centre(context);
             let inward_centre =
                 moving.then(|| quote!(let (x, x_dot) = (bases.space * x, bases.space * x_dot);));
+            let bases = context.bases(Some(&quote!(#rt::f64)));
             let inward = context.with_metrics(quote! {
-                let bases = bases::<#rt::f64>();
+                let bases = #bases;
                 #inward_centre
                 let (phi, phi_dot) = (bases.placement(&phi), bases.placement(&phi_dot));
             });

@@ -1,14 +1,14 @@
 //! `prepare()`: from values of the fields to a checked model with its coefficients.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::derive::{Condition, Damping, NumericBlock, Relation};
 use crate::lower::FIELD;
-use crate::spec::Field;
+use crate::spec::{Field, Storage};
 
 use super::body::{Body, Number, Scope, body};
-use super::{Context, number};
+use super::{Context, metrics, number};
 use crate::ir::Program;
 
 /// What `prepare()` returns; nothing for a model without fields in its coefficients.
@@ -19,6 +19,7 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
     let (model, prepared) = (&context.names.model, &context.names.prepared);
     let visibility = &context.spec.item.visibility;
     let count = number(context.model.coefficients.outputs.len());
+    let (bases, _) = metrics::prepared(context);
     let summary = format!(" [`{model}`] with values of its fields that make it well posed.");
     if !context.spec.customs.is_empty() {
         let generics = &context.spec.item.generics;
@@ -35,6 +36,7 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
             #[derive(::core::clone::Clone)]
             #visibility struct #prepared #generics #clause {
                 coefficients: [::core::primitive::f64; #count],
+                #bases
                 #(#fields)*
                 model: ::core::marker::PhantomData<fn() -> #model #types>,
             }
@@ -52,6 +54,7 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
         )]
         #visibility struct #prepared {
             coefficients: [::core::primitive::f64; #count],
+            #bases
         }
     }
 }
@@ -72,16 +75,19 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let (model, prepared, rt) = (&context.names.model, &context.names.prepared, &context.names.rt);
     let visibility = &context.spec.item.visibility;
     let (generics, types, clause) = context.spec.item.generics.split_for_impl();
+    let matrices = matrices(context, rt);
     let conditions = conditions(context, rt);
+    let (_, bases) = metrics::prepared(context);
     let clones = called(context).map(|(name, field)| {
         let field = &field.ident;
         quote!(, #name: ::core::clone::Clone::clone(&self.#field))
     });
+    let named_bases = (!bases.is_empty()).then(|| quote!(, bases));
     let marker = (!context.spec.customs.is_empty()).then(|| quote!(, model: ::core::marker::PhantomData));
-    let fields: Vec<TokenStream> = clones.chain(marker).collect();
+    let fields: Vec<TokenStream> = named_bases.into_iter().chain(clones).chain(marker).collect();
     let of = (!context.spec.customs.is_empty()).then(|| quote!(#types));
     let blocks: TokenStream =
-        context.model.numeric_blocks.iter().map(|block| numeric_block(block, rt)).collect();
+        context.model.numeric_blocks.iter().map(|block| numeric_block(context, block, rt)).collect();
     let damping = damping(&context.model.damping, rt);
     let Body { lets, results } = over_fields(rt, &context.model.coefficients);
     quote! {
@@ -92,9 +98,11 @@ pub(super) fn method(context: &Context) -> TokenStream {
             /// `IllPosed` with the condition, its value and its threshold, where the Legendre transformation
             /// is degenerate to rounding, a required sign is missing, or a coefficient overflows.
             #visibility fn prepare(&self) -> #rt::Result<#prepared #of> {
+                #matrices
                 #conditions
                 #blocks
                 #damping
+                #bases
                 #lets
                 let coefficients = #rt::finite([#(#results),*])?;
                 ::core::result::Result::Ok(#prepared { coefficients #(#fields)* })
@@ -103,13 +111,53 @@ pub(super) fn method(context: &Context) -> TokenStream {
     }
 }
 
-/// A program over the fields, and over inverse blocks computed before.
-fn over_fields(rt: &Ident, program: &Program) -> Body {
-    let input = |name: &str| match name.strip_prefix(FIELD) {
-        Some(field) => {
-            let field = format_ident!("{field}");
+/// The symmetric parts of the fields of matrix type.
+fn matrices(context: &Context, rt: &Ident) -> TokenStream {
+    let matrices = context.spec.matrix_fields().map(|(field, size, storage)| {
+        let (field, local) = (&field.ident, matrix_name(&field.ident));
+        let rows = match storage {
+            Storage::Rows => quote!(self.#field),
+            Storage::Matrix => quote! {
+                ::core::array::from_fn(|a| ::core::array::from_fn(|b| self.#field[(a, b)]))
+            },
+        };
+        let condition = format!("{field} = {field}^T");
+        let reason = format!(
+            "the value is the largest difference of two entries of `{field}`, and the energy sees the symmetric part \
+             alone; give a symmetric matrix of finite numbers"
+        );
+        let size = number(size);
+        quote!(let #local = #rt::symmetric_part::<#size>(#rows, #condition, #reason)?;)
+    });
+    matrices.collect()
+}
+
+/// The local variable of a field of matrix type.
+fn matrix_name(field: impl std::fmt::Display) -> Ident {
+    format_ident!("matrix_{}", field.to_string().trim_start_matches("r#"))
+}
+
+/// What reads a field, or an entry `j[1,2]` of one.
+fn read_field(name: &str) -> TokenStream {
+    let entry = name.strip_suffix(']').and_then(|entry| entry.split_once('['));
+    let places = entry.and_then(|(field, places)| {
+        let (row, column) = places.split_once(',')?;
+        let place = |index: &str| Some(number(index.parse::<usize>().ok()?.checked_sub(1)?));
+        Some((matrix_name(field), place(row)?, place(column)?))
+    });
+    match places {
+        Some((matrix, row, column)) => quote!(#matrix[#row][#column]),
+        None => {
+            let field = format_ident!("{name}");
             quote!(self.#field)
         }
+    }
+}
+
+/// A program over the fields, and over inverse blocks computed before.
+pub(super) fn over_fields(rt: &Ident, program: &Program) -> Body {
+    let input = |name: &str| match name.strip_prefix(FIELD) {
+        Some(field) => read_field(field),
         None => {
             let name = format_ident!("{name}");
             quote!(#name)
@@ -200,16 +248,28 @@ fn held(condition: &Condition, text: &str, reason: &str, rt: &Ident) -> TokenStr
     }
 }
 
-fn numeric_block(block: &NumericBlock, rt: &Ident) -> TokenStream {
+fn numeric_block(context: &Context, block: &NumericBlock, rt: &Ident) -> TokenStream {
     let Body { lets, results } = over_fields(rt, &block.program);
     let names = block.inverse.iter().map(|name| format_ident!("{name}"));
-    let (size, positive) = (number(block.size), block.positive);
+    let (dim, size, positive) = (context.dim(), number(block.size), block.positive);
     let count = number(block.inverse.len());
     let (entries, terms) = results.split_at(block.inverse.len());
+    let basis = block.basis.iter().map(|vector| {
+        let entries = vector.iter().map(|(place, weight)| {
+            let (place, weight) = (number(*place), Literal::f64_unsuffixed(weight.to_doubles().0));
+            quote!((#place, #weight))
+        });
+        quote!(&[#(#entries),*])
+    });
     quote! {
         let [#(#names),*]: [::core::primitive::f64; #count] = {
             #lets
-            #rt::inverse_form::<#size, #count>([#(#entries),*], #rt::total_size([#(#terms),*]), #positive)?
+            #rt::inverse_form::<#dim, #size, #count>(
+                [#(#entries),*],
+                #rt::total_size([#(#terms),*]),
+                #positive,
+                [#(#basis),*],
+            )?
         };
     }
 }

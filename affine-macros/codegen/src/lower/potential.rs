@@ -30,6 +30,8 @@ pub(crate) fn energy(arena: &mut Arena, n: usize, e: &Expression, difference: Op
     let of = |arena: &mut Arena, operand: &Expression| energy(arena, n, operand, difference);
     match &e.kind {
         ExpressionKind::Number(value) => Some(arena.constant(value.clone())),
+        // Of a matrix a potential could only take entries, and those of fields have no notation.
+        ExpressionKind::FieldEntry(..) => None,
         ExpressionKind::Symbol(name) if name == "d" => difference,
         ExpressionKind::Symbol(name) => symbol(arena, n, &name.to_string()),
         ExpressionKind::Negate(a) => {

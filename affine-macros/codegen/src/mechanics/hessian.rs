@@ -114,10 +114,12 @@ impl Hessian {
         let blocks = bases
             .into_iter()
             .map(|basis| blocks(&matrix, basis))
-            // Work of inverting; the invariant directions win a tie, since they name the eigenvalues.
+            // Work of inverting; the invariant directions win a tie, since they name the eigenvalues, but not where
+            // numbers are left to tell: in entries their eigenvalues are those of T.
             .min_by_key(|blocks| {
                 let work: usize = blocks.iter().map(|b| b.basis.len().pow(3)).sum();
-                (work, blocks[0].basis[0].kind == Direction::Entry)
+                let left = blocks.iter().any(|b| b.basis.len() > 1 && b.numbers().is_none());
+                (work, (blocks[0].basis[0].kind == Direction::Entry) != left)
             })
             .unwrap_or_default();
         Self { blocks, matrix }
@@ -158,6 +160,8 @@ pub struct Inverse {
 /// A symmetric block whose inverse is computed from the values of the fields.
 #[derive(Clone, Debug)]
 pub struct NumericBlock {
+    /// What the form is written in, where it stands first.
+    pub basis: Vec<BasisVector>,
     /// The form, in parameters.
     pub form: Vec<Vec<Polynomial>>,
     /// Symbols of the inverse, row after row; symmetric.
@@ -191,7 +195,7 @@ impl Inverse {
         let mut symbol =
             |i: usize, j: usize| arena.symbol(&format!("inverse_{b}_{}_{}", i.min(j) + 1, i.max(j) + 1));
         let inverse: Vec<Vec<Expr>> = (0..size).map(|i| (0..size).map(|j| symbol(i, j)).collect()).collect();
-        self.numeric_blocks.push(NumericBlock { form: block.form.clone(), inverse });
+        self.numeric_blocks.push(NumericBlock { basis: block.basis.clone(), form: block.form.clone(), inverse });
         self.numeric_blocks.last().map(NumericBlock::as_atoms)
     }
 }

@@ -1,12 +1,21 @@
 //! Constant metrics of space and body: the bases in which they are the identity.
 
-use crate::algebra::Rational;
 use crate::algebra::linear;
 use crate::algebra::root::root;
+use crate::algebra::{Expr, Rational};
+
+/// Metrics other than the identity.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Metrics {
+    /// Numbers, with the bases that follow from them.
+    Known(Bases),
+    /// Expressions in the fields, which have their values when the model is prepared: `g` and `eta`.
+    Given([Vec<Vec<Expr>>; 2]),
+}
 
 /// `g = A^T A` and `eta = B^T B` with upper triangular factors (Cholesky) and their inverses.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Metrics {
+pub struct Bases {
     /// `A`.
     pub space: Factor,
     /// `B`.
@@ -23,7 +32,7 @@ pub struct Factor {
     pub inverse: Vec<Vec<Rational>>,
 }
 
-impl Metrics {
+impl Bases {
     /// The change of bases; `None` where both metrics are the identity, or one is not positive definite.
     #[must_use]
     pub fn new(space: &[Vec<Rational>], body: &[Vec<Rational>]) -> Option<Self> {

@@ -109,7 +109,12 @@ fn number_latex(value: &Rational) -> String {
 /// `sigma_hat_12` becomes `\hat\Sigma_{12}`; a field keeps its name.
 fn symbol_latex(name: &str) -> String {
     if let Some(field) = name.strip_prefix("self.") {
-        return format!("\\mathit{{{}}}", field.replace('_', "\\_"));
+        // `j[1,2]` is an entry.
+        let (field, index) = match field.strip_suffix(']').and_then(|entry| entry.split_once('[')) {
+            Some((field, places)) => (field, format!("_{{{}}}", places.replace(',', ""))),
+            None => (field, String::new()),
+        };
+        return format!("\\mathit{{{}}}{index}", field.replace('_', "\\_"));
     }
     let whole = [
         ("q", "q"),

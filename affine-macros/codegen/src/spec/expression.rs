@@ -25,6 +25,8 @@ pub enum ExpressionKind {
     Number(Rational),
     /// A field or a symbol.
     Symbol(Ident),
+    /// `j[1,2]`: row and column of a field of matrix type, made from the name of the field alone.
+    FieldEntry(Ident, usize, usize),
     /// `-a`.
     Negate(Box<Expression>),
     /// `a + b`.
@@ -123,6 +125,7 @@ impl Expression {
         match &self.kind {
             ExpressionKind::Number(_)
             | ExpressionKind::Symbol(_)
+            | ExpressionKind::FieldEntry(..)
             | ExpressionKind::Trace(_)
             | ExpressionKind::Entry(..)
             | ExpressionKind::Component(_)
@@ -142,6 +145,7 @@ impl Expression {
         match self.kind {
             ExpressionKind::Number(_)
             | ExpressionKind::Symbol(_)
+            | ExpressionKind::FieldEntry(..)
             | ExpressionKind::Call(..)
             | ExpressionKind::Trace(_)
             | ExpressionKind::Entry(..)
@@ -163,6 +167,7 @@ impl Expression {
         match &self.kind {
             ExpressionKind::Number(value) => f.write_str(&decimal(value))?,
             ExpressionKind::Symbol(name) => write!(f, "{name}")?,
+            ExpressionKind::FieldEntry(field, row, column) => write!(f, "{field}[{row},{column}]")?,
             ExpressionKind::Negate(one) => {
                 f.write_str("-")?;
                 one.write(Binding::Sign, f)?;

@@ -36,20 +36,22 @@ impl Field {
     /// Written as `f64`, also with its full path: what expressions may use. An alias cannot be seen through.
     #[must_use]
     pub fn is_real(&self) -> bool {
-        let mut ty = &self.ty;
-        loop {
-            match ty {
-                // A `macro_rules!` fragment arrives in an invisible group.
-                Type::Group(group) => ty = &group.elem,
-                Type::Paren(paren) => ty = &paren.elem,
-                Type::Path(path) if path.qself.is_none() => return is_f64(&path.path),
-                _ => return false,
-            }
+        matches!(written(&self.ty), Type::Path(path) if path.qself.is_none() && is_f64(&path.path))
+    }
+}
+
+/// The type without parentheses, and without the invisible group in which a `macro_rules!` fragment arrives.
+pub(super) fn written(mut ty: &Type) -> &Type {
+    loop {
+        match ty {
+            Type::Group(group) => ty = &group.elem,
+            Type::Paren(paren) => ty = &paren.elem,
+            _ => return ty,
         }
     }
 }
 
-fn is_f64(path: &syn::Path) -> bool {
+pub(super) fn is_f64(path: &syn::Path) -> bool {
     let names: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
     let plain = path.segments.iter().all(|segment| segment.arguments.is_empty());
     match names.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {

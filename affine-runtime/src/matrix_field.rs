@@ -1,0 +1,27 @@
+//! Support for emitted `prepare()`: fields of matrix type.
+
+use crate::error::{Error, IllPosed, Result};
+
+/// The symmetric part `(J + J^T)/2` of a matrix that is symmetric up to rounding: `|J - J^T| <= 4 K eps |J|` in the
+/// largest entries, which a product of three `K x K` matrices such as `R D R^T` keeps (Higham, Accuracy and Stability
+/// of Numerical Algorithms, section 3.5).
+///
+/// # Errors
+/// [`Error::IllPosed`] with the largest `|J_ab - J_ba|`; NaN where an entry is not finite.
+pub fn symmetric_part<const K: usize>(
+    rows: [[f64; K]; K],
+    condition: &'static str,
+    reason: &'static str,
+) -> Result<[[f64; K]; K]> {
+    let pairs = || (0..K).flat_map(|a| (0..=a).map(move |b| (a, b)));
+    // NaN stays, and infinities make one.
+    let largest = |sizes: &mut dyn Iterator<Item = f64>| {
+        sizes.fold(0.0, |most: f64, size| if size.is_nan() || size > most { size } else { most })
+    };
+    let value = largest(&mut pairs().map(|(a, b)| (rows[a][b] - rows[b][a]).abs()));
+    let threshold = 4.0 * K as f64 * f64::EPSILON * largest(&mut rows.iter().flatten().map(|entry| entry.abs()));
+    if !(value <= threshold) {
+        return Err(Error::IllPosed(IllPosed { condition, reason, value, threshold, velocity: None }));
+    }
+    Ok(core::array::from_fn(|a| core::array::from_fn(|b| 0.5 * rows[a][b] + 0.5 * rows[b][a])))
+}
