@@ -6,7 +6,7 @@ use quote::quote;
 use crate::algebra::Rational;
 use crate::derive::ChangeOfBases;
 
-use super::Context;
+use super::{Context, runtime};
 use super::body::{Body, exact};
 use super::prepare::over_fields;
 use crate::ir::Program;
@@ -57,7 +57,8 @@ pub(super) fn prepared(context: &Context) -> (TokenStream, TokenStream) {
         quote!({ #lets #rt::orthonormal::<#n>([#(#rows),*], #condition)? })
     };
     let (space, body) = (orthonormal("g", space), orthonormal("eta", body));
-    (quote!(bases: #rt::Bases<#n>,), quote!(let bases = #rt::Bases::of_factors(#space, #body);))
+    let runtime = runtime(context.spec.runtime.as_ref());
+    (quote!(bases: #runtime::__private::Bases<#n>,), quote!(let bases = #rt::Bases::of_factors(#space, #body);))
 }
 
 impl Context<'_> {
