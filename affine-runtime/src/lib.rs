@@ -43,6 +43,7 @@ mod regularity;
 pub mod report;
 pub mod sampling;
 pub mod scalar;
+pub mod signature;
 #[cfg(feature = "std")]
 pub mod simulate;
 pub mod state;

@@ -31,7 +31,7 @@ fn matrix<const K: usize>(rows: Square<K>) -> Matrix<K> {
     Matrix::<K>::from_fn(|i, j| rows[i][j])
 }
 
-fn close(what: &str, found: &[f64], expected: &[f64]) {
+pub(crate) fn close(what: &str, found: &[f64], expected: &[f64]) {
     let norm = |entries: &[f64]| entries.iter().fold(0.0, |length, entry| f64::hypot(length, *entry));
     assert_eq!(found.len(), expected.len(), "{what}");
     let difference: Vec<f64> = found.iter().zip(expected).map(|(f, e)| f - e).collect();

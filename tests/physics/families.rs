@@ -13,6 +13,8 @@ pub(crate) struct Parameters {
     j: Exact,
     /// Symmetric, of any signature, no two diagonal entries equal.
     h: Exact,
+    /// A tensor of order 1, regular beside `casimir2 = small`.
+    k: Exact,
     /// `T` given by a tensor of order 1 stays regular with this much of `casimir2`.
     small: Rational,
 }
@@ -30,7 +32,8 @@ impl Parameters {
         let j = (&(&stretch * &random.inertia(n)) * &stretch).scaled(&scale);
         let small = rational(random.integer(4, 12) * (1 - 2 * random.integer(0, 1)), 32);
         let h = indefinite(n, &isotropic, random);
-        Parameters { n, isotropic, j, h, small }
+        let k = random_tensor(n, &small, random);
+        Parameters { n, isotropic, j, h, k, small }
     }
 
     /// Is `I/2 tr(O^T O) + A/2 tr O^2 + B/2 (tr O)^2` indefinite?
@@ -105,6 +108,19 @@ fn indefinite(n: usize, isotropic: &Isotropic, random: &mut Random) -> Exact {
     }
 }
 
+/// A tensor `K`, of any signature, for which `K` and `casimir2 = small` together have a condition below 1e3. It draws
+/// from a source of its own.
+fn random_tensor(n: usize, small: &Rational, random: &Random) -> Exact {
+    let mut random = random.clone();
+    loop {
+        let k = random.tensor(n);
+        let terms = vec![Term::BodyTensor(k.clone()), Term::Casimir2(small.clone())];
+        if Kinetic::new(n, terms).unwrap().condition(&Exact::identity(n)).is_ok_and(|condition| condition < 1e3) {
+            return k;
+        }
+    }
+}
+
 /// The diagonal of a matrix, as a matrix.
 fn diagonal(j: &Exact) -> Exact {
     let n = j.shape().0;
@@ -140,6 +156,9 @@ terms! {
     body_tensor = |n, _p| Term::BodyTensor(tensor(n));
     space_tensor = |n, _p| Term::SpaceTensor(tensor(n));
     flat_tensor = |n, _p| Term::FlatTensor(tensor(n));
+    body_tensor_field = |_n, p| Term::BodyTensor(p.k.clone());
+    space_tensor_field = |_n, p| Term::SpaceTensor(p.k.clone());
+    flat_tensor_field = |_n, p| Term::FlatTensor(p.k.clone());
     dalembert_small = |n, p| Term::dalembert(n, p.rational("small") * p.rational("small"));
     body_inertia_diagonal = |_n, p| Term::BodyInertia(diagonal(&p.h));
     body_inertia_matrix = |_n, p| Term::BodyInertia(p.h.clone());
@@ -181,6 +200,12 @@ pub(crate) use affine_runtime::model::Velocity;
 /// `N x N`, from row-major entries.
 pub(crate) fn matrix<const N: usize>(entries: &[f64]) -> Matrix<N> {
     Matrix::from_row_slice(entries)
+}
+
+/// The rows of a matrix.
+pub(crate) fn rows<const N: usize>(matrix: &Exact) -> [[f64; N]; N] {
+    let entries = matrix.to_f64();
+    core::array::from_fn(|i| core::array::from_fn(|j| entries[N * i + j]))
 }
 
 /// A vector.
@@ -319,6 +344,18 @@ flat_tensor_body_translation: moving AtRest [flat_tensor body_translation]
     (flat_tensor = K, body_translation = m);
 flat_tensor_dalembert: moving Always [flat_tensor dalembert_small space_translation_of_masses]
     (flat_tensor = K, dalembert = small^2, space_translation = mass);
+body_inertia_field: moving Never [body_inertia_matrix casimir2 casimir1_squared body_translation]
+    (body_inertia = h, casimir2 = a, casimir1_squared = b, body_translation = m);
+space_inertia_field: pinned Never [space_inertia_matrix casimir2 casimir1_squared]
+    (space_inertia = h, casimir2 = a, casimir1_squared = b);
+dalembert_field: moving Always [dalembert_matrix space_translation_of_masses]
+    (dalembert = j, space_translation = mass);
+body_tensor_field: pinned Never [body_tensor_field casimir2_small]
+    (body_tensor = k, casimir2 = small);
+space_tensor_field: moving Never [space_tensor_field casimir2_small body_translation]
+    (space_tensor = k, casimir2 = small, body_translation = m);
+flat_tensor_field: pinned Always [flat_tensor_field]
+    (flat_tensor = k);
     } };
 }
 
@@ -358,10 +395,12 @@ macro_rules! define {
     (3 $centre:ident $closed:ident $terms:tt ($key:ident = K, $($spec:tt)*)) => {
         with_tensor! { 3 define $key $centre $closed $terms ($($spec)*) }
     };
-    ($n:literal $k:tt $key:ident $centre:ident $closed:ident $terms:tt ($($spec:tt)*)) => {
+    ($n:tt $k:tt $key:ident $centre:ident $closed:ident $terms:tt ($($spec:tt)*)) => {
         define! { $n $centre $closed $terms ($key = $k, $($spec)*) }
     };
-    ($n:literal $centre:ident $closed:ident [$($term:ident)*] ($($spec:tt)*)) => {
+    (2 $centre:ident $closed:ident $terms:tt $spec:tt) => { define! { @model 2 4 $centre $closed $terms $spec } };
+    (3 $centre:ident $closed:ident $terms:tt $spec:tt) => { define! { @model 3 9 $centre $closed $terms $spec } };
+    (@model $n:literal $pairs:literal $centre:ident $closed:ident [$($term:ident)*] ($($spec:tt)*)) => {
         #[allow(clippy::wildcard_imports)]
         use super::super::*;
 
@@ -372,6 +411,7 @@ macro_rules! define {
             i: f64, a: f64, b: f64, m: f64, alpha: f64, mass: f64, small: f64,
             j11: f64, j12: f64, j13: f64, j22: f64, j23: f64, j33: f64,
             h11: f64, h12: f64, h13: f64, h22: f64, h23: f64, h33: f64,
+            j: Matrix<$n>, h: [[f64; $n]; $n], k: Matrix<$pairs>,
         }
 
         impl Family<$n> for PreparedBody {
@@ -386,6 +426,9 @@ macro_rules! define {
                     j13: field("j13"), j22: field("j22"), j23: field("j23"), j33: field("j33"),
                     h11: field("h11"), h12: field("h12"), h13: field("h13"), h22: field("h22"),
                     h23: field("h23"), h33: field("h33"),
+                    j: matrix(&parameters.j.to_f64()),
+                    h: rows(&parameters.h),
+                    k: matrix(&parameters.k.to_f64()),
                 };
                 let kinetic = Kinetic::new($n, vec![$(parameters.$term()),*]).unwrap();
                 (body.prepare().unwrap(), kinetic)
