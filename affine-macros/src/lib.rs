@@ -4,7 +4,7 @@ use proc_macro::TokenStream;
 
 /// States the kinetic energy of an affinely-rigid body and derives everything else.
 ///
-/// On a unit struct, or a struct with named `f64` fields (other fields are left alone):
+/// On a unit struct, or a struct with named fields: `f64`, or a matrix (other fields are left alone):
 ///
 /// | key | value | meaning |
 /// |---|---|---|
@@ -12,7 +12,7 @@ use proc_macro::TokenStream;
 /// | `kinetic(...)` | terms | the kinetic energy, a sum of the terms below |
 /// | `group` | `unitary` | placements in U(n) instead of GL(n, R): `-A/2 tr Om^2 - B/2 (tr Om)^2`, emitted as its lattice on the circle |
 /// | `hamiltonian(...)` | terms | instead of `kinetic(...)`: the same, stated through momenta, below |
-/// | `metrics(space = g, body = eta)` | matrices of numbers | constant metrics other than the identity, below |
+/// | `metrics(space = g, body = eta)` | matrices | constant metrics other than the identity, below |
 /// | `constraint` | `isochoric`, `rigid`, `conformal` | motion confined to SL(n), SO(n), R+ SO(n), below; without it GL+(n) |
 /// | `potential` | expression | the potential energy, below |
 /// | `dissipation(...)` | terms | Rayleigh's function `R`, a sum of the same terms, positive semidefinite |
@@ -36,6 +36,12 @@ use proc_macro::TokenStream;
 ///
 /// `Oh = phi^-1 phi_dot`, `Om = phi_dot phi^-1`. A coefficient is an arithmetic expression over exact decimal literals,
 /// fields and `n`; `^` binds tightest and to the right, above the sign: `-a^2` is `-(a^2)`.
+///
+/// Where a matrix may stand, a field of matrix type may, alone: `body_inertia = j` with `j: Matrix<3>`, `Matrix3<f64>`,
+/// `SMatrix<f64, 3, 3>` or `[[f64; 3]; 3]`, the type written out with any path before it; `9 x 9` for a tensor of
+/// `dim = 3`. `prepare()` takes its symmetric part, refuses it where the two triangles differ by more than rounding, and
+/// inverts the energy once. Symmetries and conserved quantities are those for every such matrix, so that a claim that
+/// only a special one keeps is refused.
 ///
 /// On the momentum side, `X = Sigma = phi Pi` or `Sigma_hat = Pi phi`, `|W|^2` the sum over `a < b` of `W_ab^2`:
 ///
@@ -110,7 +116,8 @@ use proc_macro::TokenStream;
 /// `constraint = isochoric` and `dalembert`, where the multiplier keeps the constraint.
 ///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
-/// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`.
+/// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`; the signature
+/// of its energy is `affine_runtime::signature::signature`.
 ///
 /// A model is refused, with the condition, its numbers and the remedy, where the Legendre transformation is
 /// degenerate, a claim is broken, or a matrix is not what its term asks for.
