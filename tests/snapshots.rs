@@ -307,6 +307,18 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "/// A lattice of two stretches.
         pub struct Lattice;",
     ),
+    (
+        "fields_matrix_inertia_2",
+        "dim = 2, kinetic(body_inertia = j)",
+        "/// A body.
+        pub struct Field { j: affine_runtime::frames::Matrix<2> }",
+    ),
+    (
+        "fields_metrics_2",
+        "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1), metrics(space = g)",
+        "/// A body.
+        pub struct Field { g: [[f64; 2]; 2] }",
+    ),
 ];
 
 #[test]

@@ -123,8 +123,8 @@ fn matrices(context: &Context, rt: &Ident) -> TokenStream {
         };
         let condition = format!("{field} = {field}^T");
         let reason = format!(
-            "the value is the largest difference of two entries of `{field}`, and the energy sees the symmetric part \
-             alone; give a symmetric matrix of finite numbers"
+            "the value is the largest difference of two entries of `{field}` whose places are exchanged, and its \
+             symmetric part alone has a meaning; give a symmetric matrix of finite numbers"
         );
         let size = number(size);
         quote!(let #local = #rt::symmetric_part::<#size>(#rows, #condition, #reason)?;)

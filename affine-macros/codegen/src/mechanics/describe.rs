@@ -3,7 +3,7 @@
 
 use crate::algebra::arena::Node;
 use crate::algebra::ring::{difference, outer, product, times, transpose};
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::constraint::Constraint;
@@ -11,7 +11,7 @@ use super::equations::{Form, System, gradient, rate, velocities};
 use super::forces::Forces;
 use super::hamiltonian::{Hamiltonian, Isotropic};
 use super::kinetic::{Coefficient, Frame, Kinetic, Term, TermKind};
-use super::notation::{latex, plain};
+use super::notation::{field_latex, latex, matrix_field, plain};
 use super::potential::Potential;
 use super::reduce::{ClosedForm, Commuting, Layout, Reduction};
 use super::separation::Slope;
@@ -105,20 +105,32 @@ pub(super) fn quadratic_terms(arena: &mut Arena, sum: &mut Sum, frame: Frame, te
             (_, Coefficient::Scalar(c)) => {
                 (*c, (format!("tr({o} {o}^T)"), format!("\\operatorname{{tr}}({o_latex}{o_latex}^T)")))
             }
-            (kind, Coefficient::Matrix(_)) if !kind.is_tensor() => (
-                arena.constant(Rational::ONE),
-                (format!("tr({o} J {o}^T)"), format!("\\operatorname{{tr}}({o_latex} J {o_latex}^T)")),
-            ),
-            (_, Coefficient::Matrix(_)) => (
-                arena.constant(Rational::ONE),
-                (
-                    format!("K[(A,B),(C,D)] {o}[A,B] {o}[C,D]"),
-                    format!("K_{{(AB)(CD)}}\\,{o_latex}_{{AB}}{o_latex}_{{CD}}"),
-                ),
-            ),
+            (kind, Coefficient::Matrix(j)) if !kind.is_tensor() => {
+                let (j, j_latex) = matrix_name(arena, j, "J");
+                let one = arena.constant(Rational::ONE);
+                (one, (format!("tr({o} {j} {o}^T)"), format!("\\operatorname{{tr}}({o_latex} {j_latex} {o_latex}^T)")))
+            }
+            (_, Coefficient::Matrix(k)) => {
+                let (k, k_latex) = matrix_name(arena, k, "K");
+                let text = format!("{k}[(A,B),(C,D)] {o}[A,B] {o}[C,D]");
+                let latex = format!("{k_latex}_{{(AB)(CD)}}\\,{o_latex}_{{AB}}{o_latex}_{{CD}}");
+                (arena.constant(Rational::ONE), (text, latex))
+            }
         };
         let weight = Polynomial::normal_form(arena, coefficient).scaled(&half);
         sum.add(arena, &weight, (&text, &latex));
+    }
+}
+
+/// The name of the field that a matrix is, in text and LaTeX, or its letter.
+fn matrix_name(arena: &Arena, matrix: &Matrix, letter: &str) -> (String, String) {
+    let name = |e: &Expr| Some(matrix_field(arena.name(*e)?)?.0.to_owned());
+    let field = name(&matrix.0[0][0]).filter(|field| {
+        matrix.0.iter().flatten().all(|entry| name(entry).as_ref() == Some(field))
+    });
+    match field {
+        Some(field) => (field.clone(), field_latex(&field)),
+        None => (letter.to_owned(), letter.to_owned()),
     }
 }
 

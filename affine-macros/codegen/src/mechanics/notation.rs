@@ -106,15 +106,25 @@ fn number_latex(value: &Rational) -> String {
     }
 }
 
+/// Field, row and column of the symbol of an entry of a field of matrix type.
+pub(super) fn matrix_field(symbol: &str) -> Option<(&str, &str, &str)> {
+    let (field, places) = symbol.strip_prefix("self.")?.strip_suffix(']')?.split_once('[')?;
+    let (row, column) = places.split_once(',')?;
+    Some((field, row, column))
+}
+
+/// The name of a field in LaTeX.
+pub(super) fn field_latex(field: &str) -> String {
+    format!("\\mathit{{{}}}", field.replace('_', "\\_"))
+}
+
 /// `sigma_hat_12` becomes `\hat\Sigma_{12}`; a field keeps its name.
 fn symbol_latex(name: &str) -> String {
+    if let Some((field, row, column)) = matrix_field(name) {
+        return format!("{}_{{{row}{column}}}", field_latex(field));
+    }
     if let Some(field) = name.strip_prefix("self.") {
-        // `j[1,2]` is an entry.
-        let (field, index) = match field.strip_suffix(']').and_then(|entry| entry.split_once('[')) {
-            Some((field, places)) => (field, format!("_{{{}}}", places.replace(',', ""))),
-            None => (field, String::new()),
-        };
-        return format!("\\mathit{{{}}}{index}", field.replace('_', "\\_"));
+        return field_latex(field);
     }
     let whole = [
         ("q", "q"),
