@@ -19,7 +19,8 @@ pub fn symmetric_part<const K: usize>(
         sizes.fold(0.0, |most: f64, size| if size.is_nan() || size > most { size } else { most })
     };
     let value = largest(&mut pairs().map(|(a, b)| (rows[a][b] - rows[b][a]).abs()));
-    let threshold = 4.0 * K as f64 * f64::EPSILON * largest(&mut rows.iter().flatten().map(|entry| entry.abs()));
+    let threshold =
+        4.0 * K as f64 * f64::EPSILON * largest(&mut rows.iter().flatten().map(|entry| entry.abs()));
     if !(value <= threshold) {
         return Err(Error::IllPosed(IllPosed { condition, reason, value, threshold, velocity: None }));
     }

@@ -56,7 +56,11 @@ fn same<const N: usize, F: Model<N>, L: Model<N>>(
         close("phi_dot", velocity.phi_dot.as_slice(), expected.phi_dot.as_slice());
         let energy = literal.hamiltonian(0.5, &with_literal);
         close("H", &[field.hamiltonian(0.5, &with_field)], &[energy]);
-        close("T", &[field.kinetic_energy(with_field.phi(), &velocity)], &[literal.kinetic_energy(with_literal.phi(), &expected)]);
+        close(
+            "T",
+            &[field.kinetic_energy(with_field.phi(), &velocity)],
+            &[literal.kinetic_energy(with_literal.phi(), &expected)],
+        );
         let rates = field.hamilton_equations(0.5, &field.flatten(&with_field));
         let expected = literal.hamilton_equations(0.5, &literal.flatten(&with_literal));
         close("equations", rates.as_ref(), expected.as_ref());

@@ -140,7 +140,8 @@ fn degenerate_tensors() {
     assert_eq!((refused.condition, refused.value), ("T != 0 on every principal velocity", 0.0));
     let text = refused.to_string();
     assert!(
-        text.contains("[[0.000, 0.707], [-0.707, 0.000]]") || text.contains("[[0.000, -0.707], [0.707, 0.000]]"),
+        text.contains("[[0.000, 0.707], [-0.707, 0.000]]")
+            || text.contains("[[0.000, -0.707], [0.707, 0.000]]"),
         "{text}"
     );
     assert!(Tensor { k, a: 0.5 }.prepare().is_ok());
@@ -162,11 +163,13 @@ fn signatures() {
     for seed in 0..12 {
         let mut random = Random::new(77 + seed);
         let (tensor, phi) = (random.tensor(2), random.placement(2));
-        let expected = Kinetic::new(2, vec![Term::BodyTensor(tensor.clone()), Term::Casimir2(rational(1, 64))])
-            .unwrap()
-            .signature(&phi)
-            .unwrap();
-        let model = Tensor { k: Matrix::<4>::from_row_slice(&tensor.to_f64()), a: 1.0 / 64.0 }.prepare().unwrap();
+        let expected =
+            Kinetic::new(2, vec![Term::BodyTensor(tensor.clone()), Term::Casimir2(rational(1, 64))])
+                .unwrap()
+                .signature(&phi)
+                .unwrap();
+        let model =
+            Tensor { k: Matrix::<4>::from_row_slice(&tensor.to_f64()), a: 1.0 / 64.0 }.prepare().unwrap();
         let phi = Matrix::<2>::from_row_slice(&phi.to_f64());
         assert_eq!(signature(&model, &phi), Some((expected.positive, expected.negative)));
     }

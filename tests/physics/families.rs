@@ -115,7 +115,11 @@ fn random_tensor(n: usize, small: &Rational, random: &Random) -> Exact {
     loop {
         let k = random.tensor(n);
         let terms = vec![Term::BodyTensor(k.clone()), Term::Casimir2(small.clone())];
-        if Kinetic::new(n, terms).unwrap().condition(&Exact::identity(n)).is_ok_and(|condition| condition < 1e3) {
+        if Kinetic::new(n, terms)
+            .unwrap()
+            .condition(&Exact::identity(n))
+            .is_ok_and(|condition| condition < 1e3)
+        {
             return k;
         }
     }

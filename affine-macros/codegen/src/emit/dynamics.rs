@@ -122,8 +122,8 @@ fn kinetic_energy(context: &Context) -> TokenStream {
     let inward = context.with_metrics(quote! {
         let velocity = &#bases.velocity(velocity);
     });
-    let phi_inward = (reads_phi && context.model.metrics.is_some())
-        .then(|| quote!(let phi = &#bases.placement(phi);));
+    let phi_inward =
+        (reads_phi && context.model.metrics.is_some()).then(|| quote!(let phi = &#bases.placement(phi);));
     let inward = quote!(#inward #phi_inward);
     quote! {
         fn kinetic_energy<#t: #rt::Real>(

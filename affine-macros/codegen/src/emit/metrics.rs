@@ -6,9 +6,9 @@ use quote::quote;
 use crate::algebra::Rational;
 use crate::derive::ChangeOfBases;
 
-use super::{Context, runtime};
 use super::body::{Body, exact};
 use super::prepare::over_fields;
+use super::{Context, runtime};
 use crate::ir::Program;
 
 /// The bases as a function of the scalar, where they are known, and the method of the trait that tells of them.
@@ -58,7 +58,10 @@ pub(super) fn prepared(context: &Context) -> (TokenStream, TokenStream) {
     };
     let (space, body) = (orthonormal("g", space), orthonormal("eta", body));
     let runtime = runtime(context.spec.runtime.as_ref());
-    (quote!(bases: #runtime::__private::Bases<#n>,), quote!(let bases = #rt::Bases::of_factors(#space, #body);))
+    (
+        quote!(bases: #runtime::__private::Bases<#n>,),
+        quote!(let bases = #rt::Bases::of_factors(#space, #body);),
+    )
 }
 
 impl Context<'_> {

@@ -108,7 +108,13 @@ pub(super) fn quadratic_terms(arena: &mut Arena, sum: &mut Sum, frame: Frame, te
             (kind, Coefficient::Matrix(j)) if !kind.is_tensor() => {
                 let (j, j_latex) = matrix_name(arena, j, "J");
                 let one = arena.constant(Rational::ONE);
-                (one, (format!("tr({o} {j} {o}^T)"), format!("\\operatorname{{tr}}({o_latex} {j_latex} {o_latex}^T)")))
+                (
+                    one,
+                    (
+                        format!("tr({o} {j} {o}^T)"),
+                        format!("\\operatorname{{tr}}({o_latex} {j_latex} {o_latex}^T)"),
+                    ),
+                )
             }
             (_, Coefficient::Matrix(k)) => {
                 let (k, k_latex) = matrix_name(arena, k, "K");
@@ -125,9 +131,8 @@ pub(super) fn quadratic_terms(arena: &mut Arena, sum: &mut Sum, frame: Frame, te
 /// The name of the field that a matrix is, in text and LaTeX, or its letter.
 fn matrix_name(arena: &Arena, matrix: &Matrix, letter: &str) -> (String, String) {
     let name = |e: &Expr| Some(matrix_field(arena.name(*e)?)?.0.to_owned());
-    let field = name(&matrix.0[0][0]).filter(|field| {
-        matrix.0.iter().flatten().all(|entry| name(entry).as_ref() == Some(field))
-    });
+    let field = name(&matrix.0[0][0])
+        .filter(|field| matrix.0.iter().flatten().all(|entry| name(entry).as_ref() == Some(field)));
     match field {
         Some(field) => (field.clone(), field_latex(&field)),
         None => (letter.to_owned(), letter.to_owned()),

@@ -195,7 +195,11 @@ impl Inverse {
         let mut symbol =
             |i: usize, j: usize| arena.symbol(&format!("inverse_{b}_{}_{}", i.min(j) + 1, i.max(j) + 1));
         let inverse: Vec<Vec<Expr>> = (0..size).map(|i| (0..size).map(|j| symbol(i, j)).collect()).collect();
-        self.numeric_blocks.push(NumericBlock { basis: block.basis.clone(), form: block.form.clone(), inverse });
+        self.numeric_blocks.push(NumericBlock {
+            basis: block.basis.clone(),
+            form: block.form.clone(),
+            inverse,
+        });
         self.numeric_blocks.last().map(NumericBlock::as_atoms)
     }
 }
