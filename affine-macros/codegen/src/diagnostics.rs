@@ -4,12 +4,31 @@
 //! [`Diagnostics::report`] returns a [`Reported`], which only it can make: a pass that gives up can prove that
 //! it said why.
 
+mod capability;
+mod constraint;
+mod expression;
+mod force;
+mod form;
 mod kind;
 mod message;
+mod metric;
+mod names;
+mod notation;
+mod potential;
+mod term;
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 
-pub use kind::{Diagnostic, Directions};
+pub use capability::CapabilityMistake;
+pub use constraint::ConstraintMistake;
+pub use expression::ExpressionMistake;
+pub use force::ForceMistake;
+pub use form::{Directions, FormMistake};
+pub use kind::Diagnostic;
+pub use metric::MetricMistake;
+pub use notation::NotationMistake;
+pub use potential::PotentialMistake;
+pub use term::TermMistake;
 
 /// A stretch of the user's source, from the first to the last token.
 ///
@@ -48,8 +67,8 @@ pub struct Diagnostics {
 
 impl Diagnostics {
     /// Records a mistake; the pass goes on and may find more.
-    pub fn report(&mut self, at: impl Into<Region>, diagnostic: Diagnostic) -> Reported {
-        self.found.push((at.into(), diagnostic));
+    pub fn report(&mut self, at: impl Into<Region>, mistake: impl Into<Diagnostic>) -> Reported {
+        self.found.push((at.into(), mistake.into()));
         Reported(())
     }
 

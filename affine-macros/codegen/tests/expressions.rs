@@ -3,7 +3,7 @@
 
 use affine_codegen::algebra::{Function, Rational};
 use affine_codegen::check::constant;
-use affine_codegen::diagnostics::{Diagnostic, Rejected, gate};
+use affine_codegen::diagnostics::{Diagnostic, ExpressionMistake, Rejected, gate};
 use affine_codegen::spec::{
     Expression, ExpressionKind, MatrixName, NAMED_POTENTIALS, Named, Operator, parse_expression,
     parse_potential,
@@ -176,7 +176,13 @@ fn coefficients_have_no_functions() {
     for source in ["sinh(q)", "tr(G)", "G[1,2]", "x[1]", "norm(x)", "harmonic_dilatation(1)", "1 + pairs(d)"]
     {
         let rejected = try_read(source).map(|_| ()).expect_err("a refusal");
-        assert!(matches!(rejected.diagnostics().next(), Some(Diagnostic::FunctionCall { .. })), "{source}");
+        assert!(
+            matches!(
+                rejected.diagnostics().next(),
+                Some(Diagnostic::Expression(ExpressionMistake::FunctionCall { .. }))
+            ),
+            "{source}"
+        );
     }
 }
 
@@ -227,7 +233,10 @@ fn long_and_deep_expressions_are_refused_not_overflowed() {
     let sum = vec!["a"; 5000].join("+");
     for source in [deep, signs, powers, sum] {
         let rejected = try_read(&source).map(|_| ()).expect_err("a refusal");
-        assert!(matches!(rejected.diagnostics().next(), Some(Diagnostic::ExpressionSize { .. })));
+        assert!(matches!(
+            rejected.diagnostics().next(),
+            Some(Diagnostic::Expression(ExpressionMistake::ExpressionSize { .. }))
+        ));
     }
     let calls = format!("{}1{}", "exp(".repeat(400), ")".repeat(400));
     let named = format!("{}1{}", "gas(".repeat(400), ")".repeat(400));
@@ -235,7 +244,10 @@ fn long_and_deep_expressions_are_refused_not_overflowed() {
     let many = vec!["orthogonality(1)"; 60].join("+");
     for source in [calls, named, trace, many] {
         let rejected = try_potential(&source).map(|_| ()).expect_err("a refusal");
-        assert!(matches!(rejected.diagnostics().next(), Some(Diagnostic::ExpressionSize { .. })));
+        assert!(matches!(
+            rejected.diagnostics().next(),
+            Some(Diagnostic::Expression(ExpressionMistake::ExpressionSize { .. }))
+        ));
     }
     assert!(try_read(&vec!["a"; 257].join("+")).is_ok());
     assert!(try_read(&format!("{}1{}", "(".repeat(64), ")".repeat(64))).is_ok());

@@ -3,7 +3,7 @@
 use super::constant::{LARGEST_POWER, constant, integer};
 use super::identity::vanishes;
 use crate::algebra::{Function, Rational};
-use crate::diagnostics::{Diagnostic, Diagnostics, Reported};
+use crate::diagnostics::{Diagnostic, Diagnostics, ExpressionMistake, PotentialMistake, Reported};
 use crate::spec::{Expression, ExpressionKind, Operator, Spec};
 
 /// The largest degree of a potential. Its functions are not multiplied out, so it may be higher than that of a
@@ -83,12 +83,13 @@ fn exponent_is_integer(
         return Ok(power);
     }
     let value = constant(exponent, n);
-    let mistake = match (value.as_ref().filter(|value| value.is_integer()), place) {
-        (Some(power), _) => Diagnostic::Degree {
+    let mistake: Diagnostic = match (value.as_ref().filter(|value| value.is_integer()), place) {
+        (Some(power), _) => ExpressionMistake::Degree {
             degree: power.to_i64().map_or(u64::MAX, i64::unsigned_abs),
             limit: LARGEST_POWER,
-        },
-        (None, Place::Coefficient) => Diagnostic::Exponent { exponent: exponent.to_string() },
+        }
+        .into(),
+        (None, Place::Coefficient) => ExpressionMistake::Exponent { exponent: exponent.to_string() }.into(),
         (None, Place::Potential) => {
             let half = Rational::from(1).checked_div(&Rational::from(2));
             let instead = if value.is_some() && value == half {
@@ -99,7 +100,7 @@ fn exponent_is_integer(
                 format!("exp({})", Operator::Multiply.apply(exponent.clone(), logarithm))
             };
             let (base, exponent) = (base.to_string(), exponent.to_string());
-            Diagnostic::PotentialExponent { base, exponent, instead }
+            PotentialMistake::PotentialExponent { base, exponent, instead }.into()
         }
     };
     Err(found.report(exponent.span, mistake))
@@ -116,7 +117,7 @@ fn degree_is_bounded(
     if degree <= limit {
         return Ok(degree);
     }
-    Err(found.report(expression.span, Diagnostic::Degree { degree, limit }))
+    Err(found.report(expression.span, ExpressionMistake::Degree { degree, limit }))
 }
 
 /// A divisor that is zero, as a number or whatever the fields are; one that is zero for some values of the
@@ -129,7 +130,9 @@ fn divisor_is_not_zero(
     found: &mut Diagnostics,
 ) -> Result<(), Reported> {
     if degree <= LARGEST_POWER && vanishes(divisor, n) {
-        return Err(found.report(divisor.span, Diagnostic::DivisionByZero { divisor: divisor.to_string() }));
+        return Err(
+            found.report(divisor.span, ExpressionMistake::DivisionByZero { divisor: divisor.to_string() })
+        );
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Capabilities.
 
 use crate::algebra::Arena;
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{CapabilityMistake, Diagnostics, PotentialMistake};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
@@ -23,7 +23,7 @@ pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
         let name = capability.value;
         found.report(
             capability.span,
-            Diagnostic::UnavailableCapability { capability: name.name(), gives: name.gives() },
+            CapabilityMistake::UnavailableCapability { capability: name.name(), gives: name.gives() },
         );
     }
 }
@@ -33,7 +33,7 @@ pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
     let asked = spec.emit.iter().find(|capability| capability.value == Capability::Acceleration);
     if let Some(acceleration) = asked.filter(|_| spec.translation().is_none()) {
         let form = acceleration.value.name().to_owned();
-        found.report(acceleration.span, Diagnostic::FixedCentre { form });
+        found.report(acceleration.span, PotentialMistake::FixedCentre { form });
     }
 }
 
@@ -48,7 +48,7 @@ pub(super) fn series(spec: &Spec, potential: Option<&Potential>, found: &mut Dia
     ];
     for (beside, _) in beside.into_iter().filter(|(_, stated)| *stated) {
         let capability = taylor.value.name();
-        found.report(taylor.span, Diagnostic::CapabilityBeside { capability, beside });
+        found.report(taylor.span, CapabilityMistake::CapabilityBeside { capability, beside });
     }
 }
 
@@ -95,6 +95,6 @@ pub(super) fn one_frame(spec: &Spec, found: &mut Diagnostics) {
 fn not_split(spec: &Spec, beside: String, why: String, found: &mut Diagnostics) {
     for capability in spec.emit.iter().filter(|c| c.value == Capability::Splitting) {
         let (beside, why) = (beside.clone(), why.clone());
-        found.report(capability.span, Diagnostic::NoExactPieces { beside, why });
+        found.report(capability.span, CapabilityMistake::NoExactPieces { beside, why });
     }
 }

@@ -1,7 +1,7 @@
 //! Rules on what a constraint leaves of a model.
 
 use super::constant;
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{ConstraintMistake, Diagnostics};
 use crate::spec::{Constraint, Named, Spec, Term, TermKind};
 
 /// On the group, energies in `phi_dot` have mass matrices that depend on the placement, but for two:
@@ -16,7 +16,7 @@ pub(super) fn constant_mass_matrix(spec: &Spec, found: &mut Diagnostics) {
             _ => false,
         };
         if curved {
-            let mistake = Diagnostic::ConstrainedMassMatrix {
+            let mistake = ConstraintMistake::ConstrainedMassMatrix {
                 term: term.kind.value.name(),
                 constraint: constraint.value.name(),
                 group: constraint.value.group(),
@@ -32,7 +32,7 @@ pub(super) fn stands_alone(spec: &Spec, found: &mut Diagnostics) {
     let Some(constraint) = spec.constraint else { return };
     let beside = [("hamiltonian(...)", spec.hamiltonian.is_some()), ("metrics(...)", spec.has_metrics())];
     for (key, _) in beside.into_iter().filter(|(_, stated)| *stated) {
-        found.report(constraint.span, Diagnostic::ConstraintBeside { key });
+        found.report(constraint.span, ConstraintMistake::ConstraintBeside { key });
     }
 }
 

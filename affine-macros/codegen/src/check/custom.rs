@@ -1,6 +1,6 @@
 //! Rules on `custom(...)`.
 
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostics, ForceMistake, PotentialMistake};
 use crate::spec::{Role, Spec, nearest};
 
 /// What is called is a field of the struct, of any type: whether it computes what is said is for the compiler.
@@ -12,7 +12,7 @@ pub(super) fn fields(spec: &Spec, found: &mut Diagnostics) {
         let fields: Vec<String> = spec.item.fields.iter().map(|field| field.ident.to_string()).collect();
         let name = custom.field.to_string();
         let nearest = nearest(&name, fields.iter().map(String::as_str)).map(str::to_owned);
-        found.report(custom.field.span(), Diagnostic::UnknownField { name, nearest, fields });
+        found.report(custom.field.span(), ForceMistake::UnknownField { name, nearest, fields });
     }
 }
 
@@ -25,9 +25,9 @@ pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
     for custom in &spec.customs {
         let form = format!("custom({}, ..)", custom.field);
         if custom.role.value == Role::Translation {
-            found.report(custom.span, Diagnostic::FixedCentreForce { term: form, key: "forces" });
+            found.report(custom.span, ForceMistake::FixedCentreForce { term: form, key: "forces" });
         } else if custom.marked && !custom.role.value.is_force() {
-            found.report(custom.span, Diagnostic::FixedCentre { form });
+            found.report(custom.span, PotentialMistake::FixedCentre { form });
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The dimension.
 
-use crate::diagnostics::{Diagnostic, Diagnostics, Reported};
+use crate::diagnostics::{Diagnostics, NotationMistake, Reported};
 use crate::spec::Spec;
 
 /// n = 2 or 3: the code is written out component by component, and the closed forms it uses (inverse,
@@ -9,6 +9,6 @@ use crate::spec::Spec;
 pub(super) fn two_or_three(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> {
     match spec.dim.value {
         2 | 3 => Ok(()),
-        other => Err(found.report(spec.dim.span, Diagnostic::Dimension { found: other.to_string() })),
+        other => Err(found.report(spec.dim.span, NotationMistake::Dimension { found: other.to_string() })),
     }
 }

@@ -3,7 +3,7 @@
 use super::form::{Written, eigenvalue_name, matrix_text};
 use crate::algebra::Rational;
 use crate::algebra::linear::negative_direction;
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostics, ForceMistake};
 use crate::mechanics::dissipation::{Dissipation, Part};
 use crate::mechanics::hessian::{Block, Direction};
 use crate::mechanics::kinetic::Frame;
@@ -16,7 +16,7 @@ pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
     }
     for term in spec.dissipation.iter().filter(|term| term.kind.value.is_translation()) {
         let term_name = term.kind.value.name().to_owned();
-        found.report(term.kind.span, Diagnostic::FixedCentreForce { term: term_name, key: "dissipation" });
+        found.report(term.kind.span, ForceMistake::FixedCentreForce { term: term_name, key: "dissipation" });
     }
 }
 
@@ -28,7 +28,7 @@ pub(super) fn semidefinite(spec: &Spec, dissipation: &Dissipation, found: &mut D
         let written = Written { n: spec.dim.value, terms: vec![term] };
         if let Some(value) = written.scalar(term).filter(Rational::is_negative) {
             let defect = format!("`{}` is {value}", term.kind.value.name());
-            found.report(term.span, Diagnostic::NegativeDissipation { defect });
+            found.report(term.span, ForceMistake::NegativeDissipation { defect });
         }
     }
     let internal = || spec.dissipation.iter().filter(|term| !term.kind.value.is_translation());
@@ -44,7 +44,7 @@ pub(super) fn semidefinite(spec: &Spec, dissipation: &Dissipation, found: &mut D
                 continue;
             };
             reported.push(kind);
-            found.report(first.kind.span, Diagnostic::NegativeDissipation { defect });
+            found.report(first.kind.span, ForceMistake::NegativeDissipation { defect });
             if !written.only_isotropic() {
                 break;
             }

@@ -1,7 +1,7 @@
 //! What dissipations and what fields compute do not stand beside.
 
 use super::frames;
-use crate::diagnostics::{Diagnostic, Diagnostics, Region};
+use crate::diagnostics::{Diagnostics, ForceMistake, Region};
 use crate::spec::{Capability, Constraint, Custom, MomentumKind, Spec, TermKind};
 
 /// The forces are derived, and what they leave conserved is decided, for a mass matrix that is constant in one frame, on
@@ -16,7 +16,7 @@ pub(super) fn stand_alone(spec: &Spec, found: &mut Diagnostics) {
     });
     for force in damping.into_iter().chain(spec.customs.iter().map(Force::of)) {
         for (key, _) in beside(spec, &force).into_iter().filter(|(_, stated)| *stated) {
-            found.report(force.span, Diagnostic::ForceBeside { force: force.name.clone(), key });
+            found.report(force.span, ForceMistake::ForceBeside { force: force.name.clone(), key });
         }
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{dissipation, momentum_side, two_polar};
 use crate::algebra::{Arena, Polynomial, Rational};
-use crate::diagnostics::{Diagnostic, Diagnostics, Directions, Reported};
+use crate::diagnostics::{ConstraintMistake, Diagnostics, Directions, FormMistake, Reported};
 use crate::lower;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
@@ -76,7 +76,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     let kinetic = Kinetic::new(&mut arena, spec.dim.value, &terms)
         .ok()
         .filter(|k| !k.internal.is_empty())
-        .ok_or_else(|| found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy))?;
+        .ok_or_else(|| found.report(spec.kinetic_key, FormMistake::NoKineticEnergy))?;
     let free = kinetic;
     let kinetic = confined(&mut arena, spec, &free, &terms);
     let hessian = Hessian::new(&kinetic);
@@ -134,7 +134,7 @@ fn momentum_form(
     found.verdict()?;
     let kinetic = stated
         .kinetic(&mut arena)
-        .ok_or_else(|| found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy))?;
+        .ok_or_else(|| found.report(spec.kinetic_key, FormMistake::NoKineticEnergy))?;
     let forces = forces(&mut arena, spec, kinetic.frame, found);
     let hessian = Hessian::new(&kinetic);
     let space_group = largest_group(&on_momenta, Side::Space);
@@ -187,7 +187,7 @@ fn nothing_vanishes(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mu
         let blocks = Hessian::new(&alone).blocks;
         if blocks.iter().flat_map(|block| block.form.concat()).all(|entry| entry.is_zero()) {
             let kind = spec.kinetic[places[*place]].kind;
-            let mistake = Diagnostic::VanishingTerm {
+            let mistake = ConstraintMistake::VanishingTerm {
                 term: kind.value.name(),
                 constraint: constraint.value.name(),
                 velocities: constraint.value.velocities(),
@@ -216,7 +216,7 @@ pub(super) fn potential(
         Some(_) => return left,
     };
     let (constraint, group) = (constraint.value.name(), constraint.value.group());
-    found.report(written.span, Diagnostic::ConstrainedPotential { defect, constraint, group });
+    found.report(written.span, ConstraintMistake::ConstrainedPotential { defect, constraint, group });
     None
 }
 
@@ -234,7 +234,7 @@ pub(super) fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics
             }
         } else if let Some(kernel) = block.inertia(spec.dim.value).and_then(|inertia| inertia.kernel) {
             let kernel = matrix_text(spec.dim.value, &kernel);
-            let mistake = Diagnostic::DegenerateTensor {
+            let mistake = FormMistake::DegenerateTensor {
                 terms: internal_terms(spec).map(|t| t.kind.value.name()).collect::<Vec<_>>().join(" + "),
                 velocity: match internal_terms(spec).find_map(|t| frame_of(t.kind.value)) {
                     Some(Frame::Space) => "Om",
@@ -274,14 +274,14 @@ fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagn
             _ if inertia.negative == 1 => "T has a negative square".to_owned(),
             _ => format!("T has {} negative squares", inertia.negative),
         };
-        found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
+        found.report(required.span, FormMistake::NotPositiveDefinite { defect });
     }
     let mass = spec.kinetic.iter().find(|t| t.kind.value.is_translation());
     if let Some((term, value)) = mass.and_then(|t| Some((t, kinetic_terms(spec).scalar(t)?)))
         && value.is_negative()
     {
         let defect = format!("the mass `{} = {value}` is negative", term.kind.value.name());
-        found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
+        found.report(required.span, FormMistake::NotPositiveDefinite { defect });
     }
 }
 
@@ -302,7 +302,7 @@ pub(super) fn claims(
         };
         let Some((breaker, place)) = broken_by(kinetic, side, group) else { continue };
         let n = kinetic.dim;
-        let mistake = Diagnostic::ClaimBroken {
+        let mistake = FormMistake::ClaimBroken {
             side: name,
             claim: claim.value.name(),
             group: format!("{letters}({n})"),
@@ -342,9 +342,9 @@ fn frame_of(kind: spec::TermKind) -> Option<Frame> {
     }
 }
 
-fn degenerate(spec: &Spec, kind: Direction) -> Diagnostic {
+fn degenerate(spec: &Spec, kind: Direction) -> FormMistake {
     let (eigenvalue, directions) = eigenvalue_name(kind);
-    Diagnostic::Degenerate {
+    FormMistake::Degenerate {
         eigenvalue: eigenvalue.to_owned(),
         numbers: kinetic_terms(spec).eigenvalue_in_numbers(kind),
         directions,

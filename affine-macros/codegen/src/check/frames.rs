@@ -1,7 +1,7 @@
 //! Frames of the terms, and the claims.
 
 use super::constant::constant;
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostics, FormMistake};
 use crate::spec::{Claim, Spec, Term, TermKind};
 
 /// Where H is derived by inverting a matrix that depends on phi: the terms that are not exactly zero have constant
@@ -51,7 +51,7 @@ fn is_zero(term: &Term, n: usize) -> bool {
 /// no Hamiltonian exists.
 pub(super) fn internal_motion(spec: &Spec, found: &mut Diagnostics) {
     if spec.hamiltonian.is_none() && spec.kinetic.iter().all(|term| term.kind.value.is_translation()) {
-        found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy);
+        found.report(spec.kinetic_key, FormMistake::NoKineticEnergy);
     }
 }
 
@@ -63,6 +63,6 @@ pub(super) fn affine_translation(spec: &Spec, found: &mut Diagnostics) {
         return;
     }
     if let Some((term, at)) = spec.translation() {
-        found.report(at, Diagnostic::AffineTranslation { term });
+        found.report(at, FormMistake::AffineTranslation { term });
     }
 }

@@ -3,7 +3,7 @@
 use super::constant::constant;
 use super::identity::equal;
 use crate::algebra::Rational;
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostics, TermMistake};
 use crate::spec::{Expression, Named, Spec, Term, TermKind, Value};
 
 /// p = m x_dot: a zero mass leaves the velocity open. A negative mass is a legitimate indefinite energy beside
@@ -15,10 +15,10 @@ pub(super) fn masses(spec: &Spec, found: &mut Diagnostics) {
         let Some(value) = constant(mass, spec.dim.value) else { continue };
         let (name, coefficient) = (term.kind.value.name(), mass.to_string());
         if value.is_zero() {
-            found.report(term.span, Diagnostic::ZeroMass { term: name, coefficient });
+            found.report(term.span, TermMistake::ZeroMass { term: name, coefficient });
         } else if value.is_negative() && dalembert {
             let value = value.to_string();
-            found.report(term.span, Diagnostic::NegativeMass { term: name, coefficient, value });
+            found.report(term.span, TermMistake::NegativeMass { term: name, coefficient, value });
         }
     }
 }
@@ -37,7 +37,7 @@ fn symmetric_rows(spec: &Spec, term: &Term, rows: &[Vec<Expression>], found: &mu
     for (i, j) in (0..rows.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
         let (Some(lower), Some(upper)) = (entry(rows, i, j), entry(rows, j, i)) else { continue };
         if equal(upper, lower, spec.dim.value) == Some(false) {
-            let mistake = Diagnostic::InertiaNotSymmetric {
+            let mistake = TermMistake::InertiaNotSymmetric {
                 term: term.kind.value.name(),
                 row: j + 1,
                 column: i + 1,
@@ -55,7 +55,7 @@ fn symmetric_rows(spec: &Spec, term: &Term, rows: &[Vec<Expression>], found: &mu
 pub(super) fn positive(spec: &Spec, found: &mut Diagnostics) {
     let Some(term) = spec.term(TermKind::Dalembert) else { return };
     if let Some(defect) = defect(&term.value, spec.dim.value, "J") {
-        found.report(term.span, Diagnostic::InertiaNotPositive { term: term.kind.value.name(), defect });
+        found.report(term.span, TermMistake::InertiaNotPositive { term: term.kind.value.name(), defect });
     }
 }
 

@@ -4,7 +4,7 @@ use super::identity::equal;
 use super::inertia::defect;
 use super::shapes::counts;
 use crate::algebra::Arena;
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostics, MetricMistake, TermMistake};
 use crate::spec::{Expression, ExpressionKind, MatrixName, Metric, Named, Spec, Value};
 
 fn stated(spec: &Spec) -> impl Iterator<Item = &Metric> {
@@ -18,7 +18,7 @@ pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
         for (at, counted, actual) in counts(&metric.value, metric.span, n) {
             if actual != n {
                 let because = format!("n = {n}");
-                let mistake = Diagnostic::MatrixSize {
+                let mistake = TermMistake::MatrixSize {
                     term: metric.side,
                     counted,
                     found: actual,
@@ -38,7 +38,7 @@ pub(super) fn positive(spec: &Spec, found: &mut Diagnostics) {
         if let Value::Matrix(rows) = &metric.value
             && let Some((i, j)) = asymmetric(rows, n)
         {
-            let mistake = Diagnostic::MetricNotSymmetric {
+            let mistake = MetricMistake::MetricNotSymmetric {
                 side: metric.side,
                 row: j + 1,
                 column: i + 1,
@@ -47,7 +47,7 @@ pub(super) fn positive(spec: &Spec, found: &mut Diagnostics) {
             };
             found.report(rows[i][j].span, mistake);
         } else if let Some(defect) = defect(&metric.value, n, metric.letters()) {
-            found.report(metric.span, Diagnostic::MetricNotPositive { side: metric.side, defect });
+            found.report(metric.span, MetricMistake::MetricNotPositive { side: metric.side, defect });
         }
     }
 }
@@ -69,7 +69,7 @@ pub(super) fn invariant(spec: &Spec, found: &mut Diagnostics) {
     }
     for term in &spec.kinetic {
         if !matches!(term.value, Value::Scalar(_)) {
-            found.report(term.span, Diagnostic::MetricTerm { term: term.kind.value.name() });
+            found.report(term.span, MetricMistake::MetricTerm { term: term.kind.value.name() });
         }
     }
     let mut pending: Vec<&Expression> = spec.potential.iter().map(|potential| &potential.energy).collect();
@@ -82,7 +82,7 @@ pub(super) fn invariant(spec: &Spec, found: &mut Diagnostics) {
             _ => false,
         };
         if depends {
-            found.report(part.span, Diagnostic::MetricForm { form: part.to_string() });
+            found.report(part.span, MetricMistake::MetricForm { form: part.to_string() });
         }
         pending.extend(part.operands());
     }

@@ -1,7 +1,7 @@
 //! Rules on a kinetic energy whose mass matrix depends on the placement: what can be decided for all placements.
 
 use crate::algebra::Arena;
-use crate::diagnostics::{Diagnostic, Diagnostics, Reported};
+use crate::diagnostics::{CapabilityMistake, Diagnostics, FormMistake, Reported};
 use crate::lower;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
@@ -50,13 +50,13 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
         .into_iter()
         .filter(|(_, stated)| *stated)
     {
-        found.report(spec.kinetic_key, Diagnostic::SumBeside { key });
+        found.report(spec.kinetic_key, FormMistake::SumBeside { key });
     }
     if let Some(lattice) = spec.emit.iter().find(|capability| capability.value == Capability::TwoPolar) {
         let part = "terms of different frames".to_owned();
         found.report(
             lattice.span,
-            Diagnostic::LatticeWithout { part, lacks: "mass matrix that depends on phi" },
+            CapabilityMistake::LatticeWithout { part, lacks: "mass matrix that depends on phi" },
         );
     }
     super::capabilities::one_frame(spec, found);
@@ -116,7 +116,7 @@ fn regular_somewhere(spec: &Spec, arena: &mut Arena, mixed: &Mixed, found: &mut 
     if Internal::new(arena, mixed).is_none() {
         let names = spec.kinetic.iter().filter(|term| !term.kind.value.is_translation());
         let terms: Vec<&str> = names.map(|term| crate::spec::Named::name(term.kind.value)).collect();
-        found.report(spec.kinetic_key, Diagnostic::DegenerateSum { terms: terms.join(" + ") });
+        found.report(spec.kinetic_key, FormMistake::DegenerateSum { terms: terms.join(" + ") });
     }
 }
 
@@ -148,6 +148,6 @@ fn unproved(spec: &Spec, mixed: &Mixed, found: &mut Diagnostics) {
             "a sum over different velocities is so at every placement where its parts in Oh, in Om and in \
                       phi_dot have no negative squares, and one of these has"
                 .to_owned();
-        found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
+        found.report(required.span, FormMistake::NotPositiveDefinite { defect });
     }
 }

@@ -2,7 +2,7 @@
 
 use super::constant::constant;
 use crate::algebra::Polynomial;
-use crate::diagnostics::{Diagnostic, Diagnostics, Directions};
+use crate::diagnostics::{Diagnostics, Directions, FormMistake, TermMistake};
 use crate::mechanics::hessian::Direction;
 use crate::mechanics::momentum_side::Stated;
 use crate::spec::{Expression, MomentumKind, Named, Requirement, Spec, Term, Value};
@@ -15,7 +15,7 @@ pub(super) fn scalars(spec: &Spec, found: &mut Diagnostics) {
             Value::Diagonal(_) => "a diagonal matrix",
             Value::Matrix(_) => "a matrix",
         };
-        let mistake = Diagnostic::TermShape {
+        let mistake = TermMistake::TermShape {
             term: term.kind.value.name(),
             found: written,
             takes: "a scalar: it multiplies one invariant of the affine spin or of p".to_owned(),
@@ -42,7 +42,7 @@ pub(super) fn one_frame(spec: &Spec, found: &mut Diagnostics) {
         match earlier[usize::from(of_centre)] {
             None => earlier[usize::from(of_centre)] = Some((name, momentum)),
             Some((first, first_velocity)) => {
-                let mistake = Diagnostic::MixedFrames {
+                let mistake = FormMistake::MixedFrames {
                     first,
                     first_velocity,
                     second: name,
@@ -58,7 +58,7 @@ pub(super) fn one_frame(spec: &Spec, found: &mut Diagnostics) {
 pub(super) fn third_casimir(spec: &Spec, found: &mut Diagnostics) {
     let cubic = terms(spec).find(|term| term.kind.value == MomentumKind::Casimir3);
     if let Some(term) = cubic.filter(|_| spec.dim.value == 2) {
-        found.report(term.kind.span, Diagnostic::PlanarCasimir3);
+        found.report(term.kind.span, TermMistake::PlanarCasimir3);
     }
 }
 
@@ -66,7 +66,7 @@ pub(super) fn third_casimir(spec: &Spec, found: &mut Diagnostics) {
 pub(super) fn inverse_masses(spec: &Spec, found: &mut Diagnostics) {
     for term in terms(spec).filter(|term| term.kind.value.is_translation() && is_zero(term, spec.dim.value)) {
         let coefficient = written(term).map(Expression::to_string).unwrap_or_default();
-        found.report(term.span, Diagnostic::ZeroInverseMass { term: term.kind.value.name(), coefficient });
+        found.report(term.span, TermMistake::ZeroInverseMass { term: term.kind.value.name(), coefficient });
     }
 }
 
@@ -86,7 +86,7 @@ pub(super) fn invertible(spec: &Spec, stated: &Stated, found: &mut Diagnostics) 
         };
         if !alone {
             let (eigenvalue, numbers, directions) = eigenvalue(spec, direction);
-            let mistake = Diagnostic::DegenerateHamiltonian { eigenvalue, numbers, directions };
+            let mistake = FormMistake::DegenerateHamiltonian { eigenvalue, numbers, directions };
             found.report(spec.kinetic_key, mistake);
         }
     }
@@ -100,22 +100,24 @@ pub(super) fn positive(spec: &Spec, stated: &Stated, found: &mut Diagnostics) {
     };
     if stated.is_cubic() {
         let defect = "with `casimir3`, tr X^3 takes both signs".to_owned();
-        found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
+        found.report(required.span, FormMistake::NotPositiveDefinite { defect });
         return;
     }
     let negative = |value: &Polynomial| value.as_constant().is_some_and(|value| value.is_negative());
     for (direction, _) in stated.eigenvalues().iter().filter(|(_, value)| negative(value)) {
         let (eigenvalue, numbers, _) = eigenvalue(spec, *direction);
         let text = if eigenvalue == numbers { eigenvalue } else { format!("{eigenvalue} = {numbers}") };
-        found
-            .report(required.span, Diagnostic::NotPositiveDefinite { defect: format!("{text} is negative") });
+        found.report(
+            required.span,
+            FormMistake::NotPositiveDefinite { defect: format!("{text} is negative") },
+        );
     }
     if let Some((place, _, value)) = &stated.translation
         && let (Some(value), Some(term)) = (value.as_constant(), terms(spec).nth(*place))
         && value.is_negative()
     {
         let defect = format!("the inverse mass `{} = {value}` is negative", term.kind.value.name());
-        found.report(required.span, Diagnostic::NotPositiveDefinite { defect });
+        found.report(required.span, FormMistake::NotPositiveDefinite { defect });
     }
 }
 

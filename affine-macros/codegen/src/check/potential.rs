@@ -2,7 +2,7 @@
 
 use super::symbols::names;
 use crate::algebra::Function;
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostics, PotentialMistake};
 use crate::spec::{Expression, ExpressionKind, MatrixName, Spec, Symbol};
 
 /// `d` is the difference of the two log-stretches of a pair: elsewhere there is no pair.
@@ -14,7 +14,7 @@ pub(super) fn differences(spec: &Spec, found: &mut Diagnostics) {
             ExpressionKind::Symbol(name)
                 if matches!(spec.resolve_in_potential(name), Some(Symbol::Difference)) =>
             {
-                found.report(name.span(), Diagnostic::LooseDifference);
+                found.report(name.span(), PotentialMistake::LooseDifference);
             }
             _ => pending.extend(part.operands().into_iter().rev()),
         }
@@ -32,7 +32,7 @@ pub(super) fn scalar(spec: &Spec, found: &mut Diagnostics) {
             Some(Symbol::Centre) => ("a vector", "`norm(x)` or `x[1]`"),
             _ => continue,
         };
-        found.report(name.span(), Diagnostic::NotScalar { name: name.to_string(), meaning, instead });
+        found.report(name.span(), PotentialMistake::NotScalar { name: name.to_string(), meaning, instead });
     }
 }
 
@@ -50,7 +50,7 @@ pub(super) fn indices(spec: &Spec, found: &mut Diagnostics) {
             _ => continue,
         };
         if let Some(index) = indices.into_iter().find(|index| !(1..=n).contains(index)) {
-            found.report(part.span, Diagnostic::IndexRange { written, index, n });
+            found.report(part.span, PotentialMistake::IndexRange { written, index, n });
         }
     }
 }
@@ -62,7 +62,7 @@ pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
     }
     for part in energy(spec).flat_map(parts) {
         if matches!(part.kind, ExpressionKind::Component(_) | ExpressionKind::Norm) {
-            found.report(part.span, Diagnostic::FixedCentre { form: part.to_string() });
+            found.report(part.span, PotentialMistake::FixedCentre { form: part.to_string() });
         }
     }
 }
@@ -77,7 +77,7 @@ pub(super) fn in_domain(spec: &Spec, found: &mut Diagnostics) {
         let value = super::constant(argument, spec.dim.value);
         if let Some(value) = value.filter(|value| value.is_zero() || value.is_negative()) {
             let (function, argument, value) = (function.name(), argument.to_string(), value.to_string());
-            found.report(part.span, Diagnostic::Domain { function, argument, value });
+            found.report(part.span, PotentialMistake::Domain { function, argument, value });
         }
     }
 }

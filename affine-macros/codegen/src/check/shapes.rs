@@ -1,6 +1,6 @@
 //! Scalars, diagonals and matrices where they belong, and of the size that the dimension asks for.
 
-use crate::diagnostics::{Diagnostic, Diagnostics, Region};
+use crate::diagnostics::{Diagnostics, Region, TermMistake};
 use crate::spec::{Expression, Named, Spec, Term, TermKind, Value};
 
 /// Casimirs and masses are multiples of one invariant form, an inertia J is of any kind (4.17), a tensor has n^4
@@ -14,7 +14,7 @@ pub(super) fn shapes(spec: &Spec, found: &mut Diagnostics) {
         };
         let (fits, takes, instead) = accepted(term);
         if !fits {
-            let mistake = Diagnostic::TermShape {
+            let mistake = TermMistake::TermShape {
                 term: term.kind.value.name(),
                 found: written,
                 takes: takes.to_owned(),
@@ -69,7 +69,7 @@ pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
         for (at, counted, actual) in counts(&term.value, term.span, expected) {
             if actual != expected {
                 let (term, because) = (kind.name(), because.clone());
-                found.report(at, Diagnostic::MatrixSize { term, counted, found: actual, expected, because });
+                found.report(at, TermMistake::MatrixSize { term, counted, found: actual, expected, because });
             }
         }
     }

@@ -7,7 +7,7 @@
 use super::potential::{energy, parts};
 use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function};
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostics, PotentialMistake};
 use crate::lower::{self, FIELD};
 use crate::mechanics::potential::stretches::{
     canonical, exchanged, is_stretched, singular_at_coincidence, vanishes_at_coincidence,
@@ -40,21 +40,24 @@ pub(super) fn potential(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics)
         match (innermost, singular) {
             (Some(Kink::Absolute(part)), _) => {
                 let argument = part.operands().first().map(ToString::to_string).unwrap_or_default();
-                found.report(part.span, Diagnostic::NotSmooth { argument });
+                found.report(part.span, PotentialMistake::NotSmooth { argument });
             }
             (Some(Kink::Coincidence(part, argument, stretches)), _) => {
                 let argument = argument.to_string();
                 let written = part.to_string();
-                found.report(part.span, Diagnostic::Coincidence { written, argument, stretches });
+                found.report(part.span, PotentialMistake::Coincidence { written, argument, stretches });
             }
             (None, Some((argument, (a, b)))) => {
                 let (argument, stretches) = (arena.text(argument), (a + 1, b + 1));
                 let all = written.to_string();
-                found.report(written.span, Diagnostic::Coincidence { written: all, argument, stretches });
+                found.report(
+                    written.span,
+                    PotentialMistake::Coincidence { written: all, argument, stretches },
+                );
             }
             (None, None) => {
                 let argument = absolute.map(|argument| arena.text(argument)).unwrap_or_default();
-                found.report(written.span, Diagnostic::NotSmooth { argument });
+                found.report(written.span, PotentialMistake::NotSmooth { argument });
             }
         }
     }
@@ -75,7 +78,7 @@ fn even_in_differences(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) 
         };
         if one != other {
             holds = false;
-            found.report(part.span, Diagnostic::OddDifference { function: f.to_string() });
+            found.report(part.span, PotentialMistake::OddDifference { function: f.to_string() });
         }
     }
     holds
@@ -93,7 +96,7 @@ fn symmetric(
         let other = exchanged(arena, n, value, a, b).map(|other| canonical(arena, n, other));
         if other != Some(value) {
             let energy = written.to_string();
-            found.report(written.span, Diagnostic::NotSymmetric { energy, stretches: (a + 1, b + 1) });
+            found.report(written.span, PotentialMistake::NotSymmetric { energy, stretches: (a + 1, b + 1) });
             return false;
         }
     }

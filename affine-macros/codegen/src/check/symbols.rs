@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use proc_macro2::Ident;
 use quote::ToTokens;
 
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostics, ExpressionMistake};
 use crate::spec::{Expression, ExpressionKind, POTENTIAL_SYMBOLS, SYMBOLS, Spec, Symbol, nearest};
 
 /// A field named as a symbol would make every expression with that name ambiguous to its reader, whichever of
@@ -19,7 +19,7 @@ pub(super) fn hidden(spec: &Spec, found: &mut Diagnostics) {
         let potential = || named(&POTENTIAL_SYMBOLS).map(|symbol| (symbol, "in a potential"));
         let hidden = everywhere.or_else(|| spec.potential.as_ref().and_then(|_| potential()));
         if let Some((&(name, meaning), place)) = hidden {
-            found.report(field.span, Diagnostic::HiddenSymbol { name, meaning, place });
+            found.report(field.span, ExpressionMistake::HiddenSymbol { name, meaning, place });
         }
     }
 }
@@ -28,7 +28,7 @@ pub(super) fn hidden(spec: &Spec, found: &mut Diagnostics) {
 /// the state and the time have names too. A name is reported once, where it stands first.
 pub(super) fn resolved(spec: &Spec, found: &mut Diagnostics) {
     let mut seen = HashSet::new();
-    let mut report = |name: &Ident, mistake: Option<Diagnostic>| {
+    let mut report = |name: &Ident, mistake: Option<ExpressionMistake>| {
         if let Some(mistake) = mistake
             && seen.insert(name.to_string())
         {
@@ -49,11 +49,16 @@ pub(super) fn resolved(spec: &Spec, found: &mut Diagnostics) {
     }
 }
 
-fn unresolved(spec: &Spec, name: &Ident, meaning: Option<Symbol<'_>>, more: &[&str]) -> Option<Diagnostic> {
+fn unresolved(
+    spec: &Spec,
+    name: &Ident,
+    meaning: Option<Symbol<'_>>,
+    more: &[&str],
+) -> Option<ExpressionMistake> {
     match meaning {
         Some(Symbol::Field(field)) if !field.is_real() => {
             let ty = field.ty.to_token_stream().to_string();
-            Some(Diagnostic::FieldType { field: name.to_string(), ty })
+            Some(ExpressionMistake::FieldType { field: name.to_string(), ty })
         }
         Some(_) => None,
         None => {
@@ -65,7 +70,7 @@ fn unresolved(spec: &Spec, name: &Ident, meaning: Option<Symbol<'_>>, more: &[&s
                 .collect();
             let name = name.to_string();
             let nearest = nearest(&name, scope.iter().map(String::as_str)).map(str::to_owned);
-            Some(Diagnostic::UnknownSymbol { name, nearest, scope })
+            Some(ExpressionMistake::UnknownSymbol { name, nearest, scope })
         }
     }
 }

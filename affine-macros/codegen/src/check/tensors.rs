@@ -1,7 +1,7 @@
 //! Tensors `1/2 K[(A,B),(C,D)] O[A,B] O[C,D]` over `Oh`, `Om` or `phi_dot`.
 
 use super::identity::equal;
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostics, TermMistake};
 use crate::spec::{Expression, Named, Spec, Term, Value};
 
 /// K[(A,B),(C,D)] = K[(C,D),(A,B)]: T sees only the part of K that is symmetric under exchange of the pairs,
@@ -15,7 +15,7 @@ pub(super) fn symmetric(spec: &Spec, found: &mut Diagnostics) {
                 continue;
             };
             if equal(upper, lower, n) == Some(false) {
-                let mistake = Diagnostic::TensorNotSymmetric {
+                let mistake = TermMistake::TensorNotSymmetric {
                     term: term.kind.value.name(),
                     first: pair(column, n),
                     second: pair(row, n),

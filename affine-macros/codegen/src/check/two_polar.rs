@@ -1,6 +1,6 @@
 //! The rule of the two-polar form.
 
-use crate::diagnostics::{Diagnostic, Diagnostics, Reported};
+use crate::diagnostics::{CapabilityMistake, Diagnostics, Reported};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by};
@@ -20,7 +20,7 @@ pub(super) fn asked(
     };
     let mut without = |holds: bool, part: &str, lacks: &'static str| {
         if holds {
-            found.report(asked.span, Diagnostic::LatticeWithout { part: part.to_owned(), lacks });
+            found.report(asked.span, CapabilityMistake::LatticeWithout { part: part.to_owned(), lacks });
         }
     };
     without(spec.hamiltonian.is_some(), "`hamiltonian(...)`", "momentum side");
@@ -34,7 +34,7 @@ pub(super) fn asked(
     found.verdict()?;
     let mut anisotropic = |part: String, side: Side, transformation: String| {
         let side = if side == Side::Space { "space" } else { "the body" };
-        found.report(asked.span, Diagnostic::NotDoublyIsotropic { part, side, transformation });
+        found.report(asked.span, CapabilityMistake::NotDoublyIsotropic { part, side, transformation });
     };
     for side in [Side::Space, Side::Body] {
         if let Some((breaker, place)) = broken_by(kinetic, side, Group::Metric) {

@@ -1,6 +1,6 @@
 //! The rule of U(n).
 
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{CapabilityMistake, Diagnostics};
 use crate::spec::{Named, Spec, TermKind};
 
 /// On U(n) the Casimir terms stand, `-A/2 tr Om^2 - B/2 (tr Om)^2` (89): `Om` is anti-Hermitian, every other term breaks
@@ -12,29 +12,29 @@ pub(super) fn casimirs_alone(spec: &Spec, found: &mut Diagnostics) {
     }
     for term in &spec.kinetic {
         if !matches!(term.kind.value, TermKind::Casimir2 | TermKind::Casimir1Squared) {
-            found.report(term.kind.span, Diagnostic::UnitaryTerm { part: term.kind.value.name() });
+            found.report(term.kind.span, CapabilityMistake::UnitaryTerm { part: term.kind.value.name() });
         }
     }
     if let Some(potential) = &spec.potential {
-        found.report(potential.key, Diagnostic::UnitaryTerm { part: "potential" });
+        found.report(potential.key, CapabilityMistake::UnitaryTerm { part: "potential" });
     }
     // Claims and requirements speak of GL(n, R).
     if let Some(symmetry) = &spec.symmetry {
-        found.report(symmetry.space.span, Diagnostic::UnitaryTerm { part: "symmetry" });
+        found.report(symmetry.space.span, CapabilityMistake::UnitaryTerm { part: "symmetry" });
     }
     if let Some(constraint) = &spec.constraint {
-        found.report(constraint.span, Diagnostic::UnitaryTerm { part: "constraint" });
+        found.report(constraint.span, CapabilityMistake::UnitaryTerm { part: "constraint" });
     }
     if spec.hamiltonian.is_some() {
-        found.report(spec.kinetic_key, Diagnostic::UnitaryTerm { part: "hamiltonian" });
+        found.report(spec.kinetic_key, CapabilityMistake::UnitaryTerm { part: "hamiltonian" });
     }
     for metric in spec.metrics.iter().flatten() {
-        found.report(metric.span, Diagnostic::UnitaryTerm { part: "metrics" });
+        found.report(metric.span, CapabilityMistake::UnitaryTerm { part: "metrics" });
     }
     for requirement in &spec.require {
-        found.report(requirement.span, Diagnostic::UnitaryTerm { part: requirement.value.name() });
+        found.report(requirement.span, CapabilityMistake::UnitaryTerm { part: requirement.value.name() });
     }
     for capability in &spec.emit {
-        found.report(capability.span, Diagnostic::UnitaryTerm { part: capability.value.name() });
+        found.report(capability.span, CapabilityMistake::UnitaryTerm { part: capability.value.name() });
     }
 }

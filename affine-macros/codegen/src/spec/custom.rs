@@ -5,7 +5,7 @@ use proc_macro2::{Delimiter, Ident, TokenTree};
 use super::Spanned;
 use super::entries::{Piece, pieces, region, shortened, unwrapped};
 use super::names::Named;
-use crate::diagnostics::{Diagnostic, Diagnostics, Region};
+use crate::diagnostics::{Diagnostics, ForceMistake, Region};
 
 /// A field that computes a potential or a force.
 #[derive(Clone, Debug)]
@@ -194,12 +194,12 @@ pub(super) fn only(rest: Option<Piece>, place: Place, found: &mut Diagnostics) {
 }
 
 /// `2*custom(..)`.
-pub(super) fn within_an_expression() -> Diagnostic {
+pub(super) fn within_an_expression() -> ForceMistake {
     malformed(Place::Potential, "`custom(..)` within an expression".to_owned())
 }
 
-fn malformed(place: Place, found: String) -> Diagnostic {
-    Diagnostic::MalformedCustom {
+fn malformed(place: Place, found: String) -> ForceMistake {
+    ForceMistake::MalformedCustom {
         key: if place == Place::Potential { "potential" } else { "forces" },
         found,
         takes: place.takes(),

@@ -3,7 +3,7 @@
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 
 use super::names::{Named, nearest};
-use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
+use crate::diagnostics::{Diagnostics, NotationMistake, Region, Reported};
 
 /// The tokens between two commas.
 pub(super) struct Piece {
@@ -108,7 +108,7 @@ pub(super) fn entries<K: Named + PartialEq>(
             Some(earlier) if matches!(earlier.body, Body::Refused(_)) => *earlier = entry,
             Some(_) if matches!(entry.body, Body::Refused(_)) => {}
             Some(_) => {
-                found.report(entry.at, Diagnostic::RepeatedKey { list, key: entry.key.name() });
+                found.report(entry.at, NotationMistake::RepeatedKey { list, key: entry.key.name() });
             }
         }
     }
@@ -129,7 +129,7 @@ fn entry<K: Named>(
                 Some(token) => (token.span().into(), describe(token)),
                 None => (piece.at, "a comma".to_owned()),
             };
-            found.report(at, Diagnostic::ExpectedKey { list, found: text });
+            found.report(at, NotationMistake::ExpectedKey { list, found: text });
             return None;
         }
     };
@@ -162,7 +162,7 @@ fn body(list: &'static str, mut tokens: impl Iterator<Item = TokenTree>, found: 
 }
 
 fn malformed(list: &'static str, token: &TokenTree, found: &mut Diagnostics) -> Reported {
-    found.report(token.span(), Diagnostic::MalformedItem { list, found: describe(token) })
+    found.report(token.span(), NotationMistake::MalformedItem { list, found: describe(token) })
 }
 
 /// Reports a name that is no key. A term of the other side is told apart from a slip; for a slip, the key probably
@@ -176,12 +176,12 @@ fn unknown<K: Named>(
     let text = name.to_string();
     if let Some(key) = elsewhere.iter().find(|key| **key == text) {
         let mistake = match list {
-            "hamiltonian" => Diagnostic::OtherSide { list, key, other: "kinetic" },
-            _ => Diagnostic::OtherSide { list, key, other: "hamiltonian" },
+            "hamiltonian" => NotationMistake::OtherSide { list, key, other: "kinetic" },
+            _ => NotationMistake::OtherSide { list, key, other: "hamiltonian" },
         };
         return (None, found.report(name.span(), mistake));
     }
     let nearest = nearest(&text, K::names());
-    let mistake = Diagnostic::UnknownKey { list, nearest, found: shortened(&text), known: K::names() };
+    let mistake = NotationMistake::UnknownKey { list, nearest, found: shortened(&text), known: K::names() };
     (nearest.and_then(K::named), found.report(name.span(), mistake))
 }

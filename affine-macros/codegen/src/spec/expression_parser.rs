@@ -20,7 +20,7 @@ use proc_macro2::{Delimiter, Group, Ident, Literal, TokenTree};
 use super::entries::describe;
 use super::{Expression, ExpressionKind, Operator};
 use crate::algebra::Rational;
-use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
+use crate::diagnostics::{Diagnostics, ExpressionMistake, Region, Reported};
 
 /// More than a person writes, few enough for recursion over the tree on a small stack.
 const MOST_OPERATORS: usize = 256;
@@ -99,7 +99,7 @@ impl<'p> Parser<'p> {
             if operator == Operator::Multiply
                 && let Some(star) = self.punct('*')
             {
-                return Err(self.found.report(self.last.to(star), Diagnostic::DoubleStar));
+                return Err(self.found.report(self.last.to(star), ExpressionMistake::DoubleStar));
             }
             left = operator.apply(left, self.sign()?);
         }
@@ -124,7 +124,7 @@ impl<'p> Parser<'p> {
 
     fn atom(&mut self) -> Result<Expression, Reported> {
         let Some(token) = self.tokens.next() else {
-            return Err(self.found.report(self.last, Diagnostic::MissingOperand));
+            return Err(self.found.report(self.last, ExpressionMistake::MissingOperand));
         };
         self.last = token.span().into();
         match token {
@@ -169,7 +169,9 @@ impl<'p> Parser<'p> {
                 return self.applied(&name, &group);
             }
             (_, Some(_)) => {
-                return Err(self.found.report(span, Diagnostic::FunctionCall { name: name.to_string() }));
+                return Err(self
+                    .found
+                    .report(span, ExpressionMistake::FunctionCall { name: name.to_string() }));
             }
             (Language::Potential(bound), None) => bound.iter().find(|(parameter, _)| name == parameter),
             (Language::Coefficient, None) => None,
@@ -214,14 +216,15 @@ impl<'p> Parser<'p> {
     fn count(&mut self, at: Region) -> Result<(), Reported> {
         self.effort.operators += 1;
         if self.effort.operators > MOST_OPERATORS {
-            return Err(self.found.report(at, Diagnostic::ExpressionSize { limit: "256 operators" }));
+            return Err(self.found.report(at, ExpressionMistake::ExpressionSize { limit: "256 operators" }));
         }
         Ok(())
     }
 
     fn deeper<T>(&mut self, inner: impl FnOnce(&mut Self) -> Result<T, Reported>) -> Result<T, Reported> {
         if self.effort.depth == DEEPEST {
-            let mistake = Diagnostic::ExpressionSize { limit: "64 levels of brackets, signs and powers" };
+            let mistake =
+                ExpressionMistake::ExpressionSize { limit: "64 levels of brackets, signs and powers" };
             return Err(self.found.report(self.last, mistake));
         }
         self.effort.depth += 1;
@@ -231,14 +234,15 @@ impl<'p> Parser<'p> {
     }
 
     fn unexpected(&mut self, token: &TokenTree, expected: &'static str) -> Reported {
-        self.found.report(token.span(), Diagnostic::UnexpectedToken { found: describe(token), expected })
+        self.found
+            .report(token.span(), ExpressionMistake::UnexpectedToken { found: describe(token), expected })
     }
 }
 
 /// The rational that a literal denotes. Hexadecimal and the like have no fractions and no place here; a suffix
 /// would promise a machine type that exact numbers do not have.
-fn exact(literal: &str) -> Result<Rational, Diagnostic> {
-    let not_a_number = || Diagnostic::NotANumber { literal: super::entries::shortened(literal) };
+fn exact(literal: &str) -> Result<Rational, ExpressionMistake> {
+    let not_a_number = || ExpressionMistake::NotANumber { literal: super::entries::shortened(literal) };
     if !literal.starts_with(|first: char| first.is_ascii_digit()) {
         return Err(not_a_number());
     }
@@ -248,9 +252,9 @@ fn exact(literal: &str) -> Result<Rational, Diagnostic> {
     }
     if !suffix.is_empty() {
         let number = number.trim_end_matches('_').to_owned();
-        return Err(Diagnostic::NumberSuffix { number, suffix: suffix.to_owned() });
+        return Err(ExpressionMistake::NumberSuffix { number, suffix: suffix.to_owned() });
     }
-    let out_of_range = || Diagnostic::NumberRange { literal: super::entries::shortened(literal) };
+    let out_of_range = || ExpressionMistake::NumberRange { literal: super::entries::shortened(literal) };
     let exponent = number.find(['e', 'E']).map_or("0", |at| &number[at + 1..]).replace('_', "");
     let small = exponent.parse::<i32>().is_ok_and(|exponent| exponent.unsigned_abs() <= LARGEST_EXPONENT);
     if !small || number.len() > MOST_DIGITS {

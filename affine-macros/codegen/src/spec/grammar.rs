@@ -8,7 +8,7 @@ use super::expression_parser::{self, Language};
 use super::momentum_side::{self, MomentumKind};
 use super::names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
 use super::{Custom, Item, Metric, Potential, Spanned, Spec, Symmetry, Term, custom, value};
-use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
+use crate::diagnostics::{Diagnostics, NotationMistake, Region, Reported};
 
 /// The keys of `affine_model(...)`.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -219,7 +219,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
         (None, None) => Err(missing(Key::Kinetic, "the kinetic energy", here, found)),
         (Some((_, terms)), None) => terms.map(Energy::Kinetic),
         (None, Some((_, terms))) => terms.map(Energy::Hamiltonian),
-        (Some(_), Some((at, _))) => Err(found.report(at, Diagnostic::TwoStatements)),
+        (Some(_), Some((at, _))) => Err(found.report(at, NotationMistake::TwoStatements)),
     };
     Ok(Arguments {
         dim: dim?,
@@ -238,7 +238,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
 }
 
 fn missing(key: Key, states: &'static str, at: Span, found: &mut Diagnostics) -> Reported {
-    found.report(at, Diagnostic::MissingKey { key: key.name(), states, example: key.example() })
+    found.report(at, NotationMistake::MissingKey { key: key.name(), states, example: key.example() })
 }
 
 /// The value of an entry; a missing one is reported.
@@ -247,7 +247,8 @@ fn expect_value(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Piece, Rep
         Body::Value(piece) if !piece.tokens.is_empty() => Ok(piece),
         Body::Refused(reported) => Err(reported),
         _ => {
-            let mistake = Diagnostic::ExpectedValue { key: entry.key.name(), example: entry.key.example() };
+            let mistake =
+                NotationMistake::ExpectedValue { key: entry.key.name(), example: entry.key.example() };
             Err(found.report(entry.at, mistake))
         }
     }
@@ -260,8 +261,8 @@ fn expect_list(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Group, Repo
         // An empty sum is a model without kinetic energy, which a rule of its own refuses.
         Body::List(group) if !group.stream().is_empty() || entry.key == Key::Kinetic => Ok(group),
         Body::Refused(reported) => Err(reported),
-        Body::List(_) => Err(found.report(entry.at, Diagnostic::EmptyList { key, example })),
-        _ => Err(found.report(entry.at, Diagnostic::ExpectedList { key, example })),
+        Body::List(_) => Err(found.report(entry.at, NotationMistake::EmptyList { key, example })),
+        _ => Err(found.report(entry.at, NotationMistake::ExpectedList { key, example })),
     }
 }
 
@@ -271,7 +272,7 @@ fn dimension(piece: Result<Piece, Reported>, found: &mut Diagnostics) -> Result<
     let text = unwrapped(tokens).into_iter().collect::<TokenStream>().to_string();
     match text.parse() {
         Ok(value) => Ok(Spanned { value, span: at }),
-        Err(_) => Err(found.report(at, Diagnostic::Dimension { found: shortened(&text) })),
+        Err(_) => Err(found.report(at, NotationMistake::Dimension { found: shortened(&text) })),
     }
 }
 
@@ -300,7 +301,7 @@ fn claim(entry: &Entry<Side>, found: &mut Diagnostics) -> Option<Spanned<Claim>>
                 Side::Space => ("space", "space = affine"),
                 Side::Body => ("body", "body = metric"),
             };
-            found.report(entry.at, Diagnostic::ExpectedValue { key, example });
+            found.report(entry.at, NotationMistake::ExpectedValue { key, example });
             return None;
         }
     };
@@ -340,8 +341,10 @@ fn terms<K: Named + PartialEq>(
             }
             Body::Refused(_) => {}
             _ => {
-                let mistake =
-                    Diagnostic::ExpectedValue { key: entry.key.name(), example: (side.example)(entry.key) };
+                let mistake = NotationMistake::ExpectedValue {
+                    key: entry.key.name(),
+                    example: (side.example)(entry.key),
+                };
                 found.report(entry.at, mistake);
             }
         }
@@ -366,7 +369,7 @@ fn metrics(list: Result<Group, Reported>, found: &mut Diagnostics) -> [Option<Me
             }
             Body::Refused(_) => {}
             _ => {
-                found.report(entry.at, Diagnostic::ExpectedValue { key: side, example });
+                found.report(entry.at, NotationMistake::ExpectedValue { key: side, example });
             }
         }
     }
@@ -407,7 +410,7 @@ fn members<T: Named + PartialEq>(
         let Some(member) = member::<T>(role, tokens, at, found) else { continue };
         if members.iter().any(|earlier| earlier.value == member.value) {
             let list = if role == "capability" { Key::Emit.name() } else { Key::Require.name() };
-            found.report(at, Diagnostic::RepeatedKey { list, key: member.value.name() });
+            found.report(at, NotationMistake::RepeatedKey { list, key: member.value.name() });
         } else {
             members.push(member);
         }
@@ -435,7 +438,7 @@ fn member<T: Named>(
         _ => shortened(&tokens.into_iter().collect::<TokenStream>().to_string()),
     };
     let nearest = nearest(&written, T::names());
-    found.report(at, Diagnostic::UnknownName { role, found: written, nearest, known: T::names() });
+    found.report(at, NotationMistake::UnknownName { role, found: written, nearest, known: T::names() });
     None
 }
 
@@ -446,7 +449,7 @@ fn path(piece: Result<Piece, Reported>, found: &mut Diagnostics) -> Option<syn::
     match syn::Path::parse_mod_style.parse2(tokens.clone()) {
         Ok(path) => Some(path),
         Err(_) => {
-            found.report(at, Diagnostic::RuntimePath { found: shortened(&tokens.to_string()) });
+            found.report(at, NotationMistake::RuntimePath { found: shortened(&tokens.to_string()) });
             None
         }
     }

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use syn::{Attribute, Data, DeriveInput, Fields, Generics, Type, Visibility};
 
 use super::entries::shortened;
-use crate::diagnostics::{Diagnostic, Diagnostics, Region, Reported};
+use crate::diagnostics::{Diagnostics, NotationMistake, Region, Reported};
 
 /// The user's struct.
 pub struct Item {
@@ -63,7 +63,7 @@ pub(super) fn is_f64(path: &syn::Path) -> bool {
 
 pub(super) fn parse(item: TokenStream, found: &mut Diagnostics) -> Result<Item, Reported> {
     let input: DeriveInput = syn::parse2(item.clone()).map_err(|error| {
-        found.report(error.span(), Diagnostic::UnreadableItem { problem: shortened(&error.to_string()) })
+        found.report(error.span(), NotationMistake::UnreadableItem { problem: shortened(&error.to_string()) })
     })?;
     let fields = match input.data {
         Data::Struct(data) => match data.fields {
@@ -93,5 +93,5 @@ fn field(field: syn::Field) -> Option<Field> {
 /// Parameters need names to be used in expressions, and one kinetic energy belongs to one type: no tuple
 /// structs, no enums, no unions.
 fn refused(name: &Ident, kind: &'static str, found: &mut Diagnostics) -> Reported {
-    found.report(name.span(), Diagnostic::ItemKind { found: kind })
+    found.report(name.span(), NotationMistake::ItemKind { found: kind })
 }

@@ -5,7 +5,7 @@ use proc_macro2::{Delimiter, TokenTree};
 use super::entries::{Piece, pieces, unwrapped};
 use super::expression_parser::{self, Language};
 use super::{Expression, TermKind, Value};
-use crate::diagnostics::{Diagnostic, Diagnostics, Reported};
+use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
 
 /// How a term may look, in a message.
 pub(super) fn example(kind: TermKind) -> &'static str {
@@ -47,7 +47,7 @@ fn row(piece: Piece, found: &mut Diagnostics) -> Result<Vec<Expression>, Reporte
         [TokenTree::Group(group)] if group.delimiter() == Delimiter::Bracket => {
             all(pieces(group.stream(), group.span_close()).into_iter().map(|piece| entry(piece, found)))
         }
-        _ => Err(found.report(piece.at, Diagnostic::FlatMatrix)),
+        _ => Err(found.report(piece.at, ExpressionMistake::FlatMatrix)),
     }
 }
 

@@ -2,7 +2,7 @@
 //! written in two ways.
 
 use affine_codegen::derive::Model;
-use affine_codegen::diagnostics::Diagnostic;
+use affine_codegen::diagnostics::{Diagnostic, FormMistake};
 use affine_oracle::{Matrix, Random, Rational, rational};
 use num_traits::{Signed, Zero};
 
@@ -177,7 +177,12 @@ fn determinants_and_signs() {
                     degenerate += 1;
                     assert_eq!(determinant, rational(0, 1), "{args}");
                     let refused = |d: &Diagnostic| {
-                        matches!(d, Diagnostic::DegenerateTensor { .. } | Diagnostic::NoKineticEnergy)
+                        matches!(
+                            d,
+                            Diagnostic::Form(
+                                FormMistake::DegenerateTensor { .. } | FormMistake::NoKineticEnergy
+                            )
+                        )
                     };
                     assert!(refusal.diagnostics().all(refused), "{args}");
                 }

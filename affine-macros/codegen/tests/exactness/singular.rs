@@ -1,6 +1,6 @@
 //! Singular sets are exact: what vanishes in rational numbers is refused, and nothing beside it.
 
-use affine_codegen::diagnostics::Diagnostic;
+use affine_codegen::diagnostics::{Diagnostic, FormMistake, TermMistake};
 
 use super::models::form;
 
@@ -12,12 +12,12 @@ fn refused(args: &str) -> Vec<String> {
         Err(refusal) => refusal
             .diagnostics()
             .map(|mistake| match mistake {
-                Diagnostic::Degenerate { eigenvalue, .. } => eigenvalue.clone(),
-                Diagnostic::DegenerateTensor { .. } => "tensor".to_owned(),
-                Diagnostic::ZeroMass { .. } => "mass".to_owned(),
-                Diagnostic::InertiaNotPositive { .. } => "J".to_owned(),
-                Diagnostic::NotPositiveDefinite { .. } => "definite".to_owned(),
-                Diagnostic::NoKineticEnergy => "none".to_owned(),
+                Diagnostic::Form(FormMistake::Degenerate { eigenvalue, .. }) => eigenvalue.clone(),
+                Diagnostic::Form(FormMistake::DegenerateTensor { .. }) => "tensor".to_owned(),
+                Diagnostic::Term(TermMistake::ZeroMass { .. }) => "mass".to_owned(),
+                Diagnostic::Term(TermMistake::InertiaNotPositive { .. }) => "J".to_owned(),
+                Diagnostic::Form(FormMistake::NotPositiveDefinite { .. }) => "definite".to_owned(),
+                Diagnostic::Form(FormMistake::NoKineticEnergy) => "none".to_owned(),
                 other => panic!("{args}: {other}"),
             })
             .collect(),

@@ -1,7 +1,7 @@
 //! Symmetry groups against brute force: random exact group elements applied to the energy itself.
 
 use affine_codegen::check::Form;
-use affine_codegen::diagnostics::Diagnostic;
+use affine_codegen::diagnostics::{Diagnostic, FormMistake};
 use affine_codegen::mechanics::kinetic::Kinetic as Symbolic;
 use affine_codegen::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
 use affine_oracle::{Kinetic, Matrix, Random, Rational, Term, rational};
@@ -197,7 +197,8 @@ fn rotations_without_reflections_are_not_enough() {
         let claimed = format!("symmetry({name} = metric), {args}");
         let refusal = form(&claimed, "struct Chiral;").err().expect("refused");
         let found: Vec<&Diagnostic> = refusal.diagnostics().collect();
-        let [Diagnostic::ClaimBroken { side, group, term: broken, transformation, .. }] = found.as_slice()
+        let [Diagnostic::Form(FormMistake::ClaimBroken { side, group, term: broken, transformation, .. })] =
+            found.as_slice()
         else {
             panic!("{:?}", found.iter().map(ToString::to_string).collect::<Vec<_>>())
         };
@@ -219,7 +220,9 @@ fn claims_name_the_term() {
         );
         let refusal = form(&args, "struct Model;").err().expect("refused");
         let found: Vec<&Diagnostic> = refusal.diagnostics().collect();
-        let [Diagnostic::ClaimBroken { side, term, transformation, .. }] = found.as_slice() else {
+        let [Diagnostic::Form(FormMistake::ClaimBroken { side, term, transformation, .. })] =
+            found.as_slice()
+        else {
             panic!("one mistake")
         };
         assert_eq!((*side, *term), ("body", "body_inertia"));

@@ -4,7 +4,7 @@ use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 
 use super::{Language, Parser};
 use crate::algebra::Function;
-use crate::diagnostics::{Diagnostic, Region, Reported};
+use crate::diagnostics::{ExpressionMistake, PotentialMistake, Region, Reported};
 use crate::spec::custom;
 use crate::spec::entries::{Piece, describe, pieces, shortened, unwrapped};
 use crate::spec::named_potentials::{NAMED_POTENTIALS, NamedPotential};
@@ -65,7 +65,7 @@ impl Parser<'_> {
         let parameters = if name == "pairs" { &["f(d)"] } else { &["a"] };
         let mut arguments = self.arguments(name, parameters, group, span)?;
         // There are as many arguments as parameters.
-        arguments.pop().ok_or_else(|| self.found.report(span, Diagnostic::MissingOperand))
+        arguments.pop().ok_or_else(|| self.found.report(span, ExpressionMistake::MissingOperand))
     }
 
     /// As many arguments as there are parameters.
@@ -78,7 +78,7 @@ impl Parser<'_> {
     ) -> Result<Vec<Expression>, Reported> {
         let pieces = pieces(group.stream(), group.span_close());
         if pieces.len() != parameters.len() {
-            let mistake = Diagnostic::ArgumentCount { name, parameters, found: pieces.len() };
+            let mistake = PotentialMistake::ArgumentCount { name, parameters, found: pieces.len() };
             return Err(self.found.report(span, mistake));
         }
         // All arguments before the first error is looked for, so that all are reported.
@@ -127,7 +127,7 @@ impl Parser<'_> {
     fn malformed(&mut self, name: &'static str, group: &Group) -> Reported {
         let found = shortened(&group.stream().to_string());
         let at = Region { start: group.span_open(), end: group.span_close() };
-        self.found.report(at, Diagnostic::Argument { name, found })
+        self.found.report(at, PotentialMistake::Argument { name, found })
     }
 
     /// `G[1,2]`, `x[3]`.
@@ -149,9 +149,9 @@ impl Parser<'_> {
                     Some(matrix) => ("a row and a column", format!("{}[1,2]", matrix.name())),
                     None => ("one index", "x[1]".to_owned()),
                 };
-                Err(self.found.report(span, Diagnostic::Indices { written, indices, example }))
+                Err(self.found.report(span, PotentialMistake::Indices { written, indices, example }))
             }
-            _ => Err(self.found.report(at, Diagnostic::NotIndexed { name: shortened(name) })),
+            _ => Err(self.found.report(at, PotentialMistake::NotIndexed { name: shortened(name) })),
         }
     }
 }
@@ -172,7 +172,7 @@ fn index(piece: Piece) -> Option<usize> {
     }
 }
 
-fn unknown(name: &str) -> Diagnostic {
+fn unknown(name: &str) -> PotentialMistake {
     let known: Vec<&'static str> = FUNCTIONS
         .into_iter()
         .map(Function::name)
@@ -180,7 +180,7 @@ fn unknown(name: &str) -> Diagnostic {
         .chain(NAMED_POTENTIALS.iter().map(|potential| potential.name))
         .collect();
     let nearest = nearest(name, known.iter().copied());
-    Diagnostic::UnknownFunction { name: shortened(name), nearest, known }
+    PotentialMistake::UnknownFunction { name: shortened(name), nearest, known }
 }
 
 /// The tokens at another place.

@@ -1,0 +1,96 @@
+//! What does not go with a constraint.
+
+use super::message::{Text, text};
+use super::names::names;
+
+/// What does not go with a constraint.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ConstraintMistake {
+    /// A constraint beside a key that does not go with it.
+    ConstraintBeside {
+        /// The other key.
+        key: &'static str,
+    },
+    /// A term that is zero wherever the constraint holds.
+    VanishingTerm {
+        /// The term.
+        term: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+        /// What velocities are under it: `traceless`, `skew`.
+        velocities: &'static str,
+    },
+    /// An energy in `phi_dot` whose mass matrix depends on the placement under the constraint.
+    ConstrainedMassMatrix {
+        /// The term.
+        term: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+        /// The group: `phi = e^q R with a rotation R`.
+        group: &'static str,
+    },
+    /// A potential that is constant, or has no value, wherever the constraint holds.
+    ConstrainedPotential {
+        /// `is constant`, `has no value`.
+        defect: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+        /// The group: `det phi = 1`.
+        group: &'static str,
+    },
+}
+
+names! { ConstraintMistake
+    ConstraintBeside => "constraint-beside",
+    VanishingTerm => "vanishing-term",
+    ConstrainedMassMatrix => "constrained-mass-matrix",
+    ConstrainedPotential => "constrained-potential",
+}
+
+impl ConstraintMistake {
+    pub(super) fn text(&self) -> Text {
+        match self {
+            Self::ConstraintBeside { key } => text(
+                format!("`constraint` does not go with `{key}` in this version"),
+                match *key {
+                    "metrics(...)" => {
+                        "the group of a constraint is that of orthonormal bases, and points stand in others"
+                    }
+                    _ => "under a constraint momenta are restricted, and T is known only from velocities",
+                },
+                match *key {
+                    "metrics(...)" => "state the model in orthonormal bases and leave out `metrics(...)`",
+                    _ => "state the energy in `kinetic(...)`",
+                },
+            ),
+            Self::VanishingTerm { term, constraint, velocities } => text(
+                format!("`{term}` is zero under `constraint = {constraint}`"),
+                format!("affine velocities are {velocities} there, and it is zero on all of them"),
+                format!("remove `{term}` or the constraint"),
+            ),
+            Self::ConstrainedMassMatrix { term, constraint, group } => text(
+                format!("`{term}` has no constant mass matrix under `constraint = {constraint}`"),
+                format!(
+                    "phi_dot = phi Oh with {group}: as a form of Oh it depends on phi; only `dalembert` that is `rigid`, \
+                     where phi drops out, or `isochoric`, where a multiplier keeps det phi = 1, goes with a constraint"
+                ),
+                match *term {
+                    "flat_tensor" => "write `body_tensor`, which is constant in Oh, or remove the constraint",
+                    _ => "write `body_inertia`, which is constant in Oh, or remove the constraint",
+                },
+            ),
+            Self::ConstrainedPotential { defect, constraint, group } => text(
+                format!("this potential {defect} under `constraint = {constraint}`"),
+                match *constraint {
+                    "rigid" => format!("{group}: q = 0, det phi = 1, and G and Ct are the identity"),
+                    "conformal" => format!("{group}: G and Ct are exp(2q) times the identity"),
+                    _ => format!("{group}: q = 0 and D = 1"),
+                },
+                match *defect {
+                    "is constant" => "remove the potential or the constraint",
+                    _ => "write a potential that is finite there, or remove the constraint",
+                },
+            ),
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Mistakes in expressions of all kinds.
+
+use super::message::{Text, listed, suggestion, text};
+use super::names::names;
+
+/// A mistake in an expression.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ExpressionMistake {
+    /// A token that does not fit.
+    UnexpectedToken {
+        /// The token.
+        found: String,
+        /// What fits there.
+        expected: &'static str,
+    },
+    /// An expression, or an operand, that is missing.
+    MissingOperand,
+    /// `**`.
+    DoubleStar,
+    /// `0.2f64`, `2a`.
+    NumberSuffix {
+        /// The number before the suffix.
+        number: String,
+        /// The suffix.
+        suffix: String,
+    },
+    /// A literal that is no decimal number: `"0.2"`, `0x10`.
+    NotANumber {
+        /// The literal.
+        literal: String,
+    },
+    /// A number beyond the range of the machine numbers.
+    NumberRange {
+        /// The literal.
+        literal: String,
+    },
+    /// `f(...)` or `f[...]` in a coefficient.
+    FunctionCall {
+        /// What stands before the bracket.
+        name: String,
+    },
+    /// An expression with more operators, or deeper brackets, than the macro accepts.
+    ExpressionSize {
+        /// The limit that is exceeded.
+        limit: &'static str,
+    },
+    /// `[1, 2]`, `[[1, 2], 3]`.
+    FlatMatrix,
+    /// A name that is neither a field nor a symbol.
+    UnknownSymbol {
+        /// The name.
+        name: String,
+        /// The name probably meant.
+        nearest: Option<String>,
+        /// The names in scope.
+        scope: Vec<String>,
+    },
+    /// A field in an expression that is not an `f64`.
+    FieldType {
+        /// The field.
+        field: String,
+        /// Its type.
+        ty: String,
+    },
+    /// A field named as a symbol of the specification language.
+    HiddenSymbol {
+        /// The name.
+        name: &'static str,
+        /// What the symbol means.
+        meaning: &'static str,
+        /// Where it means that: `in every expression`, `in a potential`.
+        place: &'static str,
+    },
+    /// An exponent that is no integer known when the model is compiled.
+    Exponent {
+        /// The exponent.
+        exponent: String,
+    },
+    /// Powers of a degree that no coefficient needs.
+    Degree {
+        /// The degree.
+        degree: u64,
+        /// The largest accepted.
+        limit: u64,
+    },
+    /// A divisor, or the base of a negative power, that is exactly zero.
+    DivisionByZero {
+        /// The divisor.
+        divisor: String,
+    },
+}
+
+names! { ExpressionMistake
+    UnexpectedToken => "unexpected-token",
+    MissingOperand => "missing-operand",
+    DoubleStar => "double-star",
+    NumberSuffix => "number-suffix",
+    NotANumber => "not-a-number",
+    NumberRange => "number-range",
+    FunctionCall => "function-call",
+    ExpressionSize => "expression-size",
+    FlatMatrix => "flat-matrix",
+    UnknownSymbol => "unknown-symbol",
+    FieldType => "field-type",
+    HiddenSymbol => "hidden-symbol",
+    Exponent => "exponent",
+    Degree => "degree",
+    DivisionByZero => "division-by-zero",
+}
+
+impl ExpressionMistake {
+    pub(super) fn text(&self) -> Text {
+        match self {
+            Self::UnexpectedToken { found, expected } => text(
+                format!("{found} where {expected} should stand"),
+                "expressions are made of decimal numbers, fields, `n`, the operators `+ - * / ^` and parentheses",
+                format!("put {expected} before it, or remove it; a product has its sign, as in `2*a`"),
+            ),
+            Self::MissingOperand => text(
+                "an expression ends where a number, a field or `(` should stand",
+                "every operator needs its operands, and every place in a list its value",
+                "write the missing value, or remove the operator or comma",
+            ),
+            Self::DoubleStar => text(
+                "`**` is not an operator",
+                "powers are written with `^`, which binds tighter than a minus sign: `-q^2` is `-(q^2)`",
+                "write `a^2`",
+            ),
+            Self::NumberSuffix { number, suffix } => text(
+                format!("the number `{number}{suffix}` has the suffix `{suffix}`"),
+                "numbers are exact rationals (`0.2` is 1/5) and have no machine type; a product has its sign",
+                if is_machine_type(suffix) {
+                    format!("write `{number}`")
+                } else {
+                    format!("write `{number}*{suffix}`")
+                },
+            ),
+            Self::NotANumber { literal } => text(
+                format!("`{literal}` is not a decimal number"),
+                "coefficients are exact rationals written in decimal, such as `2`, `0.2`, `1e-3` or `1/3`",
+                "write a decimal number",
+            ),
+            Self::NumberRange { literal } => text(
+                format!("the number `{literal}` is beyond the range of machine numbers"),
+                "coefficients are rounded to f64 in the end, which spans about 1e-308 to 1e308",
+                "choose units in which the coefficients are of moderate size",
+            ),
+            Self::FunctionCall { name } => text(
+                format!("`{name}` is applied to brackets, but a coefficient has no functions and no indices"),
+                "the coefficients of a kinetic energy are constants: arithmetic over numbers, fields and `n`",
+                "compute the value and keep it in a field; a product has its sign, as in `a*(b + c)`",
+            ),
+            Self::ExpressionSize { limit } => text(
+                format!("the expression has more than {limit}"),
+                "the macro bounds what it works through, so that a slip cannot stall a build",
+                "split it: compute a part and keep it in a field",
+            ),
+            Self::FlatMatrix => text(
+                "a row of a matrix is not in brackets",
+                "a matrix is an array of rows, and a row is an array of entries",
+                "write `[[a, b], [c, d]]`, or `diag(a, d)`",
+            ),
+            Self::UnknownSymbol { name, nearest, scope } => text(
+                format!("there is no field or symbol `{name}`"),
+                format!("an expression can use {}", listed(scope)),
+                suggestion(nearest.as_deref(), &format!("add a field `{name}: f64`")),
+            ),
+            Self::FieldType { field, ty } => text(
+                format!("the field `{field}` has type `{ty}` and cannot stand in an expression"),
+                "an expression is a real number; a field of matrix type stands alone, as in `body_inertia = j`, and fields \
+                 of other types are left alone",
+                format!(
+                    "write `{field}: f64` in the struct, spelled `f64` and not as an alias, or a matrix type written out, \
+                     as `Matrix3<f64>`"
+                ),
+            ),
+            Self::HiddenSymbol { name, meaning, place } => text(
+                format!("the field `{name}` hides the symbol `{name}`"),
+                format!("`{name}` means {meaning} {place}"),
+                "give the field another name",
+            ),
+            Self::Exponent { exponent } => text(
+                format!("the exponent `{exponent}` is not an integer known at compile time"),
+                "the inverse of a kinetic energy is derived exactly, in rational functions of the coefficients",
+                "write an integer, as in `a^2` or `a^-1`; keep a root in a field of its own",
+            ),
+            Self::Degree { degree, limit } => text(
+                format!("these powers have degree {degree}"),
+                format!(
+                    "the macro computes them exactly and stops at degree {limit}, so that a slip cannot stall a build"
+                ),
+                "write a lower power; a power of fields can be computed beforehand and kept in a field",
+            ),
+            Self::DivisionByZero { divisor } => text(
+                format!("division by `{divisor}`, which is zero"),
+                "a quotient by zero has no value; coefficients are exact, so that no rounding made this one vanish",
+                "write a divisor that is not zero",
+            ),
+        }
+    }
+}
+
+/// Would a Rust programmer mean the type of the number, rather than a factor?
+fn is_machine_type(suffix: &str) -> bool {
+    let size = suffix.strip_prefix(['f', 'i', 'u']);
+    size.is_some_and(|size| matches!(size, "8" | "16" | "32" | "64" | "128" | "size"))
+}

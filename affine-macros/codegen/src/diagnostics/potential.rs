@@ -1,0 +1,240 @@
+//! Mistakes in potentials.
+
+use super::message::{Text, listed, suggestion, text};
+use super::names::names;
+
+/// A mistake in a potential.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PotentialMistake {
+    /// `f(...)` with a name that is no function.
+    UnknownFunction {
+        /// The name.
+        name: String,
+        /// The function probably meant.
+        nearest: Option<&'static str>,
+        /// Everything that can be applied.
+        known: Vec<&'static str>,
+    },
+    /// A function with too few or too many arguments.
+    ArgumentCount {
+        /// The function.
+        name: &'static str,
+        /// Its parameters.
+        parameters: &'static [&'static str],
+        /// How many arguments there are.
+        found: usize,
+    },
+    /// Something in `tr(...)` or `norm(...)` that has no trace or norm.
+    Argument {
+        /// `tr` or `norm`.
+        name: &'static str,
+        /// What stands in the brackets.
+        found: String,
+    },
+    /// `a[1]` for an `a` without indices.
+    NotIndexed {
+        /// The name.
+        name: String,
+    },
+    /// `G[1]`, `x[i]`: other than the literal indices due.
+    Indices {
+        /// The form as written.
+        written: String,
+        /// What is due: `a row and a column`.
+        indices: &'static str,
+        /// How it may look.
+        example: String,
+    },
+    /// An index below 1 or above n.
+    IndexRange {
+        /// The form: `G[1,4]`, `I3`.
+        written: String,
+        /// The index.
+        index: usize,
+        /// The dimension.
+        n: usize,
+    },
+    /// A matrix or a vector where a number should stand.
+    NotScalar {
+        /// The name.
+        name: String,
+        /// `a matrix`, `a vector`.
+        meaning: &'static str,
+        /// What to write.
+        instead: &'static str,
+    },
+    /// The place of the centre in a model without translation.
+    FixedCentre {
+        /// The form: `x[1]`, `norm(x)`.
+        form: String,
+    },
+    /// `abs(...)` of what changes its sign.
+    NotSmooth {
+        /// Its argument.
+        argument: String,
+    },
+    /// A root, a logarithm or a quotient where two stretches coincide.
+    Coincidence {
+        /// The form: `sqrt(d^2)`.
+        written: String,
+        /// What vanishes: `d^2`.
+        argument: String,
+        /// The stretches.
+        stretches: (usize, usize),
+    },
+    /// A potential that changes when two stretches are exchanged.
+    NotSymmetric {
+        /// The potential.
+        energy: String,
+        /// The stretches.
+        stretches: (usize, usize),
+    },
+    /// `pairs(f(d))` with `f(d) != f(-d)`.
+    OddDifference {
+        /// `f(d)`.
+        function: String,
+    },
+    /// `d` outside `pairs(...)`.
+    LooseDifference,
+    /// A logarithm or a root of a number that is not positive.
+    Domain {
+        /// The function.
+        function: &'static str,
+        /// Its argument as written.
+        argument: String,
+        /// Its value.
+        value: String,
+    },
+    /// An exponent in a potential that is no integer known when the model is compiled.
+    PotentialExponent {
+        /// The base.
+        base: String,
+        /// The exponent.
+        exponent: String,
+        /// The same power through a root or a logarithm.
+        instead: String,
+    },
+}
+
+names! { PotentialMistake
+    UnknownFunction => "unknown-function",
+    ArgumentCount => "argument-count",
+    Argument => "argument",
+    NotIndexed => "not-indexed",
+    Indices => "indices",
+    IndexRange => "index-range",
+    NotScalar => "not-scalar",
+    FixedCentre => "fixed-centre",
+    NotSmooth => "not-smooth",
+    Coincidence => "coincidence",
+    NotSymmetric => "not-symmetric",
+    OddDifference => "odd-difference",
+    LooseDifference => "loose-difference",
+    Domain => "domain",
+    PotentialExponent => "potential-exponent",
+}
+
+impl PotentialMistake {
+    pub(super) fn text(&self) -> Text {
+        match self {
+            Self::UnknownFunction { name, nearest, known } => text(
+                format!("there is no function `{name}`"),
+                format!("a potential can use {}", listed(known)),
+                suggestion(*nearest, "use one of these; a product has its sign, as in `a*(b + c)`"),
+            ),
+            Self::ArgumentCount { name, parameters, found } => text(
+                format!("`{name}` has {}", arguments(*found)),
+                format!("`{name}` takes {}", arguments(parameters.len())),
+                format!("write `{name}({})`", parameters.join(", ")),
+            ),
+            Self::Argument { name, found } => match *name {
+                "norm" => text(
+                    format!("`norm({found})` is not defined"),
+                    "the norm is that of the place of the centre, `x`",
+                    "write `norm(x)`; that of the placement is `sqrt(tr(G))`",
+                ),
+                _ => text(
+                    format!("`{name}({found})` is not defined"),
+                    "the trace is taken of one of the matrices `G`, `Ct` and `phi`, or of a product with `*`",
+                    "write `tr(G)`, `tr(G*G)`, ...; sums and factors stand outside, as in `tr(G*G) - 2*tr(G) + n`",
+                ),
+            },
+            Self::NotIndexed { name } => text(
+                format!("`{name}` has no indices"),
+                "the matrices `G`, `Ct` and `phi` have entries, as in `G[1,2]`, and `x` has coordinates, as in `x[1]`",
+                "index one of these, or remove the brackets; a field holds one number",
+            ),
+            Self::Indices { written, indices, example } => text(
+                format!("`{written}` does not name one number"),
+                format!("it takes {indices} from 1 to n, in digits"),
+                format!("write `{example}`"),
+            ),
+            Self::IndexRange { written, index, n } => text(
+                format!("`{written}` does not exist: {index} is not between 1 and {n}"),
+                format!("indices count from 1 to the dimension, n = {n}"),
+                format!("write an index from 1 to {n}"),
+            ),
+            Self::NotScalar { name, meaning, instead } => text(
+                format!("`{name}` is {meaning}, not a number"),
+                "a potential energy is a number, and so is every part of it",
+                format!("write {instead}"),
+            ),
+            Self::FixedCentre { form } => text(
+                format!("`{form}` depends on the place of the body, but the model has no translation"),
+                "without a translational kinetic energy the centre is fixed in space, and x is not part of the state",
+                format!(
+                    "add `space_translation = m` or `body_translation = m` to `kinetic(...)`, or remove `{form}`"
+                ),
+            ),
+            Self::NotSmooth { argument } => text(
+                format!("`abs({argument})` is not smooth where its argument is zero"),
+                "the force is the derivative of the potential, and it jumps there; `sqrt(a^2)` is the same function",
+                "use a smooth function, as in `sqrt(a^2 + b^2)` with a constant b, or a power, as in `a^2` or \
+                 `abs(a)^2`",
+            ),
+            Self::Coincidence { written, argument, stretches: (a, b) } => text(
+                format!("`{written}` is not smooth where the stretches Q{a} and Q{b} coincide"),
+                format!(
+                    "`{argument}` vanishes there, in particular for an undeformed body: a root has a kink, a \
+                     logarithm and a quotient have a pole, or 0/0 where the quotient as a whole is smooth"
+                ),
+                "write a function that is smooth there, as `cosh(d)`, `d^2` or `sqrt(d^2 + b^2)` with a constant b",
+            ),
+            Self::NotSymmetric { energy, stretches: (a, b) } => text(
+                format!("the potential changes when the stretches Q{a} and Q{b} are exchanged"),
+                format!(
+                    "stretches have no order of their own, so that `{energy}` is a function of phi only if every \
+                     exchange of indices leaves it unchanged"
+                ),
+                "treat all stretches alike, as in `q1^4 + q2^4` for n = 2 or `pairs(d^2)`",
+            ),
+            Self::OddDifference { function } => text(
+                format!("`{function}` changes with the sign of `d`"),
+                "`pairs(f(d))` sums over pairs of stretches, whose order means nothing: d = q_a - q_b and its \
+                 opposite belong to the same pair",
+                "write an even function, as `d^2`, `cosh(d)` or `1/cosh(d)^2`",
+            ),
+            Self::LooseDifference => text(
+                "`d` stands outside `pairs(...)`",
+                "it is the difference q_a - q_b of the two log-stretches of a pair, and here there is no pair",
+                "write `pairs(f(d))` for a sum over all pairs, or `q1 - q2` for one difference",
+            ),
+            Self::Domain { function, argument, value } => text(
+                format!("`{function}({argument})` is taken of {value}, which is not positive"),
+                "real logarithms exist for positive numbers only, and square roots are smooth only there",
+                "write a positive argument",
+            ),
+            Self::PotentialExponent { base, exponent, instead } => text(
+                format!("the exponent `{exponent}` of `{base}` is not an integer known at compile time"),
+                "a real power with another exponent exists for a positive base only: a root or an exponential, \
+                 written as such",
+                format!("write `{instead}`"),
+            ),
+        }
+    }
+}
+
+/// `1 argument`, `2 arguments`.
+fn arguments(count: usize) -> String {
+    format!("{count} argument{}", if count == 1 { "" } else { "s" })
+}

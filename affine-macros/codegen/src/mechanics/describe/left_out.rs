@@ -1,0 +1,57 @@
+//! What the reduction took out of the state.
+
+use super::momentum_names;
+use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::reduce::{ClosedForm, Commuting, Layout, Reduction};
+use crate::mechanics::separation::Slope;
+
+/// What the reduction took out of the state, one sentence each.
+pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedForm, bool)>) -> Vec<String> {
+    let mut list = Vec::new();
+    if h.translation.is_none() {
+        list.push("x and p: the model has no translation".to_owned());
+    }
+    for piece in &reduction.commuting {
+        list.push(match piece {
+            Commuting::Vorticity(_) => {
+                "the |Vort|^2 part of H: it commutes with the rest and is applied exactly, phi -> phi exp(-t Vort/mu)"
+            }
+            Commuting::Spin(_) => {
+                "the |S|^2 part of H: it commutes with the rest and is applied exactly, phi -> exp(-t S/mu) phi"
+            }
+            Commuting::Drift(_) => "x and p: the centre of mass moves freely, x = x0 + t p/m",
+        }
+        .to_owned());
+    }
+    let (name, ..) = momentum_names(reduction.chart.momentum);
+    if let Some(separation) = &reduction.separation {
+        let path = match separation.slope {
+            Slope::Zero => "moves freely",
+            Slope::Linear(_) => "swings harmonically",
+            Slope::Hyperbolic { .. } => "moves by an elliptic function",
+        };
+        list.push(format!(
+            "the dilatation: phi = e^q Psi with det Psi = 1, and q {path}; the state is Psi with O, the traceless part \
+             of {name} over alpha, in parts O = s + w, symmetric and skew"
+        ));
+        if !reduction.fixed.is_empty() {
+            list.push("w: conserved".to_owned());
+        }
+    }
+    if reduction.carried {
+        list.push("the root of det phi: 1/D = (det phi)^(-1/n) is integrated beside phi".to_owned());
+    }
+    match reduction.layout {
+        Layout::Constant => list.push(format!("{name}: conserved")),
+        Layout::Entries => {}
+    }
+    if reduction.chart.linear.is_some() && reduction.turned {
+        list.push("p: conserved; space is turned so that only its first component is left".to_owned());
+    }
+    match closed {
+        Some((_, false)) => list.push("integration: every motion has a closed form".to_owned()),
+        Some((_, true)) => list.push("integration of motions with p = 0: they have a closed form".to_owned()),
+        None => {}
+    }
+    list
+}
