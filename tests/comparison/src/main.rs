@@ -18,7 +18,7 @@ use std::time::Duration;
 use affine_runtime::prelude::*;
 use affine_runtime::report::{Series, WorkPrecision, WorkPrecisionDiagram, WorkPrecisionPoint};
 
-use frontier::{ERRORS, least_time};
+use frontier::{ERRORS, front, least_time};
 use peers::Peer;
 use problems::Visitor;
 use tools::Measured;
@@ -126,17 +126,22 @@ impl Visitor for Comparison {
 }
 
 impl Comparison {
-    /// What other tools reached on a problem, one series each.
+    /// What other tools reached on a problem, one series each: repeats and settings that others of the tool beat left
+    /// out.
     fn elsewhere(&self, problem: &str) -> Vec<Series> {
-        let mut all: Vec<Series> = Vec::new();
+        let mut tools: Vec<(&str, Vec<(f64, Duration)>)> = Vec::new();
         for peer in self.peers.iter().filter(|peer| peer.problem.replace('_', " ") == problem) {
-            let point = point(peer.error, peer.time);
-            match all.iter_mut().find(|series| series.name == peer.tool) {
-                Some(series) => series.points.push(point),
-                None => all.push(Series { name: peer.tool.clone(), points: vec![point] }),
+            match tools.iter_mut().find(|(tool, _)| *tool == peer.tool) {
+                Some((_, runs)) => runs.push((peer.error, peer.time)),
+                None => tools.push((&peer.tool, vec![(peer.error, peer.time)])),
             }
         }
-        all
+        let series = |(tool, runs): (&str, Vec<_>)| {
+            let points =
+                front(&runs).into_iter().map(|(error, seconds)| WorkPrecisionPoint { error, seconds });
+            Series { name: tool.to_owned(), points: points.collect() }
+        };
+        tools.into_iter().map(series).collect()
     }
 
     fn record(
@@ -155,12 +160,8 @@ impl Comparison {
 }
 
 fn series(tool: &str, runs: &[Measured]) -> Series {
-    let points = runs.iter().map(|run| point(run.error, run.time)).collect();
-    Series { name: format!("{tool}, by hand"), points }
-}
-
-fn point(error: f64, time: Duration) -> WorkPrecisionPoint {
-    WorkPrecisionPoint { error, seconds: time.as_secs_f64() }
+    let point = |run: &Measured| WorkPrecisionPoint { error: run.error, seconds: run.time.as_secs_f64() };
+    Series { name: format!("{tool}, by hand"), points: runs.iter().map(point).collect() }
 }
 
 fn ratios(name: &str, ours: &[(f64, Duration)], theirs: &[(f64, Duration)]) -> String {
