@@ -69,21 +69,21 @@ pub struct IllPosed {
     pub velocity: Option<Direction>,
 }
 
-/// An affine velocity of the energy's frame: `Oh`, `Om` or `phi_dot`, `n x n`.
+/// An affine velocity of the energy's frame: `Oh`, `Om` or `phi_dot`, `n x n`, to seven digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Direction {
     dim: usize,
-    entries: [f64; 9],
+    entries: [f32; 9],
 }
 
 impl Direction {
     /// With these entries, row after row; at most three rows.
     pub(crate) fn new(dim: usize, entry: impl Fn(usize) -> f64) -> Self {
-        Self { dim, entries: core::array::from_fn(|k| if k < dim * dim { entry(k) } else { 0.0 }) }
+        Self { dim, entries: core::array::from_fn(|k| if k < dim * dim { entry(k) as f32 } else { 0.0 }) }
     }
 
     /// The rows.
-    pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
+    pub fn rows(&self) -> impl Iterator<Item = &[f32]> {
         self.entries.chunks(self.dim).take(self.dim)
     }
 }

@@ -107,11 +107,12 @@ fn degenerate_inertias() {
         assert!(refused.value.abs() <= refused.threshold && refused.threshold < 1e-14, "{refused}");
         // j_1 + A = 0.
         let refused = defect(Plane { j: turned(angle, [-0.5, 3.0]), a: 0.5 }.prepare());
-        let velocity: Vec<f64> = refused.velocity.unwrap().rows().flatten().copied().collect();
+        let velocity: Vec<f64> =
+            refused.velocity.unwrap().rows().flatten().map(|entry| f64::from(*entry)).collect();
         let (sine, cosine) = angle.sin_cos();
         let axis = [cosine * cosine, cosine * sine, cosine * sine, sine * sine];
         let along: f64 = velocity.iter().zip(axis).map(|(v, a)| v * a).sum();
-        assert!((along.abs() - 1.0).abs() < 1e-12, "{refused}");
+        assert!((along.abs() - 1.0).abs() < 1e-6, "{refused}");
         assert!(Plane { j: turned(angle, [2.0, 0.125]), a: 0.75 }.prepare().is_ok());
         assert!(Plane { j: turned(angle, [2.0, 0.125]), a: 0.5 + 1e-12 }.prepare().is_ok());
     }
