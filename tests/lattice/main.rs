@@ -9,5 +9,6 @@ mod closed_form;
 )]
 mod models;
 mod reduced_flow;
+mod splitting;
 mod sutherland;
 mod unitary;

@@ -1,5 +1,7 @@
 //! The two-polar form.
 
+mod pieces;
+
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
@@ -52,7 +54,9 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
     let (energy, body) = function(&form.energy, &state);
     let energy_result = body.result();
     let couplings = if form.couplings.is_empty() { quote!(_couplings) } else { quote!(couplings) };
+    let pieces = pieces::implementation(context, form, &framed);
     quote! {
+        #pieces
         #(#[doc = #docs])*
         impl #generics #rt::LatticeForm<#n> for #prepared #types #clause {
             const LATTICE: #rt::LatticeDescription = #description;
