@@ -19,6 +19,7 @@ mod classify;
 mod conversion;
 mod flow;
 mod pieces;
+mod ratios;
 
 pub use circle::CircleFlow;
 pub use classify::{Class, Dilatation, Growth, classify};
@@ -26,6 +27,7 @@ pub use conversion::LatticeFrame;
 pub(crate) use conversion::{lattice_of, placement_and_spin};
 pub use flow::{LatticeFlow, LatticeStop, StopReason};
 pub use pieces::{LatticePieces, LatticeSplitting, rotation, turned};
+pub use ratios::RatioForm;
 
 use core::fmt::Debug;
 

@@ -23,7 +23,7 @@ pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
 pub use crate::lanes::{Lanes, gathered};
 pub use crate::lattice::{
     Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, LatticePieces, MetricSide,
-    PotentialClass, TwoPolarForm, Variables, rotation, turned,
+    PotentialClass, RatioForm, TwoPolarForm, Variables, rotation, turned,
 };
 pub use crate::metrics::Bases;
 pub use crate::model::{

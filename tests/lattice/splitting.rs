@@ -1,4 +1,5 @@
-//! The lattice by exact flows of its pieces: orders, what is kept to rounding, and where a fixed step ends.
+//! The lattice by exact flows of its pieces: orders, what is kept to rounding over many steps, and where a fixed step
+//! ends.
 
 use affine_runtime::frames::Matrix;
 use affine_runtime::integrate::Failure;
@@ -26,29 +27,213 @@ models! {
     Dalembert 3 (dalembert = 1.5), 0.4*(tr(G) - n) + 0.1*tr(G*G);
 }
 
-fn split<const N: usize, M: LatticePieces<N>>(model: &M, order: usize, t: f64, step: f64) -> Lattice<N> {
-    LatticeSplitting::new(model, order, (0.0, start()), t, step).unwrap().unwrap().finish().unwrap()
+#[affine_model(dim = 3, kinetic(casimir2 = a, body_inertia = i), potential = k*sinh(q)^2, emit(two_polar, splitting))]
+struct Family {
+    a: f64,
+    i: f64,
+    k: f64,
 }
 
-fn assert_orders<const N: usize, M: LatticePieces<N> + TwoPolarForm<N>>(model: &M, steps: [f64; 4]) {
-    let t = 1.0;
-    let expected = *LatticeFlow::new(model, 0.0, start()).tolerance(1e-15).advance_to(t).unwrap();
+#[affine_model(dim = 2, kinetic(casimir2 = 0.9, casimir1_squared = 0.3), group = unitary, emit(splitting))]
+struct Circle2;
+
+#[affine_model(dim = 3, kinetic(casimir2 = a, casimir1_squared = 0.3), group = unitary, emit(splitting))]
+struct Circle3 {
+    a: f64,
+}
+
+fn begun<'a, const N: usize, M: LatticePieces<N>>(
+    model: &'a M,
+    order: usize,
+    first: Lattice<N>,
+    (t, step): (f64, f64),
+) -> LatticeSplitting<'a, N, M> {
+    LatticeSplitting::new(model, order, (0.0, first), t, step).unwrap().unwrap()
+}
+
+/// Errors of `q, p, M, N, L, R` at `t = 1` with steps of `steps`, halved.
+fn assert_orders<const N: usize, M: LatticePieces<N>>(
+    model: &M,
+    name: &str,
+    expected: &Lattice<N>,
+    steps: [f64; 4],
+) {
     for (order, step) in [2, 4, 6, 8].into_iter().zip(steps) {
-        let [coarse, fine] = [step, 0.5 * step].map(|h| distance(&split(model, order, t, h), &expected));
+        let error =
+            |h: f64| distance(&begun(model, order, start(), (1.0, h)).finish().unwrap(), expected);
+        let [coarse, fine] = [step, 0.5 * step].map(error);
         let measured = (coarse / fine).log2();
-        println!("{} {order}: {coarse:.1e} {fine:.1e} {measured:.2}", M::DESCRIPTION.name);
+        println!("{name}, order {order}: {coarse:.1e}, {fine:.1e}, {measured:.2}");
+        assert!((measured - order as f64).abs() < 0.1 * order as f64, "{name} {order}: {measured}");
+        assert!(fine > 1e-14, "{name} {order}: rounding, {fine:e}");
+    }
+}
+
+/// The steps where the leading term of the error rules and rounding does not.
+#[test]
+fn orders() {
+    fn against_flow<const N: usize, M: LatticePieces<N> + TwoPolarForm<N>>(model: &M, steps: [f64; 4]) {
+        let expected = *LatticeFlow::new(model, 0.0, start()).tolerance(1e-15).advance_to(1.0).unwrap();
+        assert_orders(model, M::DESCRIPTION.name, &expected, steps);
+    }
+    let [small, middle, coarse] = [1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0];
+    against_flow(&Plane, [small, middle, 0.25, 0.5]);
+    against_flow(&PlaneInWell, [small, middle, 0.25, 0.5]);
+    against_flow(&PlaneDalembert, [small, small, middle, middle]);
+    against_flow(&Space, [small, middle, middle, 0.2]);
+    against_flow(&Body, [small, middle, middle, coarse]);
+    against_flow(&Mirrored, [small, middle, middle, coarse]);
+    against_flow(&Dalembert, [small, middle, small, middle]);
+    let family = Family { a: 0.2, i: 1.0, k: 0.5 }.prepare().unwrap();
+    against_flow(&family, [small, middle, middle, 0.2]);
+
+    let expected = *CircleFlow::new(&Circle2, 0.0, start()).tolerance(1e-15).advance_to(1.0).unwrap();
+    assert_orders(&Circle2, "Circle2", &expected, [small, small, 0.1, 0.2]);
+    let model = Circle3 { a: 0.9 }.prepare().unwrap();
+    let expected = *CircleFlow::new(&model, 0.0, start()).tolerance(1e-15).advance_to(1.0).unwrap();
+    assert_orders(&model, "Circle3", &expected, [small, small, middle, coarse]);
+}
+
+#[test]
+fn pieces_are_found() {
+    assert_eq!(Plane::PIECES, ["drift", "M_12^2 + N_12^2"]);
+    assert_eq!(PlaneInWell::PIECES, ["drift", "M_12^2 + N_12^2 + potential"]);
+    let three = ["drift", "M_12^2 + N_12^2 + potential", "M_13^2 + N_13^2", "M_23^2 + N_23^2"];
+    assert_eq!(Body::PIECES, three);
+    assert_eq!(Dalembert::PIECES, three);
+    const { assert!(Plane::NYSTROM && PlaneDalembert::NYSTROM && Circle2::NYSTROM && !Body::NYSTROM) };
+}
+
+/// Steps of the long runs.
+const MANY: u32 = if cfg!(debug_assertions) { 20_000 } else { 1_000_000 };
+
+/// `|rho_hat|`, `|tau_hat|` and `sum p_a` (where it is conserved) of a motion of [`MANY`] steps, in units of `eps sqrt(N)`.
+fn walk<const N: usize, M: LatticePieces<N>>(model: &M, order: usize, first: Lattice<N>, h: f64) -> [f64; 3] {
+    let size = |lattice: &Lattice<N>| {
+        [lattice.spin().norm(), lattice.minus_vorticity().norm(), lattice.p.sum()]
+    };
+    let expected = size(&first);
+    let mut steps = begun(model, order, first, (f64::from(MANY) * h, h));
+    let mut most = [0.0_f64; 3];
+    for k in 1..=MANY {
+        steps.advance().unwrap();
+        if k % (MANY / 1000) == 0 {
+            let now = size(&steps.lattice());
+            let unit = f64::EPSILON * f64::from(k).sqrt();
+            for i in 0..3 {
+                let scale = if i == 2 { 1.0 } else { expected[i] };
+                most[i] = most[i].max((now[i] - expected[i]).abs() / scale / unit);
+            }
+        }
+    }
+    most
+}
+
+/// Norms of spin and vorticity walk randomly with the rounding of the rotations: `c eps sqrt(N)`, `c` below 0.5 of the
+/// norm; the sum of the momenta likewise where no potential moves it. Compensated sums leave the constants of rotations alone.
+#[test]
+fn norms_walk_randomly() {
+    const C: f64 = 0.5;
+    let confined = [
+        ("Body 4", walk(&Body, 4, start(), 0.02), false),
+        ("Body 8", walk(&Body, 8, start(), 0.05), false),
+        ("Mirrored 4", walk(&Mirrored, 4, start(), 0.02), false),
+        ("Dalembert 4", walk(&Dalembert, 4, start(), 0.02), false),
+        ("Circle 4", walk(&Circle3 { a: 0.9 }.prepare().unwrap(), 4, circling(), 0.02), true),
+    ];
+    for (name, [spin, vorticity, sum], free) in confined {
+        println!("{name}: {spin:.3} {vorticity:.3} {sum:.3} eps sqrt(N), N = {MANY}");
+        assert!(spin < C && vorticity < C, "{name}: {spin} {vorticity}");
+        assert!(!free || sum < C, "{name}: {sum}");
+    }
+}
+
+/// Angles that stay apart.
+fn circling() -> Lattice<3> {
+    Lattice { p: Vector::<3>::new(0.1, -0.1, 0.05), ..start() }
+}
+
+/// No drift of the energy: over the second half of the motion it is as good as over the first.
+#[test]
+fn energy_does_not_drift() {
+    fn errors<const N: usize, M: LatticePieces<N>>(model: &M, first: Lattice<N>, h: f64) -> [f64; 2] {
+        let energy = |lattice: &Lattice<N>| {
+            let (couplings, places) = lattice.places::<M>();
+            model.lattice_hamiltonian(&couplings, &places)
+        };
+        let expected = energy(&first);
+        let count = 20_000_u32;
+        let mut steps = begun(model, 4, first, (f64::from(count) * h, h));
+        let mut most = [0.0_f64; 2];
+        for k in 0..count {
+            steps.advance().unwrap();
+            let half = usize::from(k >= count / 2);
+            most[half] = most[half].max((energy(&steps.lattice()) - expected).abs());
+        }
+        most
+    }
+    for (name, [first, second]) in [
+        ("Body", errors(&Body, start(), 0.05)),
+        ("Mirrored", errors(&Mirrored, start(), 0.02)),
+        ("PlaneInWell", errors(&PlaneInWell, start(), 0.05)),
+    ] {
+        println!("{name}: {first:.1e}, {second:.1e}");
+        assert!(second < 1.5 * first && first < 1e-3, "{name}: {first:e}, {second:e}");
+    }
+}
+
+/// There and back again: a step is symmetric.
+#[test]
+fn steps_go_back() {
+    let there = begun(&Body, 6, start(), (2.0, 0.02)).finish().unwrap();
+    let back = LatticeSplitting::new(&Body, 6, (2.0, there), 0.0, 0.02).unwrap().unwrap().finish().unwrap();
+    assert!(distance(&back, &start()) < 1e-13, "{:e}", distance(&back, &start()));
+}
+
+/// Stretches in any order keep their labels.
+#[test]
+fn labels_are_kept() {
+    let w = Matrix::<3>::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0);
+    let plain = begun(&Body, 8, start(), (1.0, 0.02)).finish().unwrap();
+    let other = begun(&Body, 8, start().relabelled(&w), (1.0, 0.02)).finish().unwrap();
+    assert_eq!(other, plain.relabelled(&w));
+}
+
+#[test]
+fn meeting_stretches_stop_a_fixed_step() {
+    let mut lattice = start::<2>();
+    lattice.m *= 0.01 / lattice.m.amax();
+    lattice.p = Vector::<2>::new(-1.2, 1.0);
+    let mut steps = begun(&Plane, 4, lattice, (3.0, 0.05));
+    let stop = steps.finish().unwrap_err();
+    assert!(matches!(stop.reason, StopReason::Coincidence { .. }), "{stop}");
+    assert!(stop.t > 0.1 && stop.t < 1.0 && stop.lattice == steps.lattice() && stop.t == steps.t(), "{stop}");
+    assert_eq!(steps.advance().unwrap_err(), stop, "now and ever after");
+    // What the fixed step refused, the adaptive one goes through.
+    assert!(LatticeFlow::new(&Plane, stop.t, stop.lattice).advance_to(3.0).is_ok());
+    // Angles that coincide, and that are opposite.
+    for (m, n, gap) in [(1e-3, 0.0, -1.0), (0.0, 1e-3, 1.0)] {
+        let mut lattice = Lattice { p: Vector::<2>::new(gap, -gap), ..start::<2>() };
+        (lattice.m, lattice.n) = (lattice.m * (m / 0.5), lattice.n * (n / 0.6));
+        let stop = begun(&Circle2, 4, lattice, (10.0, 0.05)).finish().unwrap_err();
+        assert!(matches!(stop.reason, StopReason::Coincidence { .. }), "{stop}");
     }
 }
 
 #[test]
-fn orders() {
-    let steps = [1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 16.0];
-    assert_orders(&Plane, steps);
-    assert_orders(&PlaneInWell, steps);
-    assert_orders(&PlaneDalembert, steps);
-    assert_orders(&Space, steps);
-    assert_orders(&Body, steps);
-    assert_orders(&Mirrored, steps);
-    assert_orders(&Dalembert, steps);
-    println!("{:?} {:?} {}", Space::PIECES, Body::PIECES, Plane::NYSTROM);
+fn what_cannot_begin_is_refused() {
+    assert!(LatticeSplitting::new(&Body, 3, (0.0, start()), 1.0, 0.1).is_none());
+    let refused = |lattice: Lattice<3>, step: f64| {
+        LatticeSplitting::new(&Body, 4, (0.0, lattice), 1.0, step).unwrap().unwrap_err().reason
+    };
+    assert_eq!(refused(start(), 0.0), StopReason::Integration(Failure::StepUnderflow));
+    let mut lattice = start::<3>();
+    lattice.q[1] = lattice.q[0];
+    assert_eq!(refused(lattice, 0.1), StopReason::Coincidence { distance: 0.0 });
+    lattice.q[1] = f64::NAN;
+    assert_eq!(refused(lattice, 0.1), StopReason::Integration(Failure::NotFinite));
+    // A stretch of d'Alembert's model that goes through zero.
+    let fast = Lattice { p: Vector::<2>::new(-0.5, -4.0), ..start::<2>() };
+    let stop = begun(&PlaneDalembert, 4, fast, (5.0, 0.5)).finish().unwrap_err();
+    assert!(matches!(stop.reason, StopReason::Conversion(_) | StopReason::Coincidence { .. }), "{stop}");
 }

@@ -1,5 +1,7 @@
 //! The lattice by splitting.
 
+use core::fmt;
+
 use super::{Lattice, LatticeForm, LatticeStop, MetricSide, StopReason, Variables};
 use crate::decompose::skew_exponential;
 use crate::error::Error;
@@ -83,7 +85,6 @@ pub fn turned<const K: usize, T: Real>(
 /// *Coincidences.* The pieces have poles where two stretches coincide, `M_ab != 0`, and on the circle where two angles are opposite,
 /// `N_ab != 0`. A step that crosses one, or halves the distance from it, does not resolve the motion and stops with
 /// [`StopReason::Coincidence`] and the last good state; [`LatticeFlow`](super::LatticeFlow) goes on from there.
-#[derive(Clone, Debug)]
 pub struct LatticeSplitting<'a, const N: usize, M: LatticePieces<N>> {
     steps: Splitting<M::Framed<f64>, M::Couplings<f64>, InTurn<'a, N, M>>,
     couplings: M::Couplings<f64>,
@@ -95,7 +96,6 @@ pub struct LatticeSplitting<'a, const N: usize, M: LatticePieces<N>> {
 }
 
 /// The pieces of a model's lattice.
-#[derive(Clone, Copy, Debug)]
 struct InTurn<'a, const N: usize, M>(&'a M);
 
 impl<const N: usize, M: LatticePieces<N>> Pieces<M::Framed<f64>, M::Couplings<f64>> for InTurn<'_, N, M> {
@@ -258,6 +258,12 @@ impl<'a, const N: usize, M: LatticePieces<N>> LatticeSplitting<'a, N, M> {
             2 => [self.couplings.as_ref()[0], self.couplings.as_ref()[1]],
             _ => [state.as_ref()[2 * N + k], state.as_ref()[2 * N + N * (N - 1) / 2 + k]],
         }
+    }
+}
+
+impl<const N: usize, M: LatticePieces<N>> fmt::Debug for LatticeSplitting<'_, N, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("LatticeSplitting").field("steps", &self.steps).field("stop", &self.stop).finish_non_exhaustive()
     }
 }
 

@@ -1,8 +1,10 @@
 //! Programs of the two-polar form.
 
 mod pieces;
+mod ratios;
 
 pub use pieces::{PieceProgram, PiecePrograms};
+pub use ratios::RatioProgram;
 
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
@@ -11,7 +13,7 @@ use crate::ir::fuse::fuse;
 use crate::mechanics::describe::Formula;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::{OnAxes, Potential};
-use crate::mechanics::two_polar::{self, Equations, Frames, Lattice, Pieces, Stable, Variables};
+use crate::mechanics::two_polar::{self, Equations, Frames, Lattice, Pieces, Ratios, Stable, Variables};
 use crate::optimise::{Batch, straight_line};
 
 /// The two-polar form of a doubly isotropic model.
@@ -36,6 +38,19 @@ pub struct TwoPolar {
     pub dilatation_only: bool,
     /// Exact flows of its pieces, if asked for.
     pub pieces: Option<PiecePrograms>,
+    /// Its equations in ratios of stretches, if asked for.
+    pub ratios: Option<RatioProgram>,
+}
+
+/// What is asked of a lattice.
+#[derive(Clone, Copy)]
+pub(super) struct Asked {
+    /// Is the group U(n)?
+    pub unitary: bool,
+    /// Exact flows of pieces?
+    pub split: bool,
+    /// Equations in ratios of stretches?
+    pub ratios: bool,
 }
 
 /// Derives it.
@@ -43,10 +58,10 @@ pub(super) fn two_polar(
     arena: &mut Arena,
     h: &Hamiltonian,
     potential: Option<&Potential>,
-    (unitary, split): (bool, bool),
+    asked: Asked,
     coefficients: &mut Constants,
 ) -> TwoPolar {
-    let lattice = Lattice::of(arena, h, unitary);
+    let lattice = Lattice::of(arena, h, asked.unitary);
     let mut equations = lattice.equations(arena, h);
     let formulas = two_polar::formulas(arena, &equations, potential);
     let on_axes = potential.map(|u| u.on_axes(arena, &lattice));
@@ -78,7 +93,11 @@ pub(super) fn two_polar(
     let rates = rates(arena, &lattice, &equations, &stable, on_axes.as_ref());
     let framed = framed(arena, &frames, &equations, &stable, rates.clone());
     let energy = energy(&equations, &stable, on_axes.as_ref());
-    let pieces = match split {
+    let ratios = match asked.ratios {
+        true => Ratios::of(arena, &lattice, h).map(|form| RatioProgram::of(arena, &form)),
+        false => None,
+    };
+    let pieces = match asked.split {
         true => Pieces::of(arena, &lattice, &frames, h, on_axes.as_ref()),
         false => None,
     };
@@ -94,6 +113,7 @@ pub(super) fn two_polar(
         formulas,
         dilatation_only: potential.is_some_and(Potential::is_dilatational),
         pieces,
+        ratios,
     }
 }
 

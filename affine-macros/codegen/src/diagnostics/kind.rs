@@ -132,6 +132,11 @@ pub enum Diagnostic {
         /// What the lattice has not.
         lacks: &'static str,
     },
+    /// `ratios` for a lattice that is not rational in them.
+    NotRational {
+        /// What the model has, or has not.
+        part: &'static str,
+    },
     /// A dimension other than the literals 2 and 3.
     Dimension {
         /// What is written.
@@ -685,6 +690,7 @@ names! {
     NotDoublyIsotropic => "not-doubly-isotropic",
     UnitaryTerm => "unitary-term",
     LatticeWithout => "lattice-without",
+    NotRational => "not-rational",
     Dimension => "dimension",
     RuntimePath => "runtime-path",
     ItemKind => "item-kind",

@@ -155,6 +155,12 @@ impl Diagnostic {
                  orthonormal coordinates",
                 format!("remove `two_polar` from `emit(...)`, or state a model without {part}"),
             ),
+            Self::NotRational { part } => text(
+                format!("`emit(ratios)` with {part}"),
+                "in exp(q_b - q_a), M + N and M - N the lattice of the Casimirs is rational, (6.2) to (6.4); forces of a \
+                 potential and (6.5) are not",
+                "write `emit(two_polar, ratios)` for a model of affine velocities without potential, or remove `ratios`",
+            ),
             Self::Dimension { found } => text(
                 format!("`dim = {found}`: the dimension is 2 or 3"),
                 "the equations are written out component by component for GL(2) and GL(3)",

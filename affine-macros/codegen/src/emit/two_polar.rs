@@ -1,6 +1,7 @@
 //! The two-polar form.
 
 mod pieces;
+mod ratios;
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -21,7 +22,8 @@ pub(super) fn implementations(context: &Context) -> TokenStream {
     let Some(form) = &context.model.two_polar else { return TokenStream::new() };
     let lattice = lattice(context, form);
     let conversions = conversions(context);
-    quote!(#lattice #conversions)
+    let ratios = ratios::implementation(context, form);
+    quote!(#lattice #conversions #ratios)
 }
 
 /// The lattice of U(n), which has no real phase points to convert to.

@@ -12,6 +12,7 @@
 mod describe;
 mod frames;
 mod pieces;
+mod ratios;
 mod stable;
 
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
@@ -23,6 +24,7 @@ use super::potential::OnAxes;
 pub use describe::formulas;
 pub use frames::Frames;
 pub use pieces::{Piece, Pieces, Turn};
+pub use ratios::Ratios;
 pub use stable::Stable;
 
 /// What is written on the diagonal of `D`.
