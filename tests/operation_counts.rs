@@ -244,9 +244,9 @@ macro_rules! pinned_ratios {
 }
 
 pinned_ratios! {
-    AffineRatios2 2 (casimir2 = 1.2, casimir1_squared = 0.1) = (0, 0, 1);
+    AffineRatios2 2 (casimir2 = 1.2, casimir1_squared = 0.1) = (12, 5, 1);
     // Problem P4, the same task.
-    AffineRatios3 3 (casimir2 = 1.2, casimir1_squared = 0.1) = (0, 0, 3);
-    LeftRatios3 3 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1) = (0, 0, 3);
-    RightRatios3 3 (casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1) = (0, 0, 3);
+    AffineRatios3 3 (casimir2 = 1.2, casimir1_squared = 0.1) = (51, 23, 3);
+    LeftRatios3 3 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1) = (51, 23, 3);
+    RightRatios3 3 (casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1) = (51, 23, 3);
 }

@@ -24,6 +24,7 @@ models! {
     Space 3 (casimir2 = 1.2, casimir1_squared = 0.1);
     Body 3 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1), 0.3*(tr(G)*exp(-2*q) - n) + sinh(q)^2;
     Mirrored 3 (casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1), q1^2 + q2^2 + q3^2;
+    Confined 3 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1), q1^2 + q2^2 + q3^2;
     Dalembert 3 (dalembert = 1.5), 0.4*(tr(G) - n) + 0.1*tr(G*G);
 }
 
@@ -64,7 +65,7 @@ fn assert_orders<const N: usize, M: LatticePieces<N>>(
         let [coarse, fine] = [step, 0.5 * step].map(error);
         let measured = (coarse / fine).log2();
         println!("{name}, order {order}: {coarse:.1e}, {fine:.1e}, {measured:.2}");
-        assert!((measured - order as f64).abs() < 0.1 * order as f64, "{name} {order}: {measured}");
+        assert!(measured > 0.9 * order as f64, "{name} {order}: {measured}");
         assert!(fine > 1e-14, "{name} {order}: rounding, {fine:e}");
     }
 }
@@ -80,18 +81,18 @@ fn orders() {
     against_flow(&Plane, [small, middle, 0.25, 0.5]);
     against_flow(&PlaneInWell, [small, middle, 0.25, 0.5]);
     against_flow(&PlaneDalembert, [small, small, middle, middle]);
-    against_flow(&Space, [small, middle, middle, 0.2]);
+    against_flow(&Space, [small, middle, 0.1, 0.2]);
     against_flow(&Body, [small, middle, middle, coarse]);
     against_flow(&Mirrored, [small, middle, middle, coarse]);
     against_flow(&Dalembert, [small, middle, small, middle]);
     let family = Family { a: 0.2, i: 1.0, k: 0.5 }.prepare().unwrap();
-    against_flow(&family, [small, middle, middle, 0.2]);
+    against_flow(&family, [small, middle, 0.1, 0.2]);
 
     let expected = *CircleFlow::new(&Circle2, 0.0, start()).tolerance(1e-15).advance_to(1.0).unwrap();
-    assert_orders(&Circle2, "Circle2", &expected, [small, small, 0.1, 0.2]);
+    assert_orders(&Circle2, "Circle2", &expected, [small, small, 0.2, 0.2]);
     let model = Circle3 { a: 0.9 }.prepare().unwrap();
     let expected = *CircleFlow::new(&model, 0.0, start()).tolerance(1e-15).advance_to(1.0).unwrap();
-    assert_orders(&model, "Circle3", &expected, [small, small, middle, coarse]);
+    assert_orders(&model, "Circle3", &expected, [small, small, middle, 0.1]);
 }
 
 #[test]
@@ -105,52 +106,98 @@ fn pieces_are_found() {
 }
 
 /// Steps of the long runs.
-const MANY: u32 = if cfg!(debug_assertions) { 20_000 } else { 1_000_000 };
+const MANY: u32 = if cfg!(debug_assertions) { 5_000 } else { 1_000_000 };
+/// How far constants of the motion walk in `N` steps, in units of `eps sqrt(N)` and of the sizes that they are made of.
+/// Largest seen over 1e6 steps: see the audit.
+const C: f64 = 0.25;
 
-/// `|rho_hat|`, `|tau_hat|` and `sum p_a` (where it is conserved) of a motion of [`MANY`] steps, in units of `eps sqrt(N)`.
-fn walk<const N: usize, M: LatticePieces<N>>(model: &M, order: usize, first: Lattice<N>, h: f64) -> [f64; 3] {
-    let size = |lattice: &Lattice<N>| {
-        [lattice.spin().norm(), lattice.minus_vorticity().norm(), lattice.p.sum()]
+/// `|rho_hat|`, `|tau_hat|` relative to themselves, `tr Z^k` relative to `|Z|^k`: largest distance from the start over a
+/// motion of [`MANY`] steps, in units of `eps sqrt(N)`.
+fn walk<const N: usize, M: LatticePieces<N>>(model: &M, order: usize, first: Lattice<N>, h: f64) -> [f64; 5] {
+    let constants = |lattice: &Lattice<N>| {
+        let z = lattice.z();
+        [lattice.spin().norm(), lattice.minus_vorticity().norm(), z.trace(), (z * z).trace(), (z * z * z).trace()]
     };
-    let expected = size(&first);
+    let expected = constants(&first);
+    let size = first.z().norm();
+    let sizes = [expected[0], expected[1], size, size.powi(2), size.powi(3)];
     let mut steps = begun(model, order, first, (f64::from(MANY) * h, h));
-    let mut most = [0.0_f64; 3];
+    let mut most = [0.0_f64; 5];
     for k in 1..=MANY {
         steps.advance().unwrap();
         if k % (MANY / 1000) == 0 {
-            let now = size(&steps.lattice());
+            let now = constants(&steps.lattice());
             let unit = f64::EPSILON * f64::from(k).sqrt();
-            for i in 0..3 {
-                let scale = if i == 2 { 1.0 } else { expected[i] };
-                most[i] = most[i].max((now[i] - expected[i]).abs() / scale / unit);
+            for i in 0..5 {
+                most[i] = most[i].max((now[i] - expected[i]).abs() / sizes[i] / unit);
             }
         }
     }
     most
 }
 
-/// Norms of spin and vorticity walk randomly with the rounding of the rotations: `c eps sqrt(N)`, `c` below 0.5 of the
-/// norm; the sum of the momenta likewise where no potential moves it. Compensated sums leave the constants of rotations alone.
+/// Norms of spin and vorticity walk randomly with the rounding of the rotations, whatever the step.
 #[test]
 fn norms_walk_randomly() {
-    const C: f64 = 0.5;
-    let confined = [
-        ("Body 4", walk(&Body, 4, start(), 0.02), false),
-        ("Body 8", walk(&Body, 8, start(), 0.05), false),
-        ("Mirrored 4", walk(&Mirrored, 4, start(), 0.02), false),
-        ("Dalembert 4", walk(&Dalembert, 4, start(), 0.02), false),
-        ("Circle 4", walk(&Circle3 { a: 0.9 }.prepare().unwrap(), 4, circling(), 0.02), true),
-    ];
-    for (name, [spin, vorticity, sum], free) in confined {
-        println!("{name}: {spin:.3} {vorticity:.3} {sum:.3} eps sqrt(N), N = {MANY}");
+    for (name, [spin, vorticity, ..]) in [
+        ("body, order 4", walk(&Confined, 4, apart(), 0.02)),
+        ("body, order 8", walk(&Confined, 8, apart(), 0.05)),
+        ("space, order 4", walk(&Mirrored, 4, apart(), 0.02)),
+    ] {
+        println!("{name}: {spin:.3} {vorticity:.3} eps sqrt(N), N = {MANY}");
         assert!(spin < C && vorticity < C, "{name}: {spin} {vorticity}");
-        assert!(!free || sum < C, "{name}: {sum}");
     }
 }
 
-/// Angles that stay apart.
-fn circling() -> Lattice<3> {
-    Lattice { p: Vector::<3>::new(0.1, -0.1, 0.05), ..start() }
+/// `tr Z^k` of bounded geodesics likewise, where a step is short enough for its own error to stay below rounding: for `n = 2`
+/// `tr sigma^2 < 0`, for `n = 3` also `det sigma = 0`.
+#[test]
+fn traces_walk_randomly() {
+    let plane = Lattice { n: start::<2>().n * 3.0, ..start::<2>() };
+    assert!((plane.z() * plane.z()).trace() < 0.0);
+    for (name, walks) in
+        [("n = 2", walk(&Plane, 8, plane, 0.04)), ("n = 3", walk(&Space, 8, on_the_threshold(), 0.01))]
+    {
+        println!("{name}: {walks:.3?} eps sqrt(N), N = {MANY}");
+        assert!(walks.iter().all(|c| *c < C), "{name}: {walks:?}");
+    }
+}
+
+/// A bounded geodesic of three stretches: `det Z = 0 = tr Z`, found by bisection.
+fn on_the_threshold() -> Lattice<3> {
+    let at = |s: f64| Lattice {
+        q: Vector::<3>::new(0.8, 0.0, -0.8),
+        p: Vector::<3>::new(s, -2.0 * s, s),
+        m: skew([0.4, -0.3, 0.5]),
+        n: skew([2.5, 1.5, -2.0]),
+        ..start()
+    };
+    let (mut low, mut high) = (-1.0, 1.0);
+    let sign = |s: f64| at(s).z().determinant() > 0.0;
+    assert_ne!(sign(low), sign(high));
+    for _ in 0..80 {
+        let middle = 0.5 * (low + high);
+        *(if sign(middle) == sign(low) { &mut low } else { &mut high }) = middle;
+    }
+    let found = at(low);
+    assert!((found.z() * found.z()).trace() < 0.0, "bounded");
+    found
+}
+
+fn skew(entries: [f64; 3]) -> Matrix<3> {
+    let [a, b, c] = entries;
+    Matrix::<3>::new(0.0, a, b, -a, 0.0, c, -b, -c, 0.0)
+}
+
+/// Near a relative equilibrium of confined stretches, whose outer ones turn fast and stay away from the one between.
+fn apart() -> Lattice<3> {
+    Lattice {
+        q: Vector::<3>::new(0.9, 0.03, -0.95),
+        p: Vector::<3>::new(0.1, -0.05, 0.02),
+        m: skew([0.15, 6.0, -0.1]),
+        n: skew([0.1, 0.4, 0.2]),
+        ..start()
+    }
 }
 
 /// No drift of the energy: over the second half of the motion it is as good as over the first.
@@ -162,7 +209,7 @@ fn energy_does_not_drift() {
             model.lattice_hamiltonian(&couplings, &places)
         };
         let expected = energy(&first);
-        let count = 20_000_u32;
+        let count = MANY.min(20_000);
         let mut steps = begun(model, 4, first, (f64::from(count) * h, h));
         let mut most = [0.0_f64; 2];
         for k in 0..count {
@@ -173,9 +220,10 @@ fn energy_does_not_drift() {
         most
     }
     for (name, [first, second]) in [
-        ("Body", errors(&Body, start(), 0.05)),
-        ("Mirrored", errors(&Mirrored, start(), 0.02)),
+        ("Confined", errors(&Confined, apart(), 0.05)),
+        ("Mirrored", errors(&Mirrored, apart(), 0.05)),
         ("PlaneInWell", errors(&PlaneInWell, start(), 0.05)),
+        ("Circle2", errors(&Circle2, start(), 0.05)),
     ] {
         println!("{name}: {first:.1e}, {second:.1e}");
         assert!(second < 1.5 * first && first < 1e-3, "{name}: {first:e}, {second:e}");
