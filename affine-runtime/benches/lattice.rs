@@ -17,11 +17,7 @@ use affine_runtime::prelude::*;
 const REPEATS: usize = 11;
 
 /// Problem P4.
-#[affine_model(
-    dim = 3,
-    kinetic(casimir2 = 1.2, casimir1_squared = 0.1),
-    emit(two_polar, ratios, splitting)
-)]
+#[affine_model(dim = 3, kinetic(casimir2 = 1.2, casimir1_squared = 0.1), emit(two_polar, ratios, splitting))]
 struct Geodesic;
 
 /// Stretches on springs.
@@ -122,7 +118,8 @@ fn equations() {
 /// P4 to `t_end` at several tolerances, without frames in ratios.
 fn in_ratios(lattice: &Lattice<3>, t_end: f64, expected: &Lattice<3>) {
     let (couplings, state) = Geodesic.in_ratios(lattice);
-    let groups = &[Group { name: "t", len: 1 }, Group { name: "t", len: 1 }, Group { name: "momenta", len: 9 }];
+    let groups =
+        &[Group { name: "t", len: 1 }, Group { name: "t", len: 1 }, Group { name: "momenta", len: 9 }];
     let run = |tolerance: f64| {
         let rates = |_: f64, state: &<Geodesic as RatioForm<3>>::Ratios<f64>| {
             Geodesic.ratio_equations(&couplings, state)
@@ -136,7 +133,10 @@ fn in_ratios(lattice: &Lattice<3>, t_end: f64, expected: &Lattice<3>) {
     };
     for tolerance in [1e-6, 1e-9, 1e-12, 1e-15] {
         let error = distance(&run(tolerance), expected);
-        println!("  ratios, tolerance {tolerance:.0e}: {:8.1} us, error {error:.1e}", time(20, || run(tolerance)));
+        println!(
+            "  ratios, tolerance {tolerance:.0e}: {:8.1} us, error {error:.1e}",
+            time(20, || run(tolerance))
+        );
     }
 }
 
@@ -154,7 +154,10 @@ fn motion<const N: usize, M: LatticePieces<N> + TwoPolarForm<N>>(
     println!("{}, n = {N}, to t = {t_end}", M::DESCRIPTION.name);
     for tolerance in [1e-6, 1e-9, 1e-12] {
         let error = distance(&flow(tolerance), &expected);
-        println!("  adaptive, tolerance {tolerance:.0e}: {:8.1} us, error {error:.1e}", time(20, || flow(tolerance)));
+        println!(
+            "  adaptive, tolerance {tolerance:.0e}: {:8.1} us, error {error:.1e}",
+            time(20, || flow(tolerance))
+        );
     }
     for (order, steps) in [2, 4, 6, 8].into_iter().zip(steps) {
         for step in steps {

@@ -109,8 +109,10 @@ fn up_to_signs(found: &Lattice<3>, sorted: &Lattice<3>) -> f64 {
 fn the_motion_has_its_closed_form() {
     let lattice = Lattice { left: Matrix::identity(), right: Matrix::identity(), ..start::<3>() };
     let (couplings, mut state) = Affine.in_ratios(&lattice);
-    let rates = |_: f64, state: &<Affine as RatioForm<3>>::Ratios<f64>| Affine.ratio_equations(&couplings, state);
-    let groups = &[Group { name: "t", len: 1 }, Group { name: "t", len: 1 }, Group { name: "momenta", len: 9 }];
+    let rates =
+        |_: f64, state: &<Affine as RatioForm<3>>::Ratios<f64>| Affine.ratio_equations(&couplings, state);
+    let groups =
+        &[Group { name: "t", len: 1 }, Group { name: "t", len: 1 }, Group { name: "momenta", len: 9 }];
     for k in 1..=20 {
         let t = 0.5 * f64::from(k);
         let mut steps = RungeKutta8::new(rates, groups, (t - 0.5, state), t, 1e-15).unwrap();

@@ -60,8 +60,7 @@ fn assert_orders<const N: usize, M: LatticePieces<N>>(
     steps: [f64; 4],
 ) {
     for (order, step) in [2, 4, 6, 8].into_iter().zip(steps) {
-        let error =
-            |h: f64| distance(&begun(model, order, start(), (1.0, h)).finish().unwrap(), expected);
+        let error = |h: f64| distance(&begun(model, order, start(), (1.0, h)).finish().unwrap(), expected);
         let [coarse, fine] = [step, 0.5 * step].map(error);
         let measured = (coarse / fine).log2();
         println!("{name}, order {order}: {coarse:.1e}, {fine:.1e}, {measured:.2}");
@@ -116,7 +115,13 @@ const C: f64 = 0.1;
 fn walk<const N: usize, M: LatticePieces<N>>(model: &M, order: usize, first: Lattice<N>, h: f64) -> [f64; 5] {
     let constants = |lattice: &Lattice<N>| {
         let z = lattice.z();
-        [lattice.spin().norm(), lattice.minus_vorticity().norm(), z.trace(), (z * z).trace(), (z * z * z).trace()]
+        [
+            lattice.spin().norm(),
+            lattice.minus_vorticity().norm(),
+            z.trace(),
+            (z * z).trace(),
+            (z * z * z).trace(),
+        ]
     };
     let expected = constants(&first);
     let size = first.z().norm();

@@ -208,7 +208,11 @@ fn equal_distances_on_the_circle_stay_equal() {
     };
     let found = *CircleFlow::new(&Circular, 0.0, lattice).tolerance(1e-14).advance_to(2.0).unwrap();
     let turned = lattice.q.map(|q| q + 0.3 * 2.0 / ALPHA);
-    assert!((found.q - turned).amax() < PLACES && (found.m - lattice.m).amax() < PLACES, "{}", found.q - turned);
+    assert!(
+        (found.q - turned).amax() < PLACES && (found.m - lattice.m).amax() < PLACES,
+        "{}",
+        found.q - turned
+    );
 }
 
 /// `N = 0` is invariant; equal constant `M_ab` are not: `dM_12/dt = M_13 M_32 (w_32 - w_13)`.

@@ -6,9 +6,9 @@ use super::{Lattice, LatticeForm, LatticeStop, MetricSide, StopReason, Variables
 use crate::decompose::skew_exponential;
 use crate::error::Error;
 use crate::frames::Matrix;
-use crate::integrate::splitting::{Pieces, Splitting, accumulate};
 use crate::integrate::Statistics;
 use crate::integrate::lie::Sum;
+use crate::integrate::splitting::{Pieces, Splitting, accumulate};
 use crate::scalar::{Real, Scalar};
 
 /// A step that takes a coupled pair nearer than this part of its distance does not resolve the pole between them.
@@ -202,7 +202,9 @@ impl<'a, const N: usize, M: LatticePieces<N>> LatticeSplitting<'a, N, M> {
     /// State reached, in the labels of the start.
     #[must_use]
     pub fn lattice(&self) -> Lattice<N> {
-        self.stop.as_ref().map_or_else(|| self.lattice_at(self.steps.t(), self.steps.y()), |stop| stop.lattice)
+        self.stop
+            .as_ref()
+            .map_or_else(|| self.lattice_at(self.steps.t(), self.steps.y()), |stop| stop.lattice)
     }
 
     /// `t_end` is reached.
@@ -243,9 +245,8 @@ impl<'a, const N: usize, M: LatticePieces<N>> LatticeSplitting<'a, N, M> {
                 let [m, n] = self.coupled(after, k);
                 let [from, to] = [before, after].map(|state| distances::<N, M>(state, a, b));
                 let poles = [(m, from[0], to[0]), (n, from[1], to[1])];
-                let near = |(coupling, from, to): &(f64, f64, f64)| {
-                    *coupling != 0.0 && *to / *from < RESOLVED
-                };
+                let near =
+                    |(coupling, from, to): &(f64, f64, f64)| *coupling != 0.0 && *to / *from < RESOLVED;
                 poles.into_iter().find(near).map(|(_, _, to)| to.abs())
             })
             .next()
@@ -263,7 +264,10 @@ impl<'a, const N: usize, M: LatticePieces<N>> LatticeSplitting<'a, N, M> {
 
 impl<const N: usize, M: LatticePieces<N>> fmt::Debug for LatticeSplitting<'_, N, M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("LatticeSplitting").field("steps", &self.steps).field("stop", &self.stop).finish_non_exhaustive()
+        f.debug_struct("LatticeSplitting")
+            .field("steps", &self.steps)
+            .field("stop", &self.stop)
+            .finish_non_exhaustive()
     }
 }
 

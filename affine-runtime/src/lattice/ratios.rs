@@ -77,8 +77,7 @@ pub trait RatioForm<const N: usize>: TwoPolarForm<N> {
 
     /// `d/dt (q_1 + .. + q_n)/n = p (1/(n alpha) + 1/beta)`, `p` the conserved sum of the momenta.
     fn mean_rate(&self, lattice: &Lattice<N>) -> f64 {
-        let rate =
-            self.isotropic().map_or(0.0, |h| h.inverse_alpha / N as f64 + h.inverse_beta);
+        let rate = self.isotropic().map_or(0.0, |h| h.inverse_alpha / N as f64 + h.inverse_beta);
         lattice.p.sum() * rate
     }
 

@@ -153,19 +153,12 @@ fn groups(arena: &Arena, frames: &Frames) -> Vec<(&'static str, Vec<String>)> {
 }
 
 /// The rates of the frames beside those of the state.
-fn framed(
-    arena: &mut Arena,
-    frames: &Frames,
-    equations: &Equations,
-    stable: &Stable,
-    rates: Batch,
-) -> Batch {
+fn framed(arena: &mut Arena, frames: &Frames, equations: &Equations, stable: &Stable, rates: Batch) -> Batch {
     let Batch { mut shared, mut results, .. } = rates;
     for (stem, frame, angular) in
         [("chi", &frames.left, &equations.chi), ("theta", &frames.right, &equations.theta)]
     {
-        let symbols: Vec<Expr> =
-            (1..=angular.len()).map(|k| arena.symbol(&format!("{stem}_{k}"))).collect();
+        let symbols: Vec<Expr> = (1..=angular.len()).map(|k| arena.symbol(&format!("{stem}_{k}"))).collect();
         shared.extend(symbols.iter().copied().zip(angular.iter().map(|p| stable.rewritten(p))));
         let symbols: Vec<Polynomial> = symbols.into_iter().map(Polynomial::atom).collect();
         for (k, entry) in frame.iter().enumerate() {

@@ -87,7 +87,8 @@ fn flow(context: &Context, form: &TwoPolar, piece: &PieceProgram, framed: &[Stri
         [one] => (quote!(let rate = #one;), vec![quote!(rate)]),
         _ => (TokenStream::new(), results),
     };
-    let place = |name: &String| framed.iter().position(|known| known == name).map_or_else(|| number(0), number);
+    let place =
+        |name: &String| framed.iter().position(|known| known == name).map_or_else(|| number(0), number);
     let rises = piece.shifted.iter().zip(&results).map(|(name, rate)| {
         let at = place(name);
         quote!(#rt::accumulate(&mut state[#at], &mut carry[#at], h * #rate);)

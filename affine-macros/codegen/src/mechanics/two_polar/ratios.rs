@@ -68,12 +68,12 @@ impl Ratios {
         for (a, ratio) in symbols.neighbours(lattice.dim).into_iter().enumerate() {
             let mut rate = Polynomial::zero();
             for (place, sign) in [(a + 1, Rational::ONE), (a, Rational::MINUS_ONE)] {
-                rate.add_product(&Polynomial::atom(ratio), rate_of(&equations, Coordinate::Q(place)), &sign);
+                rate.add_product(&Polynomial::atom(ratio), &rate_of(&equations, Coordinate::Q(place)), &sign);
             }
             rates.push((ratio, rate));
         }
         for (a, p) in lattice.p.iter().enumerate() {
-            rates.push((*p, force(&in_ratios(rate_of(&equations, Coordinate::P(a))), &pairs)));
+            rates.push((*p, force(&in_ratios(&rate_of(&equations, Coordinate::P(a))), &pairs)));
         }
         if lattice.dim > 2 {
             rates.extend(turning(lattice, &pairs, &symbols));
@@ -88,10 +88,9 @@ impl Ratios {
     }
 }
 
-fn rate_of(equations: &Equations, coordinate: Coordinate) -> &Polynomial {
-    static ZERO: std::sync::OnceLock<Polynomial> = std::sync::OnceLock::new();
-    let found = equations.rates.iter().find(|(z, ..)| *z == coordinate).map(|(.., rate)| rate);
-    found.unwrap_or_else(|| ZERO.get_or_init(Polynomial::zero))
+fn rate_of(equations: &Equations, coordinate: Coordinate) -> Polynomial {
+    let found = equations.rates.iter().find(|(z, ..)| *z == coordinate);
+    found.map(|(.., rate)| rate.clone()).unwrap_or_default()
 }
 
 /// Symbols of all pairs, in their order.
@@ -169,7 +168,8 @@ fn pair(
     let mut named = |stem: &str| arena.symbol(&format!("{stem}_{}{}", at.0 + 1, at.1 + 1));
     let [square, gap, even, twice, decay] = ["square", "gap", "even", "twice", "decay"].map(&mut named);
     let [space, body, chi, theta] = ["space", "body", "chi", "theta"].map(&mut named);
-    if let (Some(first), Some(second)) = (symbols.ratio_of(at.0, at.0 + 1), symbols.ratio_of(at.0 + 1, at.1)) {
+    if let (Some(first), Some(second)) = (symbols.ratio_of(at.0, at.0 + 1), symbols.ratio_of(at.0 + 1, at.1))
+    {
         shared.push((ratio, Polynomial::term(vec![first, second], Rational::ONE)));
     }
     let square_and = |sign: Rational| {
@@ -209,21 +209,22 @@ fn pair(
         }
         sum
     };
-    let mut sides = [(space, chi), (body, theta)].into_iter().zip(&angular_forms).map(|((side, angular), form)| {
-        let (mut common, primitive) = content(form);
-        // One reciprocal goes with the sum, the rest with t.
-        let with_recip = common.iter().position(|atom| *atom == recip).map(|at| common.remove(at));
-        let factor: Vec<Expr> = with_recip.into_iter().collect();
-        let scale = Polynomial::term(factor, Rational::ONE);
-        shared.push((side, paired(&primitive).mul(&scale)));
-        let mut outer = vec![side];
-        match common == sorted([ratio, recip]) {
-            true => outer.push(decay),
-            false => outer.extend(common),
-        }
-        shared.push((angular, Polynomial::term(outer, Rational::ONE)));
-        primitive.mul(&scale)
-    });
+    let mut sides =
+        [(space, chi), (body, theta)].into_iter().zip(&angular_forms).map(|((side, angular), form)| {
+            let (mut common, primitive) = content(form);
+            // One reciprocal goes with the sum, the rest with t.
+            let with_recip = common.iter().position(|atom| *atom == recip).map(|at| common.remove(at));
+            let factor: Vec<Expr> = with_recip.into_iter().collect();
+            let scale = Polynomial::term(factor, Rational::ONE);
+            shared.push((side, paired(&primitive).mul(&scale)));
+            let mut outer = vec![side];
+            match common == sorted([ratio, recip]) {
+                true => outer.push(decay),
+                false => outer.extend(common),
+            }
+            shared.push((angular, Polynomial::term(outer, Rational::ONE)));
+            primitive.mul(&scale)
+        });
     let (_, body_form) = (sides.next(), sides.next().unwrap_or_default());
     drop(sides);
     Pair { at, recip, u, w, angular: [chi, theta], angular_forms, body: (body, body_form) }
@@ -265,7 +266,9 @@ fn turning(lattice: &Lattice, pairs: &[Pair], symbols: &Symbols) -> Vec<(Expr, P
         let mut sum = Polynomial::zero();
         for pair in pairs {
             let (c, d) = pair.at;
-            for (y, sign) in [(Coordinate::M(c, d), Rational::ONE), (Coordinate::N(c, d), Rational::MINUS_ONE)] {
+            for (y, sign) in
+                [(Coordinate::M(c, d), Rational::ONE), (Coordinate::N(c, d), Rational::MINUS_ONE)]
+            {
                 let bracket = lattice.bracket(z, y).substitute(&|atom| symbols.coupling(lattice, atom));
                 sum.add_product(&bracket, &slope(pair, &sign), &Rational::ONE);
             }
