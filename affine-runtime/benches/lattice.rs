@@ -184,8 +184,7 @@ fn main() {
     in_ratios(&lattice, 10.0, &expected);
     let wide = start::<3>([0.9, 0.03, -0.95], [0.15, 6.0, -0.1], [0.1, 0.4, 0.2]);
     motion(&Springs, &wide, 10.0, steps);
-    motion(&Springs, &wide, 1000.0, steps);
     let pair = start::<2>([0.9, -0.7, 0.0], [2.0, 0.0, 0.0], [0.6, 0.0, 0.0]);
     motion(&Pair, &pair, 10.0, steps);
-    motion(&Pair, &pair, 1000.0, steps);
+    motion(&Pair, &pair, 100.0, steps);
 }
