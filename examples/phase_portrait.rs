@@ -28,7 +28,9 @@ pub struct SpatialBody;
 
 const M: f64 = 0.4;
 const N: f64 = 1.6;
-const T_END: f64 = 80.0;
+const T_END: f64 = 100.0;
+/// Where the picture ends.
+const FARTHEST: f64 = 3.4;
 
 /// Colours of motions.
 const BOUNDED: usize = 0;
@@ -50,10 +52,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         };
         let energy = 0.5 * point.shear_casimir(2);
         println!("x = {x:.1}: tr sigma^2/2 = {energy:+.4}, {class:?}");
-        portrait.push(Curve { category, points: motion(&start)? });
-        levels.push(Curve { category, points: vec![(0.05, energy), (2.5, energy)] });
+        // Once around.
+        let until = match class {
+            Some(Growth::Bounded { period: Some(period) }) => period.min(T_END),
+            _ => T_END,
+        };
+        portrait.push(Curve { category, points: motion(&start, until)? });
+        // Where the motion can be.
+        let places = (1..=340).map(|k| 0.01 * f64::from(k)).filter(|x| effective(*x) <= energy);
+        levels.push(Curve { category, points: places.map(|x| (x, energy)).collect() });
     }
-    let well = (1..=250).map(|k| 0.01 * f64::from(k)).map(|x| (x, effective(x))).collect();
+    let well = (20..=340).map(|k| 0.01 * f64::from(k)).map(|x| (x, effective(x))).collect();
     levels.push(Curve { category: 2, points: well });
     let panel = |y: &str, range: Option<(f64, f64)>, curves: Vec<Curve>| CurvePanel {
         x: "x = (q1 - q2)/2".into(),
@@ -63,10 +72,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         curves,
     };
     CurveDiagram::new(
-        "Planar geodesics: bounded below the threshold tr sigma^2 = 0, escaping above",
+        "Planar geodesics: bounded for tr sigma^2 < 0 (blue), escaping above (red)",
         vec![
             panel("p1 - p2", None, portrait),
-            panel("effective potential and energies", Some((-0.2, 0.3)), levels),
+            panel("effective potential (green), energies", Some((-0.1, 0.06)), levels),
         ],
     )
     .save_svg("output/phase_portrait.svg")?;
@@ -94,13 +103,13 @@ fn effective(x: f64) -> f64 {
 }
 
 /// `(x, p_1 - p_2)` along the motion, as long as it is in the picture.
-fn motion(start: &Lattice<2>) -> Result<Vec<(f64, f64)>, Box<dyn std::error::Error>> {
+fn motion(start: &Lattice<2>, until: f64) -> Result<Vec<(f64, f64)>, Box<dyn std::error::Error>> {
     let mut flow = LatticeFlow::new(&PlanarBody, 0.0, *start);
     let mut points = Vec::new();
     for k in 0..=1600 {
-        let now = flow.advance_to(T_END / 1600.0 * f64::from(k))?;
+        let now = flow.advance_to(until / 1600.0 * f64::from(k))?;
         let x = 0.5 * (now.q[0] - now.q[1]);
-        if x > 2.5 {
+        if x > FARTHEST {
             break;
         }
         points.push((x, now.p[0] - now.p[1]));

@@ -210,3 +210,43 @@ pinned_lattices! {
     DAlembertLattice2 2 (dalembert = 1.5) = (15, 4, 1, 0);
     DAlembertLattice3 3 (dalembert = 1.5) = (72, 33, 3, 0);
 }
+
+macro_rules! pinned_ratios {
+    ($($name:ident $n:literal ($($terms:tt)*) = $counts:expr;)*) => {
+        $(
+            #[affine_model(dim = $n, kinetic($($terms)*), emit(two_polar, ratios))]
+            pub struct $name;
+        )*
+
+        /// Multiplications, additions and divisions of the lattice in ratios of stretches.
+        #[test]
+        fn every_lattice_in_ratios() {
+            use affine_runtime::lattice::{LatticeForm, RatioForm};
+            use affine_runtime::model::StateVector;
+            let mut wrong = Vec::new();
+            $(
+                let mut state = <$name as RatioForm<$n>>::Ratios::<Counting>::zeros();
+                for (k, value) in state.as_mut().iter_mut().enumerate() {
+                    *value = Counting::from([0.6, 0.4, -0.3, 0.7, 0.2][k % 5] + 0.01 * k as f64);
+                }
+                let mut couplings = <$name as LatticeForm<$n>>::Couplings::<Counting>::zeros();
+                couplings.as_mut().fill(Counting::from(0.3));
+                let (_, counted) = Counting::count(|| $name.ratio_equations(&couplings, &state));
+                assert_eq!(counted, $name::RATIO_OPERATIONS, "{}", stringify!($name));
+                if (counted.mul, counted.add, counted.div) != $counts {
+                    wrong.push(format!("{}: {counted:?}", stringify!($name)));
+                }
+                assert_eq!(counted.sqrt + counted.ln + counted.exp, 0, "{}", stringify!($name));
+            )*
+            assert!(wrong.is_empty(), "{wrong:#?}");
+        }
+    };
+}
+
+pinned_ratios! {
+    AffineRatios2 2 (casimir2 = 1.2, casimir1_squared = 0.1) = (12, 5, 1);
+    // Problem P4, the same task.
+    AffineRatios3 3 (casimir2 = 1.2, casimir1_squared = 0.1) = (51, 23, 3);
+    LeftRatios3 3 (casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1) = (51, 23, 3);
+    RightRatios3 3 (casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1) = (51, 23, 3);
+}

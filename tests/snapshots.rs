@@ -319,6 +319,24 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "/// A body.
         pub struct Field { g: [[f64; 2]; 2] }",
     ),
+    (
+        "two_polar_pieces_3",
+        "dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), potential = q1^2 + q2^2 + q3^2, emit(two_polar, splitting)",
+        "/// Three stretches on springs.
+        pub struct Lattice;",
+    ),
+    (
+        "two_polar_ratios_3",
+        "dim = 3, kinetic(casimir2 = 1.2, casimir1_squared = 0.1), emit(two_polar, ratios)",
+        "/// A lattice of three stretches.
+        pub struct Lattice;",
+    ),
+    (
+        "unitary_pieces_2",
+        "dim = 2, group = unitary, kinetic(casimir2 = 0.9, casimir1_squared = 0.3), emit(splitting)",
+        "/// A lattice of two angles.
+        pub struct Lattice;",
+    ),
 ];
 
 #[test]

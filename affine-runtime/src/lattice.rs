@@ -18,12 +18,16 @@ mod circle;
 mod classify;
 mod conversion;
 mod flow;
+mod pieces;
+mod ratios;
 
 pub use circle::CircleFlow;
 pub use classify::{Class, Dilatation, Growth, classify};
 pub use conversion::LatticeFrame;
 pub(crate) use conversion::{lattice_of, placement_and_spin};
 pub use flow::{LatticeFlow, LatticeStop, StopReason};
+pub use pieces::{LatticePieces, LatticeSplitting, rotation, turned};
+pub use ratios::RatioForm;
 
 use core::fmt::Debug;
 

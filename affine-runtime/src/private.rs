@@ -22,8 +22,8 @@ pub use crate::integrate::taylor::{
 pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
 pub use crate::lanes::{Lanes, gathered};
 pub use crate::lattice::{
-    Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, MetricSide, PotentialClass,
-    TwoPolarForm, Variables,
+    Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, LatticePieces, MetricSide,
+    PotentialClass, RatioForm, TwoPolarForm, Variables, rotation, turned,
 };
 pub use crate::matrix_field::symmetric_part;
 pub use crate::metrics::{Bases, orthonormal};

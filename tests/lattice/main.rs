@@ -8,6 +8,8 @@ mod closed_form;
     reason = "every model has constructors for momenta and for velocities; not all are called"
 )]
 mod models;
+mod ratios;
 mod reduced_flow;
+mod splitting;
 mod sutherland;
 mod unitary;

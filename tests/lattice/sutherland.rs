@@ -1,5 +1,5 @@
 //! Calogero-Moser and Sutherland systems where they really are invariant families: two bodies, or one coupling among three,
-//! with `N = 0`; against the projection of Olshanetsky and Perelomov (Phys. Rep. 71 (1981) 313). Elsewhere they are
+//! with `N = 0`, or special places of three; against the projection of Olshanetsky and Perelomov (Phys. Rep. 71 (1981) 313). Elsewhere they are
 //! not: the paper's family of equal constant couplings moves.
 
 use affine_runtime::frames::Matrix;
@@ -111,6 +111,37 @@ fn two_stretches_are_a_calogero_moser_system() {
     }
 }
 
+/// The same in `H = (p_1^2 + p_2^2)/2 + g^2 a^2/sin^2(a (q_1 - q_2))`: `exp(2 i a q)` are the eigenvalues of
+/// `b exp(2 i a t L) b`, `b = diag(exp(i a q(0)))`, `k = g a/sin(a (q_1 - q_2))`. With `exp(i (m 1 + h)) = e^(im) (cos w 1 + i (sin w/w) h)`
+/// the determinant is `exp(i (2m + q_1 + q_2))`, and half the trace `exp(i (m + (q_1 + q_2)/2))` times the cosine of half
+/// the difference. Sum and that cosine.
+fn projected_on_the_circle(q: [f64; 2], p: [f64; 2], g: f64, t: f64) -> [f64; 2] {
+    let a = 0.5;
+    let (mean, half, off) =
+        (a * t * (p[0] + p[1]), a * t * (p[0] - p[1]), 2.0 * a * t * g * a / (a * (q[0] - q[1])).sin());
+    let w = half.hypot(off);
+    // Diagonal of b exp b without its common phase, real parts.
+    let diagonal = |q: f64, half: f64| (a * q).cos() * w.cos() - (a * q).sin() * half * w.sin() / w;
+    let difference = q[0] - q[1];
+    [q[0] + q[1] + 2.0 * mean, 0.5 * (diagonal(difference, half) + diagonal(-difference, -half))]
+}
+
+#[test]
+fn the_circle_is_projected_too() {
+    for (p, m) in [([-0.4, 0.3], 0.7), ([0.9, -0.2], -0.3), ([0.1, 0.2], 1.5)] {
+        let q = [0.8, -0.5];
+        let mut flow = CircleFlow::new(&CircularPair, 0.0, pair(q, p, m)).tolerance(1e-14);
+        for k in 1..=20 {
+            let t = 0.5 * f64::from(k);
+            let found = flow.advance_to(t).unwrap().q;
+            let [sum, cosine] = projected_on_the_circle(q, p, m / 2.0, t / ALPHA);
+            assert!((found.sum() - sum).abs() < PLACES * (1.0 + sum.abs()), "t = {t}: {}", found.sum());
+            let error = ((0.5 * (found[0] - found[1])).cos() - cosine).abs();
+            assert!(error < PLACES, "t = {t}: {error:e}");
+        }
+    }
+}
+
 /// The compact form: `sin` for `sinh`, `cos(r/2)` swings between the turning points of the effective potential.
 #[test]
 fn two_bodies_on_the_circle_are_a_trigonometric_sutherland_system() {
@@ -128,6 +159,60 @@ fn two_bodies_on_the_circle_are_a_trigonometric_sutherland_system() {
         let error = ((0.5 * (found.q[0] - found.q[1])).cos() - expected).abs();
         assert!(error < PLACES, "t = {t}: {error:e}");
     }
+}
+
+/// Three bodies with `M_13 = 0`, `M_12 = M_23`, the second one midway: the couplings are constant, and with `x` a quarter of the
+/// distance of the outer ones, `x'^2 + k/sh^2 x = E`, `k = M_12^2/(32 alpha^2)`, so `ch x` obeys `c'' = E c`.
+#[test]
+fn a_body_midway_between_two_stays_there() {
+    let skew = Matrix::<3>::new(0.0, 0.9, 0.0, -0.9, 0.0, 0.9, 0.0, -0.9, 0.0);
+    for sign in [1.0, -1.0] {
+        let mut m = skew;
+        (m[(1, 2)], m[(2, 1)]) = (sign * 0.9, -sign * 0.9);
+        let lattice = Lattice {
+            q: Vector::<3>::new(0.9, 0.1, -0.7),
+            p: Vector::<3>::new(-0.5, 0.2, 0.9),
+            m,
+            n: Matrix::zeros(),
+            left: Matrix::identity(),
+            right: Matrix::identity(),
+        };
+        let (x, rate, k) = (0.4_f64, -0.35 / ALPHA, 0.81 / (32.0 * ALPHA * ALPHA));
+        let w = (rate * rate + k / x.sinh().powi(2)).sqrt();
+        let mut flow = LatticeFlow::new(&Triple, 0.0, lattice).tolerance(1e-14);
+        for k in 1..=10 {
+            let t = 0.5 * f64::from(k);
+            let found = *flow.advance_to(t).unwrap();
+            let c = x.cosh() * (w * t).cosh() + x.sinh() * rate / w * (w * t).sinh();
+            let middle = 0.1 + 0.2 * t / ALPHA;
+            let expected = Vector::<3>::new(middle + 2.0 * c.acosh(), middle, middle - 2.0 * c.acosh());
+            assert!((found.q - expected).amax() < PLACES, "t = {t}: {}", found.q - expected);
+            assert!((found.m - m).amax() < PLACES && found.n.amax() == 0.0, "t = {t}");
+        }
+    }
+}
+
+/// Three equal couplings at equal distances on the circle: an equilibrium that turns as a whole.
+#[test]
+fn equal_distances_on_the_circle_stay_equal() {
+    #[affine_model(dim = 3, kinetic(casimir2 = 1.25), group = unitary)]
+    struct Circular;
+    let third = std::f64::consts::TAU / 3.0;
+    let lattice = Lattice {
+        q: Vector::<3>::new(third, 0.0, -third),
+        p: Vector::<3>::from_element(0.3),
+        m: Matrix::<3>::new(0.0, 1.0, 1.0, -1.0, 0.0, 1.0, -1.0, -1.0, 0.0),
+        n: Matrix::zeros(),
+        left: Matrix::identity(),
+        right: Matrix::identity(),
+    };
+    let found = *CircleFlow::new(&Circular, 0.0, lattice).tolerance(1e-14).advance_to(2.0).unwrap();
+    let turned = lattice.q.map(|q| q + 0.3 * 2.0 / ALPHA);
+    assert!(
+        (found.q - turned).amax() < PLACES && (found.m - lattice.m).amax() < PLACES,
+        "{}",
+        found.q - turned
+    );
 }
 
 /// `N = 0` is invariant; equal constant `M_ab` are not: `dM_12/dt = M_13 M_32 (w_32 - w_13)`.

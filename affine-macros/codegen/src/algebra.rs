@@ -2,6 +2,7 @@
 
 pub mod arena;
 pub mod bind;
+pub mod division;
 pub mod evaluate;
 pub mod factor;
 pub mod function;

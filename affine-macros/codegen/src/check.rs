@@ -43,6 +43,7 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     capabilities::available(spec, found);
     unitary::casimirs_alone(spec, found);
     constraint::stands_alone(spec, found);
+    capabilities::ratios(spec, found);
     capabilities::centre(spec, found);
     potential::differences(spec, found);
     potential::scalar(spec, found);

@@ -28,7 +28,7 @@ use crate::mechanics::symmetry::Group;
 use crate::optimise::{Batch, straight_line};
 use crate::spec::{Capability, Spanned};
 
-pub use lattice::TwoPolar;
+pub use lattice::{PieceProgram, PiecePrograms, RatioProgram, TwoPolar};
 pub use metrics::ChangeOfBases;
 use prepared::{coefficient_program, conditions, damping, numeric_blocks};
 use programs::{Reduced, best_reduction, full_chart, full_equations, power_batch};
@@ -241,6 +241,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         metrics,
         split,
         two_polar,
+        ratios,
         unitary,
         quantities,
         ..
@@ -365,7 +366,8 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         // Nothing but the lattice is emitted: no other coefficient is computed.
         coefficients = Constants::new("c");
     }
-    let two_polar = two_polar.then(|| lattice::two_polar(arena, &h, potential, unitary, &mut coefficients));
+    let asked = lattice::Asked { unitary, split, ratios };
+    let two_polar = two_polar.then(|| lattice::two_polar(arena, &h, potential, asked, &mut coefficients));
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
     let metric = match quantities.metric {
         true => Some(quantities::metric(arena, std::slice::from_ref(&kinetic), Some(&h), &mut coefficients)?),

@@ -58,9 +58,10 @@ pub struct LatticeStop<const N: usize> {
 pub enum StopReason {
     /// The integrator cannot go on.
     Integration(Failure),
-    /// Two angles of U(n) coincide or are opposite, where the equations have a pole.
+    /// Two angles of U(n) coincide or are opposite, or a fixed step does not resolve how two places meet: there the
+    /// equations have a pole.
     Coincidence {
-        /// `|sin x_ab|` or `|cos x_ab|` where the motion was going, `x_ab = (q_a - q_b)/2`.
+        /// `|sin x_ab|` or `|cos x_ab|` where the motion was going, `x_ab = (q_a - q_b)/2`, or the difference of the places.
         distance: f64,
     },
     /// The state is no phase point any more: stretches beyond the range of doubles, or not to be told from zero.
@@ -277,7 +278,7 @@ impl fmt::Display for StopReason {
             StopReason::Integration(failure) => failure.fmt(f),
             StopReason::Coincidence { distance } => write!(
                 f,
-                "two angles coincide or are opposite, to {distance:e}, where (q, p, M, N) are no coordinates"
+                "two places coincide or are opposite, to {distance:e}, where (q, p, M, N) are no coordinates"
             ),
             StopReason::Conversion(error) => error.fmt(f),
         }

@@ -6,7 +6,7 @@ use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::mechanics::potential::Potential;
-use crate::spec::{Capability, Named, Spec};
+use crate::spec::{Capability, Named, Spec, TermKind};
 
 /// A capability that cannot be emitted is refused rather than ignored: code that relies on it would fail far
 /// from here.
@@ -15,6 +15,7 @@ pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
         Capability::Splitting,
         Capability::Taylor,
         Capability::TwoPolar,
+        Capability::Ratios,
         Capability::Lanes,
         Capability::Metric,
         Capability::Acceleration,
@@ -25,6 +26,20 @@ pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
             capability.span,
             CapabilityMistake::UnavailableCapability { capability: name.name(), gives: name.gives() },
         );
+    }
+}
+
+/// In ratios of stretches the lattice of the Casimirs is rational. What moves the places otherwise is not.
+pub(super) fn ratios(spec: &Spec, found: &mut Diagnostics) {
+    let Some(asked_for) = spec.emit.iter().find(|c| c.value == Capability::Ratios) else { return };
+    let flat = |kind: TermKind| matches!(kind, TermKind::Dalembert | TermKind::FlatTensor);
+    let parts = [
+        ("no `two_polar` beside it", !asked(spec, Capability::TwoPolar)),
+        ("a potential", spec.potential.is_some()),
+        ("an energy in `phi_dot`", spec.kinetic.iter().any(|term| flat(term.kind.value))),
+    ];
+    for (part, _) in parts.into_iter().filter(|(_, stated)| *stated) {
+        found.report(asked_for.span, CapabilityMistake::NotRational { part });
     }
 }
 

@@ -36,6 +36,8 @@ pub struct Form {
     pub forces: Forces,
     /// Is the two-polar form asked for?
     pub two_polar: bool,
+    /// Its equations in ratios of stretches too?
+    pub ratios: bool,
     /// Are the placements those of U(n)?
     pub unitary: bool,
     /// Metrics other than the identity; everything else stands in bases in which they are.
@@ -111,6 +113,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         split: super::capabilities::asked(spec, Capability::Splitting),
         quantities: Quantities::of(spec),
         two_polar,
+        ratios: super::capabilities::asked(spec, Capability::Ratios),
         unitary,
     })
 }
@@ -158,6 +161,7 @@ fn momentum_form(
         split: super::capabilities::asked(spec, Capability::Splitting),
         quantities: Quantities::of(spec),
         two_polar,
+        ratios: super::capabilities::asked(spec, Capability::Ratios),
         unitary: false,
     })
 }

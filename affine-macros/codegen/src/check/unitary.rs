@@ -1,7 +1,7 @@
 //! The rule of U(n).
 
 use crate::diagnostics::{CapabilityMistake, Diagnostics};
-use crate::spec::{Named, Spec, TermKind};
+use crate::spec::{Capability, Named, Spec, TermKind};
 
 /// On U(n) the Casimir terms stand, `-A/2 tr Om^2 - B/2 (tr Om)^2` (89): `Om` is anti-Hermitian, every other term breaks
 /// the symmetry from both sides that the lattice form rests on, and there are no coordinates of a centre or stretches
@@ -34,7 +34,8 @@ pub(super) fn casimirs_alone(spec: &Spec, found: &mut Diagnostics) {
     for requirement in &spec.require {
         found.report(requirement.span, CapabilityMistake::UnitaryTerm { part: requirement.value.name() });
     }
-    for capability in &spec.emit {
+    // Besides the lattice itself, its pieces.
+    for capability in spec.emit.iter().filter(|capability| capability.value != Capability::Splitting) {
         found.report(capability.span, CapabilityMistake::UnitaryTerm { part: capability.value.name() });
     }
 }

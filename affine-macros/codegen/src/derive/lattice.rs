@@ -1,5 +1,11 @@
 //! Programs of the two-polar form.
 
+mod pieces;
+mod ratios;
+
+pub use pieces::{PieceProgram, PiecePrograms};
+pub use ratios::RatioProgram;
+
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
@@ -7,7 +13,7 @@ use crate::ir::fuse::fuse;
 use crate::mechanics::describe::Formula;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::{OnAxes, Potential};
-use crate::mechanics::two_polar::{self, Equations, Lattice, Stable, Variables};
+use crate::mechanics::two_polar::{self, Equations, Frames, Lattice, Pieces, Ratios, Stable, Variables};
 use crate::optimise::{Batch, straight_line};
 
 /// The two-polar form of a doubly isotropic model.
@@ -30,6 +36,21 @@ pub struct TwoPolar {
     pub formulas: (Formula, Vec<Formula>),
     /// Does the potential depend on `q = ln(det phi)/n` alone?
     pub dilatation_only: bool,
+    /// Exact flows of its pieces, if asked for.
+    pub pieces: Option<PiecePrograms>,
+    /// Its equations in ratios of stretches, if asked for.
+    pub ratios: Option<RatioProgram>,
+}
+
+/// What is asked of a lattice.
+#[derive(Clone, Copy)]
+pub(super) struct Asked {
+    /// Is the group U(n)?
+    pub unitary: bool,
+    /// Exact flows of pieces?
+    pub split: bool,
+    /// Equations in ratios of stretches?
+    pub ratios: bool,
 }
 
 /// Derives it.
@@ -37,10 +58,10 @@ pub(super) fn two_polar(
     arena: &mut Arena,
     h: &Hamiltonian,
     potential: Option<&Potential>,
-    unitary: bool,
+    asked: Asked,
     coefficients: &mut Constants,
 ) -> TwoPolar {
-    let lattice = Lattice::of(arena, h, unitary);
+    let lattice = Lattice::of(arena, h, asked.unitary);
     let mut equations = lattice.equations(arena, h);
     let formulas = two_polar::formulas(arena, &equations, potential);
     let on_axes = potential.map(|u| u.on_axes(arena, &lattice));
@@ -70,18 +91,29 @@ pub(super) fn two_polar(
         fuse(&straight_line(arena, batch, coefficients, &|a| inputs.contains(&a)))
     };
     let rates = rates(arena, &lattice, &equations, &stable, on_axes.as_ref());
-    let framed = frames.framed(arena, &equations, &stable, rates.clone());
+    let framed = framed(arena, &frames, &equations, &stable, rates.clone());
     let energy = energy(&equations, &stable, on_axes.as_ref());
+    let ratios = match asked.ratios {
+        true => Ratios::of(arena, &lattice, h).map(|form| RatioProgram::of(arena, &form)),
+        false => None,
+    };
+    let pieces = match asked.split {
+        true => Pieces::of(arena, &lattice, &frames, h, on_axes.as_ref()),
+        false => None,
+    };
+    let pieces = pieces.map(|pieces| PiecePrograms::of(arena, &pieces, &stable, &mut program));
     TwoPolar {
         variables: lattice.variables,
         couplings,
         rates: program(arena, &rates),
         framed: program(arena, &framed),
         energy: program(arena, &energy),
-        frames: frames.groups(arena),
+        frames: groups(arena, &frames),
         state,
         formulas,
         dilatation_only: potential.is_some_and(Potential::is_dilatational),
+        pieces,
+        ratios,
     }
 }
 
@@ -112,72 +144,27 @@ fn energy(equations: &Equations, stable: &Stable, potential: Option<&OnAxes>) ->
     Batch { shared, results: vec![("energy".to_owned(), energy)], ..Batch::default() }
 }
 
-/// Symbols of the frames: an angle each in the plane, the entries of `L` and `R` in space.
-struct Frames {
-    dim: usize,
-    left: Vec<Expr>,
-    right: Vec<Expr>,
+/// Names of the frames' components.
+fn groups(arena: &Arena, frames: &Frames) -> Vec<(&'static str, Vec<String>)> {
+    let names = |symbols: &[Expr]| {
+        symbols.iter().map(|s| arena.name(*s).unwrap_or("frame").to_owned()).collect::<Vec<_>>()
+    };
+    vec![("L", names(&frames.left)), ("R", names(&frames.right))]
 }
 
-impl Frames {
-    fn new(arena: &mut Arena, dim: usize) -> Self {
-        let mut of = |stem: &str| -> Vec<Expr> {
-            match dim {
-                2 => vec![arena.symbol(&format!("{stem}_angle"))],
-                _ => (0..dim * dim)
-                    .map(|k| arena.symbol(&format!("{stem}_{}{}", k / dim + 1, k % dim + 1)))
-                    .collect(),
-            }
-        };
-        Self { dim, left: of("left"), right: of("right") }
-    }
-
-    fn symbols(&self) -> Vec<Expr> {
-        [&self.left[..], &self.right].concat()
-    }
-
-    fn groups(&self, arena: &Arena) -> Vec<(&'static str, Vec<String>)> {
-        let names = |symbols: &[Expr]| {
-            symbols.iter().map(|s| arena.name(*s).unwrap_or("frame").to_owned()).collect::<Vec<_>>()
-        };
-        vec![("L", names(&self.left)), ("R", names(&self.right))]
-    }
-
-    /// `dL/dt = L chi_hat`, `dR/dt = R theta_hat`, beside the rates of the state. A rotation by the angle `w` has
-    /// `L^T dL/dt = [[0, -1], [1, 0]] dw/dt`.
-    fn framed(&self, arena: &mut Arena, equations: &Equations, stable: &Stable, rates: Batch) -> Batch {
-        let Batch { mut shared, mut results, .. } = rates;
-        for (stem, frame, angular) in
-            [("chi", &self.left, &equations.chi), ("theta", &self.right, &equations.theta)]
-        {
-            let symbols: Vec<Expr> =
-                (1..=angular.len()).map(|k| arena.symbol(&format!("{stem}_{k}"))).collect();
-            shared.extend(symbols.iter().copied().zip(angular.iter().map(|p| stable.rewritten(p))));
-            for (k, entry) in frame.iter().enumerate() {
-                let name = format!("d_{}", arena.name(*entry).unwrap_or("frame"));
-                results.push((name, self.rate(frame, &symbols, k)));
-            }
+/// The rates of the frames beside those of the state.
+fn framed(arena: &mut Arena, frames: &Frames, equations: &Equations, stable: &Stable, rates: Batch) -> Batch {
+    let Batch { mut shared, mut results, .. } = rates;
+    for (stem, frame, angular) in
+        [("chi", &frames.left, &equations.chi), ("theta", &frames.right, &equations.theta)]
+    {
+        let symbols: Vec<Expr> = (1..=angular.len()).map(|k| arena.symbol(&format!("{stem}_{k}"))).collect();
+        shared.extend(symbols.iter().copied().zip(angular.iter().map(|p| stable.rewritten(p))));
+        let symbols: Vec<Polynomial> = symbols.into_iter().map(Polynomial::atom).collect();
+        for (k, entry) in frame.iter().enumerate() {
+            let name = format!("d_{}", arena.name(*entry).unwrap_or("frame"));
+            results.push((name, frames.rate(frame, &symbols, k)));
         }
-        Batch { shared, results, ..Batch::default() }
     }
-
-    /// Entry `k` of `L chi_hat`, or the rate of the angle.
-    fn rate(&self, frame: &[Expr], angular: &[Expr], k: usize) -> Polynomial {
-        if self.dim == 2 {
-            return Polynomial::term(vec![angular[0]], Rational::MINUS_ONE);
-        }
-        let (row, column) = (k / self.dim, k % self.dim);
-        let mut sum = Polynomial::zero();
-        let pairs = (0..self.dim).flat_map(|a| (a + 1..self.dim).map(move |b| (a, b)));
-        for ((a, b), value) in pairs.zip(angular) {
-            // chi_hat_ab = value = -chi_hat_ba
-            if column == b {
-                sum.add_term(vec![frame[row * self.dim + a], *value], &Rational::ONE);
-            }
-            if column == a {
-                sum.add_term(vec![frame[row * self.dim + b], *value], &Rational::MINUS_ONE);
-            }
-        }
-        sum
-    }
+    Batch { shared, results, ..Batch::default() }
 }

@@ -1,5 +1,8 @@
 //! The two-polar form.
 
+mod pieces;
+mod ratios;
+
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
@@ -19,7 +22,8 @@ pub(super) fn implementations(context: &Context) -> TokenStream {
     let Some(form) = &context.model.two_polar else { return TokenStream::new() };
     let lattice = lattice(context, form);
     let conversions = conversions(context);
-    quote!(#lattice #conversions)
+    let ratios = ratios::implementation(context, form);
+    quote!(#lattice #conversions #ratios)
 }
 
 /// The lattice of U(n), which has no real phase points to convert to.
@@ -52,7 +56,9 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
     let (energy, body) = function(&form.energy, &state);
     let energy_result = body.result();
     let couplings = if form.couplings.is_empty() { quote!(_couplings) } else { quote!(couplings) };
+    let pieces = pieces::implementation(context, form, &framed);
     quote! {
+        #pieces
         #(#[doc = #docs])*
         impl #generics #rt::LatticeForm<#n> for #prepared #types #clause {
             const LATTICE: #rt::LatticeDescription = #description;

@@ -10,6 +10,9 @@
 //! vorticity, which is `-tau_hat`.
 
 mod describe;
+mod frames;
+mod pieces;
+mod ratios;
 mod stable;
 
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
@@ -19,6 +22,9 @@ use super::kinetic::Frame;
 use super::potential::OnAxes;
 
 pub use describe::formulas;
+pub use frames::Frames;
+pub use pieces::{Piece, Pieces, Turn};
+pub use ratios::Ratios;
 pub use stable::Stable;
 
 /// What is written on the diagonal of `D`.
@@ -253,6 +259,11 @@ impl Lattice {
     /// `theta_hat_ab = -dH/dtau_hat_ab = dH/dM_ab + dH/dN_ab`.
     pub fn equations(&self, arena: &mut Arena, h: &Hamiltonian) -> Equations {
         let kinetic = self.hamiltonian(arena, h);
+        self.equations_of(arena, kinetic)
+    }
+
+    /// The same of a part of the energy.
+    fn equations_of(&self, arena: &mut Arena, kinetic: Polynomial) -> Equations {
         let energy = kinetic.expression(arena);
         let coordinates = self.coordinates();
         let mut slope = |z: Coordinate| {

@@ -130,6 +130,8 @@ pub enum Capability {
     Taylor,
     /// Lattice form.
     TwoPolar,
+    /// Lattice form in ratios of stretches.
+    Ratios,
     /// Variational equations.
     Tangent,
     /// SIMD lanes.
@@ -145,6 +147,7 @@ impl Named for Capability {
         Self::Splitting,
         Self::Taylor,
         Self::TwoPolar,
+        Self::Ratios,
         Self::Tangent,
         Self::Lanes,
         Self::Metric,
@@ -156,6 +159,7 @@ impl Named for Capability {
             Self::Splitting => "splitting",
             Self::Taylor => "taylor",
             Self::TwoPolar => "two_polar",
+            Self::Ratios => "ratios",
             Self::Tangent => "tangent",
             Self::Lanes => "lanes",
             Self::Metric => "metric",
@@ -172,6 +176,7 @@ impl Capability {
             Self::Splitting => "the exact sub-flows of the pieces of H",
             Self::Taylor => "Taylor coefficients of the motion to any order",
             Self::TwoPolar => "the lattice form (q, p, M, N)",
+            Self::Ratios => "the lattice form in ratios of stretches",
             Self::Tangent => "the variational equations",
             Self::Lanes => "evaluation over SIMD lanes",
             Self::Metric => "the configuration metric and its inverse",

@@ -115,6 +115,15 @@ impl Stable {
         ]
     }
 
+    /// What stands for `1/(4 sh^2)`, `1/(4 ch^2)`, `ch/sh` and `sh/ch` of each pair of log-stretches.
+    pub(super) fn quotients(&self) -> Vec<[Expr; 4]> {
+        let of = |pair: &Pair| match pair.replacement {
+            Replacement::Decaying { odd, even, coth, tanh } => Some([odd, even, coth, tanh]),
+            Replacement::Reciprocals { .. } => None,
+        };
+        self.pairs.iter().filter_map(of).collect()
+    }
+
     /// The polynomial with every function of a pair replaced.
     #[must_use]
     pub fn rewritten(&self, polynomial: &Polynomial) -> Polynomial {

@@ -1,0 +1,35 @@
+//! The lattice in ratios of stretches as a program.
+
+use crate::algebra::bind::Constants;
+use crate::algebra::{Arena, Expr};
+use crate::ir::Program;
+use crate::ir::fuse::fuse;
+use crate::mechanics::two_polar::Ratios;
+use crate::optimise::{Batch, straight_line};
+
+/// The equations in ratios.
+pub struct RatioProgram {
+    /// Components of the state.
+    pub state: Vec<String>,
+    /// `U_ab`, `W_ab` where they are constants.
+    pub couplings: Vec<String>,
+    /// State -> its rate.
+    pub program: Program,
+}
+
+impl RatioProgram {
+    pub(super) fn of(arena: &mut Arena, form: &Ratios) -> Self {
+        let name = |arena: &Arena, s: &Expr| arena.name(*s).unwrap_or("place").to_owned();
+        let state: Vec<Expr> = form.rates.iter().map(|(z, _)| *z).collect();
+        let couplings: Vec<Expr> =
+            form.couplings.iter().flatten().copied().filter(|z| !state.contains(z)).collect();
+        let results = form.rates.iter().map(|(z, rate)| (format!("d_{}", name(arena, z)), rate.clone()));
+        let batch = Batch { shared: form.shared.clone(), results: results.collect(), ..Batch::default() };
+        let varying: Vec<Expr> = state.iter().chain(&couplings).copied().collect();
+        // Nothing depends on the coefficients of the model.
+        let mut none = Constants::new("c");
+        let program = fuse(&straight_line(arena, &batch, &mut none, &|atom| varying.contains(&atom)));
+        let names = |symbols: &[Expr]| symbols.iter().map(|s| name(arena, s)).collect();
+        Self { state: names(&state), couplings: names(&couplings), program }
+    }
+}

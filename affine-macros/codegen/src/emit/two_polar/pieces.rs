@@ -1,0 +1,116 @@
+//! `emit(two_polar, splitting)`: the exact flows of the lattice's pieces.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use crate::derive::{PieceProgram, TwoPolar};
+use crate::emit::body::Body;
+use crate::emit::{Context, inputs, number, pattern};
+use crate::mechanics::kinetic::Frame;
+
+/// The implementation of the capability over the state with frames, whose components are named.
+pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[String]) -> TokenStream {
+    let Some(pieces) = &form.pieces else { return TokenStream::new() };
+    let (prepared, rt, t, n) =
+        (&context.names.prepared, &context.names.rt, &context.names.scalar, context.dim());
+    let (generics, types, clause) = context.generics();
+    let names = pieces.list.iter().map(|piece| &piece.name);
+    let nystrom = pieces.nystrom;
+    let count = pieces.list.len();
+    let arms = pieces.list.iter().enumerate().map(|(k, piece)| {
+        let body = flow(context, form, piece, framed);
+        let piece = number(k);
+        // There is no other piece than those that are counted.
+        let place = if k + 1 == count { quote!(_) } else { quote!(#piece) };
+        quote!(#place => { #body })
+    });
+    let reads =
+        |name: &String| pieces.list.iter().any(|piece| inputs(&piece.program).contains(&name.as_str()));
+    let couplings = if form.couplings.iter().any(reads) { quote!(couplings) } else { quote!(_couplings) };
+    let turning = turning(context);
+    quote! {
+        impl #generics #rt::LatticePieces<#n> for #prepared #types #clause {
+            const PIECES: &'static [&'static str] = &[#(#names),*];
+            const NYSTROM: bool = #nystrom;
+            #turning
+
+            #[inline]
+            fn lattice_flow<#t: #rt::Real>(
+                &self,
+                piece: usize,
+                h: #t,
+                #couplings: &Self::Couplings<#t>,
+                state: &mut Self::Framed<#t>,
+                carry: &mut Self::Framed<#t>,
+            ) {
+                match piece { #(#arms)* }
+            }
+        }
+    }
+}
+
+/// `1/mu` and the side of the rotation that is no piece.
+fn turning(context: &Context) -> TokenStream {
+    let rt = &context.names.rt;
+    let side = match context.model.frame {
+        Frame::Body => quote!(Body),
+        Frame::Space => quote!(Space),
+        Frame::Flat => return TokenStream::new(),
+    };
+    // On U(n) there is none, and no coefficient of it is computed.
+    let program = match (&context.model.isotropic, &context.spec.group) {
+        (Some(program), None) => program,
+        _ => return TokenStream::new(),
+    };
+    let Body { lets, results } = context.double(program);
+    let Some(inverse_mu) = results.get(2) else { return TokenStream::new() };
+    let f64 = quote!(#rt::f64);
+    quote! {
+        fn turning(&self) -> ::core::option::Option<(#f64, #rt::MetricSide)> {
+            #lets
+            ::core::option::Option::Some((#inverse_mu, #rt::MetricSide::#side))
+        }
+    }
+}
+
+fn flow(context: &Context, form: &TwoPolar, piece: &PieceProgram, framed: &[String]) -> TokenStream {
+    let rt = &context.names.rt;
+    let used = inputs(&piece.program);
+    let couplings = form.couplings.iter().any(|name| used.contains(&name.as_str())).then(|| {
+        let bound = pattern(&form.couplings, &used);
+        quote!(let #bound = *couplings;)
+    });
+    let bound = pattern(framed, &used);
+    let Body { lets, results } = context.generic(&piece.program);
+    // Several results are names or numbers; a single one may be a sum.
+    let (only, results) = match results.as_slice() {
+        [one] => (quote!(let rate = #one;), vec![quote!(rate)]),
+        _ => (TokenStream::new(), results),
+    };
+    let place =
+        |name: &String| framed.iter().position(|known| known == name).map_or_else(|| number(0), number);
+    let rises = piece.shifted.iter().zip(&results).map(|(name, rate)| {
+        let at = place(name);
+        quote!(#rt::accumulate(&mut state[#at], &mut carry[#at], h * #rate);)
+    });
+    let angular = results.iter().skip(piece.shifted.len());
+    let turns = piece.turned.iter().zip(angular).enumerate().map(|(k, (planes, angular))| {
+        let rotation = format_ident!("rotation_{}", k + 1);
+        let planes = planes.iter().map(|(z, y)| {
+            let (z, y) = (place(z), place(y));
+            quote!(#rt::turned(state, carry, (#z, #y), #rotation);)
+        });
+        quote! {
+            let #rotation = #rt::rotation(h * #angular);
+            #(#planes)*
+        }
+    });
+    quote! {
+        let #bound = *state;
+        #couplings
+        #lets
+        #only
+        #(#rises)*
+        #(#turns)*
+    }
+}

@@ -1,0 +1,46 @@
+//! `emit(two_polar, ratios)`: the lattice without exponentials.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::derive::TwoPolar;
+use crate::emit::body::Body;
+use crate::emit::{Context, description, inputs, number, pattern};
+
+/// The implementation of the capability.
+pub(super) fn implementation(context: &Context, form: &TwoPolar) -> TokenStream {
+    let Some(ratios) = &form.ratios else { return TokenStream::new() };
+    let (prepared, rt, t, n) =
+        (&context.names.prepared, &context.names.rt, &context.names.scalar, context.dim());
+    let (generics, types, clause) = context.generics();
+    let size = number(ratios.state.len());
+    let used = inputs(&ratios.program);
+    let bound = pattern(&ratios.state, &used);
+    let (couplings, read) = match ratios.couplings.is_empty() {
+        true => (quote!(_couplings), TokenStream::new()),
+        false => {
+            let bound = pattern(&ratios.couplings, &used);
+            (quote!(couplings), quote!(let #bound = *couplings;))
+        }
+    };
+    let Body { lets, results } = context.generic(&ratios.program);
+    let operations = description::operations(context, ratios.program.operations());
+    quote! {
+        impl #generics #rt::RatioForm<#n> for #prepared #types #clause {
+            const RATIO_OPERATIONS: #rt::Operations = #operations;
+            type Ratios<#t: #rt::Scalar> = [#t; #size];
+
+            #[inline]
+            fn ratio_equations<#t: #rt::Scalar>(
+                &self,
+                #couplings: &Self::Couplings<#t>,
+                state: &Self::Ratios<#t>,
+            ) -> Self::Ratios<#t> {
+                #read
+                let #bound = *state;
+                #lets
+                [#(#results),*]
+            }
+        }
+    }
+}
