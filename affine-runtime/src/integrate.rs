@@ -3,9 +3,12 @@
 mod error_norm;
 pub mod gauss;
 pub mod lie;
+pub mod nystrom;
+mod published;
 pub mod rattle;
 pub mod runge_kutta;
 pub mod splitting;
+mod stages;
 mod step_size;
 #[cfg(feature = "std")]
 pub(crate) mod tape;
@@ -17,6 +20,7 @@ pub(crate) use error_norm::norm;
 #[cfg(feature = "std")]
 pub(crate) use error_norm::sum_of_squares;
 pub use gauss::Gauss;
+pub use nystrom::RungeKuttaNystrom12;
 pub use rattle::Rattle;
 #[cfg(feature = "std")]
 pub(crate) use runge_kutta::in_lanes;

@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use crate::capability::NotEmitted;
 use crate::frames::{Matrix, Vector};
+use crate::integrate::nystrom::SecondOrder;
 use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::Series;
 use crate::metrics::Bases;
@@ -109,6 +110,11 @@ pub trait Model<const N: usize> {
 
     /// The exact flows of the pieces of the reduced motion, where `emit(splitting)` asked for them.
     fn splitting(&self) -> Option<impl Pieces<Self::Reduced<f64>, Self::Constants<f64>>> {
+        None::<NotEmitted>
+    }
+
+    /// The reduced equations as `q' = V(p)`, `p' = F(t, q)`, where `emit(nystrom)` asked for them.
+    fn second_order(&self) -> Option<impl SecondOrder<Self::Reduced<f64>, Self::Constants<f64>>> {
         None::<NotEmitted>
     }
 }

@@ -3,7 +3,7 @@
 pub use core::primitive::f64;
 
 pub use crate::breathing::Breathing;
-pub use crate::capability::{Emitted, InLanes, Splitting, Taylor};
+pub use crate::capability::{Emitted, InLanes, SecondOrderEquations, Splitting, Taylor};
 pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::custom::{
     comoving_force, potential_energy, potential_slopes, spatial_force, translational_force,
@@ -15,6 +15,7 @@ pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,
 };
 pub use crate::geodesic::{Geodesic, Motion};
+pub use crate::integrate::nystrom::SecondOrder;
 pub use crate::integrate::splitting::{Pieces, accumulate, conjugated, growth, left_product, right_product};
 pub use crate::integrate::taylor::{
     Series, Vectors, add_multiple, add_products, lanes, subtract_multiple, subtract_products,

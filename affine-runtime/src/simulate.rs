@@ -1,17 +1,22 @@
 //! Simulations: from a start to output times, with everything that can stop them.
 
 mod checkpoint;
+mod closed_form;
 mod collapse;
 mod conservation;
 mod csv;
 mod ensemble;
 mod event;
+mod follow;
 mod halt;
+mod methods;
 mod output;
+mod point;
 mod power_balance;
 mod recorder;
 mod root;
 mod run;
+mod settings;
 mod signature;
 mod stepper;
 mod trajectory;
@@ -51,6 +56,10 @@ pub enum Method {
         /// The order, 2 to 32; `None`: the one that suits the tolerance.
         order: Option<usize>,
     },
+    /// Runge-Kutta-Nystrom method of order 12, [`RungeKuttaNystrom12`](crate::integrate::RungeKuttaNystrom12), of a model
+    /// with `emit(nystrom)`, whose equations are `q'' = f(t, q)`; an error for others. Output times between steps are
+    /// reached by a shorter step from the one before.
+    RungeKuttaNystrom12,
     /// Gauss collocation, [`Gauss`](crate::integrate::Gauss): implicit, symmetric, of order `2 stages`, in equal
     /// steps; the tolerance plays no part. Keeps every linear and quadratic first integral of the reduced equations
     /// up to rounding, and is symplectic where the reduced variables are canonical, `phi` and `Pi`. With affine spins
@@ -92,7 +101,11 @@ impl Method {
             Method::Gauss { step, .. } | Method::Rattle { step, .. } | Method::Splitting { step, .. } => {
                 Some(step)
             }
-            Method::Automatic | Method::ClosedForm | Method::RungeKutta8 | Method::Taylor { .. } => None,
+            Method::Automatic
+            | Method::ClosedForm
+            | Method::RungeKutta8
+            | Method::RungeKuttaNystrom12
+            | Method::Taylor { .. } => None,
         }
     }
 }

@@ -5,6 +5,7 @@ mod mixed;
 mod prepared;
 mod programs;
 mod quantities;
+pub mod second_order;
 pub mod splitting;
 mod stated;
 
@@ -30,7 +31,7 @@ use crate::spec::{Capability, Spanned};
 
 pub use lattice::TwoPolar;
 use prepared::{coefficient_program, conditions, damping, numeric_blocks};
-use programs::{Reduced, best_reduction, full_chart, full_equations, power_batch};
+use programs::{Asked, Reduced, best_reduction, full_chart, full_equations, power_batch};
 
 /// Everything that is emitted about a model.
 pub struct Model {
@@ -107,6 +108,8 @@ pub struct Model {
     pub taylor: Option<Recurrence>,
     /// Exact flows of the pieces of the reduced motion, if asked for.
     pub splitting: Option<splitting::Programs>,
+    /// The equations as `q' = V(p)`, `p' = F(t, q)`, if asked for.
+    pub second_order: Option<second_order::Halves>,
 }
 
 /// The Legendre transformation and the energy in velocities.
@@ -237,6 +240,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         forces,
         metrics,
         split,
+        nystrom,
         two_polar,
         unitary,
         quantities,
@@ -285,8 +289,10 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
 
     let (full_chart, full_h) = full_chart(arena, &h);
     let full = full_equations(arena, &h, &full_chart, &full_h, potential, &forces, &mut coefficients);
-    let Reduced { reduction, equations: reduced, splitting, trajectory, fixed } =
-        best_reduction(arena, &h, potential, &forces, (rotations, split), &mut coefficients)?;
+    let Reduced { reduction, equations: reduced, pieces, trajectory, fixed } = {
+        let asked = (rotations, Asked { split, nystrom });
+        best_reduction(arena, &h, potential, &forces, asked, &mut coefficients)?
+    };
     let formulas = Formulas {
         kinetic_energy: match cubic {
             None => describe::kinetic_energy(arena, &kinetic),
@@ -412,7 +418,8 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         formulas,
         two_polar,
         taylor: None,
-        splitting,
+        splitting: pieces.splitting,
+        second_order: pieces.second_order,
     })
 }
 

@@ -14,6 +14,7 @@ mod prepare;
 mod quantities;
 mod reduction;
 mod separated;
+mod second_order;
 mod splitting;
 mod taylor;
 mod two_polar;
@@ -58,6 +59,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let two_polar = two_polar::implementations(&context);
     let (bases, _) = metrics::bases(&context);
     let splitting = splitting::splitting_impl(&context);
+    let second_order = second_order::implementation(&context);
     let taylor = taylor::taylor_impl(&context);
     let lanes = reduction::lanes::implementation(&context);
     quote! {
@@ -71,6 +73,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #implementation
             #points
             #splitting
+            #second_order
             #two_polar
             #taylor
             #lanes
@@ -231,6 +234,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let geodesic = closed_form::geodesic(context);
     let (_, bases) = metrics::bases(context);
     let splitting = splitting::capability(context);
+    let second_order = second_order::capability(context);
     let taylor = taylor::capability(context);
     let power = forces::power(context);
     quote! {
@@ -246,6 +250,7 @@ fn model_impl(context: &Context) -> TokenStream {
             #reduction
             #geodesic
             #splitting
+            #second_order
             #taylor
             #power
         }

@@ -11,7 +11,7 @@ use core::fmt;
 
 use super::error_norm::{ErrorNorm, sum_of_squares};
 use super::lie::{Coordinates, Flat, Sum};
-use super::step_size::{Controller, first_step};
+use super::step_size::{Controller, ERROR_ORDER, first_step, next_time, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::taylor::Vectors;
@@ -91,10 +91,10 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
             let probes;
             (error_norm, probes) = ErrorNorm::probed(groups, &f, (t0, &y0, &slope));
             statistics.evaluations += probes;
-            length = first_step(&f, &error_norm, (t0, &y0, &slope), t_end - t0, tolerance);
+            length = first_step(&f, &error_norm, (t0, &y0, &slope), t_end - t0, (tolerance, ERROR_ORDER));
             statistics.evaluations += 1;
         }
-        let controller = Controller::new();
+        let controller = Controller::of(ERROR_ORDER);
         let begin = Sum::of(y0);
         let origin = coordinates.origin(&begin).value;
         let step = Step::at(t0, origin, coordinates.velocity(&y0, &origin, &slope));
@@ -128,7 +128,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
         }
         self.begin_next();
         loop {
-            let end = self.next_time();
+            let end = next_time(self.step.time(), self.length, self.t_end);
             self.statistics.evaluations += 11;
             let (reached, mut error) = widest(Trial { integration: self, end });
             if error <= 1.0 {
@@ -146,7 +146,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
             }
             self.statistics.rejected += 1;
             self.length = self.step.length().abs() * self.controller.reject(error);
-            if self.length <= self.shortest() {
+            if self.length <= shortest(self.step.time(), self.t_end) {
                 self.step.withdraw();
                 let failure = if error.is_finite() { Failure::StepUnderflow } else { Failure::NotFinite };
                 self.failure = Some(failure);
@@ -216,27 +216,6 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
         let slope = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
         self.begin = self.end;
         self.step.begin_next_at(origin, slope);
-    }
-
-    /// End of the step to try: `t_end` itself where the step reaches about there, and half the way where it
-    /// reaches further than that, since a step and a short rest cost as much as two equal ones.
-    fn next_time(&self) -> f64 {
-        let t = self.step.time();
-        let rest = self.t_end - t;
-        if 1.01 * self.length >= rest.abs() {
-            self.t_end
-        } else if 2.0 * self.length > rest.abs() {
-            t + 0.5 * rest
-        } else {
-            t + self.length.copysign(rest)
-        }
-    }
-
-    /// Steps at or below this length are lost in the rounding of times.
-    fn shortest(&self) -> f64 {
-        let t = self.step.time().abs();
-        let span = (self.t_end - self.step.time()).abs();
-        16.0 * f64::EPSILON * if t > f64::EPSILON * span { t } else { f64::EPSILON * span }
     }
 
     /// Estimated error of the attempted step relative to the tolerance; NaN where something is not finite.

@@ -6,7 +6,7 @@ use super::conservation::larger;
 use super::event::{Action, Occurrence};
 use super::halt::{Callback, Reason};
 use super::output::{Schedule, without_steps};
-use super::run::{check, energy_scale, go_on};
+use super::point::{check, energy_scale, go_on};
 use super::stepper::Stepper;
 use super::trajectory::Trajectory;
 use super::watcher::{Met, Watcher};

@@ -1,11 +1,12 @@
 //! What a simulation asks of an integrator.
 
 use crate::integrate::lie::Coordinates;
+use crate::integrate::nystrom::SecondOrder;
 use crate::integrate::runge_kutta::Dense;
 use crate::integrate::splitting::{Pieces, Splitting};
 use crate::integrate::tape::Tape;
 use crate::integrate::taylor::{Series, Taylor};
-use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics};
+use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, RungeKuttaNystrom12, Statistics};
 use crate::model::StateVector;
 
 /// An integration that goes step by step.
@@ -116,6 +117,30 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Stepper<S> for Taylor<S, C, R> {
     }
     fn exchange(&mut self, tape: &mut impl Tape) {
         Taylor::exchange(self, tape);
+    }
+}
+
+impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Stepper<S> for RungeKuttaNystrom12<S, C, R> {
+    fn advance(&mut self) -> Result<(), Failure> {
+        RungeKuttaNystrom12::advance(self)
+    }
+    fn between(&mut self, t: f64) -> Result<S, Failure> {
+        self.at(t)
+    }
+    fn t(&self) -> f64 {
+        RungeKuttaNystrom12::t(self)
+    }
+    fn y(&self) -> &S {
+        RungeKuttaNystrom12::y(self)
+    }
+    fn is_finished(&self) -> bool {
+        RungeKuttaNystrom12::is_finished(self)
+    }
+    fn statistics(&self) -> Statistics {
+        RungeKuttaNystrom12::statistics(self)
+    }
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        RungeKuttaNystrom12::exchange(self, tape);
     }
 }
 

@@ -64,6 +64,17 @@ impl Why {
                     (_, false) => writeln!(f, "as asked for; there is no closed form"),
                 }
             }
+            Method::RungeKuttaNystrom12 => {
+                write!(f, "Runge-Kutta-Nystrom of order 12, relative error {tolerance:e} per step: ")?;
+                match asked {
+                    Method::Automatic => writeln!(
+                        f,
+                        "the model has no closed form from this start, and its equations are q'' = f(t, q), for which \
+                         this is cheaper than methods for equations of first order"
+                    ),
+                    _ => writeln!(f, "as asked for; there is no closed form"),
+                }
+            }
             Method::Gauss { stages, step } => self.gauss(f, stages, step),
             Method::Rattle { order, step } => self.rattle(f, order, step),
             Method::Splitting { order, step } => self.splitting(f, order, step),

@@ -14,6 +14,7 @@ pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
     let available = [
         Capability::Splitting,
         Capability::Taylor,
+        Capability::Nystrom,
         Capability::TwoPolar,
         Capability::Lanes,
         Capability::Metric,
@@ -83,12 +84,41 @@ pub(super) fn pieces(
     }
 }
 
+/// Nystrom methods are for `q'' = f(t, q)`: a kinetic energy of `phi_dot` and `x_dot` with constant coefficients, and a
+/// potential. Without one the motion is a straight line.
+pub(super) fn second_order(spec: &Spec, flat: bool, potential: Option<&Potential>, found: &mut Diagnostics) {
+    let Some(nystrom) = spec.emit.iter().find(|c| c.value == Capability::Nystrom) else { return };
+    let beside = match &spec.constraint {
+        Some(constraint) => Some((
+            format!("`constraint = {}`", constraint.value.name()),
+            "the multiplier of the constraint depends on the velocity",
+        )),
+        None if !flat => Some((
+            "a kinetic energy of affine velocities".to_owned(),
+            "its mass matrix, as a form in phi_dot, depends on phi: phi'' depends on phi_dot",
+        )),
+        None if potential.is_none() => Some((
+            "a motion without a potential".to_owned(),
+            "it is a straight line, phi = phi0 + t phi_dot0, which is known in closed form",
+        )),
+        None => None,
+    };
+    if let Some((beside, why)) = beside {
+        found.report(nystrom.span, Diagnostic::NotSecondOrder { beside, why });
+    }
+}
+
 /// Where terms of different frames are added, no piece of `H` is quadratic in one momentum with constant coefficients.
 pub(super) fn one_frame(spec: &Spec, found: &mut Diagnostics) {
     if asked(spec, Capability::Splitting) {
         let why = "the mass matrix of the sum depends on phi: the flow of the kinetic energy is not known"
             .to_owned();
         not_split(spec, "terms of different frames".to_owned(), why, found);
+    }
+    if let Some(nystrom) = spec.emit.iter().find(|c| c.value == Capability::Nystrom) {
+        let beside = "terms of different frames".to_owned();
+        let why = "the mass matrix of the sum depends on phi: phi'' depends on phi_dot";
+        found.report(nystrom.span, Diagnostic::NotSecondOrder { beside, why });
     }
 }
 

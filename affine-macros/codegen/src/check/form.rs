@@ -42,6 +42,8 @@ pub struct Form {
     pub metrics: Option<Metrics>,
     /// Are the exact flows of pieces of the Hamiltonian asked for?
     pub split: bool,
+    /// Are the equations asked for as `q'' = f(t, q)`?
+    pub nystrom: bool,
     /// What else is emitted.
     pub quantities: Quantities,
 }
@@ -92,6 +94,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     let potential = potential(&mut arena, spec, kinetic.constraint, found);
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
+    super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
     let space_group = largest_group(&free, Side::Space);
     let body_group = largest_group(&free, Side::Body);
@@ -108,6 +111,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         forces,
         metrics: lower::metrics(spec),
         split: super::capabilities::asked(spec, Capability::Splitting),
+        nystrom: super::capabilities::asked(spec, Capability::Nystrom),
         quantities: Quantities::of(spec),
         two_polar,
         unitary,
@@ -141,6 +145,7 @@ fn momentum_form(
     let potential = potential(&mut arena, spec, None, found);
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
+    super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
     let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
     Ok(Form {
@@ -154,6 +159,7 @@ fn momentum_form(
         forces,
         metrics: lower::metrics(spec),
         split: super::capabilities::asked(spec, Capability::Splitting),
+        nystrom: super::capabilities::asked(spec, Capability::Nystrom),
         quantities: Quantities::of(spec),
         two_polar,
         unitary: false,

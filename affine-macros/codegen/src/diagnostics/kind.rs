@@ -104,6 +104,13 @@ pub enum Diagnostic {
         /// The reason.
         why: String,
     },
+    /// `emit(nystrom)` for equations that are not `q'' = f(t, q)`.
+    NotSecondOrder {
+        /// What stands against it.
+        beside: String,
+        /// The reason.
+        why: &'static str,
+    },
     /// A capability that this version does not have.
     UnavailableCapability {
         /// The capability.
@@ -681,6 +688,7 @@ names! {
     UnknownName => "unknown-name",
     CapabilityBeside => "capability-beside",
     NoExactPieces => "no-exact-pieces",
+    NotSecondOrder => "not-second-order",
     UnavailableCapability => "unavailable-capability",
     NotDoublyIsotropic => "not-doubly-isotropic",
     UnitaryTerm => "unitary-term",

@@ -125,6 +125,11 @@ impl Diagnostic {
                 why.clone(),
                 "remove `splitting` from `emit(...)`: Gauss collocation is symmetric and integrates the model",
             ),
+            Self::NotSecondOrder { beside, why } => text(
+                format!("`emit(nystrom)` does not go with {beside}"),
+                format!("Nystrom methods integrate q'' = f(t, q); {why}"),
+                "remove `nystrom` from `emit(...)`: Runge-Kutta and Taylor methods integrate the model",
+            ),
             Self::UnavailableCapability { capability, gives } => text(
                 format!("the capability `{capability}` is not available in this version"),
                 format!(

@@ -128,6 +128,8 @@ pub enum Capability {
     Splitting,
     /// Taylor coefficients.
     Taylor,
+    /// Velocities of momenta and forces of positions, apart.
+    Nystrom,
     /// Lattice form.
     TwoPolar,
     /// Variational equations.
@@ -144,6 +146,7 @@ impl Named for Capability {
     const ALL: &'static [Self] = &[
         Self::Splitting,
         Self::Taylor,
+        Self::Nystrom,
         Self::TwoPolar,
         Self::Tangent,
         Self::Lanes,
@@ -155,6 +158,7 @@ impl Named for Capability {
         match self {
             Self::Splitting => "splitting",
             Self::Taylor => "taylor",
+            Self::Nystrom => "nystrom",
             Self::TwoPolar => "two_polar",
             Self::Tangent => "tangent",
             Self::Lanes => "lanes",
@@ -171,6 +175,7 @@ impl Capability {
         match self {
             Self::Splitting => "the exact sub-flows of the pieces of H",
             Self::Taylor => "Taylor coefficients of the motion to any order",
+            Self::Nystrom => "the equations as q'' = f(t, q)",
             Self::TwoPolar => "the lattice form (q, p, M, N)",
             Self::Tangent => "the variational equations",
             Self::Lanes => "evaluation over SIMD lanes",

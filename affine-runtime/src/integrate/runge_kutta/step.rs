@@ -2,27 +2,14 @@
 
 use super::dormand_prince_853::*;
 use crate::integrate::lie::{Coordinates, Flat, Sum};
+use crate::integrate::stages::{combination, difference};
 use crate::model::StateVector;
 use crate::scalar::Scalar;
 
 const STAGES: usize = 16;
 
 /// Solution less the embedded solution of order 3.
-pub(super) const E3: [(usize, f64); B.len()] = {
-    let mut difference = B;
-    let mut k = 0;
-    while k < B.len() {
-        let mut j = 0;
-        while j < B3.len() {
-            if B3[j].0 == B[k].0 {
-                difference[k].1 -= B3[j].1;
-            }
-            j += 1;
-        }
-        k += 1;
-    }
-    difference
-};
+pub(super) const E3: [(usize, f64); B.len()] = difference(B, &B3);
 
 /// A step of the method from `(t, y)`: for callers with their own control of the step size, and for measuring the
 /// order.
@@ -202,15 +189,7 @@ impl<S: StateVector<f64>> Step<S> {
     /// `sum_j a_j k_j`.
     #[inline(always)]
     fn combination<const TERMS: usize>(&self, row: &[(usize, f64); TERMS]) -> S {
-        let mut sum = S::zeros();
-        let [(first, leading), ref rest @ ..] = row[..] else { return sum };
-        for (i, sum) in sum.as_mut().iter_mut().enumerate() {
-            *sum = self.stages[first - 1].as_ref()[i] * leading;
-            for (stage, coefficient) in rest {
-                *sum = self.stages[stage - 1].as_ref()[i].fma(*coefficient, *sum);
-            }
-        }
-        sum
+        combination(&self.stages, row)
     }
 }
 
