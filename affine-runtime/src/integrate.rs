@@ -25,7 +25,7 @@ pub use rattle::Rattle;
 #[cfg(feature = "std")]
 pub(crate) use runge_kutta::in_lanes;
 
-pub use runge_kutta::RungeKutta8;
+pub use runge_kutta::{RungeKutta5, RungeKutta8};
 pub use splitting::Splitting;
 pub use taylor::Taylor;
 

@@ -51,6 +51,8 @@ pub enum Method {
     ClosedForm,
     /// Embedded explicit Runge-Kutta method of order 8, [`RungeKutta8`](crate::integrate::RungeKutta8).
     RungeKutta8,
+    /// Embedded explicit Runge-Kutta method of order 5, [`RungeKutta5`](crate::integrate::RungeKutta5): the usual baseline.
+    RungeKutta5,
     /// Taylor series, [`Taylor`](crate::integrate::Taylor), of a model with `emit(taylor)`; an error for others.
     Taylor {
         /// The order, 2 to 32; `None`: the one that suits the tolerance.
@@ -104,6 +106,7 @@ impl Method {
             Method::Automatic
             | Method::ClosedForm
             | Method::RungeKutta8
+            | Method::RungeKutta5
             | Method::RungeKuttaNystrom12
             | Method::Taylor { .. } => None,
         }

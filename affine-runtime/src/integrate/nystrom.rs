@@ -91,8 +91,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
         let (mut error_norm, mut length) = (ErrorNorm::new(groups), 0.0);
         if t_end != t0 {
             // Inertias are those of the velocities alone.
-            let drift =
-                |_: f64, y: &S| joined(&system.drift(&constants, &halves(y)[1]), &R::Half::zeros());
+            let drift = |_: f64, y: &S| joined(&system.drift(&constants, &halves(y)[1]), &R::Half::zeros());
             error_norm = ErrorNorm::probed(groups, &drift, (t0, &y0, &first)).0;
             let accuracy = (tolerance, ERROR_ORDER);
             length = first_step(&slope, &error_norm, (t0, &y0, &first), t_end - t0, accuracy);

@@ -6,9 +6,6 @@ use super::tape::Tape;
 use crate::model::StateVector;
 use crate::scalar::Scalar;
 
-/// Order of the leading term of the error estimate of the method of order 8 in the step size.
-pub(super) const ERROR_ORDER: f64 = 8.0;
-
 /// Below 1, so that the next step is accepted although the error grows along the way: steps settle where the error
 /// is `SAFETY^(k/INTEGRAL)`, a third of the tolerance for `k = 8`.
 const SAFETY: f64 = 0.9;

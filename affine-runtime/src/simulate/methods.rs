@@ -9,7 +9,9 @@ use super::{Method, Simulation, TAYLOR_TOLERANCE};
 use crate::integrate::gauss::Tableau;
 use crate::integrate::lie::{Chart, Coordinates};
 use crate::integrate::rattle::{Composition, Reaction};
-use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, RungeKuttaNystrom12, Splitting, Taylor};
+use crate::integrate::{
+    Failure, Gauss, Rattle, RungeKutta5, RungeKutta8, RungeKuttaNystrom12, Splitting, Taylor,
+};
 use crate::model::{Constraint, Group, Model, StateVector};
 
 impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
@@ -65,8 +67,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let (groups, begin) = (M::DESCRIPTION.reduced, (self.t0, reduced));
         let system = model.second_order();
         let system = system.ok_or(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "nystrom" })?;
-        let integration =
-            RungeKuttaNystrom12::new((system, constants), groups, begin, t_end, self.tolerance);
+        let integration = RungeKuttaNystrom12::new((system, constants), groups, begin, t_end, self.tolerance);
         let mut integration = integration.map_err(|failure| self.reason(failure))?;
         self.step_through(&mut integration, expand, groups, t_end, recorder)
     }
@@ -135,6 +136,12 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 let outcome = self.step_through(&mut integration, expand, groups, t_end, recorder);
                 recorder.trajectory.computation.residual = Some(integration.residual());
                 outcome
+            }
+            Method::RungeKutta5 => {
+                let integration =
+                    RungeKutta5::within(coordinates, equations, groups, begin, t_end, self.tolerance);
+                let mut integration = Explicit::new(integration.map_err(|failure| self.reason(failure))?);
+                self.step_through(&mut integration, expand, groups, t_end, recorder)
             }
             _ => {
                 let integration =

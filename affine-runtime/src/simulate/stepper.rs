@@ -2,11 +2,11 @@
 
 use crate::integrate::lie::Coordinates;
 use crate::integrate::nystrom::SecondOrder;
-use crate::integrate::runge_kutta::Dense;
+use crate::integrate::runge_kutta::{Dense, Pair, RungeKutta};
 use crate::integrate::splitting::{Pieces, Splitting};
 use crate::integrate::tape::Tape;
 use crate::integrate::taylor::{Series, Taylor};
-use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, RungeKuttaNystrom12, Statistics};
+use crate::integrate::{Failure, Gauss, Rattle, RungeKuttaNystrom12, Statistics};
 use crate::model::StateVector;
 
 /// An integration that goes step by step.
@@ -32,18 +32,20 @@ pub(super) trait Stepper<S> {
 }
 
 /// The explicit method with the dense output of its last step, which is formed once for all times in it.
-pub(super) struct Explicit<S, F, C> {
-    integration: RungeKutta8<S, F, C>,
+pub(super) struct Explicit<P, S, F, C> {
+    integration: RungeKutta<P, S, F, C>,
     dense: Option<Dense<S, C>>,
 }
 
-impl<S, F, C> Explicit<S, F, C> {
-    pub(super) fn new(integration: RungeKutta8<S, F, C>) -> Self {
+impl<P, S, F, C> Explicit<P, S, F, C> {
+    pub(super) fn new(integration: RungeKutta<P, S, F, C>) -> Self {
         Self { integration, dense: None }
     }
 }
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for Explicit<S, F, C> {
+impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S>
+    for Explicit<P, S, F, C>
+{
     fn advance(&mut self) -> Result<(), Failure> {
         self.dense = None;
         self.integration.advance()

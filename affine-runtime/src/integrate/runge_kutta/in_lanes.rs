@@ -1,9 +1,9 @@
 //! The method of order 8 for several bodies at once, with steps that they share.
 
 use super::dormand_prince_853::*;
-use super::step::E3;
+use super::pair::{DormandPrince853, E3, Pair};
 use crate::integrate::error_norm::{NormInLanes, norm_in_lanes, squares_in_lanes};
-use crate::integrate::step_size::{Controller, ERROR_ORDER, next_time, shortest};
+use crate::integrate::step_size::{Controller, next_time, shortest};
 use crate::lanes::Lanes;
 use crate::model::{Group, StateVector};
 
@@ -48,7 +48,7 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
         let length = first_step(&f, &norm, (t0, &y0, &slope), t_end - t0, tolerance);
         let mut stages = [S::zeros(); STAGES];
         stages[0] = slope;
-        let controller = Controller::of(ERROR_ORDER);
+        let controller = Controller::of(DormandPrince853::ERROR_ORDER);
         Ok(Self { f, norm, tolerance, controller, t: t0, y: y0, trial: y0, stages, length, t_end, steps: 0 })
     }
 
@@ -186,7 +186,7 @@ fn first_step<T: Lanes, S: StateVector<T>>(
     let of_lane = |lane: usize| {
         let (first, second, trial) = (first.lane(lane), second.lane(lane), trial.lane(lane));
         let fastest = if first.is_finite() && first > second { first } else { second };
-        let length = libm::pow(0.01 * tolerance, 1.0 / ERROR_ORDER) / fastest;
+        let length = libm::pow(0.01 * tolerance, 1.0 / DormandPrince853::ERROR_ORDER) / fastest;
         within(if length < 100.0 * trial { length } else { 100.0 * trial })
     };
     (0..T::LANES).map(of_lane).fold(span.abs(), f64::min)
