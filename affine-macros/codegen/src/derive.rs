@@ -14,6 +14,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::check::{Energy, Form, eigenvalues, signature};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::ir::tangent::with_tangent;
 use crate::ir::taylor::Recurrence;
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
@@ -108,6 +109,8 @@ pub struct Model {
     pub taylor: Option<Recurrence>,
     /// Exact flows of the pieces of the reduced motion, if asked for.
     pub splitting: Option<splitting::Programs>,
+    /// State and its change -> rates and their changes, if asked for.
+    pub tangent: Option<Program>,
     /// The equations as `q' = V(p)`, `p' = F(t, q)`, if asked for.
     pub second_order: Option<second_order::Halves>,
 }
@@ -418,6 +421,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         formulas,
         two_polar,
         taylor: None,
+        tangent: None,
         splitting: pieces.splitting,
         second_order: pieces.second_order,
     })
@@ -427,11 +431,18 @@ impl Model {
     /// Derives what `emit(...)` asks for.
     #[must_use]
     pub fn with(mut self, capabilities: &[Spanned<Capability>]) -> Self {
+        let states: Vec<String> = self.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect();
+        let program = &self.reduced.program;
         for capability in capabilities {
-            if capability.value == Capability::Taylor {
-                let states: Vec<String> =
-                    self.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect();
-                self.taylor = Some(Recurrence::of(&self.reduced.program, &states));
+            match capability.value {
+                Capability::Taylor => self.taylor = Some(Recurrence::of(program, &states)),
+                Capability::Tangent => {
+                    let own = (1..=self.trajectory.outputs.len()).map(|k| format!("k_{k}"));
+                    let changing: Vec<String> = states.iter().cloned().chain(own).collect();
+                    let along = with_tangent(program, &|name| changing.iter().any(|known| known == name));
+                    self.tangent = Some(fuse(&along));
+                }
+                _ => {}
             }
         }
         self

@@ -16,6 +16,7 @@ mod reduction;
 mod second_order;
 mod separated;
 mod splitting;
+mod tangent;
 mod taylor;
 mod two_polar;
 
@@ -60,6 +61,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let (bases, _) = metrics::bases(&context);
     let splitting = splitting::splitting_impl(&context);
     let second_order = second_order::implementation(&context);
+    let tangent = tangent::implementation(&context);
     let taylor = taylor::taylor_impl(&context);
     let lanes = reduction::lanes::implementation(&context);
     quote! {
@@ -76,6 +78,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #second_order
             #two_polar
             #taylor
+            #tangent
             #lanes
         };
     }

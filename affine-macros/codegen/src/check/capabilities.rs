@@ -16,6 +16,7 @@ pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
         Capability::Taylor,
         Capability::Nystrom,
         Capability::TwoPolar,
+        Capability::Tangent,
         Capability::Lanes,
         Capability::Metric,
         Capability::Acceleration,
@@ -49,7 +50,26 @@ pub(super) fn series(spec: &Spec, potential: Option<&Potential>, found: &mut Dia
     ];
     for (beside, _) in beside.into_iter().filter(|(_, stated)| *stated) {
         let capability = taylor.value.name();
-        found.report(taylor.span, Diagnostic::CapabilityBeside { capability, beside });
+        let why = "its recurrences follow from the operations of one autonomous right-hand side";
+        found.report(taylor.span, Diagnostic::CapabilityBeside { capability, beside, why });
+    }
+}
+
+/// The variational equations are the derivative of a right-hand side that is known operation by operation.
+pub(super) fn tangent(spec: &Spec, potential: Option<&Potential>, found: &mut Diagnostics) {
+    let Some(tangent) = spec.emit.iter().find(|c| c.value == Capability::Tangent) else { return };
+    let beside = [
+        ("a constraint", spec.constraint.is_some(), "tangent vectors of a group turn with the charts of its steps"),
+        (
+            "a potential of single stretches",
+            potential.is_some_and(Potential::has_single_stretches),
+            "stretches are found by an iteration, whose derivative is not emitted",
+        ),
+        ("`custom` fields", !spec.customs.is_empty(), "the derivative of what a field computes is not known"),
+    ];
+    for (beside, _, why) in beside.into_iter().filter(|(_, stated, _)| *stated) {
+        let capability = tangent.value.name();
+        found.report(tangent.span, Diagnostic::CapabilityBeside { capability, beside, why });
     }
 }
 

@@ -93,6 +93,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     found.verdict()?;
     let potential = potential(&mut arena, spec, kinetic.constraint, found);
     super::capabilities::series(spec, potential.as_ref(), found);
+    super::capabilities::tangent(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
@@ -144,6 +145,7 @@ fn momentum_form(
     let body_group = largest_group(&on_momenta, Side::Body);
     let potential = potential(&mut arena, spec, None, found);
     super::capabilities::series(spec, potential.as_ref(), found);
+    super::capabilities::tangent(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;

@@ -100,6 +100,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         two_polar: None,
         formulas,
         taylor: None,
+        tangent: None,
         splitting: None,
         second_order: None,
     })

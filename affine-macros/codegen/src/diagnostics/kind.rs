@@ -96,6 +96,8 @@ pub enum Diagnostic {
         capability: &'static str,
         /// The other thing.
         beside: &'static str,
+        /// The reason.
+        why: &'static str,
     },
     /// `emit(splitting)` for a Hamiltonian without pieces whose flows are known.
     NoExactPieces {

@@ -113,9 +113,9 @@ impl Diagnostic {
                     _ => suggestion(*nearest, "use one of these, or remove it"),
                 },
             ),
-            Self::CapabilityBeside { capability, beside } => text(
+            Self::CapabilityBeside { capability, beside, why } => text(
                 format!("`emit({capability})` does not go with {beside} in this version"),
-                "its recurrences follow from the operations of one autonomous right-hand side",
+                *why,
                 format!(
                     "remove `{capability}` from `emit(...)`: Runge-Kutta and Gauss methods integrate the model"
                 ),
