@@ -24,6 +24,7 @@ pub mod counting;
 mod custom;
 pub mod decompose;
 mod dissipation;
+pub mod dual;
 mod elliptic;
 pub mod error;
 pub mod force;
@@ -45,6 +46,7 @@ pub mod scalar;
 #[cfg(feature = "std")]
 pub mod simulate;
 pub mod state;
+pub mod variation;
 
 #[doc(hidden)]
 #[path = "private.rs"]

@@ -229,6 +229,8 @@ impl Group {
 
 /// Name of the group of one component that holds the integral of [`Model::power`] since the start.
 pub const WORK: &str = "work";
+/// Name of the group that holds the change of a reduced state, in the variational equations.
+pub const TANGENT: &str = "tangent";
 
 /// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

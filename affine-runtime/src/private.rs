@@ -3,13 +3,14 @@
 pub use core::primitive::f64;
 
 pub use crate::breathing::Breathing;
-pub use crate::capability::{Emitted, InLanes, SecondOrderEquations, Splitting, Taylor};
+pub use crate::capability::{Emitted, InLanes, SecondOrderEquations, Splitting, Tangent, Taylor};
 pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::custom::{
     comoving_force, potential_energy, potential_slopes, spatial_force, translational_force,
 };
 pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
 pub use crate::dissipation::{semidefinite, semidefinite_form};
+pub use crate::dual::Dual;
 pub use crate::error::Result;
 pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,
@@ -28,7 +29,7 @@ pub use crate::lattice::{
 };
 pub use crate::metrics::Bases;
 pub use crate::model::{
-    Conserved, Constraint, Description, Formula, Group, Model, Operations, Regularity, Velocity,
+    Conserved, Constraint, Description, Formula, Group, Model, Operations, Regularity, TANGENT, Velocity,
     VelocityDeterminesMomentum,
 };
 pub use crate::reduction::{

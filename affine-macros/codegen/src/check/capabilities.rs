@@ -59,7 +59,11 @@ pub(super) fn series(spec: &Spec, potential: Option<&Potential>, found: &mut Dia
 pub(super) fn tangent(spec: &Spec, potential: Option<&Potential>, found: &mut Diagnostics) {
     let Some(tangent) = spec.emit.iter().find(|c| c.value == Capability::Tangent) else { return };
     let beside = [
-        ("a constraint", spec.constraint.is_some(), "tangent vectors of a group turn with the charts of its steps"),
+        (
+            "a constraint",
+            spec.constraint.is_some(),
+            "tangent vectors of a group turn with the charts of its steps",
+        ),
         (
             "a potential of single stretches",
             potential.is_some_and(Potential::has_single_stretches),

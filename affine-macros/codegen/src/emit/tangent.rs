@@ -15,6 +15,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let Some(program) = &context.model.tangent else { return TokenStream::new() };
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
+    let t = &context.names.scalar;
     let groups = context.model.reduced.groups.iter().map(|(name, components)| {
         let len = number(components.len());
         quote!(#rt::Group { name: #name, len: #len })
@@ -38,20 +39,20 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let constants = if values.is_some() || slopes.is_some() { quote!(constants) } else { quote!(_constants) };
     let bound = pattern(&states, &used);
     let clock = time(program);
-    let Body { lets, results } = context.double(program);
+    let Body { lets, results } = context.generic(program);
     quote! {
         impl #generics #rt::Tangent<#n> for #prepared #types #clause {
-            type Varied = [#rt::f64; #both];
+            type Varied<#t: #rt::Scalar> = [#t; #both];
             const VARIED: &'static [#rt::Group] =
                 &[#(#groups,)* #rt::Group { name: #rt::TANGENT, len: #len }];
 
             #[inline]
-            fn variational_equations(
+            fn variational_equations<#t: #rt::Scalar>(
                 &self,
-                #clock: #rt::f64,
-                #constants: &Self::Constants<#rt::Dual>,
-                varied: &Self::Varied,
-            ) -> Self::Varied {
+                #clock: #t,
+                #constants: &Self::Constants<#rt::Dual<#t>>,
+                varied: &Self::Varied<#t>,
+            ) -> Self::Varied<#t> {
                 let #bound = *varied;
                 #values
                 #slopes
