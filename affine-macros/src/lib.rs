@@ -19,7 +19,7 @@ use proc_macro::TokenStream;
 /// | `forces` | sum of `custom(..)` | forces that fields compute, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
-/// | `emit(...)` | `taylor`, `two_polar`, `metric`, `acceleration` | what is emitted beyond the default, below; `two_polar` is the lattice form `(q, p, M, N)` of doubly isotropic models |
+/// | `emit(...)` | `taylor`, `nystrom`, `splitting`, `tangent`, `two_polar`, `lanes`, `metric`, `acceleration` | what is emitted beyond the default, below; `two_polar` is the lattice form `(q, p, M, N)` of doubly isotropic models |
 /// | `crate` | path | the runtime, where it has another name than `affine_runtime` |
 ///
 /// | term | energy |
@@ -60,6 +60,10 @@ use proc_macro::TokenStream;
 /// `emit(metric)` adds the methods `metric(&phi)` and `inverse_metric(&phi)`, the configuration metric over
 /// `(x_dot, phi_dot)` with `phi_dot` row by row, and its inverse; `emit(acceleration)` adds `acceleration(&point)`, the
 /// acceleration of the centre of mass.
+///
+/// `emit(nystrom)` states the equations of `dalembert` and `flat_tensor` under a potential as `q'' = f(t, q)`, for
+/// Runge-Kutta-Nystrom steps of order 12; `emit(tangent)` adds the variational equations, which
+/// `affine_runtime::variation::Variation` integrates.
 ///
 /// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
 /// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)`, their entries `G[1,2]`, with
@@ -106,7 +110,7 @@ use proc_macro::TokenStream;
 /// the energy then stays conserved.
 ///
 /// Dissipation and fields are refused beside `constraint`, `metrics(...)`, `casimir3`, terms of different frames,
-/// `group = unitary`, `emit(taylor)`, `emit(two_polar)` and `emit(acceleration)`; but a potential of a field goes with
+/// `group = unitary`, `emit(taylor)`, `emit(nystrom)`, `emit(two_polar)` and `emit(acceleration)`; but a potential of a field goes with
 /// `constraint = isochoric` and `dalembert`, where the multiplier keeps the constraint.
 ///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where

@@ -41,7 +41,8 @@ use output::Output;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
-    /// The closed form where model and start have one; else [`Method::Taylor`] where `emit(taylor)` asked for it and
+    /// The closed form where model and start have one; else [`Method::RungeKuttaNystrom12`] where `emit(nystrom)` asked for
+    /// it; else [`Method::Taylor`] where `emit(taylor)` asked for it and
     /// the tolerance is at most [`TAYLOR_TOLERANCE`]; else [`Method::RungeKutta8`]. The motion of a body under a
     /// constraint is integrated in charts of its group, see [`Chart`](crate::integrate::lie::Chart), by Runge-Kutta
     /// steps and by Gauss collocation: the placement stays on the group up to rounding.

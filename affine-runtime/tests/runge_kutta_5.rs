@@ -45,7 +45,7 @@ fn errors(n: usize) -> (f64, f64) {
 
 #[test]
 fn solution_is_of_order_5_and_dense_output_of_order_4() {
-    let (few, many) = (errors(40), errors(80));
+    let (few, many) = (errors(150), errors(300));
     let orders = ((few.0 / many.0).log2(), (few.1 / many.1).log2());
     // The error of the polynomial over one step is of order h^5.
     assert!((orders.0 - 5.0).abs() < 0.3 && (orders.1 - 5.0).abs() < 0.3, "{orders:?}");

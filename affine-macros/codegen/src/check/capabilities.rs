@@ -8,28 +8,6 @@ use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::mechanics::potential::Potential;
 use crate::spec::{Capability, Named, Spec};
 
-/// A capability that cannot be emitted is refused rather than ignored: code that relies on it would fail far
-/// from here.
-pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
-    let available = [
-        Capability::Splitting,
-        Capability::Taylor,
-        Capability::Nystrom,
-        Capability::TwoPolar,
-        Capability::Tangent,
-        Capability::Lanes,
-        Capability::Metric,
-        Capability::Acceleration,
-    ];
-    for capability in spec.emit.iter().filter(|c| !available.contains(&c.value)) {
-        let name = capability.value;
-        found.report(
-            capability.span,
-            Diagnostic::UnavailableCapability { capability: name.name(), gives: name.gives() },
-        );
-    }
-}
-
 /// Where the centre of mass is fixed it has no acceleration.
 pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
     let asked = spec.emit.iter().find(|capability| capability.value == Capability::Acceleration);

@@ -113,13 +113,6 @@ pub enum Diagnostic {
         /// The reason.
         why: &'static str,
     },
-    /// A capability that this version does not have.
-    UnavailableCapability {
-        /// The capability.
-        capability: &'static str,
-        /// What it will give.
-        gives: &'static str,
-    },
     /// `two_polar` for a model that rotations of space or body change.
     NotDoublyIsotropic {
         /// What they change: a term, or the potential.
@@ -691,7 +684,6 @@ names! {
     CapabilityBeside => "capability-beside",
     NoExactPieces => "no-exact-pieces",
     NotSecondOrder => "not-second-order",
-    UnavailableCapability => "unavailable-capability",
     NotDoublyIsotropic => "not-doubly-isotropic",
     UnitaryTerm => "unitary-term",
     LatticeWithout => "lattice-without",

@@ -130,14 +130,6 @@ impl Diagnostic {
                 format!("Nystrom methods integrate q'' = f(t, q); {why}"),
                 "remove `nystrom` from `emit(...)`: Runge-Kutta and Taylor methods integrate the model",
             ),
-            Self::UnavailableCapability { capability, gives } => text(
-                format!("the capability `{capability}` is not available in this version"),
-                format!(
-                    "it will give {gives}; this version emits the default, Hamilton's equations, `splitting`, `taylor`, \
-                      `two_polar` and `lanes`"
-                ),
-                format!("remove `{capability}` from `emit(...)`"),
-            ),
             Self::NotDoublyIsotropic { part, side, transformation } => text(
                 format!("`two_polar` needs a doubly isotropic model, and {part} is not isotropic in {side}"),
                 format!(

@@ -168,23 +168,6 @@ impl Named for Capability {
     }
 }
 
-impl Capability {
-    /// What it gives, as the end of a sentence.
-    #[must_use]
-    pub fn gives(self) -> &'static str {
-        match self {
-            Self::Splitting => "the exact sub-flows of the pieces of H",
-            Self::Taylor => "Taylor coefficients of the motion to any order",
-            Self::Nystrom => "the equations as q'' = f(t, q)",
-            Self::TwoPolar => "the lattice form (q, p, M, N)",
-            Self::Tangent => "the variational equations",
-            Self::Lanes => "evaluation over SIMD lanes",
-            Self::Metric => "the configuration metric and its inverse",
-            Self::Acceleration => "the acceleration of the centre of mass",
-        }
-    }
-}
-
 /// The kinds of terms of a kinetic energy; `Oh = phi^-1 phi_dot`, `Om = phi_dot phi^-1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TermKind {
