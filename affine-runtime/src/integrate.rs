@@ -1,5 +1,6 @@
 //! Integrators of `y' = f(t, y)` for fixed-size state vectors. They know nothing of bodies, and do not allocate.
 
+mod equal_steps;
 mod error_norm;
 pub mod gauss;
 pub mod lie;
@@ -16,6 +17,8 @@ pub mod taylor;
 mod widest;
 
 pub use error_norm::ErrorNorm;
+#[cfg(feature = "std")]
+pub(crate) use equal_steps::step_count;
 pub(crate) use error_norm::norm;
 #[cfg(feature = "std")]
 pub(crate) use error_norm::sum_of_squares;

@@ -3,9 +3,10 @@
 use super::halt::Setting;
 use super::output::Schedule;
 use super::{Method, Simulation};
-use crate::integrate::gauss::{Tableau, step_count};
+use crate::integrate::gauss::Tableau;
 use crate::integrate::rattle::Composition;
 use crate::integrate::splitting::Sweeps;
+use crate::integrate::step_count;
 use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER};
 use crate::model::{Constraint, Model};
 
