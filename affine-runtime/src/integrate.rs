@@ -16,9 +16,9 @@ pub(crate) mod tape;
 pub mod taylor;
 mod widest;
 
-pub use error_norm::ErrorNorm;
 #[cfg(feature = "std")]
 pub(crate) use equal_steps::step_count;
+pub use error_norm::ErrorNorm;
 pub(crate) use error_norm::norm;
 #[cfg(feature = "std")]
 pub(crate) use error_norm::sum_of_squares;

@@ -205,7 +205,7 @@ pub(super) fn best_reduction(
     (rotations, asked): (bool, Asked),
     coefficients: &mut Constants,
 ) -> Option<Reduced> {
-    let candidates = reduce::candidates(arena, h, potential, forces, rotations);
+    let candidates = reduce::candidates(arena, h, potential, forces, (rotations, asked.nystrom));
     let time = time(arena, potential, forces);
     let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
         let split = asked.split.then(|| Programs::of(arena, h, potential, reduction, constants));
