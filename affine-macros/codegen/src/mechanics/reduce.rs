@@ -142,7 +142,7 @@ pub fn commuting(
 }
 
 /// Every chart in which the rest of `H` is a polynomial, reduced; `rotations` tells whether those of space leave `H`
-/// unchanged.
+/// unchanged, `halves` asks for the chart of the energy itself, with a momentum for each position.
 pub fn candidates(
     arena: &mut Arena,
     h: &Hamiltonian,
