@@ -28,7 +28,8 @@ struct Vibrating {
 #[affine_model(
     dim = 2,
     kinetic(casimir2 = a, body_inertia = i, body_translation = 1),
-    potential = cosh(q) + neo_hookean(0.5) + sqrt(1 + tr(G)) + tanh(tr(G)/9) + exp(-tr(G)) + cos(t)*sin(tr(Ct)/5),
+    potential = cosh(q) + neo_hookean(0.5) + sqrt(1 + tr(G)) + tanh(tr(G)/9) + exp(-tr(G)) + ln(1 + det^2)
+        + tan(det/9) + sinh(tr(Ct)/20) + cos(t)*sin(tr(Ct)/5),
     emit(tangent),
 )]
 struct Driven {

@@ -4,7 +4,6 @@ use super::halt::{Reason, Setting};
 use super::point::placement_in;
 use super::recorder::Recorder;
 use super::stepper::Explicit;
-use super::trajectory::Computation;
 use super::{Method, Simulation, TAYLOR_TOLERANCE};
 use crate::integrate::gauss::Tableau;
 use crate::integrate::lie::{Chart, Coordinates};
@@ -16,9 +15,12 @@ use crate::model::{Constraint, Group, Model, StateVector};
 
 impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     /// The integrator to take, noted with what was missing for a better one.
-    pub(super) fn chosen(&self, computation: &mut Computation) -> Method {
+    pub(super) fn chosen(&self, recorder: &mut Recorder<'_, '_, N, M>) -> Method {
+        // Within steps it costs a step for each time that is looked at.
+        let halves = self.model.second_order().is_some() && !recorder.has_events();
+        let computation = &mut recorder.trajectory.computation;
         computation.method = match self.method {
-            Method::Automatic if self.model.second_order().is_some() => Method::RungeKuttaNystrom12,
+            Method::Automatic if halves => Method::RungeKuttaNystrom12,
             Method::Automatic
                 if self.tolerance <= TAYLOR_TOLERANCE && M::DESCRIPTION.constraint.is_none() =>
             {

@@ -169,7 +169,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             (Method::Splitting { order, step }, _) => {
                 self.integrate_by_splitting((order, step), t_end, recorder)
             }
-            _ => match (chart::<N, M>(), self.chosen(&mut recorder.trajectory.computation)) {
+            _ => match (chart::<N, M>(), self.chosen(recorder)) {
                 (_, Method::Taylor { order }) => self.integrate_by_series(order, t_end, recorder),
                 (_, Method::RungeKuttaNystrom12) => self.integrate_in_halves(t_end, recorder),
                 (Some(_), _) if is_canonical::<N, M>() => self.integrate_with_reaction(t_end, recorder),
