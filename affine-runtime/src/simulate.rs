@@ -42,8 +42,8 @@ use output::Output;
 #[non_exhaustive]
 pub enum Method {
     /// The closed form where model and start have one; else [`Method::RungeKuttaNystrom12`] where `emit(nystrom)` asked for
-    /// it and no events are looked for, between steps, where it costs a step; else [`Method::Taylor`] where `emit(taylor)` asked for it and
-    /// the tolerance is at most [`TAYLOR_TOLERANCE`]; else [`Method::RungeKutta8`]. The motion of a body under a
+    /// it, unless there are events, which look at times within steps; else [`Method::Taylor`] where `emit(taylor)` asked
+    /// for it and the tolerance is at most [`TAYLOR_TOLERANCE`]; else [`Method::RungeKutta8`]. The motion of a body under a
     /// constraint is integrated in charts of its group, see [`Chart`](crate::integrate::lie::Chart), by Runge-Kutta
     /// steps and by Gauss collocation: the placement stays on the group up to rounding.
     #[default]

@@ -170,3 +170,22 @@ fn what_was_not_emitted_is_named() {
         Simulation::new(&Plain, start).until(1.0).method(Method::RungeKutta5).tolerance(1e-6).run().unwrap();
     assert!(run.why().to_string().contains("Runge-Kutta of order 5"), "{}", run.why());
 }
+
+/// Events look at times within steps, which would cost a step each.
+#[test]
+fn events_are_left_to_the_method_with_a_dense_output() {
+    let model = Elastic { kappa: 10.0 }.prepare().unwrap();
+    let (_, phi, pi) = rows()[0];
+    let start = model.at_momentum(phi, TwoPoint(pi)).unwrap();
+    let run = |method: Method| {
+        let event =
+            Event::new("level", |_, p: &<PreparedElastic as Model<3>>::Point<f64>| p.phi()[(0, 0)] - 1.0);
+        Simulation::new(&model, start).until(3.0).tolerance(1e-10).method(method).event(event).run().unwrap()
+    };
+    let (chosen, asked) = (run(Method::Automatic), run(Method::RungeKuttaNystrom12));
+    assert_eq!(chosen.computation().method, Method::RungeKutta8);
+    assert!(!chosen.events().is_empty() && chosen.events().len() == asked.events().len());
+    for (a, b) in chosen.events().iter().zip(asked.events()) {
+        assert!((a.t - b.t).abs() < 1e-8, "{} {}", a.t, b.t);
+    }
+}
