@@ -97,11 +97,11 @@ pub(super) fn second_order(spec: &Spec, flat: bool, potential: Option<&Potential
         )),
         None if !flat => Some((
             "a kinetic energy of affine velocities".to_owned(),
-            "its mass matrix, as a form in phi_dot, depends on phi: phi'' depends on phi_dot",
+            "the mass matrix of phi_dot depends on phi here, and phi'' on phi_dot",
         )),
         None if potential.is_none() => Some((
             "a motion without a potential".to_owned(),
-            "it is a straight line, phi = phi0 + t phi_dot0, which is known in closed form",
+            "a free body moves in a straight line, phi = phi0 + t phi_dot0, known in closed form",
         )),
         None => None,
     };
@@ -119,7 +119,7 @@ pub(super) fn one_frame(spec: &Spec, found: &mut Diagnostics) {
     }
     if let Some(nystrom) = spec.emit.iter().find(|c| c.value == Capability::Nystrom) {
         let beside = "terms of different frames".to_owned();
-        let why = "the mass matrix of the sum depends on phi: phi'' depends on phi_dot";
+        let why = "the mass matrix of the sum depends on phi, and phi'' on phi_dot";
         found.report(nystrom.span, Diagnostic::NotSecondOrder { beside, why });
     }
 }

@@ -128,7 +128,7 @@ impl Diagnostic {
             Self::NotSecondOrder { beside, why } => text(
                 format!("`emit(nystrom)` does not go with {beside}"),
                 format!("Nystrom methods integrate q'' = f(t, q); {why}"),
-                "remove `nystrom` from `emit(...)`: Runge-Kutta and Taylor methods integrate the model",
+                "remove `nystrom` from `emit(...)`: the other methods integrate the model",
             ),
             Self::NotDoublyIsotropic { part, side, transformation } => text(
                 format!("`two_polar` needs a doubly isotropic model, and {part} is not isotropic in {side}"),
