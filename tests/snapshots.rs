@@ -165,6 +165,10 @@ families! {
         dissipation(space_inertia = 0.5, dalembert = diag(1, 2), body_translation = 0.25)";
     damped_dalembert_3: "dim = 3, kinetic(dalembert = diag(1, 1.5, 2), space_translation = 2), \
         dissipation(dalembert = diag(1, 2, 3), space_translation = 3)";
+    nystrom_anchored_2: "dim = 2, emit(nystrom), kinetic(dalembert = diag(1, 2), space_translation = 2), \
+        potential = hyperbolic_dilatation(10) + tr(G)/2 + cos(t)*x[1]^2/2 + x[1]*phi[1,2]";
+    tangent_missile_2: "dim = 2, emit(tangent), kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), \
+        potential = tr(G)/2 - ln(det)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.

@@ -19,7 +19,7 @@ use proc_macro::TokenStream;
 /// | `forces` | sum of `custom(..)` | forces that fields compute, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
-/// | `emit(...)` | `taylor`, `splitting`, `two_polar`, `ratios`, `lanes`, `metric`, `acceleration` | what is emitted beyond the default, below |
+/// | `emit(...)` | `taylor`, `nystrom`, `splitting`, `tangent`, `two_polar`, `ratios`, `lanes`, `metric`, `acceleration` | what is emitted beyond the default, below |
 /// | `crate` | path | the runtime, where it has another name than `affine_runtime` |
 ///
 /// | term | energy |
@@ -70,6 +70,9 @@ use proc_macro::TokenStream;
 /// `emit(two_polar)` is the lattice form `(q, p, M, N)` of doubly isotropic models. Beside it, `splitting` adds the exact flows
 /// of the lattice's pieces (`lattice::LatticeSplitting`; with `group = unitary` it stands alone), and `ratios`, for affine
 /// velocities without a potential, the same equations in `exp(q_b - q_a)`, `M + N` and `M - N`, where they are rational.
+/// `emit(nystrom)` states the equations of `dalembert` and `flat_tensor` under a potential as `q'' = f(t, q)`, for
+/// Runge-Kutta-Nystrom steps of order 12; `emit(tangent)` adds the variational equations, which
+/// `affine_runtime::variation::Variation` integrates.
 ///
 /// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
 /// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)`, their entries `G[1,2]`, with
@@ -116,7 +119,7 @@ use proc_macro::TokenStream;
 /// the energy then stays conserved.
 ///
 /// Dissipation and fields are refused beside `constraint`, `metrics(...)`, `casimir3`, terms of different frames,
-/// `group = unitary`, `emit(taylor)`, `emit(two_polar)` and `emit(acceleration)`; but a potential of a field goes with
+/// `group = unitary`, `emit(taylor)`, `emit(nystrom)`, `emit(two_polar)` and `emit(acceleration)`; but a potential of a field goes with
 /// `constraint = isochoric` and `dalembert`, where the multiplier keeps the constraint.
 ///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where

@@ -4,11 +4,13 @@
 //! bound. A [`Simulation`](crate::Simulation), which takes any model, asks [`Model`] instead: a provided method gives
 //! `Some` of the capability where it was emitted and `None::<NotEmitted>` elsewhere, a type without values.
 
+use crate::dual::Dual;
 use crate::integrate::lie::Sum;
+use crate::integrate::nystrom::SecondOrder;
 use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::{Portable, Series, Vectors};
 use crate::lanes::Lanes;
-use crate::model::{Model, StateVector};
+use crate::model::{Group, Model, StateVector};
 use crate::scalar::{Real, Scalar};
 
 /// `emit(taylor)`: Taylor coefficients of the reduced motion to any order, `y(t + h) = sum_k y_k h^k`.
@@ -121,6 +123,52 @@ pub trait Splitting<const N: usize>: Model<N> {
     );
 }
 
+/// `emit(tangent)`: the variational equations `(dy)' = f'(t, y) dy` beside `y' = f(t, y)`, over the reduced state;
+/// [`Variation`](crate::variation::Variation) integrates them.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no variational equations",
+    label = "`emit(tangent)` is missing",
+    note = "write `emit(tangent)` in its `#[affine_model(...)]`"
+)]
+pub trait Tangent<const N: usize>: Model<N> {
+    /// The reduced state, then its change.
+    type Varied<T: Scalar>: StateVector<T>;
+    /// Layout of both, for the norm of errors: the change is one group.
+    const VARIED: &'static [Group];
+
+    /// Time derivatives of state and change. The slopes of the constants are their derivatives along the direction.
+    fn variational_equations<T: Scalar>(
+        &self,
+        t: T,
+        constants: &Self::Constants<Dual<T>>,
+        varied: &Self::Varied<T>,
+    ) -> Self::Varied<T>;
+}
+
+/// `emit(nystrom)`: the reduced equations as `q' = V(p)`, `p' = F(t, q)`, for models whose kinetic energy has constant
+/// coefficients in `phi_dot` and `x_dot`. The reduced state is the positions, as many momenta, and `1/D` where it is carried
+/// along.
+#[diagnostic::on_unimplemented(
+    message = "the equations of `{Self}` are not stated as q'' = f(t, q)",
+    label = "`emit(nystrom)` is missing",
+    note = "write `emit(nystrom)` in its `#[affine_model(...)]`"
+)]
+pub trait SecondOrderEquations<const N: usize>: Model<N> {
+    /// The positions, or the momenta.
+    type Half<T: Scalar>: StateVector<T>;
+
+    /// `V(p)`, linear.
+    fn drift<T: Scalar>(&self, constants: &Self::Constants<T>, momenta: &Self::Half<T>) -> Self::Half<T>;
+
+    /// `F(t, q)`.
+    fn force<T: Scalar>(
+        &self,
+        t: T,
+        constants: &Self::Constants<T>,
+        positions: &Self::Half<T>,
+    ) -> Self::Half<T>;
+}
+
 /// A model that has the capability in question.
 #[derive(Clone, Copy, Debug)]
 pub struct Emitted<'a, M, const N: usize>(pub &'a M);
@@ -197,6 +245,42 @@ impl<S, C> Pieces<S, C> for NotEmitted {
     }
 
     fn flow(&self, _: usize, _: f64, _: f64, _: &C, _: &mut Sum<S>) {
+        match *self {}
+    }
+}
+
+impl<const N: usize, M: SecondOrderEquations<N>> SecondOrder<M::Reduced<f64>, M::Constants<f64>>
+    for Emitted<'_, M, N>
+{
+    type Half = M::Half<f64>;
+
+    #[inline(always)]
+    fn drift(&self, constants: &M::Constants<f64>, momenta: &Self::Half) -> Self::Half {
+        self.0.drift(constants, momenta)
+    }
+
+    #[inline(always)]
+    fn force(&self, t: f64, constants: &M::Constants<f64>, positions: &Self::Half) -> Self::Half {
+        self.0.force(t, constants, positions)
+    }
+
+    fn renewed(&self, state: &M::Reduced<f64>) -> M::Reduced<f64> {
+        self.0.renewed(state)
+    }
+}
+
+impl<S, C> SecondOrder<S, C> for NotEmitted {
+    type Half = [f64; 0];
+
+    fn drift(&self, _: &C, _: &[f64; 0]) -> [f64; 0] {
+        match *self {}
+    }
+
+    fn force(&self, _: f64, _: &C, _: &[f64; 0]) -> [f64; 0] {
+        match *self {}
+    }
+
+    fn renewed(&self, _: &S) -> S {
         match *self {}
     }
 }

@@ -1,27 +1,34 @@
 //! Integrators of `y' = f(t, y)` for fixed-size state vectors. They know nothing of bodies, and do not allocate.
 
+mod equal_steps;
 mod error_norm;
 pub mod gauss;
 pub mod lie;
+pub mod nystrom;
+mod published;
 pub mod rattle;
 pub mod runge_kutta;
 pub mod splitting;
+mod stages;
 mod step_size;
 #[cfg(feature = "std")]
 pub(crate) mod tape;
 pub mod taylor;
 mod widest;
 
+#[cfg(feature = "std")]
+pub(crate) use equal_steps::step_count;
 pub use error_norm::ErrorNorm;
 pub(crate) use error_norm::norm;
 #[cfg(feature = "std")]
 pub(crate) use error_norm::sum_of_squares;
 pub use gauss::Gauss;
+pub use nystrom::RungeKuttaNystrom12;
 pub use rattle::Rattle;
 #[cfg(feature = "std")]
 pub(crate) use runge_kutta::in_lanes;
 
-pub use runge_kutta::RungeKutta8;
+pub use runge_kutta::{RungeKutta5, RungeKutta8};
 pub use splitting::Splitting;
 pub use taylor::Taylor;
 

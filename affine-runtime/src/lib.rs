@@ -24,6 +24,7 @@ pub mod counting;
 mod custom;
 pub mod decompose;
 mod dissipation;
+pub mod dual;
 mod elliptic;
 pub mod error;
 pub mod force;
@@ -47,6 +48,7 @@ pub mod signature;
 #[cfg(feature = "std")]
 pub mod simulate;
 pub mod state;
+pub mod variation;
 
 #[doc(hidden)]
 #[path = "private.rs"]

@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use crate::capability::NotEmitted;
 use crate::frames::{Matrix, Vector};
+use crate::integrate::nystrom::SecondOrder;
 use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::Series;
 use crate::metrics::Bases;
@@ -109,6 +110,11 @@ pub trait Model<const N: usize> {
 
     /// The exact flows of the pieces of the reduced motion, where `emit(splitting)` asked for them.
     fn splitting(&self) -> Option<impl Pieces<Self::Reduced<f64>, Self::Constants<f64>>> {
+        None::<NotEmitted>
+    }
+
+    /// The reduced equations as `q' = V(p)`, `p' = F(t, q)`, where `emit(nystrom)` asked for them.
+    fn second_order(&self) -> Option<impl SecondOrder<Self::Reduced<f64>, Self::Constants<f64>>> {
         None::<NotEmitted>
     }
 }
@@ -223,6 +229,8 @@ impl Group {
 
 /// Name of the group of one component that holds the integral of [`Model::power`] since the start.
 pub const WORK: &str = "work";
+/// Name of the group that holds the change of a reduced state, in the variational equations.
+pub const TANGENT: &str = "tangent";
 
 /// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

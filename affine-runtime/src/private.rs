@@ -3,18 +3,20 @@
 pub use core::primitive::f64;
 
 pub use crate::breathing::Breathing;
-pub use crate::capability::{Emitted, InLanes, Splitting, Taylor};
+pub use crate::capability::{Emitted, InLanes, SecondOrderEquations, Splitting, Tangent, Taylor};
 pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::custom::{
     comoving_force, potential_energy, potential_slopes, spatial_force, translational_force,
 };
 pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
 pub use crate::dissipation::{semidefinite, semidefinite_form};
+pub use crate::dual::Dual;
 pub use crate::error::Result;
 pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,
 };
 pub use crate::geodesic::{Geodesic, Motion};
+pub use crate::integrate::nystrom::SecondOrder;
 pub use crate::integrate::splitting::{Pieces, accumulate, conjugated, growth, left_product, right_product};
 pub use crate::integrate::taylor::{
     Series, Vectors, add_multiple, add_products, lanes, subtract_multiple, subtract_products,
@@ -28,7 +30,7 @@ pub use crate::lattice::{
 pub use crate::matrix_field::symmetric_part;
 pub use crate::metrics::{Bases, orthonormal};
 pub use crate::model::{
-    Conserved, Constraint, Description, Formula, Group, Model, Operations, Regularity, Velocity,
+    Conserved, Constraint, Description, Formula, Group, Model, Operations, Regularity, TANGENT, Velocity,
     VelocityDeterminesMomentum,
 };
 pub use crate::reduction::{

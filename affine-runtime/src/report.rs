@@ -75,6 +75,8 @@ fn method_name(method: Method) -> &'static str {
         Method::Automatic => "automatic",
         Method::ClosedForm => "closed form",
         Method::RungeKutta8 => "Runge-Kutta 8",
+        Method::RungeKutta5 => "Runge-Kutta 5",
+        Method::RungeKuttaNystrom12 => "Runge-Kutta-Nystrom 12",
         Method::Taylor { .. } => "Taylor",
         Method::Gauss { stages: 2, .. } => "Gauss 4",
         Method::Gauss { .. } => "Gauss 6",

@@ -1,17 +1,22 @@
 //! Simulations: from a start to output times, with everything that can stop them.
 
 mod checkpoint;
+mod closed_form;
 mod collapse;
 mod conservation;
 mod csv;
 mod ensemble;
 mod event;
+mod follow;
 mod halt;
+mod methods;
 mod output;
+mod point;
 mod power_balance;
 mod recorder;
 mod root;
 mod run;
+mod settings;
 mod signature;
 mod stepper;
 mod trajectory;
@@ -36,8 +41,9 @@ use output::Output;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
-    /// The closed form where model and start have one; else [`Method::Taylor`] where `emit(taylor)` asked for it and
-    /// the tolerance is at most [`TAYLOR_TOLERANCE`]; else [`Method::RungeKutta8`]. The motion of a body under a
+    /// The closed form where model and start have one; else [`Method::RungeKuttaNystrom12`] where `emit(nystrom)` asked for
+    /// it, unless there are events, which look at times within steps; else [`Method::Taylor`] where `emit(taylor)` asked
+    /// for it and the tolerance is at most [`TAYLOR_TOLERANCE`]; else [`Method::RungeKutta8`]. The motion of a body under a
     /// constraint is integrated in charts of its group, see [`Chart`](crate::integrate::lie::Chart), by Runge-Kutta
     /// steps and by Gauss collocation: the placement stays on the group up to rounding.
     #[default]
@@ -46,11 +52,17 @@ pub enum Method {
     ClosedForm,
     /// Embedded explicit Runge-Kutta method of order 8, [`RungeKutta8`](crate::integrate::RungeKutta8).
     RungeKutta8,
+    /// Embedded explicit Runge-Kutta method of order 5, [`RungeKutta5`](crate::integrate::RungeKutta5): the usual baseline.
+    RungeKutta5,
     /// Taylor series, [`Taylor`](crate::integrate::Taylor), of a model with `emit(taylor)`; an error for others.
     Taylor {
         /// The order, 2 to 32; `None`: the one that suits the tolerance.
         order: Option<usize>,
     },
+    /// Runge-Kutta-Nystrom method of order 12, [`RungeKuttaNystrom12`](crate::integrate::RungeKuttaNystrom12), of a model
+    /// with `emit(nystrom)`, whose equations are `q'' = f(t, q)`; an error for others. Output times between steps are
+    /// reached by a shorter step from the one before.
+    RungeKuttaNystrom12,
     /// Gauss collocation, [`Gauss`](crate::integrate::Gauss): implicit, symmetric, of order `2 stages`, in equal
     /// steps; the tolerance plays no part. Keeps every linear and quadratic first integral of the reduced equations
     /// up to rounding, and is symplectic where the reduced variables are canonical, `phi` and `Pi`. With affine spins
@@ -92,7 +104,12 @@ impl Method {
             Method::Gauss { step, .. } | Method::Rattle { step, .. } | Method::Splitting { step, .. } => {
                 Some(step)
             }
-            Method::Automatic | Method::ClosedForm | Method::RungeKutta8 | Method::Taylor { .. } => None,
+            Method::Automatic
+            | Method::ClosedForm
+            | Method::RungeKutta8
+            | Method::RungeKutta5
+            | Method::RungeKuttaNystrom12
+            | Method::Taylor { .. } => None,
         }
     }
 }

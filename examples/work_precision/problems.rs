@@ -41,7 +41,7 @@ pub(crate) struct Mirrored;
     dim = 3,
     kinetic(dalembert = diag(1, 1.5, 2)),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
-    emit(taylor),
+    emit(taylor, nystrom),
 )]
 pub(crate) struct Elastic {
     /// Stiffness of the dilatation.

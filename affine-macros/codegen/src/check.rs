@@ -40,7 +40,6 @@ pub use mixed::{MixedForm, Positive};
 pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> {
     symbols::hidden(spec, found);
     symbols::resolved(spec, found);
-    capabilities::available(spec, found);
     unitary::casimirs_alone(spec, found);
     constraint::stands_alone(spec, found);
     capabilities::ratios(spec, found);

@@ -6,6 +6,7 @@ mod mixed;
 mod prepared;
 mod programs;
 mod quantities;
+pub mod second_order;
 pub mod splitting;
 mod stated;
 
@@ -14,6 +15,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::check::{Energy, Form, eigenvalues, signature};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::ir::tangent::with_tangent;
 use crate::ir::taylor::Recurrence;
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
@@ -31,7 +33,7 @@ use crate::spec::{Capability, Spanned};
 pub use lattice::{PieceProgram, PiecePrograms, RatioProgram, TwoPolar};
 pub use metrics::ChangeOfBases;
 use prepared::{coefficient_program, conditions, damping, numeric_blocks};
-use programs::{Reduced, best_reduction, full_chart, full_equations, power_batch};
+use programs::{Asked, Reduced, best_reduction, full_chart, full_equations, power_batch};
 
 /// Everything that is emitted about a model.
 pub struct Model {
@@ -108,6 +110,10 @@ pub struct Model {
     pub taylor: Option<Recurrence>,
     /// Exact flows of the pieces of the reduced motion, if asked for.
     pub splitting: Option<splitting::Programs>,
+    /// State and its change -> rates and their changes, if asked for.
+    pub tangent: Option<Program>,
+    /// The equations as `q' = V(p)`, `p' = F(t, q)`, if asked for.
+    pub second_order: Option<second_order::Halves>,
 }
 
 /// The Legendre transformation and the energy in velocities.
@@ -240,6 +246,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         forces,
         metrics,
         split,
+        nystrom,
         two_polar,
         ratios,
         unitary,
@@ -289,8 +296,10 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
 
     let (full_chart, full_h) = full_chart(arena, &h);
     let full = full_equations(arena, &h, &full_chart, &full_h, potential, &forces, &mut coefficients);
-    let Reduced { reduction, equations: reduced, splitting, trajectory, fixed } =
-        best_reduction(arena, &h, potential, &forces, (rotations, split), &mut coefficients)?;
+    let Reduced { reduction, equations: reduced, pieces, trajectory, fixed } = {
+        let asked = (rotations, Asked { split, nystrom });
+        best_reduction(arena, &h, potential, &forces, asked, &mut coefficients)?
+    };
     let formulas = Formulas {
         kinetic_energy: match cubic {
             None => describe::kinetic_energy(arena, &kinetic),
@@ -417,7 +426,9 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         formulas,
         two_polar,
         taylor: None,
-        splitting,
+        tangent: None,
+        splitting: pieces.splitting,
+        second_order: pieces.second_order,
     })
 }
 
@@ -425,11 +436,18 @@ impl Model {
     /// Derives what `emit(...)` asks for.
     #[must_use]
     pub fn with(mut self, capabilities: &[Spanned<Capability>]) -> Self {
+        let states: Vec<String> = self.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect();
+        let program = &self.reduced.program;
         for capability in capabilities {
-            if capability.value == Capability::Taylor {
-                let states: Vec<String> =
-                    self.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect();
-                self.taylor = Some(Recurrence::of(&self.reduced.program, &states));
+            match capability.value {
+                Capability::Taylor => self.taylor = Some(Recurrence::of(program, &states)),
+                Capability::Tangent => {
+                    let own = (1..=self.trajectory.outputs.len()).map(|k| format!("k_{k}"));
+                    let changing: Vec<String> = states.iter().cloned().chain(own).collect();
+                    let along = with_tangent(program, &|name| changing.iter().any(|known| known == name));
+                    self.tangent = Some(fuse(&along));
+                }
+                _ => {}
             }
         }
         self

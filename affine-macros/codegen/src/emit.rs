@@ -13,8 +13,10 @@ mod points;
 mod prepare;
 mod quantities;
 mod reduction;
+mod second_order;
 mod separated;
 mod splitting;
+mod tangent;
 mod taylor;
 mod two_polar;
 
@@ -59,6 +61,8 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let two_polar = two_polar::implementations(&context);
     let (bases, _) = metrics::bases(&context);
     let splitting = splitting::splitting_impl(&context);
+    let second_order = second_order::implementation(&context);
+    let tangent = tangent::implementation(&context);
     let taylor = taylor::taylor_impl(&context);
     let lanes = reduction::lanes::implementation(&context);
     quote! {
@@ -72,8 +76,10 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #implementation
             #points
             #splitting
+            #second_order
             #two_polar
             #taylor
+            #tangent
             #lanes
         };
     }
@@ -232,6 +238,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let geodesic = closed_form::geodesic(context);
     let (_, bases) = metrics::bases(context);
     let splitting = splitting::capability(context);
+    let second_order = second_order::capability(context);
     let taylor = taylor::capability(context);
     let power = forces::power(context);
     quote! {
@@ -247,6 +254,7 @@ fn model_impl(context: &Context) -> TokenStream {
             #reduction
             #geodesic
             #splitting
+            #second_order
             #taylor
             #power
         }

@@ -5,6 +5,7 @@ pub mod call;
 pub mod count;
 pub mod fuse;
 pub mod run;
+pub mod tangent;
 pub mod taylor;
 
 use crate::algebra::{Function, Rational};

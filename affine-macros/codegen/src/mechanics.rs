@@ -22,6 +22,7 @@ pub mod momentum_side;
 mod notation;
 pub mod potential;
 pub mod reduce;
+pub mod second_order;
 pub mod separation;
 mod shared;
 pub mod splitting;

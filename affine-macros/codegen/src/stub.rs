@@ -90,7 +90,7 @@ impl Outline {
         let translation = moving.then(|| quote!(, body_translation = 1));
         let potential = self.potential.then(|| quote!(, potential = q^2));
         let runtime = self.runtime.as_ref().map(|path| quote!(, crate = #path));
-        let capabilities = ["splitting", "taylor"]
+        let capabilities = ["splitting", "taylor", "tangent"]
             .map(|key| self.names.iter().find(|name| *name == key))
             .into_iter()
             .flatten();

@@ -8,7 +8,7 @@ pub(crate) use in_lanes::{NormInLanes, norm as norm_in_lanes, sum_of_squares as 
 
 use core::ops::Range;
 
-use crate::model::{Group, StateVector, WORK};
+use crate::model::{Group, StateVector, TANGENT, WORK};
 use crate::scalar::Scalar;
 
 /// A state vector has at most so many groups with a floor of their own.
@@ -144,7 +144,7 @@ impl ErrorNorm {
     /// Components of the configuration that a momentum moves; `None` for what is no momentum.
     fn moved_by(&self, group: &Group) -> Option<Range<usize>> {
         match group.name {
-            "x" | "q" | "1/D" | WORK => None,
+            "x" | "q" | "1/D" | WORK | TANGENT => None,
             _ if group.is_placement() => None,
             "p" | "p_hat" => self.range_of("x"),
             _ => self.placement(),

@@ -8,6 +8,7 @@ pub use coefficients::Tableau;
 
 use core::fmt;
 
+use super::equal_steps::{EqualSteps, Times};
 use super::lie::{Coordinates, Flat, Sum};
 #[cfg(feature = "std")]
 use super::tape::Tape;
@@ -15,12 +16,6 @@ use super::{Failure, Statistics};
 use crate::model::StateVector;
 use coefficients::MOST_STAGES;
 use equations::{Equations, Field, Increments, Start, total};
-
-/// Steps are equal and none is longer than asked for; a length that divides the interval up to this many roundings
-/// is taken as it is.
-const ROUNDINGS: f64 = 8.0;
-/// More steps than numbers that a double counts exactly.
-const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 
 /// Integration of `y' = f(t, y)` from `t0` to `t_end`, in either direction of time, by Gauss collocation of 2 or 3
 /// stages (order 4 or 6) in `n = ceil(|t_end - t0|/step)` equal steps.
@@ -43,18 +38,10 @@ pub struct Gauss<S, F, C = Flat> {
     f: F,
     coordinates: C,
     equations: Equations<S>,
-    t0: f64,
-    t_end: f64,
-    h: f64,
-    count: u64,
-    /// Steps taken.
-    taken: u64,
-    begin: Sum<S>,
-    end: Sum<S>,
+    steps: EqualSteps<Sum<S>>,
     /// Of the last step; before the first, those that the slope at the start gives.
     increments: Increments<S>,
     residual: f64,
-    failure: Option<Failure>,
 }
 
 impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Gauss<S, F> {
@@ -89,8 +76,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
         t_end: f64,
         step: f64,
     ) -> Result<Self, Failure> {
-        let count = step_count(t0, t_end, step).ok_or(Failure::StepUnderflow)?;
-        let h = if count == 0 { 0.0 } else { (t_end - t0) / count as f64 };
+        let times = Times::new(t0, t_end, step)?;
         let slope = f(t0, &y0);
         if !is_finite(&y0) || !is_finite(&slope) {
             return Err(Failure::NotFinite);
@@ -100,27 +86,13 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
         let mut increments = [S::zeros(); MOST_STAGES];
         for (increment, weight) in increments.iter_mut().zip(tableau.weights) {
             for (increment, slope) in increment.as_mut().iter_mut().zip(slope.as_ref()) {
-                *increment = h * weight * slope;
+                *increment = times.length() * weight * slope;
             }
         }
         let mut equations = Equations::new(tableau);
         equations.evaluations = 1;
-        let (begin, end) = (start, start);
-        Ok(Self {
-            f,
-            coordinates,
-            equations,
-            t0,
-            t_end,
-            h,
-            count,
-            taken: 0,
-            begin,
-            end,
-            increments,
-            residual: 0.0,
-            failure: None,
-        })
+        let steps = EqualSteps::at(times, start);
+        Ok(Self { f, coordinates, equations, steps, increments, residual: 0.0 })
     }
 
     /// Takes one step; does nothing at `t_end`, which the last step hits exactly.
@@ -128,27 +100,14 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
     /// # Errors
     /// [`Failure::NoSolution`] or [`Failure::NotFinite`], now and ever after; the state stays that of the last step.
     pub fn advance(&mut self) -> Result<(), Failure> {
-        if let Some(failure) = self.failure {
-            return Err(failure);
-        }
-        if self.is_finished() {
-            return Ok(());
-        }
-        let guess = if self.taken == 0 { self.increments } else { self.continued(1.0, 1.0) };
-        match self.step(self.t(), self.end, self.h, guess) {
-            Ok((end, increments, residual)) => {
-                self.residual = if residual > self.residual { residual } else { self.residual };
-                self.increments = increments;
-                self.begin = self.end;
-                self.end = end;
-                self.taken += 1;
-                Ok(())
-            }
-            Err(failure) => {
-                self.failure = Some(failure);
-                Err(failure)
-            }
-        }
+        let Some((t, begin, h)) = self.steps.next()? else { return Ok(()) };
+        let guess = if self.steps.taken() == 0 { self.increments } else { self.continued(1.0, 1.0) };
+        let solved = self.step(t, begin, h, guess).map(|(end, increments, residual)| {
+            self.residual = if residual > self.residual { residual } else { self.residual };
+            self.increments = increments;
+            end
+        });
+        self.steps.take(solved)
     }
 
     /// The state at a time within the last step, by a shorter step of the same method from its beginning: of the
@@ -158,18 +117,14 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
     /// # Errors
     /// As [`advance`](Self::advance), but the integration can go on.
     pub fn at(&mut self, t: f64) -> Result<S, Failure> {
-        if self.taken == 0 || t == self.t() {
-            return Ok(self.end.value);
-        }
-        let begin = self.time(self.taken - 1);
-        let h = t - begin;
+        let Some((from, begin, h)) = self.steps.again_to(t) else { return Ok(*self.y()) };
         if h == 0.0 {
-            return Ok(self.begin.value);
+            return Ok(begin.value);
         }
-        let guess = self.continued(0.0, h / self.h);
+        let guess = self.continued(0.0, h / self.step_length());
         // The Jacobian that the steps work with, and whether they need one, stay as they are.
         let steps = self.equations.clone();
-        let between = self.step(begin, self.begin, h, guess);
+        let between = self.step(from, begin, h, guess);
         let evaluations = self.equations.evaluations;
         self.equations = steps;
         self.equations.evaluations = evaluations;
@@ -180,42 +135,40 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
     /// Jacobian with its factors.
     #[cfg(feature = "std")]
     pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
-        tape.bits(&mut self.taken);
-        tape.sum(&mut self.end);
+        self.steps.exchange(tape, |tape, end| tape.sum(end));
         self.increments.iter_mut().for_each(|increment| tape.state(increment));
         tape.number(&mut self.residual);
         tape.bits(&mut self.equations.evaluations);
-        self.begin = self.end;
     }
 
     /// Time reached.
     #[must_use]
     pub fn t(&self) -> f64 {
-        self.time(self.taken)
+        self.steps.t()
     }
 
     /// State reached.
     #[must_use]
     pub fn y(&self) -> &S {
-        &self.end.value
+        &self.steps.end().value
     }
 
     /// `t_end` is reached.
     #[must_use]
     pub fn is_finished(&self) -> bool {
-        self.taken == self.count
+        self.steps.is_finished()
     }
 
     /// Cost so far, with that of [`at`](Self::at). No step is rejected.
     #[must_use]
     pub fn statistics(&self) -> Statistics {
-        Statistics { steps: self.taken, rejected: 0, evaluations: self.equations.evaluations }
+        Statistics { steps: self.steps.taken(), rejected: 0, evaluations: self.equations.evaluations }
     }
 
     /// Length of the steps, negative backward in time.
     #[must_use]
     pub fn step_length(&self) -> f64 {
-        self.h
+        self.steps.times().length()
     }
 
     /// Largest defect that the iteration left in the stage equations of a step, relative to the largest component of
@@ -272,10 +225,6 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
         }
         continued
     }
-
-    fn time(&self, taken: u64) -> f64 {
-        if taken == self.count { self.t_end } else { self.t0 + taken as f64 * self.h }
-    }
 }
 
 impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> fmt::Debug for Gauss<S, F, C> {
@@ -284,29 +233,10 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> fmt::Debug for
             .field("stages", &self.equations.tableau.stages())
             .field("t", &self.t())
             .field("y", self.y())
-            .field("t_end", &self.t_end)
-            .field("step_length", &self.h)
+            .field("steps", self.steps.times())
             .field("statistics", &self.statistics())
             .finish_non_exhaustive()
     }
-}
-
-/// `ceil(|t_end - t0|/step)`; `None` where the step is not positive or is lost in the rounding of times.
-pub(crate) fn step_count(t0: f64, t_end: f64, step: f64) -> Option<u64> {
-    let span = (t_end - t0).abs();
-    let latest = if t0.abs() > t_end.abs() { t0.abs() } else { t_end.abs() };
-    if span == 0.0 && step > 0.0 {
-        return Some(0);
-    }
-    let exact = span / step;
-    if !(step > 0.0 && exact < MOST_STEPS && step > 4.0 * f64::EPSILON * latest) {
-        return None;
-    }
-    let whole = libm::round(exact);
-    let near = (exact - whole).abs() <= ROUNDINGS * f64::EPSILON * exact;
-    let count = if near { whole } else { libm::ceil(exact) };
-    // One step where it is longer than the interval, infinite steps included.
-    Some(if count > 1.0 { count as u64 } else { 1 })
 }
 
 fn is_finite<S: StateVector<f64>>(y: &S) -> bool {

@@ -10,7 +10,7 @@ pub use reaction::Reaction;
 
 use core::fmt;
 
-use super::gauss::step_count;
+use super::equal_steps::{EqualSteps, Times};
 use super::lie::{Sum, adjugate};
 #[cfg(feature = "std")]
 use super::tape::Tape;
@@ -50,16 +50,9 @@ pub struct Rattle<const N: usize, S, F> {
     f: F,
     layout: Layout<N>,
     composition: &'static Composition,
-    t0: f64,
-    t_end: f64,
-    h: f64,
-    count: u64,
-    taken: u64,
-    begin: Point<S>,
-    end: Point<S>,
+    steps: EqualSteps<Point<S>>,
     evaluations: u64,
     residual: f64,
-    failure: Option<Failure>,
 }
 
 /// A state with the forces there.
@@ -87,8 +80,7 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
         t_end: f64,
         step: f64,
     ) -> Result<Self, Failure> {
-        let count = step_count(t0, t_end, step).ok_or(Failure::StepUnderflow)?;
-        let h = if count == 0 { 0.0 } else { (t_end - t0) / count as f64 };
+        let times = Times::new(t0, t_end, step)?;
         if !is_finite(&y0) {
             return Err(Failure::NotFinite);
         }
@@ -111,15 +103,8 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
             evaluations: layout.evaluations() + 1,
             layout,
             composition,
-            t0,
-            t_end,
-            h,
-            count,
-            taken: 0,
-            begin: start,
-            end: start,
+            steps: EqualSteps::at(times, start),
             residual: 0.0,
-            failure: None,
         })
     }
 
@@ -129,24 +114,9 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
     /// [`Failure::NoSolution`], with what is left of `det phi - 1`, or [`Failure::NotFinite`], now and ever after; the
     /// state stays that of the last step.
     pub fn advance(&mut self) -> Result<(), Failure> {
-        if let Some(failure) = self.failure {
-            return Err(failure);
-        }
-        if self.is_finished() {
-            return Ok(());
-        }
-        match self.composed(self.t(), self.end, self.h) {
-            Ok(end) => {
-                self.begin = self.end;
-                self.end = end;
-                self.taken += 1;
-                Ok(())
-            }
-            Err(failure) => {
-                self.failure = Some(failure);
-                Err(failure)
-            }
-        }
+        let Some((t, begin, h)) = self.steps.next()? else { return Ok(()) };
+        let end = self.composed(t, begin, h);
+        self.steps.take(end)
     }
 
     /// The state at a time within the last step, by a shorter step of the same method from its beginning, which leaves
@@ -155,47 +125,46 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
     /// # Errors
     /// As [`advance`](Self::advance), but the integration can go on.
     pub fn at(&mut self, t: f64) -> Result<S, Failure> {
-        if self.taken == 0 || t == self.t() {
-            return Ok(self.end.state.value);
+        match self.steps.again_to(t) {
+            None => Ok(*self.y()),
+            Some((from, begin, h)) => self.composed(from, begin, h).map(|between| between.state.value),
         }
-        let begin = self.time(self.taken - 1);
-        self.composed(begin, self.begin, t - begin).map(|between| between.state.value)
     }
 
     /// Everything that the next steps depend on.
     #[cfg(feature = "std")]
     pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
-        tape.bits(&mut self.taken);
-        tape.sum(&mut self.end.state);
-        tape.state(&mut self.end.rates);
-        tape.number(&mut self.end.multiplier);
+        self.steps.exchange(tape, |tape, end| {
+            tape.sum(&mut end.state);
+            tape.state(&mut end.rates);
+            tape.number(&mut end.multiplier);
+        });
         tape.number(&mut self.residual);
         tape.bits(&mut self.evaluations);
-        self.begin = self.end;
     }
 
     /// Time reached.
     #[must_use]
     pub fn t(&self) -> f64 {
-        self.time(self.taken)
+        self.steps.t()
     }
 
     /// State reached.
     #[must_use]
     pub fn y(&self) -> &S {
-        &self.end.state.value
+        &self.steps.end().state.value
     }
 
     /// `t_end` is reached.
     #[must_use]
     pub fn is_finished(&self) -> bool {
-        self.taken == self.count
+        self.steps.is_finished()
     }
 
     /// Cost so far, with that of [`at`](Self::at). No step is rejected.
     #[must_use]
     pub fn statistics(&self) -> Statistics {
-        Statistics { steps: self.taken, rejected: 0, evaluations: self.evaluations }
+        Statistics { steps: self.steps.taken(), rejected: 0, evaluations: self.evaluations }
     }
 
     /// Largest `|det phi - 1|` that the iteration left, relative to the products in the determinant.
@@ -251,10 +220,6 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
     fn normal(&self, state: &S) -> S {
         self.layout.momentum(&adjugate(&self.layout.placement(state)))
     }
-
-    fn time(&self, taken: u64) -> f64 {
-        if taken == self.count { self.t_end } else { self.t0 + taken as f64 * self.h }
-    }
 }
 
 impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> fmt::Debug for Rattle<N, S, F> {
@@ -263,8 +228,7 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> fmt::Debug for Ra
             .field("order", &self.composition.order())
             .field("t", &self.t())
             .field("y", self.y())
-            .field("t_end", &self.t_end)
-            .field("step_length", &self.h)
+            .field("steps", self.steps.times())
             .field("statistics", &self.statistics())
             .finish_non_exhaustive()
     }

@@ -1,57 +1,75 @@
-//! Embedded explicit Runge-Kutta method of order 8 with step size control and dense output.
+//! Embedded explicit Runge-Kutta methods of orders 8 and 5 with step size control and dense output.
 
+mod dormand_prince_54;
 mod dormand_prince_853;
 #[cfg(feature = "std")]
 pub(crate) mod in_lanes;
+mod pair;
 mod step;
+#[cfg(test)]
+mod trees;
 
-pub use step::{Dense, Step};
+pub use pair::{DormandPrince54, DormandPrince853, Pair};
+pub use step::{Dense, OneStep, Step};
 
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, sum_of_squares};
 use super::lie::{Coordinates, Flat, Sum};
-use super::step_size::{Controller, first_step};
+use super::step_size::{Controller, first_step, next_time, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::taylor::Vectors;
 use super::widest::{Work, widest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
-use crate::scalar::Scalar;
 
-/// Adaptive integration of `y' = f(t, y)` from `t0` to `t_end`, in either direction of time, by the method of
-/// Dormand and Prince of order 8.
+/// The method of Dormand and Prince of order 8.
 ///
-/// A step is accepted when its estimated error, relative to the tolerance in the [`ErrorNorm`], is at most 1: with
-/// `e_5`, `e_3` the differences to the embedded solutions of orders 5 and 3,
-/// `error = h |e_5|^2 / sqrt(|e_5|^2 + 0.01 |e_3|^2)`, which is of order `h^8` (Hairer, Norsett, Wanner, Solving
-/// Ordinary Differential Equations I, (10.17)). The tolerance bounds the error of each step; what accumulates
-/// depends on the problem.
+/// With `e_5`, `e_3` the differences to the embedded solutions of orders 5 and 3, the estimated error is
+/// `h |e_5|^2 / sqrt(|e_5|^2 + 0.01 |e_3|^2)`, which is of order `h^8` (Hairer, Norsett, Wanner, Solving Ordinary
+/// Differential Equations I, (10.17)).
 ///
 /// Cost: 12 evaluations per accepted step, 11 (or 12, where only the slope at its end is not finite) per rejected
-/// one, 3 for the dense output of a step; at the start 2, and one for each component of a momentum.
+/// one, 3 for the dense output of a step.
+pub type RungeKutta8<S, F, C = Flat> = RungeKutta<DormandPrince853, S, F, C>;
+
+/// The method of Dormand and Prince of order 5, the usual baseline.
+///
+/// The estimated error is the difference to the embedded solution of order 4, of order `h^5`. Cost: 6 evaluations per
+/// step, accepted or rejected; the dense output is free.
+pub type RungeKutta5<S, F, C = Flat> = RungeKutta<DormandPrince54, S, F, C>;
+
+/// Adaptive integration of `y' = f(t, y)` from `t0` to `t_end`, in either direction of time, by an embedded explicit
+/// Runge-Kutta method: [`RungeKutta8`] or [`RungeKutta5`].
+///
+/// A step is accepted when its estimated error, relative to the tolerance in the [`ErrorNorm`], is at most 1. The
+/// tolerance bounds the error of each step; what accumulates depends on the problem.
+///
+/// Cost: that of the steps; at the start 2 evaluations, and one for each component of a momentum.
 #[derive(Clone)]
-pub struct RungeKutta8<S, F, C = Flat> {
+pub struct RungeKutta<P, S, F, C = Flat> {
     f: F,
     coordinates: C,
     error_norm: ErrorNorm,
     tolerance: f64,
     controller: Controller,
     /// In the coordinates around `begin`.
-    step: Step<S>,
+    step: OneStep<P, S>,
     begin: Sum<S>,
     /// The state reached.
     end: Sum<S>,
     /// Its time derivative.
     rate: S,
+    /// That of the state at the end of an attempted step.
+    trial_rate: S,
     length: f64,
     t_end: f64,
     failure: Option<Failure>,
     statistics: Statistics,
 }
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
+impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta<P, S, F> {
     /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`].
     ///
     /// # Errors
@@ -67,12 +85,12 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta8<S, F> {
     }
 }
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S, F, C> {
+impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta<P, S, F, C> {
     /// The integration at its start, in other coordinates: on a group, in the chart around the beginning of each step.
     /// Errors are those of the state itself, in the norm of `groups`.
     ///
     /// # Errors
-    /// As [`new`](RungeKutta8::new).
+    /// As [`new`](RungeKutta::new).
     pub fn within(
         coordinates: C,
         f: F,
@@ -91,13 +109,13 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
             let probes;
             (error_norm, probes) = ErrorNorm::probed(groups, &f, (t0, &y0, &slope));
             statistics.evaluations += probes;
-            length = first_step(&f, &error_norm, (t0, &y0, &slope), t_end - t0, tolerance);
+            length = first_step(&f, &error_norm, (t0, &y0, &slope), t_end - t0, (tolerance, P::ERROR_ORDER));
             statistics.evaluations += 1;
         }
-        let controller = Controller::new();
+        let controller = Controller::of(P::ERROR_ORDER);
         let begin = Sum::of(y0);
         let origin = coordinates.origin(&begin).value;
-        let step = Step::at(t0, origin, coordinates.velocity(&y0, &origin, &slope));
+        let step = OneStep::at(t0, origin, coordinates.velocity(&y0, &origin, &slope));
         Ok(Self {
             f,
             coordinates,
@@ -108,6 +126,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
             begin,
             end: begin,
             rate: slope,
+            trial_rate: slope,
             length,
             t_end,
             failure: None,
@@ -128,14 +147,17 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
         }
         self.begin_next();
         loop {
-            let end = self.next_time();
-            self.statistics.evaluations += 11;
+            let end = next_time(self.step.time(), self.length, self.t_end);
+            self.statistics.evaluations += P::EVALUATIONS + u64::from(P::NEEDS_END);
             let (reached, mut error) = widest(Trial { integration: self, end });
             if error <= 1.0 {
-                self.rate = (self.f)(end, &reached.value);
-                let slope = self.coordinates.velocity(&reached.value, self.step.trial_end(), &self.rate);
+                if !P::NEEDS_END {
+                    self.slope_at(end, &reached.value);
+                    self.statistics.evaluations += 1;
+                }
+                self.rate = self.trial_rate;
+                let slope = *self.step.end_slope();
                 self.step.accept_with(slope);
-                self.statistics.evaluations += 1;
                 if is_finite(&slope) {
                     self.end = reached;
                     self.statistics.steps += 1;
@@ -146,7 +168,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
             }
             self.statistics.rejected += 1;
             self.length = self.step.length().abs() * self.controller.reject(error);
-            if self.length <= self.shortest() {
+            if self.length <= shortest(self.step.time(), self.t_end) {
                 self.step.withdraw();
                 let failure = if error.is_finite() { Failure::StepUnderflow } else { Failure::NotFinite };
                 self.failure = Some(failure);
@@ -155,9 +177,9 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
         }
     }
 
-    /// Dense output over the last accepted step: three evaluations.
+    /// Dense output over the last accepted step: [`Pair::DENSE_EVALUATIONS`].
     pub fn dense(&mut self) -> Dense<S, C> {
-        self.statistics.evaluations += 3;
+        self.statistics.evaluations += P::DENSE_EVALUATIONS;
         let dense = self.step.dense(&in_coordinates(&self.f, self.coordinates, &self.begin));
         dense.around(self.coordinates, self.begin, self.end.value)
     }
@@ -173,7 +195,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
         self.controller.exchange(tape);
         tape.statistics(&mut self.statistics);
         let origin = self.coordinates.origin(&self.end).value;
-        self.step = Step::at(t, origin, self.coordinates.velocity(&self.end.value, &origin, &self.rate));
+        self.step = OneStep::at(t, origin, self.coordinates.velocity(&self.end.value, &origin, &self.rate));
         self.begin = self.end;
     }
 
@@ -206,8 +228,19 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
     fn attempt(&mut self, end: f64) -> (Sum<S>, f64) {
         self.step.attempt(&in_coordinates(&self.f, self.coordinates, &self.begin), end);
         let reached = self.coordinates.state(&self.begin, self.step.trial_end());
+        if P::NEEDS_END {
+            self.slope_at(end, &reached.value);
+        }
         let error = self.error(&reached.value);
         (reached, error)
+    }
+
+    /// The slope at the end of the attempted step.
+    #[inline(always)]
+    fn slope_at(&mut self, end: f64, reached: &S) {
+        self.trial_rate = (self.f)(end, reached);
+        let slope = self.coordinates.velocity(reached, self.step.trial_end(), &self.trial_rate);
+        self.step.set_end(slope);
     }
 
     /// Turns to the next step, in coordinates around the state reached.
@@ -218,47 +251,25 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta8<S,
         self.step.begin_next_at(origin, slope);
     }
 
-    /// End of the step to try: `t_end` itself where the step reaches about there, and half the way where it
-    /// reaches further than that, since a step and a short rest cost as much as two equal ones.
-    fn next_time(&self) -> f64 {
-        let t = self.step.time();
-        let rest = self.t_end - t;
-        if 1.01 * self.length >= rest.abs() {
-            self.t_end
-        } else if 2.0 * self.length > rest.abs() {
-            t + 0.5 * rest
-        } else {
-            t + self.length.copysign(rest)
-        }
-    }
-
-    /// Steps at or below this length are lost in the rounding of times.
-    fn shortest(&self) -> f64 {
-        let t = self.step.time().abs();
-        let span = (self.t_end - self.step.time()).abs();
-        16.0 * f64::EPSILON * if t > f64::EPSILON * span { t } else { f64::EPSILON * span }
-    }
-
     /// Estimated error of the attempted step relative to the tolerance; NaN where something is not finite.
     #[inline(always)]
     fn error(&self, reached: &S) -> f64 {
-        let (fifth, third) = self.step.error_slopes();
-        let fifth = self.coordinates.change(&self.begin, &fifth);
-        let third = self.coordinates.change(&self.begin, &third);
+        let (first, second) = self.step.error_slopes();
+        let first = self.coordinates.change(&self.begin, &first);
+        let second = self.coordinates.change(&self.begin, &second);
         let before = self.begin.value.as_ref();
         let after = reached.as_ref();
         let relative = self.error_norm.largest(self.step.length().abs(), before, after, |range| {
-            let fifth = sum_of_squares(&fifth.as_ref()[range.clone()]);
-            let third = sum_of_squares(&third.as_ref()[range]);
-            if fifth == 0.0 { 0.0 } else { fifth / Scalar::sqrt(fifth + 0.01 * third) }
+            let squares = |slopes: &S| sum_of_squares(&slopes.as_ref()[range.clone()]);
+            P::error((squares(&first), squares(&second)))
         });
         self.step.length().abs() * relative / self.tolerance
     }
 }
 
-impl<S: StateVector<f64>, F, C> fmt::Debug for RungeKutta8<S, F, C> {
+impl<P: Pair, S: StateVector<f64>, F, C> fmt::Debug for RungeKutta<P, S, F, C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("RungeKutta8")
+        f.debug_struct(P::NAME)
             .field("t", &self.step.end_time())
             .field("y", &self.end.value)
             .field("t_end", &self.t_end)
@@ -269,12 +280,12 @@ impl<S: StateVector<f64>, F, C> fmt::Debug for RungeKutta8<S, F, C> {
 }
 
 /// A step of an integration to the time `end`.
-struct Trial<'a, S, F, C> {
-    integration: &'a mut RungeKutta8<S, F, C>,
+struct Trial<'a, P, S, F, C> {
+    integration: &'a mut RungeKutta<P, S, F, C>,
     end: f64,
 }
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Work for Trial<'_, S, F, C> {
+impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Work for Trial<'_, P, S, F, C> {
     type Output = (Sum<S>, f64);
     #[inline(always)]
     fn run(self, _vectors: impl Vectors) -> (Sum<S>, f64) {

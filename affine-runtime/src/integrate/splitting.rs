@@ -8,7 +8,7 @@ pub use growth::{accumulate, conjugated, growth, left_product, right_product};
 
 use core::fmt;
 
-use super::gauss::step_count;
+use super::equal_steps::{EqualSteps, Times};
 use super::lie::Sum;
 #[cfg(feature = "std")]
 use super::tape::Tape;
@@ -42,15 +42,8 @@ pub struct Splitting<S, C, P> {
     pieces: P,
     constants: C,
     sweeps: Sweeps,
-    t0: f64,
-    t_end: f64,
-    h: f64,
-    count: u64,
-    taken: u64,
-    begin: Sum<S>,
-    end: Sum<S>,
+    steps: EqualSteps<Sum<S>>,
     evaluations: u64,
-    failure: Option<Failure>,
 }
 
 impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
@@ -78,26 +71,11 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
         t_end: f64,
         step: f64,
     ) -> Result<Self, Failure> {
-        let count = step_count(t0, t_end, step).ok_or(Failure::StepUnderflow)?;
-        let h = if count == 0 { 0.0 } else { (t_end - t0) / count as f64 };
+        let times = Times::new(t0, t_end, step)?;
         if !is_finite(&y0) {
             return Err(Failure::NotFinite);
         }
-        let start = Sum::of(y0);
-        Ok(Self {
-            pieces,
-            constants,
-            sweeps,
-            t0,
-            t_end,
-            h,
-            count,
-            taken: 0,
-            begin: start,
-            end: start,
-            evaluations: 0,
-            failure: None,
-        })
+        Ok(Self { pieces, constants, sweeps, steps: EqualSteps::at(times, Sum::of(y0)), evaluations: 0 })
     }
 
     /// Takes one step; does nothing at `t_end`, which the last step hits exactly.
@@ -105,20 +83,9 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
     /// # Errors
     /// [`Failure::NotFinite`], now and ever after; the state stays that of the last step.
     pub fn advance(&mut self) -> Result<(), Failure> {
-        if let Some(failure) = self.failure {
-            return Err(failure);
-        }
-        if self.is_finished() {
-            return Ok(());
-        }
-        let end = self.composed(self.t(), self.end, self.h);
-        if !is_finite(&end.value) {
-            self.failure = Some(Failure::NotFinite);
-            return Err(Failure::NotFinite);
-        }
-        (self.begin, self.end) = (self.end, end);
-        self.taken += 1;
-        Ok(())
+        let Some((t, begin, h)) = self.steps.next()? else { return Ok(()) };
+        let end = self.composed(t, begin, h);
+        self.steps.take(if is_finite(&end.value) { Ok(end) } else { Err(Failure::NotFinite) })
     }
 
     /// The state at a time within the last step, by a shorter step of the same method from its beginning, which leaves
@@ -127,44 +94,40 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
     /// # Errors
     /// [`Failure::NotFinite`], but the integration can go on.
     pub fn at(&mut self, t: f64) -> Result<S, Failure> {
-        if self.taken == 0 || t == self.t() {
-            return Ok(self.end.value);
-        }
-        let begin = self.time(self.taken - 1);
-        let between = self.composed(begin, self.begin, t - begin).value;
+        let Some((from, begin, h)) = self.steps.again_to(t) else { return Ok(*self.y()) };
+        let between = self.composed(from, begin, h).value;
         if is_finite(&between) { Ok(between) } else { Err(Failure::NotFinite) }
     }
 
     /// Everything that the next steps depend on.
     #[cfg(feature = "std")]
     pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
-        tape.bits(&mut self.taken);
-        tape.sum(&mut self.end);
+        self.steps.exchange(tape, |tape, end| tape.sum(end));
         tape.bits(&mut self.evaluations);
     }
 
     /// Time reached.
     #[must_use]
     pub fn t(&self) -> f64 {
-        self.time(self.taken)
+        self.steps.t()
     }
 
     /// State reached.
     #[must_use]
     pub fn y(&self) -> &S {
-        &self.end.value
+        &self.steps.end().value
     }
 
     /// `t_end` is reached.
     #[must_use]
     pub fn is_finished(&self) -> bool {
-        self.taken == self.count
+        self.steps.is_finished()
     }
 
     /// Cost so far, with that of [`at`](Self::at). No step is rejected.
     #[must_use]
     pub fn statistics(&self) -> Statistics {
-        Statistics { steps: self.taken, rejected: 0, evaluations: self.evaluations }
+        Statistics { steps: self.steps.taken(), rejected: 0, evaluations: self.evaluations }
     }
 
     /// One step of the composition.
@@ -181,10 +144,6 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
         self.evaluations += evaluations;
         state
     }
-
-    fn time(&self, taken: u64) -> f64 {
-        if taken == self.count { self.t_end } else { self.t0 + taken as f64 * self.h }
-    }
 }
 
 impl<S: StateVector<f64>, C, P: Pieces<S, C>> fmt::Debug for Splitting<S, C, P> {
@@ -193,8 +152,7 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> fmt::Debug for Splitting<S, C, P> 
             .field("order", &self.sweeps.order())
             .field("t", &self.t())
             .field("y", self.y())
-            .field("t_end", &self.t_end)
-            .field("step_length", &self.h)
+            .field("steps", self.steps.times())
             .field("statistics", &self.statistics())
             .finish_non_exhaustive()
     }

@@ -6,36 +6,36 @@ use super::tape::Tape;
 use crate::model::StateVector;
 use crate::scalar::Scalar;
 
-/// Order of the leading term of the error estimate in the step size.
-pub(super) const ERROR_ORDER: f64 = 8.0;
-
 /// Below 1, so that the next step is accepted although the error grows along the way: steps settle where the error
-/// is `SAFETY^(8/INTEGRAL)`, a third of the tolerance.
+/// is `SAFETY^(k/INTEGRAL)`, a third of the tolerance for `k = 8`.
 const SAFETY: f64 = 0.9;
 /// A step is at most so many times longer than the one before: the estimate holds only nearby.
 const LARGEST_GROWTH: f64 = 6.0;
 /// And at least so long.
 const LARGEST_CUT: f64 = 0.2;
-/// The integral part of the controller: `h ~ error^(-k/8)`; 1 without a proportional part would be the plain
+/// The integral part of the controller: `h ~ error^(-I/k)`; 1 without a proportional part would be the plain
 /// controller. On the test problems all usual pairs give the same error for the same work, up to a few percent.
 const INTEGRAL: f64 = 0.8;
-/// Its proportional part: `h ~ (previous error / error)^(k/8)`, which damps oscillations of the step size.
+/// Its proportional part: `h ~ (previous error / error)^(P/k)`, which damps oscillations of the step size.
 const PROPORTIONAL: f64 = 0.3;
 /// Errors below this fraction of the tolerance carry no information on the trend.
 const SMALLEST_ERROR: f64 = 1e-4;
 
 /// The proportional-integral controller (K. Gustafsson, ACM Trans. Math. Software 17 (1991) 533-554):
-/// `h_next = h S error^(-(I + P)/8) previous^(P/8)`, errors relative to the tolerance.
+/// `h_next = h S error^(-(I + P)/k) previous^(P/k)` for an error of order `h^k`, errors relative to the tolerance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Controller {
+    /// `k`.
+    order: f64,
     /// Logarithm of the previous error.
     previous: f64,
     rejected: bool,
 }
 
 impl Controller {
-    pub(crate) fn new() -> Self {
-        Self { previous: libm::log(SMALLEST_ERROR), rejected: false }
+    /// For an error of order `h^order`.
+    pub(crate) fn of(order: f64) -> Self {
+        Self { order, previous: libm::log(SMALLEST_ERROR), rejected: false }
     }
 
     /// What the next step sizes depend on.
@@ -48,10 +48,10 @@ impl Controller {
     /// Factor of the step size after an accepted step with `error <= 1`.
     pub(crate) fn accept(&mut self, error: f64) -> f64 {
         let error = libm::log(if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR });
-        let exponent = (PROPORTIONAL * self.previous - (INTEGRAL + PROPORTIONAL) * error) / ERROR_ORDER;
+        let exponent = (PROPORTIONAL * self.previous - (INTEGRAL + PROPORTIONAL) * error) / self.order;
         // After a rejection the longer step has just been seen to fail.
         let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
-        *self = Self { previous: error, rejected: false };
+        *self = Self { previous: error, rejected: false, ..*self };
         (SAFETY * libm::exp(exponent)).clamp(LARGEST_CUT, growth)
     }
 
@@ -59,22 +59,41 @@ impl Controller {
     pub(crate) fn reject(&mut self, error: f64) -> f64 {
         self.rejected = true;
         if error.is_finite() {
-            (SAFETY * libm::exp(-libm::log(error) / ERROR_ORDER)).clamp(LARGEST_CUT, SAFETY)
+            (SAFETY * libm::exp(-libm::log(error) / self.order)).clamp(LARGEST_CUT, SAFETY)
         } else {
             LARGEST_CUT
         }
     }
 }
 
+/// End of the step to try from `t`: `t_end` itself where the step reaches about there, and half the way where it
+/// reaches further than that, since a step and a short rest cost as much as two equal ones.
+pub(crate) fn next_time(t: f64, length: f64, t_end: f64) -> f64 {
+    let rest = t_end - t;
+    if 1.01 * length >= rest.abs() {
+        t_end
+    } else if 2.0 * length > rest.abs() {
+        t + 0.5 * rest
+    } else {
+        t + length.copysign(rest)
+    }
+}
+
+/// Steps from `t` at or below this length are lost in the rounding of times.
+pub(crate) fn shortest(t: f64, t_end: f64) -> f64 {
+    let (size, span) = (t.abs(), (t_end - t).abs());
+    16.0 * f64::EPSILON * if size > f64::EPSILON * span { size } else { f64::EPSILON * span }
+}
+
 /// Length of the first step, after Hairer, Norsett, Wanner, section II.4, with rates in place of their
 /// derivatives so that it scales with the unit of time: from `r = max(|y'|/|y|, sqrt(|y''|/|y|))` by groups,
-/// `h = (0.01 tolerance)^(1/8)/r`. Costs one evaluation of `f`, for `y''` as a difference.
+/// `h = (0.01 tolerance)^(1/k)/r` for an error of order `h^k`. Costs one evaluation of `f`, for `y''` as a difference.
 pub(crate) fn first_step<S: StateVector<f64>>(
     f: &impl Fn(f64, &S) -> S,
     error_norm: &ErrorNorm,
     (t, y, slope): (f64, &S, &S),
     span: f64,
-    tolerance: f64,
+    (tolerance, order): (f64, f64),
 ) -> f64 {
     let rate = |end: &S, change: &S| {
         error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), |r| norm(&change.as_ref()[r]))
@@ -94,7 +113,7 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     }
     let second = Scalar::sqrt(rate(&end, &change));
     let fastest = if first.is_finite() && first > second { first } else { second };
-    let length = libm::pow(0.01 * tolerance, 1.0 / ERROR_ORDER) / fastest;
+    let length = libm::pow(0.01 * tolerance, 1.0 / order) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.
     within(if length < 100.0 * trial { length } else { 100.0 * trial })
 }

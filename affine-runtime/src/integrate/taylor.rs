@@ -7,6 +7,7 @@ pub use lanes::{Portable, Vectors, add_multiple, add_products, lanes, subtract_m
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, norm};
+use super::step_size::shortest;
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::widest::{Work, widest};
@@ -160,7 +161,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         let rest = self.t_end - self.t;
         // A rest that is hardly longer is no step of its own.
         let end = if 1.01 * length >= rest.abs() { self.t_end } else { self.t + length.copysign(rest) };
-        if (end - self.t).abs() <= self.shortest() && end != self.t_end {
+        if (end - self.t).abs() <= shortest(self.t, self.t_end) && end != self.t_end {
             return Err(Failure::StepUnderflow);
         }
         let rise = self.rise(end - self.t);
@@ -263,12 +264,6 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     #[must_use]
     pub fn statistics(&self) -> Statistics {
         self.statistics
-    }
-
-    /// Steps at or below this length are lost in the rounding of times.
-    fn shortest(&self) -> f64 {
-        let (t, span) = (self.t.abs(), (self.t_end - self.t).abs());
-        16.0 * f64::EPSILON * if t > f64::EPSILON * span { t } else { f64::EPSILON * span }
     }
 }
 

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::halt::{Setting, Stop};
-use super::run::{check, is_clearly_positive, placement_in};
+use super::point::{check, is_clearly_positive, placement_in};
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
 use crate::capability::InLanes;
 use crate::frames::Matrix;

@@ -6,7 +6,7 @@ use super::conservation::larger;
 use super::event::{Action, Occurrence};
 use super::halt::{Callback, Reason};
 use super::output::{Schedule, without_steps};
-use super::run::{check, energy_scale, go_on};
+use super::point::{check, energy_scale, go_on};
 use super::stepper::Stepper;
 use super::trajectory::Trajectory;
 use super::watcher::{Met, Watcher};
@@ -70,9 +70,14 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
         self.watcher.begin(begin, &at(begin), self.place.changed_by.filter(|_| reached.is_none()));
     }
 
+    /// Events are looked for, within steps.
+    pub(super) fn has_events(&self) -> bool {
+        !self.watcher.is_idle()
+    }
+
     /// Something may end the run, or ask where it is.
     pub(super) fn is_watched(&self) -> bool {
-        self.observe.is_some() || !self.watcher.is_idle()
+        self.observe.is_some() || self.has_events()
     }
 
     /// Gives an integrator the state in which an interrupted run left it.

@@ -1,11 +1,12 @@
 //! What a simulation asks of an integrator.
 
 use crate::integrate::lie::Coordinates;
-use crate::integrate::runge_kutta::Dense;
+use crate::integrate::nystrom::SecondOrder;
+use crate::integrate::runge_kutta::{Dense, Pair, RungeKutta};
 use crate::integrate::splitting::{Pieces, Splitting};
 use crate::integrate::tape::Tape;
 use crate::integrate::taylor::{Series, Taylor};
-use crate::integrate::{Failure, Gauss, Rattle, RungeKutta8, Statistics};
+use crate::integrate::{Failure, Gauss, Rattle, RungeKuttaNystrom12, Statistics};
 use crate::model::StateVector;
 
 /// An integration that goes step by step.
@@ -31,18 +32,20 @@ pub(super) trait Stepper<S> {
 }
 
 /// The explicit method with the dense output of its last step, which is formed once for all times in it.
-pub(super) struct Explicit<S, F, C> {
-    integration: RungeKutta8<S, F, C>,
+pub(super) struct Explicit<P, S, F, C> {
+    integration: RungeKutta<P, S, F, C>,
     dense: Option<Dense<S, C>>,
 }
 
-impl<S, F, C> Explicit<S, F, C> {
-    pub(super) fn new(integration: RungeKutta8<S, F, C>) -> Self {
+impl<P, S, F, C> Explicit<P, S, F, C> {
+    pub(super) fn new(integration: RungeKutta<P, S, F, C>) -> Self {
         Self { integration, dense: None }
     }
 }
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for Explicit<S, F, C> {
+impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S>
+    for Explicit<P, S, F, C>
+{
     fn advance(&mut self) -> Result<(), Failure> {
         self.dense = None;
         self.integration.advance()
@@ -116,6 +119,30 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Stepper<S> for Taylor<S, C, R> {
     }
     fn exchange(&mut self, tape: &mut impl Tape) {
         Taylor::exchange(self, tape);
+    }
+}
+
+impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Stepper<S> for RungeKuttaNystrom12<S, C, R> {
+    fn advance(&mut self) -> Result<(), Failure> {
+        RungeKuttaNystrom12::advance(self)
+    }
+    fn between(&mut self, t: f64) -> Result<S, Failure> {
+        self.at(t)
+    }
+    fn t(&self) -> f64 {
+        RungeKuttaNystrom12::t(self)
+    }
+    fn y(&self) -> &S {
+        RungeKuttaNystrom12::y(self)
+    }
+    fn is_finished(&self) -> bool {
+        RungeKuttaNystrom12::is_finished(self)
+    }
+    fn statistics(&self) -> Statistics {
+        RungeKuttaNystrom12::statistics(self)
+    }
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        RungeKuttaNystrom12::exchange(self, tape);
     }
 }
 

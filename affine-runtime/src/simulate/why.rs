@@ -34,13 +34,16 @@ impl Why {
             Method::ClosedForm => {
                 writeln!(f, "closed form: this model has one from this start; exact up to rounding, no steps")
             }
-            Method::RungeKutta8 | Method::Automatic => {
-                write!(f, "Runge-Kutta of order 8, relative error {tolerance:e} per step: ")?;
+            Method::RungeKutta8 | Method::RungeKutta5 | Method::Automatic => {
+                let order = if method == Method::RungeKutta5 { 5 } else { 8 };
+                write!(f, "Runge-Kutta of order {order}, relative error {tolerance:e} per step: ")?;
                 match (asked, closed_form_exists) {
-                    (Method::RungeKutta8, true) => {
+                    (Method::RungeKutta8 | Method::RungeKutta5, true) => {
                         writeln!(f, "as asked for; Method::Automatic would take the closed form")
                     }
-                    (Method::RungeKutta8, false) => writeln!(f, "as asked for; there is no closed form"),
+                    (Method::RungeKutta8 | Method::RungeKutta5, false) => {
+                        writeln!(f, "as asked for; there is no closed form")
+                    }
                     _ => writeln!(f, "the model has no closed form from this start"),
                 }?;
                 match missing {
@@ -62,6 +65,17 @@ impl Why {
                     ),
                     (_, true) => writeln!(f, "as asked for; Method::Automatic would take the closed form"),
                     (_, false) => writeln!(f, "as asked for; there is no closed form"),
+                }
+            }
+            Method::RungeKuttaNystrom12 => {
+                write!(f, "Runge-Kutta-Nystrom of order 12, relative error {tolerance:e} per step: ")?;
+                match asked {
+                    Method::Automatic => writeln!(
+                        f,
+                        "the model has no closed form from this start, and its equations are q'' = f(t, q), for which \
+                         this is cheaper than methods for equations of first order"
+                    ),
+                    _ => writeln!(f, "as asked for; there is no closed form"),
                 }
             }
             Method::Gauss { stages, step } => self.gauss(f, stages, step),

@@ -8,27 +8,6 @@ use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::mechanics::potential::Potential;
 use crate::spec::{Capability, Named, Spec, TermKind};
 
-/// A capability that cannot be emitted is refused rather than ignored: code that relies on it would fail far
-/// from here.
-pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
-    let available = [
-        Capability::Splitting,
-        Capability::Taylor,
-        Capability::TwoPolar,
-        Capability::Ratios,
-        Capability::Lanes,
-        Capability::Metric,
-        Capability::Acceleration,
-    ];
-    for capability in spec.emit.iter().filter(|c| !available.contains(&c.value)) {
-        let name = capability.value;
-        found.report(
-            capability.span,
-            CapabilityMistake::UnavailableCapability { capability: name.name(), gives: name.gives() },
-        );
-    }
-}
-
 /// In ratios of stretches the lattice of the Casimirs is rational. What moves the places otherwise is not.
 pub(super) fn ratios(spec: &Spec, found: &mut Diagnostics) {
     let Some(asked_for) = spec.emit.iter().find(|c| c.value == Capability::Ratios) else { return };
@@ -63,7 +42,30 @@ pub(super) fn series(spec: &Spec, potential: Option<&Potential>, found: &mut Dia
     ];
     for (beside, _) in beside.into_iter().filter(|(_, stated)| *stated) {
         let capability = taylor.value.name();
-        found.report(taylor.span, CapabilityMistake::CapabilityBeside { capability, beside });
+        let why = "its recurrences follow from the operations of one autonomous right-hand side";
+        found.report(taylor.span, CapabilityMistake::CapabilityBeside { capability, beside, why });
+    }
+}
+
+/// The variational equations are the derivative of a right-hand side that is known operation by operation.
+pub(super) fn tangent(spec: &Spec, potential: Option<&Potential>, found: &mut Diagnostics) {
+    let Some(tangent) = spec.emit.iter().find(|c| c.value == Capability::Tangent) else { return };
+    let beside = [
+        (
+            "a constraint",
+            spec.constraint.is_some(),
+            "tangent vectors of a group turn with the charts of its steps",
+        ),
+        (
+            "a potential of single stretches",
+            potential.is_some_and(Potential::has_single_stretches),
+            "stretches are found by an iteration, whose derivative is not emitted",
+        ),
+        ("`custom` fields", !spec.customs.is_empty(), "the derivative of what a field computes is not known"),
+    ];
+    for (beside, _, why) in beside.into_iter().filter(|(_, stated, _)| *stated) {
+        let capability = tangent.value.name();
+        found.report(tangent.span, CapabilityMistake::CapabilityBeside { capability, beside, why });
     }
 }
 
@@ -98,12 +100,41 @@ pub(super) fn pieces(
     }
 }
 
+/// Nystrom methods are for `q'' = f(t, q)`: a kinetic energy of `phi_dot` and `x_dot` with constant coefficients, and a
+/// potential. Without one the motion is a straight line.
+pub(super) fn second_order(spec: &Spec, flat: bool, potential: Option<&Potential>, found: &mut Diagnostics) {
+    let Some(nystrom) = spec.emit.iter().find(|c| c.value == Capability::Nystrom) else { return };
+    let beside = match &spec.constraint {
+        Some(constraint) => Some((
+            format!("`constraint = {}`", constraint.value.name()),
+            "the multiplier of the constraint depends on the velocity",
+        )),
+        None if !flat => Some((
+            "a kinetic energy of affine velocities".to_owned(),
+            "the mass matrix of phi_dot depends on phi here, and phi'' on phi_dot",
+        )),
+        None if potential.is_none() => Some((
+            "a motion without a potential".to_owned(),
+            "a free body moves in a straight line, phi = phi0 + t phi_dot0, known in closed form",
+        )),
+        None => None,
+    };
+    if let Some((beside, why)) = beside {
+        found.report(nystrom.span, CapabilityMistake::NotSecondOrder { beside, why });
+    }
+}
+
 /// Where terms of different frames are added, no piece of `H` is quadratic in one momentum with constant coefficients.
 pub(super) fn one_frame(spec: &Spec, found: &mut Diagnostics) {
     if asked(spec, Capability::Splitting) {
         let why = "the mass matrix of the sum depends on phi: the flow of the kinetic energy is not known"
             .to_owned();
         not_split(spec, "terms of different frames".to_owned(), why, found);
+    }
+    if let Some(nystrom) = spec.emit.iter().find(|c| c.value == Capability::Nystrom) {
+        let beside = "terms of different frames".to_owned();
+        let why = "the mass matrix of the sum depends on phi, and phi'' on phi_dot";
+        found.report(nystrom.span, CapabilityMistake::NotSecondOrder { beside, why });
     }
 }
 

@@ -38,7 +38,7 @@ impl Force {
 }
 
 /// What may be stated beside a force, and whether it is and refuses it.
-fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 9] {
+fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 10] {
     let emitted = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
     let cubic = |terms: &Vec<_>| {
         terms.iter().any(|term: &crate::spec::Term<MomentumKind>| term.kind.value == MomentumKind::Casimir3)
@@ -51,6 +51,7 @@ fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 9] {
         ("terms of different frames", frames::are_mixed(spec)),
         ("`emit(taylor)`", emitted(Capability::Taylor)),
         ("`emit(splitting)`", emitted(Capability::Splitting)),
+        ("`emit(nystrom)`", emitted(Capability::Nystrom)),
         ("`emit(two_polar)`", emitted(Capability::TwoPolar)),
         ("`emit(acceleration)`", emitted(Capability::Acceleration)),
     ]

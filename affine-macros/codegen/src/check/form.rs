@@ -44,6 +44,8 @@ pub struct Form {
     pub metrics: Option<Metrics>,
     /// Are the exact flows of pieces of the Hamiltonian asked for?
     pub split: bool,
+    /// Are the equations asked for as `q'' = f(t, q)`?
+    pub nystrom: bool,
     /// What else is emitted.
     pub quantities: Quantities,
 }
@@ -93,7 +95,9 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     found.verdict()?;
     let potential = potential(&mut arena, spec, kinetic.constraint, found);
     super::capabilities::series(spec, potential.as_ref(), found);
+    super::capabilities::tangent(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
+    super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
     let space_group = largest_group(&free, Side::Space);
     let body_group = largest_group(&free, Side::Body);
@@ -111,6 +115,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         forces,
         metrics,
         split: super::capabilities::asked(spec, Capability::Splitting),
+        nystrom: super::capabilities::asked(spec, Capability::Nystrom),
         quantities: Quantities::of(spec),
         two_polar,
         ratios: super::capabilities::asked(spec, Capability::Ratios),
@@ -144,7 +149,9 @@ fn momentum_form(
     let body_group = largest_group(&on_momenta, Side::Body);
     let potential = potential(&mut arena, spec, None, found);
     super::capabilities::series(spec, potential.as_ref(), found);
+    super::capabilities::tangent(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
+    super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
     let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
     let metrics = lower::metrics(&mut arena, spec);
@@ -159,6 +166,7 @@ fn momentum_form(
         forces,
         metrics,
         split: super::capabilities::asked(spec, Capability::Splitting),
+        nystrom: super::capabilities::asked(spec, Capability::Nystrom),
         quantities: Quantities::of(spec),
         two_polar,
         ratios: super::capabilities::asked(spec, Capability::Ratios),

@@ -97,6 +97,7 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
     found.verdict()?;
     let potential = form::potential(&mut arena, spec, None, found);
     super::capabilities::series(spec, potential.as_ref(), found);
+    super::capabilities::tangent(spec, potential.as_ref(), found);
     found.verdict()?;
     Ok(MixedForm {
         hessian,

@@ -20,7 +20,7 @@ use crate::mechanics::reduce::{self, ClosedForm, Commuting, Reduction};
 use crate::optimise::Batch;
 
 use super::prepared::coefficient_program;
-use super::programs::{Reduced, batch, shortest, shortest_reduction};
+use super::programs::{Pieces, Reduced, batch, shortest, shortest_reduction};
 use super::{Damping, Formulas, Model, VelocitySide, quantities};
 
 /// The internal motion: of one frame, or of several.
@@ -47,8 +47,8 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
     let (conserved, conserved_at_rest) = body.conserved(arena, &chart)?;
     let rotations = conserved.contains(&Candidate::TotalAngularMomentum);
     let reductions = body.reductions(arena, rotations)?;
-    let Reduced { reduction, equations: reduced, splitting, trajectory, fixed } =
-        shortest_reduction(arena, reductions, time, |_, _, _| None, &mut coefficients)?;
+    let Reduced { reduction, equations: reduced, trajectory, fixed, .. } =
+        shortest_reduction(arena, reductions, time, |_, _, _| Pieces::default(), &mut coefficients)?;
     let closed_form = body.closed_form(arena);
     let formulas = body.formulas(arena, &chart, &reduction, closed_form);
     let programs = body.programs(arena, &chart, &mut coefficients)?;
@@ -100,7 +100,9 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         two_polar: None,
         formulas,
         taylor: None,
-        splitting,
+        tangent: None,
+        splitting: None,
+        second_order: None,
     })
 }
 

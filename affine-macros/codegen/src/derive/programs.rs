@@ -16,6 +16,7 @@ use crate::mechanics::separation::{Separation, Slope};
 use crate::optimise::{Batch, straight_line};
 
 use super::Equations;
+use super::second_order::Halves;
 use super::splitting::Programs;
 
 /// Chart and Hamiltonian of the equations that users of other codes write down: all momenta in the model's frames.
@@ -170,28 +171,46 @@ fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> Batch {
     result
 }
 
+/// What is asked for beside the reduced equations, as programs over the same state.
+#[derive(Default)]
+pub(super) struct Pieces {
+    /// The flows of the pieces of `H`.
+    pub(super) splitting: Option<Programs>,
+    /// The halves of the equations.
+    pub(super) second_order: Option<Halves>,
+}
+
+/// What is asked for.
+#[derive(Clone, Copy)]
+pub(super) struct Asked {
+    pub(super) split: bool,
+    pub(super) nystrom: bool,
+}
+
 /// A reduction with its programs.
 pub(super) struct Reduced {
     pub(super) reduction: Reduction,
     pub(super) equations: Equations,
-    pub(super) splitting: Option<Programs>,
+    pub(super) pieces: Pieces,
     pub(super) trajectory: Program,
     pub(super) fixed: Vec<String>,
 }
 
-/// The reduction with the shortest equations, and its programs; `split` asks for its sub-flows as well.
+/// The reduction with the shortest equations, and its programs.
 pub(super) fn best_reduction(
     arena: &mut Arena,
     h: &Hamiltonian,
     potential: Option<&Potential>,
     forces: &Forces,
-    (rotations, split): (bool, bool),
+    (rotations, asked): (bool, Asked),
     coefficients: &mut Constants,
 ) -> Option<Reduced> {
-    let candidates = reduce::candidates(arena, h, potential, forces, rotations);
+    let candidates = reduce::candidates(arena, h, potential, forces, (rotations, asked.nystrom));
     let time = time(arena, potential, forces);
     let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
-        split.then(|| Programs::of(arena, h, potential, reduction, constants)).flatten()
+        let split = asked.split.then(|| Programs::of(arena, h, potential, reduction, constants));
+        let halves = asked.nystrom.then(|| Halves::of(arena, h, potential, reduction, constants));
+        Pieces { splitting: split.flatten(), second_order: halves.flatten() }
     };
     shortest_reduction(arena, candidates, time, pieces, coefficients)
 }
@@ -201,7 +220,7 @@ pub(super) fn shortest_reduction(
     arena: &mut Arena,
     candidates: Vec<Reduction>,
     time: Option<Expr>,
-    pieces: impl FnOnce(&mut Arena, &Reduction, &mut Constants) -> Option<Programs>,
+    pieces: impl FnOnce(&mut Arena, &Reduction, &mut Constants) -> Pieces,
     coefficients: &mut Constants,
 ) -> Option<Reduced> {
     let mut best: Option<(usize, Reduction, Program, Constants)> = None;
@@ -217,7 +236,7 @@ pub(super) fn shortest_reduction(
         }
     }
     let (_, reduction, program, mut constants) = best?;
-    let splitting = pieces(arena, &reduction, &mut constants);
+    let pieces = pieces(arena, &reduction, &mut constants);
     let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {
         results: constants
@@ -236,7 +255,7 @@ pub(super) fn shortest_reduction(
         Layout::Entries => dependent(arena, &reduction.chart),
     };
     let equations = Equations { groups, dependent, program: fuse(&program) };
-    Some(Reduced { reduction, equations, splitting, trajectory, fixed })
+    Some(Reduced { reduction, equations, pieces, trajectory, fixed })
 }
 
 /// What `trajectory` reads: `p` where the state depends on it, and the constant part of the affine momentum.

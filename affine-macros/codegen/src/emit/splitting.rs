@@ -78,7 +78,7 @@ fn program(flow: &FlowProgram) -> &Program {
     }
 }
 
-fn coefficient_names(context: &Context) -> Vec<String> {
+pub(super) fn coefficient_names(context: &Context) -> Vec<String> {
     (1..=context.model.trajectory.outputs.len()).map(|k| format!("k_{k}")).collect()
 }
 

@@ -142,13 +142,13 @@ pub fn commuting(
 }
 
 /// Every chart in which the rest of `H` is a polynomial, reduced; `rotations` tells whether those of space leave `H`
-/// unchanged.
+/// unchanged, `halves` asks for the chart of the energy itself, with a momentum for each position.
 pub fn candidates(
     arena: &mut Arena,
     h: &Hamiltonian,
     potential: Option<&Potential>,
     forces: &Forces,
-    rotations: bool,
+    (rotations, halves): (bool, bool),
 ) -> Vec<Reduction> {
     let commuting = commuting(arena, h, potential, forces);
     let drift = commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
@@ -157,7 +157,7 @@ pub fn candidates(
     let turn = linear.is_some() && rotations;
     let mut momenta = vec![Momentum::of(h.frame)];
     for other in [Momentum::Body, Momentum::Space, Momentum::Total] {
-        if !momenta.contains(&other) && (other != Momentum::Total || linear.is_some()) {
+        if !halves && !momenta.contains(&other) && (other != Momentum::Total || linear.is_some()) {
             momenta.push(other);
         }
     }
@@ -177,7 +177,7 @@ pub fn candidates(
             let mut loads: Vec<Load> = potential.iter().map(|u| u.load(arena, &chart)).collect();
             loads.extend(forces.loads(arena, &chart, h));
             let multiplier = h.constraint.is_some() && h.confined().is_none();
-            let plan = Plan { chart, commuting: commuting.clone(), turn, loads, multiplier };
+            let plan = Plan { chart, commuting: commuting.clone(), turn, loads, multiplier, halves };
             plan.reduced(arena, &main, h.is_tensor())
         })
         .collect();
@@ -250,7 +250,7 @@ pub fn reduced(
     turn: bool,
     system: System,
 ) -> Reduction {
-    Plan { chart, commuting, turn, loads: Vec::new(), multiplier: false }.state_only(
+    Plan { chart, commuting, turn, loads: Vec::new(), multiplier: false, halves: false }.state_only(
         arena,
         system,
         Layout::Entries,
@@ -266,6 +266,8 @@ struct Plan {
     loads: Vec<Load>,
     /// Does the multiplier of a constraint act besides? Then no affine momentum is taken for conserved.
     multiplier: bool,
+    /// Is there to be a momentum for each position, conserved or not?
+    halves: bool,
 }
 
 impl Plan {
@@ -276,7 +278,7 @@ impl Plan {
         let mut systems = Vec::new();
         if !tensor {
             let expanded = self.loaded(hamilton(arena, &self.chart, h, Form::Expanded));
-            if !self.multiplier {
+            if !self.multiplier && !self.halves {
                 layout = conserved_layout(&expanded);
             }
             systems.push(expanded);
@@ -319,7 +321,7 @@ impl Plan {
         let gauge = gauge(&chart, turned, layout);
         let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
         system = system.substitute(&value).tidied(arena);
-        let fixed = if self.multiplier { Vec::new() } else { take_constants(&mut system) };
+        let fixed = if self.multiplier || self.halves { Vec::new() } else { take_constants(&mut system) };
         let carried = system.rates.iter().any(|(z, ..)| matches!(z, Coordinate::Carried(_)));
         let states = states("phi", chart.momentum.symbol(), &system);
         Reduction {

@@ -128,6 +128,8 @@ pub enum Capability {
     Splitting,
     /// Taylor coefficients.
     Taylor,
+    /// Velocities of momenta and forces of positions, apart.
+    Nystrom,
     /// Lattice form.
     TwoPolar,
     /// Lattice form in ratios of stretches.
@@ -146,6 +148,7 @@ impl Named for Capability {
     const ALL: &'static [Self] = &[
         Self::Splitting,
         Self::Taylor,
+        Self::Nystrom,
         Self::TwoPolar,
         Self::Ratios,
         Self::Tangent,
@@ -158,29 +161,13 @@ impl Named for Capability {
         match self {
             Self::Splitting => "splitting",
             Self::Taylor => "taylor",
+            Self::Nystrom => "nystrom",
             Self::TwoPolar => "two_polar",
             Self::Ratios => "ratios",
             Self::Tangent => "tangent",
             Self::Lanes => "lanes",
             Self::Metric => "metric",
             Self::Acceleration => "acceleration",
-        }
-    }
-}
-
-impl Capability {
-    /// What it gives, as the end of a sentence.
-    #[must_use]
-    pub fn gives(self) -> &'static str {
-        match self {
-            Self::Splitting => "the exact sub-flows of the pieces of H",
-            Self::Taylor => "Taylor coefficients of the motion to any order",
-            Self::TwoPolar => "the lattice form (q, p, M, N)",
-            Self::Ratios => "the lattice form in ratios of stretches",
-            Self::Tangent => "the variational equations",
-            Self::Lanes => "evaluation over SIMD lanes",
-            Self::Metric => "the configuration metric and its inverse",
-            Self::Acceleration => "the acceleration of the centre of mass",
         }
     }
 }

@@ -6,26 +6,11 @@
 //! their program DOP853: about 30 decimals, of which the order conditions hold to better than 1e-27. The
 //! tests check that in exact rational arithmetic on these very literals.
 
-/// Rows of pairs (stage, coefficient), stages counted from 1 as in the literature; what is not listed is zero.
-/// For the tests the same rows again, as the decimals that are written here.
-macro_rules! rows {
-    ($($(#[$doc:meta])* $name:ident: $len:literal = [$(($stage:literal, $value:literal),)*];)*) => {
-        $(
-            $(#[$doc])*
-            #[allow(clippy::excessive_precision, reason = "the published digits, for the exact tests")]
-            pub(super) const $name: [(usize, f64); $len] = [$(($stage, $value)),*];
-        )*
-
-        /// Every row as published: name, and pairs (stage, decimal).
-        #[cfg(test)]
-        const PUBLISHED: &[(&str, &[(usize, &str)])] =
-            &[$((stringify!($name), &[$(($stage, stringify!($value))),*])),*];
-    };
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod order_conditions;
+
+use crate::integrate::published::rows;
 
 rows! {
     /// Nodes `c_2` to `c_16`.

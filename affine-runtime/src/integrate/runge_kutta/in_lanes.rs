@@ -1,9 +1,9 @@
 //! The method of order 8 for several bodies at once, with steps that they share.
 
 use super::dormand_prince_853::*;
-use super::step::E3;
+use super::pair::{DormandPrince853, E3, Pair};
 use crate::integrate::error_norm::{NormInLanes, norm_in_lanes, squares_in_lanes};
-use crate::integrate::step_size::{Controller, ERROR_ORDER};
+use crate::integrate::step_size::{Controller, next_time, shortest};
 use crate::lanes::Lanes;
 use crate::model::{Group, StateVector};
 
@@ -48,7 +48,7 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
         let length = first_step(&f, &norm, (t0, &y0, &slope), t_end - t0, tolerance);
         let mut stages = [S::zeros(); STAGES];
         stages[0] = slope;
-        let controller = Controller::new();
+        let controller = Controller::of(DormandPrince853::ERROR_ORDER);
         Ok(Self { f, norm, tolerance, controller, t: t0, y: y0, trial: y0, stages, length, t_end, steps: 0 })
     }
 
@@ -58,7 +58,7 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
     /// The lanes whose errors stay above the tolerance however short the step.
     pub(crate) fn advance(&mut self) -> Result<(), Failing> {
         loop {
-            let end = self.next_time();
+            let end = next_time(self.t, self.length, self.t_end);
             self.attempt(end);
             let error = self.error(end);
             let mut worst = worst(&error);
@@ -73,7 +73,7 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
                 worst = f64::NAN;
             }
             self.length = (end - self.t).abs() * self.controller.reject(worst);
-            if self.length <= self.shortest() {
+            if self.length <= shortest(self.t, self.t_end) {
                 none(T::LANES, |lane| error.lane(lane) > 1.0 || error.lane(lane).is_nan())?;
                 // Slopes at the end alone are not finite.
                 return Err((0..T::LANES).collect());
@@ -153,22 +153,6 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
         });
         h * relative / T::constant(self.tolerance, 0.0)
     }
-
-    fn next_time(&self) -> f64 {
-        let rest = self.t_end - self.t;
-        if 1.01 * self.length >= rest.abs() {
-            self.t_end
-        } else if 2.0 * self.length > rest.abs() {
-            self.t + 0.5 * rest
-        } else {
-            self.t + self.length.copysign(rest)
-        }
-    }
-
-    fn shortest(&self) -> f64 {
-        let (t, span) = (self.t.abs(), (self.t_end - self.t).abs());
-        16.0 * f64::EPSILON * if t > f64::EPSILON * span { t } else { f64::EPSILON * span }
-    }
 }
 
 /// The first step of the lane that has the shortest one; see the scalar `first_step`.
@@ -202,7 +186,7 @@ fn first_step<T: Lanes, S: StateVector<T>>(
     let of_lane = |lane: usize| {
         let (first, second, trial) = (first.lane(lane), second.lane(lane), trial.lane(lane));
         let fastest = if first.is_finite() && first > second { first } else { second };
-        let length = libm::pow(0.01 * tolerance, 1.0 / ERROR_ORDER) / fastest;
+        let length = libm::pow(0.01 * tolerance, 1.0 / DormandPrince853::ERROR_ORDER) / fastest;
         within(if length < 100.0 * trial { length } else { 100.0 * trial })
     };
     (0..T::LANES).map(of_lane).fold(span.abs(), f64::min)

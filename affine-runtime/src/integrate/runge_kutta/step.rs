@@ -1,43 +1,33 @@
 //! One step, whatever its size, and the polynomial over it.
 
-use super::dormand_prince_853::*;
+use core::marker::PhantomData;
+
+use super::pair::{DormandPrince853, Pair};
 use crate::integrate::lie::{Coordinates, Flat, Sum};
+use crate::integrate::stages::combination;
 use crate::model::StateVector;
 use crate::scalar::Scalar;
 
 const STAGES: usize = 16;
 
-/// Solution less the embedded solution of order 3.
-pub(super) const E3: [(usize, f64); B.len()] = {
-    let mut difference = B;
-    let mut k = 0;
-    while k < B.len() {
-        let mut j = 0;
-        while j < B3.len() {
-            if B3[j].0 == B[k].0 {
-                difference[k].1 -= B3[j].1;
-            }
-            j += 1;
-        }
-        k += 1;
-    }
-    difference
-};
+/// A step of the method of order 8.
+pub type Step<S> = OneStep<DormandPrince853, S>;
 
-/// A step of the method from `(t, y)`: for callers with their own control of the step size, and for measuring the
+/// A step of a method from `(t, y)`: for callers with their own control of the step size, and for measuring the
 /// order.
 #[derive(Clone, Debug)]
-pub struct Step<S> {
+pub struct OneStep<P, S> {
     t: f64,
     y: S,
     t_trial: f64,
     y_trial: S,
     accepted: bool,
-    /// `k_1` to `k_12`; `k_13 = f` at the end of the step, the `k_1` of the next; `k_14` to `k_16` for dense output.
+    /// `k_1` to at most `k_12`; `k_13 = f` at the end of the step, the `k_1` of the next; the rest for dense output.
     stages: [S; STAGES],
+    pair: PhantomData<P>,
 }
 
-impl<S: StateVector<f64>> Step<S> {
+impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
     /// At `(t, y)`, before any step. One evaluation.
     pub fn start(f: &impl Fn(f64, &S) -> S, t: f64, y: S) -> Self {
         Self::at(t, y, f(t, &y))
@@ -47,26 +37,15 @@ impl<S: StateVector<f64>> Step<S> {
     pub(super) fn at(t: f64, y: S, slope: S) -> Self {
         let mut stages = [S::zeros(); STAGES];
         stages[0] = slope;
-        Self { t, y, t_trial: t, y_trial: y, accepted: false, stages }
+        Self { t, y, t_trial: t, y_trial: y, accepted: false, stages, pair: PhantomData }
     }
 
-    /// Computes the step to the time `end`, from the same point as before. 11 evaluations.
+    /// Computes the step to the time `end`, from the same point as before: [`Pair::EVALUATIONS`].
     #[inline(always)]
     pub fn attempt(&mut self, f: &impl Fn(f64, &S) -> S, end: f64) {
         self.t_trial = end;
         self.accepted = false;
-        self.stage::<2, 1>(f, &A2);
-        self.stage::<3, 2>(f, &A3);
-        self.stage::<4, 2>(f, &A4);
-        self.stage::<5, 3>(f, &A5);
-        self.stage::<6, 3>(f, &A6);
-        self.stage::<7, 4>(f, &A7);
-        self.stage::<8, 5>(f, &A8);
-        self.stage::<9, 6>(f, &A9);
-        self.stage::<10, 7>(f, &A10);
-        self.stage::<11, 8>(f, &A11);
-        self.stage::<12, 9>(f, &A12);
-        self.y_trial = self.moved(&B);
+        P::attempt(self, f);
     }
 
     /// Accepts the step: evaluates the slope at its end. One evaluation.
@@ -78,8 +57,19 @@ impl<S: StateVector<f64>> Step<S> {
     /// Accepts the step, at whose end `f` is `slope`.
     #[inline]
     pub(super) fn accept_with(&mut self, slope: S) {
-        self.stages[12] = slope;
+        self.set_end(slope);
         self.accepted = true;
+    }
+
+    /// Keeps the slope at the end of the attempted step.
+    #[inline]
+    pub(super) fn set_end(&mut self, slope: S) {
+        self.stages[12] = slope;
+    }
+
+    /// The slope at the end of the step.
+    pub(super) fn end_slope(&self) -> &S {
+        &self.stages[12]
     }
 
     /// Turns to the next step, which begins where this one ended.
@@ -104,11 +94,9 @@ impl<S: StateVector<f64>> Step<S> {
         }
     }
 
-    /// Dense output of an accepted step. Three evaluations.
+    /// Dense output of an accepted step: [`Pair::DENSE_EVALUATIONS`].
     pub fn dense(&mut self, f: &impl Fn(f64, &S) -> S) -> Dense<S> {
-        self.stage::<14, 8>(f, &A14);
-        self.stage::<15, 8>(f, &A15);
-        self.stage::<16, 8>(f, &A16);
+        let last = P::dense(self, f);
         let h = self.length();
         let mut coefficients = [S::zeros(); 7];
         for i in 0..S::LEN {
@@ -118,12 +106,7 @@ impl<S: StateVector<f64>> Step<S> {
             coefficients[1].as_mut()[i] = begin - rise;
             coefficients[2].as_mut()[i] = 2.0 * rise - (begin + end);
         }
-        for (coefficient, combination) in coefficients[3..].iter_mut().zip([
-            self.combination(&D4),
-            self.combination(&D5),
-            self.combination(&D6),
-            self.combination(&D7),
-        ]) {
+        for (coefficient, combination) in coefficients[3..].iter_mut().zip(last) {
             for (c, r) in coefficient.as_mut().iter_mut().zip(combination.as_ref()) {
                 *c = h * r;
             }
@@ -170,22 +153,28 @@ impl<S: StateVector<f64>> Step<S> {
         self.t_trial - self.t
     }
 
-    /// Differences, divided by `h`, of the solution to the embedded ones of orders 5 and 3.
+    /// Differences, divided by `h`, of the solution to the embedded ones.
     #[inline(always)]
     pub(super) fn error_slopes(&self) -> (S, S) {
-        (self.combination(&E5), self.combination(&E3))
+        P::error_slopes(self)
     }
 
-    /// `k_s = f(t + c_s h, y + h sum_j a_sj k_j)`.
+    /// `k_s = f(t + c_s h, y + h sum_j a_sj k_j)`, by stage and node.
     #[inline(always)]
-    fn stage<const NUMBER: usize, const TERMS: usize>(
+    pub(super) fn stage<const TERMS: usize>(
         &mut self,
         f: &impl Fn(f64, &S) -> S,
+        (number, node): (usize, f64),
         row: &[(usize, f64); TERMS],
     ) {
-        let (_, node) = NODES[NUMBER - 2];
         let time = if node == 1.0 { self.t_trial } else { self.t + node * self.length() };
-        self.stages[NUMBER - 1] = f(time, &self.moved(row));
+        self.stages[number - 1] = f(time, &self.moved(row));
+    }
+
+    /// The end of the step by its weights.
+    #[inline(always)]
+    pub(super) fn end_at<const TERMS: usize>(&mut self, weights: &[(usize, f64); TERMS]) {
+        self.y_trial = self.moved(weights);
     }
 
     /// `y + h sum_j a_j k_j`.
@@ -201,16 +190,8 @@ impl<S: StateVector<f64>> Step<S> {
 
     /// `sum_j a_j k_j`.
     #[inline(always)]
-    fn combination<const TERMS: usize>(&self, row: &[(usize, f64); TERMS]) -> S {
-        let mut sum = S::zeros();
-        let [(first, leading), ref rest @ ..] = row[..] else { return sum };
-        for (i, sum) in sum.as_mut().iter_mut().enumerate() {
-            *sum = self.stages[first - 1].as_ref()[i] * leading;
-            for (stage, coefficient) in rest {
-                *sum = self.stages[stage - 1].as_ref()[i].fma(*coefficient, *sum);
-            }
-        }
-        sum
+    pub(super) fn combination<const TERMS: usize>(&self, row: &[(usize, f64); TERMS]) -> S {
+        combination(&self.stages, row)
     }
 }
 

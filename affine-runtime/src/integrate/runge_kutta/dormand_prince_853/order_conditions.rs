@@ -13,6 +13,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero, pow};
 
 use super::PUBLISHED;
+use crate::integrate::runge_kutta::trees::Tree;
 
 const STAGES: usize = 16;
 /// Every published decimal is a multiple of `10^-PLACES`.
@@ -37,27 +38,6 @@ fn ten_to(power: usize) -> BigInt {
 
 fn integer(value: usize) -> BigRational {
     BigRational::from_integer(BigInt::from(value))
-}
-
-/// A rooted tree by the sorted list of its branches.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
-struct Tree(Vec<Tree>);
-
-impl Tree {
-    fn size(&self) -> usize {
-        1 + self.0.iter().map(Tree::size).sum::<usize>()
-    }
-
-    fn density(&self) -> usize {
-        self.size() * self.0.iter().map(Tree::density).product::<usize>()
-    }
-
-    fn with_branch(&self, branch: &Tree) -> Tree {
-        let mut branches = self.0.clone();
-        branches.push(branch.clone());
-        branches.sort();
-        Tree(branches)
-    }
 }
 
 /// A tree with its elementary weights over `10^(PLACES (|t| - 1))`, and with `sum_j a_ij Phi_j(t)` over

@@ -1,0 +1,52 @@
+//! The halves of the equations as programs.
+
+use crate::algebra::bind::Constants;
+use crate::algebra::{Arena, Expr};
+use crate::ir::Program;
+use crate::ir::fuse::fuse;
+use crate::mechanics::equations::System;
+use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::potential::Potential;
+use crate::mechanics::reduce::Reduction;
+use crate::mechanics::second_order::second_order;
+use crate::optimise::straight_line;
+
+use super::programs::batch;
+
+/// `q' = V(p)`, `p' = F(t, q)` over the reduced state.
+pub struct Halves {
+    /// Names of the positions.
+    pub positions: Vec<String>,
+    /// Names of the momenta.
+    pub momenta: Vec<String>,
+    /// Momenta -> velocities.
+    pub velocity: Program,
+    /// Time and positions -> forces.
+    pub force: Program,
+}
+
+impl Halves {
+    /// Those of the chosen reduction; coefficients that a trajectory fixes join `constants`.
+    pub(super) fn of(
+        arena: &mut Arena,
+        h: &Hamiltonian,
+        potential: Option<&Potential>,
+        reduction: &Reduction,
+        constants: &mut Constants,
+    ) -> Option<Self> {
+        let halves = second_order(arena, h, potential, reduction)?;
+        let mut varying: Vec<Expr> =
+            reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
+        varying.extend(potential.and_then(Potential::time));
+        let names = |arena: &Arena, system: &System| -> Vec<String> {
+            let symbols = system.rates.iter().map(|(_, symbol, _)| *symbol);
+            symbols.map(|s| arena.name(s).unwrap_or("state").to_owned()).collect()
+        };
+        let (positions, momenta) = (names(arena, &halves.positions), names(arena, &halves.momenta));
+        let [velocity, force] = [&halves.positions, &halves.momenta].map(|system| {
+            let rates = batch(arena, system);
+            fuse(&straight_line(arena, &rates, constants, &|atom| varying.contains(&atom)))
+        });
+        Some(Self { positions, momenta, velocity, force })
+    }
+}

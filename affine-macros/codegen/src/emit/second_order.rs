@@ -1,0 +1,90 @@
+//! `emit(nystrom)`: the equations as `q' = V(p)`, `p' = F(t, q)`.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::derive::second_order::Halves;
+use crate::ir::Program;
+
+use super::body::{Body, inputs};
+use super::dynamics::time;
+use super::splitting::coefficient_names;
+use super::{Context, number, pattern};
+
+/// The implementation of the capability.
+pub(super) fn implementation(context: &Context) -> TokenStream {
+    let Some(Halves { positions, momenta, velocity, force }) = &context.model.second_order else {
+        return TokenStream::new();
+    };
+    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
+    let (generics, types, clause) = context.generics();
+    let (t, size, clock) = (&context.names.scalar, number(positions.len()), time(force));
+    let (velocity_constants, velocity) = written(context, velocity, (momenta, quote!(momenta)));
+    let (force_constants, force) = written(context, force, (positions, quote!(positions)));
+    quote! {
+        impl #generics #rt::SecondOrderEquations<#n> for #prepared #types #clause {
+            type Half<#t: #rt::Scalar> = [#t; #size];
+
+            #[inline]
+            fn drift<#t: #rt::Scalar>(
+                &self,
+                #velocity_constants: &Self::Constants<#t>,
+                momenta: &Self::Half<#t>,
+            ) -> Self::Half<#t> {
+                #velocity
+            }
+
+            #[inline]
+            fn force<#t: #rt::Scalar>(
+                &self,
+                #clock: #t,
+                #force_constants: &Self::Constants<#t>,
+                positions: &Self::Half<#t>,
+            ) -> Self::Half<#t> {
+                #force
+            }
+        }
+    }
+}
+
+/// The hook by which a simulation finds the capability.
+pub(super) fn capability(context: &Context) -> TokenStream {
+    if context.model.second_order.is_none() {
+        return TokenStream::new();
+    }
+    let rt = &context.names.rt;
+    quote! {
+        fn second_order(
+            &self,
+        ) -> ::core::option::Option<impl #rt::SecondOrder<Self::Reduced<#rt::f64>, Self::Constants<#rt::f64>>> {
+            ::core::option::Option::Some(#rt::Emitted(self))
+        }
+    }
+}
+
+/// A program over one half, and the name of the constants that it reads.
+fn written(
+    context: &Context,
+    program: &Program,
+    (names, half): (&[String], TokenStream),
+) -> (TokenStream, TokenStream) {
+    let used = inputs(program);
+    let coefficients = coefficient_names(context);
+    let reads = |names: &[String]| names.iter().any(|name| used.contains(&name.as_str()));
+    let (constants, read) = match reads(&coefficients) {
+        true => {
+            let bound = pattern(&coefficients, &used);
+            (quote!(constants), quote!(let #bound = constants.coefficients;))
+        }
+        false => (quote!(_constants), TokenStream::new()),
+    };
+    let bind = match reads(names) {
+        true => {
+            let bound = pattern(names, &used);
+            quote!(let #bound = *#half;)
+        }
+        false => quote!(let _ = #half;),
+    };
+    let Body { lets, results } = context.generic(program);
+    (constants, quote!(#read #bind #lets [#(#results),*]))
+}

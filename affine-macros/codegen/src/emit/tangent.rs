@@ -1,0 +1,64 @@
+//! `emit(tangent)`: the variational equations.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::ir::tangent::change_of;
+
+use super::body::{Body, inputs};
+use super::dynamics::time;
+use super::splitting::coefficient_names;
+use super::{Context, number, pattern};
+
+/// The implementation of the capability.
+pub(super) fn implementation(context: &Context) -> TokenStream {
+    let Some(program) = &context.model.tangent else { return TokenStream::new() };
+    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
+    let (generics, types, clause) = context.generics();
+    let t = &context.names.scalar;
+    let groups = context.model.reduced.groups.iter().map(|(name, components)| {
+        let len = number(components.len());
+        quote!(#rt::Group { name: #name, len: #len })
+    });
+    let groups: Vec<TokenStream> = groups.collect();
+    let mut states: Vec<String> =
+        context.model.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect();
+    let (len, both) = (number(states.len()), number(2 * states.len()));
+    let changes: Vec<String> = states.iter().map(|name| change_of(name)).collect();
+    states.extend(changes);
+    let used = inputs(program);
+    let coefficients = coefficient_names(context);
+    let changes: Vec<String> = coefficients.iter().map(|name| change_of(name)).collect();
+    let part = |names: &[String], part: TokenStream| {
+        names.iter().any(|name| used.contains(&name.as_str())).then(|| {
+            let bound = pattern(names, &used);
+            quote!(let #bound = constants.coefficients.map(|coefficient| coefficient.#part);)
+        })
+    };
+    let (values, slopes) = (part(&coefficients, quote!(value)), part(&changes, quote!(slope)));
+    let constants = if values.is_some() || slopes.is_some() { quote!(constants) } else { quote!(_constants) };
+    let bound = pattern(&states, &used);
+    let clock = time(program);
+    let Body { lets, results } = context.generic(program);
+    quote! {
+        impl #generics #rt::Tangent<#n> for #prepared #types #clause {
+            type Varied<#t: #rt::Scalar> = [#t; #both];
+            const VARIED: &'static [#rt::Group] =
+                &[#(#groups,)* #rt::Group { name: #rt::TANGENT, len: #len }];
+
+            #[inline]
+            fn variational_equations<#t: #rt::Scalar>(
+                &self,
+                #clock: #t,
+                #constants: &Self::Constants<#rt::Dual<#t>>,
+                varied: &Self::Varied<#t>,
+            ) -> Self::Varied<#t> {
+                let #bound = *varied;
+                #values
+                #slopes
+                #lets
+                [#(#results),*]
+            }
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! Numbers with a derivative.
+
+use core::cmp::Ordering;
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use num_traits::{One, Zero};
+
+use crate::scalar::{Real, Scalar};
+
+/// `value + epsilon slope` with `epsilon^2 = 0`: what is computed with it is differentiated.
+///
+/// Equal are numbers with the same slope as well; the order is that of the values. A function that has no derivative at
+/// the value gives a slope that is not finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual<T> {
+    /// The number.
+    pub value: T,
+    /// Its derivative.
+    pub slope: T,
+}
+
+impl<T: Scalar> Dual<T> {
+    /// A number that does not change.
+    pub fn fixed(value: T) -> Self {
+        Self { value, slope: T::zero() }
+    }
+
+    /// `f(value) + epsilon f'(value) slope`.
+    fn chain(self, value: T, derivative: T) -> Self {
+        Self { value, slope: derivative * self.slope }
+    }
+}
+
+impl<T: Scalar> Add for Dual<T> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { value: self.value + other.value, slope: self.slope + other.slope }
+    }
+}
+
+impl<T: Scalar> Sub for Dual<T> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self { value: self.value - other.value, slope: self.slope - other.slope }
+    }
+}
+
+impl<T: Scalar> Mul for Dual<T> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self { value: self.value * other.value, slope: self.slope * other.value + self.value * other.slope }
+    }
+}
+
+impl<T: Scalar> Div for Dual<T> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        Self { value, slope: (self.slope - value * other.slope) / other.value }
+    }
+}
+
+impl<T: Scalar> Neg for Dual<T> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { value: -self.value, slope: -self.slope }
+    }
+}
+
+macro_rules! assigning {
+    ($($trait:ident $method:ident $operator:tt;)*) => { $(
+        impl<T: Scalar> $trait for Dual<T> {
+            fn $method(&mut self, other: Self) {
+                *self = *self $operator other;
+            }
+        }
+    )* };
+}
+
+assigning! {
+    AddAssign add_assign +;
+    SubAssign sub_assign -;
+    MulAssign mul_assign *;
+    DivAssign div_assign /;
+}
+
+impl<T: Scalar> Zero for Dual<T> {
+    fn zero() -> Self {
+        Self::fixed(T::zero())
+    }
+    fn is_zero(&self) -> bool {
+        *self == Self::zero()
+    }
+}
+
+impl<T: Scalar> One for Dual<T> {
+    fn one() -> Self {
+        Self::fixed(T::one())
+    }
+}
+
+impl<T: Scalar + PartialOrd> PartialOrd for Dual<T> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.value.partial_cmp(&other.value)
+    }
+}
+
+impl<T: Scalar> Scalar for Dual<T> {
+    fn constant(hi: f64, lo: f64) -> Self {
+        Self::fixed(T::constant(hi, lo))
+    }
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        self.chain(root, T::one() / (root + root))
+    }
+    fn cbrt(self) -> Self {
+        let root = self.value.cbrt();
+        self.chain(root, T::one() / (T::constant(3.0, 0.0) * root * root))
+    }
+    fn exp(self) -> Self {
+        let value = self.value.exp();
+        self.chain(value, value)
+    }
+    fn exp_m1(self) -> Self {
+        self.chain(self.value.exp_m1(), self.value.exp())
+    }
+    fn ln(self) -> Self {
+        self.chain(self.value.ln(), T::one() / self.value)
+    }
+    fn ln_1p(self) -> Self {
+        self.chain(self.value.ln_1p(), T::one() / (T::one() + self.value))
+    }
+    fn sin(self) -> Self {
+        self.chain(self.value.sin(), self.value.cos())
+    }
+    fn cos(self) -> Self {
+        self.chain(self.value.cos(), -self.value.sin())
+    }
+    fn tan(self) -> Self {
+        let tan = self.value.tan();
+        self.chain(tan, T::one() + tan * tan)
+    }
+    fn sinh(self) -> Self {
+        self.chain(self.value.sinh(), self.value.cosh())
+    }
+    fn cosh(self) -> Self {
+        self.chain(self.value.cosh(), self.value.sinh())
+    }
+    fn tanh(self) -> Self {
+        let tanh = self.value.tanh();
+        self.chain(tanh, T::one() - tanh * tanh)
+    }
+    fn abs(self) -> Self {
+        self.chain(self.value.abs(), T::one().copysign(self.value))
+    }
+    fn copysign(self, sign: Self) -> Self {
+        let value = self.value.copysign(sign.value);
+        self.chain(value, T::one().copysign(self.value) * T::one().copysign(value))
+    }
+}
+
+impl<T: Real> Real for Dual<T> {
+    /// A number is resolved to this, whatever its slope.
+    const EPSILON: Self = Self { value: T::EPSILON, slope: T::EPSILON };
+
+    fn hypot(self, other: Self) -> Self {
+        let value = self.value.hypot(other.value);
+        let slope = if self.slope == T::zero() && other.slope == T::zero() {
+            T::zero()
+        } else {
+            (self.value * self.slope + other.value * other.slope) / value
+        };
+        Self { value, slope }
+    }
+    fn is_finite(self) -> bool {
+        self.value.is_finite() && self.slope.is_finite()
+    }
+    fn to_f64(self) -> f64 {
+        self.value.to_f64()
+    }
+}

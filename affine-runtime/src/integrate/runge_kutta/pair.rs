@@ -1,0 +1,121 @@
+//! The embedded pairs of methods.
+
+use super::step::OneStep;
+use super::{dormand_prince_54 as dp54, dormand_prince_853 as dp853};
+use crate::integrate::stages::difference;
+use crate::model::StateVector;
+use crate::scalar::Scalar;
+
+/// The stages of an explicit method with error estimators and dense output; [`DormandPrince853`] and
+/// [`DormandPrince54`].
+pub trait Pair: Sized {
+    /// Name of its integration.
+    const NAME: &'static str;
+    /// Order of the leading term of the error estimate in the step size.
+    const ERROR_ORDER: f64;
+    /// Evaluations of an attempted step.
+    const EVALUATIONS: u64;
+    /// Evaluations of the dense output.
+    const DENSE_EVALUATIONS: u64;
+    /// Does the error estimate need the slope at the end of the step?
+    const NEEDS_END: bool;
+
+    /// Fills in the stages of a step and where it ends.
+    fn attempt<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Fn(f64, &S) -> S);
+
+    /// Differences, divided by `h`, of the solution to the embedded ones.
+    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>) -> (S, S);
+
+    /// The error estimate from the squares of the sizes of these.
+    fn error(squares: (f64, f64)) -> f64;
+
+    /// The last coefficients of the dense output, divided by `h`.
+    fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Fn(f64, &S) -> S) -> [S; 4];
+}
+
+/// The method of Dormand and Prince of order 8 with error estimators of orders 5 and 3 and a dense output of order 7.
+#[derive(Clone, Copy, Debug)]
+pub struct DormandPrince853;
+
+/// Solution less the embedded solution of order 3.
+pub(super) const E3: [(usize, f64); dp853::B.len()] = difference(dp853::B, &dp853::B3);
+
+impl Pair for DormandPrince853 {
+    const NAME: &'static str = "RungeKutta8";
+    const ERROR_ORDER: f64 = 8.0;
+    const EVALUATIONS: u64 = 11;
+    const DENSE_EVALUATIONS: u64 = 3;
+    const NEEDS_END: bool = false;
+
+    #[inline(always)]
+    fn attempt<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Fn(f64, &S) -> S) {
+        use dp853::*;
+        step.stage(f, NODES[0], &A2);
+        step.stage(f, NODES[1], &A3);
+        step.stage(f, NODES[2], &A4);
+        step.stage(f, NODES[3], &A5);
+        step.stage(f, NODES[4], &A6);
+        step.stage(f, NODES[5], &A7);
+        step.stage(f, NODES[6], &A8);
+        step.stage(f, NODES[7], &A9);
+        step.stage(f, NODES[8], &A10);
+        step.stage(f, NODES[9], &A11);
+        step.stage(f, NODES[10], &A12);
+        step.end_at(&B);
+    }
+
+    #[inline(always)]
+    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>) -> (S, S) {
+        (step.combination(&dp853::E5), step.combination(&E3))
+    }
+
+    #[inline(always)]
+    fn error((fifth, third): (f64, f64)) -> f64 {
+        if fifth == 0.0 { 0.0 } else { fifth / Scalar::sqrt(fifth + 0.01 * third) }
+    }
+
+    fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Fn(f64, &S) -> S) -> [S; 4] {
+        use dp853::*;
+        step.stage(f, NODES[12], &A14);
+        step.stage(f, NODES[13], &A15);
+        step.stage(f, NODES[14], &A16);
+        [step.combination(&D4), step.combination(&D5), step.combination(&D6), step.combination(&D7)]
+    }
+}
+
+/// The method of Dormand and Prince of order 5 with an embedded solution and a dense output of order 4.
+#[derive(Clone, Copy, Debug)]
+pub struct DormandPrince54;
+
+impl Pair for DormandPrince54 {
+    const NAME: &'static str = "RungeKutta5";
+    const ERROR_ORDER: f64 = 5.0;
+    const EVALUATIONS: u64 = 5;
+    const DENSE_EVALUATIONS: u64 = 0;
+    const NEEDS_END: bool = true;
+
+    #[inline(always)]
+    fn attempt<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Fn(f64, &S) -> S) {
+        use dp54::*;
+        step.stage(f, NODES[0], &A2);
+        step.stage(f, NODES[1], &A3);
+        step.stage(f, NODES[2], &A4);
+        step.stage(f, NODES[3], &A5);
+        step.stage(f, NODES[4], &A6);
+        step.end_at(&B);
+    }
+
+    #[inline(always)]
+    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>) -> (S, S) {
+        (step.combination(&dp54::E), S::zeros())
+    }
+
+    #[inline(always)]
+    fn error((fourth, _): (f64, f64)) -> f64 {
+        Scalar::sqrt(fourth)
+    }
+
+    fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, _: &impl Fn(f64, &S) -> S) -> [S; 4] {
+        [step.combination(&dp54::D), S::zeros(), S::zeros(), S::zeros()]
+    }
+}

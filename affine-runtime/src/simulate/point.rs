@@ -1,0 +1,93 @@
+//! What a run asks of the points that it reaches.
+
+use core::ops::{ControlFlow, Range};
+
+use super::conservation::larger;
+use super::halt::{Callback, Reason};
+use crate::frames::Matrix;
+use crate::integrate::{norm, sum_of_squares};
+use crate::kinematics::LogDeterminant;
+use crate::model::{Group, Model, StateVector, WORK};
+use crate::state::Phase;
+
+/// Part of `|phi|^n` above which a determinant is positive whatever the rounding of a few products.
+const CLEARLY_POSITIVE: f64 = 1e-12;
+
+pub(super) fn go_on(flow: ControlFlow<()>, callback: Callback) -> Result<(), Reason> {
+    match flow {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Reason::Interrupted(callback)),
+    }
+}
+
+/// Refuses a phase point that is not finite or whose placement does not keep orientation.
+pub(super) fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<(), Reason> {
+    if !point.is_finite() {
+        return Err(Reason::NotFinite);
+    }
+    if is_clearly_positive(point.phi()) {
+        return Ok(());
+    }
+    let determinant = LogDeterminant::of(point.phi());
+    if determinant.is_positive() {
+        return Ok(());
+    }
+    Err(Reason::Placement { determinant: determinant.to_f64(), t })
+}
+
+/// A few products settle the sign of most determinants; what is close to zero, or out of the range of numbers,
+/// is left to the careful way.
+pub(super) fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
+    let minor = |a: usize, b: usize| phi[(1, a)] * phi[(2, b)] - phi[(1, b)] * phi[(2, a)];
+    let scale = sum_of_squares(phi.as_slice());
+    // `det > c |phi|^n` without the root.
+    let exceeds = |determinant: f64, power: f64| {
+        determinant > 0.0 && determinant * determinant > CLEARLY_POSITIVE * CLEARLY_POSITIVE * power
+    };
+    match N {
+        2 => exceeds(phi[(0, 0)] * phi[(1, 1)] - phi[(0, 1)] * phi[(1, 0)], scale * scale),
+        3 => {
+            let determinant =
+                phi[(0, 0)] * minor(1, 2) - phi[(0, 1)] * minor(0, 2) + phi[(0, 2)] * minor(0, 1);
+            exceeds(determinant, scale * scale * scale)
+        }
+        _ => false,
+    }
+}
+
+/// What an energy is measured against: `|H|`, or `(|Pi| |phi_dot| + |p| |x_dot|)/2`, which is at least `|T|`.
+pub(super) fn energy_scale<const N: usize, M: Model<N>>(
+    model: &M,
+    point: &M::Point<f64>,
+    energy: f64,
+) -> f64 {
+    let velocity = model.velocity(point);
+    let internal = norm(point.pi().0.0.as_slice()) * norm(velocity.phi_dot.as_slice());
+    let translational = norm(point.p().as_slice()) * norm(velocity.x_dot.as_slice());
+    larger(energy.abs(), 0.5 * (internal + translational))
+}
+
+/// Components of a state that are the placement, row by row, up to factors of positive determinant that
+/// the expansion restores.
+pub(super) fn placement_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
+    let k = groups.iter().position(|group| group.is_placement() && group.len == n * n)?;
+    let start = total(&groups[..k]);
+    Some(start..start + n * n)
+}
+
+/// The work of the forces that no potential has, where the state holds it.
+pub(super) fn work<S: StateVector<f64>>(groups: &[Group], state: &S) -> f64 {
+    let place = groups.iter().position(|group| group.name == WORK).map(|k| total(&groups[..k]));
+    place.map_or(0.0, |place| state.as_ref()[place])
+}
+
+/// Number of components.
+pub(super) const fn total(groups: &[Group]) -> usize {
+    let mut total = 0;
+    let mut k = 0;
+    while k < groups.len() {
+        total += groups[k].len;
+        k += 1;
+    }
+    total
+}

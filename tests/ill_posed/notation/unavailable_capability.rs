@@ -1,6 +1,0 @@
-use affine_runtime::affine_model;
-
-#[affine_model(dim = 2, kinetic(casimir2 = 1), emit(tangent))]
-struct Model;
-
-fn main() {}

@@ -1,0 +1,209 @@
+//! Three routes to the derivative of a motion: the emitted equations, dual numbers through equations and closed forms, and
+//! differences of neighbouring motions.
+
+use affine_runtime::capability::Tangent;
+use affine_runtime::dual::Dual;
+use affine_runtime::integrate::Failure;
+use affine_runtime::model::StateVector;
+use affine_runtime::prelude::*;
+use affine_runtime::variation::Variation;
+
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
+    emit(tangent)
+)]
+struct Missile;
+
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
+    potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
+    emit(tangent),
+)]
+struct Vibrating {
+    kappa: f64,
+}
+
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = a, body_inertia = i, body_translation = 1),
+    potential = cosh(q) + neo_hookean(0.5) + sqrt(1 + tr(G)) + tanh(tr(G)/9) + exp(-tr(G)) + ln(1 + det^2)
+        + tan(det/9) + sinh(tr(Ct)/20) + cos(t)*sin(tr(Ct)/5),
+    emit(tangent),
+)]
+struct Driven {
+    a: f64,
+    i: f64,
+}
+
+#[affine_model(dim = 3, kinetic(dalembert = diag(1, 1.5, 2)), potential = hyperbolic_dilatation(10) + neo_hookean(0.5), emit(tangent))]
+struct Elastic;
+
+#[affine_model(dim = 2, kinetic(body_inertia = diag(1, 2)), dissipation(body_inertia = 0.3), emit(tangent))]
+struct Damped;
+
+#[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1), emit(tangent))]
+struct Geodesic;
+
+#[affine_model(dim = 2, kinetic(dalembert = 1, body_inertia = 0.5), potential = tr(G)/2 - ln(det), emit(tangent))]
+struct Mixed;
+
+fn phi<const N: usize>() -> Matrix<N> {
+    Matrix::<N>::from_fn(
+        |i, j| if i == j { 1.1 - 0.1 * i as f64 } else { 0.15 * (i as f64 - 0.7 * j as f64) },
+    )
+}
+
+fn spin<const N: usize>() -> Matrix<N> {
+    Matrix::<N>::from_fn(|i, j| 0.4 * ((2 * i + 3 * j) as f64 + 0.3).sin())
+}
+
+fn along<V: StateVector<f64>>() -> V {
+    let mut direction = V::zeros();
+    for (k, component) in direction.as_mut().iter_mut().enumerate() {
+        *component = (1.7 * k as f64 + 0.4).cos();
+    }
+    direction
+}
+
+/// The emitted equations are the derivative of the reduced ones, constants included.
+fn assert_derivative<const N: usize, M: Tangent<N>>(model: &M, point: &M::Point<f64>) {
+    let t = 0.3;
+    let mut full = M::Full::<Dual<f64>>::zeros();
+    let (values, slopes) = (model.flatten(point), along::<M::Full<f64>>());
+    for (both, (value, slope)) in full.as_mut().iter_mut().zip(values.as_ref().iter().zip(slopes.as_ref())) {
+        *both = Dual { value: *value, slope: *slope };
+    }
+    let (reduced, constants) = model.reduce(Dual::fixed(t), &model.unflatten(&full));
+    let rates = model.reduced_equations(Dual::fixed(t), &constants, &reduced);
+    let mut varied = M::Varied::<f64>::zeros();
+    let size = reduced.as_ref().len();
+    for (k, both) in reduced.as_ref().iter().enumerate() {
+        (varied.as_mut()[k], varied.as_mut()[size + k]) = (both.value, both.slope);
+    }
+    let found = model.variational_equations(t, &constants, &varied);
+    let scale: f64 = rates.as_ref().iter().map(|rate| rate.slope.abs() + rate.value.abs()).sum();
+    for (k, both) in rates.as_ref().iter().enumerate() {
+        let (value, slope) = (found.as_ref()[k], found.as_ref()[size + k]);
+        assert!((value - both.value).abs() < 1e-13 * scale, "{k}: {value} {}", both.value);
+        assert!((slope - both.slope).abs() < 1e-13 * scale, "{k}: {slope} {}", both.slope);
+    }
+    assert!(scale > 0.1 && M::VARIED.iter().map(|group| group.len).sum::<usize>() == 2 * size);
+}
+
+/// The change over a time against the difference of two motions, which is exact to the square of the distance.
+fn assert_change<const N: usize, M: Tangent<N>>(model: &M, point: M::Point<f64>) {
+    let (t_end, distance) = (2.5, 1e-5);
+    let direction = along::<M::Full<f64>>();
+    let mut variation = Variation::new(model, (0.0, &point), &direction, 1e-13).unwrap();
+    variation.advance_to(1.0).unwrap();
+    variation.advance_to(t_end).unwrap();
+    let end = |sign: f64| {
+        let mut full = model.flatten(&point);
+        full.as_mut().iter_mut().zip(direction.as_ref()).for_each(|(v, d)| *v += sign * distance * d);
+        let start = model.unflatten(&full);
+        let run = Simulation::new(model, start).until(t_end).method(Method::RungeKutta8).tolerance(1e-14);
+        model.flatten(run.output([t_end]).run().unwrap().end().1)
+    };
+    let (there, back) = (end(1.0), end(-1.0));
+    let change = variation.change();
+    let scale: f64 = change.as_ref().iter().map(|v| v.abs()).sum();
+    for (k, change) in change.as_ref().iter().enumerate() {
+        let difference = (there.as_ref()[k] - back.as_ref()[k]) / (2.0 * distance);
+        assert!((change - difference).abs() < 2e-8 * scale, "{k}: {change} {difference}");
+    }
+    let middle = model.flatten(&variation.point());
+    for (k, middle) in middle.as_ref().iter().enumerate() {
+        let mean = 0.5 * (there.as_ref()[k] + back.as_ref()[k]);
+        assert!((middle - mean).abs() < 1e-7 * (1.0 + mean.abs()), "{k}: {middle} {mean}");
+    }
+    let length = |v: &M::Full<f64>| v.as_ref().iter().map(|v| v * v).sum::<f64>().sqrt();
+    let exponent = (length(&change) / length(&direction)).ln() / t_end;
+    assert!((variation.exponent() - exponent).abs() < 1e-12);
+}
+
+macro_rules! check {
+    ($model:expr, $point:expr) => {{
+        let (model, point) = ($model, $point);
+        assert_derivative(&model, &point);
+        assert_change(&model, point);
+    }};
+}
+
+#[test]
+fn emitted_equations_are_derivatives_and_changes_are_differences() {
+    let (x3, p3) = (Vector::<3>::new(0.1, 0.5, -0.2), Vector::<3>::new(0.3, -0.2, 0.5));
+    let (x2, p2) = (Vector::<2>::new(0.1, 0.5), Vector::<2>::new(0.3, -0.2));
+    check!(Missile, Missile.at_momentum(x3, phi(), p3, Comoving(spin())).unwrap());
+    let vibrating = Vibrating { kappa: 10.0 }.prepare().unwrap();
+    let start = vibrating.at_momentum(phi(), Comoving(spin())).unwrap();
+    check!(vibrating, start);
+    let driven = Driven { a: 0.2, i: 1.0 }.prepare().unwrap();
+    let start = driven.at_momentum(x2, phi(), p2, Comoving(spin())).unwrap();
+    check!(driven, start);
+    check!(Elastic, Elastic.at_momentum(phi(), TwoPoint(spin())).unwrap());
+    check!(Damped, Damped.at_momentum(phi(), Comoving(spin())).unwrap());
+    check!(Geodesic, Geodesic.at_momentum(phi(), Comoving(spin())).unwrap());
+    check!(Mixed, Mixed.at_momentum(phi(), TwoPoint(spin())).unwrap());
+}
+
+/// A d'Alembert body in a quadratic potential: `phi'' = -k phi`, whose flow is linear: changes move like points.
+#[test]
+fn a_linear_motion_moves_its_changes_like_points() {
+    #[affine_model(dim = 2, kinetic(dalembert = 2), potential = 3*tr(G), emit(tangent))]
+    struct Springs;
+
+    let start = Springs.at_momentum(phi(), TwoPoint(spin())).unwrap();
+    let direction = along::<[f64; 8]>();
+    let mut variation = Variation::new(&Springs, (0.0, &start), &direction, 1e-14).unwrap();
+    // The determinant passes zero on the way; the equations know nothing of it.
+    variation.advance_to(1.3).unwrap();
+    let rate = 3.0_f64.sqrt();
+    let (sin, cos) = (rate * 1.3).sin_cos();
+    let change = variation.change();
+    for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        let (a, b) = (2 * i + j, 4 + 2 * j + i);
+        let expected = cos * direction[a] + sin / (2.0 * rate) * direction[b];
+        assert!((change[a] - expected).abs() < 1e-11, "{change:?}");
+    }
+}
+
+/// The derivative of `phi0 exp(t X) exp(t W)`.
+#[test]
+fn closed_form_geodesics() {
+    let start = Geodesic.at_momentum(phi(), Comoving(spin())).unwrap();
+    let direction = along::<[f64; 8]>();
+    let mut variation = Variation::new(&Geodesic, (0.0, &start), &direction, 1e-14).unwrap();
+    variation.advance_to(2.0).unwrap();
+    let end = |sign: f64, distance: f64| {
+        let mut full = Geodesic.flatten(&start);
+        full.iter_mut().zip(direction).for_each(|(v, d)| *v += sign * distance * d);
+        let moved = Geodesic.unflatten(&full);
+        let geodesic = Geodesic.geodesic(0.0, &moved).unwrap();
+        Geodesic.flatten(&Geodesic.on_geodesic(&geodesic, 2.0, &moved))
+    };
+    // Richardson's extrapolation of central differences of the closed form: an error of order distance^4.
+    let difference =
+        |k: usize, distance: f64| (end(1.0, distance)[k] - end(-1.0, distance)[k]) / (2.0 * distance);
+    for (k, change) in variation.change().iter().enumerate() {
+        let expected = (4.0 * difference(k, 1e-3) - difference(k, 2e-3)) / 3.0;
+        assert!((change - expected).abs() < 1e-10 * (1.0 + expected.abs()), "{k}: {change} {expected}");
+    }
+}
+
+/// Where space is turned along a vanishing linear momentum there is no derivative.
+#[test]
+fn a_momentum_at_rest_has_no_direction() {
+    let start =
+        Missile.at_momentum(Vector::<3>::zeros(), phi(), Vector::<3>::zeros(), Comoving(spin())).unwrap();
+    let mut variation = Variation::new(&Missile, (0.0, &start), &along(), 1e-10);
+    assert_eq!(variation.as_mut().map(|v| v.t()).map_err(|failure| *failure), Err(Failure::NotFinite));
+    // Along a direction that leaves p at rest there is one.
+    let mut direction = [0.0; 24];
+    direction[3] = 1.0;
+    let mut variation = Variation::new(&Missile, (0.0, &start), &direction, 1e-10).unwrap();
+    variation.advance_to(1.0).unwrap();
+    assert!(variation.change().iter().all(|v| v.is_finite()) && variation.t() == 1.0);
+    assert_eq!(variation.advance_to(f64::NAN), Err(Failure::NotFinite));
+}
