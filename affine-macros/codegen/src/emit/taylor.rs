@@ -1,17 +1,17 @@
 //! `emit(taylor)`: the recurrence of Taylor coefficients, order by order.
 
+mod convolutions;
+mod rules;
+
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::algebra::Function;
-use crate::ir::taylor::{Factor, Pass, Place, Recurrence, Rule, Series, Term, sums};
+use crate::ir::taylor::{Recurrence, Rule, Series, Term};
 use crate::ir::{Op, Program, Value};
 
 use super::body::{Body, inputs};
 use super::{Context, number, pattern};
-
-/// Sums that are formed in one loop: with four lanes each, twelve registers of the narrowest vector unit.
-const SUMS_PER_LOOP: usize = 6;
 
 /// The implementation of the capability.
 pub(super) fn taylor_impl(context: &Context) -> TokenStream {
@@ -154,7 +154,7 @@ impl Writer<'_> {
         let (early_vectors, late_vectors) = (self.vectors(true), self.vectors(false));
         let stored = self.stored();
         let middle = self.loops();
-        let ends = self.recurrence.full.iter().map(|pass| self.ends(pass));
+        let ends = self.ends();
         let rates = self.recurrence.program.outputs.iter().map(|(_, v)| match self.recurrence.moving[*v] {
             true => {
                 let rate = self.ident(*v);
@@ -186,7 +186,7 @@ impl Writer<'_> {
                 #bind
                 #(#early)*
                 #early_vectors
-                #(#ends)*
+                #ends
                 #(#late)*
                 #late_vectors
                 #stored
@@ -245,267 +245,5 @@ impl Writer<'_> {
     fn current(&self, series: Series) -> TokenStream {
         let value = self.ident(series.value);
         if series.rate { quote!(#value * order) } else { quote!(#value) }
-    }
-
-    /// The vectors of ready series, or the others: all lanes of a row that begin at `slot`.
-    fn vectors(&self, ready: bool) -> TokenStream {
-        let t = &self.context.names.scalar;
-        let is_ready =
-            |series: &Option<Series>| series.is_none_or(|s| self.recurrence.ready[s.value] && !s.rate);
-        let vectors =
-            self.recurrence.row[..self.recurrence.vectors].chunks(self.recurrence.lanes).enumerate();
-        vectors
-            .filter(|(_, vector)| vector.iter().all(is_ready) == ready)
-            .map(|(index, vector)| {
-                let name = self.vector(index * self.recurrence.lanes);
-                let entries = vector.iter().map(|series| match series {
-                    Some(series) => self.current(*series),
-                    None => quote!(#t::zero()),
-                });
-                quote!(let #name = [#(#entries),*];)
-            })
-            .collect()
-    }
-
-    fn vector(&self, slot: usize) -> Ident {
-        format_ident!("lanes_{}", slot / self.recurrence.lanes + 1)
-    }
-
-    /// Fills the row of order `k`.
-    fn stored(&self) -> TokenStream {
-        let Recurrence { row, vectors, lanes, .. } = self.recurrence;
-        if row.is_empty() {
-            return TokenStream::new();
-        }
-        let names = (0..*vectors).step_by(*lanes).map(|slot| self.vector(slot));
-        let singles = row[*vectors..].iter().flatten().map(|series| self.current(*series));
-        let entries = names
-            .flat_map(|name| {
-                (0..*lanes).map(move |lane| {
-                    let lane = number(lane);
-                    quote!(#name[#lane])
-                })
-            })
-            .chain(singles);
-        quote!(*row = [#(#entries),*];)
-    }
-
-    /// The terms `j = 1..k` of all convolutions.
-    fn loops(&self) -> TokenStream {
-        let t = &self.context.names.scalar;
-        let lanes = number(self.recurrence.lanes);
-        let all = [("full", &self.recurrence.full), ("inner", &self.recurrence.inner)];
-        let sums: Vec<(&str, usize)> =
-            all.iter().flat_map(|(stem, passes)| (0..sums(passes)).map(move |sum| (*stem, sum))).collect();
-        let passes: Vec<(&str, &Pass)> =
-            all.iter().flat_map(|(stem, passes)| passes.iter().map(move |pass| (*stem, pass))).collect();
-        let blocks = sums.chunks(SUMS_PER_LOOP).map(|block| {
-            let names = block.iter().map(|(stem, sum)| self.sum(stem, *sum));
-            let own = passes.iter().filter(|(stem, pass)| block.contains(&(*stem, pass.sum)));
-            let statements = own.map(|(stem, pass)| {
-                let (left, right) = self.factors(pass, &quote!(left), &quote!(right));
-                self.pass(stem, pass, &left, &right)
-            });
-            quote! {
-                #(let mut #names = [#t::zero(); #lanes];)*
-                for (left, right) in middle.iter().zip(middle.iter().rev()) {
-                    #(#statements)*
-                }
-            }
-        });
-        blocks.collect()
-    }
-
-    /// The terms `j = 0` and `j = k` of a full convolution.
-    fn ends(&self, pass: &Pass) -> TokenStream {
-        let (first_left, first_right) = self.factors(pass, &quote!(first), &quote!(first));
-        let left = self.vector(pass.left);
-        let right = match pass.right {
-            Factor::Vector(slot) => {
-                let right = self.vector(slot);
-                quote!(#right)
-            }
-            Factor::Slot(slot) => {
-                self.recurrence.row[slot].map(|series| self.current(series)).unwrap_or_default()
-            }
-        };
-        let one = self.pass("full", pass, &first_left, &right);
-        let other = self.pass("full", pass, &quote!(#left), &first_right);
-        quote!(#one #other)
-    }
-
-    fn sum(&self, stem: &str, sum: usize) -> Ident {
-        format_ident!("{stem}_{}", sum + 1)
-    }
-
-    /// The factors of a multiplication from two rows.
-    fn factors(&self, pass: &Pass, left: &TokenStream, right: &TokenStream) -> (TokenStream, TokenStream) {
-        let rt = &self.context.names.rt;
-        let vector = |row: &TokenStream, slot: usize| {
-            let slot = number(slot);
-            quote!(#rt::lanes(#row, #slot))
-        };
-        let right = match pass.right {
-            Factor::Vector(slot) => vector(right, slot),
-            Factor::Slot(slot) => {
-                let slot = number(slot);
-                quote!(#right[#slot])
-            }
-        };
-        (vector(left, pass.left), right)
-    }
-
-    fn pass(&self, stem: &str, pass: &Pass, left: &TokenStream, right: &TokenStream) -> TokenStream {
-        let rt = &self.context.names.rt;
-        let sum = self.sum(stem, pass.sum);
-        let name = match (pass.negative, pass.right) {
-            (false, Factor::Vector(_)) => "add_products",
-            (true, Factor::Vector(_)) => "subtract_products",
-            (false, Factor::Slot(_)) => "add_multiple",
-            (true, Factor::Slot(_)) => "subtract_multiple",
-        };
-        let function = format_ident!("{name}");
-        quote!(#rt::#function(vectors, &mut #sum, #left, #right);)
-    }
-
-    fn place(&self, place: Place) -> TokenStream {
-        let sum = self.sum(if place.full { "full" } else { "inner" }, place.sum);
-        let lane = number(place.lane);
-        quote!(#sum[#lane])
-    }
-
-    /// The coefficient of order zero.
-    fn first(&self, series: Series) -> TokenStream {
-        // Every factor of an inner convolution has a slot.
-        let slot = number(self.recurrence.slot(series).unwrap_or(0));
-        quote!(first[#slot])
-    }
-
-    fn of_order_zero(&self, value: Value) -> TokenStream {
-        self.first(Series { value, rate: false })
-    }
-
-    /// The rule as a `let`. Divisors are known long before: their reciprocals are not waited for.
-    fn statement(&self, value: Value, rule: &Rule) -> TokenStream {
-        let t = &self.context.names.scalar;
-        let name = self.ident(value);
-        let expression = match rule {
-            Rule::Sum(terms) => self.summed(terms),
-            Rule::Quotient { numerator, denominator, inner } => {
-                let (b, inner) = (self.ident(*denominator), self.place(*inner));
-                let (y0, b0) = (self.of_order_zero(value), self.of_order_zero(*denominator));
-                let rest = quote!(#b.fma(#y0, #inner));
-                match numerator {
-                    Some(a) => {
-                        let a = self.ident(*a);
-                        quote!((#a - #rest) * (#t::one() / #b0))
-                    }
-                    None => quote!(-#rest * (#t::one() / #b0)),
-                }
-            }
-            Rule::Function { function, argument, companion, inner } => {
-                self.function(*function, value, *argument, *companion, inner)
-            }
-        };
-        quote!(let #name = #expression;)
-    }
-
-    /// Products as multiply-adds behind the sum of the rest.
-    fn summed(&self, terms: &[(bool, Term)]) -> TokenStream {
-        let t = &self.context.names.scalar;
-        let mut sorted: Vec<&(bool, Term)> = terms.iter().collect();
-        sorted.sort_by_key(|(negative, term)| match term {
-            Term::Value(_) | Term::Lane(_) => (0, *negative),
-            Term::Divided(..) => (1, *negative),
-            Term::Scaled(..) | Term::Ends(..) => (2, false),
-        });
-        let mut sum: Option<TokenStream> = None;
-        for (negative, term) in sorted {
-            let plain = match *term {
-                Term::Value(v) => {
-                    let v = self.ident(v);
-                    quote!(#v)
-                }
-                Term::Lane(place) => self.place(place),
-                Term::Divided(v, c) => {
-                    let (v, c) = (self.ident(v), self.fixed_value(c));
-                    quote!(#v / #c)
-                }
-                Term::Scaled(c, v) => {
-                    let (c, v) = (self.fixed_value(c), self.ident(v));
-                    sum = Some(product(sum, *negative, quote!(#v), quote!(#c)));
-                    continue;
-                }
-                Term::Ends(a, b) => {
-                    let (a0, ak) = (self.of_order_zero(a), self.ident(a));
-                    if a == b {
-                        sum = Some(product(sum, *negative, quote!((#a0 + #a0)), quote!(#ak)));
-                        continue;
-                    }
-                    let (b0, bk) = (self.of_order_zero(b), self.ident(b));
-                    sum = Some(product(sum, *negative, quote!(#bk), a0));
-                    sum = Some(product(sum, *negative, quote!(#ak), b0));
-                    continue;
-                }
-            };
-            sum = Some(match (sum, negative) {
-                (None, false) => plain,
-                (None, true) => quote!(-#plain),
-                (Some(sum), false) => quote!(#sum + #plain),
-                (Some(sum), true) => quote!(#sum - #plain),
-            });
-        }
-        sum.unwrap_or_else(|| quote!(#t::zero()))
-    }
-
-    /// The expression of a value that does not move.
-    fn fixed_value(&self, value: Value) -> TokenStream {
-        self.fixed.iter().find(|(v, _)| *v == value).map(|(_, tokens)| tokens.clone()).unwrap_or_default()
-    }
-
-    /// The differential equation of each function, solved for the coefficient of order `k`.
-    fn function(
-        &self,
-        function: Function,
-        value: Value,
-        argument: Value,
-        companion: Option<Value>,
-        inner: &[Place],
-    ) -> TokenStream {
-        let t = &self.context.names.scalar;
-        let u = self.ident(argument);
-        let (y0, u0) = (self.of_order_zero(value), self.of_order_zero(argument));
-        let inner: Vec<TokenStream> = inner.iter().map(|place| self.place(*place)).collect();
-        match (function, inner.as_slice(), companion) {
-            // y' = y u'
-            (Function::Exp, [m], _) => quote!(#u.fma(#y0, #m / order)),
-            // u y' = u'
-            (Function::Ln, [m], _) => quote!((#u - #m / order) * (#t::one() / #u0)),
-            // y^2 = u
-            (Function::Sqrt, [m], _) => quote!((#u - #m) * (#t::one() / (#y0 + #y0))),
-            // 3 u y' = y u'
-            (Function::Cbrt, [m, weighted], _) => {
-                let (three, four) = (quote!(#t::constant(3.0, 0.0)), quote!(#t::constant(4.0, 0.0)));
-                quote!((#u.fma(#y0, #m) * order - #weighted * #four) * (#t::one() / (#u0 * order * #three)))
-            }
-            // y' = z u' or y' = -z u'
-            (function, [m], Some(other)) => {
-                let z0 = self.of_order_zero(other);
-                let sum = quote!(#u.fma(#z0, #m / order));
-                if function == Function::Cos { quote!(-#sum) } else { sum }
-            }
-            // |u| = (|u_0|/u_0) u
-            _ => quote!(#u * (#y0 / #u0)),
-        }
-    }
-}
-
-/// `sum + a b` or `sum - a b`.
-fn product(sum: Option<TokenStream>, negative: bool, a: TokenStream, b: TokenStream) -> TokenStream {
-    match (sum, negative) {
-        (None, false) => quote!(#a * #b),
-        (None, true) => quote!(-#a * #b),
-        (Some(sum), false) => quote!(#a.fma(#b, #sum)),
-        (Some(sum), true) => quote!((-#a).fma(#b, #sum)),
     }
 }
