@@ -2,9 +2,7 @@
 
 mod lanes;
 
-pub use lanes::{
-    Portable, Vectors, add_lanes, add_multiple, add_products, lanes, subtract_multiple, subtract_products,
-};
+pub use lanes::{Portable, Vectors, add_multiple, add_products, lanes, subtract_multiple, subtract_products};
 
 use core::fmt;
 
@@ -186,11 +184,11 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     /// The longest step that the last two coefficients allow.
     #[inline(always)]
     fn longest(&self) -> f64 {
-        let terms = [&self.coefficients[self.order], &self.coefficients[self.order - 1]];
+        let [last, before] = [self.order, self.order - 1].map(|j| self.coefficients[j].as_ref());
         let within = |h: f64| {
-            let errors = self.error_norm.largest_at(h, self.coefficients[0].as_ref(), |r| {
-                terms.map(|term| size(&term.as_ref()[r.clone()]))
-            });
+            let errors = self
+                .error_norm
+                .largest_at(h, self.coefficients[0].as_ref(), |r| [size(&last[r.clone()]), size(&before[r])]);
             // The logarithm of `(tolerance/|y_j|)^(1/j)`; no error is no bound, and NaN stays.
             let logarithm = |error: f64, j: usize| libm::log(self.tolerance / error) / j as f64;
             let (last, before) = (logarithm(errors[0], self.order), logarithm(errors[1], self.order - 1));

@@ -154,7 +154,7 @@ impl Writer<'_> {
         let (early_vectors, late_vectors) = (self.vectors(true), self.vectors(false));
         let stored = self.stored();
         let middle = self.loops();
-        let ends = self.ends();
+        let ends = self.recurrence.full.iter().map(|pass| self.ends(pass));
         let rates = self.recurrence.program.outputs.iter().map(|(_, v)| match self.recurrence.moving[*v] {
             true => {
                 let rate = self.ident(*v);
@@ -186,7 +186,7 @@ impl Writer<'_> {
                 #bind
                 #(#early)*
                 #early_vectors
-                #ends
+                #(#ends)*
                 #(#late)*
                 #late_vectors
                 #stored

@@ -15,8 +15,6 @@ pub trait Vectors: Copy {
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
     /// `sum - left right`, lane by lane.
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
-    /// `left + right`, lane by lane.
-    fn plus(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4];
 }
 
 /// The vectors that every processor of the target has.
@@ -32,10 +30,6 @@ impl Vectors for Portable {
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
         f64x4::from(left).mul_neg_add(f64x4::from(right), f64x4::from(sum)).into()
     }
-    #[inline(always)]
-    fn plus(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        (f64x4::from(left) + f64x4::from(right)).into()
-    }
 }
 
 /// AVX2: found at run time on targets that do not promise it, so nothing is fused there either.
@@ -50,10 +44,6 @@ impl Vectors for pulp::x86::V3 {
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
         let product = self.mul_f64x4(pulp::cast(left), pulp::cast(right));
         pulp::cast(self.sub_f64x4(pulp::cast(sum), product))
-    }
-    #[inline(always)]
-    fn plus(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        pulp::cast(self.add_f64x4(pulp::cast(left), pulp::cast(right)))
     }
 }
 
@@ -101,18 +91,6 @@ pub fn subtract_products<T: Scalar, const W: usize>(
     } else {
         for lane in 0..W {
             sum[lane] = (-left[lane]).fma(right[lane], sum[lane]);
-        }
-    }
-}
-
-/// `sum += other`, lane by lane.
-#[inline(always)]
-pub fn add_lanes<T: Scalar, const W: usize>(vectors: impl Vectors, sum: &mut [T; W], other: [T; W]) {
-    if let Some((sum, other, _)) = doubles(sum, &other, &other) {
-        *sum = vectors.plus(*sum, other);
-    } else {
-        for lane in 0..W {
-            sum[lane] += other[lane];
         }
     }
 }

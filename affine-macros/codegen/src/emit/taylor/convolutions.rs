@@ -7,13 +7,9 @@ use super::super::number;
 use super::Writer;
 use crate::ir::taylor::{Factor, Pass, Place, Recurrence, Series, sums};
 
-/// Accumulators of one sum. A sum of several products would wait for its own last addition in every turn of the loop.
-const CHAINS: usize = 3;
-/// Accumulators in one loop: with what is multiplied, the sixteen registers of AVX2.
-const ACCUMULATORS: usize = 9;
-
-/// Passes of one kind and the stem of the names of their sums.
-type Kind<'a> = (&'static str, &'a [Pass]);
+/// Sums that are formed in one loop: with three vectors that are multiplied and what waits for the end of the loop, the
+/// sixteen registers of AVX2. A second loop costs more than the narrower units of other processors lose.
+const SUMS_PER_LOOP: usize = 9;
 
 impl Writer<'_> {
     /// The vectors of ready series, or the others: all lanes of a row that begin at `slot`.
@@ -59,79 +55,55 @@ impl Writer<'_> {
         quote!(*row = [#(#entries),*];)
     }
 
-    fn kinds(&self) -> [Kind<'_>; 2] {
-        [("full", &self.recurrence.full), ("inner", &self.recurrence.inner)]
-    }
-
-    /// The terms `j = 1..k` of all convolutions.
+    /// The terms `j = 1..k` of all convolutions, those with the row of the order just before behind the others: it was
+    /// stored a moment ago, and the loops need not wait for it.
     pub(super) fn loops(&self) -> TokenStream {
         let t = &self.context.names.scalar;
         let lanes = number(self.recurrence.lanes);
-        let blocks = self.blocks().into_iter().map(|block| {
-            let names = block.iter().flat_map(|((stem, passes), sum)| {
-                (0..chains(passes, *sum)).map(|chain| accumulator(stem, *sum, chain))
-            });
-            let statements = block.iter().flat_map(|((stem, passes), sum)| {
-                in_chains(passes).filter(|(pass, _)| pass.sum == *sum).map(|(pass, chain)| {
-                    let (left, right) = self.factors(pass, &quote!(left), &quote!(right));
-                    self.pass(&accumulator(stem, *sum, chain), pass, &left, &right)
-                })
-            });
-            quote! {
-                #(let mut #names = [#t::zero(); #lanes];)*
-                for (left, right) in middle.iter().zip(middle.iter().rev()) {
-                    #(#statements)*
-                }
-            }
-        });
-        let inner = self.gathered("inner", &self.recurrence.inner);
-        quote!(#(#blocks)* #inner)
-    }
-
-    /// All sums, by the loops that form them.
-    fn blocks(&self) -> Vec<Vec<(Kind<'_>, usize)>> {
-        let mut blocks: Vec<Vec<(Kind<'_>, usize)>> = Vec::new();
-        let mut open = 0;
-        for kind in self.kinds() {
-            for sum in 0..sums(kind.1) {
-                let own = chains(kind.1, sum);
-                match blocks.last_mut() {
-                    Some(block) if open + own <= ACCUMULATORS => {
-                        block.push((kind, sum));
-                        open += own;
-                    }
-                    _ => {
-                        blocks.push(vec![(kind, sum)]);
-                        open = own;
+        let kinds = [("full", &self.recurrence.full), ("inner", &self.recurrence.inner)];
+        let sums: Vec<(&str, &[Pass], usize)> = kinds
+            .iter()
+            .flat_map(|(stem, passes)| (0..sums(passes)).map(move |sum| (*stem, passes.as_slice(), sum)))
+            .collect();
+        let mut newest = TokenStream::new();
+        let loops: Vec<TokenStream> = sums
+            .chunks(SUMS_PER_LOOP)
+            .map(|block| {
+                let names = block.iter().map(|(stem, _, sum)| self.sum(stem, *sum));
+                let turn: TokenStream =
+                    block.iter().flat_map(|(stem, passes, sum)| self.turn(stem, passes, *sum)).collect();
+                newest.extend(turn.clone());
+                quote! {
+                    #(let mut #names = [#t::zero(); #lanes];)*
+                    for (left, right) in middle.iter().skip(1).zip(middle.iter().rev().skip(1)) {
+                        #turn
                     }
                 }
+            })
+            .collect();
+        if loops.is_empty() {
+            return TokenStream::new();
+        }
+        quote! {
+            #(#loops)*
+            if let (Some(left), Some(right)) = (middle.first(), middle.last()) {
+                #newest
             }
         }
-        blocks
     }
 
-    /// The accumulators of every sum, added up.
-    fn gathered(&self, stem: &str, passes: &[Pass]) -> TokenStream {
-        let rt = &self.context.names.rt;
-        let additions = (0..sums(passes)).flat_map(|sum| {
-            let whole = accumulator(stem, sum, 0);
-            (1..chains(passes, sum)).map(move |chain| {
-                let part = accumulator(stem, sum, chain);
-                quote!(#rt::add_lanes(vectors, &mut #whole, #part);)
-            })
-        });
-        additions.collect()
+    /// What one turn of a loop adds to a sum.
+    fn turn(&self, stem: &str, passes: &[Pass], sum: usize) -> TokenStream {
+        let own = passes.iter().filter(|pass| pass.sum == sum);
+        own.map(|pass| {
+            let (left, right) = self.factors(pass, &quote!(left), &quote!(right));
+            self.pass(stem, pass, &left, &right)
+        })
+        .collect()
     }
 
-    /// The terms `j = 0` and `j = k` of all full convolutions.
-    pub(super) fn ends(&self) -> TokenStream {
-        let passes = &self.recurrence.full;
-        let ends = in_chains(passes).map(|(pass, chain)| self.ends_of(pass, chain));
-        let gathered = self.gathered("full", passes);
-        quote!(#(#ends)* #gathered)
-    }
-
-    fn ends_of(&self, pass: &Pass, chain: usize) -> TokenStream {
+    /// The terms `j = 0` and `j = k` of a full convolution.
+    pub(super) fn ends(&self, pass: &Pass) -> TokenStream {
         let (first_left, first_right) = self.factors(pass, &quote!(first), &quote!(first));
         let left = self.vector(pass.left);
         let right = match pass.right {
@@ -143,9 +115,8 @@ impl Writer<'_> {
                 self.recurrence.row[slot].map(|series| self.current(series)).unwrap_or_default()
             }
         };
-        let sum = accumulator("full", pass.sum, chain);
-        let one = self.pass(&sum, pass, &first_left, &right);
-        let other = self.pass(&sum, pass, &quote!(#left), &first_right);
+        let one = self.pass("full", pass, &first_left, &right);
+        let other = self.pass("full", pass, &quote!(#left), &first_right);
         quote!(#one #other)
     }
 
@@ -166,8 +137,13 @@ impl Writer<'_> {
         (vector(left, pass.left), right)
     }
 
-    fn pass(&self, sum: &Ident, pass: &Pass, left: &TokenStream, right: &TokenStream) -> TokenStream {
+    fn sum(&self, stem: &str, sum: usize) -> Ident {
+        format_ident!("{stem}_{}", sum + 1)
+    }
+
+    fn pass(&self, stem: &str, pass: &Pass, left: &TokenStream, right: &TokenStream) -> TokenStream {
         let rt = &self.context.names.rt;
+        let sum = self.sum(stem, pass.sum);
         let name = match (pass.negative, pass.right) {
             (false, Factor::Vector(_)) => "add_products",
             (true, Factor::Vector(_)) => "subtract_products",
@@ -180,29 +156,8 @@ impl Writer<'_> {
 
     /// A convolution that has been formed.
     pub(super) fn place(&self, place: Place) -> TokenStream {
-        let sum = accumulator(if place.full { "full" } else { "inner" }, place.sum, 0);
+        let sum = self.sum(if place.full { "full" } else { "inner" }, place.sum);
         let lane = number(place.lane);
         quote!(#sum[#lane])
-    }
-}
-
-/// Number of accumulators of a sum.
-fn chains(passes: &[Pass], sum: usize) -> usize {
-    passes.iter().filter(|pass| pass.sum == sum).count().min(CHAINS)
-}
-
-/// The passes with the accumulator of its sum that each goes to.
-fn in_chains(passes: &[Pass]) -> impl Iterator<Item = (&Pass, usize)> {
-    passes.iter().enumerate().map(|(index, pass)| {
-        let before = passes[..index].iter().filter(|other| other.sum == pass.sum).count();
-        (pass, before % CHAINS)
-    })
-}
-
-/// The sum itself, to which the others are added.
-fn accumulator(stem: &str, sum: usize, chain: usize) -> Ident {
-    match chain {
-        0 => format_ident!("{stem}_{}", sum + 1),
-        _ => format_ident!("{stem}_{}_{}", sum + 1, chain + 1),
     }
 }
