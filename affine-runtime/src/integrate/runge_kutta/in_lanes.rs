@@ -4,6 +4,8 @@ use super::dormand_prince_853::*;
 use super::step::E3;
 use crate::integrate::error_norm::{NormInLanes, norm_in_lanes, squares_in_lanes};
 use crate::integrate::step_size::{Controller, ERROR_ORDER};
+use crate::integrate::taylor::Vectors;
+use crate::integrate::widest::{Work, widest};
 use crate::lanes::Lanes;
 use crate::model::{Group, StateVector};
 
@@ -59,11 +61,9 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
     pub(crate) fn advance(&mut self) -> Result<(), Failing> {
         loop {
             let end = self.next_time();
-            self.attempt(end);
-            let error = self.error(end);
+            let (error, slope) = widest(Trial { integration: self, end });
             let mut worst = worst(&error);
             if worst <= 1.0 {
-                let slope = (self.f)(T::constant(end, 0.0), &self.trial);
                 if none(T::LANES, |lane| !is_finite(&slope, lane)).is_ok() {
                     self.length = (end - self.t).abs() * self.controller.accept(worst);
                     (self.t, self.y, self.stages[0]) = (end, self.trial, slope);
@@ -96,7 +96,7 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
         self.steps
     }
 
-    #[inline]
+    #[inline(always)]
     fn attempt(&mut self, end: f64) {
         self.stage::<2, 1>(end, &A2);
         self.stage::<3, 2>(end, &A3);
@@ -141,7 +141,7 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
     }
 
     /// Estimated errors relative to the tolerance.
-    #[inline]
+    #[inline(always)]
     fn error(&self, end: f64) -> T {
         let (fifth, third) = (self.combination(&E5), self.combination(&E3));
         let h = T::constant((end - self.t).abs(), 0.0);
@@ -168,6 +168,22 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
     fn shortest(&self) -> f64 {
         let (t, span) = (self.t.abs(), (self.t_end - self.t).abs());
         16.0 * f64::EPSILON * if t > f64::EPSILON * span { t } else { f64::EPSILON * span }
+    }
+}
+
+/// A step of an integration to the time `end`: its errors, and the slope behind it, which most steps need.
+struct Trial<'a, T, S, F> {
+    integration: &'a mut RungeKutta8InLanes<T, S, F>,
+    end: f64,
+}
+
+impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> Work for Trial<'_, T, S, F> {
+    type Output = (T, S);
+    #[inline(always)]
+    fn run(self, _vectors: impl Vectors) -> (T, S) {
+        self.integration.attempt(self.end);
+        let slope = (self.integration.f)(T::constant(self.end, 0.0), &self.integration.trial);
+        (self.integration.error(self.end), slope)
     }
 }
 

@@ -7,9 +7,10 @@ use super::super::number;
 use super::Writer;
 use crate::ir::taylor::{Factor, Pass, Place, Recurrence, Series, sums};
 
-/// Sums that are formed in one loop: with three vectors that are multiplied and what waits for the end of the loop, the
-/// sixteen registers of AVX2. A second loop costs more than the narrower units of other processors lose.
-const SUMS_PER_LOOP: usize = 9;
+/// Sums that are formed in one loop: with four lanes each, twelve registers of the narrowest vector unit. Nine in one loop,
+/// several accumulators to a sum, and the newest row behind the loop were all measured, and no faster: some of these
+/// registers then live on the stack.
+const SUMS_PER_LOOP: usize = 6;
 
 impl Writer<'_> {
     /// The vectors of ready series, or the others: all lanes of a row that begin at `slot`.
@@ -55,51 +56,30 @@ impl Writer<'_> {
         quote!(*row = [#(#entries),*];)
     }
 
-    /// The terms `j = 1..k` of all convolutions, those with the row of the order just before behind the others: it was
-    /// stored a moment ago, and the loops need not wait for it.
+    /// The terms `j = 1..k` of all convolutions.
     pub(super) fn loops(&self) -> TokenStream {
         let t = &self.context.names.scalar;
         let lanes = number(self.recurrence.lanes);
-        let kinds = [("full", &self.recurrence.full), ("inner", &self.recurrence.inner)];
-        let sums: Vec<(&str, &[Pass], usize)> = kinds
-            .iter()
-            .flat_map(|(stem, passes)| (0..sums(passes)).map(move |sum| (*stem, passes.as_slice(), sum)))
-            .collect();
-        let mut newest = TokenStream::new();
-        let loops: Vec<TokenStream> = sums
-            .chunks(SUMS_PER_LOOP)
-            .map(|block| {
-                let names = block.iter().map(|(stem, _, sum)| self.sum(stem, *sum));
-                let turn: TokenStream =
-                    block.iter().flat_map(|(stem, passes, sum)| self.turn(stem, passes, *sum)).collect();
-                newest.extend(turn.clone());
-                quote! {
-                    #(let mut #names = [#t::zero(); #lanes];)*
-                    for (left, right) in middle.iter().skip(1).zip(middle.iter().rev().skip(1)) {
-                        #turn
-                    }
+        let all = [("full", &self.recurrence.full), ("inner", &self.recurrence.inner)];
+        let sums: Vec<(&str, usize)> =
+            all.iter().flat_map(|(stem, passes)| (0..sums(passes)).map(move |sum| (*stem, sum))).collect();
+        let passes: Vec<(&str, &Pass)> =
+            all.iter().flat_map(|(stem, passes)| passes.iter().map(move |pass| (*stem, pass))).collect();
+        let blocks = sums.chunks(SUMS_PER_LOOP).map(|block| {
+            let names = block.iter().map(|(stem, sum)| self.sum(stem, *sum));
+            let own = passes.iter().filter(|(stem, pass)| block.contains(&(*stem, pass.sum)));
+            let statements = own.map(|(stem, pass)| {
+                let (left, right) = self.factors(pass, &quote!(left), &quote!(right));
+                self.pass(stem, pass, &left, &right)
+            });
+            quote! {
+                #(let mut #names = [#t::zero(); #lanes];)*
+                for (left, right) in middle.iter().zip(middle.iter().rev()) {
+                    #(#statements)*
                 }
-            })
-            .collect();
-        if loops.is_empty() {
-            return TokenStream::new();
-        }
-        quote! {
-            #(#loops)*
-            if let (Some(left), Some(right)) = (middle.first(), middle.last()) {
-                #newest
             }
-        }
-    }
-
-    /// What one turn of a loop adds to a sum.
-    fn turn(&self, stem: &str, passes: &[Pass], sum: usize) -> TokenStream {
-        let own = passes.iter().filter(|pass| pass.sum == sum);
-        own.map(|pass| {
-            let (left, right) = self.factors(pass, &quote!(left), &quote!(right));
-            self.pass(stem, pass, &left, &right)
-        })
-        .collect()
+        });
+        blocks.collect()
     }
 
     /// The terms `j = 0` and `j = k` of a full convolution.
