@@ -11,6 +11,13 @@ use crate::model::{Group, StateVector};
 
 const STAGES: usize = 13;
 
+/// `y' = f(t, y)` in lanes. A trait, since a closure cannot be made part of the function that is compiled for the
+/// processor's vectors: what is called from there is compiled for the vectors of every processor.
+pub(crate) trait Equations<T, S> {
+    /// `f(t, y)`; to be `#[inline(always)]`.
+    fn slope(&self, t: T, y: &S) -> S;
+}
+
 /// Bodies in lanes from `t0` to `t_end`: [`RungeKutta8`](super::RungeKutta8) operation by operation, but for the step
 /// size, which is that of the lane with the largest error. Where all lanes hold the same body, each has the bits of that
 /// body alone.
@@ -31,7 +38,7 @@ pub(crate) struct RungeKutta8InLanes<T, S, F> {
 /// Lanes that a step cannot be taken with.
 pub(crate) type Failing = Vec<usize>;
 
-impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F> {
+impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F> {
     /// The integration at its start.
     ///
     /// # Errors
@@ -44,10 +51,10 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
         tolerance: f64,
     ) -> Result<Self, Failing> {
         let t = T::constant(t0, 0.0);
-        let slope = f(t, &y0);
+        let slope = f.slope(t, &y0);
         none(T::LANES, |lane| !is_finite(&y0, lane) || !is_finite(&slope, lane))?;
-        let norm = NormInLanes::probed(groups, &f, (t, &y0, &slope));
-        let length = first_step(&f, &norm, (t0, &y0, &slope), t_end - t0, tolerance);
+        let norm = NormInLanes::probed(groups, &|t, y: &S| f.slope(t, y), (t, &y0, &slope));
+        let length = first_step(&|t, y: &S| f.slope(t, y), &norm, (t0, &y0, &slope), t_end - t0, tolerance);
         let mut stages = [S::zeros(); STAGES];
         stages[0] = slope;
         let controller = Controller::new();
@@ -116,7 +123,7 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
     fn stage<const NUMBER: usize, const TERMS: usize>(&mut self, end: f64, row: &[(usize, f64); TERMS]) {
         let (_, node) = NODES[NUMBER - 2];
         let time = if node == 1.0 { end } else { self.t + node * (end - self.t) };
-        self.stages[NUMBER - 1] = (self.f)(T::constant(time, 0.0), &self.moved(end, row));
+        self.stages[NUMBER - 1] = self.f.slope(T::constant(time, 0.0), &self.moved(end, row));
     }
 
     #[inline(always)]
@@ -177,12 +184,12 @@ struct Trial<'a, T, S, F> {
     end: f64,
 }
 
-impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> Work for Trial<'_, T, S, F> {
+impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Work for Trial<'_, T, S, F> {
     type Output = (T, S);
     #[inline(always)]
     fn run(self, _vectors: impl Vectors) -> (T, S) {
         self.integration.attempt(self.end);
-        let slope = (self.integration.f)(T::constant(self.end, 0.0), &self.integration.trial);
+        let slope = self.integration.f.slope(T::constant(self.end, 0.0), &self.integration.trial);
         (self.integration.error(self.end), slope)
     }
 }
