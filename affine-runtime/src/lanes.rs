@@ -144,15 +144,12 @@ lanes!(
     F64x4, 4, sqrt, abs, cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh
 );
 lanes!(
-    /// Eight doubles: a vector register of AVX-512, or several narrower ones.
+    /// Eight doubles: two vector registers of AVX2.
     F64x8, 8, sqrt, abs, cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh
 );
 
-/// The lanes of the widest vector registers of the target.
-#[cfg(target_feature = "avx512f")]
-pub type Widest = F64x8;
-/// The lanes of the widest vector registers of the target.
-#[cfg(not(target_feature = "avx512f"))]
+/// The lanes that an [`Ensemble`](crate::Ensemble) takes. Eight in registers of AVX-512 would be no faster where a
+/// processor takes two turns for one, and compilers split them.
 pub type Widest = F64x4;
 
 /// An entry of several records, one to a lane; the last record fills what is left of them.

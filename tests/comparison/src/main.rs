@@ -1,10 +1,13 @@
 //! Error against run time of this project beside ode_solvers' DOP853 with right-hand sides written by hand over
 //! nalgebra, problem by problem in one run; and the ratio of the two run times at equal errors.
+//! With the argument `rhs`, the times of single evaluations instead.
 
 mod by_hand;
 mod frontier;
 #[path = "../../../examples/work_precision/problems.rs"]
 mod problems;
+mod right_hand_sides;
+mod timing;
 
 use std::fs;
 use std::time::Duration;
@@ -15,10 +18,15 @@ use affine_runtime::report::{Series, WorkPrecision, WorkPrecisionDiagram, WorkPr
 use by_hand::Measured;
 use frontier::{ERRORS, least_time};
 use problems::Visitor;
+use right_hand_sides::RightHandSides;
 
 fn main() -> affine_runtime::Result<()> {
     // A folder that cannot be made shows in the first file that cannot be written.
     let _ = fs::create_dir_all("output");
+    if std::env::args().nth(1).as_deref() == Some("rhs") {
+        right_hand_sides::print_head();
+        return problems::visit(&mut RightHandSides);
+    }
     let mut comparison =
         Comparison { only: std::env::args().skip(1).collect(), rows: Vec::new(), csv: CSV_HEAD.to_owned() };
     problems::visit(&mut comparison)?;
@@ -59,7 +67,7 @@ impl Visitor for Comparison {
         if !self.only.is_empty() && !self.only.iter().any(|asked| asked == name) {
             return Ok(());
         }
-        let tolerances: Vec<f64> = (4..=29).map(|k| 10f64.powf(-0.5 * f64::from(k))).collect();
+        let tolerances: Vec<f64> = (2..=29).map(|k| 10f64.powf(-0.5 * f64::from(k))).collect();
         let report = WorkPrecision::new(model, start, t_end)
             .against(end)
             .tolerances(tolerances)
