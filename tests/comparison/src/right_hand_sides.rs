@@ -5,9 +5,9 @@
 
 use affine_runtime::prelude::*;
 
-use super::by_hand;
-use super::problems::Visitor;
-use super::timing::{Times, net};
+use crate::by_hand;
+use crate::problems::Visitor;
+use crate::timing::{Times, net};
 
 /// Times every problem once; those that differ in their numbers alone are left out.
 pub(crate) struct RightHandSides;
@@ -52,8 +52,11 @@ fn timed<S: AsRef<[f64]> + AsMut<[f64]> + Copy>(start: S, f: impl Fn(&S) -> S) -
         14 => sized::<14, S>(start, f),
         18 => sized::<18, S>(start, f),
         19 => sized::<19, S>(start, f),
+        20 => sized::<20, S>(start, f),
         21 => sized::<21, S>(start, f),
+        22 => sized::<22, S>(start, f),
         24 => sized::<24, S>(start, f),
+        25 => sized::<25, S>(start, f),
         _ => Times { chain: f64::NAN, throughput: f64::NAN },
     }
 }
