@@ -4,11 +4,13 @@
 //! Strict: every operation of a lane gives the bits that [`f64`] gives on the same target. Arithmetic and square roots
 //! are rounded correctly in either; a multiply-add is fused in either or in neither; elementary functions are computed
 //! lane by lane by those of `f64`.
+//!
+//! Lanes are arrays, and operations loops over them, which the compiler turns into the vectors of the function that it
+//! compiles: the same type serves a target's own vectors and those found at run time.
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use num_traits::{One, Zero};
-use wide::{f64x4, f64x8};
 
 use crate::scalar::Scalar;
 
@@ -25,15 +27,25 @@ pub trait Lanes: Scalar {
 }
 
 macro_rules! lanes {
-    ($(#[$doc:meta])* $name:ident, $vector:ty, $count:literal, $($function:ident),*) => {
+    ($(#[$doc:meta])* $name:ident, $count:literal, $($function:ident),*) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct $name($vector);
+        pub struct $name([f64; $count]);
 
         impl $name {
             #[inline(always)]
             fn each(self, function: impl Fn(f64) -> f64) -> Self {
-                Self(<$vector>::from(self.0.to_array().map(function)))
+                Self(self.0.map(function))
+            }
+
+            /// A loop over indices: what becomes one vector operation.
+            #[inline(always)]
+            fn with(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
+                let mut lanes = [0.0; $count];
+                for lane in 0..$count {
+                    lanes[lane] = operation(self.0[lane], other.0[lane]);
+                }
+                Self(lanes)
             }
         }
 
@@ -42,43 +54,33 @@ macro_rules! lanes {
 
             #[inline(always)]
             fn from_lanes(lane: impl FnMut(usize) -> f64) -> Self {
-                Self(<$vector>::from(core::array::from_fn::<f64, $count, _>(lane)))
+                Self(core::array::from_fn(lane))
             }
 
             #[inline(always)]
             fn lane(&self, index: usize) -> f64 {
-                self.0.to_array().get(index).copied().unwrap_or(f64::NAN)
+                self.0.get(index).copied().unwrap_or(f64::NAN)
             }
-
         }
 
         impl Scalar for $name {
             #[inline(always)]
             fn constant(hi: f64, _lo: f64) -> Self {
-                Self(<$vector>::splat(hi))
+                Self([hi; $count])
             }
 
             #[inline(always)]
             fn fma(self, factor: Self, term: Self) -> Self {
-                #[cfg(all(feature = "std", target_feature = "fma"))]
-                return Self(self.0.mul_add(factor.0, term.0));
-                #[cfg(not(all(feature = "std", target_feature = "fma")))]
-                return self * factor + term;
-            }
-
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                Self(self.0.sqrt())
-            }
-
-            #[inline(always)]
-            fn abs(self) -> Self {
-                Self(self.0.abs())
+                let mut lanes = [0.0; $count];
+                for lane in 0..$count {
+                    lanes[lane] = self.0[lane].fma(factor.0[lane], term.0[lane]);
+                }
+                Self(lanes)
             }
 
             #[inline(always)]
             fn copysign(self, sign: Self) -> Self {
-                Self::from_lanes(|lane| Scalar::copysign(self.lane(lane), sign.lane(lane)))
+                self.with(sign, Scalar::copysign)
             }
 
             $(
@@ -92,7 +94,7 @@ macro_rules! lanes {
         impl Zero for $name {
             #[inline(always)]
             fn zero() -> Self {
-                Self(<$vector>::splat(0.0))
+                Self([0.0; $count])
             }
             fn is_zero(&self) -> bool {
                 *self == Self::zero()
@@ -102,7 +104,7 @@ macro_rules! lanes {
         impl One for $name {
             #[inline(always)]
             fn one() -> Self {
-                Self(<$vector>::splat(1.0))
+                Self([1.0; $count])
             }
         }
 
@@ -110,7 +112,7 @@ macro_rules! lanes {
             type Output = Self;
             #[inline(always)]
             fn neg(self) -> Self {
-                Self(-self.0)
+                self.each(|lane| -lane)
             }
         }
 
@@ -123,14 +125,14 @@ macro_rules! lanes {
                 type Output = Self;
                 #[inline(always)]
                 fn $method(self, other: Self) -> Self {
-                    Self($trait::$method(self.0, other.0))
+                    self.with(other, $trait::$method)
                 }
             }
 
             impl $assign for $name {
                 #[inline(always)]
                 fn $assigned(&mut self, other: Self) {
-                    *self = $trait::$method(*self, other);
+                    *self = self.with(other, $trait::$method);
                 }
             }
         )*
@@ -139,18 +141,15 @@ macro_rules! lanes {
 
 lanes!(
     /// Four doubles: a vector register of AVX2.
-    F64x4, f64x4, 4, cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh
+    F64x4, 4, sqrt, abs, cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh
 );
 lanes!(
-    /// Eight doubles: a vector register of AVX-512, or several narrower ones.
-    F64x8, f64x8, 8, cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh
+    /// Eight doubles: two vector registers of AVX2.
+    F64x8, 8, sqrt, abs, cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh
 );
 
-/// The lanes of the widest vector registers of the target.
-#[cfg(target_feature = "avx512f")]
-pub type Widest = F64x8;
-/// The lanes of the widest vector registers of the target.
-#[cfg(not(target_feature = "avx512f"))]
+/// The lanes that an [`Ensemble`](crate::Ensemble) takes. Eight in registers of AVX-512 would be no faster where a
+/// processor takes two turns for one, and compilers split them.
 pub type Widest = F64x4;
 
 /// An entry of several records, one to a lane; the last record fills what is left of them.

@@ -118,6 +118,49 @@ impl ErrorNorm {
         largest
     }
 
+    /// [`largest`](Self::largest) of several values at one state, whose own size is measured once.
+    #[inline(always)]
+    pub(crate) fn largest_at<const K: usize>(
+        &self,
+        h: f64,
+        y: &[f64],
+        values: impl Fn(Range<usize>) -> [f64; K],
+    ) -> [f64; K] {
+        let mut largest = [0.0; K];
+        let mut start = 0;
+        for (k, group) in self.groups.iter().enumerate() {
+            let range = start..start + group.len;
+            start = range.end;
+            if group.name == WORK {
+                continue;
+            }
+            let floor = self.inertia.get(k).map_or(0.0, |inertia| PART_OF_DISPLACEMENT * inertia / h);
+            let own = match group.name {
+                "q" => 1.0,
+                "x" => self.extent(range.clone(), y),
+                _ => norm(&y[range.clone()]),
+            };
+            let scale = if floor > own { floor } else { own };
+            for (largest, value) in largest.iter_mut().zip(values(range)) {
+                let relative = if value == 0.0 && own.is_finite() {
+                    0.0
+                } else if scale.is_finite() {
+                    value / scale
+                } else {
+                    f64::NAN
+                };
+                // A NaN is kept.
+                *largest = if relative <= *largest || largest.is_nan() { *largest } else { relative };
+            }
+        }
+        largest
+    }
+
+    /// Errors of momenta are measured against more than their own size.
+    pub(crate) fn has_floors(&self) -> bool {
+        self.inertia.iter().any(|inertia| *inertia != 0.0)
+    }
+
     #[inline(always)]
     fn scale(&self, name: &str, range: Range<usize>, before: &[f64], after: &[f64]) -> f64 {
         if name == "q" {
@@ -217,6 +260,19 @@ mod tests {
         assert_eq!(error(before, after, [0.0, 0.0, 0.0, 1.0, 0.0]), 0.2, "against |phi| = 5 before the step");
         assert_eq!(error(before, after, [0.0, 0.0, 0.0, 0.0, 0.25]), 0.25, "against 1");
         assert_eq!(error(before, after, [3.0, 4.0, 0.0, 1.0, 0.25]), 0.5, "the largest");
+    }
+
+    #[test]
+    fn several_values_at_one_state() {
+        for y in [[3.0, 4.0, 0.0, 5.0, 7.0], [0.0; 5], [1.0, 0.0, f64::NAN, 0.0, 2.0]] {
+            let values = [[0.0; 5], [0.0, 1.0, 2.0, 0.0, 3.0], [1e-3, 0.0, 0.0, f64::NAN, 0.0]];
+            let norm_of = ErrorNorm::new(LAYOUT);
+            let together = norm_of.largest_at(0.5, &y, |r| values.map(|value| norm(&value[r.clone()])));
+            let one_by_one = values.map(|value| norm_of.largest(0.5, &y, &y, |r| norm(&value[r])));
+            for (a, b) in together.into_iter().zip(one_by_one) {
+                assert!(a == b || (a.is_nan() && b.is_nan()), "{a} is not {b}");
+            }
+        }
     }
 
     #[test]

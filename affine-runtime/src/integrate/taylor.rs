@@ -114,6 +114,8 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         } else {
             ErrorNorm::probed(groups, &slope, (t0, &y0, &first))
         };
+        let mut coefficients = [S::zeros(); HIGHEST_ORDER + 1];
+        coefficients[0] = y0;
         Ok(Self {
             error_norm,
             tolerance,
@@ -123,7 +125,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             y: y0,
             carry: S::zeros(),
             t_end,
-            coefficients: [y0; HIGHEST_ORDER + 1],
+            coefficients,
             rows: [R::Row::zeros(); HIGHEST_ORDER],
             length: (t_end - t0).abs(),
             failure: None,
@@ -183,20 +185,20 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     /// The longest step that the last two coefficients allow.
     #[inline(always)]
     fn longest(&self) -> f64 {
+        let [last, before] = [self.order, self.order - 1].map(|j| self.coefficients[j].as_ref());
         let within = |h: f64| {
+            let errors = self
+                .error_norm
+                .largest_at(h, self.coefficients[0].as_ref(), |r| [size(&last[r.clone()]), size(&before[r])]);
             // The logarithm of `(tolerance/|y_j|)^(1/j)`; no error is no bound, and NaN stays.
-            let logarithm = |j: usize| {
-                let (y, term) = (self.coefficients[0].as_ref(), self.coefficients[j].as_ref());
-                let error = self.error_norm.largest(h, y, y, |r| size(&term[r]));
-                libm::log(self.tolerance / error) / j as f64
-            };
-            let (last, before) = (logarithm(self.order), logarithm(self.order - 1));
+            let logarithm = |error: f64, j: usize| libm::log(self.tolerance / error) / j as f64;
+            let (last, before) = (logarithm(errors[0], self.order), logarithm(errors[1], self.order - 1));
             let least = if last <= before || last.is_nan() { last } else { before };
             libm::exp(least - 0.7 / (self.order - 1) as f64)
         };
         let length = within(self.length);
         // Momenta may err the less, the longer the step: one that is longer than guessed is measured again.
-        if length > self.length { within(length) } else { length }
+        if length > self.length && self.error_norm.has_floors() { within(length) } else { length }
     }
 
     /// `sum_(k > 0) y_k h^k`.

@@ -45,7 +45,9 @@ impl Place {
         changed_by: Option<usize>,
         (cost, work): (Statistics, f64),
     ) -> Self {
-        let mut from = vec![t.to_bits()];
+        // The time, and x, phi, p and a momentum in three dimensions: one allocation.
+        let mut from = Vec::with_capacity(1 + 24);
+        from.push(t.to_bits());
         point.entries(&mut |entry| from.push(entry.to_bits()));
         let cost = [cost.steps, cost.rejected, cost.evaluations];
         Self { from, changed_by, cost, work: work.to_bits(), ..Self::default() }

@@ -7,7 +7,7 @@ use super::point::{check, is_clearly_positive, placement_in};
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
 use crate::capability::InLanes;
 use crate::frames::Matrix;
-use crate::integrate::in_lanes::{Failing, RungeKutta8InLanes};
+use crate::integrate::in_lanes::{Equations, Failing, RungeKutta8InLanes};
 use crate::lanes::{Lanes, Widest};
 use crate::model::{Model, StateVector};
 use crate::state::Phase;
@@ -174,7 +174,7 @@ where
             constants.push(of_trajectory);
         }
         let in_lanes = M::constants_in_lanes::<T>(&constants);
-        let equations = |t: T, state: &M::Reduced<T>| self.model.reduced_equations(t, &in_lanes, state);
+        let equations = Reduced { model: self.model, constants: in_lanes };
         let mut state = M::Reduced::<T>::zeros();
         for (k, component) in state.as_mut().iter_mut().enumerate() {
             *component = crate::lanes::gathered(&states, |state| state.as_ref()[k]);
@@ -208,6 +208,19 @@ where
             .collect();
         failing(ends.len(), |lane| check(t_end, &ends[lane]).is_ok())?;
         Ok(ends)
+    }
+}
+
+/// The reduced equations of a group.
+struct Reduced<'a, const N: usize, M: Model<N>, T: Lanes> {
+    model: &'a M,
+    constants: M::Constants<T>,
+}
+
+impl<const N: usize, M: Model<N>, T: Lanes> Equations<T, M::Reduced<T>> for Reduced<'_, N, M, T> {
+    #[inline(always)]
+    fn slope(&self, t: T, y: &M::Reduced<T>) -> M::Reduced<T> {
+        self.model.reduced_equations(t, &self.constants, y)
     }
 }
 

@@ -85,7 +85,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     fn drive(mut self, trajectory: &mut Trajectory<N, M::Point<f64>>) -> Result<(), Reason> {
         let (t_end, schedule) = self.checked_settings()?;
         check(self.t0, &self.start)?;
-        let run = self.fingerprint(t_end);
+        let (t0, events) = (self.t0, self.events.len());
         let place = Place::starting((self.t0, &self.start), None, (Statistics::default(), 0.0));
         let mut recorder = Recorder {
             model: self.model,
@@ -100,21 +100,23 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             turn: None,
         };
         if let Some(checkpoint) = self.checkpoint.take() {
+            let run = self.fingerprint(t0, t_end, events);
             self.take_up(checkpoint, &run, &mut recorder)?;
         }
         let outcome = self.legs(t_end, &mut recorder);
         let interrupted = matches!(outcome, Err(Reason::Interrupted(_) | Reason::StepLimit { .. }));
         if (interrupted || recorder.trajectory.stopped_by.is_some()) && !recorder.is_lost {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
+            let run = self.fingerprint(t0, t_end, events);
             recorder.trajectory.checkpoint = Some(Checkpoint { run, place });
         }
         outcome
     }
 
     /// What a checkpoint fits: runs that take the same steps from the same place.
-    fn fingerprint(&self, t_end: f64) -> String {
-        let [t0, t_end, tolerance] = [self.t0, t_end, self.tolerance].map(f64::to_bits);
-        let (model, method, events) = (M::DESCRIPTION.name, self.method, self.events.len());
+    fn fingerprint(&self, t0: f64, t_end: f64, events: usize) -> String {
+        let [t0, t_end, tolerance] = [t0, t_end, self.tolerance].map(f64::to_bits);
+        let (model, method) = (M::DESCRIPTION.name, self.method);
         format!("{model} {method:?} {tolerance:x} {t0:x} {t_end:x} {events}")
     }
 

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, SVector, Vector3};
 use ode_solvers::System;
 
+use crate::timing::{Times, net};
 use crate::tools::{Measured, Problem};
 
 type Placed = SVector<f64, 18>;
@@ -142,6 +143,27 @@ pub(crate) fn measure(problem: &str, end: Matrix3<f64>) -> Vec<(&'static str, Ve
         "P8" => pinned(scaled(1.0), 2.0).measure(vibrating(10.0, 1e4)),
         _ => Vec::new(),
     }
+}
+
+/// Net times of one evaluation; `None` where only numbers differ from another problem.
+pub(crate) fn times(problem: &str) -> Option<Times> {
+    let p = Vector3::new(0.3, -0.2, 0.5);
+    match problem {
+        "P1" => Some(of_system(&Missile { kappa: 0.0, c1: 0.0, p }, moving())),
+        "P2" => Some(of_system(&Vibrating { kappa: 10.0, c1: 0.5 }, placed(&PHI, &SPIN))),
+        "P2r" => Some(of_system(&Mirrored, placed(&PHI, &SPIN))),
+        "P3" => Some(of_system(&Elastic { kappa: 10.0 }, placed(&PHI, &SPIN))),
+        "P7" => Some(of_system(&Missile { kappa: 1e4, c1: 0.5, p }, moving())),
+        _ => None,
+    }
+}
+
+fn of_system<const D: usize>(system: &impl System<f64, SVector<f64, D>>, start: SVector<f64, D>) -> Times {
+    net(start.into(), |y| {
+        let mut slope = SVector::zeros();
+        system.system(0.0, &SVector::from(*y), &mut slope);
+        slope.into()
+    })
 }
 
 fn placed(phi: &[f64; 9], spin: &[f64; 9]) -> Placed {

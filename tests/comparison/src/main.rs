@@ -4,12 +4,16 @@
 //!
 //! `cargo run --release -p affine-comparison [P1 P2 ...] [--peers FILE]`. A file has results of other tools, measured
 //! elsewhere: they go into the pictures, not into the ratios.
+//!
+//! `cargo run --release -p affine-comparison rhs`: times of single evaluations instead, beside those written by hand.
 
 mod by_hand;
 mod frontier;
 mod peers;
 #[path = "../../../examples/work_precision/problems.rs"]
 mod problems;
+mod right_hand_sides;
+mod timing;
 mod tools;
 
 use std::fs;
@@ -21,12 +25,17 @@ use affine_runtime::report::{Series, WorkPrecision, WorkPrecisionDiagram, WorkPr
 use frontier::{ERRORS, front, least_time};
 use peers::Peer;
 use problems::Visitor;
+use right_hand_sides::RightHandSides;
 use tools::Measured;
 
 fn main() -> affine_runtime::Result<()> {
     // A folder that cannot be made shows in the first file that cannot be written.
     let _ = fs::create_dir_all("output");
     let mut only: Vec<String> = std::env::args().skip(1).collect();
+    if only.first().is_some_and(|first| first == "rhs") {
+        right_hand_sides::print_head();
+        return problems::visit(&mut RightHandSides);
+    }
     let peers = match peers_of(&mut only) {
         Ok(peers) => peers,
         Err(wrong) => {
@@ -84,7 +93,7 @@ impl Visitor for Comparison {
         if !self.only.is_empty() && !self.only.iter().any(|asked| asked == name) {
             return Ok(());
         }
-        let tolerances: Vec<f64> = (4..=29).map(|k| 10f64.powf(-0.5 * f64::from(k))).collect();
+        let tolerances: Vec<f64> = (2..=29).map(|k| 10f64.powf(-0.5 * f64::from(k))).collect();
         let report = WorkPrecision::new(model, start, t_end)
             .against(end)
             .tolerances(tolerances)

@@ -91,7 +91,7 @@ impl<const D: usize> Problem<D> {
             });
             Some(Measured { tolerance, error, evaluations, time })
         };
-        (4..=29).filter_map(measured).collect()
+        (2..=29).filter_map(measured).collect()
     }
 }
 

@@ -8,6 +8,7 @@ use quote::{format_ident, quote};
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::reduce::{Commuting, Layout};
+use crate::spec::Capability;
 
 use super::body::Body;
 use super::dynamics::time;
@@ -298,8 +299,13 @@ fn reduced_equations(context: &Context, parts: &Parts) -> TokenStream {
     let bind = reads_state.then(|| quote!(let #bound = *reduced;));
     let Body { lets, results } = context.generic(program);
     let time = time(program);
+    // Lanes become vectors of the processor only inside of a function that is compiled for it.
+    let inline = match context.spec.emit.iter().any(|capability| capability.value == Capability::Lanes) {
+        true => quote!(#[inline(always)]),
+        false => quote!(#[inline]),
+    };
     quote! {
-        #[inline]
+        #inline
         fn reduced_equations<#t: #rt::Scalar>(
             &self,
             #time: #t,

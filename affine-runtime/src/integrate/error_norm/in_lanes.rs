@@ -48,7 +48,7 @@ impl<T: Lanes> NormInLanes<T> {
     }
 
     /// [`ErrorNorm::largest`], lane by lane.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn largest(&self, h: T, before: &[T], after: &[T], value: impl Fn(Range<usize>) -> T) -> T {
         let mut largest = T::zero();
         let mut start = 0;
@@ -66,6 +66,7 @@ impl<T: Lanes> NormInLanes<T> {
         largest
     }
 
+    #[inline(always)]
     fn scale(&self, name: &str, range: Range<usize>, before: &[T], after: &[T]) -> T {
         if name == "q" {
             return T::one();
@@ -77,6 +78,7 @@ impl<T: Lanes> NormInLanes<T> {
         each(|lane| if a.lane(lane) >= b.lane(lane) { a.lane(lane) } else { b.lane(lane) })
     }
 
+    #[inline(always)]
     fn extent(&self, configuration: Range<usize>, y: &[T]) -> T {
         let own = norm(&y[configuration.clone()]);
         match self.layout.phi {

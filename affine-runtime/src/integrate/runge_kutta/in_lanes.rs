@@ -4,10 +4,19 @@ use super::dormand_prince_853::*;
 use super::pair::{DormandPrince853, E3, Pair};
 use crate::integrate::error_norm::{NormInLanes, norm_in_lanes, squares_in_lanes};
 use crate::integrate::step_size::{Controller, next_time, shortest};
+use crate::integrate::taylor::Vectors;
+use crate::integrate::widest::{Work, widest};
 use crate::lanes::Lanes;
 use crate::model::{Group, StateVector};
 
 const STAGES: usize = 13;
+
+/// `y' = f(t, y)` in lanes. A trait, since a closure cannot be made part of the function that is compiled for the
+/// processor's vectors: what is called from there is compiled for the vectors of every processor.
+pub(crate) trait Equations<T, S> {
+    /// `f(t, y)`; to be `#[inline(always)]`.
+    fn slope(&self, t: T, y: &S) -> S;
+}
 
 /// Bodies in lanes from `t0` to `t_end`: [`RungeKutta8`](super::RungeKutta8) operation by operation, but for the step
 /// size, which is that of the lane with the largest error. Where all lanes hold the same body, each has the bits of that
@@ -29,7 +38,7 @@ pub(crate) struct RungeKutta8InLanes<T, S, F> {
 /// Lanes that a step cannot be taken with.
 pub(crate) type Failing = Vec<usize>;
 
-impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F> {
+impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F> {
     /// The integration at its start.
     ///
     /// # Errors
@@ -42,10 +51,10 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
         tolerance: f64,
     ) -> Result<Self, Failing> {
         let t = T::constant(t0, 0.0);
-        let slope = f(t, &y0);
+        let slope = f.slope(t, &y0);
         none(T::LANES, |lane| !is_finite(&y0, lane) || !is_finite(&slope, lane))?;
-        let norm = NormInLanes::probed(groups, &f, (t, &y0, &slope));
-        let length = first_step(&f, &norm, (t0, &y0, &slope), t_end - t0, tolerance);
+        let norm = NormInLanes::probed(groups, &|t, y: &S| f.slope(t, y), (t, &y0, &slope));
+        let length = first_step(&|t, y: &S| f.slope(t, y), &norm, (t0, &y0, &slope), t_end - t0, tolerance);
         let mut stages = [S::zeros(); STAGES];
         stages[0] = slope;
         let controller = Controller::of(DormandPrince853::ERROR_ORDER);
@@ -59,11 +68,9 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
     pub(crate) fn advance(&mut self) -> Result<(), Failing> {
         loop {
             let end = next_time(self.t, self.length, self.t_end);
-            self.attempt(end);
-            let error = self.error(end);
+            let (error, slope) = widest(Trial { integration: self, end });
             let mut worst = worst(&error);
             if worst <= 1.0 {
-                let slope = (self.f)(T::constant(end, 0.0), &self.trial);
                 if none(T::LANES, |lane| !is_finite(&slope, lane)).is_ok() {
                     self.length = (end - self.t).abs() * self.controller.accept(worst);
                     (self.t, self.y, self.stages[0]) = (end, self.trial, slope);
@@ -96,7 +103,7 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
         self.steps
     }
 
-    #[inline]
+    #[inline(always)]
     fn attempt(&mut self, end: f64) {
         self.stage::<2, 1>(end, &A2);
         self.stage::<3, 2>(end, &A3);
@@ -116,7 +123,7 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
     fn stage<const NUMBER: usize, const TERMS: usize>(&mut self, end: f64, row: &[(usize, f64); TERMS]) {
         let (_, node) = NODES[NUMBER - 2];
         let time = if node == 1.0 { end } else { self.t + node * (end - self.t) };
-        self.stages[NUMBER - 1] = (self.f)(T::constant(time, 0.0), &self.moved(end, row));
+        self.stages[NUMBER - 1] = self.f.slope(T::constant(time, 0.0), &self.moved(end, row));
     }
 
     #[inline(always)]
@@ -141,7 +148,7 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
     }
 
     /// Estimated errors relative to the tolerance.
-    #[inline]
+    #[inline(always)]
     fn error(&self, end: f64) -> T {
         let (fifth, third) = (self.combination(&E5), self.combination(&E3));
         let h = T::constant((end - self.t).abs(), 0.0);
@@ -152,6 +159,22 @@ impl<T: Lanes, S: StateVector<T>, F: Fn(T, &S) -> S> RungeKutta8InLanes<T, S, F>
             T::from_lanes(|lane| if fifth.lane(lane) == 0.0 { 0.0 } else { value.lane(lane) })
         });
         h * relative / T::constant(self.tolerance, 0.0)
+    }
+}
+
+/// A step of an integration to the time `end`: its errors, and the slope behind it, which most steps need.
+struct Trial<'a, T, S, F> {
+    integration: &'a mut RungeKutta8InLanes<T, S, F>,
+    end: f64,
+}
+
+impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Work for Trial<'_, T, S, F> {
+    type Output = (T, S);
+    #[inline(always)]
+    fn run(self, _vectors: impl Vectors) -> (T, S) {
+        self.integration.attempt(self.end);
+        let slope = self.integration.f.slope(T::constant(self.end, 0.0), &self.integration.trial);
+        (self.integration.error(self.end), slope)
     }
 }
 

@@ -1,0 +1,147 @@
+//! The rules of the recurrence: sums, quotients, functions.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::super::number;
+use super::Writer;
+use crate::algebra::Function;
+use crate::ir::Value;
+use crate::ir::taylor::{Place, Rule, Series, Term};
+
+impl Writer<'_> {
+    /// The coefficient of order zero.
+    fn first(&self, series: Series) -> TokenStream {
+        // Every factor of an inner convolution has a slot.
+        let slot = number(self.recurrence.slot(series).unwrap_or(0));
+        quote!(first[#slot])
+    }
+
+    fn of_order_zero(&self, value: Value) -> TokenStream {
+        self.first(Series { value, rate: false })
+    }
+
+    /// The rule as a `let`. Divisors are known long before: their reciprocals are not waited for.
+    pub(super) fn statement(&self, value: Value, rule: &Rule) -> TokenStream {
+        let t = &self.context.names.scalar;
+        let name = self.ident(value);
+        let expression = match rule {
+            Rule::Sum(terms) => self.summed(terms),
+            Rule::Quotient { numerator, denominator, inner } => {
+                let (b, inner) = (self.ident(*denominator), self.place(*inner));
+                let (y0, b0) = (self.of_order_zero(value), self.of_order_zero(*denominator));
+                let rest = quote!(#b.fma(#y0, #inner));
+                match numerator {
+                    Some(a) => {
+                        let a = self.ident(*a);
+                        quote!((#a - #rest) * (#t::one() / #b0))
+                    }
+                    None => quote!(-#rest * (#t::one() / #b0)),
+                }
+            }
+            Rule::Function { function, argument, companion, inner } => {
+                self.function(*function, value, *argument, *companion, inner)
+            }
+        };
+        quote!(let #name = #expression;)
+    }
+
+    /// Products as multiply-adds behind the sum of the rest.
+    fn summed(&self, terms: &[(bool, Term)]) -> TokenStream {
+        let t = &self.context.names.scalar;
+        let mut sorted: Vec<&(bool, Term)> = terms.iter().collect();
+        sorted.sort_by_key(|(negative, term)| match term {
+            Term::Value(_) | Term::Lane(_) => (0, *negative),
+            Term::Divided(..) => (1, *negative),
+            Term::Scaled(..) | Term::Ends(..) => (2, false),
+        });
+        let mut sum: Option<TokenStream> = None;
+        for (negative, term) in sorted {
+            let plain = match *term {
+                Term::Value(v) => {
+                    let v = self.ident(v);
+                    quote!(#v)
+                }
+                Term::Lane(place) => self.place(place),
+                Term::Divided(v, c) => {
+                    let (v, c) = (self.ident(v), self.fixed_value(c));
+                    quote!(#v / #c)
+                }
+                Term::Scaled(c, v) => {
+                    let (c, v) = (self.fixed_value(c), self.ident(v));
+                    sum = Some(product(sum, *negative, quote!(#v), quote!(#c)));
+                    continue;
+                }
+                Term::Ends(a, b) => {
+                    let (a0, ak) = (self.of_order_zero(a), self.ident(a));
+                    if a == b {
+                        sum = Some(product(sum, *negative, quote!((#a0 + #a0)), quote!(#ak)));
+                        continue;
+                    }
+                    let (b0, bk) = (self.of_order_zero(b), self.ident(b));
+                    sum = Some(product(sum, *negative, quote!(#bk), a0));
+                    sum = Some(product(sum, *negative, quote!(#ak), b0));
+                    continue;
+                }
+            };
+            sum = Some(match (sum, negative) {
+                (None, false) => plain,
+                (None, true) => quote!(-#plain),
+                (Some(sum), false) => quote!(#sum + #plain),
+                (Some(sum), true) => quote!(#sum - #plain),
+            });
+        }
+        sum.unwrap_or_else(|| quote!(#t::zero()))
+    }
+
+    /// The expression of a value that does not move.
+    fn fixed_value(&self, value: Value) -> TokenStream {
+        self.fixed.iter().find(|(v, _)| *v == value).map(|(_, tokens)| tokens.clone()).unwrap_or_default()
+    }
+
+    /// The differential equation of each function, solved for the coefficient of order `k`.
+    fn function(
+        &self,
+        function: Function,
+        value: Value,
+        argument: Value,
+        companion: Option<Value>,
+        inner: &[Place],
+    ) -> TokenStream {
+        let t = &self.context.names.scalar;
+        let u = self.ident(argument);
+        let (y0, u0) = (self.of_order_zero(value), self.of_order_zero(argument));
+        let inner: Vec<TokenStream> = inner.iter().map(|place| self.place(*place)).collect();
+        match (function, inner.as_slice(), companion) {
+            // y' = y u'
+            (Function::Exp, [m], _) => quote!(#u.fma(#y0, #m / order)),
+            // u y' = u'
+            (Function::Ln, [m], _) => quote!((#u - #m / order) * (#t::one() / #u0)),
+            // y^2 = u
+            (Function::Sqrt, [m], _) => quote!((#u - #m) * (#t::one() / (#y0 + #y0))),
+            // 3 u y' = y u'
+            (Function::Cbrt, [m, weighted], _) => {
+                let (three, four) = (quote!(#t::constant(3.0, 0.0)), quote!(#t::constant(4.0, 0.0)));
+                quote!((#u.fma(#y0, #m) * order - #weighted * #four) * (#t::one() / (#u0 * order * #three)))
+            }
+            // y' = z u' or y' = -z u'
+            (function, [m], Some(other)) => {
+                let z0 = self.of_order_zero(other);
+                let sum = quote!(#u.fma(#z0, #m / order));
+                if function == Function::Cos { quote!(-#sum) } else { sum }
+            }
+            // |u| = (|u_0|/u_0) u
+            _ => quote!(#u * (#y0 / #u0)),
+        }
+    }
+}
+
+/// `sum + a b` or `sum - a b`.
+fn product(sum: Option<TokenStream>, negative: bool, a: TokenStream, b: TokenStream) -> TokenStream {
+    match (sum, negative) {
+        (None, false) => quote!(#a * #b),
+        (None, true) => quote!(-#a * #b),
+        (Some(sum), false) => quote!(#a.fma(#b, #sum)),
+        (Some(sum), true) => quote!((-#a).fma(#b, #sum)),
+    }
+}
