@@ -44,6 +44,7 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     unitary::casimirs_alone(spec, found);
     constraint::stands_alone(spec, found);
     capabilities::centre(spec, found);
+    capabilities::balance(spec, found);
     potential::differences(spec, found);
     potential::scalar(spec, found);
     potential::centre(spec, found);

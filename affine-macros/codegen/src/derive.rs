@@ -14,11 +14,12 @@ use crate::check::{Energy, Form, eigenvalues, signature};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::ir::taylor::Recurrence;
+use crate::mechanics::balance::Laws;
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{self, Formula};
-use crate::mechanics::equations::{self, hamilton};
+use crate::mechanics::equations::{self, Load, hamilton};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::mechanics::metrics::Metrics;
@@ -67,6 +68,8 @@ pub struct Model {
     pub metric: Option<Metric>,
     /// Point -> acceleration of the centre of mass, where asked for.
     pub acceleration: Option<Program>,
+    /// The balance laws, where asked for.
+    pub balance: Option<Balance>,
     /// Point -> `H`.
     pub hamiltonian: Program,
     /// Point -> power of the forces that no potential has.
@@ -165,6 +168,14 @@ pub struct Metric {
     pub entries: Program,
     /// `phi ->` entries of the inverse, row after row.
     pub inverse: Program,
+}
+
+/// Programs of the balance laws of a d'Alembert model, the entries of one quantity after the other.
+pub struct Balance {
+    /// Point -> [quantities](crate::mechanics::balance::INTERNAL) of the internal motion.
+    pub internal: Program,
+    /// Point -> [quantities](crate::mechanics::balance::CENTRE) of the centre of mass, where it moves.
+    pub centre: Option<Program>,
 }
 
 /// A quantity that must not vanish once the fields have values.
@@ -373,6 +384,13 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         system.add(&potential.map(|u| u.load(arena, &full_chart)).unwrap_or_default());
         quantities::acceleration(arena, &full_chart, &system, &mut coefficients)
     });
+    let balance = quantities.balance.then(|| {
+        let loads = potential.map(|u| u.load(arena, &full_chart)).into_iter();
+        let loads: Vec<Load> = loads.chain(forces.loads(arena, &full_chart, &h)).collect();
+        let laws = Laws::new(arena, &full_chart, &h, &full_h, &loads);
+        let time = potential.and_then(Potential::time).or_else(|| forces.time(arena));
+        quantities::balance(arena, &full_chart, &laws, time, &mut coefficients)
+    });
     Some(Model {
         dim: kinetic.dim,
         constraint: kinetic.constraint,
@@ -393,6 +411,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         regularity: None,
         metric,
         acceleration,
+        balance,
         hamiltonian,
         power,
         full,

@@ -1,5 +1,6 @@
 //! From a kinetic energy to Hamilton's equations; never sees tokens. One file per step.
 
+pub mod balance;
 pub mod brackets;
 mod carried;
 pub mod charts;

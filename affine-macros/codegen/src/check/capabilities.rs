@@ -6,7 +6,7 @@ use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::mechanics::potential::Potential;
-use crate::spec::{Capability, Named, Spec};
+use crate::spec::{Capability, Named, Spec, TermKind};
 
 /// A capability that cannot be emitted is refused rather than ignored: code that relies on it would fail far
 /// from here.
@@ -18,6 +18,7 @@ pub(super) fn available(spec: &Spec, found: &mut Diagnostics) {
         Capability::Lanes,
         Capability::Metric,
         Capability::Acceleration,
+        Capability::Balance,
     ];
     for capability in spec.emit.iter().filter(|c| !available.contains(&c.value)) {
         let name = capability.value;
@@ -34,6 +35,25 @@ pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
     if let Some(acceleration) = asked.filter(|_| spec.translation().is_none()) {
         let form = acceleration.value.name().to_owned();
         found.report(acceleration.span, Diagnostic::FixedCentre { form });
+    }
+}
+
+/// `K = phi J phi_dot^T` is the affine spin, and (3.6) its law of motion, where the energy is (2.1) and every placement
+/// of GL+(n) is free: the multiplier of a constraint would be one more moment, and with `m/2 |phi^-1 x_dot|^2` the
+/// moment of the momentum of the centre.
+pub(super) fn balance(spec: &Spec, found: &mut Diagnostics) {
+    let Some(balance) = spec.emit.iter().find(|c| c.value == Capability::Balance) else { return };
+    let fits = |kind: TermKind| matches!(kind, TermKind::Dalembert | TermKind::SpaceTranslation);
+    let kinds = spec.kinetic.iter().map(|term| term.kind.value);
+    let terms = kinds.filter(|kind| !fits(*kind)).map(|kind| format!("`{}`", kind.name()));
+    let keys = [
+        ("`hamiltonian(...)`", spec.hamiltonian.is_some()),
+        ("`constraint`", spec.constraint.is_some()),
+        ("`metrics(...)`", spec.has_metrics()),
+    ];
+    let keys = keys.into_iter().filter(|(_, stated)| *stated).map(|(key, _)| key.to_owned());
+    for part in terms.chain(keys) {
+        found.report(balance.span, Diagnostic::BalanceBeside { part });
     }
 }
 

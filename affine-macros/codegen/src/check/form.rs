@@ -53,12 +53,18 @@ pub struct Quantities {
     pub metric: bool,
     /// The acceleration of the centre of mass.
     pub acceleration: bool,
+    /// The balance laws of a d'Alembert model.
+    pub balance: bool,
 }
 
 impl Quantities {
     pub(super) fn of(spec: &Spec) -> Self {
         let asked = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
-        Self { metric: asked(Capability::Metric), acceleration: asked(Capability::Acceleration) }
+        Self {
+            metric: asked(Capability::Metric),
+            acceleration: asked(Capability::Acceleration),
+            balance: asked(Capability::Balance),
+        }
     }
 }
 

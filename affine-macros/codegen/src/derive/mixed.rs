@@ -81,6 +81,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         regularity,
         metric,
         acceleration,
+        balance: None,
         hamiltonian: programs.hamiltonian,
         power: None,
         full,

@@ -97,6 +97,11 @@ pub enum Diagnostic {
         /// The other thing.
         beside: &'static str,
     },
+    /// `emit(balance)` for a model other than d'Alembert's.
+    BalanceBeside {
+        /// A term or a key that makes it another.
+        part: String,
+    },
     /// `emit(splitting)` for a Hamiltonian without pieces whose flows are known.
     NoExactPieces {
         /// What stands against it.
@@ -680,6 +685,7 @@ names! {
     EmptyList => "empty-list",
     UnknownName => "unknown-name",
     CapabilityBeside => "capability-beside",
+    BalanceBeside => "balance-beside",
     NoExactPieces => "no-exact-pieces",
     UnavailableCapability => "unavailable-capability",
     NotDoublyIsotropic => "not-doubly-isotropic",

@@ -120,6 +120,12 @@ impl Diagnostic {
                     "remove `{capability}` from `emit(...)`: Runge-Kutta and Gauss methods integrate the model"
                 ),
             ),
+            Self::BalanceBeside { part } => text(
+                format!("`emit(balance)` is that of d'Alembert models, and does not go with {part}"),
+                "the kinematical spin K = phi J phi_dot^T is the affine spin, and dK/dt = phi_dot J phi_dot^T + N (3.6), for \
+                 the energy m/2 |x_dot|^2 + 1/2 tr(phi_dot J phi_dot^T) (2.1) of a motion on all of GL(n) alone",
+                "remove `balance` from `emit(...)`, or state the energy by `dalembert` and `space_translation` alone",
+            ),
             Self::NoExactPieces { beside, why } => text(
                 format!("`emit(splitting)` does not go with {beside}"),
                 why.clone(),

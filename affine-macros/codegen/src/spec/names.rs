@@ -138,6 +138,8 @@ pub enum Capability {
     Metric,
     /// The acceleration of the centre of mass.
     Acceleration,
+    /// The balance laws of the kinematical spin.
+    Balance,
 }
 
 impl Named for Capability {
@@ -149,6 +151,7 @@ impl Named for Capability {
         Self::Lanes,
         Self::Metric,
         Self::Acceleration,
+        Self::Balance,
     ];
 
     fn name(self) -> &'static str {
@@ -160,6 +163,7 @@ impl Named for Capability {
             Self::Lanes => "lanes",
             Self::Metric => "metric",
             Self::Acceleration => "acceleration",
+            Self::Balance => "balance",
         }
     }
 }
@@ -176,6 +180,7 @@ impl Capability {
             Self::Lanes => "evaluation over SIMD lanes",
             Self::Metric => "the configuration metric and its inverse",
             Self::Acceleration => "the acceleration of the centre of mass",
+            Self::Balance => "the balance laws of the kinematical spin",
         }
     }
 }
