@@ -165,6 +165,8 @@ families! {
         dissipation(space_inertia = 0.5, dalembert = diag(1, 2), body_translation = 0.25)";
     damped_dalembert_3: "dim = 3, kinetic(dalembert = diag(1, 1.5, 2), space_translation = 2), \
         dissipation(dalembert = diag(1, 2, 3), space_translation = 3)";
+    balance_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2), potential = tr(G)/2 + x[1], \
+        emit(balance)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.

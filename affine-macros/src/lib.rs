@@ -19,7 +19,7 @@ use proc_macro::TokenStream;
 /// | `forces` | sum of `custom(..)` | forces that fields compute, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
-/// | `emit(...)` | `taylor`, `two_polar`, `metric`, `acceleration` | what is emitted beyond the default, below; `two_polar` is the lattice form `(q, p, M, N)` of doubly isotropic models |
+/// | `emit(...)` | `taylor`, `two_polar`, `metric`, `acceleration`, `balance` | what is emitted beyond the default, below; `two_polar` is the lattice form `(q, p, M, N)` of doubly isotropic models |
 /// | `crate` | path | the runtime, where it has another name than `affine_runtime` |
 ///
 /// | term | energy |
@@ -59,7 +59,9 @@ use proc_macro::TokenStream;
 ///
 /// `emit(metric)` adds the methods `metric(&phi)` and `inverse_metric(&phi)`, the configuration metric over
 /// `(x_dot, phi_dot)` with `phi_dot` row by row, and its inverse; `emit(acceleration)` adds `acceleration(&point)`, the
-/// acceleration of the centre of mass.
+/// acceleration of the centre of mass. `emit(balance)` adds, for `dalembert` models, `balance(t, &point)` and
+/// `centre_balance(t, &point)`: the kinematical spin `K = phi J phi_dot^T` and both sides of its balance in space and
+/// body, (3.6), (3.8), (3.9).
 ///
 /// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
 /// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)`, their entries `G[1,2]`, with
