@@ -19,13 +19,15 @@ use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{self, Formula};
-use crate::mechanics::equations::{self, Load, hamilton};
+use crate::mechanics::equations::{self, hamilton};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::loads::loads;
 use crate::mechanics::metrics::Metrics;
 use crate::mechanics::potential::{Base, Potential};
 use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
+use crate::mechanics::weight::Weight;
 use crate::optimise::{Batch, straight_line};
 use crate::spec::{Capability, Spanned};
 
@@ -266,7 +268,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
 
     let mut conserved_now = conserved(arena, &own, &own_h);
     let mut conserved_at_rest = at_rest(arena, &h, &conserved_now);
-    if let Some(reaction) = multiplier(arena, &h) {
+    if let Some(reaction) = along_the_dilatation(arena, &h) {
         conserved_now.retain(|candidate| reaction.keeps(*candidate));
         conserved_at_rest.retain(|candidate| reaction.keeps(*candidate));
     }
@@ -313,9 +315,15 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         fuse(&straight_line(arena, &batch, &mut coefficients, &|a| inputs.contains(&a)))
     };
     let velocities: Vec<Expr> = kinetic.velocity.0.iter().flatten().copied().collect();
-    let momenta: Vec<Expr> = h.momentum.0.iter().flatten().copied().collect();
+    let placement = match h.weight {
+        Some(_) => full_chart.phi.0.concat(),
+        None => Vec::new(),
+    };
+    let weighted = |batch: Batch| weighted(batch, h.weight.as_ref());
+    let velocities = [velocities, placement.clone()].concat();
+    let momenta: Vec<Expr> = [h.momentum.0.concat(), placement].concat();
     let legendre = cubic.is_none().then(|| {
-        let legendre = legendre_batch(arena, &kinetic);
+        let legendre = weighted(legendre_batch(arena, &kinetic));
         inline(arena, legendre, velocities.clone())
     });
     let dependent = own.dependent();
@@ -323,18 +331,19 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         |atom: Expr| dependent.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone());
     let velocities_of: Vec<Vec<Polynomial>> =
         h.velocity.iter().map(|row| row.iter().map(|o| o.substitute(&projected)).collect()).collect();
-    let velocity = matrix_batch(arena, &kinetic.velocity, &velocities_of);
+    let velocity = defined(matrix_batch(arena, &kinetic.velocity, &velocities_of), h.weight.as_ref());
     let velocity = inline(arena, velocity, momenta);
     let velocity_side = legendre.map(|legendre| {
-        let (energy, inputs) = energy_batch(arena, &kinetic, velocities);
+        let internal = weighted(result("energy", kinetic.internal_energy()));
+        let (energy, inputs) = energy_batch(arena, &kinetic, internal, velocities);
         VelocitySide { legendre, kinetic_energy: inline(arena, energy, inputs) }
     });
     let mut points: Vec<Expr> = full_chart.coordinates().into_iter().map(|z| full_chart.symbol(z)).collect();
-    let mut energy = result("energy", full_h.substitute(&projected));
+    let mut energy = defined(result("energy", full_h.substitute(&projected)), h.weight.as_ref());
     if let Some(u) = potential {
         let (value, shared) = u.energy_at_a_point(arena, &full_chart);
         energy.results[0].1.add_scaled(&value, &Rational::ONE);
-        energy.shared = shared;
+        energy.shared.extend(shared);
         points.push(Base::MeanLogStretch.symbol(arena));
         points.extend((0..kinetic.dim).map(|a| Base::LogStretch(a).symbol(arena)));
         points.extend(u.time());
@@ -381,12 +390,11 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
     };
     let acceleration = quantities.acceleration.then(|| {
         let mut system = hamilton(arena, &full_chart, &full_h, equations::Form::ThroughVelocity);
-        system.add(&potential.map(|u| u.load(arena, &full_chart)).unwrap_or_default());
+        loads(arena, &full_chart, &h, potential, &forces).iter().for_each(|load| system.add(load));
         quantities::acceleration(arena, &full_chart, &system, &mut coefficients)
     });
     let balance = quantities.balance.then(|| {
-        let loads = potential.map(|u| u.load(arena, &full_chart)).into_iter();
-        let loads: Vec<Load> = loads.chain(forces.loads(arena, &full_chart, &h)).collect();
+        let loads = loads(arena, &full_chart, &h, potential, &forces);
         let laws = Laws::new(arena, &full_chart, &h, &full_h, &loads);
         let time = potential.and_then(Potential::time).or_else(|| forces.time(arena));
         quantities::balance(arena, &full_chart, &laws, time, &mut coefficients)
@@ -463,11 +471,11 @@ fn at_rest(arena: &mut Arena, h: &Hamiltonian, moving: &[Candidate]) -> Vec<Cand
     conserved(arena, &chart, &h.internal())
 }
 
-/// The force of the multiplier of a constraint that acts through one: it has the directions of that of a potential in
-/// `q`, and no other is known of it.
-fn multiplier(arena: &mut Arena, h: &Hamiltonian) -> Option<Potential> {
+/// A force that has the directions of that of a potential in `q`: of the multiplier of a constraint that acts through
+/// one, of which no more is known, and of an energy weighted by `D^2`.
+fn along_the_dilatation(arena: &mut Arena, h: &Hamiltonian) -> Option<Potential> {
     let acts = h.constraint.is_some() && h.confined().is_none();
-    acts.then(|| {
+    (acts || h.weight.is_some()).then(|| {
         let q = Base::MeanLogStretch.symbol(arena);
         Potential::new(arena, h.dim, q)
     })
@@ -496,9 +504,27 @@ fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Ba
     Batch { results, ..Batch::default() }
 }
 
+/// Results of the internal energy times its weight `D^2`, if it has one.
+fn weighted(batch: Batch, weight: Option<&Weight>) -> Batch {
+    let Some(Weight { square, .. }) = weight else { return batch };
+    let results = batch.results.into_iter().map(|(name, value)| (name, value.mul(&Polynomial::atom(*square))));
+    defined(Batch { results: results.collect(), ..batch }, weight)
+}
+
+/// With what defines the weight of the internal energy, if it has one.
+fn defined(mut batch: Batch, weight: Option<&Weight>) -> Batch {
+    batch.shared.extend(weight.iter().flat_map(|weight| weight.definitions.clone()));
+    batch
+}
+
 /// `T_int(O) + m/2 |v|^2`, with its inputs.
-fn energy_batch(arena: &mut Arena, kinetic: &Kinetic, mut inputs: Vec<Expr>) -> (Batch, Vec<Expr>) {
-    let mut energy = kinetic.internal_energy();
+fn energy_batch(
+    arena: &mut Arena,
+    kinetic: &Kinetic,
+    mut batch: Batch,
+    mut inputs: Vec<Expr>,
+) -> (Batch, Vec<Expr>) {
+    let energy = &mut batch.results[0].1;
     if let Some(t) = kinetic.translation {
         let mass = Polynomial::normal_form(arena, t.mass);
         let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
@@ -508,5 +534,5 @@ fn energy_batch(arena: &mut Arena, kinetic: &Kinetic, mut inputs: Vec<Expr>) -> 
             inputs.push(v);
         }
     }
-    (result("energy", energy), inputs)
+    (batch, inputs)
 }

@@ -503,13 +503,10 @@ impl Diagnostic {
             Self::ConstrainedMassMatrix { term, constraint, group } => text(
                 format!("`{term}` has no constant mass matrix under `constraint = {constraint}`"),
                 format!(
-                    "phi_dot = phi Oh with {group}: as a form of Oh it depends on phi; only `dalembert` that is `rigid`, \
-                     where phi drops out, or `isochoric`, where a multiplier keeps det phi = 1, goes with a constraint"
+                    "phi_dot = phi Oh with {group}: as a form of Oh it depends on phi; of the energies in phi_dot only \
+                     `dalembert` goes with a constraint, of which at most D is left or a multiplier keeps det phi = 1"
                 ),
-                match *term {
-                    "flat_tensor" => "write `body_tensor`, which is constant in Oh, or remove the constraint",
-                    _ => "write `body_inertia`, which is constant in Oh, or remove the constraint",
-                },
+                "write `dalembert`, or `body_tensor`, which is constant in Oh, or remove the constraint",
             ),
             Self::ConstrainedPotential { defect, constraint, group } => text(
                 format!("this potential {defect} under `constraint = {constraint}`"),
