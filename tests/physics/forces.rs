@@ -2,6 +2,6 @@
 //! the canonical velocities, whatever the frames in which the energies are stated.
 
 mod combined;
-mod custom;
+pub(crate) mod custom;
 mod dissipation;
 mod prepare;

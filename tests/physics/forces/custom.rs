@@ -21,8 +21,8 @@ const SAMPLES: u64 = 3;
 
 /// `Q = c (x_dot phi[1]^T - Omega Ct) cos t`, which needs everything that a force is told.
 #[derive(Clone)]
-struct Stirring {
-    strength: f64,
+pub(crate) struct Stirring {
+    pub(crate) strength: f64,
 }
 
 impl<const N: usize> Force<N> for Stirring {
@@ -36,8 +36,8 @@ impl<const N: usize> Force<N> for Stirring {
 
 /// `Q_hat = c phi^T phi_dot`.
 #[derive(Clone)]
-struct Kneading {
-    strength: f64,
+pub(crate) struct Kneading {
+    pub(crate) strength: f64,
 }
 
 impl<const N: usize> Force<N> for Kneading {
@@ -49,8 +49,8 @@ impl<const N: usize> Force<N> for Kneading {
 
 /// `Q_tr = c (tr phi, ..) - x_dot`.
 #[derive(Clone)]
-struct Wind {
-    strength: f64,
+pub(crate) struct Wind {
+    pub(crate) strength: f64,
 }
 
 impl<const N: usize> Force<N> for Wind {
@@ -102,8 +102,8 @@ impl<const N: usize> Force<N> for Gyroscope {
 
 /// `U = c tr G`, isotropic.
 #[derive(Clone)]
-struct Spring {
-    strength: f64,
+pub(crate) struct Spring {
+    pub(crate) strength: f64,
 }
 
 impl<const N: usize> Potential<N> for Spring {
@@ -120,8 +120,8 @@ impl<const N: usize> Potential<N> for Spring {
 
 /// `U = c G_11^2`, a function of `G`.
 #[derive(Clone)]
-struct Fibre {
-    strength: f64,
+pub(crate) struct Fibre {
+    pub(crate) strength: f64,
 }
 
 impl<const N: usize> Potential<N> for Fibre {
@@ -184,7 +184,7 @@ impl<const N: usize> Potential<N> for Field {
 }
 
 /// What acts on the canonical momenta at a motion, `on_p` and `on_pi` row-major.
-fn canonical<const N: usize>(
+pub(crate) fn canonical<const N: usize>(
     q: Option<Matrix<N>>,
     q_hat: Option<Matrix<N>>,
     q_tr: Option<Vector<N>>,
@@ -364,7 +364,7 @@ macro_rules! pushed {
     };
 }
 
-fn stirred<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn stirred<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
     let omega = m.phi_dot * m.phi.try_inverse().unwrap();
     let friction = omega * m.phi * m.phi.transpose();
     let along = (m.x_dot * Vector::<N>::from_element(1.0).transpose()
@@ -373,11 +373,11 @@ fn stirred<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
     canonical(Some((along - friction) * (0.75 * m.t.cos())), None, None, &m.phi)
 }
 
-fn kneaded<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn kneaded<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
     canonical(None, Some(m.phi.tr_mul(&m.phi_dot) * 0.75), None, &m.phi)
 }
 
-fn blown<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn blown<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
     canonical(None, None, Some(m.phi.diagonal() * 0.75 - m.x_dot), &m.phi)
 }
 
@@ -395,7 +395,7 @@ fn deflected<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// The forces of a potential by forward differentiation of its plain definition.
-fn under<const N: usize>(m: &Motion<N>, energy: fn(&OraclePlace) -> Differential) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn under<const N: usize>(m: &Motion<N>, energy: fn(&OraclePlace) -> Differential) -> (Vec<f64>, Vec<f64>) {
     let slopes = affine_oracle::Slopes::of(energy, m.t, m.x.as_slice(), &entries(&m.phi));
     let on_phi = matrix::<N>(&slopes.phi);
     (slopes.x.iter().map(|slope| -slope).collect(), entries(&-on_phi.transpose()))

@@ -4,10 +4,10 @@ use super::frames;
 use crate::diagnostics::{Diagnostic, Diagnostics, Region};
 use crate::spec::{Capability, Constraint, Custom, MomentumKind, Spec, TermKind};
 
-/// The forces are derived, and what they leave conserved is decided, for a mass matrix that is constant in one frame, on
-/// all of GL(n), in orthonormal bases. The equations of an isochoric body with `dalembert` are those without the
-/// constraint, to which the method adds the multiplier: there potentials of fields stand as well. What is emitted beyond
-/// the equations is derived from formulas alone.
+/// The forces are derived, and what they leave conserved is decided, for a mass matrix that is constant in one frame, in
+/// orthonormal bases, projected under a constraint. The equations of an isochoric body with `dalembert` are those without
+/// the constraint, to which the method adds the multiplier: there potentials of fields stand as well, but nothing that
+/// depends on the velocity. What is emitted beyond the equations is derived from formulas alone.
 pub(super) fn stand_alone(spec: &Spec, found: &mut Diagnostics) {
     let damping = spec.dissipation.first().map(|term| Force {
         name: "dissipation(...)".to_owned(),
@@ -44,7 +44,7 @@ fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 9] {
         terms.iter().any(|term: &crate::spec::Term<MomentumKind>| term.kind.value == MomentumKind::Casimir3)
     };
     [
-        ("`constraint`", spec.constraint.is_some() && !(force.under_a_multiplier && has_multiplier(spec))),
+        ("`constraint = isochoric` of `dalembert`", has_multiplier(spec) && !force.under_a_multiplier),
         ("`metrics(...)`", spec.has_metrics()),
         ("`casimir3`", spec.hamiltonian.as_ref().is_some_and(cubic)),
         ("`group = unitary`", spec.group.is_some()),

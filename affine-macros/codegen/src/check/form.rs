@@ -171,6 +171,7 @@ fn forces(arena: &mut Arena, spec: &Spec, own: Frame, found: &mut Diagnostics) -
     let forces = lower::forces(arena, spec, own);
     if let Some(damping) = &forces.dissipation {
         dissipation::semidefinite(spec, damping, found);
+        dissipation::nothing_vanishes(spec, damping, found);
     }
     forces
 }
@@ -188,8 +189,7 @@ fn nothing_vanishes(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mu
     let Some(constraint) = spec.constraint else { return };
     for (place, energy) in &kinetic.internal {
         let alone = Kinetic { internal: vec![(*place, energy.clone())], ..kinetic.clone() };
-        let blocks = Hessian::new(&alone).blocks;
-        if blocks.iter().flat_map(|block| block.form.concat()).all(|entry| entry.is_zero()) {
+        if Hessian::new(&alone).is_zero() {
             let kind = spec.kinetic[places[*place]].kind;
             let mistake = Diagnostic::VanishingTerm {
                 term: kind.value.name(),

@@ -464,9 +464,9 @@ impl Diagnostic {
             Self::ForceBeside { force, key } => text(
                 format!("`{force}` does not go with {key} in this version"),
                 match *key {
-                    "`constraint`" => {
-                        "its force is not projected to the group that is left; only a potential of an isochoric body \
-                         with `dalembert` needs no projection, since there the multiplier keeps the constraint"
+                    "`constraint = isochoric` of `dalembert`" => {
+                        "there a multiplier keeps the constraint, in a method whose kicks do not depend on the velocity: \
+                         only potentials go with it"
                     }
                     "`metrics(...)`" => {
                         "velocities and placements would reach it in other bases than those that points stand in"

@@ -7,10 +7,9 @@
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate};
-use super::constraint::Constraint;
 use super::equations::Load;
 use super::hamiltonian::Hamiltonian;
-use super::kinetic::{Kinetic, TermKind};
+use super::kinetic::Kinetic;
 
 /// Names of `D^2` and `D^-2`, which [group points](super::group_point) and formulas know.
 pub(super) const SQUARE: &str = "square";
@@ -30,9 +29,7 @@ pub struct Weight {
 impl Weight {
     /// The weight `D^2` of the internal energy, where it has one.
     pub fn of(arena: &mut Arena, kinetic: &Kinetic) -> Option<Self> {
-        let conformal = kinetic.constraint == Some(Constraint::Conformal);
-        let flat = kinetic.terms.iter().any(|term| term.kind == TermKind::Dalembert);
-        (conformal && flat).then(|| {
+        kinetic.is_weighted().then(|| {
             let [square, inverse] = [SQUARE, INVERSE_SQUARE].map(|name| arena.symbol(name));
             let mut length = Polynomial::zero();
             for i in 1..=kinetic.dim {
