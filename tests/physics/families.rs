@@ -5,6 +5,8 @@ use affine_oracle::{
 };
 use affine_runtime::prelude::*;
 
+pub(crate) use crate::charts::{matrix, vector};
+
 /// Values of all fields that the models have between them.
 pub(crate) struct Parameters {
     n: usize,
@@ -177,16 +179,6 @@ pub(crate) trait Family<const N: usize>: Model<N> + Sized {
 }
 
 pub(crate) use affine_runtime::model::Velocity;
-
-/// `N x N`, from row-major entries.
-pub(crate) fn matrix<const N: usize>(entries: &[f64]) -> Matrix<N> {
-    Matrix::from_row_slice(entries)
-}
-
-/// A vector.
-pub(crate) fn vector<const N: usize>(entries: &[f64]) -> Vector<N> {
-    Vector::from_column_slice(entries)
-}
 
 /// Symmetric, of both signs, no symmetry beyond: every |eigenvalue| is above 1/2 (Gershgorin).
 macro_rules! with_tensor {

@@ -2,6 +2,7 @@
 //! the canonical velocities, whatever the frames in which the energies are stated.
 
 mod combined;
-pub(crate) mod custom;
+mod custom;
 mod dissipation;
+mod fields;
 mod prepare;

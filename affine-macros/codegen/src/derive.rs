@@ -355,7 +355,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         }
     }
     points.extend(forces.time(arena));
-    let power = power_batch(arena, &h, &full_chart, &full_h, &forces);
+    let power = power_batch(arena, &h, &full_chart, &full_h, potential, &forces);
     let power = power.map(|batch| inline(arena, batch, points.clone()));
     let hamiltonian = inline(arena, energy, points);
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {

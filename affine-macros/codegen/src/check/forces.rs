@@ -13,6 +13,7 @@ pub(super) fn stand_alone(spec: &Spec, found: &mut Diagnostics) {
         name: "dissipation(...)".to_owned(),
         span: term.kind.span,
         under_a_multiplier: false,
+        is_formula: true,
     });
     for force in damping.into_iter().chain(spec.customs.iter().map(Force::of)) {
         for (key, _) in beside(spec, &force).into_iter().filter(|(_, stated)| *stated) {
@@ -28,12 +29,14 @@ struct Force {
     span: Region,
     /// Does it act on an isochoric body as on a free one, whatever the multiplier?
     under_a_multiplier: bool,
+    /// Is it known by its formula?
+    is_formula: bool,
 }
 
 impl Force {
     fn of(custom: &Custom) -> Self {
         let name = format!("custom({}, ..)", custom.field);
-        Self { name, span: custom.span, under_a_multiplier: !custom.role.value.is_force() }
+        Self { name, span: custom.span, under_a_multiplier: !custom.role.value.is_force(), is_formula: false }
     }
 }
 
@@ -49,7 +52,7 @@ fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 9] {
         ("`casimir3`", spec.hamiltonian.as_ref().is_some_and(cubic)),
         ("`group = unitary`", spec.group.is_some()),
         ("terms of different frames", frames::are_mixed(spec)),
-        ("`emit(taylor)`", emitted(Capability::Taylor)),
+        ("`emit(taylor)`", emitted(Capability::Taylor) && !force.is_formula),
         ("`emit(splitting)`", emitted(Capability::Splitting)),
         ("`emit(two_polar)`", emitted(Capability::TwoPolar)),
         ("`emit(acceleration)`", emitted(Capability::Acceleration)),
@@ -57,7 +60,7 @@ fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 9] {
 }
 
 /// Does the constraint act through its multiplier?
-fn has_multiplier(spec: &Spec) -> bool {
+pub(super) fn has_multiplier(spec: &Spec) -> bool {
     spec.constraint.is_some_and(|constraint| constraint.value == Constraint::Isochoric)
         && spec.term(TermKind::Dalembert).is_some()
 }

@@ -91,11 +91,12 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     positive(spec, &kinetic, &hessian, found);
     // Symmetries are those of the energy as stated, on all of GL(n).
     claims(spec, &free, |place| spec.kinetic[places[place]].kind.value.name(), found);
-    let forces = forces(&mut arena, spec, kinetic.frame, found);
+    let mut forces = forces(&mut arena, spec, kinetic.frame, found);
     found.verdict()?;
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
     let potential = potential(&mut arena, spec, kinetic.constraint, found);
+    forces.driven = driven(spec, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     found.verdict()?;
@@ -140,11 +141,12 @@ fn momentum_form(
     let kinetic = stated
         .kinetic(&mut arena)
         .ok_or_else(|| found.report(spec.kinetic_key, Diagnostic::NoKineticEnergy))?;
-    let forces = forces(&mut arena, spec, kinetic.frame, found);
+    let mut forces = forces(&mut arena, spec, kinetic.frame, found);
     let hessian = Hessian::new(&kinetic);
     let space_group = largest_group(&on_momenta, Side::Space);
     let body_group = largest_group(&on_momenta, Side::Body);
     let potential = potential(&mut arena, spec, None, found);
+    forces.driven = driven(spec, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     found.verdict()?;
@@ -174,6 +176,14 @@ fn forces(arena: &mut Arena, spec: &Spec, own: Frame, found: &mut Diagnostics) -
         dissipation::nothing_vanishes(spec, damping, found);
     }
     forces
+}
+
+/// Is the work of a potential that depends on the time integrated with the motion? The flows of pieces, and the kicks of
+/// the method that solves for a multiplier, have no place for it.
+fn driven(spec: &Spec, potential: Option<&Potential>) -> bool {
+    potential.is_some_and(Potential::depends_on_time)
+        && !super::capabilities::asked(spec, Capability::Splitting)
+        && !super::forces::has_multiplier(spec)
 }
 
 /// The energy of a motion that is confined to a group.

@@ -255,16 +255,21 @@ pub(super) fn power_batch(
     h: &Hamiltonian,
     chart: &Chart,
     full_h: &Polynomial,
+    potential: Option<&Potential>,
     forces: &Forces,
 ) -> Option<Batch> {
     let mut system = System {
         shared: equations::velocities(arena, chart, full_h).into_iter().flatten().collect(),
         ..System::default()
     };
-    loads(arena, chart, h, None, forces).iter().for_each(|load| system.add(load));
+    // Another potential has no power.
+    let driving = potential.filter(|_| forces.driven);
+    loads(arena, chart, h, driving, forces).iter().for_each(|load| system.add(load));
     let dependent = chart.dependent();
     let system = system
         .substitute(&|atom| dependent.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone()));
     let (_, power) = system.work?;
-    Some(Batch { shared: system.shared, kernels: system.kernels, results: vec![("power".to_owned(), power)] })
+    let results = vec![("power".to_owned(), power)];
+    let batch = Batch { shared: system.shared, kernels: system.kernels, results };
+    Some(if driving.is_some() { batch.pruned(arena) } else { batch })
 }

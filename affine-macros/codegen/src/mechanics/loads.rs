@@ -11,7 +11,8 @@ use super::hamiltonian::Hamiltonian;
 use super::potential::Potential;
 
 /// What the weight of the energy, the potential and the forces add to Hamilton's equations of a chart; under a constraint
-/// all of it projected.
+/// all of it projected. The power of the forces comes with it, and where it is accounted for `dU/dt` of a potential that
+/// depends on the time: `dH/dt` is their sum.
 pub fn loads(
     arena: &mut Arena,
     chart: &Chart,
@@ -20,7 +21,12 @@ pub fn loads(
     forces: &Forces,
 ) -> Vec<Load> {
     let mut loads: Vec<Load> = h.weight.iter().map(|weight| weight.load(chart, h)).collect();
-    loads.extend(potential.map(|u| u.load(arena, chart)));
+    if let Some(u) = potential {
+        let load = u.load(arena, chart);
+        let drive = if forces.driven { u.drive(arena) } else { None };
+        let work = drive.map(|power| (arena.symbol("work"), power));
+        loads.push(Load { work, ..load });
+    }
     let pushes = forces.loads(arena, chart, h).into_iter();
     loads.extend(pushes.map(|load| match chart.confined {
         Some(group) => load.confined(arena, chart, group),

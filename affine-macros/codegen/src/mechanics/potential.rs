@@ -195,6 +195,13 @@ impl Potential {
         self.time
     }
 
+    /// `dU/dt` at rest of `phi` and `x`, where it depends on the time; in the quantities that its [load](Self::load) shares.
+    pub fn drive(&self, arena: &mut Arena) -> Option<Polynomial> {
+        let slope = arena.derivative(self.energy, self.time?);
+        let form = through_dilatation(arena, slope);
+        Some(Polynomial::normal_form(arena, form))
+    }
+
     /// Does it depend on the position of the centre of mass?
     #[must_use]
     pub fn moves_the_centre(&self) -> bool {

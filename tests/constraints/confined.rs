@@ -11,12 +11,9 @@ use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
 
-use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
-use crate::conserved::exists;
+use crate::charts::{T0, assert_charts_lead_back, assert_reduced_equations_move, exists, groups};
 use crate::reference::{Reference, assert_close, entries, exact_state};
 use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, FREE_DILATATION, ON_THE_GROUP, UNDER_POTENTIAL};
-
-mod forces;
 
 /// Points per model.
 const SAMPLES: u64 = 4;
@@ -64,14 +61,14 @@ trait Confined<const N: usize>: Model<N> + Sized {
 
 /// A placement on the group, a matrix `spin` of its algebra, position and momentum of the centre.
 #[derive(Clone, Copy)]
-struct Start<const N: usize> {
-    x: Vector<N>,
-    phi: Matrix<N>,
-    p: Vector<N>,
-    spin: Matrix<N>,
+pub(crate) struct Start<const N: usize> {
+    pub(crate) x: Vector<N>,
+    pub(crate) phi: Matrix<N>,
+    pub(crate) p: Vector<N>,
+    pub(crate) spin: Matrix<N>,
 }
 
-fn starts<const N: usize>(constraint: Constraint) -> impl Iterator<Item = Start<N>> {
+pub(crate) fn starts<const N: usize>(constraint: Constraint) -> impl Iterator<Item = Start<N>> {
     (0..SAMPLES).map(move |seed| {
         let mut random = Random::new(77 + seed);
         let mut square = || Matrix::<N>::from_row_slice(&random.matrix(N, N).to_f64());
@@ -151,7 +148,7 @@ fn assert_right_but_for_the_multiplier<const N: usize, M: Confined<N>>(
 }
 
 /// The components of a group of the plain array: of a projected momentum those that determine the others.
-fn assert_components(reference: &Reference, n: usize, name: &str, rate: &[f64]) {
+pub(crate) fn assert_components(reference: &Reference, n: usize, name: &str, rate: &[f64]) {
     let (expected, size) = reference.rate(name);
     let independent: Vec<f64> = match (expected.len() == n * n, rate.len()) {
         (true, len) if len == n * n - 1 => expected[..len].to_vec(),
@@ -233,7 +230,7 @@ fn assert_listed<const N: usize, M: Confined<N>>(
 }
 
 /// Is the observable, at the projected momentum, a number or another observable?
-fn has_another_name(constraint: Constraint, multiplier: bool, observable: Observable) -> bool {
+pub(crate) fn has_another_name(constraint: Constraint, multiplier: bool, observable: Observable) -> bool {
     use Observable as O;
     let deviators = [O::Deviator, O::ComovingDeviator, O::DeviatorCasimir2, O::DeviatorCasimir3];
     let more: &[Observable] = match constraint {
@@ -308,11 +305,11 @@ fn nothing_drifts<const N: usize, M: Confined<N>>() {
     }
 }
 
-fn none(_place: &Place) -> Differential {
+pub(crate) fn none(_place: &Place) -> Differential {
     Differential::constant(0.0)
 }
 
-fn diagonal(entries: &[i64]) -> Exact {
+pub(crate) fn diagonal(entries: &[i64]) -> Exact {
     let n = entries.len();
     (0..n).fold(Exact::zeros(n, n), |sum, a| &sum + &Exact::unit(n, a, a).scaled(&rational(entries[a], 2)))
 }

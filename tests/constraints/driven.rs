@@ -6,12 +6,12 @@ use affine_runtime::force::Motion;
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 
-use super::{Start, diagonal, none, starts};
-use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
-use crate::conserved::exists;
-use crate::families::{matrix, vector};
-use crate::forces::custom::{Fibre, Kneading, Spring, Stirring, Wind, blown, canonical, kneaded, stirred, under};
-use crate::reference::{Reference, entries, exact_state};
+use crate::charts::{
+    T0, assert_charts_lead_back, assert_reduced_equations_move, exists, groups, matrix, vector,
+};
+use crate::confined::{Start, assert_components, diagonal, has_another_name, none, starts};
+use crate::fields::{Fibre, Kneading, Spring, Stirring, Wind, blown, canonical, kneaded, stirred, under};
+use crate::reference::{Reference, exact_state};
 use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, POWER_BALANCE, UNDER_POTENTIAL};
 
 /// A constrained model with forces, stated a second time for the oracle.
@@ -68,7 +68,7 @@ fn agrees_with_the_oracle<const N: usize, M: Driven<N>>() {
         let reference = M::reference(T0, &state);
         let rates = model.hamilton_equations(T0, &model.flatten(&point));
         for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
-            super::assert_components(&reference, N, name, rate);
+            assert_components(&reference, N, name, rate);
         }
         let tolerance = UNDER_POTENTIAL * reference.condition;
         assert_charts_lead_back(&model, &point, &state, tolerance);
@@ -100,7 +100,7 @@ fn lists_are_exact<const N: usize, M: Driven<N>>(decided: bool) {
         let largest = rates.fold(0.0, |largest: f64, rate| largest.max(rate.abs()));
         assert!(largest <= BRACKET_ZERO || largest > BRACKET_VISIBLE, "{observable:?} undecided: {largest:e}");
         let named =
-            exists(observable, N, M::TRANSLATION) && !super::has_another_name(M::CONSTRAINT, false, observable);
+            exists(observable, N, M::TRANSLATION) && !has_another_name(M::CONSTRAINT, false, observable);
         let still = named && largest <= BRACKET_ZERO;
         assert!(!listed.contains(&observable) || still, "{observable:?} listed");
         assert!(!decided || listed.contains(&observable) || !still, "{observable:?} not listed");
