@@ -44,7 +44,9 @@ trait Driven<const N: usize>: Model<N> + Sized {
 
     fn reference(t: f64, state: &State) -> Reference {
         let (on_p, on_pi) = Self::linear(t, state);
-        Reference::confined(&Self::kinetic(), Self::CONSTRAINT, state, t, |place| energy::<N>(place, &on_p, &on_pi))
+        Reference::confined(&Self::kinetic(), Self::CONSTRAINT, state, t, |place| {
+            energy::<N>(place, &on_p, &on_pi)
+        })
     }
 }
 
@@ -98,7 +100,10 @@ fn lists_are_exact<const N: usize, M: Driven<N>>(decided: bool) {
             motion.bracket(observable).unwrap().to_f64()
         });
         let largest = rates.fold(0.0, |largest: f64, rate| largest.max(rate.abs()));
-        assert!(largest <= BRACKET_ZERO || largest > BRACKET_VISIBLE, "{observable:?} undecided: {largest:e}");
+        assert!(
+            largest <= BRACKET_ZERO || largest > BRACKET_VISIBLE,
+            "{observable:?} undecided: {largest:e}"
+        );
         let named =
             exists(observable, N, M::TRANSLATION) && !has_another_name(M::CONSTRAINT, false, observable);
         let still = named && largest <= BRACKET_ZERO;

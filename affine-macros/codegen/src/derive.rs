@@ -268,7 +268,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
 
     let mut conserved_now = conserved(arena, &own, &own_h);
     let mut conserved_at_rest = at_rest(arena, &h, &conserved_now);
-    if let Some(reaction) = along_the_dilatation(arena, &h) {
+    if let Some(reaction) = multiplier(arena, &h) {
         conserved_now.retain(|candidate| reaction.keeps(*candidate));
         conserved_at_rest.retain(|candidate| reaction.keeps(*candidate));
     }
@@ -471,11 +471,11 @@ fn at_rest(arena: &mut Arena, h: &Hamiltonian, moving: &[Candidate]) -> Vec<Cand
     conserved(arena, &chart, &h.internal())
 }
 
-/// A force that has the directions of that of a potential in `q`: of the multiplier of a constraint that acts through
-/// one, of which no more is known, and of an energy weighted by `D^2`.
-fn along_the_dilatation(arena: &mut Arena, h: &Hamiltonian) -> Option<Potential> {
+/// The force of the multiplier of a constraint that acts through one: it has the directions of that of a potential in
+/// `q`, and no other is known of it.
+fn multiplier(arena: &mut Arena, h: &Hamiltonian) -> Option<Potential> {
     let acts = h.constraint.is_some() && h.confined().is_none();
-    (acts || h.weight.is_some()).then(|| {
+    acts.then(|| {
         let q = Base::MeanLogStretch.symbol(arena);
         Potential::new(arena, h.dim, q)
     })
@@ -507,7 +507,8 @@ fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Ba
 /// Results of the internal energy times its weight `D^2`, if it has one.
 fn weighted(batch: Batch, weight: Option<&Weight>) -> Batch {
     let Some(Weight { square, .. }) = weight else { return batch };
-    let results = batch.results.into_iter().map(|(name, value)| (name, value.mul(&Polynomial::atom(*square))));
+    let results =
+        batch.results.into_iter().map(|(name, value)| (name, value.mul(&Polynomial::atom(*square))));
     defined(Batch { results: results.collect(), ..batch }, weight)
 }
 

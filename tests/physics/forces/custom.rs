@@ -9,11 +9,11 @@ use affine_runtime::prelude::*;
 use affine_runtime::sampling;
 use affine_runtime::scalar::Scalar;
 
-use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
 use super::fields::{
-    Fibre, Field, Gyroscope, Kneading, Magnet, Spring, Stirring, Wall, Wind, blown, deflected, gyrated, kneaded, stirred,
-    under,
+    Fibre, Field, Gyroscope, Kneading, Magnet, Spring, Stirring, Wall, Wind, blown, deflected, gyrated,
+    kneaded, stirred, under,
 };
+use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
 use crate::families::{matrix, vector};
 use crate::reference::Reference;
 use crate::tolerances::{POWER_BALANCE, UNDER_POTENTIAL};

@@ -218,7 +218,10 @@ pub(crate) fn deflected<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// The forces of a potential by forward differentiation of its plain definition.
-pub(crate) fn under<const N: usize>(m: &Motion<N>, energy: fn(&OraclePlace) -> Differential) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn under<const N: usize>(
+    m: &Motion<N>,
+    energy: fn(&OraclePlace) -> Differential,
+) -> (Vec<f64>, Vec<f64>) {
     let slopes = affine_oracle::Slopes::of(energy, m.t, m.x.as_slice(), &entries(&m.phi));
     let on_phi = matrix::<N>(&slopes.phi);
     (slopes.x.iter().map(|slope| -slope).collect(), entries(&-on_phi.transpose()))

@@ -28,7 +28,8 @@ pub(super) fn nothing_vanishes(spec: &Spec, dissipation: &Dissipation, found: &m
     let group = Some(lower::constraint(constraint.value));
     for Part { form, .. } in dissipation.parts.iter().filter(|part| part.form.frame != Frame::Flat) {
         for (place, energy) in &form.internal {
-            let alone = Kinetic { constraint: group, internal: vec![(*place, energy.clone())], ..form.clone() };
+            let alone =
+                Kinetic { constraint: group, internal: vec![(*place, energy.clone())], ..form.clone() };
             let written = spec.dissipation.iter().find(|term| same_kind(term, &form.terms[*place]));
             if let Some(term) = written.filter(|_| Hessian::new(&alone).is_zero()) {
                 let mistake = Diagnostic::VanishingTerm {

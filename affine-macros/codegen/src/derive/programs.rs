@@ -266,8 +266,9 @@ pub(super) fn power_batch(
     let driving = potential.filter(|_| forces.driven);
     loads(arena, chart, h, driving, forces).iter().for_each(|load| system.add(load));
     let dependent = chart.dependent();
-    let system = system
-        .substitute(&|atom| dependent.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone()));
+    let system = system.substitute(&|atom| {
+        dependent.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone())
+    });
     let (_, power) = system.work?;
     let results = vec![("power".to_owned(), power)];
     let batch = Batch { shared: system.shared, kernels: system.kernels, results };

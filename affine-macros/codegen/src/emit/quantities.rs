@@ -89,7 +89,8 @@ fn balance(context: &Context) -> TokenStream {
             if size == dim { quote!(#rt::vector([#(#entries),*])) } else { matrix(entries) }
         };
         let field = |(name, entries): (&&str, &[TokenStream])| {
-            let (frame, value) = (if name.ends_with("_hat") { "Comoving" } else { "Spatial" }, value(entries));
+            let (frame, value) =
+                (if name.ends_with("_hat") { "Comoving" } else { "Spatial" }, value(entries));
             let (name, frame) = (format_ident!("{name}"), format_ident!("{frame}"));
             quote!(#name: #rt::#frame(#value))
         };

@@ -33,12 +33,22 @@ pub struct Laws {
 
 impl Laws {
     /// The laws in the canonical chart, with `p` spatial.
-    pub fn new(arena: &mut Arena, chart: &Chart, h: &Hamiltonian, energy: &Polynomial, loads: &[Load]) -> Self {
+    pub fn new(
+        arena: &mut Arena,
+        chart: &Chart,
+        h: &Hamiltonian,
+        energy: &Polynomial,
+        loads: &[Load],
+    ) -> Self {
         let (n, phi, pi) = (chart.dim, atoms(&chart.phi), atoms(&chart.m));
         let velocity = velocities(arena, chart, energy);
         let mut system = System {
             shared: velocity.iter().flatten().cloned().collect(),
-            rates: chart.coordinates().into_iter().map(|z| (z, chart.symbol(z), Polynomial::zero())).collect(),
+            rates: chart
+                .coordinates()
+                .into_iter()
+                .map(|z| (z, chart.symbol(z), Polynomial::zero()))
+                .collect(),
             ..System::default()
         };
         loads.iter().for_each(|load| system.add(load));
@@ -60,7 +70,8 @@ impl Laws {
             let entry = (0..n * n).find(|k| h.momentum.0[k / n][k % n] == atom)?;
             Some(spin_hat[entry / n][entry % n].clone())
         };
-        let omega_hat = shared.matrix("omega_hat", &table(n, |a, b| h.velocity[a][b].substitute(&of_spin_hat)));
+        let omega_hat =
+            shared.matrix("omega_hat", &table(n, |a, b| h.velocity[a][b].substitute(&of_spin_hat)));
         let negative = |entry: &Polynomial| entry.scaled(&Rational::MINUS_ONE);
         let inertia_hat = product(&spin_hat, &transpose(&omega_hat));
         let centre = if chart.p.is_empty() {

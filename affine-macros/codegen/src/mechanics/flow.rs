@@ -158,7 +158,11 @@ impl<'a, R: Ring> Flow<'a, R> {
     /// Rate of `Pi`, times `phi` on the side where that makes it a polynomial.
     pub(super) fn canonical_rate(&self) -> Square<R> {
         if let Some(push) = &self.push {
-            return if self.chart.confined.is_some() { self.sigma_hat_dot().clone() } else { push.pi.clone() };
+            return if self.chart.confined.is_some() {
+                self.sigma_hat_dot().clone()
+            } else {
+                push.pi.clone()
+            };
         }
         let slope = |a: usize, b: usize| {
             let found = self.gradient.iter().find(|(z, _)| *z == Coordinate::M(b, a));
