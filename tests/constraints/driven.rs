@@ -231,6 +231,10 @@ driven! {
          dissipation(dalembert = 0.25, casimir1_squared = 0.5))
         [Term::DAlembert(diagonal(&[2, 3, 4])), Term::SpaceTranslation(rational(5, 4))] {}
         |m| drag(m, [0.0, 0.0, 0.5, 0.25]);
+    driven_viscous_top_3: 3 Rigid rigid pinned true
+        (kinetic(dalembert = diag(1, 1.5, 2)), potential = phi[3,3]*cos(t), dissipation(body_inertia = 0.25))
+        [Term::DAlembert(diagonal(&[2, 3, 4]))] {}
+        |m| both(drag(m, [0.25, 0.0, 0.0, 0.0]), under(m, |place| place.phi(3, 3) * place.t().cos()));
     stirred_isochoric_3: 3 Isochoric isochoric pinned false
         (kinetic(body_inertia = 1.5, casimir2 = 0.25), forces = custom(field, spatial))
         [Term::body_inertia(3, rational(3, 2)), Term::Casimir2(rational(1, 4))]

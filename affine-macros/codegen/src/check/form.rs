@@ -96,7 +96,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
     let potential = potential(&mut arena, spec, kinetic.constraint, found);
-    forces.driven = driven(spec, potential.as_ref());
+    forces.driven = driven(spec, &forces, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     found.verdict()?;
@@ -146,7 +146,7 @@ fn momentum_form(
     let space_group = largest_group(&on_momenta, Side::Space);
     let body_group = largest_group(&on_momenta, Side::Body);
     let potential = potential(&mut arena, spec, None, found);
-    forces.driven = driven(spec, potential.as_ref());
+    forces.driven = driven(spec, &forces, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     found.verdict()?;
@@ -178,12 +178,11 @@ fn forces(arena: &mut Arena, spec: &Spec, own: Frame, found: &mut Diagnostics) -
     forces
 }
 
-/// Is the work of a potential that depends on the time integrated with the motion? The flows of pieces, and the kicks of
-/// the method that solves for a multiplier, have no place for it.
-fn driven(spec: &Spec, potential: Option<&Potential>) -> bool {
-    potential.is_some_and(Potential::depends_on_time)
-        && !super::capabilities::asked(spec, Capability::Splitting)
-        && !super::forces::has_multiplier(spec)
+/// Is the work of a potential that depends on the time part of a balance of power? The kicks of the method that solves for
+/// a multiplier have no place for it.
+fn driven(spec: &Spec, forces: &Forces, potential: Option<&Potential>) -> bool {
+    let depends = potential.is_some_and(Potential::depends_on_time);
+    depends && !forces.is_empty() && !super::forces::has_multiplier(spec)
 }
 
 /// The energy of a motion that is confined to a group.

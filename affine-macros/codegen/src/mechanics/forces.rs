@@ -19,7 +19,7 @@ pub struct Forces {
     pub dissipation: Option<Dissipation>,
     /// What fields of the model compute, forces and potentials.
     pub customs: Vec<Custom>,
-    /// Is the work of a potential that depends on the time accounted for?
+    /// Does a potential that depends on the time stand beside them? Its power is part of the balance then.
     pub driven: bool,
 }
 

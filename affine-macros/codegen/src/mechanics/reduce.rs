@@ -162,9 +162,8 @@ pub fn candidates(
             momenta.push(other);
         }
     }
-    // Proved of potentials that are formulas alone: forces couple the dilatation to the rest, or are unknown. The work of
-    // driving is that of the whole motion.
-    let separated = match forces.is_empty() && !forces.driven {
+    // Proved of potentials that are formulas alone: forces couple the dilatation to the rest, or are unknown.
+    let separated = match forces.is_empty() {
         true => separated(arena, h, potential, &commuting),
         false => Vec::new(),
     };
