@@ -9,6 +9,7 @@ mod jet;
 #[path = "../physics/dual.rs"]
 mod dual;
 
+mod acceleration;
 mod power;
 
 use affine_oracle::{Differential, Place, Random, Slopes};

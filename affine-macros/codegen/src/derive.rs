@@ -388,15 +388,15 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         true => Some(quantities::metric(arena, std::slice::from_ref(&kinetic), Some(&h), &mut coefficients)?),
         false => None,
     };
+    let time = potential.and_then(Potential::time).or_else(|| forces.time(arena));
     let acceleration = quantities.acceleration.then(|| {
         let mut system = hamilton(arena, &full_chart, &full_h, equations::Form::ThroughVelocity);
         loads(arena, &full_chart, &h, potential, &forces).iter().for_each(|load| system.add(load));
-        quantities::acceleration(arena, &full_chart, &system, &mut coefficients)
+        quantities::acceleration(arena, &full_chart, &system, time, &mut coefficients)
     });
     let balance = quantities.balance.then(|| {
         let loads = loads(arena, &full_chart, &h, potential, &forces);
         let laws = Laws::new(arena, &full_chart, &h, &full_h, &loads);
-        let time = potential.and_then(Potential::time).or_else(|| forces.time(arena));
         quantities::balance(arena, &full_chart, &laws, time, &mut coefficients)
     });
     Some(Model {

@@ -41,7 +41,7 @@ impl Force {
 }
 
 /// What may be stated beside a force, and whether it is and refuses it.
-fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 9] {
+fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 8] {
     let emitted = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
     let cubic = |terms: &Vec<_>| {
         terms.iter().any(|term: &crate::spec::Term<MomentumKind>| term.kind.value == MomentumKind::Casimir3)
@@ -55,7 +55,6 @@ fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 9] {
         ("`emit(taylor)`", emitted(Capability::Taylor) && !force.is_formula),
         ("`emit(splitting)`", emitted(Capability::Splitting)),
         ("`emit(two_polar)`", emitted(Capability::TwoPolar)),
-        ("`emit(acceleration)`", emitted(Capability::Acceleration)),
     ]
 }
 

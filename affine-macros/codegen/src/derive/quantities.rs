@@ -122,6 +122,7 @@ pub(super) fn acceleration(
     arena: &mut Arena,
     chart: &Chart,
     system: &System,
+    time: Option<Expr>,
     coefficients: &mut Constants,
 ) -> Program {
     let mut flow = Flow { system, slopes: Vec::new(), definitions: Definitions::new() };
@@ -131,7 +132,8 @@ pub(super) fn acceleration(
         .map(|(i, (_, _, rate))| (format!("acceleration_{}", i + 1), flow.along(arena, rate)))
         .collect();
     let shared = system.shared.iter().cloned().chain(flow.definitions).collect();
-    let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    inputs.extend(time);
     let batch = Batch { shared, results, kernels: system.kernels.clone() }.pruned(arena);
     fuse(&straight_line(arena, &batch, coefficients, &|a| inputs.contains(&a)))
 }

@@ -5,10 +5,11 @@ use quote::{format_ident, quote};
 
 use crate::ir::Program;
 use crate::mechanics::balance::{CENTRE, INTERNAL};
+use crate::mechanics::potential::TIME;
 
 use super::body::Body;
 use super::dynamics::{bind_point, time};
-use super::{Context, mixed, number};
+use super::{Context, inputs, mixed, number};
 
 /// `metric`, `inverse_metric`, `acceleration`, `balance`, `centre_balance`, as far as asked for.
 pub(super) fn inherent(context: &Context) -> TokenStream {
@@ -64,10 +65,11 @@ fn acceleration(context: &Context) -> TokenStream {
     let bound = bind_point(context, program);
     let Body { lets, results } = context.double(program);
     let point_name = if bound.is_empty() { quote!(_point) } else { quote!(point) };
+    let at = inputs(program).contains(&TIME).then(|| quote!(t: #rt::f64,));
     quote! {
         /// The acceleration `d^2 x/dt^2` of the centre of mass along the motion through `point`: the derivative of
         /// `dx/dt` along Hamilton's equations (section 4).
-        #visibility fn acceleration(&self, #point_name: &#point) -> #rt::Vector<#n> {
+        #visibility fn acceleration(&self, #at #point_name: &#point) -> #rt::Vector<#n> {
             #bound
             #lets
             #rt::vector([#(#results),*])
