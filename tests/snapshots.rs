@@ -169,6 +169,8 @@ families! {
         potential = hyperbolic_dilatation(10) + tr(G)/2 + cos(t)*x[1]^2/2 + x[1]*phi[1,2]";
     tangent_missile_2: "dim = 2, emit(tangent), kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), \
         potential = tr(G)/2 - ln(det)";
+    balance_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2), potential = tr(G)/2 + x[1], \
+        emit(balance)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.

@@ -19,7 +19,7 @@ use proc_macro::TokenStream;
 /// | `forces` | sum of `custom(..)` | forces that fields compute, below |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
-/// | `emit(...)` | `taylor`, `nystrom`, `splitting`, `tangent`, `two_polar`, `ratios`, `lanes`, `metric`, `acceleration` | what is emitted beyond the default, below |
+/// | `emit(...)` | `taylor`, `nystrom`, `splitting`, `tangent`, `two_polar`, `ratios`, `lanes`, `metric`, `acceleration`, `balance` | what is emitted beyond the default, below |
 /// | `crate` | path | the runtime, where it has another name than `affine_runtime` |
 ///
 /// | term | energy |
@@ -65,7 +65,9 @@ use proc_macro::TokenStream;
 ///
 /// `emit(metric)` adds the methods `metric(&phi)` and `inverse_metric(&phi)`, the configuration metric over
 /// `(x_dot, phi_dot)` with `phi_dot` row by row, and its inverse; `emit(acceleration)` adds `acceleration(&point)`, the
-/// acceleration of the centre of mass.
+/// acceleration of the centre of mass, `acceleration(t, &point)` where forces depend on the time. `emit(balance)` adds,
+/// for `dalembert` models, `balance(t, &point)` and `centre_balance(t, &point)`: the kinematical spin `K = phi J phi_dot^T` and both
+/// sides of its balance in space and body, (3.6), (3.8), (3.9).
 ///
 /// `emit(two_polar)` is the lattice form `(q, p, M, N)` of doubly isotropic models. Beside it, `splitting` adds the exact flows
 /// of the lattice's pieces (`lattice::LatticeSplitting`; with `group = unitary` it stands alone), and `ratios`, for affine
@@ -100,8 +102,8 @@ use proc_macro::TokenStream;
 /// A constraint confines `phi` to a group and affine velocities to its Lie algebra: traceless, skew, or skew plus multiples
 /// of the identity. The energy is inverted there, the affine spin is the part of it that acts there (a matrix of the
 /// same kind), and only the eigenvalues on the directions left free have to differ from zero: `I+A`, `I-A` (isochoric),
-/// `I-A` (rigid), `I-A`, `I+A+nB` (conformal). `dalembert` goes with `rigid`, where it is `body_inertia`, and with
-/// `isochoric`: there Hamilton's equations are those of `(phi, Pi)` without the force of the multiplier. A term that
+/// `I-A` (rigid), `I-A`, `I+A+nB` (conformal). `dalembert` is `body_inertia` under `rigid` and `D^2` times that under
+/// `conformal`; under `isochoric` Hamilton's equations are those of `(phi, Pi)` without the force of the multiplier. A term that
 /// vanishes on the group and a potential that is constant there are mistakes; a symmetry is claimed of the energy
 /// without the constraint. Starting points off the constraint by more than 32 roundings times the condition of `phi`
 /// are refused with their defect.
@@ -118,9 +120,10 @@ use proc_macro::TokenStream;
 /// `spatial` (`Q`), `comoving` (`Q_hat`) or `translation` (`Q_tr`), with `gyroscopic` after it where the force has no power:
 /// the energy then stays conserved.
 ///
-/// Dissipation and fields are refused beside `constraint`, `metrics(...)`, `casimir3`, terms of different frames,
-/// `group = unitary`, `emit(taylor)`, `emit(nystrom)`, `emit(two_polar)` and `emit(acceleration)`; but a potential of a field goes with
-/// `constraint = isochoric` and `dalembert`, where the multiplier keeps the constraint.
+/// Under a constraint the forces are projected to its group. Dissipation and fields are refused beside `metrics(...)`,
+/// `casimir3`, terms of different frames, `group = unitary`, `emit(splitting)`, `emit(nystrom)` and `emit(two_polar)`, fields
+/// also beside `emit(taylor)`; `constraint = isochoric` of `dalembert`, which a multiplier keeps, takes only potentials. Beside
+/// forces the power of a potential that contains `t` is part of the balance of energy.
 ///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
 /// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`; the signature

@@ -15,6 +15,7 @@
 //! of collective and internal modes, Part I*.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+pub mod balance;
 mod breathing;
 pub mod capability;
 pub mod conserved;

@@ -2,6 +2,7 @@
 
 pub use core::primitive::f64;
 
+pub use crate::balance::{Balance, CentreBalance};
 pub use crate::breathing::Breathing;
 pub use crate::capability::{Emitted, InLanes, SecondOrderEquations, Splitting, Tangent, Taylor};
 pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};

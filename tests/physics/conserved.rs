@@ -4,24 +4,8 @@
 use affine_oracle::{Kinetic, Observable, Random, State};
 use affine_runtime::model::Conserved;
 
+pub(crate) use crate::charts::exists;
 use crate::families::{Family, Parameters};
-
-/// Does the quantity exist for such a model?
-pub(crate) fn exists(quantity: Observable, n: usize, translation: bool) -> bool {
-    use Observable::{
-        Casimir3, ComovingLinearMomentum, DeviatorCasimir3, LinearMomentum, OrbitalAngularMomentum,
-        TotalAffineMomentum, TotalAngularMomentum,
-    };
-    match quantity {
-        LinearMomentum
-        | ComovingLinearMomentum
-        | OrbitalAngularMomentum
-        | TotalAffineMomentum
-        | TotalAngularMomentum => translation,
-        Casimir3 | DeviatorCasimir3 => n == 3,
-        _ => true,
-    }
-}
 
 fn assert_conserved(kinetic: &Kinetic, state: &State, listed: &[Conserved], translation: bool) {
     let listed: Vec<Observable> =

@@ -5,6 +5,8 @@ use affine_oracle::{
 };
 use affine_runtime::prelude::*;
 
+pub(crate) use crate::charts::{matrix, vector};
+
 /// Values of all fields that the models have between them.
 pub(crate) struct Parameters {
     n: usize,
@@ -125,6 +127,12 @@ fn random_tensor(n: usize, small: &Rational, random: &Random) -> Exact {
     }
 }
 
+/// The rows of a matrix.
+pub(crate) fn rows<const N: usize>(matrix: &Exact) -> [[f64; N]; N] {
+    let entries = matrix.to_f64();
+    core::array::from_fn(|i| core::array::from_fn(|j| entries[N * i + j]))
+}
+
 /// The diagonal of a matrix, as a matrix.
 fn diagonal(j: &Exact) -> Exact {
     let n = j.shape().0;
@@ -200,22 +208,6 @@ pub(crate) trait Family<const N: usize>: Model<N> + Sized {
 }
 
 pub(crate) use affine_runtime::model::Velocity;
-
-/// `N x N`, from row-major entries.
-pub(crate) fn matrix<const N: usize>(entries: &[f64]) -> Matrix<N> {
-    Matrix::from_row_slice(entries)
-}
-
-/// The rows of a matrix.
-pub(crate) fn rows<const N: usize>(matrix: &Exact) -> [[f64; N]; N] {
-    let entries = matrix.to_f64();
-    core::array::from_fn(|i| core::array::from_fn(|j| entries[N * i + j]))
-}
-
-/// A vector.
-pub(crate) fn vector<const N: usize>(entries: &[f64]) -> Vector<N> {
-    Vector::from_column_slice(entries)
-}
 
 /// Symmetric, of both signs, no symmetry beyond: every |eigenvalue| is above 1/2 (Gershgorin).
 macro_rules! with_tensor {

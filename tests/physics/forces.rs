@@ -4,4 +4,5 @@
 mod combined;
 mod custom;
 mod dissipation;
+mod fields;
 mod prepare;

@@ -4,6 +4,7 @@
 //! One test program for all of it, so that the models of [`families`] are expanded once.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod charts;
 #[macro_use]
 mod families;
 mod dual;
@@ -14,7 +15,6 @@ mod tolerances;
 mod benchmarks;
 mod canonical;
 mod conserved;
-mod constraints;
 mod driven;
 mod drunk_missile;
 mod forces;

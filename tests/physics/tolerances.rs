@@ -71,3 +71,6 @@ pub(crate) const DEGENERATION: f64 = 1e-9;
 
 /// Exact laws along motions of a few periods: some hundred steps at tolerance 1e-15.
 pub(crate) const LAWS: f64 = 1e-12;
+
+/// The dilatation of a free conformal body against its closed form: some hundred steps at tolerance 1e-13.
+pub(crate) const FREE_DILATATION: f64 = 1e-11;

@@ -44,6 +44,7 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     constraint::stands_alone(spec, found);
     capabilities::ratios(spec, found);
     capabilities::centre(spec, found);
+    capabilities::balance(spec, found);
     potential::differences(spec, found);
     potential::scalar(spec, found);
     potential::centre(spec, found);

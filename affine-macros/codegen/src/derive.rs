@@ -17,6 +17,7 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::ir::tangent::with_tangent;
 use crate::ir::taylor::Recurrence;
+use crate::mechanics::balance::Laws;
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::constraint::Constraint;
@@ -24,9 +25,11 @@ use crate::mechanics::describe::{self, Formula};
 use crate::mechanics::equations::{self, hamilton};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::loads::loads;
 use crate::mechanics::potential::{Base, Potential};
 use crate::mechanics::reduce::{self, ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
+use crate::mechanics::weight::Weight;
 use crate::optimise::{Batch, straight_line};
 use crate::spec::{Capability, Spanned};
 
@@ -70,6 +73,8 @@ pub struct Model {
     pub metric: Option<Metric>,
     /// Point -> acceleration of the centre of mass, where asked for.
     pub acceleration: Option<Program>,
+    /// The balance laws, where asked for.
+    pub balance: Option<Balance>,
     /// Point -> `H`.
     pub hamiltonian: Program,
     /// Point -> power of the forces that no potential has.
@@ -172,6 +177,14 @@ pub struct Metric {
     pub entries: Program,
     /// `phi ->` entries of the inverse, row after row.
     pub inverse: Program,
+}
+
+/// Programs of the balance laws of a d'Alembert model, the entries of one quantity after the other.
+pub struct Balance {
+    /// Point -> [quantities](crate::mechanics::balance::INTERNAL) of the internal motion.
+    pub internal: Program,
+    /// Point -> [quantities](crate::mechanics::balance::CENTRE) of the centre of mass, where it moves.
+    pub centre: Option<Program>,
 }
 
 /// A quantity that must not vanish once the fields have values.
@@ -315,9 +328,15 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         fuse(&straight_line(arena, &batch, &mut coefficients, &|a| inputs.contains(&a)))
     };
     let velocities: Vec<Expr> = kinetic.velocity.0.iter().flatten().copied().collect();
-    let momenta: Vec<Expr> = h.momentum.0.iter().flatten().copied().collect();
+    let placement = match h.weight {
+        Some(_) => full_chart.phi.0.concat(),
+        None => Vec::new(),
+    };
+    let weighted = |batch: Batch| weighted(batch, h.weight.as_ref());
+    let velocities = [velocities, placement.clone()].concat();
+    let momenta: Vec<Expr> = [h.momentum.0.concat(), placement].concat();
     let legendre = cubic.is_none().then(|| {
-        let legendre = legendre_batch(arena, &kinetic);
+        let legendre = weighted(legendre_batch(arena, &kinetic));
         inline(arena, legendre, velocities.clone())
     });
     let dependent = own.dependent();
@@ -325,18 +344,19 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         |atom: Expr| dependent.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone());
     let velocities_of: Vec<Vec<Polynomial>> =
         h.velocity.iter().map(|row| row.iter().map(|o| o.substitute(&projected)).collect()).collect();
-    let velocity = matrix_batch(arena, &kinetic.velocity, &velocities_of);
+    let velocity = defined(matrix_batch(arena, &kinetic.velocity, &velocities_of), h.weight.as_ref());
     let velocity = inline(arena, velocity, momenta);
     let velocity_side = legendre.map(|legendre| {
-        let (energy, inputs) = energy_batch(arena, &kinetic, velocities);
+        let internal = weighted(result("energy", kinetic.internal_energy()));
+        let (energy, inputs) = energy_batch(arena, &kinetic, internal, velocities);
         VelocitySide { legendre, kinetic_energy: inline(arena, energy, inputs) }
     });
     let mut points: Vec<Expr> = full_chart.coordinates().into_iter().map(|z| full_chart.symbol(z)).collect();
-    let mut energy = result("energy", full_h.substitute(&projected));
+    let mut energy = defined(result("energy", full_h.substitute(&projected)), h.weight.as_ref());
     if let Some(u) = potential {
         let (value, shared) = u.energy_at_a_point(arena, &full_chart);
         energy.results[0].1.add_scaled(&value, &Rational::ONE);
-        energy.shared = shared;
+        energy.shared.extend(shared);
         points.push(Base::MeanLogStretch.symbol(arena));
         points.extend((0..kinetic.dim).map(|a| Base::LogStretch(a).symbol(arena)));
         points.extend(u.time());
@@ -348,7 +368,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         }
     }
     points.extend(forces.time(arena));
-    let power = power_batch(arena, &h, &full_chart, &full_h, &forces);
+    let power = power_batch(arena, &h, &full_chart, &full_h, potential, &forces);
     let power = power.map(|batch| inline(arena, batch, points.clone()));
     let hamiltonian = inline(arena, energy, points);
     let mass = h.translation.as_ref().zip(kinetic.translation).map(|((_, inverse), t)| {
@@ -382,10 +402,16 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         true => Some(quantities::metric(arena, std::slice::from_ref(&kinetic), Some(&h), &mut coefficients)?),
         false => None,
     };
+    let time = potential.and_then(Potential::time).or_else(|| forces.time(arena));
     let acceleration = quantities.acceleration.then(|| {
         let mut system = hamilton(arena, &full_chart, &full_h, equations::Form::ThroughVelocity);
-        system.add(&potential.map(|u| u.load(arena, &full_chart)).unwrap_or_default());
-        quantities::acceleration(arena, &full_chart, &system, &mut coefficients)
+        loads(arena, &full_chart, &h, potential, &forces).iter().for_each(|load| system.add(load));
+        quantities::acceleration(arena, &full_chart, &system, time, &mut coefficients)
+    });
+    let balance = quantities.balance.then(|| {
+        let loads = loads(arena, &full_chart, &h, potential, &forces);
+        let laws = Laws::new(arena, &full_chart, &h, &full_h, &loads);
+        quantities::balance(arena, &full_chart, &laws, time, &mut coefficients)
     });
     Some(Model {
         dim: kinetic.dim,
@@ -407,6 +433,7 @@ fn constant(form: Form, require_positive: bool) -> Option<Model> {
         regularity: None,
         metric,
         acceleration,
+        balance,
         hamiltonian,
         power,
         full,
@@ -500,9 +527,28 @@ fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Ba
     Batch { results, ..Batch::default() }
 }
 
+/// Results of the internal energy times its weight `D^2`, if it has one.
+fn weighted(batch: Batch, weight: Option<&Weight>) -> Batch {
+    let Some(Weight { square, .. }) = weight else { return batch };
+    let results =
+        batch.results.into_iter().map(|(name, value)| (name, value.mul(&Polynomial::atom(*square))));
+    defined(Batch { results: results.collect(), ..batch }, weight)
+}
+
+/// With what defines the weight of the internal energy, if it has one.
+fn defined(mut batch: Batch, weight: Option<&Weight>) -> Batch {
+    batch.shared.extend(weight.iter().flat_map(|weight| weight.definitions.clone()));
+    batch
+}
+
 /// `T_int(O) + m/2 |v|^2`, with its inputs.
-fn energy_batch(arena: &mut Arena, kinetic: &Kinetic, mut inputs: Vec<Expr>) -> (Batch, Vec<Expr>) {
-    let mut energy = kinetic.internal_energy();
+fn energy_batch(
+    arena: &mut Arena,
+    kinetic: &Kinetic,
+    mut batch: Batch,
+    mut inputs: Vec<Expr>,
+) -> (Batch, Vec<Expr>) {
+    let energy = &mut batch.results[0].1;
     if let Some(t) = kinetic.translation {
         let mass = Polynomial::normal_form(arena, t.mass);
         let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
@@ -512,5 +558,5 @@ fn energy_batch(arena: &mut Arena, kinetic: &Kinetic, mut inputs: Vec<Expr>) -> 
             inputs.push(v);
         }
     }
-    (result("energy", energy), inputs)
+    (batch, inputs)
 }

@@ -58,7 +58,7 @@ pub fn forces(arena: &mut Arena, spec: &Spec, own: Frame) -> Forces {
     let damping: Vec<Term> = terms(arena, n, &spec.dissipation).into_iter().map(|(_, term)| term).collect();
     let dissipation = (!damping.is_empty()).then(|| Dissipation::new(arena, n, own, &damping));
     let customs = spec.customs.iter().enumerate().map(|(k, custom)| custom_field(k + 1, custom)).collect();
-    Forces { dissipation, customs }
+    Forces { dissipation, customs, driven: false }
 }
 
 fn custom_field(place: usize, written: &spec::Custom) -> Custom {

@@ -1,5 +1,6 @@
 //! From a kinetic energy to Hamilton's equations; never sees tokens. One file per step.
 
+pub mod balance;
 pub mod brackets;
 mod carried;
 pub mod charts;
@@ -15,6 +16,7 @@ mod group_point;
 pub mod hamiltonian;
 pub mod hessian;
 pub mod kinetic;
+pub mod loads;
 pub mod metric;
 pub mod metrics;
 pub mod mixed;
@@ -28,3 +30,4 @@ mod shared;
 pub mod splitting;
 pub mod symmetry;
 pub mod two_polar;
+pub mod weight;

@@ -9,7 +9,8 @@ use crate::state::Phase;
 
 /// The balance `H(t) - H(t0) = W(t)`, `W` the integral of the power over time, along a trajectory.
 ///
-/// The power of a dissipation function `R` is `-2 R` (Goldstein, *Classical Mechanics*, section 1.5). `W` is
+/// The power of a dissipation function `R` is `-2 R` (Goldstein, *Classical Mechanics*, section 1.5); beside such forces a
+/// potential that contains the time has the power `dU/dt` at rest. `W` is
 /// integrated with the motion, as one more variable that the steps do not depend on, so that the balance closes to
 /// the error of the integration.
 #[derive(Clone, Copy, Debug, PartialEq)]

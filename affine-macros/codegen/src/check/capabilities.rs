@@ -31,6 +31,25 @@ pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
     }
 }
 
+/// `K = phi J phi_dot^T` is the affine spin, and (3.6) its law of motion, where the energy is (2.1) and every placement
+/// of GL+(n) is free: the multiplier of a constraint would be one more moment, and with `m/2 |phi^-1 x_dot|^2` the
+/// moment of the momentum of the centre.
+pub(super) fn balance(spec: &Spec, found: &mut Diagnostics) {
+    let Some(balance) = spec.emit.iter().find(|c| c.value == Capability::Balance) else { return };
+    let fits = |kind: TermKind| matches!(kind, TermKind::Dalembert | TermKind::SpaceTranslation);
+    let kinds = spec.kinetic.iter().map(|term| term.kind.value);
+    let terms = kinds.filter(|kind| !fits(*kind)).map(|kind| format!("`{}`", kind.name()));
+    let keys = [
+        ("`hamiltonian(...)`", spec.hamiltonian.is_some()),
+        ("`constraint`", spec.constraint.is_some()),
+        ("`metrics(...)`", spec.has_metrics()),
+    ];
+    let keys = keys.into_iter().filter(|(_, stated)| *stated).map(|(key, _)| key.to_owned());
+    for part in terms.chain(keys) {
+        found.report(balance.span, CapabilityMistake::BalanceBeside { part });
+    }
+}
+
 /// Taylor coefficients follow from the operations of autonomous right-hand sides; single stretches are found by an
 /// iteration, and a constrained motion is integrated in charts that change from step to step.
 pub(super) fn series(spec: &Spec, potential: Option<&Potential>, found: &mut Diagnostics) {

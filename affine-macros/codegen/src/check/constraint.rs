@@ -2,20 +2,15 @@
 
 use super::constant;
 use crate::diagnostics::{ConstraintMistake, Diagnostics};
-use crate::spec::{Constraint, Named, Spec, Term, TermKind};
+use crate::spec::{Named, Spec, Term, TermKind};
 
-/// On the group, energies in `phi_dot` have mass matrices that depend on the placement, but for two:
-/// `tr(phi_dot J phi_dot^T) = tr(Oh J Oh^T)` of a rigid motion, and the isochoric one, whose constraint has a
-/// multiplier instead.
+/// On the group, energies in `phi_dot` have mass matrices that depend on the placement, but for one:
+/// `tr(phi_dot J phi_dot^T) = D^2 tr(Oh J Oh^T)` of a rigid or conformal motion depends at most on `D`, and the isochoric
+/// one has a multiplier instead.
 pub(super) fn constant_mass_matrix(spec: &Spec, found: &mut Diagnostics) {
     let Some(constraint) = spec.constraint else { return };
     for term in terms(spec) {
-        let curved = match (term.kind.value, constraint.value) {
-            (TermKind::FlatTensor, _) => true,
-            (TermKind::Dalembert, constraint) => constraint == Constraint::Conformal,
-            _ => false,
-        };
-        if curved {
+        if term.kind.value == TermKind::FlatTensor {
             let mistake = ConstraintMistake::ConstrainedMassMatrix {
                 term: term.kind.value.name(),
                 constraint: constraint.value.name(),

@@ -3,10 +3,11 @@
 use super::form::{Written, eigenvalue_name, matrix_text};
 use crate::algebra::Rational;
 use crate::algebra::linear::negative_direction;
-use crate::diagnostics::{Diagnostics, ForceMistake};
+use crate::diagnostics::{ConstraintMistake, Diagnostics, ForceMistake};
+use crate::lower;
 use crate::mechanics::dissipation::{Dissipation, Part};
-use crate::mechanics::hessian::{Block, Direction};
-use crate::mechanics::kinetic::Frame;
+use crate::mechanics::hessian::{Block, Direction, Hessian};
+use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::spec::{self, Named, Spec};
 
 /// Without a translational kinetic energy the centre of mass stands still, and nothing slows it.
@@ -17,6 +18,28 @@ pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
     for term in spec.dissipation.iter().filter(|term| term.kind.value.is_translation()) {
         let term_name = term.kind.value.name().to_owned();
         found.report(term.kind.span, ForceMistake::FixedCentreForce { term: term_name, key: "dissipation" });
+    }
+}
+
+/// Every term takes energy from velocities that the constraint leaves free: `(tr Om)^2` takes none where they are
+/// traceless.
+pub(super) fn nothing_vanishes(spec: &Spec, dissipation: &Dissipation, found: &mut Diagnostics) {
+    let Some(constraint) = spec.constraint else { return };
+    let group = Some(lower::constraint(constraint.value));
+    for Part { form, .. } in dissipation.parts.iter().filter(|part| part.form.frame != Frame::Flat) {
+        for (place, energy) in &form.internal {
+            let alone =
+                Kinetic { constraint: group, internal: vec![(*place, energy.clone())], ..form.clone() };
+            let written = spec.dissipation.iter().find(|term| same_kind(term, &form.terms[*place]));
+            if let Some(term) = written.filter(|_| Hessian::new(&alone).is_zero()) {
+                let mistake = ConstraintMistake::VanishingTerm {
+                    term: term.kind.value.name(),
+                    constraint: constraint.value.name(),
+                    velocities: constraint.value.velocities(),
+                };
+                found.report(term.kind.span, mistake);
+            }
+        }
     }
 }
 

@@ -4,15 +4,16 @@ use super::frames;
 use crate::diagnostics::{Diagnostics, ForceMistake, Region};
 use crate::spec::{Capability, Constraint, Custom, MomentumKind, Spec, TermKind};
 
-/// The forces are derived, and what they leave conserved is decided, for a mass matrix that is constant in one frame, on
-/// all of GL(n), in orthonormal bases. The equations of an isochoric body with `dalembert` are those without the
-/// constraint, to which the method adds the multiplier: there potentials of fields stand as well. What is emitted beyond
-/// the equations is derived from formulas alone.
+/// The forces are derived, and what they leave conserved is decided, for a mass matrix that is constant in one frame, in
+/// orthonormal bases, projected under a constraint. The equations of an isochoric body with `dalembert` are those without
+/// the constraint, to which the method adds the multiplier: there potentials of fields stand as well, but nothing that
+/// depends on the velocity. What is emitted beyond the equations is derived from formulas alone.
 pub(super) fn stand_alone(spec: &Spec, found: &mut Diagnostics) {
     let damping = spec.dissipation.first().map(|term| Force {
         name: "dissipation(...)".to_owned(),
         span: term.kind.span,
         under_a_multiplier: false,
+        is_formula: true,
     });
     for force in damping.into_iter().chain(spec.customs.iter().map(Force::of)) {
         for (key, _) in beside(spec, &force).into_iter().filter(|(_, stated)| *stated) {
@@ -28,37 +29,38 @@ struct Force {
     span: Region,
     /// Does it act on an isochoric body as on a free one, whatever the multiplier?
     under_a_multiplier: bool,
+    /// Is it known by its formula?
+    is_formula: bool,
 }
 
 impl Force {
     fn of(custom: &Custom) -> Self {
         let name = format!("custom({}, ..)", custom.field);
-        Self { name, span: custom.span, under_a_multiplier: !custom.role.value.is_force() }
+        Self { name, span: custom.span, under_a_multiplier: !custom.role.value.is_force(), is_formula: false }
     }
 }
 
 /// What may be stated beside a force, and whether it is and refuses it.
-fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 10] {
+fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 9] {
     let emitted = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
     let cubic = |terms: &Vec<_>| {
         terms.iter().any(|term: &crate::spec::Term<MomentumKind>| term.kind.value == MomentumKind::Casimir3)
     };
     [
-        ("`constraint`", spec.constraint.is_some() && !(force.under_a_multiplier && has_multiplier(spec))),
+        ("`constraint = isochoric` of `dalembert`", has_multiplier(spec) && !force.under_a_multiplier),
         ("`metrics(...)`", spec.has_metrics()),
         ("`casimir3`", spec.hamiltonian.as_ref().is_some_and(cubic)),
         ("`group = unitary`", spec.group.is_some()),
         ("terms of different frames", frames::are_mixed(spec)),
-        ("`emit(taylor)`", emitted(Capability::Taylor)),
+        ("`emit(taylor)`", emitted(Capability::Taylor) && !force.is_formula),
         ("`emit(splitting)`", emitted(Capability::Splitting)),
         ("`emit(nystrom)`", emitted(Capability::Nystrom)),
         ("`emit(two_polar)`", emitted(Capability::TwoPolar)),
-        ("`emit(acceleration)`", emitted(Capability::Acceleration)),
     ]
 }
 
 /// Does the constraint act through its multiplier?
-fn has_multiplier(spec: &Spec) -> bool {
+pub(super) fn has_multiplier(spec: &Spec) -> bool {
     spec.constraint.is_some_and(|constraint| constraint.value == Constraint::Isochoric)
         && spec.term(TermKind::Dalembert).is_some()
 }

@@ -57,12 +57,18 @@ pub struct Quantities {
     pub metric: bool,
     /// The acceleration of the centre of mass.
     pub acceleration: bool,
+    /// The balance laws of a d'Alembert model.
+    pub balance: bool,
 }
 
 impl Quantities {
     pub(super) fn of(spec: &Spec) -> Self {
         let asked = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
-        Self { metric: asked(Capability::Metric), acceleration: asked(Capability::Acceleration) }
+        Self {
+            metric: asked(Capability::Metric),
+            acceleration: asked(Capability::Acceleration),
+            balance: asked(Capability::Balance),
+        }
     }
 }
 
@@ -89,11 +95,12 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     positive(spec, &kinetic, &hessian, found);
     // Symmetries are those of the energy as stated, on all of GL(n).
     claims(spec, &free, |place| spec.kinetic[places[place]].kind.value.name(), found);
-    let forces = forces(&mut arena, spec, kinetic.frame, found);
+    let mut forces = forces(&mut arena, spec, kinetic.frame, found);
     found.verdict()?;
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
     let potential = potential(&mut arena, spec, kinetic.constraint, found);
+    forces.driven = driven(spec, &forces, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
@@ -143,11 +150,12 @@ fn momentum_form(
     let kinetic = stated
         .kinetic(&mut arena)
         .ok_or_else(|| found.report(spec.kinetic_key, FormMistake::NoKineticEnergy))?;
-    let forces = forces(&mut arena, spec, kinetic.frame, found);
+    let mut forces = forces(&mut arena, spec, kinetic.frame, found);
     let hessian = Hessian::new(&kinetic);
     let space_group = largest_group(&on_momenta, Side::Space);
     let body_group = largest_group(&on_momenta, Side::Body);
     let potential = potential(&mut arena, spec, None, found);
+    forces.driven = driven(spec, &forces, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
@@ -179,8 +187,16 @@ fn forces(arena: &mut Arena, spec: &Spec, own: Frame, found: &mut Diagnostics) -
     let forces = lower::forces(arena, spec, own);
     if let Some(damping) = &forces.dissipation {
         dissipation::semidefinite(spec, damping, found);
+        dissipation::nothing_vanishes(spec, damping, found);
     }
     forces
+}
+
+/// Is the work of a potential that depends on the time part of a balance of power? The kicks of the method that solves for
+/// a multiplier have no place for it.
+fn driven(spec: &Spec, forces: &Forces, potential: Option<&Potential>) -> bool {
+    let depends = potential.is_some_and(Potential::depends_on_time);
+    depends && !forces.is_empty() && !super::forces::has_multiplier(spec)
 }
 
 /// The energy of a motion that is confined to a group.
@@ -196,8 +212,7 @@ fn nothing_vanishes(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mu
     let Some(constraint) = spec.constraint else { return };
     for (place, energy) in &kinetic.internal {
         let alone = Kinetic { internal: vec![(*place, energy.clone())], ..kinetic.clone() };
-        let blocks = Hessian::new(&alone).blocks;
-        if blocks.iter().flat_map(|block| block.form.concat()).all(|entry| entry.is_zero()) {
+        if Hessian::new(&alone).is_zero() {
             let kind = spec.kinetic[places[*place]].kind;
             let mistake = ConstraintMistake::VanishingTerm {
                 term: kind.value.name(),

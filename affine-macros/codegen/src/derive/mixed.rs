@@ -59,7 +59,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
     };
     let acceleration = quantities
         .acceleration
-        .then(|| quantities::acceleration(arena, &chart, &systems[0], &mut coefficients));
+        .then(|| quantities::acceleration(arena, &chart, &systems[0], time, &mut coefficients));
     let signature = body.signature(hessian.as_ref(), positive, require_positive);
     Some(Model {
         dim: mixed.dim,
@@ -81,6 +81,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         regularity,
         metric,
         acceleration,
+        balance: None,
         hamiltonian: programs.hamiltonian,
         power: None,
         full,

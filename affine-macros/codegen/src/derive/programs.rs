@@ -6,10 +6,11 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::equations::{self, Load, System, hamilton};
+use crate::mechanics::equations::{self, System, hamilton};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Frame;
+use crate::mechanics::loads::loads;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::{self, Layout, Reduction};
 use crate::mechanics::separation::{Separation, Slope};
@@ -40,8 +41,7 @@ pub(super) fn full_equations(
     forces: &Forces,
     coefficients: &mut Constants,
 ) -> Equations {
-    let mut loads: Vec<Load> = potential.iter().map(|u| u.load(arena, chart)).collect();
-    loads.extend(forces.loads(arena, chart, h));
+    let mut loads = loads(arena, chart, h, potential, forces);
     // The plain array has no place for the work.
     loads.iter_mut().for_each(|load| load.work = None);
     let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
@@ -274,13 +274,22 @@ pub(super) fn power_batch(
     h: &Hamiltonian,
     chart: &Chart,
     full_h: &Polynomial,
+    potential: Option<&Potential>,
     forces: &Forces,
 ) -> Option<Batch> {
     let mut system = System {
         shared: equations::velocities(arena, chart, full_h).into_iter().flatten().collect(),
         ..System::default()
     };
-    forces.loads(arena, chart, h).iter().for_each(|load| system.add(load));
+    // Another potential has no power.
+    let driving = potential.filter(|_| forces.driven);
+    loads(arena, chart, h, driving, forces).iter().for_each(|load| system.add(load));
+    let dependent = chart.dependent();
+    let system = system.substitute(&|atom| {
+        dependent.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone())
+    });
     let (_, power) = system.work?;
-    Some(Batch { shared: system.shared, kernels: system.kernels, results: vec![("power".to_owned(), power)] })
+    let results = vec![("power".to_owned(), power)];
+    let batch = Batch { shared: system.shared, kernels: system.kernels, results };
+    Some(if driving.is_some() { batch.pruned(arena) } else { batch })
 }

@@ -5,6 +5,7 @@ use crate::algebra::ring::{Square, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::mechanics::balance::{CENTRE, INTERNAL, Laws};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::equations::System;
 use crate::mechanics::hamiltonian::Hamiltonian;
@@ -13,7 +14,7 @@ use crate::mechanics::metric::{self, Definitions};
 use crate::mechanics::mixed::Factorisation;
 use crate::optimise::{Batch, straight_line};
 
-use super::Metric;
+use super::{Balance, Metric};
 
 /// The mass matrix over `(x_dot, phi_dot)` of a sum of energies, and its inverse.
 pub(super) fn metric(
@@ -121,6 +122,7 @@ pub(super) fn acceleration(
     arena: &mut Arena,
     chart: &Chart,
     system: &System,
+    time: Option<Expr>,
     coefficients: &mut Constants,
 ) -> Program {
     let mut flow = Flow { system, slopes: Vec::new(), definitions: Definitions::new() };
@@ -130,9 +132,35 @@ pub(super) fn acceleration(
         .map(|(i, (_, _, rate))| (format!("acceleration_{}", i + 1), flow.along(arena, rate)))
         .collect();
     let shared = system.shared.iter().cloned().chain(flow.definitions).collect();
-    let inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    inputs.extend(time);
     let batch = Batch { shared, results, kernels: system.kernels.clone() }.pruned(arena);
     fuse(&straight_line(arena, &batch, coefficients, &|a| inputs.contains(&a)))
+}
+
+/// The quantities of the balance laws, entry after entry.
+pub(super) fn balance(
+    arena: &mut Arena,
+    chart: &Chart,
+    laws: &Laws,
+    time: Option<Expr>,
+    coefficients: &mut Constants,
+) -> Balance {
+    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    inputs.extend(time);
+    let mut program = |results: Vec<(String, Polynomial)>| {
+        let (shared, kernels) = (laws.shared.clone(), laws.kernels.clone());
+        let batch = Batch { shared, kernels, results }.pruned(arena);
+        fuse(&straight_line(arena, &batch, coefficients, &|a| inputs.contains(&a)))
+    };
+    let numbered = |(name, entries): (&str, Vec<Polynomial>)| -> Vec<(String, Polynomial)> {
+        entries.into_iter().enumerate().map(|(k, entry)| (format!("{name}_{}", k + 1), entry)).collect()
+    };
+    let internal = INTERNAL.iter().zip(&laws.internal);
+    let internal = internal.flat_map(|(name, matrix)| numbered((name, matrix.concat()))).collect();
+    let centre = CENTRE.iter().zip(&laws.centre);
+    let centre: Vec<_> = centre.flat_map(|(name, vector)| numbered((name, vector.clone()))).collect();
+    Balance { internal: program(internal), centre: (!centre.is_empty()).then(|| program(centre)) }
 }
 
 /// Derivatives along the flow of a system.

@@ -1,19 +1,22 @@
 //! Quantities that are emitted when asked for, as inherent methods.
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{format_ident, quote};
 
 use crate::ir::Program;
+use crate::mechanics::balance::{CENTRE, INTERNAL};
+use crate::mechanics::potential::TIME;
 
 use super::body::Body;
-use super::dynamics::bind_point;
-use super::{Context, mixed, number};
+use super::dynamics::{bind_point, time};
+use super::{Context, inputs, mixed, number};
 
-/// `metric`, `inverse_metric`, `acceleration`, as far as asked for.
+/// `metric`, `inverse_metric`, `acceleration`, `balance`, `centre_balance`, as far as asked for.
 pub(super) fn inherent(context: &Context) -> TokenStream {
     let metric = metric(context);
     let acceleration = acceleration(context);
-    quote!(#metric #acceleration)
+    let balance = balance(context);
+    quote!(#metric #acceleration #balance)
 }
 
 fn metric(context: &Context) -> TokenStream {
@@ -62,13 +65,65 @@ fn acceleration(context: &Context) -> TokenStream {
     let bound = bind_point(context, program);
     let Body { lets, results } = context.double(program);
     let point_name = if bound.is_empty() { quote!(_point) } else { quote!(point) };
+    let at = inputs(program).contains(&TIME).then(|| quote!(t: #rt::f64,));
     quote! {
         /// The acceleration `d^2 x/dt^2` of the centre of mass along the motion through `point`: the derivative of
         /// `dx/dt` along Hamilton's equations (section 4).
-        #visibility fn acceleration(&self, #point_name: &#point) -> #rt::Vector<#n> {
+        #visibility fn acceleration(&self, #at #point_name: &#point) -> #rt::Vector<#n> {
             #bound
             #lets
             #rt::vector([#(#results),*])
         }
+    }
+}
+
+fn balance(context: &Context) -> TokenStream {
+    let Some(balance) = &context.model.balance else { return TokenStream::new() };
+    let (rt, n, dim) = (&context.names.rt, context.dim(), context.model.dim);
+    let visibility = &context.spec.item.visibility;
+    let point = context.point(&quote!(#rt::f64));
+    let matrix = |entries: &[TokenStream]| {
+        let rows = entries.chunks(dim).map(|row| quote!([#(#row),*]));
+        quote!(#rt::matrix([#(#rows),*]))
+    };
+    let fields = |names: &[&str], results: &[TokenStream], size: usize| {
+        let value = |entries: &[TokenStream]| {
+            if size == dim { quote!(#rt::vector([#(#entries),*])) } else { matrix(entries) }
+        };
+        let field = |(name, entries): (&&str, &[TokenStream])| {
+            let (frame, value) =
+                (if name.ends_with("_hat") { "Comoving" } else { "Spatial" }, value(entries));
+            let (name, frame) = (format_ident!("{name}"), format_ident!("{frame}"));
+            quote!(#name: #rt::#frame(#value))
+        };
+        let fields = names.iter().zip(results.chunks(size)).map(field);
+        quote!(#(#fields),*)
+    };
+    let method = |program: &Program, size: usize, names: &[&str]| {
+        let (bound, time) = (bind_point(context, program), time(program));
+        let Body { lets, results } = context.double(program);
+        let fields = fields(names, &results, size);
+        (quote!(&self, #time: #rt::f64, point: &#point), quote!(#bound #lets), fields)
+    };
+    let (arguments, body, fields) = method(&balance.internal, dim * dim, &INTERNAL);
+    let centre = balance.centre.as_ref().map(|program| {
+        let (arguments, body, fields) = method(program, dim, &CENTRE);
+        quote! {
+            /// Both sides of the balance of the momentum of the centre of mass, `dk/dt = F`,
+            /// `dk_hat/dt = -K_hat^T J^-1 k_hat + F_hat` (3.3), (3.9).
+            #visibility fn centre_balance(#arguments) -> #rt::CentreBalance<#n> {
+                #body
+                #rt::CentreBalance { #fields }
+            }
+        }
+    });
+    quote! {
+        /// Both sides of the balance of the kinematical spin `K = phi J phi_dot^T`, `dK/dt = phi_dot J phi_dot^T + N`,
+        /// `dK_hat/dt = -K_hat J^-1 K_hat + N_hat` (3.6), (3.8), (3.9).
+        #visibility fn balance(#arguments) -> #rt::Balance<#n> {
+            #body
+            #rt::Balance { #fields }
+        }
+        #centre
     }
 }

@@ -10,6 +10,7 @@ use super::constraint::Constraint;
 use super::equations::gradient;
 use super::flow::{Flow, at_a_point, norm_rate, power_rate};
 use super::group_point::GroupPoint;
+use super::weight;
 
 /// What a model may conserve, named as in the runtime.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,8 +141,9 @@ pub(super) fn conserved_at_points(
 
 /// Those of the candidates whose brackets with `h` vanish.
 fn still(arena: &Arena, chart: &Chart, h: &Polynomial, candidates: Vec<Candidate>) -> Vec<Candidate> {
-    let slopes = gradient(chart, h);
+    let mut slopes = gradient(chart, h);
     if let Some(group) = chart.confined {
+        slopes.extend(weight::slopes(arena, chart, h));
         let mut list = candidates;
         for point in GroupPoint::all(arena, chart, group) {
             let value = |p: &Polynomial| -> Residue { point.evaluate(arena, p) };

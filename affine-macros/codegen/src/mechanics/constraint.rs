@@ -56,11 +56,11 @@ impl Constraint {
     }
 
     /// The form that a term has on `G`: with `phi^T phi = 1` is `tr(phi_dot J phi_dot^T) = tr(Oh J Oh^T)` and
-    /// `|phi^-1 x_dot| = |x_dot|`.
+    /// `|phi^-1 x_dot| = |x_dot|`; with `phi^T phi = D^2 1` the first has the [weight](super::weight) `D^2`.
     #[must_use]
     pub fn form_of(self, kind: TermKind) -> TermKind {
         match (self, kind) {
-            (Self::Rigid, TermKind::Dalembert) => TermKind::BodyInertia,
+            (Self::Rigid | Self::Conformal, TermKind::Dalembert) => TermKind::BodyInertia,
             (Self::Rigid, TermKind::BodyTranslation) => TermKind::SpaceTranslation,
             _ => kind,
         }

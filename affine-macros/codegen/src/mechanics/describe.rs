@@ -78,7 +78,9 @@ impl Sum {
 /// `T` as the sum of its terms.
 pub fn kinetic_energy(arena: &mut Arena, kinetic: &Kinetic) -> Formula {
     let mut sum = Sum::new("T", "T");
-    quadratic_terms(arena, &mut sum, kinetic.frame, &kinetic.terms);
+    // With its weight the energy is that in phi_dot.
+    let frame = if kinetic.is_weighted() { Frame::Flat } else { kinetic.frame };
+    quadratic_terms(arena, &mut sum, frame, &kinetic.terms);
     sum.finish()
 }
 

@@ -56,7 +56,8 @@ impl<'a, R: Ring> Flow<'a, R> {
         let flow = Self::new(chart, &[], lift);
         let phi = flow.phi();
         // Sigma = phi Pi and Sigma_hat = Pi phi at fixed phi.
-        let (sigma_dot, sigma_hat_dot) = (product(&phi, &push.pi), product(&push.pi, &phi));
+        let sigma_dot = flow.projected(product(&phi, &push.pi));
+        let sigma_hat_dot = flow.projected(product(&push.pi, &phi));
         Self { sigma_dot: sigma_dot.into(), sigma_hat_dot: sigma_hat_dot.into(), push: Some(push), ..flow }
     }
 
@@ -157,7 +158,11 @@ impl<'a, R: Ring> Flow<'a, R> {
     /// Rate of `Pi`, times `phi` on the side where that makes it a polynomial.
     pub(super) fn canonical_rate(&self) -> Square<R> {
         if let Some(push) = &self.push {
-            return push.pi.clone();
+            return if self.chart.confined.is_some() {
+                self.sigma_hat_dot().clone()
+            } else {
+                push.pi.clone()
+            };
         }
         let slope = |a: usize, b: usize| {
             let found = self.gradient.iter().find(|(z, _)| *z == Coordinate::M(b, a));

@@ -19,6 +19,8 @@ pub struct Forces {
     pub dissipation: Option<Dissipation>,
     /// What fields of the model compute, forces and potentials.
     pub customs: Vec<Custom>,
+    /// Does a potential that depends on the time stand beside them? Its power is part of the balance then.
+    pub driven: bool,
 }
 
 impl Forces {
@@ -142,6 +144,9 @@ impl Forces {
                 }
                 On::Centre => (format!("{name}.dx/dt"), format!("{latex}\\cdot\\dot x")),
             });
+        }
+        if self.driven {
+            power.push(("dU/dt at rest".to_owned(), "\\partial_t U".to_owned()));
         }
         if !power.is_empty() {
             let (texts, formulas): (Vec<String>, Vec<String>) = power.into_iter().unzip();

@@ -13,6 +13,7 @@ use crate::algebra::{Arena, Matrix, Polynomial, Rational};
 
 use super::charts::Chart;
 use super::constraint::Constraint;
+use super::weight::{INVERSE_SQUARE, SQUARE};
 
 /// Number of points that decide.
 const POINTS: usize = 3;
@@ -48,8 +49,14 @@ impl GroupPoint {
                 point.values.insert(arena.name(*symbol).unwrap_or_default().to_owned(), value);
             }
         }
-        point.values.insert("dilatation".to_owned(), scale);
-        point.values.insert("inverse_dilatation".to_owned(), scale.recip().unwrap_or(Residue::UNKNOWN));
+        let inverse = scale.recip().unwrap_or(Residue::UNKNOWN);
+        let of_the_dilatation = [
+            ("dilatation", scale),
+            ("inverse_dilatation", inverse),
+            (SQUARE, scale.mul(&scale)),
+            (INVERSE_SQUARE, inverse.mul(&inverse)),
+        ];
+        point.values.extend(of_the_dilatation.map(|(name, value)| (name.to_owned(), value)));
         point
     }
 

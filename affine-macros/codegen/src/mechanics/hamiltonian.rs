@@ -6,6 +6,7 @@ use super::charts::{Chart, Linear, Momentum};
 use super::constraint::Constraint;
 use super::hessian::{Direction, Hessian, NumericBlock};
 use super::kinetic::{Frame, Kinetic};
+use super::weight::Weight;
 
 /// The kinetic Hamiltonian in pieces.
 #[derive(Clone, Debug)]
@@ -26,6 +27,8 @@ pub struct Hamiltonian {
     pub translation: Option<(Frame, Polynomial)>,
     /// Inverse blocks that only the fields' values give.
     pub numeric_blocks: Vec<NumericBlock>,
+    /// The weight `D^2` of the internal energy, where it has one; `velocity` then contains `D^-2`.
+    pub weight: Option<Weight>,
 }
 
 /// Coefficients of an isotropic Hamiltonian, (4.24).
@@ -56,7 +59,11 @@ impl Hamiltonian {
             }
             sum
         };
-        let flat: Vec<Polynomial> = inverse.matrix.iter().map(linear_form).collect();
+        let mut flat: Vec<Polynomial> = inverse.matrix.iter().map(linear_form).collect();
+        let weight = Weight::of(arena, kinetic);
+        if let Some(Weight { inverse, .. }) = weight {
+            flat.iter_mut().for_each(|velocity| *velocity = velocity.mul(&Polynomial::atom(inverse)));
+        }
         let translation = match kinetic.translation {
             None => None,
             Some(t) => {
@@ -73,10 +80,13 @@ impl Hamiltonian {
             isotropic: match kinetic.frame {
                 // The Casimirs of the affine group are no functions of Pi alone.
                 Frame::Flat => None,
+                // Nor is one of D and the momenta a sum of such pieces.
+                _ if weight.is_some() => None,
                 Frame::Body | Frame::Space => isotropic(arena, kinetic.confined(), hessian, n),
             },
             translation,
             numeric_blocks: inverse.numeric_blocks,
+            weight,
         })
     }
 

@@ -100,6 +100,12 @@ impl Block {
 }
 
 impl Hessian {
+    /// Is the energy zero for all velocities that are free?
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.blocks.iter().flat_map(|block| block.form.concat()).all(|entry| entry.is_zero())
+    }
+
     /// The Hessian of the internal energy.
     #[must_use]
     pub fn new(kinetic: &Kinetic) -> Self {

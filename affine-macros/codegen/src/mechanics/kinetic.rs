@@ -159,6 +159,14 @@ impl Kinetic {
                 .all(|term| term.kind == TermKind::Dalembert || term.kind.translation_frame().is_some())
     }
 
+    /// Has the internal energy the [weight](super::weight) `D^2`? No term in an affine velocity stands beside it then: they
+    /// have no common frame.
+    #[must_use]
+    pub fn is_weighted(&self) -> bool {
+        self.constraint == Some(Constraint::Conformal)
+            && self.terms.iter().any(|term| term.kind == TermKind::Dalembert)
+    }
+
     /// The constraint, where velocities and momenta are projected for it. With `phi_dot` and `Pi` they are not, since
     /// the tangent space turns with `phi`: there it acts through its multiplier.
     #[must_use]

@@ -138,6 +138,7 @@ impl Stated {
             isotropic: Some(invariants),
             translation: self.translation.as_ref().map(|(_, frame, k)| (*frame, k.clone())),
             numeric_blocks: Vec::new(),
+            weight: None,
         }
     }
 

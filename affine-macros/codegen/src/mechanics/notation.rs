@@ -5,7 +5,7 @@ use crate::algebra::{Arena, Expr, Function, Rational};
 
 /// Text of an expression; fields keep their names, tensors and their traces get those of the specification.
 pub(super) fn plain(arena: &Arena, expr: Expr) -> String {
-    const NAMES: [(&str, &str); 8] = [
+    const NAMES: [(&str, &str); 10] = [
         ("trace_1", "tr(G)"),
         ("trace_2", "tr(G^2)"),
         ("green_", "G_"),
@@ -14,6 +14,8 @@ pub(super) fn plain(arena: &Arena, expr: Expr) -> String {
         ("shear_", "s_"),
         ("turn_", "w_"),
         ("isochoric_", "O_"),
+        ("inverse_square", "D^-2"),
+        ("square", "D^2"),
     ];
     // A field may have any of these names: only what is none is renamed.
     let parts = arena.text(expr);
@@ -134,6 +136,8 @@ fn symbol_latex(name: &str) -> String {
         ("dilatation", "D"),
         ("inverse_dilatation", "r"),
         ("inverse_det", "\\delta"),
+        ("square", "D^2"),
+        ("inverse_square", "D^{-2}"),
         ("work", "W"),
     ];
     if let Some((_, latex)) = whole.iter().find(|(known, _)| *known == name) {

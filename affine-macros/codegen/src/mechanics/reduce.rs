@@ -11,6 +11,7 @@ use super::equations::{Form, Load, System, hamilton};
 use super::forces::Forces;
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetic::Frame;
+use super::loads::loads;
 use super::potential::Potential;
 use super::separation::{Separation, shear_system};
 
@@ -174,8 +175,7 @@ pub fn candidates(
             if linear.is_some() {
                 main.add_scaled(&h.translation_in(&chart), &Rational::ONE);
             }
-            let mut loads: Vec<Load> = potential.iter().map(|u| u.load(arena, &chart)).collect();
-            loads.extend(forces.loads(arena, &chart, h));
+            let loads = loads(arena, &chart, h, potential, forces);
             let multiplier = h.constraint.is_some() && h.confined().is_none();
             let plan = Plan { chart, commuting: commuting.clone(), turn, loads, multiplier, halves };
             plan.reduced(arena, &main, h.is_tensor())

@@ -142,6 +142,8 @@ pub enum Capability {
     Metric,
     /// The acceleration of the centre of mass.
     Acceleration,
+    /// The balance laws of the kinematical spin.
+    Balance,
 }
 
 impl Named for Capability {
@@ -155,6 +157,7 @@ impl Named for Capability {
         Self::Lanes,
         Self::Metric,
         Self::Acceleration,
+        Self::Balance,
     ];
 
     fn name(self) -> &'static str {
@@ -168,6 +171,7 @@ impl Named for Capability {
             Self::Lanes => "lanes",
             Self::Metric => "metric",
             Self::Acceleration => "acceleration",
+            Self::Balance => "balance",
         }
     }
 }

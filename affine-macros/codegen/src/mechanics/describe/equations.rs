@@ -42,7 +42,7 @@ pub fn equations(
         ),
         (momentum_names(chart.momentum).2, momentum_names(chart.momentum).3, pairs(chart.dim, Coordinate::M)),
     ];
-    let names = force_names(chart, potential, forces);
+    let names = force_names(h, chart, potential, forces);
     for (left, left_latex, coordinates) in groups.into_iter().filter(|(_, _, c)| !c.is_empty()) {
         let derived: Vec<Polynomial> =
             coordinates.iter().map(|z| rate(chart, &slopes, &velocity, form, *z)).collect();
@@ -151,7 +151,12 @@ fn under_constraint(h: &Hamiltonian, group: Constraint, mut list: Vec<Formula>) 
 /// Name in text and LaTeX, and definition, of the generalised forces on the linear and the affine momentum.
 type ForceName = (&'static str, &'static str, Formula);
 
-fn force_names(chart: &Chart, potential: Option<&Potential>, forces: &Forces) -> [Option<ForceName>; 2] {
+fn force_names(
+    h: &Hamiltonian,
+    chart: &Chart,
+    potential: Option<&Potential>,
+    forces: &Forces,
+) -> [Option<ForceName>; 2] {
     let (linear, of_linear) = match chart.linear {
         Some(Linear::Body) => (("F_hat", "\\hat F"), ("-phi^T dU/dx", "-\\varphi^T \\partial U/\\partial x")),
         _ => (("F", "F"), ("-dU/dx", "-\\partial U/\\partial x")),
@@ -170,6 +175,7 @@ fn force_names(chart: &Chart, potential: Option<&Potential>, forces: &Forces) ->
     let mut on_affine: Vec<(String, String)> = Vec::new();
     let owned = |(text, latex): (&str, &str)| (text.to_owned(), latex.to_owned());
     on_linear.extend(moves.then(|| owned(of_linear)));
+    on_affine.extend(h.weight.as_ref().map(|_| owned(("2/n T_int 1", "\\tfrac{2}{n} T_{int}\\,1"))));
     on_affine.extend(potential.map(|_| owned(of_affine)));
     forces.name_on(chart, &mut on_linear, &mut on_affine);
     let joined = |(name, latex): (&'static str, &'static str), parts: Vec<(String, String)>| {

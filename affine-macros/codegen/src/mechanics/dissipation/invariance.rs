@@ -1,11 +1,13 @@
 //! What a dissipation leaves as it is: conserved quantities, rotations of space, pieces of `H` that commute.
 
+use crate::algebra::residue::Residue;
 use crate::algebra::ring::{Ring, Square, adjugate, product, skew, sum, table, times, transpose};
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::brackets::poisson;
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::flow::{Flow, Push, at_a_point};
+use crate::mechanics::group_point::GroupPoint;
 use crate::mechanics::hamiltonian::{Hamiltonian, Isotropic, spatial_or_own};
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::symmetry::{Group, Side, broken_by};
@@ -25,11 +27,20 @@ impl Dissipation {
         h: &Hamiltonian,
         candidates: &[Candidate],
     ) -> Vec<Candidate> {
+        // The forces take energy out of every motion that they act on.
+        let mut list = candidates.to_vec();
+        list.retain(|c| *c != Candidate::Energy);
+        if let Some(group) = chart.confined {
+            for point in GroupPoint::all(arena, chart, group) {
+                let value = |p: &Polynomial| -> Residue { point.evaluate(arena, p) };
+                let flow = Flow::vertical(chart, self.push(chart, h, &value), &value);
+                list.retain(|c| flow.leaves(*c));
+            }
+            return list;
+        }
         let (residue, itself) = (at_a_point(arena), Polynomial::clone);
         let sample = Flow::vertical(chart, self.push(chart, h, &residue), &residue);
-        // The forces take energy out of every motion that they act on.
-        let possible = |c: &Candidate| *c != Candidate::Energy && sample.leaves(*c);
-        let mut list: Vec<Candidate> = candidates.iter().copied().filter(possible).collect();
+        list.retain(|c| sample.leaves(*c));
         if !list.is_empty() {
             let symbolic = Flow::vertical(chart, self.push(chart, h, &itself), &itself);
             list.retain(|c| symbolic.leaves(*c));
@@ -136,7 +147,9 @@ impl Dissipation {
         let own = frame_of(chart);
         let centre =
             self.centre.iter().all(|(frame, _)| h.translation.as_ref().is_some_and(|(m, _)| m == frame));
-        if !centre || self.parts.iter().any(|part| part.form.frame != own) {
+        // Under a constraint the forces are projected: not decided.
+        let confined = chart.confined.is_some();
+        if confined || !centre || self.parts.iter().any(|part| part.form.frame != own) {
             return false;
         }
         let spin = spatial_or_own(chart);

@@ -10,7 +10,8 @@ use crate::mechanics::group_point::GroupPoint;
 
 use super::principal::Principal;
 use super::rewriting::through_dilatation;
-use super::{Along, Base, Potential, Tensors, definitions, direction, finger, green, placement};
+use super::tensors::{Along, Tensors, definitions, direction, finger, green, placement};
+use super::{Base, Potential};
 
 impl Potential {
     /// Does every motion that conserves the candidate without the potential conserve it with it? The kinetic

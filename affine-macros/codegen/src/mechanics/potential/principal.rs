@@ -5,7 +5,8 @@ use crate::algebra::ring::{Square, table};
 use crate::algebra::{Arena, Expr, Function, Kernel, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 
-use super::{Along, Base, placement};
+use super::Base;
+use super::tensors::{Along, placement};
 
 /// Products of the entries of principal axes, in which the derivatives of log-stretches are written: with column `k` of `R`
 /// and of `L` written `R_k` and `L_k`, `dq_k = R_k . Oh R_k = L_k . Om L_k`.

@@ -11,10 +11,9 @@ use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
 
-use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
-use crate::conserved::exists;
+use crate::charts::{T0, assert_charts_lead_back, assert_reduced_equations_move, exists, groups};
 use crate::reference::{Reference, assert_close, entries, exact_state};
-use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, ON_THE_GROUP, UNDER_POTENTIAL};
+use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, FREE_DILATATION, ON_THE_GROUP, UNDER_POTENTIAL};
 
 /// Points per model.
 const SAMPLES: u64 = 4;
@@ -62,14 +61,14 @@ trait Confined<const N: usize>: Model<N> + Sized {
 
 /// A placement on the group, a matrix `spin` of its algebra, position and momentum of the centre.
 #[derive(Clone, Copy)]
-struct Start<const N: usize> {
-    x: Vector<N>,
-    phi: Matrix<N>,
-    p: Vector<N>,
-    spin: Matrix<N>,
+pub(crate) struct Start<const N: usize> {
+    pub(crate) x: Vector<N>,
+    pub(crate) phi: Matrix<N>,
+    pub(crate) p: Vector<N>,
+    pub(crate) spin: Matrix<N>,
 }
 
-fn starts<const N: usize>(constraint: Constraint) -> impl Iterator<Item = Start<N>> {
+pub(crate) fn starts<const N: usize>(constraint: Constraint) -> impl Iterator<Item = Start<N>> {
     (0..SAMPLES).map(move |seed| {
         let mut random = Random::new(77 + seed);
         let mut square = || Matrix::<N>::from_row_slice(&random.matrix(N, N).to_f64());
@@ -149,7 +148,7 @@ fn assert_right_but_for_the_multiplier<const N: usize, M: Confined<N>>(
 }
 
 /// The components of a group of the plain array: of a projected momentum those that determine the others.
-fn assert_components(reference: &Reference, n: usize, name: &str, rate: &[f64]) {
+pub(crate) fn assert_components(reference: &Reference, n: usize, name: &str, rate: &[f64]) {
     let (expected, size) = reference.rate(name);
     let independent: Vec<f64> = match (expected.len() == n * n, rate.len()) {
         (true, len) if len == n * n - 1 => expected[..len].to_vec(),
@@ -231,7 +230,7 @@ fn assert_listed<const N: usize, M: Confined<N>>(
 }
 
 /// Is the observable, at the projected momentum, a number or another observable?
-fn has_another_name(constraint: Constraint, multiplier: bool, observable: Observable) -> bool {
+pub(crate) fn has_another_name(constraint: Constraint, multiplier: bool, observable: Observable) -> bool {
     use Observable as O;
     let deviators = [O::Deviator, O::ComovingDeviator, O::DeviatorCasimir2, O::DeviatorCasimir3];
     let more: &[Observable] = match constraint {
@@ -306,11 +305,11 @@ fn nothing_drifts<const N: usize, M: Confined<N>>() {
     }
 }
 
-fn none(_place: &Place) -> Differential {
+pub(crate) fn none(_place: &Place) -> Differential {
     Differential::constant(0.0)
 }
 
-fn diagonal(entries: &[i64]) -> Exact {
+pub(crate) fn diagonal(entries: &[i64]) -> Exact {
     let n = entries.len();
     (0..n).fold(Exact::zeros(n, n), |sum, a| &sum + &Exact::unit(n, a, a).scaled(&rational(entries[a], 2)))
 }
@@ -443,6 +442,8 @@ conditions! {
     conformal_conditions: 2 conformal (body_inertia = i, casimir2 = a, casimir1_squared = b)
         [[1.0, 0.5, 0.25], [1.0, -1.0, 0.5]]
         [[1.0, 1.0, 0.25] => "I - A != 0", [1.0, 0.5, -0.75] => "I + A + n B != 0"];
+    conformal_masses: 3 conformal (dalembert = [[i, a, 0], [a, i, 0], [0, 0, b]])
+        [[1.0, 0.5, 1.0]] [[1.0, 1.5, 1.0] => "a leading minor of J > 0", [1.0, 0.5, -0.5] => "a leading minor of J > 0"];
     rigid_masses: 3 rigid (dalembert = [[i, a, 0], [a, i, 0], [0, 0, b]])
         [[1.0, 0.5, 1.0]] [[1.0, 1.5, 1.0] => "a leading minor of J > 0", [1.0, 0.5, -0.5] => "a leading minor of J > 0"];
 }
@@ -466,6 +467,27 @@ fn fields_in_a_full_inertia() {
         let rates = Numbers.hamilton_equations(T0, &Numbers.flatten(&point));
         let found = fields.hamilton_equations(T0, &fields.flatten(&point));
         assert_close("rates", &found, &rates, crate::reference::norm(&rates), UNDER_POTENTIAL);
+    }
+}
+
+/// Without forces `phi = D R` of `J = I 1` has `T = n I/2 D'^2 + I D^2 |w|^2` and a constant spin: `(D^2)'' = 4 T/(n I)`, as for
+/// a free particle at the distance `D`.
+#[test]
+fn free_conformal_motion() {
+    #[affine_model(dim = 3, constraint = conformal, kinetic(dalembert = 2.5))]
+    struct Ball;
+    for start in starts::<3>(Constraint::Conformal) {
+        let from = Ball.at_momentum(start.phi, Comoving(start.spin)).unwrap();
+        let velocity = Ball.velocity(&from).phi_dot;
+        let energy = 1.25 * velocity.norm_squared();
+        let square = |phi: &Matrix<3>| phi.norm_squared() / 3.0;
+        let t_end = 3.0;
+        let run = Simulation::new(&Ball, from).until(t_end).tolerance(1e-13).run().unwrap();
+        let rise = 2.0 * start.phi.dot(&velocity) / 3.0;
+        let expected = square(&start.phi) + t_end * (rise + t_end * 2.0 * energy / (3.0 * 2.5));
+        let found = square(run.end().1.phi());
+        assert!((found - expected).abs() <= FREE_DILATATION * expected, "{found:e} {expected:e}");
+        assert!(Ball::DESCRIPTION.conserved.contains(&Conserved::Spin));
     }
 }
 
@@ -554,4 +576,18 @@ confined! {
     isochoric_dalembert_diagonal_3: 3 Isochoric isochoric pinned multiplier
         (dalembert = diag(1, 1.5, 2)) [Term::DAlembert(diagonal(&[2, 3, 4]))]
         => (tr(G)/2) |place| place.trace_green() * 0.5;
+    conformal_dalembert_2: 2 Conformal conformal pinned projected (dalembert = 1.5) [Term::dalembert(2, rational(3, 2))] none;
+    conformal_dalembert_3: 3 Conformal conformal pinned projected (dalembert = 1.5) [Term::dalembert(3, rational(3, 2))]
+        => (sinh(q)^2) |place| place.q().sinh().power(2);
+    conformal_dalembert_diagonal_3: 3 Conformal conformal moving projected
+        (dalembert = diag(1, 1.5, 2), space_translation = 1.25)
+        [Term::DAlembert(diagonal(&[2, 3, 4])), space_translation()] => (sinh(q)^2 + phi[3,3])
+        |place| place.q().sinh().power(2) + place.phi(3, 3);
+    conformal_dalembert_matrix_2: 2 Conformal conformal moving projected
+        (dalembert = [[1, 0.5], [0.5, 2]], body_translation = 1.25)
+        [Term::DAlembert(quarters(2, &[4, 2, 2, 8])), body_translation()]
+        => (x[1]^3) |place| place.x(1).power(3);
+    conformal_dalembert_drift_3: 3 Conformal conformal moving projected
+        (dalembert = [[1, 0.5, 0], [0.5, 2, 0.25], [0, 0.25, 3]], space_translation = 1.25)
+        [Term::DAlembert(quarters(3, &[4, 2, 0, 2, 8, 1, 0, 1, 12])), space_translation()] none;
 }

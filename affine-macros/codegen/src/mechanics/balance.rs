@@ -1,0 +1,99 @@
+//! The balance laws of a d'Alembert model (section 3), in the kinematical spin `K` instead of the momentum `Pi`.
+//!
+//! `K = phi (dT/dphi_dot)^T = phi Pi`, which is `phi J phi_dot^T` for the energy (2.1). Its rate along Hamilton's equations
+//! is `phi_dot Pi + phi N_Pi` with the force `N_Pi` on `Pi`: (3.6), and with `phi_dot = Om phi` (3.8). Seen from the body
+//! as a tensor with two upper indices, `K_hat = phi^-1 K phi^-T = Pi phi^-T`, which is not `Sigma_hat = Pi phi`; the same
+//! product rule gives (3.9).
+
+use crate::algebra::ring::{Square, product, table, times, transpose};
+use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
+
+use super::charts::{Chart, Coordinate};
+use super::equations::{Load, System, velocities};
+use super::hamiltonian::Hamiltonian;
+use super::shared::{Shared, atoms};
+
+/// Quantities of the internal motion: `K`, `phi_dot Pi`, `N`, and in the body `K_hat`, `-K_hat Oh^T`, `N_hat`.
+pub const INTERNAL: [&str; 6] = ["spin", "inertia", "moment", "spin_hat", "inertia_hat", "moment_hat"];
+
+/// Quantities of the centre of mass: `k = m x_dot`, `F`, and in the body `k_hat`, `-Oh k_hat`, `F_hat`.
+pub const CENTRE: [&str; 5] = ["momentum", "force", "momentum_hat", "inertia_hat", "force_hat"];
+
+/// The two sides of the balance laws.
+pub struct Laws {
+    /// Quantities that several of them share.
+    pub shared: Vec<(Expr, Polynomial)>,
+    /// Calls that compute forces.
+    pub kernels: Vec<Kernel>,
+    /// As [`INTERNAL`] lists them.
+    pub internal: [Square<Polynomial>; 6],
+    /// As [`CENTRE`] lists them; empty without translation.
+    pub centre: Vec<Vec<Polynomial>>,
+}
+
+impl Laws {
+    /// The laws in the canonical chart, with `p` spatial.
+    pub fn new(
+        arena: &mut Arena,
+        chart: &Chart,
+        h: &Hamiltonian,
+        energy: &Polynomial,
+        loads: &[Load],
+    ) -> Self {
+        let (n, phi, pi) = (chart.dim, atoms(&chart.phi), atoms(&chart.m));
+        let velocity = velocities(arena, chart, energy);
+        let mut system = System {
+            shared: velocity.iter().flatten().cloned().collect(),
+            rates: chart
+                .coordinates()
+                .into_iter()
+                .map(|z| (z, chart.symbol(z), Polynomial::zero()))
+                .collect(),
+            ..System::default()
+        };
+        loads.iter().for_each(|load| system.add(load));
+        let force = |z: Coordinate| {
+            let found = system.rates.iter().find(|(known, _, _)| *known == z);
+            found.map_or_else(Polynomial::zero, |(_, _, force)| force.clone())
+        };
+        let mut shared = Shared { arena, list: Vec::new() };
+        let phi_dot = table(n, |i, a| Polynomial::atom(velocity[i][a].0));
+        let push = shared.matrix("load", &table(n, |a, i| force(Coordinate::M(a, i))));
+        let inverse = shared.inverse(&phi);
+        let upper = |shared: &mut Shared, name: &str, tensor: &Square<Polynomial>| {
+            shared.matrix(name, &product(tensor, &transpose(&inverse)))
+        };
+        let spin_hat = upper(&mut shared, "kinematical_spin", &pi);
+        let moment_hat = upper(&mut shared, "moment", &push);
+        // phi_dot is linear in Pi, and acts on its body index alone: what it is of K_hat = Pi phi^-T is phi_dot^T phi^-T.
+        let of_spin_hat = |atom: Expr| {
+            let entry = (0..n * n).find(|k| h.momentum.0[k / n][k % n] == atom)?;
+            Some(spin_hat[entry / n][entry % n].clone())
+        };
+        let omega_hat =
+            shared.matrix("omega_hat", &table(n, |a, b| h.velocity[a][b].substitute(&of_spin_hat)));
+        let negative = |entry: &Polynomial| entry.scaled(&Rational::MINUS_ONE);
+        let inertia_hat = product(&spin_hat, &transpose(&omega_hat));
+        let centre = if chart.p.is_empty() {
+            Vec::new()
+        } else {
+            let momentum: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
+            let forces: Vec<Polynomial> = (0..n).map(|i| force(Coordinate::P(i))).collect();
+            let forces = shared.vector("load", &forces);
+            let momentum_hat = shared.vector("momentum", &times(&inverse, &momentum));
+            let inertia_hat = times(&omega_hat, &momentum_hat).iter().map(negative).collect();
+            let force_hat = times(&inverse, &forces);
+            vec![momentum, forces, momentum_hat, inertia_hat, force_hat]
+        };
+        let internal = [
+            product(&phi, &pi),
+            product(&phi_dot, &pi),
+            product(&phi, &push),
+            spin_hat,
+            table(n, |a, b| negative(&inertia_hat[a][b])),
+            moment_hat,
+        ];
+        system.add(&Load { shared: shared.list, ..Load::default() });
+        Self { shared: system.shared, kernels: system.kernels, internal, centre }
+    }
+}

@@ -1,0 +1,62 @@
+//! Everything that is added to Hamilton's equations of a mass matrix that is constant in one frame.
+
+use crate::algebra::ring::table;
+use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial};
+
+use super::charts::{Chart, Coordinate};
+use super::constraint::Constraint;
+use super::equations::Load;
+use super::forces::Forces;
+use super::hamiltonian::Hamiltonian;
+use super::potential::Potential;
+
+/// What the weight of the energy, the potential and the forces add to Hamilton's equations of a chart; under a constraint
+/// all of it projected. The power of the forces comes with it, and where it is accounted for `dU/dt` of a potential that
+/// depends on the time: `dH/dt` is their sum.
+pub fn loads(
+    arena: &mut Arena,
+    chart: &Chart,
+    h: &Hamiltonian,
+    potential: Option<&Potential>,
+    forces: &Forces,
+) -> Vec<Load> {
+    let mut loads: Vec<Load> = h.weight.iter().map(|weight| weight.load(chart, h)).collect();
+    if let Some(u) = potential {
+        let load = u.load(arena, chart);
+        let drive = if forces.driven { u.drive(arena) } else { None };
+        let work = drive.map(|power| (arena.symbol("work"), power));
+        loads.push(Load { work, ..load });
+    }
+    let pushes = forces.loads(arena, chart, h).into_iter();
+    loads.extend(pushes.map(|load| match chart.confined {
+        Some(group) => load.confined(arena, chart, group),
+        None => load,
+    }));
+    loads
+}
+
+impl Load {
+    /// The same for a motion confined to a group: of the forces on the affine momentum the part that acts on its Lie
+    /// algebra, and entries of momentum and velocity that are linear in others written through those.
+    fn confined(self, arena: &mut Arena, chart: &Chart, group: Constraint) -> Self {
+        let on_spin = |a, b| {
+            let found = self.forces.iter().find(|(z, _)| *z == Coordinate::M(a, b));
+            found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
+        };
+        let projected = group.projected(&table(chart.dim, on_spin));
+        let velocity = Matrix::symbols(arena, chart.momentum.velocity_name(), chart.dim);
+        let dependent = [chart.dependent(), group.dependent(&velocity)].concat();
+        let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
+        let each = |p: &Polynomial| p.substitute(&value);
+        let forces = self.forces.iter().map(|(z, force)| match z {
+            Coordinate::M(a, b) => (*z, each(&projected[*a][*b])),
+            _ => (*z, each(force)),
+        });
+        Self {
+            forces: forces.collect(),
+            shared: self.shared.iter().map(|(symbol, p)| (*symbol, each(p))).collect(),
+            kernels: self.kernels.iter().map(|kernel: &Kernel| kernel.with_arguments(each)).collect(),
+            work: self.work.as_ref().map(|(symbol, power)| (*symbol, each(power))),
+        }
+    }
+}

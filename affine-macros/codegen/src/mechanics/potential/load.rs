@@ -1,0 +1,164 @@
+//! The forces of a potential in every chart.
+
+use crate::algebra::ring::{Square, adjugate, table};
+use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
+use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
+use crate::mechanics::equations::Load;
+
+use super::base::Base;
+use super::principal::{self, Principal};
+use super::rewriting::through_dilatation;
+use super::tensors::{Along, Tensors, cofactors, definitions, direction, placement};
+use super::{Potential, is_parameter};
+
+impl Potential {
+    /// What it adds to Hamilton's equations of a chart.
+    pub fn load(&self, arena: &mut Arena, chart: &Chart) -> Load {
+        let mut load = Load::default();
+        if self.has_single_stretches() {
+            let (kernel, shared) = principal::computed(arena, chart);
+            load.kernels.push(kernel);
+            load.shared.extend(shared);
+        }
+        let tensors = self.tensors(arena, chart);
+        let along = match chart.momentum {
+            Momentum::Body => Along::Body,
+            Momentum::Space | Momentum::Total => Along::Space,
+            Momentum::Canonical => Along::Placement,
+        };
+        let weighted = self.weighted(arena, chart, along, &mut load);
+        load.shared.extend(definitions(arena, self.dim, chart));
+        load.shared.extend(cofactors(arena, chart));
+        load.shared.extend(self.dilatation(arena, chart));
+        let mut forces = table(self.dim, |a, b| {
+            let mut force = Polynomial::zero();
+            for (base, slope) in &weighted {
+                let entry = match along {
+                    Along::Placement => direction(*base, along, &tensors, b, a),
+                    _ => direction(*base, along, &tensors, a, b),
+                };
+                force.add_product(slope, &entry, &Rational::ONE);
+                if let (Momentum::Total, Base::Position(j)) = (chart.momentum, base)
+                    && *j == b
+                {
+                    force.add_product(slope, &Polynomial::atom(chart.x[a]), &Rational::ONE);
+                }
+            }
+            force
+        });
+        if let Some(group) = chart.confined {
+            forces = group.projected(&forces);
+        }
+        for (a, row) in forces.into_iter().enumerate() {
+            load.forces.extend(row.into_iter().enumerate().map(|(b, force)| (Coordinate::M(a, b), force)));
+        }
+        for i in 0..chart.p.len() {
+            load.forces.push((Coordinate::P(i), force_on_centre(chart, &weighted, i)));
+        }
+        load
+    }
+
+    /// The slopes with the numbers that they carry in a force, named where they move.
+    fn weighted(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        along: Along,
+        load: &mut Load,
+    ) -> Vec<(Base, Polynomial)> {
+        let mut weighted: Vec<(Base, Polynomial)> = Vec::new();
+        for (base, slope) in &self.slopes {
+            let form = through_dilatation(arena, *slope);
+            let form = Polynomial::normal_form(arena, form).scaled(&base.weight(self.dim));
+            let form = match (base, along) {
+                (Base::LogStretch(_), Along::Body) => form,
+                (Base::LogStretch(k), _) => form.mul(&principal::inverse_square(arena, *k)),
+                _ => form,
+            };
+            // A slope in parameters alone is a coefficient, not a quantity of the motion.
+            let moves = form.any_symbol(arena, &mut |s| !is_parameter(arena, s));
+            let symbol = arena.symbol(&base.slope_name());
+            let mut slope = if moves { Polynomial::atom(symbol) } else { form.clone() };
+            if moves {
+                load.shared.push((symbol, form));
+            }
+            // dq/dphi = cof/(n det): the factor that all entries share.
+            if (*base, chart.momentum) == (Base::MeanLogStretch, Momentum::Canonical) {
+                let swelling = arena.symbol("swelling");
+                load.shared.push((swelling, slope.mul(&Polynomial::atom(arena.symbol("inverse_det")))));
+                slope = Polynomial::atom(swelling);
+            }
+            weighted.push((*base, slope));
+        }
+        weighted
+    }
+
+    fn tensors(&self, arena: &mut Arena, chart: &Chart) -> Tensors {
+        let n = self.dim;
+        let mut symbols = |base: fn(usize, usize) -> Base| -> Square<Polynomial> {
+            (0..n).map(|a| (0..n).map(|b| Polynomial::atom(base(a, b).symbol(arena))).collect()).collect()
+        };
+        let (green, finger) = (symbols(Base::Green), symbols(Base::Finger));
+        let phi = placement(chart);
+        let cofactors = Matrix::symbols(arena, "cofactor", n).0;
+        let cofactors =
+            cofactors.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
+        Tensors { phi, green, finger, cofactors, principal: Principal::new(arena, n) }
+    }
+
+    /// `det`, `D = det^(1/n)`, `1/D`, `1/det`, `q`, with one root.
+    fn dilatation(&self, arena: &mut Arena, chart: &Chart) -> Vec<(Expr, Polynomial)> {
+        let n = self.dim;
+        let [det, inverse_det, d, inverse_d, q] =
+            ["det", "inverse_det", "dilatation", "inverse_dilatation", "q"].map(|name| arena.symbol(name));
+        let root = arena.apply(if n == 2 { Function::Sqrt } else { Function::Cbrt }, det);
+        let logarithm = arena.apply(Function::Ln, det);
+        let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+        // Symbols and functions of symbols are not the number zero.
+        let reciprocal = |arena: &mut Arena, of: Expr| Polynomial::atom(arena.pow(of, -1).unwrap_or(of));
+        let uses_root = self.slopes.iter().any(|(_, slope)| {
+            let form = through_dilatation(arena, *slope);
+            arena.any_symbol(form, &mut |s| s == d || s == inverse_d)
+        });
+        let inverse = match uses_root {
+            true => Polynomial::term(vec![inverse_d; n], Rational::ONE),
+            false => reciprocal(arena, det),
+        };
+        // The forces on Pi contain the cofactors themselves; elsewhere the determinant alone is needed.
+        let first_row: Vec<Polynomial> = match chart.momentum {
+            Momentum::Canonical => {
+                let cofactors = Matrix::symbols(arena, "cofactor", n);
+                cofactors.0[0].iter().map(|cofactor| Polynomial::atom(*cofactor)).collect()
+            }
+            _ => adjugate(&placement(chart)).iter().map(|row| row[0].clone()).collect(),
+        };
+        let mut determinant = Polynomial::zero();
+        for (entry, cofactor) in chart.phi.0[0].iter().zip(first_row) {
+            determinant.add_product(&Polynomial::atom(*entry), &cofactor, &Rational::ONE);
+        }
+        let mut product = vec![inverse_d; n - 1];
+        product.push(det);
+        vec![
+            (det, determinant),
+            (inverse_d, reciprocal(arena, root)),
+            (d, Polynomial::term(product, Rational::ONE)),
+            (inverse_det, inverse),
+            (q, Polynomial::term(vec![logarithm], nth)),
+        ]
+    }
+}
+
+/// `Q_tr`, or `phi^T Q_tr` beside `p_hat`; the slopes carry the sign.
+fn force_on_centre(chart: &Chart, weighted: &[(Base, Polynomial)], i: usize) -> Polynomial {
+    let mut force = Polynomial::zero();
+    for (base, slope) in weighted {
+        match (base, chart.linear) {
+            (Base::Position(j), Some(Linear::Body)) => {
+                force.add_product(slope, &Polynomial::atom(chart.phi.0[*j][i]), &Rational::ONE);
+            }
+            (Base::Position(j), _) if *j == i => force.add_scaled(slope, &Rational::ONE),
+            _ => {}
+        }
+    }
+    force
+}

@@ -1,0 +1,71 @@
+//! d'Alembert's energy of a conformal motion: a constant form in the body, weighted by the square of the dilatation.
+//!
+//! On R+ SO(n) is `phi^T phi = D^2 1`, so that `phi_dot = phi Oh` makes (2.1) `T = D^2 T_1(Oh)` with the energy `T_1` of the
+//! rigid motion extended to `Oh` skew plus a multiple of 1, and `H = D^-2 H_1(Sigma_hat)`. Beside the brackets of `H_1`
+//! there is one with `D`: `-dH/dq = 2 H` acts on the trace of `Sigma_hat` as the slope of a potential in `q` does.
+
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
+
+use super::charts::{Chart, Coordinate};
+use super::equations::Load;
+use super::hamiltonian::Hamiltonian;
+use super::kinetic::Kinetic;
+
+/// Names of `D^2` and `D^-2`, which [group points](super::group_point) and formulas know.
+pub(super) const SQUARE: &str = "square";
+pub(super) const INVERSE_SQUARE: &str = "inverse_square";
+
+/// The weight of an energy.
+#[derive(Clone, Debug)]
+pub struct Weight {
+    /// `D^2`.
+    pub square: Expr,
+    /// `D^-2`.
+    pub inverse: Expr,
+    /// Both as functions of the placement: a column of `phi` has the length `D`.
+    pub definitions: Vec<(Expr, Polynomial)>,
+}
+
+impl Weight {
+    /// The weight `D^2` of the internal energy, where it has one.
+    pub fn of(arena: &mut Arena, kinetic: &Kinetic) -> Option<Self> {
+        kinetic.is_weighted().then(|| {
+            let [square, inverse] = [SQUARE, INVERSE_SQUARE].map(|name| arena.symbol(name));
+            let mut length = Polynomial::zero();
+            for i in 1..=kinetic.dim {
+                let entry = arena.symbol(&format!("phi_{i}1"));
+                length.add_term(vec![entry, entry], &Rational::ONE);
+            }
+            // A symbol is not the number zero.
+            let reciprocal = Polynomial::atom(arena.pow(square, -1).unwrap_or(square));
+            Self { square, inverse, definitions: vec![(square, length), (inverse, reciprocal)] }
+        })
+    }
+
+    /// The force `-dH_int/dq 1/n = 2 H_int/n 1` on `Sigma_hat`, and what defines the weight.
+    pub(super) fn load(&self, chart: &Chart, h: &Hamiltonian) -> Load {
+        let share =
+            i64::try_from(chart.dim).ok().and_then(|n| Rational::ratio(2, n)).unwrap_or(Rational::ONE);
+        let dependent = chart.dependent();
+        let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
+        let force = h.internal().substitute(&value).scaled(&share);
+        let forces = (0..chart.dim).map(|a| (Coordinate::M(a, a), force.clone())).collect();
+        Load { shared: self.definitions.clone(), forces, ..Load::default() }
+    }
+}
+
+/// The derivatives of `H` along the placement that its weight has: `d(D^-2)/dphi_i1 = -2 D^-4 phi_i1` with `D` the length
+/// of the first column.
+pub(super) fn slopes(arena: &Arena, chart: &Chart, h: &Polynomial) -> Vec<(Coordinate, Polynomial)> {
+    let mut inverse = None;
+    h.any_symbol(arena, &mut |symbol| {
+        if arena.name(symbol) == Some(INVERSE_SQUARE) {
+            inverse = Some(symbol);
+        }
+        false
+    });
+    let Some(inverse) = inverse else { return Vec::new() };
+    let outer = h.derivative(inverse);
+    let inner = |i: usize| Polynomial::term(vec![inverse, inverse, chart.phi.0[i][0]], Rational::from(-2));
+    (0..chart.dim).map(|i| (Coordinate::Phi(i, 0), outer.mul(&inner(i)))).collect()
+}
