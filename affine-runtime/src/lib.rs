@@ -17,6 +17,7 @@
 
 mod breathing;
 pub mod capability;
+mod condition;
 pub mod conserved;
 mod constraint;
 #[cfg(feature = "std")]

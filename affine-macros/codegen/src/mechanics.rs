@@ -1,7 +1,7 @@
 //! From a kinetic energy to Hamilton's equations; never sees tokens. One file per step.
 
 pub mod brackets;
-mod carried;
+pub mod carried;
 pub mod charts;
 pub mod conserved;
 pub mod constraint;

@@ -99,9 +99,15 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 no_whirl: false,
                 at_rest: self.start.p().iter().all(|p| *p == 0.0),
                 missing: None,
+                condition: self.condition(),
                 residual: None,
             },
         }
+    }
+
+    fn condition(&self) -> Option<f64> {
+        let by_fields = M::DESCRIPTION.signature.is_none();
+        by_fields.then(|| self.model.condition(self.start.phi())).flatten()
     }
 
     fn drive(mut self, trajectory: &mut Trajectory<N, M::Point<f64>>) -> Result<(), Reason> {

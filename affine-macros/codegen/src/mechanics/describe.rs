@@ -5,6 +5,7 @@ use crate::algebra::arena::Node;
 use crate::algebra::ring::{difference, outer, product, times, transpose};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
+use super::carried::Carried;
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::constraint::Constraint;
 use super::equations::{Form, System, gradient, rate, velocities};
@@ -546,9 +547,13 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
             list.push("w: conserved".to_owned());
         }
     }
-    if reduction.carried {
-        list.push("the root of det phi: 1/D = (det phi)^(-1/n) is integrated beside phi".to_owned());
-    }
+    list.extend(reduction.carried.iter().map(|carried| {
+        match carried {
+            Carried::InverseDilatation => "the root of det phi: 1/D = (det phi)^(-1/n) is integrated beside phi",
+            Carried::MeanLogStretch => "the logarithm of det phi: q = ln(det phi)/n is integrated beside phi",
+        }
+        .to_owned()
+    }));
     match reduction.layout {
         Layout::Constant => list.push(format!("{name}: conserved")),
         Layout::Entries => {}
