@@ -84,7 +84,8 @@ fn linear_part<const N: usize, M: Model<N>>(
     (phi, inverse): (&Matrix<N>, &Matrix<N>),
     momentum: &Matrix<N>,
 ) -> Option<Matrix<N>> {
-    let frame = M::DESCRIPTION.full.iter().find(|group| ["Sigma_hat", "Sigma", "Pi"].contains(&group.name))?;
+    let frame =
+        M::DESCRIPTION.full.iter().find(|group| ["Sigma_hat", "Sigma", "Pi"].contains(&group.name))?;
     let velocity = |sign: f64| {
         let mut full = <M::Full<f64> as StateVector<f64>>::zeros();
         let mut start = 0;

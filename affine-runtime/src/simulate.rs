@@ -9,6 +9,7 @@ mod event;
 mod halt;
 mod output;
 mod power_balance;
+mod range;
 mod recorder;
 mod root;
 mod run;

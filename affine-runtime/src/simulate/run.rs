@@ -8,6 +8,7 @@ use super::conservation::larger;
 use super::halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
 use super::output::Schedule;
 use super::recorder::{Recorder, Turn, WithWork};
+use super::range::in_range;
 use super::signature::Signature;
 use super::stepper::{Explicit, Stepper};
 use super::trajectory::{Computation, Energies, Trajectory};
@@ -113,6 +114,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     fn drive(mut self, trajectory: &mut Trajectory<N, M::Point<f64>>) -> Result<(), Reason> {
         let (t_end, schedule) = self.checked_settings()?;
         check(self.t0, &self.start)?;
+        in_range::<N, M>(self.t0, &self.start)?;
         let run = self.fingerprint(t_end);
         let place = Place::starting((self.t0, &self.start), None, (Statistics::default(), 0.0));
         let mut recorder = Recorder {
@@ -629,7 +631,7 @@ fn chart<const N: usize, M: Model<N>>() -> Option<Chart<N>> {
 }
 
 /// The reduced equations are those of the body without constraint, over `phi` and `Pi`.
-fn is_canonical<const N: usize, M: Model<N>>() -> bool {
+pub(super) fn is_canonical<const N: usize, M: Model<N>>() -> bool {
     M::DESCRIPTION.reduced.iter().any(|group| group.name == "Pi")
 }
 

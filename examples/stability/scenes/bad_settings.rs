@@ -76,7 +76,8 @@ struct Settings {
 }
 
 /// Settings that make sense.
-const SOUND: Settings = Settings { from: 0.0, until: 1.0, tolerance: 1e-12, every: 0.25, max_steps: 1_000_000 };
+const SOUND: Settings =
+    Settings { from: 0.0, until: 1.0, tolerance: 1e-12, every: 0.25, max_steps: 1_000_000 };
 
 fn phi() -> Matrix<2> {
     Matrix::<2>::new(1.25, 0.25, 0.25, 0.85)
@@ -237,9 +238,7 @@ fn harmless(report: &mut StabilityReport) {
         }
         Ok(worst)
     };
-    let named = |what: &str, quantity| {
-        scene("four models", 2, what.to_owned(), quantity, Oracle::Invariance)
-    };
+    let named = |what: &str, quantity| scene("four models", 2, what.to_owned(), quantity, Oracle::Invariance);
     report.case(named("an interval of length 0", "the start"), Demand::Held(0.0), || {
         all(&|who, method| {
             let run = who.run(method, Settings { from: 2.0, until: 2.0, ..SOUND })?;

@@ -136,7 +136,8 @@ fn body(report: &mut StabilityReport, steps: f64) -> affine_runtime::Result<()> 
         growth::<2, Disc>(report, of, names, bounds, &run, |run| drifts(run, quantity));
     }
     // The error of order 4 vibrates; what grows would show in the second half.
-    let named = scene(of.0, 2, format!("{steps:e} steps"), "energy, second half to first", Oracle::Invariance);
+    let named =
+        scene(of.0, 2, format!("{steps:e} steps"), "energy, second half to first", Oracle::Invariance);
     report.case(named, Demand::Held(1.25), || {
         let run = run.as_ref().map_err(Clone::clone)?;
         let energies = drifts(run, Conserved::Energy);

@@ -7,10 +7,12 @@ mod collapse;
 mod degenerate;
 mod long_runs;
 mod many_steps;
+mod more_stretches;
 mod penalty;
 mod reference;
 mod shared;
 mod stiff;
+mod stiff_in_the_plane;
 mod stretches;
 mod units;
 

@@ -35,6 +35,28 @@ pub(crate) struct UnevenDisc;
 pub(crate) struct Hooke;
 
 #[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5)),
+    potential = harmonic_dilatation(1) + neo_hookean(0.5),
+)]
+pub(crate) struct HookeDisc;
+
+#[affine_model(dim = 3, kinetic(dalembert = diag(1, 1.5, 2)), potential = harmonic_dilatation(1))]
+pub(crate) struct FlatHooke;
+
+#[affine_model(dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1))]
+pub(crate) struct Affine;
+
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, 2, 0.5], [1, 0, 0.5, 4]]),
+)]
+pub(crate) struct Tensor;
+
+#[affine_model(dim = 3, kinetic(dalembert = diag(1, 1.5, 2)))]
+pub(crate) struct Straight;
+
+#[affine_model(
     dim = 3,
     kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5, 2)),
     potential = pairs(tanh(d)^2),
@@ -48,9 +70,9 @@ pub(crate) struct Bound;
 pub(crate) struct Missile;
 
 /// Roundings of a hundred steps; the two motions are one, number by number in other units.
-const SAME: f64 = 1e-11;
+pub(super) const SAME: f64 = 1e-11;
 
-fn generic() -> (Matrix<3>, Matrix<3>) {
+pub(super) fn generic() -> (Matrix<3>, Matrix<3>) {
     (
         Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05),
         Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05),
@@ -58,7 +80,7 @@ fn generic() -> (Matrix<3>, Matrix<3>) {
 }
 
 /// Maps of space with their names: uniform, and graded by `e^300`.
-fn maps() -> [(&'static str, Matrix<3>); 5] {
+pub(super) fn maps() -> [(&'static str, Matrix<3>); 5] {
     let diagonal = |a: f64, b: f64, c: f64| Matrix::<3>::from_diagonal(&Vector::<3>::new(a, b, c));
     let (up, down) = (300.0_f64.exp(), (-300.0_f64).exp());
     [
@@ -75,6 +97,7 @@ pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> 
     geodesics(report)?;
     in_the_plane(report)?;
     potentials(report)?;
+    super::more_stretches::cases(report)?;
     translation(report)
 }
 

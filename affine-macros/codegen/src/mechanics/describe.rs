@@ -549,7 +549,9 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
     }
     list.extend(reduction.carried.iter().map(|carried| {
         match carried {
-            Carried::InverseDilatation => "the root of det phi: 1/D = (det phi)^(-1/n) is integrated beside phi",
+            Carried::InverseDilatation => {
+                "the root of det phi: 1/D = (det phi)^(-1/n) is integrated beside phi"
+            }
             Carried::MeanLogStretch => "the logarithm of det phi: q = ln(det phi)/n is integrated beside phi",
         }
         .to_owned()
