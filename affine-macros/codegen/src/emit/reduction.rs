@@ -318,11 +318,11 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
     let chart = &context.model.reduction.chart;
     let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
-    // No phase point holds the work, and 1/D follows from phi.
+    // No phase point holds the work, and 1/D and q follow from phi.
     let needed: Vec<&str> = all
         .iter()
         .map(String::as_str)
-        .filter(|name| !["inverse_dilatation", "work"].contains(name))
+        .filter(|name| !["inverse_dilatation", "q", "work"].contains(name))
         .collect();
     let bound = pattern(&all, &needed);
     let mut lets = quote!(let #bound = *reduced;);
