@@ -4,7 +4,7 @@ use affine_runtime::prelude::*;
 use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance_by_rows};
 
 use super::shared::{energy, run, scene};
-use super::stretches::{Affine, FlatHooke, HookeDisc, SAME, Straight, Tensor, generic, maps};
+use super::stretches::{Affine, FlatHooke, HookeDisc, SAME, ShiftedDisc, Straight, Tensor, generic, maps};
 
 pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> {
     in_space(report)?;
@@ -55,9 +55,12 @@ fn in_the_plane(report: &mut StabilityReport) -> affine_runtime::Result<()> {
             Ok((error, mapped.statistics().steps))
         });
         if name.starts_with('q') && a == b {
-            report.case(named("body J, Hooke", "energy"), Demand::Held(1e-11), || {
-                let solution = run(&HookeDisc, HookeDisc.at_momentum(map * phi, Comoving(spin))?, 2.0)?;
-                Ok((energy(&solution), solution.statistics().steps))
+            report.case(named("body J, Hooke", "phi, shifted"), Demand::Held(SAME), || {
+                let shifted = ShiftedDisc { s: a.ln() }.prepare()?;
+                let shifted = run(&shifted, shifted.at_momentum(phi, Comoving(spin))?, 2.0)?;
+                let mapped = run(&HookeDisc, HookeDisc.at_momentum(map * phi, Comoving(spin))?, 2.0)?;
+                let error = relative_distance_by_rows(mapped.end().1.phi(), &(map * shifted.end().1.phi()));
+                Ok((error, mapped.statistics().steps))
             });
         }
     }
@@ -73,9 +76,9 @@ fn flat(report: &mut StabilityReport) -> affine_runtime::Result<()> {
         let inside = q.abs() < 236.0;
         let demand = if inside { Demand::Held(1e-11) } else { Demand::Refused("range") };
         report.case(named, demand, || {
-            let placed = phi * q.exp();
-            // The velocity that stretches at a rate of order 1 without leaving the neighbourhood.
-            let solution = run(&FlatHooke, FlatHooke.at_velocity(placed, placed * rate * 0.1)?, 0.1)?;
+            // The unit of length is that of time: velocities are of order 1.
+            let unit = q.exp();
+            let solution = run(&FlatHooke, FlatHooke.at_velocity(phi * unit, phi * rate)?, 0.01 * unit)?;
             Ok((energy(&solution), solution.statistics().steps))
         });
     }
