@@ -93,8 +93,9 @@ impl fmt::Display for Error {
             #[cfg(feature = "report")]
             Error::NoReference { model } => write!(
                 f,
-                "no reference for {model}: it has no closed form from this start, so that nothing tells the true \
-                 error; give the phase point at the end with `.against(point)`"
+                "no reference for {model}: it has no closed form from this start, and its equations in double-double \
+                 arithmetic did not reach the end in 100000 steps of order 20; give the phase point at the end with \
+                 `.against(point)`, or a shorter interval"
             ),
             #[cfg(feature = "std")]
             Error::File { path, kind } => {

@@ -8,14 +8,16 @@
 //!
 //! - **True error.** `|a - b|/|b|` at the end of the run for each part of the phase point as the model stores it
 //!   (`phi`, the momenta, `x`), in the Euclidean or Frobenius norm, `b` being the reference: a phase point known
-//!   from elsewhere, or the closed form where the model has one. An error far below the reference's own is
-//!   meaningless; the report cannot know how good the reference is.
+//!   from elsewhere, else the closed form where the model has one, else the [`reference_solution`]. An error far below
+//!   the reference's own is meaningless; the report cannot know how good the reference is.
 //! - **Steps, rejected steps, evaluations** of the right-hand side. They do not depend on the machine and repeat
 //!   exactly: compare methods with the same right-hand side by them.
 //! - **Run time** from phase point to phase point: reduction, integration, the check of every accepted state, the
 //!   energy at both ends. It is the median of the repeats, by the monotonic clock, after one run that is not
 //!   timed. No output on the way is asked for.
 //! - **Energy drift** relative to the size of the energy, where the model conserves it.
+//! - **Share of steps above tolerance**: those whose true local error, the distance from the motion through the point
+//!   where the step began, exceeds the tolerance. An estimator that can be trusted keeps it near zero.
 //!
 //! A run that stops keeps its row and says why.
 //!
@@ -39,8 +41,10 @@ mod canvas;
 mod curves;
 mod diagram;
 mod drift;
+mod local_error;
 mod palette;
 mod picture;
+mod reference;
 mod scene;
 mod stability;
 mod table;
@@ -52,6 +56,7 @@ use std::path::Path;
 
 pub use curves::{Curve, CurveDiagram, CurvePanel};
 pub use diagram::{LEAST_ERROR, Series, WorkPrecisionDiagram, WorkPrecisionPoint};
+pub use reference::reference_solution;
 pub use stability::{
     Demand, Finding, Oracle, Scene, StabilityCase, StabilityReport, Verdict, relative_distance,
     relative_distance_by_rows,

@@ -4,6 +4,9 @@
 //! functions, so that SIMD lanes, double-double and dual numbers fit without touching emitted code. Reduction,
 //! expansion and energies ask for [`Real`]: an ordered number.
 
+#[cfg(feature = "double-double")]
+mod double_double;
+
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 
 use affine_runtime::prelude::*;
-use affine_runtime::report::{WorkPrecision, WorkPrecisionDiagram};
+use affine_runtime::report::{WorkPrecision, WorkPrecisionDiagram, reference_solution};
 
 use problems::Visitor;
 
@@ -39,7 +39,11 @@ impl Visitor for Reports {
         [start, end]: [M::Point<f64>; 2],
         t_end: f64,
     ) -> affine_runtime::Result<()> {
-        println!("{name}: t = {t_end}\n");
+        let computed = reference_solution(model, &start, (0.0, t_end))?;
+        let distance = (computed.phi() - end.phi()).norm() / end.phi().norm();
+        println!(
+            "{name}: t = {t_end}; the solution in double-double arithmetic is {distance:.1e} from the reference\n"
+        );
         let report = WorkPrecision::new(model, start, t_end).against(end).repeats(9).run()?;
         println!("{report}");
         let stem = format!("work_precision_{}", name.replace(' ', "_").to_lowercase());

@@ -82,7 +82,8 @@ impl WorkPrecisionDiagram {
         let panel = self.panel();
         let letters = self.series.iter().map(|series| series.name.chars().count()).max().unwrap_or(0);
         let width = (LEGEND.0 + LEGEND_TEXT + LETTER * letters as f64 + 20.0).ceil() as u32;
-        Canvas::draw(width, HEIGHT, |canvas| {
+        let legend = (LEGEND.1 + self.series.len() as f64 * LEGEND_LINE).ceil() as u32;
+        Canvas::draw(width, HEIGHT.max(legend), |canvas| {
             canvas.text(&self.title, (AREA.left, 28.0), Lettering::new(15.0, INK).bold());
             panel.frame(canvas, &self.error, "run time");
             for (index, series) in self.series.iter().enumerate() {

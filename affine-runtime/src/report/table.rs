@@ -10,7 +10,7 @@ use crate::error::Result;
 
 impl WorkPrecisionReport {
     /// The rows as comma-separated values, below a line of names: `model`, `method`, `tolerance`, `error_...` for
-    /// each quantity, `steps`, `rejected`, `evaluations`, `seconds`, `repeats`, `energy_drift`, `stopped`.
+    /// each quantity, `steps`, `rejected`, `evaluations`, `seconds`, `repeats`, `energy_drift`, `above_tolerance`, `stopped`.
     ///
     /// Numbers are the shortest decimals that read back as the same doubles. A field is empty where there is
     /// nothing to say: the tolerance of a closed form, the energy drift of a model that does not conserve energy,
@@ -21,7 +21,7 @@ impl WorkPrecisionReport {
         for quantity in self.quantities() {
             csv.extend([",error_", quantity]);
         }
-        csv.push_str(",steps,rejected,evaluations,seconds,repeats,energy_drift,stopped\n");
+        csv.push_str(",steps,rejected,evaluations,seconds,repeats,energy_drift,above_tolerance,stopped\n");
         for row in self.rows() {
             csv.push_str(&self.csv_line(row));
         }
@@ -48,10 +48,11 @@ impl WorkPrecisionReport {
                 fields.push(exponential(Some(measured.run_time.as_secs_f64())));
                 fields.push(measured.repeats.to_string());
                 fields.push(exponential(measured.energy_drift));
+                fields.push(measured.above_tolerance.map_or_else(String::new, |share| share.to_string()));
                 fields.push(String::new());
             }
             Err(stop) => {
-                fields.extend(vec![String::new(); self.quantities().len() + 6]);
+                fields.extend(vec![String::new(); self.quantities().len() + 7]);
                 fields.push(format!("\"{}\"", stop.to_string().replace('"', "\"\"")));
             }
         }
@@ -102,7 +103,9 @@ impl WorkPrecisionReport {
     fn head(&self) -> Vec<String> {
         let mut head = vec!["method".to_owned(), "tolerance".to_owned()];
         head.extend(self.quantities().iter().map(|quantity| format!("err {quantity}")));
-        head.extend(["steps", "rejected", "evaluations", "run time", "energy drift"].map(str::to_owned));
+        head.extend(
+            ["steps", "rejected", "evaluations", "run time", "energy drift", "above tol"].map(str::to_owned),
+        );
         head
     }
 
@@ -123,6 +126,7 @@ fn cells(measured: &Measurement) -> Vec<String> {
     cells.extend([statistics.steps, statistics.rejected, statistics.evaluations].map(|n| n.to_string()));
     cells.push(in_units(measured.run_time));
     cells.push(measured.energy_drift.map_or_else(dash, |drift| short(drift, 1)));
+    cells.push(measured.above_tolerance.map_or_else(dash, |share| format!("{:.0} %", 100.0 * share)));
     cells
 }
 

@@ -3,8 +3,10 @@
 use std::time::{Duration, Instant};
 
 use super::diagram::{Series, WorkPrecisionDiagram, WorkPrecisionPoint};
+use super::local_error::share_above;
+use super::reference::reference_solution;
 use super::{method_name, save};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::integrate::{Statistics, norm};
 use crate::model::{Conserved, Model};
 use crate::simulate::{Halt, Method, Reason, Simulation, Stop, Trajectory};
@@ -90,7 +92,7 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     }
 
     /// The reference: the phase point at `t_end`, known better than any row will be. Without one, it is the
-    /// closed form of the model where that exists.
+    /// closed form of the model where that exists, else the [`reference_solution`].
     #[must_use]
     pub fn against(self, exact_end: M::Point<f64>) -> Self {
         Self { reference: Some(exact_end), ..self }
@@ -119,7 +121,8 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     /// Measures every row. A run that stops gives a row that says so.
     ///
     /// # Errors
-    /// [`Error::NoReference`] where none was given and the model has no closed form from this start;
+    /// [`Error::NoReference`] where none was given, there is no closed form and the [`reference_solution`] does not
+    /// reach the end;
     /// [`Error::Stopped`] with [`Reason::Setting`] where a setting makes no sense: a tolerance out of range, times
     /// that are not finite, a method that does not apply.
     pub fn run(&self) -> Result<WorkPrecisionReport> {
@@ -127,7 +130,7 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
         let reference = match (&self.reference, &geodesic) {
             (Some(point), _) => *point,
             (None, Some(geodesic)) => self.model.on_geodesic(geodesic, self.t_end, &self.start),
-            (None, None) => return Err(Error::NoReference { model: M::DESCRIPTION.name }),
+            (None, None) => reference_solution(self.model, &self.start, (self.t0, self.t_end))?,
         };
         let mut methods = self.methods.clone();
         if methods.is_empty() {
@@ -163,12 +166,14 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
         };
         let method = run.computation().method;
         let times = self.times(method, tolerance);
+        let above_tolerance = self.above_tolerance(method, tolerance);
         let measurement = Measurement {
             errors: self.errors(run.end().1, reference),
             statistics: run.statistics(),
             run_time: median(times.clone()),
             repeats: times.len(),
             energy_drift: run.conservation().of(Conserved::Energy).map(|drift| drift.relative()),
+            above_tolerance,
         };
         let tolerance = has_tolerance(method).then_some(tolerance);
         Ok(Row { method, tolerance, outcome: Ok(measurement) })
@@ -176,13 +181,23 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
 
     /// From start to end, without output on the way.
     fn attempt(&self, method: Method, tolerance: f64) -> Attempt<N, M::Point<f64>> {
+        self.simulation(method, tolerance).output([self.t_end]).run()
+    }
+
+    fn simulation(&self, method: Method, tolerance: f64) -> Simulation<'_, N, M> {
         Simulation::new(self.model, self.start)
             .from(self.t0)
             .until(self.t_end)
             .method(method)
             .tolerance(tolerance)
-            .output([self.t_end])
-            .run()
+    }
+
+    fn above_tolerance(&self, method: Method, tolerance: f64) -> Option<f64> {
+        if !has_tolerance(method) {
+            return None;
+        }
+        let steps = self.simulation(method, tolerance).run().ok()?;
+        share_above(self.model, &steps, tolerance)
     }
 
     fn times(&self, method: Method, tolerance: f64) -> Vec<Duration> {
@@ -268,6 +283,9 @@ pub struct Measurement {
     pub repeats: usize,
     /// Relative drift of the energy over the run; `None` where the model does not conserve it.
     pub energy_drift: Option<f64>,
+    /// Share of the steps whose true local error exceeds the tolerance, between 0 and 1; `None` where steps follow no
+    /// tolerance, or one below 1e-13.
+    pub above_tolerance: Option<f64>,
 }
 
 impl WorkPrecisionReport {

@@ -9,6 +9,7 @@ mod simulation {
     pub mod reference;
 }
 mod svg;
+mod truth;
 
 use std::time::Duration;
 
@@ -149,9 +150,9 @@ fn runs_that_stop_keep_their_rows() {
 
 #[test]
 fn what_makes_no_sense_is_refused() {
-    let start = vibrating_body::start();
-    let without = WorkPrecision::new(&VibratingBody::BENCHMARK, start, 1.0).run().unwrap_err();
-    assert_eq!(without, Error::NoReference { model: "VibratingBody" });
+    let model = Planar { spring: 0.0, singular_at: Some(0.5) };
+    let without = WorkPrecision::new(&model, planar::start(0.1), 1.0).run().unwrap_err();
+    assert_eq!(without, Error::NoReference { model: "Planar" });
     assert!(without.to_string().contains(".against("));
     let refused = |report: WorkPrecision<'_, 3, DrunkMissile>| match report.run() {
         Err(Error::Stopped(stop)) => stop.reason,
@@ -196,7 +197,7 @@ fn csv_reads_back() {
     assert_eq!(
         lines.next().unwrap(),
         "model,method,tolerance,error_x,error_phi,error_p_hat,error_Sigma_hat,steps,rejected,evaluations,\
-         seconds,repeats,energy_drift,stopped"
+         seconds,repeats,energy_drift,above_tolerance,stopped"
     );
     for row in report.rows() {
         let fields: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -211,7 +212,8 @@ fn csv_reads_back() {
         assert_eq!(number(10), measured.run_time.as_secs_f64());
         assert_eq!(fields[11].parse(), Ok(measured.repeats));
         assert_eq!(Some(number(12)), measured.energy_drift);
-        assert_eq!((fields[13], fields.len()), ("", 14));
+        assert_eq!(fields[13].parse().ok(), measured.above_tolerance);
+        assert_eq!((fields[14], fields.len()), ("", 15));
     }
     assert_eq!(lines.next(), None);
 }

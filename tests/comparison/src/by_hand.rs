@@ -1,10 +1,9 @@
-//! The benchmark problems as a careful user of nalgebra and ode_solvers writes them.
-
-use std::time::{Duration, Instant};
+//! The benchmark problems as a careful user of nalgebra writes them.
 
 use nalgebra::{Matrix3, SVector, Vector3};
-use ode_solvers::dop_shared::OutputType;
-use ode_solvers::{Dop853, System};
+use ode_solvers::System;
+
+use crate::tools::{Measured, Problem};
 
 type Placed = SVector<f64, 18>;
 type Moving = SVector<f64, 21>;
@@ -30,7 +29,7 @@ fn stress(tensor: &Matrix3<f64>, determinant: f64, kappa: f64, c1: f64) -> Matri
     deviator * (-2.0 * c1 * down) - Matrix3::identity() * pressure
 }
 
-fn matrix(state: &[f64], from: usize) -> Matrix3<f64> {
+pub(crate) fn matrix(state: &[f64], from: usize) -> Matrix3<f64> {
     Matrix3::from_column_slice(&state[from..from + 9])
 }
 
@@ -114,40 +113,33 @@ fn write(out: &mut [f64], from: usize, value: &Matrix3<f64>) {
     out[from..from + 9].copy_from_slice(value.as_slice());
 }
 
-/// One run.
-pub(crate) struct Measured {
-    pub(crate) tolerance: f64,
-    pub(crate) error: f64,
-    pub(crate) evaluations: u64,
-    pub(crate) time: Duration,
-}
-
 /// `phi` at the start of all problems but P5 large.
 const PHI: [f64; 9] = [1.1, 0.05, -0.2, 0.2, 0.9, 0.1, -0.1, 0.15, 1.05];
 /// Column by column: `Sigma_hat`, `Sigma`, or `phi_dot`.
 const SPIN: [f64; 9] = [0.1, -0.2, 0.35, 0.4, -0.15, -0.1, -0.3, 0.25, 0.05];
 
-/// Runs a problem at many tolerances; `end` is `phi` at the end, column by column in rows.
-pub(crate) fn measure(problem: &str, end: &[[f64; 3]; 3]) -> Vec<Measured> {
-    let end = Matrix3::from_fn(|i, j| end[i][j]);
+/// Runs a problem with every tool at many tolerances; `end` is `phi` at the end.
+pub(crate) fn measure(problem: &str, end: Matrix3<f64>) -> Vec<(&'static str, Vec<Measured>)> {
     let p = Vector3::new(0.3, -0.2, 0.5);
     let scaled = |factor: f64| placed(&PHI.map(|entry| entry * factor), &SPIN);
     let vibrating = |kappa: f64, c1: f64| move || Vibrating { kappa, c1 };
+    let pinned = |start, t_end| Problem { start, t_end, phi_at: 0, end };
+    let flying = |t_end| Problem { start: moving(), t_end, phi_at: 3, end };
     match problem {
-        "P1" => sweep(|| Missile { kappa: 0.0, c1: 0.0, p }, moving(), 10.0, 3, &end),
-        "P2" => sweep(vibrating(10.0, 0.5), scaled(1.0), 50.0, 0, &end),
-        "P2r" => sweep(|| Mirrored, scaled(1.0), 50.0, 0, &end),
+        "P1" => flying(10.0).measure(|| Missile { kappa: 0.0, c1: 0.0, p }),
+        "P2" => pinned(scaled(1.0), 50.0).measure(vibrating(10.0, 0.5)),
+        "P2r" => pinned(scaled(1.0), 50.0).measure(|| Mirrored),
         "P3" | "P6" => {
             let (kappa, t_end) = if problem == "P3" { (10.0, 50.0) } else { (1e6, 5.0) };
             let inertia = [1.0, 1.0, 1.0, 1.5, 1.5, 1.5, 2.0, 2.0, 2.0];
             let momentum: [f64; 9] = std::array::from_fn(|k| SPIN[k] * inertia[k]);
-            sweep(|| Elastic { kappa }, placed(&PHI, &momentum), t_end, 0, &end)
+            pinned(placed(&PHI, &momentum), t_end).measure(|| Elastic { kappa })
         }
-        "P5 1e4" => sweep(vibrating(1e4, 0.5), scaled(1.0), 10.0, 0, &end),
-        "P5 1e6" => sweep(vibrating(1e6, 0.5), scaled(1.0), 10.0, 0, &end),
-        "P5 large" => sweep(vibrating(1e4, 0.5), scaled(0.3_f64.exp()), 10.0, 0, &end),
-        "P7" => sweep(|| Missile { kappa: 1e4, c1: 0.5, p }, moving(), 10.0, 3, &end),
-        "P8" => sweep(vibrating(10.0, 1e4), scaled(1.0), 2.0, 0, &end),
+        "P5 1e4" => pinned(scaled(1.0), 10.0).measure(vibrating(1e4, 0.5)),
+        "P5 1e6" => pinned(scaled(1.0), 10.0).measure(vibrating(1e6, 0.5)),
+        "P5 large" => pinned(scaled(0.3_f64.exp()), 10.0).measure(vibrating(1e4, 0.5)),
+        "P7" => flying(10.0).measure(|| Missile { kappa: 1e4, c1: 0.5, p }),
+        "P8" => pinned(scaled(1.0), 2.0).measure(vibrating(10.0, 1e4)),
         _ => Vec::new(),
     }
 }
@@ -158,59 +150,4 @@ fn placed(phi: &[f64; 9], spin: &[f64; 9]) -> Placed {
 
 fn moving() -> Moving {
     Moving::from_iterator([0.0; 3].iter().chain(&PHI).chain(&SPIN).copied())
-}
-
-fn sweep<const D: usize, F: System<f64, SVector<f64, D>>>(
-    system: impl Fn() -> F,
-    start: SVector<f64, D>,
-    t_end: f64,
-    phi_at: usize,
-    end: &Matrix3<f64>,
-) -> Vec<Measured> {
-    let mut runs = Vec::new();
-    for k in 4..=29 {
-        let tolerance = 10f64.powf(-0.5 * f64::from(k));
-        let run = || {
-            let mut solver = Dop853::from_param(
-                system(),
-                0.0,
-                t_end,
-                t_end,
-                start,
-                tolerance,
-                tolerance,
-                0.9,
-                0.0,
-                0.333,
-                6.0,
-                t_end,
-                0.0,
-                10_000_000,
-                u32::MAX,
-                OutputType::Sparse,
-            );
-            let stats = solver.integrate();
-            (stats, solver.y_out().last().copied())
-        };
-        let (Ok(stats), Some(reached)) = run() else { continue };
-        let error = (matrix(reached.as_slice(), phi_at) - end).norm() / end.norm();
-        let time = median_time(|| {
-            std::hint::black_box(run().1);
-        });
-        runs.push(Measured { tolerance, error, evaluations: u64::from(stats.num_eval), time });
-    }
-    runs
-}
-
-/// Median of up to 15 repeats, fewer where they take long.
-fn median_time(run: impl Fn()) -> Duration {
-    let begun = Instant::now();
-    let mut times = Vec::new();
-    while times.len() < 15 && (times.is_empty() || begun.elapsed() < Duration::from_millis(150)) {
-        let now = Instant::now();
-        run();
-        times.push(now.elapsed());
-    }
-    times.sort_unstable();
-    times[times.len() / 2]
 }

@@ -1,10 +1,16 @@
-//! Error against run time of this project beside ode_solvers' DOP853 with right-hand sides written by hand over
-//! nalgebra, problem by problem in one run; and the ratio of the two run times at equal errors.
+//! Error against run time of this project beside ode_solvers' DOP853 and the Verner pair of orders 9 and 8 of
+//! differential-equations, with right-hand sides written by hand over nalgebra, problem by problem in one run; and the
+//! ratio of the run time to the least of theirs at equal errors.
+//!
+//! `cargo run --release -p affine-comparison [P1 P2 ...] [--peers FILE]`. A file has results of other tools, measured
+//! elsewhere: they go into the pictures, not into the ratios.
 
 mod by_hand;
 mod frontier;
+mod peers;
 #[path = "../../../examples/work_precision/problems.rs"]
 mod problems;
+mod tools;
 
 use std::fs;
 use std::time::Duration;
@@ -12,18 +18,26 @@ use std::time::Duration;
 use affine_runtime::prelude::*;
 use affine_runtime::report::{Series, WorkPrecision, WorkPrecisionDiagram, WorkPrecisionPoint};
 
-use by_hand::Measured;
-use frontier::{ERRORS, least_time};
+use frontier::{ERRORS, front, least_time};
+use peers::Peer;
 use problems::Visitor;
+use tools::Measured;
 
 fn main() -> affine_runtime::Result<()> {
     // A folder that cannot be made shows in the first file that cannot be written.
     let _ = fs::create_dir_all("output");
-    let mut comparison =
-        Comparison { only: std::env::args().skip(1).collect(), rows: Vec::new(), csv: CSV_HEAD.to_owned() };
+    let mut only: Vec<String> = std::env::args().skip(1).collect();
+    let peers = match peers_of(&mut only) {
+        Ok(peers) => peers,
+        Err(wrong) => {
+            eprintln!("{wrong}");
+            return Ok(());
+        }
+    };
+    let mut comparison = Comparison { only, peers, rows: Vec::new(), csv: CSV_HEAD.to_owned() };
     problems::visit(&mut comparison)?;
     println!(
-        "run time over that of DOP853 at equal errors of phi, the best method and tolerance for each:\n"
+        "run time over the least of DOP853 and RKV 9(8) at equal errors of phi, the best method and tolerance for each:\n"
     );
     print!("{:10}", "problem");
     ERRORS.iter().for_each(|error| print!("{error:>10.0e}"));
@@ -39,11 +53,22 @@ fn main() -> affine_runtime::Result<()> {
     Ok(())
 }
 
+/// Takes `--peers FILE` out of the arguments.
+fn peers_of(arguments: &mut Vec<String>) -> Result<Vec<Peer>, String> {
+    let Some(at) = arguments.iter().position(|argument| argument == "--peers") else { return Ok(Vec::new()) };
+    let path = arguments.get(at + 1).cloned().ok_or("--peers wants a file")?;
+    arguments.drain(at..at + 2);
+    let text = fs::read_to_string(&path).map_err(|error| format!("{path}: {error}"))?;
+    peers::read(&text).map_err(|wrong| format!("{path}: {wrong}"))
+}
+
 const CSV_HEAD: &str = "tool,problem,tolerance,error_phi,evaluations,microseconds\n";
 
 struct Comparison {
     /// Names of the problems to run; all if there are none.
     only: Vec<String>,
+    /// Results from elsewhere.
+    peers: Vec<Peer>,
     rows: Vec<String>,
     csv: String,
 }
@@ -79,31 +104,46 @@ impl Visitor for Comparison {
                 measured.run_time,
             );
         }
-        let theirs = by_hand::measure(name, &end.phi().transpose().into());
-        for run in &theirs {
-            self.record(
-                "ode_solvers_dop853",
-                name,
-                Some(run.tolerance),
-                run.error,
-                run.evaluations,
-                run.time,
-            );
+        let theirs = by_hand::measure(name, nalgebra::Matrix3::from(<[[f64; 3]; 3]>::from(*end.phi())));
+        for (tool, runs) in &theirs {
+            for run in runs {
+                self.record(tool, name, Some(run.tolerance), run.error, run.evaluations, run.time);
+            }
         }
-        let pairs: Vec<(f64, Duration)> = theirs.iter().map(|run| (run.error, run.time)).collect();
+        let runs = theirs.iter().flat_map(|(_, runs)| runs);
+        let pairs: Vec<(f64, Duration)> = runs.map(|run| (run.error, run.time)).collect();
         self.rows.push(ratios(name, &ours, &pairs));
         let diagram = WorkPrecisionDiagram::new(
             format!("{name}: error against run time"),
             format!("relative error of phi at t = {t_end}"),
         )
         .all(report.series("affine, "))
-        .series(series(&theirs));
+        .all(theirs.iter().map(|(tool, runs)| series(tool, runs)))
+        .all(self.elsewhere(name));
         let stem = name.replace(' ', "_").to_lowercase();
         diagram.save_svg(format!("output/comparison_{stem}.svg"))
     }
 }
 
 impl Comparison {
+    /// What other tools reached on a problem, one series each: repeats and settings that others of the tool beat left
+    /// out.
+    fn elsewhere(&self, problem: &str) -> Vec<Series> {
+        let mut tools: Vec<(&str, Vec<(f64, Duration)>)> = Vec::new();
+        for peer in self.peers.iter().filter(|peer| peer.problem.replace('_', " ") == problem) {
+            match tools.iter_mut().find(|(tool, _)| *tool == peer.tool) {
+                Some((_, runs)) => runs.push((peer.error, peer.time)),
+                None => tools.push((&peer.tool, vec![(peer.error, peer.time)])),
+            }
+        }
+        let series = |(tool, runs): (&str, Vec<_>)| {
+            let points =
+                front(&runs).into_iter().map(|(error, seconds)| WorkPrecisionPoint { error, seconds });
+            Series { name: tool.to_owned(), points: points.collect() }
+        };
+        tools.into_iter().map(series).collect()
+    }
+
     fn record(
         &mut self,
         tool: &str,
@@ -119,9 +159,9 @@ impl Comparison {
     }
 }
 
-fn series(runs: &[Measured]) -> Series {
+fn series(tool: &str, runs: &[Measured]) -> Series {
     let point = |run: &Measured| WorkPrecisionPoint { error: run.error, seconds: run.time.as_secs_f64() };
-    Series { name: "ode_solvers DOP853, by hand".to_owned(), points: runs.iter().map(point).collect() }
+    Series { name: format!("{tool}, by hand"), points: runs.iter().map(point).collect() }
 }
 
 fn ratios(name: &str, ours: &[(f64, Duration)], theirs: &[(f64, Duration)]) -> String {
