@@ -110,7 +110,7 @@ pub trait Splitting<const N: usize>: Model<N> {
     const NYSTROM: bool;
 
     /// Moves the reduced state along a piece for the time `h`, adding to each component and to what rounding left out
-    /// of it; `t` is the time that a potential reads. What is a function of the rest, `1/D`, stays as it is:
+    /// of it; `t` is the time that a potential reads. What is a function of the rest, `1/D` and `q`, stays as it is:
     /// [`renewed`](Model::renewed).
     fn flow<T: Real>(
         &self,

@@ -18,6 +18,7 @@
 pub mod balance;
 mod breathing;
 pub mod capability;
+mod condition;
 pub mod conserved;
 mod constraint;
 #[cfg(feature = "std")]

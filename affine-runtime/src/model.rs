@@ -72,8 +72,8 @@ pub trait Model<const N: usize> {
         reduced: &Self::Reduced<T>,
     ) -> Self::Point<T>;
 
-    /// The reduced state with what is a function of the rest computed anew: `1/D = (det phi)^(-1/n)`, which some
-    /// reduced equations carry along instead of taking a root.
+    /// The reduced state with what is a function of the rest computed anew: `1/D = (det phi)^(-1/n)` and `q`, which
+    /// some reduced equations carry along instead of taking a root or a logarithm.
     #[must_use]
     fn renewed<T: Real>(&self, reduced: &Self::Reduced<T>) -> Self::Reduced<T> {
         *reduced
@@ -83,6 +83,20 @@ pub trait Model<const N: usize> {
     /// that depends on it and is not known to be definite; `None` for every other one, which is regular everywhere.
     fn regularity(&self, _phi: &Matrix<N>) -> Option<Regularity> {
         None
+    }
+
+    /// Condition number of the kinetic energy: the quotient of the largest and the least factor between momentum and
+    /// velocity, in absolute value, over the directions that a constraint leaves free. `|I+A|`, `|I-A|` and `|I+A+nB|` are
+    /// such factors. Momenta that are known to `eps` give velocities that are known to `eps` times it, and so the other way.
+    ///
+    /// That of the internal part, in the model's own frame, where it is the same at every placement; of a sum of energies in
+    /// different frames it is the one at `phi` where [`regularity`](Self::regularity) is asked for, else at `phi = 1`. Of a Hamiltonian with `casimir3` it is that of the motions of small
+    /// momentum. `None` where these have no velocity, where numbers overflow, and where `phi` has no inverse.
+    fn condition(&self, phi: &Matrix<N>) -> Option<f64>
+    where
+        Self: Sized,
+    {
+        crate::condition::condition(self, phi)
     }
 
     /// The bases of space and body in which the model's metrics are the identity, from the user's own; `None` where

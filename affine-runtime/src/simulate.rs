@@ -13,6 +13,7 @@ mod methods;
 mod output;
 mod point;
 mod power_balance;
+mod range;
 mod recorder;
 mod root;
 mod run;

@@ -2,7 +2,7 @@
 //!
 //! ```sh
 //! cargo run --release --example stability           # a few minutes at most
-//! cargo run --release --example stability -- long   # 1e5 units of time in the long runs
+//! cargo run --release --example stability -- long   # 1e5 units of time and 1e8 steps in the long runs
 //! ```
 //!
 //! The table goes to the terminal, and with the picture to `output/`.

@@ -12,20 +12,11 @@ fn report() -> StabilityReport {
     scenes::report(Extent::Fast).unwrap()
 }
 
-/// What falls short of the promises, and why, is written down in AUDIT.md; nothing else may, and what is mended has to leave
-/// this list.
-const FALLS_SHORT: [(&str, &str); 2] =
-    [("body J, Hooke", "q = (300, 300, 300)"), ("body J, Hooke", "q = (-300, -300, -300)")];
-
 #[test]
 fn promises_are_kept() {
     let report = report();
-    let short: Vec<_> = report.fell_short().map(|case| (case.model, case.scene.as_str())).collect();
-    assert_eq!(short, FALLS_SHORT, "{report}");
-    for case in report.fell_short() {
-        let Finding::Stopped(text) = &case.finding else { panic!("silently wrong: {case:?}") };
-        assert!(text.contains("not finite"), "{text}");
-    }
+    let short: Vec<_> = report.fell_short().collect();
+    assert!(short.is_empty(), "{short:#?}");
 }
 
 /// Where the dilatation separates, steps do not know its stiffness; and how many they are.
@@ -43,7 +34,7 @@ fn steps_do_not_grow_with_the_stiffness() {
             .collect()
     };
     for (model, n, pinned, count) in
-        [("body-metric", 3, 565, 12), ("space-metric", 3, 556, 6), ("body-metric", 2, 110, 6)]
+        [("body-metric", 3, 565, 22), ("space-metric", 3, 556, 11), ("body-metric", 2, 110, 11)]
     {
         let steps = steps(model, n);
         assert_eq!(steps.len(), count, "{model}, n = {n}");

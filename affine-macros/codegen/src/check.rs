@@ -20,6 +20,7 @@ mod mixed;
 mod momentum_side;
 mod potential;
 mod shapes;
+mod size;
 mod smooth;
 mod symbols;
 mod tensors;

@@ -2,7 +2,7 @@
 
 pub mod balance;
 pub mod brackets;
-mod carried;
+pub mod carried;
 pub mod charts;
 pub mod conserved;
 pub mod constraint;

@@ -226,3 +226,33 @@ fn the_near_misses_include_good_models() {
         .count();
     assert!(accepted > 40, "only {accepted} of 1000 are accepted: the generator tests little");
 }
+
+/// What the rules on degrees alone let through would be multiplied out for hours: six to twelve variables to high powers.
+#[test]
+fn no_specification_stalls_a_build() {
+    let sum = "(G[1,1] + G[1,2] + G[1,3] + G[2,2] + G[2,3] + G[3,3] + x[1])";
+    let potentials = [
+        format!("{sum}^16"),
+        format!("({sum}^8)^8"),
+        format!("1/{sum}^16"),
+        format!("exp({sum}^16)"),
+        format!("{sum}*{sum}*{sum}*{sum}*{sum}"),
+        "tr(G*Ct*phi*G*Ct*phi*G*Ct*phi*G*Ct*phi*G*Ct*phi*G*Ct*phi)".to_owned(),
+        "pairs((exp(d) + exp(-d) + d + sin(d) + cos(d) + sinh(d) + cosh(d))^16)".to_owned(),
+    ];
+    let mut arguments: Vec<String> = potentials
+        .iter()
+        .map(|potential| {
+            format!("dim = 3, kinetic(casimir2 = 1, body_translation = 1), potential = {potential}")
+        })
+        .collect();
+    arguments.push("dim = 3, kinetic(casimir2 = (a + b + c + d + e + f + g + h)^16)".to_owned());
+    let fields = "a: f64, b: f64, c: f64, d: f64, e: f64, f: f64, g: f64, h: f64";
+    for args in arguments {
+        let item: TokenStream = format!("struct Model {{ {fields} }}").parse().expect("an item");
+        let start = std::time::Instant::now();
+        assert!(answered(args.parse().expect("arguments"), item).is_ok(), "{args}");
+        // Unoptimised, on a machine that does other things: seconds, where it would be hours.
+        assert!(start.elapsed().as_secs() < 60, "{args}: {:?}", start.elapsed());
+    }
+}

@@ -85,6 +85,13 @@ impl<const N: usize, T: Real> LogDeterminant<N, T> {
         self.sign > T::zero()
     }
 
+    /// The determinant and its inverse are normal doubles.
+    pub(crate) fn is_normal(&self) -> bool {
+        let power = self.exponent.unsigned_abs().saturating_mul(u32::try_from(N).unwrap_or(u32::MAX));
+        // The mantissa is a logarithm of at most N ln 2.
+        power + u32::try_from(N).unwrap_or(0) < f64::MAX_EXP.unsigned_abs()
+    }
+
     /// The determinant as a double, infinite or zero where it leaves the range.
     pub(crate) fn to_f64(self) -> f64 {
         let power = self.exponent.saturating_mul(i32::try_from(N).unwrap_or(i32::MAX));
@@ -92,7 +99,7 @@ impl<const N: usize, T: Real> LogDeterminant<N, T> {
     }
 
     /// `ln(det)/N`.
-    fn mean(self) -> T {
+    pub(crate) fn mean(self) -> T {
         let ln_2 = T::constant(LN_2.0, LN_2.1);
         let mean = self.mantissa / integer(N) + T::from_f64(f64::from(self.exponent)) * ln_2;
         if self.sign >= T::zero() { mean } else { T::from_f64(f64::NAN) }

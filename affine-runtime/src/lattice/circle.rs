@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use super::flow::groups;
+use super::flow::{groups, sound};
 use super::{Lattice, LatticeForm, LatticeStop, StopReason};
 use crate::error::Error;
 use crate::frames::Matrix;
@@ -30,7 +30,7 @@ impl<'a, const N: usize, M: LatticeForm<N>> CircleFlow<'a, N, M> {
         Self { model, t, lattice, tolerance: 1e-13 }
     }
 
-    /// Another tolerance for each step; below 1e-15 rounding rules.
+    /// Another tolerance for each step, `1e-15 <= eps < 1`; checked by [`advance_to`](Self::advance_to).
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
@@ -53,6 +53,7 @@ impl<'a, const N: usize, M: LatticeForm<N>> CircleFlow<'a, N, M> {
             let reason = StopReason::Conversion(Error::NotFinite { quantity: "t" });
             return Err(stop(self.t, &self.lattice, reason));
         }
+        sound(self.tolerance).map_err(|reason| stop(self.t, &self.lattice, reason))?;
         let (couplings, state) = self.lattice.framed::<M>();
         let rates = |_: f64, state: &M::Framed<f64>| self.model.framed_equations(&couplings, state);
         let mut steps = RungeKutta8::new(rates, groups::<N, M>(), (self.t, state), t, self.tolerance)

@@ -58,6 +58,11 @@ pub struct LatticeStop<const N: usize> {
 pub enum StopReason {
     /// The integrator cannot go on.
     Integration(Failure),
+    /// The tolerance is not in `1e-15 <= eps < 1`.
+    Tolerance {
+        /// Its value.
+        given: f64,
+    },
     /// Two angles of U(n) coincide or are opposite, or a fixed step does not resolve how two places meet: there the
     /// equations have a pole.
     Coincidence {
@@ -74,7 +79,7 @@ impl<'a, const N: usize, M: TwoPolarForm<N>> LatticeFlow<'a, N, M> {
         Self { model, t, lattice, tolerance: 1e-13, placements: 0, steps: 0 }
     }
 
-    /// Another tolerance for each step; below 1e-15 rounding rules.
+    /// Another tolerance for each step, `1e-15 <= eps < 1`; checked by [`advance_to`](Self::advance_to).
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
@@ -106,6 +111,9 @@ impl<'a, const N: usize, M: TwoPolarForm<N>> LatticeFlow<'a, N, M> {
     pub fn advance_to(&mut self, t: f64) -> Result<&Lattice<N>, LatticeStop<N>> {
         if !t.is_finite() {
             let reason = StopReason::Conversion(Error::NotFinite { quantity: "t" });
+            return Err(LatticeStop { t: self.t, lattice: self.lattice, reason });
+        }
+        if let Err(reason) = sound(self.tolerance) {
             return Err(LatticeStop { t: self.t, lattice: self.lattice, reason });
         }
         let mut near = self.lattice.gap() < NEAR;
@@ -266,6 +274,12 @@ pub(super) fn groups<const N: usize, M: LatticeForm<N>>() -> &'static [Group] {
     }
 }
 
+/// A tolerance that steps can have.
+pub(super) fn sound(tolerance: f64) -> Result<(), StopReason> {
+    let is_sound = (1e-15..1.0).contains(&tolerance);
+    if is_sound { Ok(()) } else { Err(StopReason::Tolerance { given: tolerance }) }
+}
+
 impl<const N: usize> fmt::Display for LatticeStop<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "the motion of the lattice stopped at t = {}: {}", self.t, self.reason)
@@ -276,6 +290,11 @@ impl fmt::Display for StopReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             StopReason::Integration(failure) => failure.fmt(f),
+            StopReason::Tolerance { given } => write!(
+                f,
+                "tolerance {given:e}: it is a relative error per step, at least 1e-15 (what rounding leaves of double \
+                 precision) and below 1"
+            ),
             StopReason::Coincidence { distance } => write!(
                 f,
                 "two places coincide or are opposite, to {distance:e}, where (q, p, M, N) are no coordinates"

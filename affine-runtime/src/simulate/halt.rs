@@ -55,6 +55,13 @@ pub enum Reason {
         /// The time of that placement.
         t: f64,
     },
+    /// The forces of a potential in `q` or `D` on a body in a flat metric need `1/det phi`, which is no normal number.
+    Range {
+        /// The mean log-stretch of the first such placement.
+        q: f64,
+        /// The time of that placement.
+        t: f64,
+    },
     /// The error stays above the tolerance however short the step.
     StepUnderflow {
         /// The tolerance.
@@ -298,6 +305,12 @@ impl fmt::Display for Reason {
                 "the mass matrix degenerates at t = {t}, its weakest pivot is {weakest:e} of what it is a difference of: \
                  the momentum does not determine the velocity there; end the run before, start elsewhere, or choose \
                  coefficients whose sum is definite at every placement"
+            ),
+            Reason::Range { q, t } => write!(
+                f,
+                "q = {q} at t = {t}: the force of a potential in q or D on a body in a flat metric is a multiple of \
+                 phi^-T, which needs 1/det phi within the range of numbers, |q| below 354 for n = 2 and 236 for n = 3; \
+                 choose a unit of length in which the body is nearer to its size"
             ),
             Reason::StepUnderflow { tolerance } => write!(
                 f,

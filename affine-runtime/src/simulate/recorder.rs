@@ -7,6 +7,7 @@ use super::event::{Action, Occurrence};
 use super::halt::{Callback, Reason};
 use super::output::{Schedule, without_steps};
 use super::point::{check, energy_scale, go_on};
+use super::range::in_range;
 use super::stepper::Stepper;
 use super::trajectory::Trajectory;
 use super::watcher::{Met, Watcher};
@@ -202,6 +203,7 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     /// Checks a phase point, which becomes the last good one.
     pub(super) fn reach(&mut self, t: f64, (point, work): WithWork<M::Point<f64>>) -> Result<(), Reason> {
         check(t, &point)?;
+        in_range::<N, M>(t, &point)?;
         self.trajectory.end = (t, point);
         self.trajectory.energies.work_at_end = self.place.work() + work;
         Ok(())

@@ -4,6 +4,7 @@ use super::checkpoint::{Checkpoint, Place};
 use super::halt::{Halt, Outcome, Reason, Setting, Stop};
 use super::methods::{chart, is_canonical};
 use super::point::{check, energy_scale, total};
+use super::range::in_range;
 use super::recorder::{Recorder, Turn};
 use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;
@@ -77,14 +78,21 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 no_whirl: false,
                 at_rest: self.start.p().iter().all(|p| *p == 0.0),
                 missing: None,
+                condition: self.condition(),
                 residual: None,
             },
         }
     }
 
+    fn condition(&self) -> Option<f64> {
+        let by_fields = M::DESCRIPTION.signature.is_none();
+        by_fields.then(|| self.model.condition(self.start.phi())).flatten()
+    }
+
     fn drive(mut self, trajectory: &mut Trajectory<N, M::Point<f64>>) -> Result<(), Reason> {
         let (t_end, schedule) = self.checked_settings()?;
         check(self.t0, &self.start)?;
+        in_range::<N, M>(self.t0, &self.start)?;
         let (t0, events) = (self.t0, self.events.len());
         let place = Place::starting((self.t0, &self.start), None, (Statistics::default(), 0.0));
         let mut recorder = Recorder {

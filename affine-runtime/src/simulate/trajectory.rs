@@ -44,6 +44,9 @@ pub struct Computation {
     pub at_rest: bool,
     /// What `emit(...)` would have to list for the method that [`Method::Automatic`] would rather take.
     pub missing: Option<&'static str>,
+    /// Condition number of a kinetic energy whose coefficients are fields, [`Model::condition`](crate::model::Model::condition),
+    /// at the start; `None` where they are numbers, which were checked when the model was compiled.
+    pub condition: Option<f64>,
     /// Largest relative residual of the equations of implicit steps; `None` where the method is explicit.
     pub residual: Option<f64>,
 }

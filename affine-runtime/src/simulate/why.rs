@@ -8,6 +8,9 @@ use crate::integrate::taylor::order_for;
 use crate::model::{Constraint, Description};
 use crate::state::Phase;
 
+/// Condition numbers from here on take more than half the digits.
+const WORTH_SAYING: f64 = 1e8;
+
 /// Why a trajectory was computed the way it was; displays as text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Why {
@@ -173,7 +176,20 @@ impl Why {
         let groups = self.description.reduced;
         let holds = |name: &str| groups.iter().any(|group| group.name == name);
         let paired = holds("phi") && holds("Pi") && (holds("x") || !holds("p"));
-        paired && groups.iter().all(|group| ["x", "phi", "p", "Pi", "1/D"].contains(&group.name))
+        paired && groups.iter().all(|group| ["x", "phi", "p", "Pi", "1/D", "q"].contains(&group.name))
+    }
+
+    /// What the start and the velocities on the way are worth, where the kinetic energy is nearly degenerate.
+    fn condition(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.computation.condition {
+            Some(condition) if condition > WORTH_SAYING => writeln!(
+                f,
+                "nearly degenerate: the kinetic energy has the condition number {condition:.1e}, so that velocities and \
+                 momenta determine each other to {:.0e}, whatever the tolerance",
+                condition * f64::EPSILON
+            ),
+            _ => Ok(()),
+        }
     }
 
     fn scene(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -194,6 +210,7 @@ impl fmt::Display for Why {
         write!(f, "{}: ", self.description.name)?;
         self.method(f)?;
         self.group(f)?;
+        self.condition(f)?;
         for left_out in self.description.left_out {
             writeln!(f, "left out of the model: {left_out}")?;
         }

@@ -107,7 +107,40 @@ pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> 
             });
         }
     }
+    conditions(report);
     Ok(())
+}
+
+/// The answer says what it is worth: the quotient of the eigenvalues, also where only its order is known.
+fn conditions(report: &mut StabilityReport) {
+    for small in Small::ALL {
+        for size in SIZES {
+            let [i, a, b] = small.coefficients(size, 3.0);
+            let eigenvalues = [i - a, i + a, i + a + 3.0 * b].map(f64::abs);
+            let (most, least) =
+                eigenvalues.iter().fold((0.0_f64, f64::INFINITY), |(m, l), e| (m.max(*e), l.min(*e)));
+            // The factors between velocity and momentum are known to eps, their quotient to eps times itself.
+            let rounding = 8.0 * f64::EPSILON * most / least;
+            let demand = if size >= 1e-12 { Demand::Held(rounding) } else { Demand::HeldOrRefused(rounding) };
+            let named = scene(
+                "body-metric",
+                3,
+                format!("{} = {size:e}", small.name()),
+                "condition in the answer",
+                Oracle::ClosedForm,
+            );
+            report.case(named, demand, || {
+                let model = Body { i, a, b }.prepare()?;
+                let start = model.at_momentum(Matrix::<3>::identity(), Comoving(Matrix::<3>::zeros()))?;
+                let solution = run(&model, start, 1.0)?;
+                let said = solution.computation().condition.unwrap_or(f64::NAN);
+                // Where the answer is worth saying so, `why` says it.
+                let words = solution.why().to_string().contains("condition number") == (said > 1e8);
+                let error = if words { (said * least / most - 1.0).abs() } else { f64::NAN };
+                Ok((error, solution.statistics().steps))
+            });
+        }
+    }
 }
 
 /// `exp(t (sym M - w skew M)) exp(t (1 + w) skew M)` (Martin and Neff, arXiv:1409.7849), from the velocity alone.

@@ -1,14 +1,18 @@
 //! Stiff and extreme cases, one file for each kind, shared by the example and the test.
 
 mod bad_input;
+mod bad_settings;
 mod coincident;
 mod collapse;
 mod degenerate;
 mod long_runs;
+mod many_steps;
+mod more_stretches;
 mod penalty;
 mod reference;
 mod shared;
 mod stiff;
+mod stiff_in_the_plane;
 mod stretches;
 mod units;
 
@@ -43,6 +47,8 @@ pub(crate) fn report(extent: Extent) -> affine_runtime::Result<StabilityReport> 
     coincident::cases(&mut report)?;
     units::cases(&mut report, extent)?;
     long_runs::cases(&mut report, extent)?;
+    many_steps::cases(&mut report, extent)?;
     bad_input::cases(&mut report)?;
+    bad_settings::cases(&mut report)?;
     Ok(report)
 }

@@ -79,7 +79,7 @@ pub(crate) struct Missile {
 )]
 pub(crate) struct ConfinedMissile;
 
-const KAPPAS: [f64; 6] = [1e2, 1e4, 1e6, 1e8, 1e10, 1e12];
+pub(super) const KAPPAS: [f64; 11] = [1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12];
 
 pub(super) fn cases(report: &mut StabilityReport, extent: Extent) -> affine_runtime::Result<()> {
     report.heading("stiff dilatation, separable");
@@ -88,6 +88,7 @@ pub(super) fn cases(report: &mut StabilityReport, extent: Extent) -> affine_runt
     report.heading("stiff dilatation, not separable");
     elastic(report, extent)?;
     missile(report, extent)?;
+    super::stiff_in_the_plane::cases(report, extent)?;
     report.heading("stiff shear");
     shear(report)
 }
@@ -161,7 +162,7 @@ fn elastic(report: &mut StabilityReport, extent: Extent) -> affine_runtime::Resu
     let rate = Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05);
     let velocity = phi * rate;
     let confined = run(&ConfinedElastic, ConfinedElastic.at_velocity(phi, velocity)?, t)?;
-    for kappa in extent.up_to(1e8, &[1e2, 1e4, 1e6, 1e8, 1e10, 1e12]) {
+    for kappa in extent.up_to(1e8, &KAPPAS) {
         let model = Elastic { kappa }.prepare()?;
         let solution = run(&model, model.at_velocity(phi, velocity)?, t);
         both(
@@ -194,7 +195,7 @@ fn missile(report: &mut StabilityReport, extent: Extent) -> affine_runtime::Resu
     let spin = Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05);
     let confined = ConfinedMissile.at_momentum(Vector::<3>::zeros(), phi, p, Comoving(spin))?;
     let confined = run(&ConfinedMissile, confined, t)?;
-    for kappa in extent.up_to(1e8, &[1e2, 1e4, 1e6, 1e8, 1e10, 1e12]) {
+    for kappa in extent.up_to(1e8, &KAPPAS) {
         let model = Missile { kappa }.prepare()?;
         let solution = run(&model, model.at_momentum(Vector::<3>::zeros(), phi, p, Comoving(spin))?, t);
         both(report, ("drunk missile", kappa, t), solution, &confined, (kappa / 4.5).sqrt());
@@ -203,14 +204,14 @@ fn missile(report: &mut StabilityReport, extent: Extent) -> affine_runtime::Resu
 }
 
 /// Distance to the confined body, of the order of the compliance, and the energy.
-fn both<P: Phase<3>, Q: Phase<3>>(
+pub(super) fn both<const N: usize, P: Phase<N>, Q: Phase<N>>(
     report: &mut StabilityReport,
     (model, kappa, t): (&'static str, f64, f64),
-    solution: affine_runtime::Result<Trajectory<3, P>>,
-    confined: &Trajectory<3, Q>,
+    solution: affine_runtime::Result<Trajectory<N, P>>,
+    confined: &Trajectory<N, Q>,
     omega: f64,
 ) {
-    let named = |quantity, oracle| scene(model, 3, format!("kappa = {kappa:e}, t = {t}"), quantity, oracle);
+    let named = |quantity, oracle| scene(model, N, format!("kappa = {kappa:e}, t = {t}"), quantity, oracle);
     // The pressure that holds det phi = 1 is of order 1, the compliance 1/kappa.
     let distance = Demand::Held((4.0 / kappa).max(1e-9));
     report.case(named("phi", Oracle::Limit), distance, || {
@@ -226,7 +227,7 @@ fn both<P: Phase<3>, Q: Phase<3>>(
 fn shear(report: &mut StabilityReport) -> affine_runtime::Result<()> {
     let reference = rows(P8);
     let [start, .., end] = reference.as_slice() else { return Ok(()) };
-    for c in [1e2_f64, 1e4, 1e6, 1e8, 1e10, 1e12] {
+    for c in KAPPAS {
         let s = (c / 1e4).sqrt();
         let model = Stiff { kappa: 10.0 * s * s, c }.prepare()?;
         let at = model.at_momentum(start.phi, Comoving(start.spin * s))?;

@@ -3,7 +3,7 @@
 use affine_runtime::prelude::*;
 use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance_by_rows};
 
-use super::shared::{energy, run, scene};
+use super::shared::{run, scene};
 
 #[affine_model(dim = 3, kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5, 2)))]
 pub(crate) struct Body;
@@ -35,6 +35,48 @@ pub(crate) struct UnevenDisc;
 pub(crate) struct Hooke;
 
 #[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5)),
+    potential = harmonic_dilatation(1) + neo_hookean(0.5),
+)]
+pub(crate) struct HookeDisc;
+
+/// Hooke's body with `q` counted from elsewhere.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5, 2)),
+    potential = (q + s)^2/2 + neo_hookean(0.5),
+)]
+pub(crate) struct Shifted {
+    s: f64,
+}
+
+/// The same in the plane.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5)),
+    potential = (q + s)^2/2 + neo_hookean(0.5),
+)]
+pub(crate) struct ShiftedDisc {
+    pub(super) s: f64,
+}
+
+#[affine_model(dim = 3, kinetic(dalembert = diag(1, 1.5, 2)), potential = harmonic_dilatation(1))]
+pub(crate) struct FlatHooke;
+
+#[affine_model(dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1))]
+pub(crate) struct Affine;
+
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, 2, 0.5], [1, 0, 0.5, 4]]),
+)]
+pub(crate) struct Tensor;
+
+#[affine_model(dim = 3, kinetic(dalembert = diag(1, 1.5, 2)))]
+pub(crate) struct Straight;
+
+#[affine_model(
     dim = 3,
     kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5, 2)),
     potential = pairs(tanh(d)^2),
@@ -48,9 +90,9 @@ pub(crate) struct Bound;
 pub(crate) struct Missile;
 
 /// Roundings of a hundred steps; the two motions are one, number by number in other units.
-const SAME: f64 = 1e-11;
+pub(super) const SAME: f64 = 1e-11;
 
-fn generic() -> (Matrix<3>, Matrix<3>) {
+pub(super) fn generic() -> (Matrix<3>, Matrix<3>) {
     (
         Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05),
         Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05),
@@ -58,7 +100,7 @@ fn generic() -> (Matrix<3>, Matrix<3>) {
 }
 
 /// Maps of space with their names: uniform, and graded by `e^300`.
-fn maps() -> [(&'static str, Matrix<3>); 5] {
+pub(super) fn maps() -> [(&'static str, Matrix<3>); 5] {
     let diagonal = |a: f64, b: f64, c: f64| Matrix::<3>::from_diagonal(&Vector::<3>::new(a, b, c));
     let (up, down) = (300.0_f64.exp(), (-300.0_f64).exp());
     [
@@ -75,6 +117,7 @@ pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> 
     geodesics(report)?;
     in_the_plane(report)?;
     potentials(report)?;
+    super::more_stretches::cases(report)?;
     translation(report)
 }
 
@@ -154,14 +197,14 @@ fn potentials(report: &mut StabilityReport) -> affine_runtime::Result<()> {
             Ok((error, mapped.statistics().steps))
         });
         if name.starts_with('q') {
-            report.case(
-                scene("body J, Hooke", 3, name.to_owned(), "energy", Oracle::Invariance),
-                Demand::Held(1e-11),
-                || {
-                    let solution = run(&Hooke, Hooke.at_momentum(map * phi, Comoving(spin))?, 2.0)?;
-                    Ok((energy(&solution), solution.statistics().steps))
-                },
-            );
+            // Hooke's potential knows c: the motion is that of a body with q counted from -ln c.
+            report.case(named("body J, Hooke, shifted"), Demand::Held(SAME), || {
+                let shifted = Shifted { s: map[(0, 0)].ln() }.prepare()?;
+                let shifted = run(&shifted, shifted.at_momentum(phi, Comoving(spin))?, 2.0)?;
+                let mapped = run(&Hooke, Hooke.at_momentum(map * phi, Comoving(spin))?, 2.0)?;
+                let error = relative_distance_by_rows(mapped.end().1.phi(), &(map * shifted.end().1.phi()));
+                Ok((error, mapped.statistics().steps))
+            });
         }
     }
     Ok(())

@@ -2,6 +2,7 @@
 
 use super::constant::{LARGEST_POWER, constant, integer};
 use super::identity::vanishes;
+use super::size::summands;
 use crate::algebra::{Function, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, ExpressionMistake, PotentialMistake, Reported};
 use crate::spec::{Expression, ExpressionKind, Operator, Spec};
@@ -35,6 +36,11 @@ pub(super) fn computable(spec: &Spec, found: &mut Diagnostics) -> Result<(), Rep
         .map(|expression| (expression, Place::Coefficient))
         .chain(spec.potential.iter().map(|potential| (&potential.energy, Place::Potential)));
     for (expression, place) in placed {
+        // First, for divisors are multiplied out.
+        if let Err(reported) = summands(expression, spec.dim.value, found) {
+            result = Err(reported);
+            continue;
+        }
         result = degree(expression, place, spec.dim.value, found).map(|_| ()).and(result);
     }
     result

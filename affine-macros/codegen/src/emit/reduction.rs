@@ -1,10 +1,12 @@
 //! Reduction, reduced equations, expansion, and closed forms.
 
+mod carried;
 pub(super) mod lanes;
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use crate::mechanics::carried::Carried;
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::reduce::{Commuting, Layout};
@@ -37,7 +39,7 @@ struct Parts {
     /// The dilatation moves in closed form.
     dilatation: bool,
     /// `1/D` is state.
-    carried: bool,
+    carried: Vec<Carried>,
     /// Coefficients of the reduced equations.
     coefficients: usize,
 }
@@ -62,7 +64,7 @@ impl Parts {
             fixed: context.model.fixed.clone(),
             whirl,
             dilatation: reduction.separation.is_some(),
-            carried: reduction.carried,
+            carried: reduction.carried.clone(),
             coefficients: context.model.trajectory.outputs.len(),
         }
     }
@@ -124,7 +126,7 @@ pub(super) fn methods(context: &Context) -> TokenStream {
     let reduce = reduce(context, &parts);
     let equations = reduced_equations(context, &parts);
     let expand = expand(context, &parts);
-    let renewed = parts.carried.then(|| renewed(context));
+    let renewed = (!parts.carried.is_empty()).then(|| carried::renewed(context, &parts.carried));
     quote!(#reduce #equations #expand #renewed)
 }
 
@@ -170,9 +172,7 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
         true => separated::split(context),
         false => bind_state(context, parts, moving),
     });
-    if parts.carried {
-        lets.extend(quote!(let inverse_dilatation = #t::one() / #rt::dilatation(#rt::Phase::phi(point));));
-    }
+    lets.extend(carried::computed(context, &parts.carried, &quote!(#rt::Phase::phi(point))));
     let body = context.generic(&context.model.trajectory);
     let (trajectory, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
@@ -324,11 +324,11 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
     let chart = &context.model.reduction.chart;
     let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
-    // No phase point holds the work, and 1/D follows from phi.
+    // No phase point holds the work, and 1/D and q follow from phi.
     let needed: Vec<&str> = all
         .iter()
         .map(String::as_str)
-        .filter(|name| !["inverse_dilatation", "work"].contains(name))
+        .filter(|name| !["inverse_dilatation", "q", "work"].contains(name))
         .collect();
     let bound = pattern(&all, &needed);
     let mut lets = quote!(let #bound = *reduced;);
@@ -408,28 +408,6 @@ fn expand(context: &Context, parts: &Parts) -> TokenStream {
         ) -> Self::Point<#t> {
             #lets
             #point
-        }
-    }
-}
-
-/// The state with `1/D` from its placement.
-fn renewed(context: &Context) -> TokenStream {
-    let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
-    let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
-    let names = identifiers(&all);
-    let rows = components("phi", n).into_iter().map(|row| {
-        let row = identifiers(&row);
-        quote!([#(#row),*])
-    });
-    let kept: Vec<&str> =
-        all.iter().map(String::as_str).filter(|name| *name != "inverse_dilatation").collect();
-    let bound = pattern(&all, &kept);
-    quote! {
-        fn renewed<#t: #rt::Real>(&self, reduced: &Self::Reduced<#t>) -> Self::Reduced<#t> {
-            let #bound = *reduced;
-            let phi = #rt::matrix([#(#rows),*]);
-            let inverse_dilatation = #t::one() / #rt::dilatation(&phi);
-            [#(#names),*]
         }
     }
 }

@@ -1,27 +1,87 @@
-//! `r = 1/D = (det phi)^(-1/n)` as a variable of its own: its rate is a polynomial, and with it the equations are.
+//! Functions of `det phi` as variables of their own, `r = 1/D = (det phi)^(-1/n)` and `q = ln(det phi)/n`: their rates are
+//! polynomials, and with them the equations are. What overflows, `det phi`, is not formed.
 
-use crate::algebra::{Arena, Matrix, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Momentum};
 use super::equations::System;
 
-/// The system with `r' = -(r/n) tr(phi^-1 phi')` in place of the root; `None` where nothing takes the root.
+/// A function of `det phi` that is integrated beside `phi`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Carried {
+    /// `r = 1/D`, in place of a root.
+    InverseDilatation,
+    /// `q`, in place of a logarithm.
+    MeanLogStretch,
+}
+
+impl Carried {
+    const ALL: [Self; 2] = [Self::InverseDilatation, Self::MeanLogStretch];
+
+    /// Name of its symbol.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::InverseDilatation => "inverse_dilatation",
+            Self::MeanLogStretch => "q",
+        }
+    }
+
+    /// Name of its group in the state.
+    #[must_use]
+    pub fn group(self) -> &'static str {
+        match self {
+            Self::InverseDilatation => "1/D",
+            Self::MeanLogStretch => "q",
+        }
+    }
+
+    /// Its symbol.
+    pub(super) fn symbol(self, arena: &mut Arena) -> Expr {
+        arena.symbol(self.name())
+    }
+
+    /// Those that a system carries.
+    pub(super) fn of(arena: &Arena, system: &System) -> Vec<Self> {
+        let is_state = |carried: &Self| {
+            system.rates.iter().any(|(z, symbol, _)| {
+                matches!(z, Coordinate::Carried(_)) && arena.name(*symbol) == Some(carried.name())
+            })
+        };
+        Self::ALL.into_iter().filter(is_state).collect()
+    }
+}
+
+/// The system with `r' = -(r/n) tr(phi^-1 phi')` in place of the root, `q' = tr(phi^-1 phi')/n` in place of the
+/// logarithm; `None` where nothing takes either.
 pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) -> Option<System> {
-    let r = arena.symbol("inverse_dilatation");
     let tidied = system.clone().tidied(arena);
-    tidied.shared.iter().find(|(symbol, _)| *symbol == r)?;
+    let [r, q] = Carried::ALL.map(|carried| {
+        let symbol = carried.symbol(arena);
+        tidied.shared.iter().any(|(known, _)| *known == symbol).then_some(symbol)
+    });
     let mut system = system.clone();
-    system.shared.retain(|(symbol, _)| *symbol != r);
-    let expansion = match chart.momentum {
-        Momentum::Body | Momentum::Space | Momentum::Total => trace_of_velocity(arena, chart),
-        Momentum::Canonical => {
+    system.shared.retain(|(symbol, _)| Some(*symbol) != r && Some(*symbol) != q);
+    let expansion = match (chart.momentum, r) {
+        (Momentum::Body | Momentum::Space | Momentum::Total, _) => trace_of_velocity(arena, chart),
+        (Momentum::Canonical, Some(r)) => {
             flat_expansion(arena, chart, &system, &Polynomial::term(vec![r; chart.dim], Rational::ONE))
         }
+        (Momentum::Canonical, None) => {
+            let inverse_det = Polynomial::atom(arena.symbol("inverse_det"));
+            flat_expansion(arena, chart, &system, &inverse_det)
+        }
     };
-    let nth = Rational::ratio(-1, i64::try_from(chart.dim).ok()?)?;
-    let rate = Polynomial::atom(r).mul(&expansion).scaled(&nth);
-    system.rates.push((Coordinate::Carried(r), r, rate));
-    Some(system)
+    let order = i64::try_from(chart.dim).ok()?;
+    if let Some(r) = r {
+        let rate = Polynomial::atom(r).mul(&expansion).scaled(&Rational::ratio(-1, order)?);
+        system.rates.push((Coordinate::Carried(r), r, rate));
+    }
+    if let Some(q) = q {
+        let rate = expansion.scaled(&Rational::ratio(1, order)?);
+        system.rates.push((Coordinate::Carried(q), q, rate));
+    }
+    (r.is_some() || q.is_some()).then_some(system)
 }
 
 /// `tr(phi^-1 phi') = tr O`.

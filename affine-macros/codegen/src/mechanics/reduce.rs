@@ -4,7 +4,7 @@
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::brackets::poisson;
-use super::carried::carrying_the_dilatation;
+use super::carried::{Carried, carrying_the_dilatation};
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::conserved::Candidate;
 use super::equations::{Form, Load, System, hamilton};
@@ -50,8 +50,8 @@ pub struct Reduction {
     pub fixed: Vec<Expr>,
     /// The dilatation, where it is taken out of the state: the system is then that of `Psi` and `sigma/alpha`.
     pub separation: Option<Separation>,
-    /// `1/D = (det phi)^(-1/n)` is state, so that no right-hand side takes a root.
-    pub carried: bool,
+    /// `1/D = (det phi)^(-1/n)` and `q` where they are state, so that no right-hand side takes a root or a logarithm.
+    pub carried: Vec<Carried>,
     /// The equations of the state variables.
     pub system: System,
     /// State variables: group name and symbols.
@@ -210,7 +210,7 @@ fn separated(
             let load = u.load(arena, &chart);
             let mut system = shear_system(arena, &chart, iso, &load)?;
             let fixed = take_constants(&mut system);
-            let states = states("Psi", "O", &system);
+            let states = states(arena, "Psi", "O", &system);
             let separation = Some(Separation { slope: slope.clone(), inverse_mass: inverse_mass.clone() });
             let (commuting, layout) = (commuting.to_vec(), Layout::Entries);
             Some(Reduction {
@@ -220,7 +220,7 @@ fn separated(
                 layout,
                 fixed,
                 separation,
-                carried: false,
+                carried: Vec::new(),
                 system,
                 states,
             })
@@ -322,8 +322,8 @@ impl Plan {
         let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
         system = system.substitute(&value).tidied(arena);
         let fixed = if self.multiplier || self.halves { Vec::new() } else { take_constants(&mut system) };
-        let carried = system.rates.iter().any(|(z, ..)| matches!(z, Coordinate::Carried(_)));
-        let states = states("phi", chart.momentum.symbol(), &system);
+        let carried = Carried::of(arena, &system);
+        let states = states(arena, "phi", chart.momentum.symbol(), &system);
         Reduction {
             chart,
             commuting: self.commuting.clone(),
@@ -347,6 +347,7 @@ fn conserved_layout(system: &System) -> Layout {
 
 /// State variables, grouped.
 fn states(
+    arena: &Arena,
     placement: &'static str,
     momentum: &'static str,
     system: &System,
@@ -356,12 +357,20 @@ fn states(
             system.rates.iter().filter(|(z, _, _)| wanted(z)).map(|(_, s, _)| *s).collect();
         (name, symbols)
     };
+    let carried = |carried: Carried| {
+        let is_it = |z: &Coordinate, s: Expr| {
+            matches!(z, Coordinate::Carried(_)) && arena.name(s) == Some(carried.name())
+        };
+        let symbols = system.rates.iter().filter(|(z, s, _)| is_it(z, *s)).map(|(_, s, _)| *s).collect();
+        (carried.group(), symbols)
+    };
     [
         group("x", |z| matches!(z, Coordinate::X(_))),
         group(placement, |z| matches!(z, Coordinate::Phi(..))),
         group("p", |z| matches!(z, Coordinate::P(_))),
         group(momentum, |z| matches!(z, Coordinate::M(..))),
-        group("1/D", |z| matches!(z, Coordinate::Carried(_))),
+        carried(Carried::InverseDilatation),
+        carried(Carried::MeanLogStretch),
         // After all rates.
         ("work", system.work.iter().map(|(symbol, _)| *symbol).collect()),
     ]

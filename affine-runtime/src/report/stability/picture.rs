@@ -1,4 +1,4 @@
-//! A stability report as a picture: error of every case beside what was demanded, on one logarithmic axis.
+//! A stability report as a picture: errors beside what was demanded of them, on one logarithmic axis.
 
 use std::io;
 use std::path::Path;
@@ -13,28 +13,34 @@ use crate::report::save;
 const DECADES: (i32, i32) = (-17, 0);
 const WIDTH: u32 = 1000;
 const LEFT: f64 = 520.0;
-const RIGHT: f64 = 970.0;
-const TOP: f64 = 70.0;
+const RIGHT: f64 = 940.0;
+/// Where refusals are counted, beside the axis.
+const REFUSED: f64 = 962.0;
+const TOP: f64 = 84.0;
+/// Above a heading.
+const GAP: f64 = 8.0;
 const LINE: f64 = 15.0;
 const TEXT: f64 = 10.0;
 
+/// The cases of one quantity of one model under one heading: a line of the picture.
+struct Line<'a> {
+    heading: &'static str,
+    cases: Vec<&'a StabilityCase>,
+}
+
 impl StabilityReport {
-    /// The picture as an SVG document: a disc at the error of each case, a stroke at what was demanded, a square for a
-    /// refusal.
+    /// The picture as an SVG document: a line for each quantity of each model, with a disc at the error of each of its cases,
+    /// a stroke at what was demanded of it, and a square with the number of its refusals.
     ///
     /// # Errors
     /// Those of the drawing library.
     pub fn to_svg(&self) -> io::Result<String> {
-        let headings = self.cases().windows(2).filter(|pair| pair[0].heading != pair[1].heading).count() + 1;
-        let lines = self.cases().len() + headings;
-        let bottom = TOP + LINE * (lines as f64 + 1.0);
-        Canvas::draw(WIDTH, (bottom + 30.0).ceil() as u32, |canvas| {
+        let lines = self.lines();
+        let headings = lines.windows(2).filter(|pair| pair[0].heading != pair[1].heading).count() + 1;
+        let bottom = TOP + LINE * (lines.len() as f64 + headings as f64) + GAP * headings as f64;
+        Canvas::draw(WIDTH, (bottom + 20.0).ceil() as u32, |canvas| {
             canvas.text("Stiff and extreme cases", (20.0, 24.0), Lettering::new(15.0, INK).bold());
-            canvas.text(
-                "disc: error, stroke: demanded, square: refused in words",
-                (20.0, 46.0),
-                Lettering::new(11.0, INK),
-            );
+            legend(canvas, 48.0);
             for decade in DECADES.0..=DECADES.1 {
                 let x = place(10f64.powi(decade));
                 canvas.line((x, TOP - 8.0), (x, bottom), Pen::new(GRID, 1.0));
@@ -43,16 +49,34 @@ impl StabilityReport {
                 }
             }
             let (mut y, mut heading) = (TOP, "");
-            for case in self.cases() {
-                if case.heading != heading {
-                    heading = case.heading;
+            for line in &lines {
+                if line.heading != heading {
+                    heading = line.heading;
+                    y += GAP;
                     canvas.text(heading, (20.0, y), Lettering::new(11.0, INK).bold());
                     y += LINE;
                 }
-                draw(canvas, case, y);
+                line.draw(canvas, y);
                 y += LINE;
             }
         })
+    }
+
+    fn lines(&self) -> Vec<Line<'_>> {
+        let mut lines: Vec<Line<'_>> = Vec::new();
+        for case in self.cases() {
+            let same = |line: &&mut Line<'_>| {
+                line.cases.iter().any(|first| {
+                    (first.heading, first.model, first.n, first.quantity)
+                        == (case.heading, case.model, case.n, case.quantity)
+                })
+            };
+            match lines.iter_mut().find(same) {
+                Some(line) => line.cases.push(case),
+                None => lines.push(Line { heading: case.heading, cases: vec![case] }),
+            }
+        }
+        lines
     }
 
     /// Writes the picture to a file.
@@ -64,18 +88,70 @@ impl StabilityReport {
     }
 }
 
-fn draw(canvas: &mut Canvas<'_>, case: &StabilityCase, y: f64) {
-    let label = format!("{}, n = {}, {}: {}", case.model, case.n, case.scene, case.quantity);
-    canvas.text(&label, (30.0, y), Lettering::new(TEXT, INK));
-    if let Demand::Held(most) | Demand::HeldOrRefused(most) = case.demand {
-        let x = place(most);
-        canvas.line((x, y - 5.0), (x, y + 5.0), Pen::new(INK, 1.5));
+impl Line<'_> {
+    fn draw(&self, canvas: &mut Canvas<'_>, y: f64) {
+        let [first, .., last] = self.cases.as_slice() else {
+            return self.cases.iter().for_each(|only| {
+                label(canvas, &format!("{}: {}", about(only), only.scene), y);
+                self.marks(canvas, y);
+            });
+        };
+        let scenes = format!("{} cases, {} to {}", self.cases.len(), first.scene, last.scene);
+        label(canvas, &format!("{}: {scenes}", about(first)), y);
+        self.marks(canvas, y);
     }
-    let colour = colour(case.verdict());
-    match case.finding {
-        Finding::Ran { error, .. } => canvas.disc((place(error), y), 3.5, colour),
-        Finding::Stopped(_) => canvas.rectangle((RIGHT - 3.5, y - 3.5), (RIGHT + 3.5, y + 3.5), colour),
+
+    fn marks(&self, canvas: &mut Canvas<'_>, y: f64) {
+        for case in &self.cases {
+            if let Demand::Held(most) | Demand::HeldOrRefused(most) = case.demand {
+                let x = place(most);
+                canvas.line((x, y - 5.0), (x, y + 5.0), Pen::new(INK, 1.2).opacity(0.6));
+            }
+        }
+        for case in &self.cases {
+            if let Finding::Ran { error, .. } = case.finding {
+                canvas.disc((place(error), y), 3.0, colour(case.verdict()));
+            }
+        }
+        let stopped = || self.cases.iter().filter(|case| matches!(case.finding, Finding::Stopped(_)));
+        // A refusal that falls short colours the square.
+        if let Some(worst) = stopped().find(|case| case.verdict() == Verdict::FellShort).or(stopped().next())
+        {
+            square(canvas, (REFUSED, y), colour(worst.verdict()));
+            let count = stopped().count().to_string();
+            canvas.text(&count, (REFUSED + 8.0, y), Lettering::new(TEXT, INK));
+        }
     }
+}
+
+fn about(case: &StabilityCase) -> String {
+    format!("{}, n = {}, {}", case.model, case.n, case.quantity)
+}
+
+/// The text of a line, cut where the axis begins.
+fn label(canvas: &mut Canvas<'_>, text: &str, y: f64) {
+    let most = ((LEFT - 45.0) / (0.52 * TEXT)) as usize;
+    let text = match text.char_indices().nth(most) {
+        Some((end, _)) => format!("{} ...", text[..end].trim_end()),
+        None => text.to_owned(),
+    };
+    canvas.text(&text, (30.0, y), Lettering::new(TEXT, INK));
+}
+
+fn square(canvas: &mut Canvas<'_>, (x, y): (f64, f64), colour: Colour) {
+    canvas.rectangle((x - 3.5, y - 3.5), (x + 3.5, y + 3.5), colour);
+}
+
+fn legend(canvas: &mut Canvas<'_>, y: f64) {
+    let text = Lettering::new(11.0, INK);
+    canvas.disc((24.0, y), 3.0, colour(Verdict::Held));
+    canvas.text("error", (32.0, y), text);
+    canvas.line((84.0, y - 5.0), (84.0, y + 5.0), Pen::new(INK, 1.2));
+    canvas.text("demanded", (92.0, y), text);
+    square(canvas, (170.0, y), colour(Verdict::Refused));
+    canvas.text("refused in words, how often", (180.0, y), text);
+    canvas.disc((350.0, y), 3.0, colour(Verdict::FellShort));
+    canvas.text("fell short", (358.0, y), text);
 }
 
 fn colour(verdict: Verdict) -> Colour {

@@ -1,6 +1,7 @@
 //! What the reduction took out of the state.
 
 use super::momentum_names;
+use crate::mechanics::carried::Carried;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::reduce::{ClosedForm, Commuting, Layout, Reduction};
 use crate::mechanics::separation::Slope;
@@ -38,9 +39,15 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
             list.push("w: conserved".to_owned());
         }
     }
-    if reduction.carried {
-        list.push("the root of det phi: 1/D = (det phi)^(-1/n) is integrated beside phi".to_owned());
-    }
+    list.extend(reduction.carried.iter().map(|carried| {
+        match carried {
+            Carried::InverseDilatation => {
+                "the root of det phi: 1/D = (det phi)^(-1/n) is integrated beside phi"
+            }
+            Carried::MeanLogStretch => "the logarithm of det phi: q = ln(det phi)/n is integrated beside phi",
+        }
+        .to_owned()
+    }));
     match reduction.layout {
         Layout::Constant => list.push(format!("{name}: conserved")),
         Layout::Entries => {}

@@ -1,0 +1,41 @@
+//! What is integrated beside the placement though it is a function of it.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::emit::points::components;
+use crate::emit::{Context, identifiers, pattern};
+use crate::mechanics::carried::Carried;
+
+/// The state with `1/D` and `q` from its placement.
+pub(super) fn renewed(context: &Context, list: &[Carried]) -> TokenStream {
+    let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
+    let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let names = identifiers(&all);
+    let rows = components("phi", n).into_iter().map(|row| {
+        let row = identifiers(&row);
+        quote!([#(#row),*])
+    });
+    let is_carried = |name: &str| list.iter().any(|carried| carried.name() == name);
+    let kept: Vec<&str> = all.iter().map(String::as_str).filter(|name| !is_carried(name)).collect();
+    let bound = pattern(&all, &kept);
+    let carried = computed(context, list, &quote!(&phi));
+    quote! {
+        fn renewed<#t: #rt::Real>(&self, reduced: &Self::Reduced<#t>) -> Self::Reduced<#t> {
+            let #bound = *reduced;
+            let phi = #rt::matrix([#(#rows),*]);
+            #carried
+            [#(#names),*]
+        }
+    }
+}
+
+/// What is carried along, as a function of the placement.
+pub(super) fn computed(context: &Context, list: &[Carried], phi: &TokenStream) -> TokenStream {
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let lets = list.iter().map(|carried| match carried {
+        Carried::InverseDilatation => quote!(let inverse_dilatation = #t::one() / #rt::dilatation(#phi);),
+        Carried::MeanLogStretch => quote!(let q = #rt::mean_log_stretch(#phi);),
+    });
+    lets.collect()
+}

@@ -1,0 +1,165 @@
+//! Condition number of the Legendre transformation.
+
+use crate::frames::Matrix;
+use crate::model::{Constraint, Model, StateVector};
+use crate::scalar::Scalar;
+
+/// Most directions that are free, those of `gl(3)`.
+const MOST: usize = 9;
+/// Sweeps of plane rotations, at most; a diagonal matrix takes one, any other some six.
+const SWEEPS: usize = 30;
+
+/// Quotient of the largest and the least singular value of the map from momentum to velocity at zero momentum, in the
+/// frame of the model's own affine momentum and over the directions that a constraint leaves free; `None` where it has no
+/// linear part, or numbers overflow.
+///
+/// The directions are those on which isotropic energies are multiples of the identity: traceless symmetric, skew, trace.
+/// They have whole entries, so that of momenta along one of them nothing is left over for the others.
+pub(crate) fn condition<const N: usize, M: Model<N>>(model: &M, phi: &Matrix<N>) -> Option<f64> {
+    let (directions, count) = directions::<N>(free::<N, M>());
+    let directions = &directions[..count];
+    // What depends on the placement at all is refused where it degenerates.
+    let phi = match model.regularity(phi) {
+        Some(_) => model.bases().map_or(*phi, |bases| bases.placement(phi)),
+        None => Matrix::<N>::identity(),
+    };
+    let inverse = phi.try_inverse()?;
+    let mut columns = [[0.0; MOST]; MOST];
+    for (u, column) in directions.iter().zip(&mut columns) {
+        let velocity = linear_part(model, (&phi, &inverse), u)?;
+        for (v, entry) in directions.iter().zip(column.iter_mut()) {
+            *entry = v.dot(&velocity) / (Scalar::sqrt(u.dot(u)) * Scalar::sqrt(v.dot(v)));
+        }
+    }
+    let singular = singular_values(columns, count);
+    let singular = &singular[..count];
+    let largest = singular.iter().fold(0.0, |most, &s| if s > most { s } else { most });
+    let least = singular.iter().fold(f64::INFINITY, |least, &s| if s < least { s } else { least });
+    let sound = largest > 0.0 && singular.iter().all(|s| s.is_finite());
+    sound.then_some(largest / least)
+}
+
+/// Which velocities are free: traceless symmetric, skew, trace.
+type Free = [bool; 3];
+
+fn free<const N: usize, M: Model<N>>() -> Free {
+    let flat = M::DESCRIPTION.full.iter().any(|group| group.name == "Pi");
+    match M::DESCRIPTION.constraint {
+        None => [true; 3],
+        // Of a flat body the multiplier does what a projection does of the others.
+        Some(Constraint::Isochoric) => [true, true, flat],
+        Some(Constraint::Rigid) => [false, true, false],
+        Some(Constraint::Conformal) => [false, true, true],
+    }
+}
+
+/// An orthogonal basis of those, and its length.
+fn directions<const N: usize>([symmetric, skew, trace]: Free) -> ([Matrix<N>; MOST], usize) {
+    let mut list = [Matrix::<N>::zeros(); MOST];
+    let mut count = 0;
+    let mut add = |wanted: bool, entries: &[(usize, usize, f64)]| {
+        if wanted && count < MOST {
+            entries.iter().for_each(|&(a, b, value)| list[count][(a, b)] = value);
+            count += 1;
+        }
+    };
+    for b in 0..N {
+        for a in 0..b {
+            add(symmetric, &[(a, b, 1.0), (b, a, 1.0)]);
+            add(skew, &[(a, b, 1.0), (b, a, -1.0)]);
+        }
+    }
+    add(symmetric, &[(0, 0, 1.0), (1, 1, -1.0)]);
+    if N == 3 {
+        add(symmetric, &[(0, 0, 1.0), (1, 1, 1.0), (2, 2, -2.0)]);
+    }
+    let unit: [(usize, usize, f64); N] = core::array::from_fn(|a| (a, a, 1.0));
+    add(trace, &unit);
+    (list, count)
+}
+
+/// The part of the velocity that is odd in the momentum, in the frame of the momentum.
+fn linear_part<const N: usize, M: Model<N>>(
+    model: &M,
+    (phi, inverse): (&Matrix<N>, &Matrix<N>),
+    momentum: &Matrix<N>,
+) -> Option<Matrix<N>> {
+    let frame =
+        M::DESCRIPTION.full.iter().find(|group| ["Sigma_hat", "Sigma", "Pi"].contains(&group.name))?;
+    let velocity = |sign: f64| {
+        let mut full = <M::Full<f64> as StateVector<f64>>::zeros();
+        let mut start = 0;
+        for group in M::DESCRIPTION.full {
+            let values = &mut full.as_mut()[start..start + group.len];
+            start += group.len;
+            let matrix = match group.name {
+                "phi" => *phi,
+                name if name == frame.name => momentum * sign,
+                _ => continue,
+            };
+            let by_rows = (0..N * N).map(|k| matrix[(k / N, k % N)]);
+            values.iter_mut().zip(by_rows).for_each(|(value, entry)| *value = entry);
+        }
+        let velocity = model.velocity(&model.unflatten(&full));
+        let velocity = model.bases().map_or(velocity, |bases| bases.velocity(&velocity));
+        match frame.name {
+            "Sigma_hat" => inverse * velocity.phi_dot,
+            "Sigma" => velocity.phi_dot * inverse,
+            _ => velocity.phi_dot,
+        }
+    };
+    Some((velocity(1.0) - velocity(-1.0)) * 0.5)
+}
+
+/// Norms of columns made orthogonal by rotations in planes: small singular values keep their digits (Demmel and Veselic,
+/// "Jacobi's method is more accurate than QR", 1992).
+fn singular_values(mut columns: [[f64; MOST]; MOST], count: usize) -> [f64; MOST] {
+    let dot = |a: &[f64; MOST], b: &[f64; MOST]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+    for _ in 0..SWEEPS {
+        let mut rotated = false;
+        for k in 1..count {
+            for j in 0..k {
+                let (left, right) = (columns[j], columns[k]);
+                let (a, b, c) = (dot(&left, &left), dot(&right, &right), dot(&left, &right));
+                if c.abs() <= f64::EPSILON * Scalar::sqrt(a * b) || !c.is_finite() {
+                    continue;
+                }
+                rotated = true;
+                let slope = (b - a) / (2.0 * c);
+                let tangent = slope.signum() / (slope.abs() + Scalar::sqrt(1.0 + slope * slope));
+                let cosine = 1.0 / Scalar::sqrt(1.0 + tangent * tangent);
+                let sine = cosine * tangent;
+                columns[j] = core::array::from_fn(|i| cosine * left[i] - sine * right[i]);
+                columns[k] = core::array::from_fn(|i| sine * left[i] + cosine * right[i]);
+            }
+        }
+        if !rotated {
+            break;
+        }
+    }
+    columns.map(|column| Scalar::sqrt(dot(&column, &column)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MOST, singular_values};
+
+    #[test]
+    fn small_singular_values_keep_their_digits() {
+        // [[1, 1], [0, 1e-9]]: the product of both is 1e-9, the sum of their squares 2 + 1e-18.
+        let mut columns = [[0.0; MOST]; MOST];
+        columns[0][0] = 1.0;
+        columns[1] = core::array::from_fn(|i| [1.0, 1e-9].get(i).copied().unwrap_or(0.0));
+        let [a, b, ..] = singular_values(columns, 2);
+        let (large, small) = if a > b { (a, b) } else { (b, a) };
+        assert!((large - core::f64::consts::SQRT_2).abs() < 1e-15, "{large:e}");
+        assert!((small / 1e-9 * core::f64::consts::SQRT_2 - 1.0).abs() < 1e-14, "{small:e}");
+    }
+
+    #[test]
+    fn a_diagonal_matrix_is_left_alone() {
+        let mut columns = [[0.0; MOST]; MOST];
+        (0..3).for_each(|k| columns[k][k] = [3.0, -1e-100, 1e100][k]);
+        assert_eq!(singular_values(columns, 3)[..3], [3.0, 1e-100, 1e100]);
+    }
+}
