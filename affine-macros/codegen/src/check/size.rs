@@ -1,7 +1,7 @@
 //! How many summands an expression has once its products and powers are multiplied out.
 
 use super::constant::integer;
-use crate::diagnostics::{Diagnostic, Diagnostics, Reported};
+use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
 use crate::spec::{Expression, ExpressionKind};
 
 /// Polynomials are derived, factored and scheduled in a time that grows faster than their number of summands; energies have
@@ -38,7 +38,7 @@ pub(super) fn summands(expression: &Expression, n: usize, found: &mut Diagnostic
         return Ok(count);
     }
     let limit = "512 summands when its products and powers are multiplied out";
-    Err(found.report(expression.span, Diagnostic::ExpressionSize { limit }))
+    Err(found.report(expression.span, ExpressionMistake::ExpressionSize { limit }))
 }
 
 /// Monomials of degree `k` in `m` variables, `(m + k - 1) over k`.
