@@ -129,7 +129,7 @@ fn in_ratios(lattice: &Lattice<3>, t_end: f64, expected: &Lattice<3>) {
             steps.advance().unwrap();
         }
         let q = lattice.q.sum() / 3.0 + t_end * Geodesic.mean_rate(lattice);
-        Geodesic.from_ratios(&couplings, steps.y(), q)
+        Geodesic.of_ratios(&couplings, steps.y(), q)
     };
     for tolerance in [1e-6, 1e-9, 1e-12, 1e-15] {
         let error = distance(&run(tolerance), expected);

@@ -75,7 +75,7 @@ fn conversions_go_both_ways() {
     fn assert_back<const N: usize, M: RatioForm<N>>(model: &M) {
         let lattice = Lattice { left: Matrix::identity(), right: Matrix::identity(), ..start::<N>() };
         let (couplings, state) = model.in_ratios(&lattice);
-        let back = model.from_ratios(&couplings, &state, lattice.q.sum() / N as f64);
+        let back = model.of_ratios(&couplings, &state, lattice.q.sum() / N as f64);
         assert!(distance(&back, &lattice) < 1e-15);
     }
     assert_back(&Plane);
@@ -121,7 +121,7 @@ fn the_motion_has_its_closed_form() {
         }
         state = *steps.y();
         let q = lattice.q.sum() / 3.0 + t * Affine.mean_rate(&lattice);
-        let found = Affine.from_ratios(&couplings, &state, q);
+        let found = Affine.of_ratios(&couplings, &state, q);
         let expected = match k <= 10 {
             true => closed_form(&lattice, t),
             false => *LatticeFlow::new(&Affine, 0.0, lattice).tolerance(1e-15).advance_to(t).unwrap(),

@@ -52,7 +52,7 @@ pub trait RatioForm<const N: usize>: TwoPolarForm<N> {
     }
 
     /// The lattice of such a state with the mean `q` of its log-stretches, and `L = R = 1`.
-    fn from_ratios(&self, couplings: &Self::Couplings<f64>, state: &Self::Ratios<f64>, q: f64) -> Lattice<N> {
+    fn of_ratios(&self, couplings: &Self::Couplings<f64>, state: &Self::Ratios<f64>, q: f64) -> Lattice<N> {
         let (scale, values) = (1.0 / self.inverse_alpha(), state.as_ref());
         let mut places = Vector::<N>::zeros();
         (1..N).for_each(|b| places[b] = places[b - 1] + libm::log(values[b - 1]));
