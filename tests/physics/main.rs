@@ -9,7 +9,9 @@ mod charts;
 mod families;
 mod dual;
 mod integrate;
+#[allow(dead_code, reason = "the tests of constraints compare with more")]
 mod reference;
+#[allow(dead_code, reason = "one table for the tests of constraints as well")]
 mod tolerances;
 
 mod benchmarks;

@@ -2,7 +2,7 @@
 //! the canonical momenta, `N = phi^-1 Q = Q_hat phi^-1`.
 
 use affine_oracle::{Kinetic, Random, State, Term, rational};
-use affine_runtime::force::{self, Comoving as ComovingForce, Force, Motion};
+use affine_runtime::force::{self, Comoving as ComovingForce, Force, Motion, Translation};
 use affine_runtime::model::{Conserved, Description, WORK};
 use affine_runtime::potential::{self, Class, Place, Potential, Slopes};
 use affine_runtime::prelude::*;
@@ -15,7 +15,7 @@ use super::fields::{
 };
 use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
 use crate::families::{matrix, vector};
-use crate::reference::Reference;
+use crate::reference::{Reference, assert_close};
 use crate::tolerances::{POWER_BALANCE, UNDER_POTENTIAL};
 
 /// States per model.
