@@ -165,7 +165,6 @@ pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> 
     for order in [0, 1, 33, usize::MAX] {
         refused(report, &format!("order {order}"), &"order ", orders(order), SOUND);
     }
-    // Seven million steps of 1e-7.
     let few = Settings { max_steps: 10, ..SOUND };
     refused(report, "steps of 1e-7, 10 of them", "10, is used up", with_steps(1e-7), few);
     points(report);
