@@ -148,8 +148,7 @@ lanes!(
     F64x8, 8, sqrt, abs, cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh
 );
 
-/// The lanes that an [`Ensemble`](crate::Ensemble) takes. Eight in registers of AVX-512 would be no faster where a
-/// processor takes two turns for one, and compilers split them.
+/// The lanes that an [`Ensemble`](crate::Ensemble) takes: one register of AVX2. Compilers split arrays of eight.
 pub type Widest = F64x4;
 
 /// An entry of several records, one to a lane; the last record fills what is left of them.

@@ -2,7 +2,7 @@
 
 use crate::integrate::{ErrorNorm, norm};
 use crate::model::Model;
-use crate::simulate::{Halt, Method, Simulation, Trajectory};
+use crate::simulate::{Method, Simulation, Trajectory};
 
 /// Tolerance of the motion that each step is held against.
 const EXACT: f64 = 1e-15;
@@ -29,29 +29,29 @@ pub(super) fn share_above<const N: usize, M: Model<N>>(
     let mut above = 0_usize;
     let mut count = 0_usize;
     for ((t, begin), (t_next, end)) in steps.iter().zip(steps.iter().skip(1)) {
-        let exact = continuation(model, *begin, (t, t_next)).ok()?;
-        let [before, after, exact] = [begin, end, exact.end().1].map(|point| model.flatten(point));
+        let exact = continuation(model, *begin, (t, t_next))?;
+        let [before, after, exact] = [begin, end, &exact].map(|point| model.flatten(point));
         let error = error_norm.largest((t_next - t).abs(), before.as_ref(), exact.as_ref(), |range| {
             let (after, exact) = (&after.as_ref()[range.clone()], &exact.as_ref()[range]);
             norm(&after.iter().zip(exact).map(|(a, b)| a - b).collect::<Vec<_>>())
         });
         count += 1;
-        // NaN is above.
-        above += usize::from(!(error <= tolerance));
+        above += usize::from(error > tolerance || error.is_nan());
     }
     (count > 0).then(|| above as f64 / count as f64)
 }
 
+/// The phase point at `t_next`, where the motion goes on until then.
 fn continuation<const N: usize, M: Model<N>>(
     model: &M,
     begin: M::Point<f64>,
     (t, t_next): (f64, f64),
-) -> Result<Trajectory<N, M::Point<f64>>, Halt<N, M::Point<f64>>> {
-    Simulation::new(model, begin)
+) -> Option<M::Point<f64>> {
+    let motion = Simulation::new(model, begin)
         .from(t)
         .until(t_next)
         .method(Method::RungeKutta8)
         .tolerance(EXACT)
-        .output([t_next])
-        .run()
+        .output([t_next]);
+    motion.run().ok().map(|run| *run.end().1)
 }

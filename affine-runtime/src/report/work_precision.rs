@@ -121,9 +121,9 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     /// Measures every row. A run that stops gives a row that says so.
     ///
     /// # Errors
-    /// [`Error::NoReference`] where none was given, there is no closed form and the [`reference_solution`] does not
+    /// [`Error::NoReference`](crate::Error::NoReference) where none was given, there is no closed form and the [`reference_solution`] does not
     /// reach the end;
-    /// [`Error::Stopped`] with [`Reason::Setting`] where a setting makes no sense: a tolerance out of range, times
+    /// [`Error::Stopped`](crate::Error::Stopped) with [`Reason::Setting`] where a setting makes no sense: a tolerance out of range, times
     /// that are not finite, a method that does not apply.
     pub fn run(&self) -> Result<WorkPrecisionReport> {
         let geodesic = self.model.geodesic(self.t0, &self.start);
@@ -354,7 +354,7 @@ impl WorkPrecisionReport {
     /// Writes the [`diagram`](Self::diagram) as an SVG document.
     ///
     /// # Errors
-    /// [`Error::File`] with path and kind of the failure.
+    /// [`Error::File`](crate::Error::File) with path and kind of the failure.
     pub fn save_svg(&self, path: impl AsRef<std::path::Path>) -> Result<()> {
         save(path.as_ref(), self.diagram().to_svg())
     }
