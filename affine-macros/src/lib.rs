@@ -60,8 +60,8 @@ use proc_macro::TokenStream;
 /// `emit(metric)` adds the methods `metric(&phi)` and `inverse_metric(&phi)`, the configuration metric over
 /// `(x_dot, phi_dot)` with `phi_dot` row by row, and its inverse; `emit(acceleration)` adds `acceleration(&point)`, the
 /// acceleration of the centre of mass, `acceleration(t, &point)` where forces depend on the time. `emit(balance)` adds,
-/// for `dalembert` models, `balance(t, &point)` and `centre_balance(t, &point)`: the kinematical spin `K = phi J phi_dot^T` and both
-/// sides of its balance in space and body, (3.6), (3.8), (3.9).
+/// for `dalembert` models, `balance(t, &point)` and `centre_balance(t, &point)`: the kinematical spin
+/// `K = phi J phi_dot^T` and both sides of its balance in space and body, (3.6), (3.8), (3.9).
 ///
 /// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
 /// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)`, their entries `G[1,2]`, with
