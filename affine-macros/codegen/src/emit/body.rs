@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
 use crate::algebra::Rational;
@@ -207,8 +207,8 @@ impl Writer<'_> {
                 (quote!(#a.#name()), Strength::Atom)
             }
             Op::Add(a, b) => self.infix(*a, *b, quote!(+), Strength::Sum, Strength::Sum),
-            Op::Sub(a, b) => self.infix(*a, *b, quote!(-), Strength::Sum, Strength::Product),
-            Op::Mul(a, b) => self.infix(*a, *b, quote!(*), Strength::Product, Strength::Product),
+            Op::Sub(a, b) => self.infix(*a, *b, inner(quote!(-)), Strength::Sum, Strength::Product),
+            Op::Mul(a, b) => self.infix(*a, *b, inner(quote!(*)), Strength::Product, Strength::Product),
             Op::Div(a, b) => self.infix(*a, *b, quote!(/), Strength::Product, Strength::Sign),
             Op::MulAdd(a, b, c) if matches!(self.scope.number, Number::Double) => {
                 let [a, b] = [*a, *b].map(|factor| self.at_least(factor, Strength::Product));
@@ -239,6 +239,17 @@ impl Writer<'_> {
         let (tokens, strength) = self.expression(value);
         if strength < least { quote!((#tokens)) } else { tokens }
     }
+}
+
+/// An operator that stands inside the macro. Where all tokens of an array have the place of the attribute, linters look for
+/// the missing comma of `[a -b]` between the lines of the attribute.
+pub(super) fn inner(operator: TokenStream) -> TokenStream {
+    let placed = |token: TokenTree| {
+        let mut token = token;
+        token.set_span(Span::mixed_site());
+        token
+    };
+    operator.into_iter().map(placed).collect()
 }
 
 /// A double with an exponent where that is shorter.

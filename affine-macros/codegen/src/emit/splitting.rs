@@ -7,7 +7,7 @@ use crate::derive::splitting::{FlowProgram, Programs};
 use crate::ir::Program;
 use crate::mechanics::potential::TIME;
 
-use super::body::{Body, inputs};
+use super::body::{Body, inner, inputs};
 use super::{Context, identifiers, number, pattern};
 
 /// The implementation of the capability.
@@ -132,7 +132,8 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
             let Body { lets, results } = context.generic(program);
             let rows = results.chunks(context.model.dim);
             let times = |sign: TokenStream| {
-                let rows = rows.clone().map(|row| quote!([#(#sign h * #row),*]));
+                let by = inner(quote!(*));
+                let rows = rows.clone().map(|row| quote!([#(#sign h #by #row),*]));
                 quote!(#rt::growth([#(#rows),*]))
             };
             let growth = times(quote!());

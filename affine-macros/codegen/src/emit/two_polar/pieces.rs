@@ -62,8 +62,8 @@ fn turning(context: &Context) -> TokenStream {
         (Some(program), None) => program,
         _ => return TokenStream::new(),
     };
-    let Body { lets, results } = context.double(program);
-    let Some(inverse_mu) = results.get(2) else { return TokenStream::new() };
+    let body = context.double(&program.only("inverse_mu"));
+    let (lets, inverse_mu) = (&body.lets, body.result());
     let f64 = quote!(#rt::f64);
     quote! {
         fn turning(&self) -> ::core::option::Option<(#f64, #rt::MetricSide)> {
