@@ -14,7 +14,7 @@ use crate::model::StateVector;
 /// The reduced state and its change are integrated together, by [`RungeKutta8`] with the error of both below the
 /// tolerance; reduction and expansion are differentiated by dual numbers, what the trajectory conserves included.
 /// Directions and changes are plain arrays in the layout of [`Description::full`](crate::model::Description::full), like
-/// [`Model::flatten`] gives points.
+/// [`Model::flatten`](crate::Model::flatten) gives points.
 ///
 /// ```
 /// use affine_runtime::prelude::*;

@@ -86,6 +86,7 @@ impl<const N: usize, T: Real> LogDeterminant<N, T> {
     }
 
     /// The determinant and its inverse are normal doubles.
+    #[cfg(feature = "std")]
     pub(crate) fn is_normal(&self) -> bool {
         let power = self.exponent.unsigned_abs().saturating_mul(u32::try_from(N).unwrap_or(u32::MAX));
         // The mantissa is a logarithm of at most N ln 2.
