@@ -7,7 +7,10 @@ use crate::reference::{assert_close, entries, norm};
 use crate::tolerances::{VIBRATION, VIBRATION_PER_RADIAN};
 
 /// Tolerance of the integration, per step: the finest there is.
-const TOLERANCE: f64 = 1e-15;
+const FINEST: f64 = 1e-15;
+/// Tolerance for steps of order 12 over a thousand vibrations: they err by less than rounding already, and shorter ones
+/// round more often.
+const OF_NYSTROM: f64 = 1e-13;
 
 /// Problem P2: affine in space, metrical in the body.
 #[affine_model(
@@ -31,7 +34,8 @@ struct Mirrored;
 #[affine_model(
     dim = 3,
     kinetic(dalembert = diag(1, 1.5, 2)),
-    potential = kappa/2*sinh(q)^2 + 0.5*(tr(G)*exp(-2*q) - n)
+    potential = kappa/2*sinh(q)^2 + 0.5*(tr(G)*exp(-2*q) - n),
+    emit(nystrom)
 )]
 struct Elastic {
     kappa: f64,
@@ -85,42 +89,31 @@ fn rows(data: &str) -> (Vec<Row>, &str) {
     (rows, spin)
 }
 
-/// What errors are measured by.
-struct Scale {
-    /// The largest frequency of the problem.
-    omega: f64,
-    /// The largest inertia of the affine spin, `T >= |spin|^2/(2 mu)`.
-    inertia: f64,
-}
-
-/// Holds the motion against the rows up to `until`. Momenta are measured by the largest that the energy allows,
-/// `sqrt(2 mu E)`: a phase error of a vibration is an error of its momentum even at the moments at which that vanishes.
+/// Holds the motion against the rows up to `until`, where `omega` is the largest frequency of the problem.
 fn assert_is_the_motion<M: Model<3>>(
     model: &M,
     data: &str,
     until: f64,
-    scale: &Scale,
+    (tolerance, omega): (f64, f64),
     start: impl FnOnce(&Row) -> M::Point<f64>,
 ) {
     let (rows, spin) = rows(data);
     let start = start(&rows[0]);
-    let largest = (2.0 * scale.inertia * model.hamiltonian(0.0, &start)).sqrt();
     let wanted: Vec<&Row> = rows[1..].iter().filter(|row| row.t <= until).collect();
     assert_eq!(wanted.last().unwrap().t, until, "a row at the end");
     let run = Simulation::new(model, start)
         .until(until)
-        .tolerance(TOLERANCE)
+        .tolerance(tolerance)
         .output(wanted.iter().map(|row| row.t))
         .run()
         .unwrap();
     assert_eq!(run.len(), wanted.len());
     for (row, (t, point)) in wanted.into_iter().zip(run.iter()) {
         assert_eq!(row.t, t);
-        let tolerance = VIBRATION.max(VIBRATION_PER_RADIAN * scale.omega * t);
+        let tolerance = VIBRATION.max(VIBRATION_PER_RADIAN * omega * t);
         let close = |what: &str, found: &[f64], expected: &[f64]| {
             assert_close(&format!("{what}({t})"), found, expected, norm(expected), tolerance);
         };
-        assert!(norm(&row.spin) <= largest, "the energy allows it");
         if !row.x.is_empty() {
             close("x", point.x().as_slice(), &row.x);
         }
@@ -131,7 +124,7 @@ fn assert_is_the_motion<M: Model<3>>(
             "pi" => entries(&point.pi().0.0),
             other => panic!("no affine spin {other}"),
         };
-        assert_close(&format!("{spin}({t})"), &found, &row.spin, largest, tolerance);
+        close(spin, &found, &row.spin);
     }
 }
 
@@ -148,23 +141,18 @@ fn shear_frequency(c1: f64, largest: f64) -> f64 {
     (4.0 * c1 * (2.0 * largest).exp() / (1.0 + 0.2)).sqrt()
 }
 
-/// The eigenvalues of the isotropic form are I+A = 1.2, I-A = 0.8, I+A+nB = 1.5.
-fn affine(omega: f64) -> Scale {
-    Scale { omega, inertia: 1.5 }
-}
-
 #[test]
 fn vibrating_body() {
-    let scale = affine(dilatational_frequency(10.0, 0.0));
-    assert_is_the_motion(&Vibrating, include_str!("../data/p2.csv"), 50.0, &scale, |row| {
+    let omega = dilatational_frequency(10.0, 0.0);
+    assert_is_the_motion(&Vibrating, include_str!("../data/p2.csv"), 50.0, (FINEST, omega), |row| {
         Vibrating.at_momentum(matrix(&row.phi), Comoving(matrix(&row.spin))).unwrap()
     });
 }
 
 #[test]
 fn mirrored_vibrating_body() {
-    let scale = affine(dilatational_frequency(10.0, 0.0));
-    assert_is_the_motion(&Mirrored, include_str!("../data/p2r.csv"), 50.0, &scale, |row| {
+    let omega = dilatational_frequency(10.0, 0.0);
+    assert_is_the_motion(&Mirrored, include_str!("../data/p2r.csv"), 50.0, (FINEST, omega), |row| {
         Mirrored.at_momentum(matrix(&row.phi), Spatial(matrix(&row.spin))).unwrap()
     });
 }
@@ -176,27 +164,26 @@ fn flat_frequency(kappa: f64) -> f64 {
     (4.0 * kappa / 9.0 * (1.0 + 1.0 / 1.5 + 0.5)).sqrt()
 }
 
-fn assert_elastic(kappa: f64, data: &str, until: f64) {
+fn assert_elastic(kappa: f64, data: &str, until: f64, tolerance: f64) {
     let model = Elastic { kappa }.prepare().unwrap();
-    assert_is_the_motion(&model, data, until, &Scale { omega: flat_frequency(kappa), inertia: 2.0 }, |row| {
+    assert_is_the_motion(&model, data, until, (tolerance, flat_frequency(kappa)), |row| {
         model.at_momentum(matrix(&row.phi), TwoPoint(matrix(&row.spin))).unwrap()
     });
 }
 
 #[test]
 fn elastic_dalembert_body() {
-    assert_elastic(10.0, include_str!("../data/p3.csv"), 50.0);
+    assert_elastic(10.0, include_str!("../data/p3.csv"), 50.0, FINEST);
 }
 
-/// To the first row only: a thousand vibrations take long in an unoptimised build.
 #[test]
 fn stiff_dalembert_body() {
-    assert_elastic(1e6, include_str!("../data/p6.csv"), 1.0);
+    assert_elastic(1e6, include_str!("../data/p6.csv"), 5.0, OF_NYSTROM);
 }
 
 fn assert_stiff(kappa: f64, c1: f64, omega: f64, data: &str, until: f64) {
     let model = Stiff { kappa, c1 }.prepare().unwrap();
-    assert_is_the_motion(&model, data, until, &affine(omega), |row| {
+    assert_is_the_motion(&model, data, until, (FINEST, omega), |row| {
         model.at_momentum(matrix(&row.phi), Comoving(matrix(&row.spin))).unwrap()
     });
 }
@@ -225,8 +212,8 @@ fn stiff_shear() {
 
 #[test]
 fn stiff_drunk_missile() {
-    let scale = affine(dilatational_frequency(1e4, 0.0));
-    assert_is_the_motion(&StiffMissile, include_str!("../data/p7.csv"), 10.0, &scale, |row| {
+    let omega = dilatational_frequency(1e4, 0.0);
+    assert_is_the_motion(&StiffMissile, include_str!("../data/p7.csv"), 10.0, (FINEST, omega), |row| {
         let (x, p) = (vector(&row.x), vector(&[0.3, -0.2, 0.5]));
         StiffMissile.at_momentum(x, matrix(&row.phi), p, Comoving(matrix(&row.spin))).unwrap()
     });
