@@ -49,13 +49,17 @@ impl<'a, const N: usize, M: Tangent<N>> Variation<'a, N, M> {
     ///
     /// # Errors
     /// [`Failure::NotFinite`] where the reduced state has no derivative along the direction: where it depends on the
-    /// direction of a linear momentum that vanishes.
+    /// direction of a linear momentum that vanishes. [`Failure::StepUnderflow`] for a tolerance that is not positive,
+    /// which no step meets.
     pub fn new(
         model: &'a M,
         (t0, point): (f64, &M::Point<f64>),
         direction: &M::Full<f64>,
         tolerance: f64,
     ) -> Result<Self, Failure> {
+        if tolerance.is_nan() || tolerance <= 0.0 {
+            return Err(Failure::StepUnderflow);
+        }
         let mut full = M::Full::<Dual<f64>>::zeros();
         let parts = model.flatten(point);
         for (both, (value, slope)) in
@@ -119,7 +123,7 @@ impl<'a, const N: usize, M: Tangent<N>> Variation<'a, N, M> {
     }
 
     /// The finite-time Lyapunov exponent along the direction, `ln(|dpoint(t)|/|dpoint(t0)|)/(t - t0)` in the Euclidean
-    /// norm of the plain array; its limit is the largest one for almost every direction.
+    /// norm of the plain array; its limit is the largest one for almost every direction. NaN at the start.
     #[must_use]
     pub fn exponent(&self) -> f64 {
         libm::log(norm(self.change().as_ref()) / self.start) / (self.t - self.t0)

@@ -207,3 +207,13 @@ fn a_momentum_at_rest_has_no_direction() {
     assert!(variation.change().iter().all(|v| v.is_finite()) && variation.t() == 1.0);
     assert_eq!(variation.advance_to(f64::NAN), Err(Failure::NotFinite));
 }
+
+/// No step meets a tolerance that is not positive.
+#[test]
+fn bad_tolerances_are_refused() {
+    let start = Geodesic.at_momentum(phi(), Comoving(spin())).unwrap();
+    for tolerance in [0.0, -1.0, f64::NEG_INFINITY, f64::NAN] {
+        let refused = Variation::new(&Geodesic, (0.0, &start), &along(), tolerance).map(|v| v.t());
+        assert_eq!(refused.err(), Some(Failure::StepUnderflow), "{tolerance}");
+    }
+}

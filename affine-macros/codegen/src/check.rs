@@ -26,6 +26,7 @@ mod symbols;
 mod tensors;
 mod two_polar;
 mod unitary;
+mod written;
 
 use crate::diagnostics::{Diagnostics, Reported};
 use crate::spec::Spec;

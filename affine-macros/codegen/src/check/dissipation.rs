@@ -1,6 +1,6 @@
 //! Rules on the dissipation function `R`.
 
-use super::form::{Written, eigenvalue_name, matrix_text};
+use super::written::{Written, eigenvalue_name, matrix_text};
 use crate::algebra::Rational;
 use crate::algebra::linear::negative_direction;
 use crate::diagnostics::{ConstraintMistake, Diagnostics, ForceMistake};

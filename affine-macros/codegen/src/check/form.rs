@@ -1,10 +1,9 @@
 //! Rules on the kinetic energy as a quadratic form, decided exactly.
 
-use std::collections::BTreeMap;
-
+use super::written::{Written, eigenvalue_name, matrix_text};
 use super::{dissipation, momentum_side, two_polar};
-use crate::algebra::{Arena, Polynomial, Rational};
-use crate::diagnostics::{ConstraintMistake, Diagnostics, Directions, FormMistake, Reported};
+use crate::algebra::{Arena, Polynomial};
+use crate::diagnostics::{ConstraintMistake, Diagnostics, FormMistake, Reported};
 use crate::lower;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
@@ -14,7 +13,7 @@ use crate::mechanics::metrics::Metrics;
 use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
-use crate::spec::{self, Capability, Claim, Named, Requirement, Spec, Value};
+use crate::spec::{self, Capability, Claim, Named, Requirement, Spec};
 
 /// A kinetic energy that passed all rules that can be decided before its fields have values.
 pub struct Form {
@@ -354,12 +353,6 @@ fn kinetic_terms(spec: &Spec) -> Written<'_> {
     Written { n: spec.dim.value, terms: internal_terms(spec).collect() }
 }
 
-/// The internal terms of a quadratic form as the user wrote them.
-pub(super) struct Written<'a> {
-    pub(super) n: usize,
-    pub(super) terms: Vec<&'a spec::Term>,
-}
-
 fn frame_of(kind: spec::TermKind) -> Option<Frame> {
     match kind {
         spec::TermKind::BodyInertia | spec::TermKind::BodyTensor => Some(Frame::Body),
@@ -376,66 +369,6 @@ fn degenerate(spec: &Spec, kind: Direction) -> FormMistake {
         numbers: kinetic_terms(spec).eigenvalue_in_numbers(kind),
         directions,
     }
-}
-
-/// Eigenvalues of the isotropic form and the velocities they belong to.
-pub(super) fn eigenvalue_name(kind: Direction) -> (&'static str, Directions) {
-    match kind {
-        Direction::Rotation => ("I - A", Directions::Skew),
-        Direction::Dilatation => ("I + A + n B", Directions::Trace),
-        Direction::Shear | Direction::Entry => ("I + A", Directions::SymmetricTraceless),
-    }
-}
-
-impl Written<'_> {
-    /// Are all of them multiples of the three rotation-invariant squares?
-    pub(super) fn only_isotropic(&self) -> bool {
-        self.terms.iter().all(|t| matches!(t.value, Value::Scalar(_)))
-    }
-
-    /// The value of a scalar coefficient.
-    pub(super) fn scalar(&self, term: &spec::Term) -> Option<Rational> {
-        match &term.value {
-            Value::Scalar(e) => super::constant(e, self.n),
-            _ => None,
-        }
-    }
-
-    /// An eigenvalue with the user's coefficients in it: `1 + 0.2 + 3*(-0.4)`.
-    pub(super) fn eigenvalue_in_numbers(&self, kind: Direction) -> String {
-        let written: BTreeMap<&str, String> = self
-            .terms
-            .iter()
-            .filter_map(|t| match &t.value {
-                Value::Scalar(e) => Some((t.kind.value.name(), e.to_string())),
-                _ => None,
-            })
-            .collect();
-        let get = |names: &[&str]| {
-            names.iter().find_map(|name| written.get(name)).cloned().unwrap_or_else(|| "0".to_owned())
-        };
-        let bracket = |text: String| {
-            let simple = text.chars().all(|c| c.is_alphanumeric() || c == '.' || c == '_');
-            if simple { text } else { format!("({text})") }
-        };
-        let i = get(&["body_inertia", "space_inertia", "dalembert"]);
-        let a = bracket(get(&["casimir2"]));
-        let b = bracket(get(&["casimir1_squared"]));
-        match kind {
-            Direction::Rotation => format!("{i} - {a}"),
-            Direction::Dilatation => format!("{i} + {a} + {}*{b}", self.n),
-            Direction::Shear | Direction::Entry => format!("{i} + {a}"),
-        }
-    }
-}
-
-/// An affine velocity as a nested matrix.
-pub(super) fn matrix_text(n: usize, entries: &[Rational]) -> String {
-    let rows: Vec<String> = entries
-        .chunks(n)
-        .map(|row| format!("[{}]", row.iter().map(Rational::to_string).collect::<Vec<_>>().join(", ")))
-        .collect();
-    format!("[{}]", rows.join(", "))
 }
 
 /// The numbers of positive and negative squares of a numeric form.

@@ -3,7 +3,8 @@
 use crate::algebra::bind::Constants;
 use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
-use crate::derive::{MixedMasses, legendre_batch, matrix_batch, result};
+use crate::derive::MixedMasses;
+use crate::derive::constant::{legendre_batch, matrix_batch, result};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::Chart;

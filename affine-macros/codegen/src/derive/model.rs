@@ -1,0 +1,232 @@
+//! Everything that is emitted about a model.
+
+use super::{ChangeOfBases, TwoPolar, second_order, splitting};
+use crate::algebra::Rational;
+use crate::ir::Program;
+use crate::ir::fuse::fuse;
+use crate::ir::tangent::with_tangent;
+use crate::ir::taylor::Recurrence;
+use crate::mechanics::conserved::Candidate;
+use crate::mechanics::constraint::Constraint;
+use crate::mechanics::describe::Formula;
+use crate::mechanics::kinetic::Frame;
+use crate::mechanics::reduce::{ClosedForm, Reduction};
+use crate::mechanics::symmetry::Group;
+use crate::spec::{Capability, Spanned};
+
+/// Everything that is emitted about a model.
+pub struct Model {
+    /// Dimension of space.
+    pub dim: usize,
+    /// The group that the motion is confined to; `None` for GL+(n).
+    pub constraint: Option<Constraint>,
+    /// Is the affine momentum projected for it? Otherwise the constraint acts through its multiplier.
+    pub projected: bool,
+    /// Frame of the internal motion.
+    pub frame: Frame,
+    /// Frame of the translational energy.
+    pub translation: Option<Frame>,
+    /// Coefficients that depend on the fields, and the program that computes them when the model is prepared.
+    pub coefficients: Program,
+    /// Inverse blocks that need numbers.
+    pub numeric_blocks: Vec<NumericBlock>,
+    /// What `prepare()` must find different from zero.
+    pub conditions: Vec<Condition>,
+    /// What `prepare()` must find not negative in the dissipation.
+    pub damping: Damping,
+    /// What starts from velocities; with `phi` where the mass matrix depends on it, as in the next ones. `None` where
+    /// they do not determine the momentum.
+    pub velocity_side: Option<VelocitySide>,
+    /// `X -> O`.
+    pub velocity: Program,
+    /// `1/m` and `m` of the translation.
+    pub mass: Option<Program>,
+    /// Translation with masses in body and space.
+    pub mixed_masses: Option<MixedMasses>,
+    /// What decides whether the mass matrix is regular at a placement, where that is not known for all.
+    pub regularity: Option<Regularity>,
+    /// The configuration metric, where asked for.
+    pub metric: Option<Metric>,
+    /// Point -> acceleration of the centre of mass, where asked for.
+    pub acceleration: Option<Program>,
+    /// The balance laws, where asked for.
+    pub balance: Option<Balance>,
+    /// Point -> `H`.
+    pub hamiltonian: Program,
+    /// Point -> power of the forces that no potential has.
+    pub power: Option<Program>,
+    /// Hamilton's equations in the model's own frames.
+    pub full: Equations,
+    /// The reduced equations.
+    pub reduced: Equations,
+    /// How the state was reduced.
+    pub reduction: Reduction,
+    /// The constants of a trajectory as functions of its conserved momenta.
+    pub trajectory: Program,
+    /// Components of the affine momentum that are constants of the trajectory while others are state.
+    pub fixed: Vec<String>,
+    /// Closed form of the geodesics; whether it needs `p = 0`.
+    pub closed_form: Option<(ClosedForm, bool)>,
+    /// `1/alpha`, `1/beta`, `1/mu` of an isotropic model, and the coefficient of `C(3)/3` where there is one.
+    pub isotropic: Option<Program>,
+    /// `1/m`, the stiffness and the scale of the dilatational motion, where it is taken out of the state.
+    pub dilatation: Option<Program>,
+    /// Conserved quantities.
+    pub conserved: Vec<Candidate>,
+    /// Conserved quantities of motions with `p = 0`.
+    pub conserved_at_rest: Vec<Candidate>,
+    /// Numbers of positive and negative squares.
+    pub signature: Option<(usize, usize)>,
+    /// Is there a potential or any other force?
+    pub has_forces: bool,
+    /// Symmetry groups of space and body that leave the kinetic energy unchanged.
+    pub groups: (Group, Group),
+    /// Metrics other than the identity.
+    pub metrics: Option<ChangeOfBases>,
+    /// `T`, `H`, and the equations.
+    pub formulas: Formulas,
+    /// The two-polar form, where it is asked for.
+    pub two_polar: Option<TwoPolar>,
+    /// Taylor coefficients of the reduced equations, if asked for.
+    pub taylor: Option<Recurrence>,
+    /// Exact flows of the pieces of the reduced motion, if asked for.
+    pub splitting: Option<splitting::Programs>,
+    /// State and its change -> rates and their changes, if asked for.
+    pub tangent: Option<Program>,
+    /// The equations as `q' = V(p)`, `p' = F(t, q)`, if asked for.
+    pub second_order: Option<second_order::Halves>,
+}
+
+/// The Legendre transformation and the energy in velocities.
+pub struct VelocitySide {
+    /// `O -> X`.
+    pub legendre: Program,
+    /// `(O, v) -> T`.
+    pub kinetic_energy: Program,
+}
+
+/// The derivation as formulas.
+pub struct Formulas {
+    /// `T`.
+    pub kinetic_energy: Formula,
+    /// `H`.
+    pub hamiltonian: Formula,
+    /// Hamilton's equations.
+    pub equations: Vec<Formula>,
+    /// The reduced equations, component by component.
+    pub reduced: Vec<Formula>,
+    /// What was taken out of the state.
+    pub left_out: Vec<String>,
+}
+
+/// A first-order system as a program over a plain array.
+pub struct Equations {
+    /// Groups of the array: name and component symbols.
+    pub groups: Vec<(&'static str, Vec<String>)>,
+    /// Entries of the affine momentum that are linear in components of the array.
+    pub dependent: Program,
+    /// Array -> its rate.
+    pub program: Program,
+}
+
+/// Legendre transformation of the centre of mass where it depends on `phi`.
+pub struct MixedMasses {
+    /// `(phi, x_dot) -> p`.
+    pub momentum: Program,
+    /// `(phi, p) -> x_dot`.
+    pub velocity: Program,
+}
+
+/// The mass matrix in blocks that do not mix.
+pub struct Regularity {
+    /// `phi ->` upper triangle, row after row, then the sizes of the summands of each diagonal entry.
+    pub blocks: Vec<(Program, usize)>,
+    /// Must it be positive definite?
+    pub positive: bool,
+}
+
+/// The configuration metric over `(x_dot, phi_dot)`.
+pub struct Metric {
+    /// Number of rows.
+    pub size: usize,
+    /// `phi ->` entries, row after row.
+    pub entries: Program,
+    /// `phi ->` entries of the inverse, row after row.
+    pub inverse: Program,
+}
+
+/// Programs of the balance laws of a d'Alembert model, the entries of one quantity after the other.
+pub struct Balance {
+    /// Point -> [quantities](crate::mechanics::balance::INTERNAL) of the internal motion.
+    pub internal: Program,
+    /// Point -> [quantities](crate::mechanics::balance::CENTRE) of the centre of mass, where it moves.
+    pub centre: Option<Program>,
+}
+
+/// A quantity that must not vanish once the fields have values.
+pub struct Condition {
+    /// `I + A`.
+    pub name: &'static str,
+    /// Which velocities lose their momentum, or which momenta their velocity.
+    pub directions: &'static str,
+    /// What it multiplies.
+    pub relation: Relation,
+    /// Must it be positive?
+    pub positive: bool,
+    /// Computes the value, then the terms whose sizes make the threshold.
+    pub program: Program,
+}
+
+/// What an eigenvalue is a factor of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// The momentum is the eigenvalue times the velocity.
+    MomentumOfVelocity,
+    /// The velocity is the eigenvalue times the momentum.
+    VelocityOfMomentum,
+}
+
+/// What must not be negative once the fields have values.
+#[derive(Default)]
+pub struct Damping {
+    /// Eigenvalues and coefficients.
+    pub conditions: Vec<Condition>,
+    /// Blocks whose eigenvalues need numbers; no inverse is formed.
+    pub blocks: Vec<NumericBlock>,
+}
+
+/// A block to invert numerically.
+pub struct NumericBlock {
+    /// Computes the upper triangle, row after row, then the terms whose sizes make the threshold.
+    pub program: Program,
+    /// Names of the entries of the inverse, upper triangle, row after row.
+    pub inverse: Vec<String>,
+    /// The velocities that it is written in: row-major places and weights.
+    pub basis: Vec<Vec<(usize, Rational)>>,
+    /// Size.
+    pub size: usize,
+    /// Must it be positive definite?
+    pub positive: bool,
+}
+
+impl Model {
+    /// Derives what `emit(...)` asks for.
+    #[must_use]
+    pub fn with(mut self, capabilities: &[Spanned<Capability>]) -> Self {
+        let states: Vec<String> = self.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect();
+        let program = &self.reduced.program;
+        for capability in capabilities {
+            match capability.value {
+                Capability::Taylor => self.taylor = Some(Recurrence::of(program, &states)),
+                Capability::Tangent => {
+                    let own = (1..=self.trajectory.outputs.len()).map(|k| format!("k_{k}"));
+                    let changing: Vec<String> = states.iter().cloned().chain(own).collect();
+                    let along = with_tangent(program, &|name| changing.iter().any(|known| known == name));
+                    self.tangent = Some(fuse(&along));
+                }
+                _ => {}
+            }
+        }
+        self
+    }
+}
