@@ -177,6 +177,12 @@ pub struct Emitted<'a, M, const N: usize>(pub &'a M);
 #[derive(Clone, Copy, Debug)]
 pub enum NotEmitted {}
 
+/// Whether there are values of a capability's type, [`NotEmitted`] being the one without: only then does `Option<R>` have
+/// to tell two cases apart. What is done under this condition is not compiled for models that have no use for it.
+pub(crate) const fn is_emitted<R>() -> bool {
+    size_of::<Option<R>>() != 0
+}
+
 impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> for Emitted<'_, M, N> {
     type Row = M::Row<f64>;
 

@@ -9,7 +9,10 @@ mod ensemble;
 mod event;
 mod follow;
 mod halt;
+mod layout;
+mod mechanics;
 mod methods;
+mod motion;
 mod output;
 mod point;
 mod power_balance;
@@ -37,6 +40,7 @@ pub use why::Why;
 
 use crate::model::Model;
 use output::Output;
+use settings::Settings;
 
 /// How a trajectory is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -157,100 +161,86 @@ type Observe<'a, P> = Box<dyn FnMut(f64, &P) -> ControlFlow<()> + 'a>;
 /// Settings are checked by [`run`](Self::run).
 pub struct Simulation<'a, const N: usize, M: Model<N>> {
     model: &'a M,
-    start: M::Point<f64>,
-    t0: f64,
-    t_end: Option<f64>,
-    tolerance: f64,
-    output: Output,
-    method: Method,
-    max_steps: u64,
-    progress: Option<Watch<'a>>,
-    observe: Option<Observe<'a, M::Point<f64>>>,
-    events: Vec<Event<'a, N, M::Point<f64>>>,
-    checkpoint: Option<Checkpoint>,
+    settings: Settings<'a, N, M::Point<f64>>,
 }
 
 impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     /// A simulation of `model` from the phase point `start` at time 0.
     #[must_use]
     pub fn new(model: &'a M, start: M::Point<f64>) -> Self {
-        Self {
-            model,
-            start,
-            t0: 0.0,
-            t_end: None,
-            tolerance: DEFAULT_TOLERANCE,
-            output: Output::Steps,
-            method: Method::Automatic,
-            max_steps: DEFAULT_MAX_STEPS,
-            progress: None,
-            observe: None,
-            events: Vec::new(),
-            checkpoint: None,
-        }
+        Self { model, settings: Settings::new(start) }
     }
 
     /// Time of the start; 0 if not set.
     #[must_use]
-    pub fn from(self, t0: f64) -> Self {
-        Self { t0, ..self }
+    pub fn from(mut self, t0: f64) -> Self {
+        self.settings.t0 = t0;
+        self
     }
 
     /// Time of the end, before or after the start. The end is hit exactly.
     #[must_use]
-    pub fn until(self, t_end: f64) -> Self {
-        Self { t_end: Some(t_end), ..self }
+    pub fn until(mut self, t_end: f64) -> Self {
+        self.settings.t_end = Some(t_end);
+        self
     }
 
     /// Relative error allowed in each step, in the norm of [`ErrorNorm`](crate::integrate::ErrorNorm):
     /// `1e-15 <= eps < 1`; [`DEFAULT_TOLERANCE`] if not set. A closed form is exact up to rounding whatever `eps`.
     #[must_use]
-    pub fn tolerance(self, eps: f64) -> Self {
-        Self { tolerance: eps, ..self }
+    pub fn tolerance(mut self, eps: f64) -> Self {
+        self.settings.tolerance = eps;
+        self
     }
 
     /// Output at exactly these times, in the direction of time. Without it and without [`every`](Self::every): at
     /// every accepted step, start and end included; a closed form has no steps, and gives 101 equidistant times.
     #[must_use]
-    pub fn output(self, times: impl IntoIterator<Item = f64>) -> Self {
-        Self { output: Output::At(times.into_iter().collect()), ..self }
+    pub fn output(mut self, times: impl IntoIterator<Item = f64>) -> Self {
+        self.settings.output = Output::At(times.into_iter().collect());
+        self
     }
 
     /// Output at the start, then at every `dt > 0` of elapsed time, and at the end.
     #[must_use]
-    pub fn every(self, dt: f64) -> Self {
-        Self { output: Output::Every(dt), ..self }
+    pub fn every(mut self, dt: f64) -> Self {
+        self.settings.output = Output::Every(dt);
+        self
     }
 
     /// The method; [`Method::Automatic`] if not set.
     #[must_use]
-    pub fn method(self, method: Method) -> Self {
-        Self { method, ..self }
+    pub fn method(mut self, method: Method) -> Self {
+        self.settings.method = method;
+        self
     }
 
     /// Largest number of accepted steps; [`DEFAULT_MAX_STEPS`] if not set.
     #[must_use]
-    pub fn max_steps(self, max_steps: u64) -> Self {
-        Self { max_steps, ..self }
+    pub fn max_steps(mut self, max_steps: u64) -> Self {
+        self.settings.max_steps = max_steps;
+        self
     }
 
     /// Called after every accepted step (every output of a closed form); `ControlFlow::Break(())` ends the run.
     #[must_use]
-    pub fn progress(self, callback: impl FnMut(&Progress) -> ControlFlow<()> + 'a) -> Self {
-        Self { progress: Some(Box::new(callback)), ..self }
+    pub fn progress(mut self, callback: impl FnMut(&Progress) -> ControlFlow<()> + 'a) -> Self {
+        self.settings.progress = Some(Box::new(callback));
+        self
     }
 
     /// Called with time and phase point at every output; `ControlFlow::Break(())` ends the run after it.
     #[must_use]
-    pub fn observe(self, callback: impl FnMut(f64, &M::Point<f64>) -> ControlFlow<()> + 'a) -> Self {
-        Self { observe: Some(Box::new(callback)), ..self }
+    pub fn observe(mut self, callback: impl FnMut(f64, &M::Point<f64>) -> ControlFlow<()> + 'a) -> Self {
+        self.settings.observe = Some(Box::new(callback));
+        self
     }
 
     /// An event to look for, in addition to those named before. Events at one time happen in the order of their
     /// statements; a change of the point leaves out those after it.
     #[must_use]
     pub fn event(mut self, event: Event<'a, N, M::Point<f64>>) -> Self {
-        self.events.push(event);
+        self.settings.events.push(event);
         self
     }
 
@@ -258,8 +248,9 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     /// same machine, as if it had not been. Outputs and events are those from there on; the end that was asked for is
     /// that of both runs. Functions of events have no memory. An event that stopped the run is not met again.
     #[must_use]
-    pub fn resume(self, checkpoint: &Checkpoint) -> Self {
-        Self { checkpoint: Some(checkpoint.clone()), ..self }
+    pub fn resume(mut self, checkpoint: &Checkpoint) -> Self {
+        self.settings.checkpoint = Some(checkpoint.clone());
+        self
     }
 }
 
@@ -267,13 +258,13 @@ impl<const N: usize, M: Model<N>> core::fmt::Debug for Simulation<'_, N, M> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Simulation")
             .field("model", &M::DESCRIPTION.name)
-            .field("start", &self.start)
-            .field("t0", &self.t0)
-            .field("t_end", &self.t_end)
-            .field("tolerance", &self.tolerance)
-            .field("output", &self.output)
-            .field("method", &self.method)
-            .field("max_steps", &self.max_steps)
+            .field("start", &self.settings.start)
+            .field("t0", &self.settings.t0)
+            .field("t_end", &self.settings.t_end)
+            .field("tolerance", &self.settings.tolerance)
+            .field("output", &self.settings.output)
+            .field("method", &self.settings.method)
+            .field("max_steps", &self.settings.max_steps)
             .finish_non_exhaustive()
     }
 }

@@ -77,23 +77,17 @@ impl Place {
     }
 }
 
-/// Writes a tape.
-#[derive(Default)]
-pub(super) struct Writer(pub(super) Vec<u64>);
-
-impl Tape for Writer {
-    fn bits(&mut self, bits: &mut u64) {
-        self.0.push(*bits);
-    }
+/// A tape that is written, or read; what is missing of one that is read stays as it is.
+pub(super) enum Bits<'t> {
+    Written(Vec<u64>),
+    Read(core::slice::Iter<'t, u64>),
 }
 
-/// Reads a tape; what is missing stays as it is.
-pub(super) struct Reader<'t>(pub(super) core::slice::Iter<'t, u64>);
-
-impl Tape for Reader<'_> {
+impl Tape for Bits<'_> {
     fn bits(&mut self, bits: &mut u64) {
-        if let Some(kept) = self.0.next() {
-            *bits = *kept;
+        match self {
+            Bits::Written(tape) => tape.push(*bits),
+            Bits::Read(tape) => *bits = tape.next().copied().unwrap_or(*bits),
         }
     }
 }

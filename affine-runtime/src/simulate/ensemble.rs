@@ -3,7 +3,8 @@
 use core::fmt;
 
 use super::halt::{Setting, Stop};
-use super::point::{check, is_clearly_positive, placement_in};
+use super::layout::placement_in;
+use super::point::{check, is_clearly_positive};
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
 use crate::capability::InLanes;
 use crate::frames::Matrix;
@@ -113,7 +114,7 @@ where
     /// As [`run`](Self::run).
     pub fn run_in<T: Lanes>(self) -> core::result::Result<Ends<M::Point<f64>>, Setting> {
         let Some(first) = self.starts.first() else { return Ok(Vec::new()) };
-        let (t_end, _) = self.simulation(*first).checked_settings()?;
+        let (t_end, _) = self.simulation(*first).settings.checked(&M::DESCRIPTION)?;
         let group = |starts: &[M::Point<f64>]| self.group::<T>(starts, t_end);
         Ok(over_groups(&self.starts, T::LANES, group))
     }

@@ -1,118 +1,101 @@
 //! Steps to the end of an integration, with output, events and callbacks on the way.
 
 use super::collapse::first_failure;
-use super::halt::{Callback, Reason};
+use super::halt::Reason;
+use super::motion::Motion;
 use super::output::Schedule;
-use super::point::{check, go_on, is_clearly_positive, placement_in, work};
-use super::recorder::{Recorder, WithWork};
+use super::point::{check, is_clearly_positive};
+use super::recorder::Recorder;
 use super::signature::Signature;
-use super::stepper::Stepper;
-use super::{Progress, Simulation, Watch};
 use crate::frames::Matrix;
 use crate::integrate::Statistics;
-use crate::model::{Group, Model, StateVector};
 use crate::state::Phase;
 
 /// Equal parts of a step at whose ends events are looked at.
 pub(super) const WITHIN_A_STEP: u32 = 4;
 
-impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
+impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Steps to the end with output on the way, and the expansion of the last good step.
-    pub(super) fn step_through<S: StateVector<f64>>(
-        &mut self,
-        integration: &mut impl Stepper<S>,
-        expand: impl Fn(f64, &S) -> M::Point<f64>,
-        groups: &[Group],
-        t_end: f64,
-        recorder: &mut Recorder<'_, '_, N, M>,
-    ) -> Result<(), Reason> {
-        let mut last = None;
-        let outcome = self.follow(integration, (&expand, groups), t_end, recorder, &mut last);
-        let outcome = outcome.map_err(|reason| match reason {
+    pub(super) fn follow(&mut self, motion: &mut dyn Motion<P>) -> Result<(), Reason> {
+        let outcome = self.step_through(motion).map_err(|reason| match reason {
             Reason::Placement { determinant, t } => {
-                let good = last.as_ref().map_or(recorder.trajectory.end.0, |(t, _)| *t);
-                let stands = |t| integration.between(t).is_ok_and(|y| check(t, &expand(t, &y)).is_ok());
+                let good = motion.kept_at().unwrap_or(self.trajectory.end.0);
+                let stands = |t| motion.between(t).is_ok_and(|(point, _)| check(t, &point).is_ok());
                 Reason::Placement { determinant, t: first_failure(good, t, stands) }
             }
             other => other,
         });
-        let trajectory = &mut *recorder.trajectory;
-        trajectory.statistics = sum(recorder.place.cost(), integration.statistics());
-        if let Some((t, reduced)) = last.filter(|(t, _)| (t - trajectory.end.0) * (t_end - self.t0) > 0.0) {
-            trajectory.end = (t, expand(t, &reduced));
-            trajectory.energies.work_at_end = recorder.place.work() + work(groups, &reduced);
+        let trajectory = &mut *self.trajectory;
+        trajectory.statistics = sum(self.place.cost(), motion.statistics());
+        trajectory.computation.residual = motion.residual();
+        let end = trajectory.end.0;
+        let is_later = |t: f64| if self.backward { t < end } else { t > end };
+        if motion.kept_at().is_some_and(is_later)
+            && let Some((t, (point, work))) = motion.kept()
+        {
+            trajectory.end = (t, point);
+            trajectory.energies.work_at_end = self.place.work() + work;
         }
         outcome
     }
 
-    /// Steps to the end. A step without output whose reduced state shows that it is good is not expanded: it is
-    /// only left in `last`, for a halt in the next one.
-    fn follow<S: StateVector<f64>>(
-        &mut self,
-        integration: &mut impl Stepper<S>,
-        (expand, groups): (&impl Fn(f64, &S) -> M::Point<f64>, &[Group]),
-        t_end: f64,
-        recorder: &mut Recorder<'_, '_, N, M>,
-        last: &mut Option<(f64, S)>,
-    ) -> Result<(), Reason> {
-        let placement = placement_in(groups, N);
-        let signature = Signature::of(self.model.regularity(self.start.phi()));
-        let regularity = |t: f64, reduced: &S| self.model.regularity(expand(t, reduced).phi());
-        let with_work =
-            |t: f64, reduced: &S| -> WithWork<M::Point<f64>> { (expand(t, reduced), work(groups, reduced)) };
-        let cost = recorder.place.cost().steps;
-        recorder.take_up(integration, with_work);
-        let is_watched = self.progress.is_some() || recorder.is_watched();
-        while !integration.is_finished() {
-            let steps = cost + integration.statistics().steps;
+    /// Steps to the end. A step without output whose state shows that it is good is not expanded: it is only kept, for
+    /// a halt in the next one.
+    fn step_through(&mut self, motion: &mut dyn Motion<P>) -> Result<(), Reason> {
+        let model = self.model;
+        let signature = Signature::of(model.regularity(self.trajectory.end.1.phi()));
+        let regularity = |motion: &dyn Motion<P>| model.regularity(motion.reached().0.phi());
+        let cost = self.place.cost().steps;
+        self.take_up(motion);
+        let is_watched = self.progress.is_some() || self.is_watched();
+        let parts = if self.trajectory.computation.asked.step().is_some() { 1 } else { WITHIN_A_STEP };
+        while !motion.is_finished() {
+            let steps = cost + motion.statistics().steps;
             if steps >= self.max_steps {
-                recorder.pass(integration);
+                self.pass(motion);
                 return Err(Reason::StepLimit { limit: self.max_steps });
             }
-            if let Err(failure) = integration.advance() {
-                let (t, last) = (integration.t(), integration.y());
-                let degenerate = signature.failing(regularity(t, last), t);
+            if let Err(failure) = motion.advance() {
+                let degenerate = signature.failing(regularity(motion), motion.t());
                 return Err(degenerate.unwrap_or_else(|| self.reason(failure)));
             }
-            let (t, reduced) = (integration.t(), *integration.y());
+            let t = motion.t();
             if signature.may_change() {
-                signature.kept(regularity(t, &reduced), t)?;
+                signature.kept(regularity(motion), t)?;
             }
-            let mut at = |due: f64| match due == t {
-                true => Ok(with_work(t, &reduced)),
-                false => integration
-                    .between(due)
-                    .map(|between| with_work(due, &between))
-                    .map_err(|failure| self.reason(failure)),
-            };
-            let parts = if self.method.step().is_some() { 1 } else { WITHIN_A_STEP };
-            if recorder.meet(t, parts, &mut at)? {
+            if self.pass_through(motion, parts)? {
                 return Ok(());
             }
-            recorder.record_through(t, &mut at)?;
-            if recorder.schedule == Schedule::Steps {
-                recorder.record_step(t, with_work(t, &reduced))?;
-            } else if recorder.trajectory.end.0 != t {
-                let phi =
-                    placement.clone().map(|range| Matrix::<N>::from_row_slice(&reduced.as_ref()[range]));
-                if integration.is_finished() || !phi.is_some_and(|phi| is_clearly_positive(&phi)) {
-                    recorder.reach(t, with_work(t, &reduced))?;
+            if self.schedule == Schedule::Steps {
+                self.record_step(t, motion.reached())?;
+            } else if self.trajectory.end.0 != t {
+                let is_good = |phi: &[f64]| is_clearly_positive(&Matrix::<N>::from_row_slice(phi));
+                if motion.is_finished() || !motion.placement().is_some_and(is_good) {
+                    self.reach(t, motion.reached())?;
                 }
             }
-            *last = Some((t, reduced));
+            motion.keep();
             if is_watched {
-                recorder.pass(integration);
+                self.pass(motion);
             }
-            report(&mut self.progress, Progress { t0: recorder.origin, t, t_end, steps: steps + 1 })?;
+            self.report(t, steps + 1)?;
         }
         Ok(())
     }
-}
 
-pub(super) fn report(watch: &mut Option<Watch<'_>>, progress: Progress) -> Result<(), Reason> {
-    match watch {
-        Some(watch) => go_on(watch(&progress), Callback::Progress),
-        None => Ok(()),
+    /// The events and the outputs of a step that has been taken; whether the motion does not go straight on.
+    fn pass_through(&mut self, motion: &mut dyn Motion<P>, parts: u32) -> Result<bool, Reason> {
+        let t = motion.t();
+        let (computation, model) = (self.trajectory.computation, self.trajectory.description.name);
+        let mut at = |due: f64| match due == t {
+            true => Ok(motion.reached()),
+            false => motion.between(due).map_err(|failure| computation.reason(failure, model)),
+        };
+        if self.meet(t, parts, &mut at)? {
+            return Ok(true);
+        }
+        self.record_through(t, &mut at)?;
+        Ok(false)
     }
 }
 

@@ -1,221 +1,205 @@
 //! The integrators, each begun on the state that it steps.
 
 use super::halt::{Reason, Setting};
-use super::point::placement_in;
+use super::layout::{is_canonical, is_isochoric_in_pi, moves_on_group, placement_in};
+use super::mechanics::Course;
+use super::motion::Expanded;
 use super::recorder::Recorder;
-use super::stepper::Explicit;
-use super::{Method, Simulation, TAYLOR_TOLERANCE};
+use super::stepper::{Explicit, Stepper};
+use super::{Method, TAYLOR_TOLERANCE};
+use crate::capability::is_emitted;
 use crate::integrate::gauss::Tableau;
-use crate::integrate::lie::{Chart, Coordinates};
+use crate::integrate::lie::{Chart, Coordinates, Flat};
 use crate::integrate::rattle::{Composition, Reaction};
 use crate::integrate::{
     Failure, Gauss, Rattle, RungeKutta5, RungeKutta8, RungeKuttaNystrom12, Splitting, Taylor,
 };
 use crate::model::{Constraint, Group, Model, StateVector};
+use crate::state::Phase;
 
-impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
-    /// The integrator to take, noted with what was missing for a better one.
-    pub(super) fn chosen(&self, recorder: &mut Recorder<'_, '_, N, M>) -> Method {
-        // Within steps it costs a step for each time that is looked at.
-        let halves = self.model.second_order().is_some() && !recorder.has_events();
-        let computation = &mut recorder.trajectory.computation;
-        computation.method = match self.method {
-            Method::Automatic if halves => Method::RungeKuttaNystrom12,
-            Method::Automatic
-                if self.tolerance <= TAYLOR_TOLERANCE && M::DESCRIPTION.constraint.is_none() =>
-            {
-                if self.model.taylor().is_some() {
-                    Method::Taylor { order: None }
-                } else {
-                    computation.missing = Some("taylor");
-                    Method::RungeKutta8
-                }
-            }
-            Method::Automatic => Method::RungeKutta8,
-            asked => asked,
-        };
-        computation.method
-    }
-
-    /// The reduced state by its Taylor series.
-    pub(super) fn integrate_by_series(
-        &mut self,
-        order: Option<usize>,
-        t_end: f64,
-        recorder: &mut Recorder<'_, '_, N, M>,
-    ) -> Result<(), Reason> {
-        let model = self.model;
-        recorder.begin(self.t0, self.start)?;
-        let (reduced, constants) = model.reduce(self.t0, &self.start);
-        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
-        let (groups, begin) = (M::DESCRIPTION.reduced, (self.t0, reduced));
-        let series = model.taylor();
-        let series = series.ok_or(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "taylor" })?;
-        let integration = Taylor::new((series, constants), groups, begin, t_end, self.tolerance, order);
-        let mut integration = integration.map_err(|failure| self.reason(failure))?;
-        self.step_through(&mut integration, expand, groups, t_end, recorder)
-    }
-
-    /// The halves of the reduced state by Runge-Kutta-Nystrom steps.
-    pub(super) fn integrate_in_halves(
-        &mut self,
-        t_end: f64,
-        recorder: &mut Recorder<'_, '_, N, M>,
-    ) -> Result<(), Reason> {
-        let model = self.model;
-        recorder.begin(self.t0, self.start)?;
-        let (reduced, constants) = model.reduce(self.t0, &self.start);
-        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
-        let (groups, begin) = (M::DESCRIPTION.reduced, (self.t0, reduced));
-        let system = model.second_order();
-        let system = system.ok_or(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "nystrom" })?;
-        let integration = RungeKuttaNystrom12::new((system, constants), groups, begin, t_end, self.tolerance);
-        let mut integration = integration.map_err(|failure| self.reason(failure))?;
-        self.step_through(&mut integration, expand, groups, t_end, recorder)
-    }
-
-    /// Reduction, integration with output on the way, expansion.
-    pub(super) fn integrate<C: Coordinates<M::Reduced<f64>>>(
-        &mut self,
-        coordinates: C,
-        t_end: f64,
-        recorder: &mut Recorder<'_, '_, N, M>,
-    ) -> Result<(), Reason> {
-        let model = self.model;
-        recorder.begin(self.t0, self.start)?;
-        let (reduced, constants) = model.reduce(self.t0, &self.start);
-        let equations = |t: f64, reduced: &M::Reduced<f64>| model.reduced_equations(t, &constants, reduced);
-        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
-        let state = (M::DESCRIPTION.reduced, reduced);
-        if !matches!(self.method, Method::Gauss { .. }) {
-            return self.integrate_in(coordinates, equations, state, expand, t_end, recorder);
+/// Follows the motion of `model` by the method that was asked for, or the best there is. What depends on the model alone
+/// is decided by constants: only the integrators that serve it are compiled for it.
+pub(super) fn integrate<const N: usize, M: Model<N>>(
+    model: &M,
+    course: &Course<M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    let method = chosen(model, course, recorder);
+    recorder.trajectory.computation.method = method;
+    match method {
+        Method::Rattle { order, step } => by_rattle(model, (order, step), course, recorder),
+        Method::Taylor { .. } | Method::RungeKuttaNystrom12 | Method::Splitting { .. } => {
+            by_capability(model, method, course, recorder)
         }
-        // What is carried along would spoil the geometry of the method: it is computed from the rest.
-        let closed = |t: f64, reduced: &M::Reduced<f64>| equations(t, &model.renewed(reduced));
-        self.integrate_in(coordinates, closed, state, expand, t_end, recorder)
+        _ if const { !moves_on_group(&M::DESCRIPTION, N) } => reduced(model, Flat, method, course, recorder),
+        _ if const { is_canonical(&M::DESCRIPTION) } => with_reaction(model, method, course, recorder),
+        _ => reduced(model, chart::<N, M>(M::DESCRIPTION.reduced)?, method, course, recorder),
     }
+}
 
-    /// The phase point of a separable isochoric body on SL(n): its equations are the free ones, to which the multiplier is
-    /// added.
-    pub(super) fn integrate_with_reaction(
-        &mut self,
-        t_end: f64,
-        recorder: &mut Recorder<'_, '_, N, M>,
-    ) -> Result<(), Reason> {
-        let model = self.model;
-        recorder.begin(self.t0, self.start)?;
-        let groups = M::DESCRIPTION.full;
-        let free = |t: f64, full: &M::Full<f64>| model.hamilton_equations(t, full);
-        let start = model.flatten(&self.start);
-        let reaction = Reaction::<N>::of(groups, &free, (self.t0, &start));
-        let reaction = reaction.map_err(|failure| self.reason(failure))?;
-        let placement =
-            placement_in(groups, N).ok_or(Setting::NotSeparable { model: M::DESCRIPTION.name })?;
-        let chart = Chart::<N>::new(Constraint::Isochoric, placement.start);
-        let equations = |t: f64, full: &M::Full<f64>| reaction.rates(&free, t, full);
-        let expand = |_: f64, full: &M::Full<f64>| model.unflatten(&reaction.with_momentum(full));
-        let state = (groups, reaction.with_velocity(&start));
-        self.integrate_in(chart, equations, state, expand, t_end, recorder)
-    }
-
-    /// Integration of a state by the method asked for.
-    fn integrate_in<S: StateVector<f64>>(
-        &mut self,
-        coordinates: impl Coordinates<S>,
-        equations: impl Fn(f64, &S) -> S,
-        (groups, start): (&'static [Group], S),
-        expand: impl Fn(f64, &S) -> M::Point<f64>,
-        t_end: f64,
-        recorder: &mut Recorder<'_, '_, N, M>,
-    ) -> Result<(), Reason> {
-        let begin = (self.t0, start);
-        match self.method {
-            Method::Gauss { stages, step } => {
-                let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
-                let integration = Gauss::within(coordinates, equations, tableau, begin, t_end, step);
-                let mut integration = integration.map_err(|failure| self.reason(failure))?;
-                recorder.trajectory.computation.method = self.method;
-                let outcome = self.step_through(&mut integration, expand, groups, t_end, recorder);
-                recorder.trajectory.computation.residual = Some(integration.residual());
-                outcome
-            }
-            Method::RungeKutta5 => {
-                let integration =
-                    RungeKutta5::within(coordinates, equations, groups, begin, t_end, self.tolerance);
-                let mut integration = Explicit::new(integration.map_err(|failure| self.reason(failure))?);
-                self.step_through(&mut integration, expand, groups, t_end, recorder)
-            }
-            _ => {
-                let integration =
-                    RungeKutta8::within(coordinates, equations, groups, begin, t_end, self.tolerance);
-                let mut integration = Explicit::new(integration.map_err(|failure| self.reason(failure))?);
-                self.step_through(&mut integration, expand, groups, t_end, recorder)
+/// The integrator to take, noted with what was missing for a better one.
+fn chosen<const N: usize, M: Model<N>>(
+    model: &M,
+    course: &Course<M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Method {
+    // Within steps it costs a step for each time that is looked at.
+    let halves = model.second_order().is_some() && !recorder.has_events();
+    match course.method {
+        Method::Automatic if halves => Method::RungeKuttaNystrom12,
+        Method::Automatic if course.tolerance <= TAYLOR_TOLERANCE && M::DESCRIPTION.constraint.is_none() => {
+            if model.taylor().is_some() {
+                Method::Taylor { order: None }
+            } else {
+                recorder.trajectory.computation.missing = Some("taylor");
+                Method::RungeKutta8
             }
         }
+        Method::Automatic => Method::RungeKutta8,
+        asked => asked,
     }
+}
 
-    /// RATTLE on the phase point itself.
-    pub(super) fn integrate_by_rattle(
-        &mut self,
-        (order, step): (usize, f64),
-        t_end: f64,
-        recorder: &mut Recorder<'_, '_, N, M>,
-    ) -> Result<(), Reason> {
-        let model = self.model;
-        recorder.begin(self.t0, self.start)?;
-        let composition = Composition::of_order(order).ok_or(Setting::Order { given: order })?;
-        let equations = |t: f64, full: &M::Full<f64>| model.hamilton_equations(t, full);
-        let expand = |_: f64, full: &M::Full<f64>| model.unflatten(full);
-        let (groups, begin) = (M::DESCRIPTION.full, (self.t0, model.flatten(&self.start)));
-        let integration = Rattle::<N, _, _>::new(equations, groups, composition, begin, t_end, step);
-        let mut integration = integration.map_err(|failure| self.reason(failure))?;
-        recorder.trajectory.computation.method = self.method;
-        let outcome = self.step_through(&mut integration, expand, groups, t_end, recorder);
-        recorder.trajectory.computation.residual = Some(integration.residual());
-        outcome
+/// The reduced state by what `emit(...)` asked for: its Taylor series, the exact flows of pieces, or
+/// Runge-Kutta-Nystrom steps of its halves.
+fn by_capability<const N: usize, M: Model<N>>(
+    model: &M,
+    method: Method,
+    course: &Course<M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    let Course { t0, start, t_end, tolerance, .. } = *course;
+    let groups = M::DESCRIPTION.reduced;
+    let (reduced, constants) = model.reduce(t0, &start);
+    let begin = (t0, reduced);
+    let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
+    match method {
+        Method::Taylor { order } => emitted::<N, M, _>(model.taylor(), "taylor", |series| {
+            let integration = Taylor::new((series, constants), groups, begin, t_end, tolerance, order);
+            follow(integration, (&expand, groups), recorder)
+        }),
+        Method::Splitting { order, step } => emitted::<N, M, _>(model.splitting(), "splitting", |pieces| {
+            let integration = Splitting::new((pieces, constants), order, begin, t_end, step);
+            follow(integration.ok_or(Setting::Order { given: order })?, (&expand, groups), recorder)
+        }),
+        _ => emitted::<N, M, _>(model.second_order(), "nystrom", |system| {
+            let integration = RungeKuttaNystrom12::new((system, constants), groups, begin, t_end, tolerance);
+            follow(integration, (&expand, groups), recorder)
+        }),
     }
+}
 
-    /// The reduced state by the exact flows of pieces.
-    pub(super) fn integrate_by_splitting(
-        &mut self,
-        (order, step): (usize, f64),
-        t_end: f64,
-        recorder: &mut Recorder<'_, '_, N, M>,
-    ) -> Result<(), Reason> {
-        let model = self.model;
-        recorder.begin(self.t0, self.start)?;
-        let (reduced, constants) = model.reduce(self.t0, &self.start);
-        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
-        let pieces = model.splitting();
-        let pieces = pieces.ok_or(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "splitting" })?;
-        let begin = (self.t0, reduced);
-        let integration = Splitting::new((pieces, constants), order, begin, t_end, step);
-        let integration = integration.ok_or(Setting::Order { given: order })?;
-        let mut integration = integration.map_err(|failure| self.reason(failure))?;
-        recorder.trajectory.computation.method = self.method;
-        self.step_through(&mut integration, expand, M::DESCRIPTION.reduced, t_end, recorder)
+/// What is done with a capability of a model that has it.
+fn emitted<const N: usize, M: Model<N>, R>(
+    capability: Option<R>,
+    key: &'static str,
+    act: impl FnOnce(R) -> Result<(), Reason>,
+) -> Result<(), Reason> {
+    if const { is_emitted::<R>() }
+        && let Some(capability) = capability
+    {
+        return act(capability);
     }
+    Err(Setting::NotEmitted { model: M::DESCRIPTION.name, key }.into())
+}
 
-    pub(super) fn reason(&self, failure: Failure) -> Reason {
-        match failure {
-            Failure::NotFinite => Reason::NotFinite,
-            Failure::StepUnderflow => Reason::StepUnderflow { tolerance: self.tolerance },
-            Failure::NoSolution { residual } => {
-                Reason::NoSolution { residual, step: self.method.step().unwrap_or(f64::NAN) }
-            }
-            Failure::NotSeparable => Setting::NotSeparable { model: M::DESCRIPTION.name }.into(),
-            Failure::OffConstraint { defect } => Setting::OffConstraint { defect }.into(),
+/// The reduced state by a method for any equations.
+fn reduced<const N: usize, M: Model<N>>(
+    model: &M,
+    coordinates: impl Coordinates<M::Reduced<f64>>,
+    method: Method,
+    course: &Course<M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    let (reduced, constants) = model.reduce(course.t0, &course.start);
+    let equations = |t: f64, reduced: &M::Reduced<f64>| model.reduced_equations(t, &constants, reduced);
+    // What is carried along would spoil the geometry of Gauss collocation: it is computed from the rest.
+    let closed = |t: f64, reduced: &M::Reduced<f64>| equations(t, &model.renewed(reduced));
+    let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
+    let state = (M::DESCRIPTION.reduced, reduced);
+    by_equations(coordinates, (equations, closed), state, &expand, (method, course), recorder)
+}
+
+/// The phase point of a separable isochoric body on SL(n): its equations are the free ones, to which the multiplier is
+/// added.
+fn with_reaction<const N: usize, M: Model<N>>(
+    model: &M,
+    method: Method,
+    course: &Course<M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    let groups = M::DESCRIPTION.full;
+    let free = |t: f64, full: &M::Full<f64>| model.hamilton_equations(t, full);
+    let start = model.flatten(&course.start);
+    let reaction = Reaction::<N>::of(groups, &free, (course.t0, &start));
+    let reaction = reaction.map_err(|failure| recorder.reason(failure))?;
+    let equations = |t: f64, full: &M::Full<f64>| reaction.rates(&free, t, full);
+    let expand = |_: f64, full: &M::Full<f64>| model.unflatten(&reaction.with_momentum(full));
+    let state = (groups, reaction.with_velocity(&start));
+    let chart = chart::<N, M>(groups)?;
+    by_equations(chart, (equations, equations), state, &expand, (method, course), recorder)
+}
+
+/// A state by a method for any equations; the second ones are for implicit methods.
+fn by_equations<const N: usize, S: StateVector<f64>, P: Phase<N>>(
+    coordinates: impl Coordinates<S>,
+    (equations, closed): (impl Fn(f64, &S) -> S, impl Fn(f64, &S) -> S),
+    (groups, state): (&'static [Group], S),
+    expand: &dyn Fn(f64, &S) -> P,
+    (method, course): (Method, &Course<P>),
+    recorder: &mut Recorder<'_, '_, N, P>,
+) -> Result<(), Reason> {
+    let Course { t0, t_end, tolerance, .. } = *course;
+    let begin = (t0, state);
+    match method {
+        Method::Gauss { stages, step } => {
+            let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
+            let integration = Gauss::within(coordinates, closed, tableau, begin, t_end, step);
+            follow(integration, (expand, groups), recorder)
+        }
+        Method::RungeKutta5 => {
+            let integration = RungeKutta5::within(coordinates, equations, groups, begin, t_end, tolerance);
+            follow(integration.map(Explicit::new), (expand, groups), recorder)
+        }
+        _ => {
+            let integration = RungeKutta8::within(coordinates, equations, groups, begin, t_end, tolerance);
+            follow(integration.map(Explicit::new), (expand, groups), recorder)
         }
     }
 }
 
-/// The chart of the group to which the motion is confined, where the reduced state holds the placement.
-pub(super) fn chart<const N: usize, M: Model<N>>() -> Option<Chart<N>> {
-    let placement = placement_in(M::DESCRIPTION.reduced, N)?;
-    Some(Chart::new(M::DESCRIPTION.constraint?, placement.start))
+/// RATTLE on the phase point itself.
+fn by_rattle<const N: usize, M: Model<N>>(
+    model: &M,
+    (order, step): (usize, f64),
+    course: &Course<M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    if const { !is_isochoric_in_pi(&M::DESCRIPTION) } {
+        return Err(Setting::NotSeparable { model: M::DESCRIPTION.name }.into());
+    }
+    let composition = Composition::of_order(order).ok_or(Setting::Order { given: order })?;
+    let equations = |t: f64, full: &M::Full<f64>| model.hamilton_equations(t, full);
+    let expand = |_: f64, full: &M::Full<f64>| model.unflatten(full);
+    let (groups, begin) = (M::DESCRIPTION.full, (course.t0, model.flatten(&course.start)));
+    let integration = Rattle::<N, _, _>::new(equations, groups, composition, begin, course.t_end, step);
+    follow(integration, (&expand, groups), recorder)
 }
 
-/// The reduced equations are those of the body without constraint, over `phi` and `Pi`.
-pub(super) fn is_canonical<const N: usize, M: Model<N>>() -> bool {
-    M::DESCRIPTION.reduced.iter().any(|group| group.name == "Pi")
+/// Follows an integration that has begun.
+fn follow<const N: usize, S: StateVector<f64>, P: Phase<N>>(
+    integration: Result<impl Stepper<S>, Failure>,
+    (expand, groups): (&dyn Fn(f64, &S) -> P, &[Group]),
+    recorder: &mut Recorder<'_, '_, N, P>,
+) -> Result<(), Reason> {
+    let integration = integration.map_err(|failure| recorder.reason(failure))?;
+    recorder.follow(&mut Expanded::new(integration, expand, groups, N))
+}
+
+/// The chart of the group to which the motion is confined, for states that hold the placement.
+fn chart<const N: usize, M: Model<N>>(groups: &[Group]) -> Result<Chart<N>, Setting> {
+    let confined: Option<Constraint> = M::DESCRIPTION.constraint;
+    let chart =
+        confined.zip(placement_in(groups, N)).map(|(group, placement)| Chart::new(group, placement.start));
+    chart.ok_or(Setting::NotSeparable { model: M::DESCRIPTION.name })
 }

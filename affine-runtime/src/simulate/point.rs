@@ -1,13 +1,13 @@
 //! What a run asks of the points that it reaches.
 
-use core::ops::{ControlFlow, Range};
+use core::ops::ControlFlow;
 
 use super::conservation::larger;
 use super::halt::{Callback, Reason};
+use super::mechanics::Mechanics;
 use crate::frames::Matrix;
 use crate::integrate::{norm, sum_of_squares};
 use crate::kinematics::LogDeterminant;
-use crate::model::{Group, Model, StateVector, WORK};
 use crate::state::Phase;
 
 /// Part of `|phi|^n` above which a determinant is positive whatever the rounding of a few products.
@@ -56,38 +56,13 @@ pub(super) fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
 }
 
 /// What an energy is measured against: `|H|`, or `(|Pi| |phi_dot| + |p| |x_dot|)/2`, which is at least `|T|`.
-pub(super) fn energy_scale<const N: usize, M: Model<N>>(
-    model: &M,
-    point: &M::Point<f64>,
+pub(super) fn energy_scale<const N: usize, P: Phase<N>>(
+    model: &dyn Mechanics<N, P>,
+    point: &P,
     energy: f64,
 ) -> f64 {
     let velocity = model.velocity(point);
     let internal = norm(point.pi().0.0.as_slice()) * norm(velocity.phi_dot.as_slice());
     let translational = norm(point.p().as_slice()) * norm(velocity.x_dot.as_slice());
     larger(energy.abs(), 0.5 * (internal + translational))
-}
-
-/// Components of a state that are the placement, row by row, up to factors of positive determinant that
-/// the expansion restores.
-pub(super) fn placement_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
-    let k = groups.iter().position(|group| group.is_placement() && group.len == n * n)?;
-    let start = total(&groups[..k]);
-    Some(start..start + n * n)
-}
-
-/// The work of the forces that no potential has, where the state holds it.
-pub(super) fn work<S: StateVector<f64>>(groups: &[Group], state: &S) -> f64 {
-    let place = groups.iter().position(|group| group.name == WORK).map(|k| total(&groups[..k]));
-    place.map_or(0.0, |place| state.as_ref()[place])
-}
-
-/// Number of components.
-pub(super) const fn total(groups: &[Group]) -> usize {
-    let mut total = 0;
-    let mut k = 0;
-    while k < groups.len() {
-        total += groups[k].len;
-        k += 1;
-    }
-    total
 }

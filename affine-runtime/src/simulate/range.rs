@@ -1,22 +1,27 @@
 //! Where forces of a flat body leave the range of numbers before its placement does.
 
 use super::halt::Reason;
-use super::methods::is_canonical;
+use super::layout::is_canonical;
 use super::point::is_clearly_positive;
+use crate::frames::Matrix;
 use crate::kinematics::LogDeterminant;
-use crate::model::Model;
-use crate::state::Phase;
+use crate::model::Description;
 
-/// Refuses a placement at which `1/det phi` is no normal number, of a model whose forces contain it: with `q` or `D` in the
-/// potential the force on `Pi` is a multiple of `phi^-T`, cofactors times `1/det phi`. A number that underflows would
-/// leave the force out without a word.
-pub(super) fn in_range<const N: usize, M: Model<N>>(t: f64, point: &M::Point<f64>) -> Result<(), Reason> {
-    let needs = M::DESCRIPTION.reduced.iter().any(|group| matches!(group.name, "1/D" | "q"));
+/// The forces of a model contain `1/det phi`: with `q` or `D` in the potential the force on `Pi` is a multiple of
+/// `phi^-T`, cofactors times `1/det phi`.
+pub(super) fn needs_determinant(model: &Description) -> bool {
+    let carries = model.reduced.iter().any(|group| matches!(group.name, "1/D" | "q"));
+    carries && is_canonical(model)
+}
+
+/// Refuses a placement at which `1/det phi` is no normal number. A number that underflows would leave the force out
+/// without a word.
+pub(super) fn in_range<const N: usize>(t: f64, phi: &Matrix<N>) -> Result<(), Reason> {
     // A determinant whose square is a number is one itself, and so is its inverse.
-    if !needs || !is_canonical::<N, M>() || is_clearly_positive(point.phi()) {
+    if is_clearly_positive(phi) {
         return Ok(());
     }
-    let determinant = LogDeterminant::of(point.phi());
+    let determinant = LogDeterminant::of(phi);
     match determinant.is_normal() {
         true => Ok(()),
         false => Err(Reason::Range { q: determinant.mean(), t }),

@@ -1,36 +1,43 @@
 //! A trajectory in the making.
 
-use super::Observe;
-use super::checkpoint::{Place, Reader, Writer};
+use super::checkpoint::{Bits, Place};
 use super::conservation::larger;
 use super::event::{Action, Occurrence};
 use super::halt::{Callback, Reason};
+use super::mechanics::Mechanics;
+use super::motion::{Motion, WithWork};
 use super::output::{Schedule, without_steps};
 use super::point::{check, energy_scale, go_on};
 use super::range::in_range;
-use super::stepper::Stepper;
 use super::trajectory::Trajectory;
 use super::watcher::{Met, Watcher};
+use super::{Observe, Progress, Watch};
 use crate::error::Error;
-use crate::model::{Model, StateVector};
+use crate::integrate::Failure;
 use crate::state::Phase;
 
 /// What is recorded of a run, and how far it has come.
-pub(super) struct Recorder<'r, 'a, const N: usize, M: Model<N>> {
-    pub(super) model: &'a M,
-    pub(super) trajectory: &'r mut Trajectory<N, M::Point<f64>>,
+pub(super) struct Recorder<'r, 'a, const N: usize, P> {
+    pub(super) model: &'a dyn Mechanics<N, P>,
+    /// Forces leave the range of numbers where `1/det phi` does.
+    pub(super) needs_determinant: bool,
+    pub(super) trajectory: &'r mut Trajectory<N, P>,
     pub(super) schedule: Schedule,
-    pub(super) observe: Option<Observe<'a, M::Point<f64>>>,
-    pub(super) watcher: Watcher<'a, N, M::Point<f64>>,
+    pub(super) progress: Option<Watch<'a>>,
+    pub(super) observe: Option<Observe<'a, P>>,
+    pub(super) watcher: Watcher<'a, N, P>,
+    pub(super) max_steps: u64,
     /// Time of the start of the run.
     pub(super) origin: f64,
+    /// Time of its end.
+    pub(super) t_end: f64,
     /// The run goes backward in time.
     pub(super) backward: bool,
     pub(super) place: Place,
     /// The integrator's state cannot be kept.
     pub(super) is_lost: bool,
     /// What an event has led to.
-    pub(super) turn: Option<Turn<M::Point<f64>>>,
+    pub(super) turn: Option<Turn<P>>,
 }
 
 /// Where a run does not go straight on.
@@ -41,12 +48,9 @@ pub(super) enum Turn<P> {
     Changed { t: f64, point: P, event: usize, work: f64 },
 }
 
-/// A phase point with the work done since the integration started.
-pub(super) type WithWork<P> = (P, f64);
-
-impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
+impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Records the start of an integration where it is an output.
-    pub(super) fn begin(&mut self, t0: f64, start: M::Point<f64>) -> Result<(), Reason> {
+    pub(super) fn begin(&mut self, (t0, start): (f64, P)) -> Result<(), Reason> {
         self.watcher.begin(t0, &start, self.place.changed_by);
         if !self.place.integrator.is_empty() {
             return Ok(());
@@ -60,9 +64,9 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     }
 
     /// Begins or goes on with a closed form, with output times of its own where none were asked for.
-    pub(super) fn begin_closed_form(&mut self, t0: f64, t_end: f64, at: impl Fn(f64) -> M::Point<f64>) {
+    pub(super) fn begin_closed_form(&mut self, t0: f64, at: &dyn Fn(f64) -> P) {
         if self.schedule == Schedule::Steps {
-            self.schedule = without_steps(self.origin, t_end);
+            self.schedule = without_steps(self.origin, self.t_end);
             self.schedule.resume(self.place.outputs);
             while t0 != self.origin && self.schedule.take_through(t0, self.backward).is_some() {}
         }
@@ -82,20 +86,16 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     }
 
     /// Gives an integrator the state in which an interrupted run left it.
-    pub(super) fn take_up<S: StateVector<f64>>(
-        &mut self,
-        integration: &mut impl Stepper<S>,
-        expand: impl Fn(f64, &S) -> WithWork<M::Point<f64>>,
-    ) {
+    pub(super) fn take_up(&mut self, motion: &mut dyn Motion<P>) {
         if self.place.integrator.is_empty() {
             if self.is_watched() {
-                self.pass(integration);
+                self.pass(motion);
             }
             return;
         }
-        integration.exchange(&mut Reader(self.place.integrator.iter()));
-        let t = integration.t();
-        let (point, work) = expand(t, integration.y());
+        motion.exchange(&mut Bits::Read(self.place.integrator.iter()));
+        let t = motion.t();
+        let (point, work) = motion.reached();
         self.watcher.begin(
             t,
             &point,
@@ -106,26 +106,42 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     }
 
     /// A step is done with.
-    pub(super) fn pass<S: StateVector<f64>>(&mut self, integration: &mut impl Stepper<S>) {
-        self.is_lost = !integration.is_exchanged();
-        let mut tape = Writer::default();
-        integration.exchange(&mut tape);
-        self.place.passed(tape.0);
+    pub(super) fn pass(&mut self, motion: &mut dyn Motion<P>) {
+        self.is_lost = !motion.is_exchanged();
+        let mut tape = Bits::Written(Vec::new());
+        motion.exchange(&mut tape);
+        if let Bits::Written(bits) = tape {
+            self.place.passed(bits);
+        }
+    }
+
+    /// Tells how far the run has come.
+    pub(super) fn report(&mut self, t: f64, steps: u64) -> Result<(), Reason> {
+        let progress = Progress { t0: self.origin, t, t_end: self.t_end, steps };
+        match &mut self.progress {
+            Some(watch) => go_on(watch(&progress), Callback::Progress),
+            None => Ok(()),
+        }
+    }
+
+    /// Why a run ends where its integration fails.
+    pub(super) fn reason(&self, failure: Failure) -> Reason {
+        self.trajectory.computation.reason(failure, self.trajectory.description.name)
     }
 
     /// The events on the way to `t` with the outputs before them; whether the motion does not go straight on there.
-    pub(super) fn meet<E: Into<Reason>>(
+    pub(super) fn meet(
         &mut self,
         t: f64,
         parts: u32,
-        mut at: impl FnMut(f64) -> Result<WithWork<M::Point<f64>>, E>,
+        at: &mut dyn FnMut(f64) -> Result<WithWork<P>, Reason>,
     ) -> Result<bool, Reason> {
         if self.watcher.is_idle() {
             return Ok(false);
         }
-        let met = self.watcher.advance(t, parts, &mut at).map_err(Into::into)?;
+        let met = self.watcher.advance(t, parts, at)?;
         for (index, met) in met.into_iter().enumerate().skip(self.place.met) {
-            self.record_through(met.t, &mut at)?;
+            self.record_through(met.t, at)?;
             self.happen(index + 1, met)?;
             if self.turn.is_some() {
                 return Ok(true);
@@ -135,7 +151,7 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     }
 
     /// An event that is the `count`th of its step happens. A change is not done with before the point is recorded.
-    fn happen(&mut self, count: usize, met: Met<M::Point<f64>>) -> Result<(), Reason> {
+    fn happen(&mut self, count: usize, met: Met<P>) -> Result<(), Reason> {
         let Met { t, point, work, rising, event: index } = met;
         let event = &self.watcher.events[index];
         let name = event.name;
@@ -177,19 +193,19 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     }
 
     /// Records the outputs that are due up to a time.
-    pub(super) fn record_through<E: Into<Reason>>(
+    pub(super) fn record_through(
         &mut self,
         t: f64,
-        mut at: impl FnMut(f64) -> Result<WithWork<M::Point<f64>>, E>,
+        at: &mut dyn FnMut(f64) -> Result<WithWork<P>, Reason>,
     ) -> Result<(), Reason> {
         while let Some(due) = self.schedule.take_through(t, self.backward) {
-            self.record(due, at(due).map_err(Into::into)?)?;
+            self.record(due, at(due)?)?;
         }
         Ok(())
     }
 
     /// Records the end of a step, once.
-    pub(super) fn record_step(&mut self, t: f64, point: WithWork<M::Point<f64>>) -> Result<(), Reason> {
+    pub(super) fn record_step(&mut self, t: f64, point: WithWork<P>) -> Result<(), Reason> {
         // Left set where the observer ends the run.
         if core::mem::replace(&mut self.place.recorded, true) {
             self.reach(t, point)?;
@@ -201,22 +217,24 @@ impl<const N: usize, M: Model<N>> Recorder<'_, '_, N, M> {
     }
 
     /// Checks a phase point, which becomes the last good one.
-    pub(super) fn reach(&mut self, t: f64, (point, work): WithWork<M::Point<f64>>) -> Result<(), Reason> {
+    pub(super) fn reach(&mut self, t: f64, (point, work): WithWork<P>) -> Result<(), Reason> {
         check(t, &point)?;
-        in_range::<N, M>(t, &point)?;
+        if self.needs_determinant {
+            in_range(t, point.phi())?;
+        }
         self.trajectory.end = (t, point);
         self.trajectory.energies.work_at_end = self.place.work() + work;
         Ok(())
     }
 
     /// Checks a phase point, records it as an output and shows it to the observer.
-    pub(super) fn record(&mut self, t: f64, point: WithWork<M::Point<f64>>) -> Result<(), Reason> {
+    pub(super) fn record(&mut self, t: f64, point: WithWork<P>) -> Result<(), Reason> {
         self.reach(t, point)?;
         self.push(t, point.0)
     }
 
     /// The point is the end so far, and the work that of the end.
-    fn push(&mut self, t: f64, point: M::Point<f64>) -> Result<(), Reason> {
+    fn push(&mut self, t: f64, point: P) -> Result<(), Reason> {
         self.trajectory.times.push(t);
         self.trajectory.points.push(point);
         let energy = self.model.hamiltonian(t, &point);

@@ -2,15 +2,16 @@
 
 use super::checkpoint::{Checkpoint, Place};
 use super::halt::{Halt, Outcome, Reason, Setting, Stop};
-use super::methods::{chart, is_canonical};
-use super::point::{check, energy_scale, total};
-use super::range::in_range;
+use super::layout::total;
+use super::mechanics::{Course, Mechanics};
+use super::point::{check, energy_scale};
+use super::range::{in_range, needs_determinant};
 use super::recorder::{Recorder, Turn};
+use super::settings::Settings;
 use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;
 use super::{Method, Simulation};
 use crate::integrate::Statistics;
-use crate::integrate::lie::Flat;
 use crate::model::{Model, StateVector};
 use crate::state::Phase;
 
@@ -32,6 +33,18 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 "the groups of DESCRIPTION.reduced do not make up the reduced state"
             );
         }
+        Run { model: self.model, settings: self.settings }.outcome()
+    }
+}
+
+/// A run of a model that is only known by its phase points.
+struct Run<'a, const N: usize, P> {
+    model: &'a dyn Mechanics<N, P>,
+    settings: Settings<'a, N, P>,
+}
+
+impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
+    fn outcome(self) -> Outcome<N, P> {
         let mut trajectory = self.empty_trajectory();
         let model = self.model;
         let outcome = self.drive(&mut trajectory);
@@ -49,13 +62,14 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         }
     }
 
-    fn empty_trajectory(&self) -> Trajectory<N, M::Point<f64>> {
-        let energy = self.model.hamiltonian(self.t0, &self.start);
+    fn empty_trajectory(&self) -> Trajectory<N, P> {
+        let Settings { t0, start, .. } = self.settings;
+        let energy = self.model.hamiltonian(t0, &start);
         Trajectory {
-            description: M::DESCRIPTION,
+            description: *self.model.description(),
             bases: self.model.bases(),
-            start: (self.t0, self.start),
-            end: (self.t0, self.start),
+            start: (t0, start),
+            end: (t0, start),
             times: Vec::new(),
             points: Vec::new(),
             energies: Energies {
@@ -64,50 +78,53 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 outputs: Vec::new(),
                 work: Vec::new(),
                 work_at_end: 0.0,
-                scale: energy_scale(self.model, &self.start, energy),
+                scale: energy_scale(self.model, &start, energy),
             },
             statistics: Statistics::default(),
             events: Vec::new(),
             stopped_by: None,
             checkpoint: None,
             computation: Computation {
-                asked: self.method,
+                asked: self.settings.method,
                 method: Method::RungeKutta8,
-                tolerance: self.tolerance,
+                tolerance: self.settings.tolerance,
                 closed_form_exists: false,
                 no_whirl: false,
-                at_rest: self.start.p().iter().all(|p| *p == 0.0),
+                at_rest: start.p().iter().all(|p| *p == 0.0),
                 missing: None,
-                condition: self.condition(),
+                condition: self.model.condition(start.phi()),
                 residual: None,
             },
         }
     }
 
-    fn condition(&self) -> Option<f64> {
-        let by_fields = M::DESCRIPTION.signature.is_none();
-        by_fields.then(|| self.model.condition(self.start.phi())).flatten()
-    }
-
-    fn drive(mut self, trajectory: &mut Trajectory<N, M::Point<f64>>) -> Result<(), Reason> {
-        let (t_end, schedule) = self.checked_settings()?;
-        check(self.t0, &self.start)?;
-        in_range::<N, M>(self.t0, &self.start)?;
-        let (t0, events) = (self.t0, self.events.len());
-        let place = Place::starting((self.t0, &self.start), None, (Statistics::default(), 0.0));
+    fn drive(mut self, trajectory: &mut Trajectory<N, P>) -> Result<(), Reason> {
+        let description = self.model.description();
+        let (t_end, schedule) = self.settings.checked(description)?;
+        let Settings { t0, start, .. } = self.settings;
+        check(t0, &start)?;
+        let needs_determinant = needs_determinant(description);
+        if needs_determinant {
+            in_range(t0, start.phi())?;
+        }
+        let events = self.settings.events.len();
         let mut recorder = Recorder {
             model: self.model,
+            needs_determinant,
             trajectory,
             schedule,
-            observe: self.observe.take(),
-            watcher: Watcher::new(core::mem::take(&mut self.events)),
-            origin: self.t0,
-            backward: t_end < self.t0,
-            place,
+            progress: self.settings.progress.take(),
+            observe: self.settings.observe.take(),
+            watcher: Watcher::new(core::mem::take(&mut self.settings.events)),
+            max_steps: self.settings.max_steps,
+            origin: t0,
+            t_end,
+            backward: t_end < t0,
+            place: Place::starting((t0, &start), None, (Statistics::default(), 0.0)),
             is_lost: false,
             turn: None,
         };
-        if let Some(checkpoint) = self.checkpoint.take() {
+        if let Some(checkpoint) = self.settings.checkpoint.take() {
             let run = self.fingerprint(t0, t_end, events);
             self.take_up(checkpoint, &run, &mut recorder)?;
         }
@@ -123,8 +140,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
 
     /// What a checkpoint fits: runs that take the same steps from the same place.
     fn fingerprint(&self, t0: f64, t_end: f64, events: usize) -> String {
-        let [t0, t_end, tolerance] = [t0, t_end, self.tolerance].map(f64::to_bits);
-        let (model, method) = (M::DESCRIPTION.name, self.method);
+        let [t0, t_end, tolerance] = [t0, t_end, self.settings.tolerance].map(f64::to_bits);
+        let (model, method) = (self.model.description().name, self.settings.method);
         format!("{model} {method:?} {tolerance:x} {t0:x} {t_end:x} {events}")
     }
 
@@ -133,31 +150,32 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         &mut self,
         checkpoint: Checkpoint,
         run: &str,
-        recorder: &mut Recorder<'_, '_, N, M>,
+        recorder: &mut Recorder<'_, '_, N, P>,
     ) -> Result<(), Setting> {
         if checkpoint.run != run {
-            return Err(Setting::Checkpoint { model: M::DESCRIPTION.name });
+            return Err(Setting::Checkpoint { model: self.model.description().name });
         }
-        (self.t0, self.start) = checkpoint.place.origin(&self.start);
+        let origin = checkpoint.place.origin(&self.settings.start);
+        (self.settings.t0, self.settings.start) = origin;
         recorder.place = checkpoint.place;
-        recorder.trajectory.end = (self.t0, self.start);
+        recorder.trajectory.end = origin;
         recorder.trajectory.energies.work_at_end = recorder.place.work();
         recorder.schedule.resume(recorder.place.outputs);
         Ok(())
     }
 
     /// One integration after the other: where an event changes the point, the next one starts.
-    fn legs(&mut self, t_end: f64, recorder: &mut Recorder<'_, '_, N, M>) -> Result<(), Reason> {
+    fn legs(&mut self, t_end: f64, recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
         let mut changes = 0;
         loop {
             self.leg(t_end, recorder)?;
             let Some(Turn::Changed { t, point, event, work }) = recorder.turn.take() else { return Ok(()) };
             check(t, &point)?;
             changes += 1;
-            if changes > self.max_steps {
-                return Err(Reason::StepLimit { limit: self.max_steps });
+            if changes > self.settings.max_steps {
+                return Err(Reason::StepLimit { limit: self.settings.max_steps });
             }
-            (self.t0, self.start) = (t, point);
+            (self.settings.t0, self.settings.start) = (t, point);
             recorder.trajectory.end = (t, point);
             recorder.trajectory.energies.work_at_end = work;
             recorder.trajectory.computation.at_rest &= point.p().iter().all(|p| *p == 0.0);
@@ -167,25 +185,20 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     }
 
     /// The motion from a point to the end, or to an event that changes it.
-    fn leg(&mut self, t_end: f64, recorder: &mut Recorder<'_, '_, N, M>) -> Result<(), Reason> {
-        let geodesic = self.model.geodesic(self.t0, &self.start);
+    fn leg(&self, t_end: f64, recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
+        let Settings { t0, start, method, tolerance, .. } = self.settings;
+        let course = Course { t0, start, t_end, method, tolerance };
+        let geodesic = self.model.geodesic(t0, &start);
         recorder.trajectory.computation.closed_form_exists = geodesic.is_some();
-        match (self.method, geodesic) {
-            (Method::ClosedForm, None) => Err(Setting::NoClosedForm { model: M::DESCRIPTION.name }.into()),
-            (Method::Automatic | Method::ClosedForm, Some(geodesic)) => {
-                self.evaluate(&geodesic, t_end, recorder)
+        match (method, geodesic) {
+            (Method::ClosedForm, None) => {
+                Err(Setting::NoClosedForm { model: self.model.description().name }.into())
             }
-            (Method::Rattle { order, step }, _) => self.integrate_by_rattle((order, step), t_end, recorder),
-            (Method::Splitting { order, step }, _) => {
-                self.integrate_by_splitting((order, step), t_end, recorder)
+            (Method::Automatic | Method::ClosedForm, Some(geodesic)) => recorder.evaluate(&geodesic, &course),
+            _ => {
+                recorder.begin((t0, start))?;
+                self.model.integrate(&course, recorder)
             }
-            _ => match (chart::<N, M>(), self.chosen(recorder)) {
-                (_, Method::Taylor { order }) => self.integrate_by_series(order, t_end, recorder),
-                (_, Method::RungeKuttaNystrom12) => self.integrate_in_halves(t_end, recorder),
-                (Some(_), _) if is_canonical::<N, M>() => self.integrate_with_reaction(t_end, recorder),
-                (Some(chart), _) => self.integrate(chart, t_end, recorder),
-                (None, _) => self.integrate(Flat, t_end, recorder),
-            },
         }
     }
 }

@@ -1,20 +1,54 @@
 //! The settings of a simulation, checked.
 
+use super::checkpoint::Checkpoint;
+use super::event::Event;
 use super::halt::Setting;
-use super::output::Schedule;
-use super::{Method, Simulation};
+use super::output::{Output, Schedule};
+use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Observe, Watch};
 use crate::integrate::gauss::Tableau;
 use crate::integrate::rattle::Composition;
 use crate::integrate::splitting::Sweeps;
 use crate::integrate::step_count;
 use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER};
-use crate::model::{Constraint, Model};
+use crate::model::{Constraint, Description};
 
 /// The finest tolerance: about four roundings.
 const FINEST_TOLERANCE: f64 = 1e-15;
 
-impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
-    pub(super) fn checked_settings(&self) -> Result<(f64, Schedule), Setting> {
+/// What a simulation was told, whatever its model.
+pub(super) struct Settings<'a, const N: usize, P> {
+    pub(super) start: P,
+    pub(super) t0: f64,
+    pub(super) t_end: Option<f64>,
+    pub(super) tolerance: f64,
+    pub(super) output: Output,
+    pub(super) method: Method,
+    pub(super) max_steps: u64,
+    pub(super) progress: Option<Watch<'a>>,
+    pub(super) observe: Option<Observe<'a, P>>,
+    pub(super) events: Vec<Event<'a, N, P>>,
+    pub(super) checkpoint: Option<Checkpoint>,
+}
+
+impl<const N: usize, P> Settings<'_, N, P> {
+    pub(super) fn new(start: P) -> Self {
+        Self {
+            start,
+            t0: 0.0,
+            t_end: None,
+            tolerance: DEFAULT_TOLERANCE,
+            output: Output::Steps,
+            method: Method::Automatic,
+            max_steps: DEFAULT_MAX_STEPS,
+            progress: None,
+            observe: None,
+            events: Vec::new(),
+            checkpoint: None,
+        }
+    }
+
+    /// The end and the outputs, of settings that make sense for a model.
+    pub(super) fn checked(&self, model: &Description) -> Result<(f64, Schedule), Setting> {
         let t_end = self.t_end.ok_or(Setting::NoEnd)?;
         for (name, given) in [("the time of the start", self.t0), ("the time of the end", t_end)] {
             if !given.is_finite() {
@@ -41,8 +75,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             }
             Method::Rattle { order, .. } => {
                 Composition::of_order(order).ok_or(Setting::Order { given: order })?;
-                if M::DESCRIPTION.constraint != Some(Constraint::Isochoric) {
-                    return Err(Setting::NotIsochoric { model: M::DESCRIPTION.name });
+                if model.constraint != Some(Constraint::Isochoric) {
+                    return Err(Setting::NotIsochoric { model: model.name });
                 }
             }
             Method::Splitting { order, .. } if Sweeps::of_order(order, false).is_none() => {

@@ -1,10 +1,10 @@
 //! What a simulation asks of an integrator.
 
+use super::checkpoint::Bits;
 use crate::integrate::lie::Coordinates;
 use crate::integrate::nystrom::SecondOrder;
 use crate::integrate::runge_kutta::{Dense, Pair, RungeKutta};
 use crate::integrate::splitting::{Pieces, Splitting};
-use crate::integrate::tape::Tape;
 use crate::integrate::taylor::{Series, Taylor};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKuttaNystrom12, Statistics};
 use crate::model::StateVector;
@@ -23,12 +23,40 @@ pub(super) trait Stepper<S> {
     fn is_finished(&self) -> bool;
     /// Cost so far.
     fn statistics(&self) -> Statistics;
+    /// Largest residual of implicit steps so far.
+    fn residual(&self) -> Option<f64> {
+        None
+    }
     /// Hands over, or takes back, everything that the next steps depend on.
-    fn exchange(&mut self, tape: &mut impl Tape);
+    fn exchange(&mut self, tape: &mut Bits<'_>);
     /// That is all that they depend on.
     fn is_exchanged(&self) -> bool {
         true
     }
+}
+
+/// What the integrators have by the names of [`Stepper`].
+macro_rules! by_the_same_names {
+    ($integration:ident) => {
+        fn advance(&mut self) -> Result<(), Failure> {
+            $integration::advance(self)
+        }
+        fn t(&self) -> f64 {
+            $integration::t(self)
+        }
+        fn y(&self) -> &S {
+            $integration::y(self)
+        }
+        fn is_finished(&self) -> bool {
+            $integration::is_finished(self)
+        }
+        fn statistics(&self) -> Statistics {
+            $integration::statistics(self)
+        }
+        fn exchange(&mut self, tape: &mut Bits<'_>) {
+            $integration::exchange(self, tape);
+        }
+    };
 }
 
 /// The explicit method with the dense output of its last step, which is formed once for all times in it.
@@ -65,33 +93,19 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepp
     fn statistics(&self) -> Statistics {
         self.integration.statistics()
     }
-    fn exchange(&mut self, tape: &mut impl Tape) {
+    fn exchange(&mut self, tape: &mut Bits<'_>) {
         self.dense = None;
         self.integration.exchange(tape);
     }
 }
 
 impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for Gauss<S, F, C> {
-    fn advance(&mut self) -> Result<(), Failure> {
-        Gauss::advance(self)
-    }
+    by_the_same_names!(Gauss);
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         self.at(t)
     }
-    fn t(&self) -> f64 {
-        Gauss::t(self)
-    }
-    fn y(&self) -> &S {
-        Gauss::y(self)
-    }
-    fn is_finished(&self) -> bool {
-        Gauss::is_finished(self)
-    }
-    fn statistics(&self) -> Statistics {
-        Gauss::statistics(self)
-    }
-    fn exchange(&mut self, tape: &mut impl Tape) {
-        Gauss::exchange(self, tape);
+    fn residual(&self) -> Option<f64> {
+        Some(Gauss::residual(self))
     }
     fn is_exchanged(&self) -> bool {
         !self.is_stiff()
@@ -99,97 +113,32 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for
 }
 
 impl<S: StateVector<f64>, C, R: Series<S, C>> Stepper<S> for Taylor<S, C, R> {
-    fn advance(&mut self) -> Result<(), Failure> {
-        Taylor::advance(self)
-    }
+    by_the_same_names!(Taylor);
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         Ok(self.at(t))
-    }
-    fn t(&self) -> f64 {
-        Taylor::t(self)
-    }
-    fn y(&self) -> &S {
-        Taylor::y(self)
-    }
-    fn is_finished(&self) -> bool {
-        Taylor::is_finished(self)
-    }
-    fn statistics(&self) -> Statistics {
-        Taylor::statistics(self)
-    }
-    fn exchange(&mut self, tape: &mut impl Tape) {
-        Taylor::exchange(self, tape);
     }
 }
 
 impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Stepper<S> for RungeKuttaNystrom12<S, C, R> {
-    fn advance(&mut self) -> Result<(), Failure> {
-        RungeKuttaNystrom12::advance(self)
-    }
+    by_the_same_names!(RungeKuttaNystrom12);
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         self.at(t)
-    }
-    fn t(&self) -> f64 {
-        RungeKuttaNystrom12::t(self)
-    }
-    fn y(&self) -> &S {
-        RungeKuttaNystrom12::y(self)
-    }
-    fn is_finished(&self) -> bool {
-        RungeKuttaNystrom12::is_finished(self)
-    }
-    fn statistics(&self) -> Statistics {
-        RungeKuttaNystrom12::statistics(self)
-    }
-    fn exchange(&mut self, tape: &mut impl Tape) {
-        RungeKuttaNystrom12::exchange(self, tape);
     }
 }
 
 impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Rattle<N, S, F> {
-    fn advance(&mut self) -> Result<(), Failure> {
-        Rattle::advance(self)
-    }
+    by_the_same_names!(Rattle);
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         self.at(t)
     }
-    fn t(&self) -> f64 {
-        Rattle::t(self)
-    }
-    fn y(&self) -> &S {
-        Rattle::y(self)
-    }
-    fn is_finished(&self) -> bool {
-        Rattle::is_finished(self)
-    }
-    fn statistics(&self) -> Statistics {
-        Rattle::statistics(self)
-    }
-    fn exchange(&mut self, tape: &mut impl Tape) {
-        Rattle::exchange(self, tape);
+    fn residual(&self) -> Option<f64> {
+        Some(Rattle::residual(self))
     }
 }
 
 impl<S: StateVector<f64>, C, P: Pieces<S, C>> Stepper<S> for Splitting<S, C, P> {
-    fn advance(&mut self) -> Result<(), Failure> {
-        Splitting::advance(self)
-    }
+    by_the_same_names!(Splitting);
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         self.at(t)
-    }
-    fn t(&self) -> f64 {
-        Splitting::t(self)
-    }
-    fn y(&self) -> &S {
-        Splitting::y(self)
-    }
-    fn is_finished(&self) -> bool {
-        Splitting::is_finished(self)
-    }
-    fn statistics(&self) -> Statistics {
-        Splitting::statistics(self)
-    }
-    fn exchange(&mut self, tape: &mut impl Tape) {
-        Splitting::exchange(self, tape);
     }
 }

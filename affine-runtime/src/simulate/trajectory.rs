@@ -1,7 +1,7 @@
 //! A computed trajectory.
 
-use super::{Checkpoint, Method, Occurrence};
-use crate::integrate::Statistics;
+use super::{Checkpoint, Method, Occurrence, Reason, Setting};
+use crate::integrate::{Failure, Statistics};
 use crate::metrics::Bases;
 use crate::model::Description;
 use crate::state::Phase;
@@ -49,6 +49,21 @@ pub struct Computation {
     pub condition: Option<f64>,
     /// Largest relative residual of the equations of implicit steps; `None` where the method is explicit.
     pub residual: Option<f64>,
+}
+
+impl Computation {
+    /// Why a run of `model` ends where its integration fails.
+    pub(super) fn reason(&self, failure: Failure, model: &'static str) -> Reason {
+        match failure {
+            Failure::NotFinite => Reason::NotFinite,
+            Failure::StepUnderflow => Reason::StepUnderflow { tolerance: self.tolerance },
+            Failure::NoSolution { residual } => {
+                Reason::NoSolution { residual, step: self.asked.step().unwrap_or(f64::NAN) }
+            }
+            Failure::NotSeparable => Setting::NotSeparable { model }.into(),
+            Failure::OffConstraint { defect } => Setting::OffConstraint { defect }.into(),
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,8 @@
 //! Changes of sign within a step.
 
 use super::event::{Direction, Event};
+use super::halt::Reason;
+use super::motion::WithWork;
 use super::root::root;
 
 /// A change of sign that counts.
@@ -43,12 +45,12 @@ impl<'a, const N: usize, P: Copy> Watcher<'a, N, P> {
     ///
     /// # Errors
     /// Those of `at`, which gives the phase point at a time on the way, and the work.
-    pub(super) fn advance<E>(
+    pub(super) fn advance(
         &mut self,
         t_end: f64,
         parts: u32,
-        mut at: impl FnMut(f64) -> Result<(P, f64), E>,
-    ) -> Result<Vec<Met<P>>, E> {
+        at: &mut dyn FnMut(f64) -> Result<WithWork<P>, Reason>,
+    ) -> Result<Vec<Met<P>>, Reason> {
         let mut met = Vec::new();
         let begin = self.t;
         for part in 1..=parts {
@@ -64,7 +66,7 @@ impl<'a, const N: usize, P: Copy> Watcher<'a, N, P> {
                 let Some(rising) = crossing(before, value).filter(|rising| event.counts(*rising)) else {
                     continue;
                 };
-                let function = |t: f64| Ok((event.function)(t, &at(t)?.0));
+                let function = |t: f64| at(t).map(|(point, _)| (event.function)(t, &point));
                 let time = root(function, (self.t, before), (t, value))?;
                 let (point, work) = at(time)?;
                 met.push(Met { t: time, event: index, rising, point, work });

@@ -1,0 +1,72 @@
+//! What a run asks of a model.
+
+use super::Method;
+use super::halt::Reason;
+use super::methods;
+use super::recorder::Recorder;
+use crate::frames::Matrix;
+use crate::geodesic::Geodesic;
+use crate::metrics::Bases;
+use crate::model::{Description, Model, Regularity, Velocity};
+
+/// A model as far as its phase points go, and the motion from one of them, in whatever variables.
+///
+/// A run calls it at outputs, and once for each integration: what is behind `dyn` is compiled for each model, and the run
+/// itself only once for each kind of phase point.
+pub(super) trait Mechanics<const N: usize, P> {
+    fn description(&self) -> &'static Description;
+    fn bases(&self) -> Option<Bases<N>>;
+    /// Only where coefficients are fields: numbers were checked when the model was compiled.
+    fn condition(&self, phi: &Matrix<N>) -> Option<f64>;
+    fn regularity(&self, phi: &Matrix<N>) -> Option<Regularity>;
+    fn hamiltonian(&self, t: f64, point: &P) -> f64;
+    fn velocity(&self, point: &P) -> Velocity<N>;
+    fn geodesic(&self, t0: f64, point: &P) -> Option<Geodesic<N>>;
+    fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &P) -> P;
+    /// Follows the motion from a point by the steps of a method.
+    fn integrate(&self, course: &Course<P>, recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason>;
+}
+
+/// What is to be integrated.
+#[derive(Clone, Copy)]
+pub(super) struct Course<P> {
+    pub(super) t0: f64,
+    pub(super) start: P,
+    pub(super) t_end: f64,
+    pub(super) method: Method,
+    pub(super) tolerance: f64,
+}
+
+impl<const N: usize, M: Model<N>> Mechanics<N, M::Point<f64>> for M {
+    fn description(&self) -> &'static Description {
+        const { &M::DESCRIPTION }
+    }
+    fn bases(&self) -> Option<Bases<N>> {
+        Model::bases(self)
+    }
+    fn condition(&self, phi: &Matrix<N>) -> Option<f64> {
+        if const { M::DESCRIPTION.signature.is_none() } { Model::condition(self, phi) } else { None }
+    }
+    fn regularity(&self, phi: &Matrix<N>) -> Option<Regularity> {
+        Model::regularity(self, phi)
+    }
+    fn hamiltonian(&self, t: f64, point: &M::Point<f64>) -> f64 {
+        Model::hamiltonian(self, t, point)
+    }
+    fn velocity(&self, point: &M::Point<f64>) -> Velocity<N> {
+        Model::velocity(self, point)
+    }
+    fn geodesic(&self, t0: f64, point: &M::Point<f64>) -> Option<Geodesic<N>> {
+        Model::geodesic(self, t0, point)
+    }
+    fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &M::Point<f64>) -> M::Point<f64> {
+        Model::on_geodesic(self, geodesic, t, start)
+    }
+    fn integrate(
+        &self,
+        course: &Course<M::Point<f64>>,
+        recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+    ) -> Result<(), Reason> {
+        methods::integrate(self, course, recorder)
+    }
+}
