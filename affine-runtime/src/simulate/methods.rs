@@ -3,7 +3,7 @@
 use super::halt::{Reason, Setting};
 use super::layout::{is_canonical, is_isochoric_in_pi, moves_on_group, placement_in};
 use super::mechanics::Course;
-use super::motion::Expanded;
+use super::motion::{Expanded, Expansion};
 use super::recorder::Recorder;
 use super::stepper::{Explicit, Stepper};
 use super::{Method, TAYLOR_TOLERANCE};
@@ -145,7 +145,7 @@ fn by_equations<const N: usize, S: StateVector<f64>, P: Phase<N>>(
     coordinates: impl Coordinates<S>,
     (equations, closed): (impl Fn(f64, &S) -> S, impl Fn(f64, &S) -> S),
     (groups, state): (&'static [Group], S),
-    expand: &dyn Fn(f64, &S) -> P,
+    expand: Expansion<'_, S, P>,
     (method, course): (Method, &Course<P>),
     recorder: &mut Recorder<'_, '_, N, P>,
 ) -> Result<(), Reason> {
@@ -189,7 +189,7 @@ fn by_rattle<const N: usize, M: Model<N>>(
 /// Follows an integration that has begun.
 fn follow<const N: usize, S: StateVector<f64>, P: Phase<N>>(
     integration: Result<impl Stepper<S>, Failure>,
-    (expand, groups): (&dyn Fn(f64, &S) -> P, &[Group]),
+    (expand, groups): (Expansion<'_, S, P>, &[Group]),
     recorder: &mut Recorder<'_, '_, N, P>,
 ) -> Result<(), Reason> {
     let integration = integration.map_err(|failure| recorder.reason(failure))?;

@@ -11,6 +11,9 @@ use crate::model::{Group, StateVector};
 /// A phase point with the work done since the integration started.
 pub(super) type WithWork<P> = (P, f64);
 
+/// The phase point of a state at a time.
+pub(super) type Expansion<'e, S, P> = &'e dyn Fn(f64, &S) -> P;
+
 /// What a run follows. It calls this a few times for each step, which takes many evaluations of the equations: behind
 /// `dyn` that costs nothing that can be measured, and a run is not compiled anew for each integrator.
 pub(super) trait Motion<P> {
@@ -46,7 +49,7 @@ pub(super) trait Motion<P> {
 /// An integration of states whose phase points are those of an expansion.
 pub(super) struct Expanded<'e, I, S, P> {
     integration: I,
-    expand: &'e dyn Fn(f64, &S) -> P,
+    expand: Expansion<'e, S, P>,
     placement: Option<Range<usize>>,
     work: Option<usize>,
     kept: Option<(f64, S)>,
@@ -54,7 +57,7 @@ pub(super) struct Expanded<'e, I, S, P> {
 
 impl<'e, I: Stepper<S>, S: StateVector<f64>, P> Expanded<'e, I, S, P> {
     /// States of a body in dimension `n` that `groups` lay out.
-    pub(super) fn new(integration: I, expand: &'e dyn Fn(f64, &S) -> P, groups: &[Group], n: usize) -> Self {
+    pub(super) fn new(integration: I, expand: Expansion<'e, S, P>, groups: &[Group], n: usize) -> Self {
         Self { integration, expand, placement: placement_in(groups, n), work: work_in(groups), kept: None }
     }
 
