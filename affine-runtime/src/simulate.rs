@@ -174,14 +174,14 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     /// Time of the start; 0 if not set.
     #[must_use]
     pub fn from(mut self, t0: f64) -> Self {
-        self.settings.t0 = t0;
+        self.settings.plan.t0 = t0;
         self
     }
 
     /// Time of the end, before or after the start. The end is hit exactly.
     #[must_use]
     pub fn until(mut self, t_end: f64) -> Self {
-        self.settings.t_end = Some(t_end);
+        self.settings.plan.t_end = Some(t_end);
         self
     }
 
@@ -189,7 +189,7 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     /// `1e-15 <= eps < 1`; [`DEFAULT_TOLERANCE`] if not set. A closed form is exact up to rounding whatever `eps`.
     #[must_use]
     pub fn tolerance(mut self, eps: f64) -> Self {
-        self.settings.tolerance = eps;
+        self.settings.plan.tolerance = eps;
         self
     }
 
@@ -197,28 +197,28 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     /// every accepted step, start and end included; a closed form has no steps, and gives 101 equidistant times.
     #[must_use]
     pub fn output(mut self, times: impl IntoIterator<Item = f64>) -> Self {
-        self.settings.output = Output::At(times.into_iter().collect());
+        self.settings.plan.output = Output::At(times.into_iter().collect());
         self
     }
 
     /// Output at the start, then at every `dt > 0` of elapsed time, and at the end.
     #[must_use]
     pub fn every(mut self, dt: f64) -> Self {
-        self.settings.output = Output::Every(dt);
+        self.settings.plan.output = Output::Every(dt);
         self
     }
 
     /// The method; [`Method::Automatic`] if not set.
     #[must_use]
     pub fn method(mut self, method: Method) -> Self {
-        self.settings.method = method;
+        self.settings.plan.method = method;
         self
     }
 
     /// Largest number of accepted steps; [`DEFAULT_MAX_STEPS`] if not set.
     #[must_use]
     pub fn max_steps(mut self, max_steps: u64) -> Self {
-        self.settings.max_steps = max_steps;
+        self.settings.plan.max_steps = max_steps;
         self
     }
 
@@ -259,12 +259,7 @@ impl<const N: usize, M: Model<N>> core::fmt::Debug for Simulation<'_, N, M> {
         f.debug_struct("Simulation")
             .field("model", &M::DESCRIPTION.name)
             .field("start", &self.settings.start)
-            .field("t0", &self.settings.t0)
-            .field("t_end", &self.settings.t_end)
-            .field("tolerance", &self.settings.tolerance)
-            .field("output", &self.settings.output)
-            .field("method", &self.settings.method)
-            .field("max_steps", &self.settings.max_steps)
+            .field("plan", &self.settings.plan)
             .finish_non_exhaustive()
     }
 }

@@ -29,8 +29,8 @@ impl<const N: usize> Geodesic<N> {
             return None;
         }
         let eigenvalues: [Option<f64>; 3] = match N {
-            2 => real_parts(Matrix2::from_fn(|i, j| rate[(i, j)])),
-            3 => real_parts(Matrix3::from_fn(|i, j| rate[(i, j)])),
+            2 => real_in_the_plane(&Matrix2::from_fn(|i, j| rate[(i, j)])),
+            3 => real_in_space(&Matrix3::from_fn(|i, j| rate[(i, j)])),
             _ => [None; 3],
         };
         let span = t_end - self.t0;
@@ -42,6 +42,15 @@ impl<const N: usize> Geodesic<N> {
         });
         first.map(|s| self.t0 + s)
     }
+}
+
+/// Not generic: the QR algorithm is compiled with this crate, and not with every one that states a model.
+fn real_in_the_plane(matrix: &Matrix2<f64>) -> [Option<f64>; 3] {
+    real_parts(*matrix)
+}
+
+fn real_in_space(matrix: &Matrix3<f64>) -> [Option<f64>; 3] {
+    real_parts(*matrix)
 }
 
 /// The real eigenvalues of a small matrix.

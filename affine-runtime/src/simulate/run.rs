@@ -7,7 +7,7 @@ use super::mechanics::{Course, Mechanics};
 use super::point::{check, energy_scale};
 use super::range::{in_range, needs_determinant};
 use super::recorder::{Recorder, Turn};
-use super::settings::Settings;
+use super::settings::{Plan, Settings};
 use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;
 use super::{Method, Simulation};
@@ -63,7 +63,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     }
 
     fn empty_trajectory(&self) -> Trajectory<N, P> {
-        let Settings { t0, start, .. } = self.settings;
+        let Settings { start, plan: Plan { t0, .. }, .. } = self.settings;
         let energy = self.model.hamiltonian(t0, &start);
         Trajectory {
             description: *self.model.description(),
@@ -85,9 +85,9 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             stopped_by: None,
             checkpoint: None,
             computation: Computation {
-                asked: self.settings.method,
+                asked: self.settings.plan.method,
                 method: Method::RungeKutta8,
-                tolerance: self.settings.tolerance,
+                tolerance: self.settings.plan.tolerance,
                 closed_form_exists: false,
                 no_whirl: false,
                 at_rest: start.p().iter().all(|p| *p == 0.0),
@@ -101,7 +101,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     fn drive(mut self, trajectory: &mut Trajectory<N, P>) -> Result<(), Reason> {
         let description = self.model.description();
         let (t_end, schedule) = self.settings.checked(description)?;
-        let Settings { t0, start, .. } = self.settings;
+        let Settings { start, plan: Plan { t0, max_steps, .. }, .. } = self.settings;
         check(t0, &start)?;
         let needs_determinant = needs_determinant(description);
         if needs_determinant {
@@ -116,7 +116,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             progress: self.settings.progress.take(),
             observe: self.settings.observe.take(),
             watcher: Watcher::new(core::mem::take(&mut self.settings.events)),
-            max_steps: self.settings.max_steps,
+            max_steps,
             origin: t0,
             t_end,
             backward: t_end < t0,
@@ -124,59 +124,52 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             is_lost: false,
             turn: None,
         };
+        let mut origin = (t0, start);
         if let Some(checkpoint) = self.settings.checkpoint.take() {
-            let run = self.fingerprint(t0, t_end, events);
-            self.take_up(checkpoint, &run, &mut recorder)?;
+            origin = self.take_up(checkpoint, events, &mut recorder)?;
         }
-        let outcome = self.legs(t_end, &mut recorder);
+        let outcome = self.legs(origin, &mut recorder);
         let interrupted = matches!(outcome, Err(Reason::Interrupted(_) | Reason::StepLimit { .. }));
         if (interrupted || recorder.trajectory.stopped_by.is_some()) && !recorder.is_lost {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
-            let run = self.fingerprint(t0, t_end, events);
+            let run = self.settings.plan.fingerprint(description.name, events);
             recorder.trajectory.checkpoint = Some(Checkpoint { run, place });
         }
         outcome
     }
 
-    /// What a checkpoint fits: runs that take the same steps from the same place.
-    fn fingerprint(&self, t0: f64, t_end: f64, events: usize) -> String {
-        let [t0, t_end, tolerance] = [t0, t_end, self.settings.tolerance].map(f64::to_bits);
-        let (model, method) = (self.model.description().name, self.settings.method);
-        format!("{model} {method:?} {tolerance:x} {t0:x} {t_end:x} {events}")
-    }
-
-    /// Goes back to where a run was interrupted.
+    /// Goes back to where a run was interrupted: time and point from which the integration started.
     fn take_up(
-        &mut self,
+        &self,
         checkpoint: Checkpoint,
-        run: &str,
+        events: usize,
         recorder: &mut Recorder<'_, '_, N, P>,
-    ) -> Result<(), Setting> {
-        if checkpoint.run != run {
-            return Err(Setting::Checkpoint { model: self.model.description().name });
+    ) -> Result<(f64, P), Setting> {
+        let model = self.model.description().name;
+        if checkpoint.run != self.settings.plan.fingerprint(model, events) {
+            return Err(Setting::Checkpoint { model });
         }
         let origin = checkpoint.place.origin(&self.settings.start);
-        (self.settings.t0, self.settings.start) = origin;
         recorder.place = checkpoint.place;
         recorder.trajectory.end = origin;
         recorder.trajectory.energies.work_at_end = recorder.place.work();
         recorder.schedule.resume(recorder.place.outputs);
-        Ok(())
+        Ok(origin)
     }
 
     /// One integration after the other: where an event changes the point, the next one starts.
-    fn legs(&mut self, t_end: f64, recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
+    fn legs(&self, mut from: (f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
         let mut changes = 0;
         loop {
-            self.leg(t_end, recorder)?;
+            self.leg(from, recorder)?;
             let Some(Turn::Changed { t, point, event, work }) = recorder.turn.take() else { return Ok(()) };
             check(t, &point)?;
             changes += 1;
-            if changes > self.settings.max_steps {
-                return Err(Reason::StepLimit { limit: self.settings.max_steps });
+            if changes > recorder.max_steps {
+                return Err(Reason::StepLimit { limit: recorder.max_steps });
             }
-            (self.settings.t0, self.settings.start) = (t, point);
-            recorder.trajectory.end = (t, point);
+            from = (t, point);
+            recorder.trajectory.end = from;
             recorder.trajectory.energies.work_at_end = work;
             recorder.trajectory.computation.at_rest &= point.p().iter().all(|p| *p == 0.0);
             let cost = recorder.trajectory.statistics;
@@ -185,9 +178,9 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     }
 
     /// The motion from a point to the end, or to an event that changes it.
-    fn leg(&self, t_end: f64, recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
-        let Settings { t0, start, method, tolerance, .. } = self.settings;
-        let course = Course { t0, start, t_end, method, tolerance };
+    fn leg(&self, (t0, start): (f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
+        let Plan { method, tolerance, .. } = self.settings.plan;
+        let course = Course { t0, start, t_end: recorder.t_end, method, tolerance };
         let geodesic = self.model.geodesic(t0, &start);
         recorder.trajectory.computation.closed_form_exists = geodesic.is_some();
         match (method, geodesic) {

@@ -15,40 +15,60 @@ use crate::model::{Constraint, Description};
 /// The finest tolerance: about four roundings.
 const FINEST_TOLERANCE: f64 = 1e-15;
 
-/// What a simulation was told, whatever its model.
+/// What a simulation was told.
 pub(super) struct Settings<'a, const N: usize, P> {
     pub(super) start: P,
-    pub(super) t0: f64,
-    pub(super) t_end: Option<f64>,
-    pub(super) tolerance: f64,
-    pub(super) output: Output,
-    pub(super) method: Method,
-    pub(super) max_steps: u64,
+    pub(super) plan: Plan,
     pub(super) progress: Option<Watch<'a>>,
     pub(super) observe: Option<Observe<'a, P>>,
     pub(super) events: Vec<Event<'a, N, P>>,
     pub(super) checkpoint: Option<Checkpoint>,
 }
 
+/// The part of it that phase points do not enter.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub(super) t0: f64,
+    pub(super) t_end: Option<f64>,
+    pub(super) tolerance: f64,
+    pub(super) output: Output,
+    pub(super) method: Method,
+    pub(super) max_steps: u64,
+}
+
 impl<const N: usize, P> Settings<'_, N, P> {
     pub(super) fn new(start: P) -> Self {
-        Self {
-            start,
+        let plan = Plan {
             t0: 0.0,
             t_end: None,
             tolerance: DEFAULT_TOLERANCE,
             output: Output::Steps,
             method: Method::Automatic,
             max_steps: DEFAULT_MAX_STEPS,
-            progress: None,
-            observe: None,
-            events: Vec::new(),
-            checkpoint: None,
-        }
+        };
+        Self { start, plan, progress: None, observe: None, events: Vec::new(), checkpoint: None }
     }
 
     /// The end and the outputs, of settings that make sense for a model.
     pub(super) fn checked(&self, model: &Description) -> Result<(f64, Schedule), Setting> {
+        for event in &self.events {
+            if let Some(index) = event.out_of_range {
+                return Err(Setting::EventIndex { event: event.name, index });
+            }
+        }
+        self.plan.checked(model)
+    }
+}
+
+impl Plan {
+    /// What a checkpoint fits: runs that take the same steps from the same place.
+    pub(super) fn fingerprint(&self, model: &str, events: usize) -> String {
+        let [t0, t_end, tolerance] =
+            [self.t0, self.t_end.unwrap_or(f64::NAN), self.tolerance].map(f64::to_bits);
+        format!("{model} {:?} {tolerance:x} {t0:x} {t_end:x} {events}", self.method)
+    }
+
+    fn checked(&self, model: &Description) -> Result<(f64, Schedule), Setting> {
         let t_end = self.t_end.ok_or(Setting::NoEnd)?;
         for (name, given) in [("the time of the start", self.t0), ("the time of the end", t_end)] {
             if !given.is_finite() {
@@ -60,11 +80,6 @@ impl<const N: usize, P> Settings<'_, N, P> {
         }
         if self.max_steps == 0 {
             return Err(Setting::NoSteps);
-        }
-        for event in &self.events {
-            if let Some(index) = event.out_of_range {
-                return Err(Setting::EventIndex { event: event.name, index });
-            }
         }
         match self.method {
             Method::Taylor { order: Some(given) } if !(LOWEST_ORDER..=HIGHEST_ORDER).contains(&given) => {

@@ -53,6 +53,7 @@ impl<'a, const N: usize, P: Copy> Watcher<'a, N, P> {
     ) -> Result<Vec<Met<P>>, Reason> {
         let mut met = Vec::new();
         let begin = self.t;
+        let sign = if t_end < begin { -1.0 } else { 1.0 };
         for part in 1..=parts {
             let t = match part == parts {
                 true => t_end,
@@ -69,10 +70,11 @@ impl<'a, const N: usize, P: Copy> Watcher<'a, N, P> {
                 let function = |t: f64| at(t).map(|(point, _)| (event.function)(t, &point));
                 let time = root(function, (self.t, before), (t, value))?;
                 let (point, work) = at(time)?;
-                met.push(Met { t: time, event: index, rising, point, work });
+                // One of few: put in its place, after those of the same time.
+                let is_before = |other: &Met<P>| sign * other.t <= sign * time;
+                let place = first + met[first..].partition_point(is_before);
+                met.insert(place, Met { t: time, event: index, rising, point, work });
             }
-            let sign = if t_end < begin { -1.0 } else { 1.0 };
-            met[first..].sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)));
             self.t = t;
         }
         Ok(met)
