@@ -218,15 +218,8 @@ impl<S, C> Series<S, C> for NotEmitted {
 }
 
 impl<const N: usize, M: Splitting<N>> Pieces<M::Reduced<f64>, M::Constants<f64>> for Emitted<'_, M, N> {
-    #[inline]
-    fn count(&self) -> usize {
-        M::PIECES.len()
-    }
-
-    #[inline]
-    fn is_nystrom(&self) -> bool {
-        M::NYSTROM
-    }
+    const COUNT: usize = M::PIECES.len();
+    const NYSTROM: bool = M::NYSTROM;
 
     #[inline]
     fn flow(
@@ -242,13 +235,8 @@ impl<const N: usize, M: Splitting<N>> Pieces<M::Reduced<f64>, M::Constants<f64>>
 }
 
 impl<S, C> Pieces<S, C> for NotEmitted {
-    fn count(&self) -> usize {
-        match *self {}
-    }
-
-    fn is_nystrom(&self) -> bool {
-        match *self {}
-    }
+    const COUNT: usize = 0;
+    const NYSTROM: bool = false;
 
     fn flow(&self, _: usize, _: f64, _: f64, _: &C, _: &mut Sum<S>) {
         match *self {}

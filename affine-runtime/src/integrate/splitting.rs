@@ -18,10 +18,9 @@ use crate::model::StateVector;
 /// Exact flows of the pieces of a motion whose equations depend on constants `C`.
 pub trait Pieces<S, C> {
     /// Number of pieces.
-    fn count(&self) -> usize;
-
-    /// Are there two pieces `A` and `B` with `[B, [B, [B, A]]] = 0`?
-    fn is_nystrom(&self) -> bool;
+    const COUNT: usize;
+    /// There are two pieces, `A` and `B`, with `[B, [B, [B, A]]] = 0`.
+    const NYSTROM: bool;
 
     /// Moves the state along a piece for the time `h`; `t` is the time that a potential reads.
     fn flow(&self, piece: usize, t: f64, h: f64, constants: &C, state: &mut Sum<S>);
@@ -59,7 +58,7 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
         t_end: f64,
         step: f64,
     ) -> Option<Result<Self, Failure>> {
-        let sweeps = Sweeps::of_order(order, pieces.is_nystrom())?;
+        let sweeps = Sweeps::of_order(order, P::NYSTROM)?;
         Some(Self::with(pieces, constants, sweeps, (t0, y0), t_end, step))
     }
 
@@ -134,7 +133,7 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
     #[inline]
     fn composed(&mut self, t: f64, begin: Sum<S>, h: f64) -> Sum<S> {
         let mut state = begin;
-        let (pieces, last) = (&self.pieces, self.pieces.count().saturating_sub(1));
+        let (pieces, last) = (&self.pieces, P::COUNT.saturating_sub(1));
         let (mut elapsed, mut evaluations) = (0.0, 0);
         self.sweeps.each(last + 1, |piece, part| {
             pieces.flow(piece, t + elapsed * h, part * h, &self.constants, &mut state);

@@ -99,15 +99,8 @@ pub struct LatticeSplitting<'a, const N: usize, M: LatticePieces<N>> {
 struct InTurn<'a, const N: usize, M>(&'a M);
 
 impl<const N: usize, M: LatticePieces<N>> Pieces<M::Framed<f64>, M::Couplings<f64>> for InTurn<'_, N, M> {
-    #[inline]
-    fn count(&self) -> usize {
-        M::PIECES.len()
-    }
-
-    #[inline]
-    fn is_nystrom(&self) -> bool {
-        M::NYSTROM
-    }
+    const COUNT: usize = M::PIECES.len();
+    const NYSTROM: bool = M::NYSTROM;
 
     #[inline]
     fn flow(
