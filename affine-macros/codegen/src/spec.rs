@@ -6,6 +6,7 @@ mod expression;
 mod expression_parser;
 mod grammar;
 mod item;
+mod keys;
 mod matrix_field;
 mod momentum_side;
 mod named_potentials;

@@ -5,28 +5,11 @@ use syn::parse::Parser;
 
 use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
 use super::expression_parser::{self, Language};
+use super::keys::{Key, Side};
 use super::momentum_side::{self, MomentumKind};
 use super::names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
 use super::{Custom, Item, Metric, Potential, Spanned, Spec, Symmetry, Term, custom, value};
 use crate::diagnostics::{Diagnostics, NotationMistake, Region, Reported};
-
-/// The keys of `affine_model(...)`.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Key {
-    Dim,
-    Symmetry,
-    Kinetic,
-    Hamiltonian,
-    Metrics,
-    Constraint,
-    Group,
-    Potential,
-    Dissipation,
-    Forces,
-    Require,
-    Emit,
-    Crate,
-}
 
 /// Terms that `hamiltonian(...)` has, and `kinetic(...)` and `dissipation(...)` have not.
 const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
@@ -34,82 +17,6 @@ const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir
 /// Terms that `kinetic(...)` has and `hamiltonian(...)` has not.
 const VELOCITY_TERMS: [&str; 6] =
     ["body_inertia", "space_inertia", "dalembert", "body_tensor", "space_tensor", "flat_tensor"];
-
-impl Named for Key {
-    const ALL: &'static [Self] = &[
-        Self::Dim,
-        Self::Symmetry,
-        Self::Kinetic,
-        Self::Hamiltonian,
-        Self::Metrics,
-        Self::Constraint,
-        Self::Group,
-        Self::Potential,
-        Self::Dissipation,
-        Self::Forces,
-        Self::Require,
-        Self::Emit,
-        Self::Crate,
-    ];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Dim => "dim",
-            Self::Symmetry => "symmetry",
-            Self::Kinetic => "kinetic",
-            Self::Hamiltonian => "hamiltonian",
-            Self::Metrics => "metrics",
-            Self::Constraint => "constraint",
-            Self::Group => "group",
-            Self::Potential => "potential",
-            Self::Dissipation => "dissipation",
-            Self::Forces => "forces",
-            Self::Require => "require",
-            Self::Emit => "emit",
-            Self::Crate => "crate",
-        }
-    }
-}
-
-impl Key {
-    fn example(self) -> &'static str {
-        match self {
-            Self::Dim => "dim = 3",
-            Self::Symmetry => "symmetry(space = affine, body = metric)",
-            Self::Kinetic => "kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)",
-            Self::Hamiltonian => {
-                "hamiltonian(casimir2 = 5/6, casimir1_squared = -1/18, vorticity_squared = 25/24)"
-            }
-            Self::Metrics => "metrics(space = diag(1, 1, 2), body = [[2, 1, 0], [1, 2, 0], [0, 0, 1]])",
-            Self::Constraint => "constraint = isochoric",
-            Self::Group => "group = unitary",
-            Self::Potential => "potential = kappa/2*sinh(q)^2",
-            Self::Dissipation => "dissipation(body_inertia = 0.1, casimir2 = 0.1)",
-            Self::Forces => "forces = custom(wind, spatial)",
-            Self::Require => "require(positive_definite)",
-            Self::Emit => "emit(taylor)",
-            Self::Crate => "crate = ::affine_runtime",
-        }
-    }
-}
-
-/// The sides of `symmetry(...)`.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Space,
-    Body,
-}
-
-impl Named for Side {
-    const ALL: &'static [Self] = &[Self::Space, Self::Body];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Space => "space",
-            Self::Body => "body",
-        }
-    }
-}
 
 /// A [`Spec`] without its item.
 pub(super) struct Arguments {

@@ -1,0 +1,124 @@
+//! The phase point of a reduced state.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::{Parts, projected};
+use crate::emit::points::components;
+use crate::emit::{Context, identifiers, pattern, separated};
+use crate::mechanics::charts::Momentum;
+use crate::mechanics::kinetic::Frame;
+
+/// `expand`: what moves in closed form is put back, and space turned back.
+pub(super) fn expand(context: &Context, parts: &Parts) -> TokenStream {
+    let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
+    let chart = &context.model.reduction.chart;
+    let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    // No phase point holds the work, and 1/D and q follow from phi.
+    let needed: Vec<&str> = all
+        .iter()
+        .map(String::as_str)
+        .filter(|name| !["inverse_dilatation", "q", "work"].contains(name))
+        .collect();
+    let bound = pattern(&all, &needed);
+    let mut lets = quote!(let #bound = *reduced;);
+    let rows = |stem: &str| {
+        let rows = components(stem, n).into_iter().map(|row| {
+            let row = identifiers(&row);
+            quote!([#(#row),*])
+        });
+        quote!(#rt::matrix([#(#rows),*]))
+    };
+    let back = |value: TokenStream| {
+        if parts.turn { quote!(constants.turn.tr_mul(&#value)) } else { value }
+    };
+    if parts.dilatation {
+        lets.extend(separated::placement(context));
+    } else {
+        let phi = back(rows("phi"));
+        lets.extend(quote!(let phi = #phi;));
+    }
+    if parts.origin {
+        lets.extend(quote!(let elapsed = t - constants.t0;));
+    }
+    if chart.linear.is_some() {
+        let x = (1..=n).map(|i| format_ident!("x_{i}"));
+        let x = back(quote!(#rt::vector([#(#x),*])));
+        lets.extend(quote!(let x = #x;));
+    } else if parts.drift {
+        lets.extend(quote!(let x = constants.x0 + constants.drift * elapsed;));
+    }
+    let p = if parts.pushed { quote!(p) } else { quote!(constants.p) };
+    if parts.pushed {
+        let components = (1..=n).map(|i| format_ident!("p_{i}"));
+        lets.extend(quote!(let p = #rt::vector([#(#components),*]);));
+    }
+    lets.extend(match parts.dilatation {
+        true => separated::momentum(context, &parts.fixed),
+        false => expanded_momentum(context, parts, &rows(chart.momentum.name())),
+    });
+    let spin = match (parts.whirl, chart.momentum) {
+        (Some(Frame::Body), Momentum::Body) => quote!(#rt::Comoving(whirl.tr_mul(&momentum) * whirl)),
+        (Some(Frame::Space), Momentum::Space) => quote!(#rt::Spatial(whirl * momentum * whirl.transpose())),
+        (_, Momentum::Body) => quote!(#rt::Comoving(momentum)),
+        (_, Momentum::Space) => quote!(#rt::Spatial(momentum)),
+        (_, Momentum::Total) => {
+            let spin = projected(context, quote!(momentum - x * #p.transpose()));
+            quote!(#rt::Spatial(#spin))
+        }
+        (_, Momentum::Canonical) => quote!(#rt::TwoPoint(momentum)),
+    };
+    if let Some(frame) = parts.whirl {
+        lets.extend(quote!(let whirl = #rt::skew_exponential(&(constants.whirl * elapsed));));
+        lets.extend(match frame {
+            Frame::Body => quote!(let phi = phi * whirl;),
+            _ => quote!(let phi = whirl * phi;),
+        });
+    }
+    let centre = match (parts.pushed, parts.linear) {
+        (true, _) => quote!(#rt::Centre { x, p }),
+        (false, true) => quote!(#rt::Centre { x, p: constants.p }),
+        (false, false) => quote!(#rt::Pinned),
+    };
+    let time = if parts.origin || parts.dilatation { quote!(t) } else { quote!(_t) };
+    let reads = parts.origin
+        || parts.dilatation
+        || parts.turn
+        || parts.linear
+        || parts.momentum
+        || !parts.fixed.is_empty();
+    let constants = if reads { quote!(constants) } else { quote!(_constants) };
+    let point = context.outward(&quote!(#t), quote!(#rt::point(phi, #spin, #centre)));
+    quote! {
+        fn expand<#t: #rt::Real>(
+            &self,
+            #time: #t,
+            #constants: &Self::Constants<#t>,
+            reduced: &Self::Reduced<#t>,
+        ) -> Self::Point<#t> {
+            #lets
+            #point
+        }
+    }
+}
+
+/// The affine momentum of the chart, back from turned space.
+fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> TokenStream {
+    let chart = &context.model.reduction.chart;
+    if parts.momentum {
+        return quote!(let momentum = constants.momentum;);
+    }
+    let mut lets = TokenStream::new();
+    if !parts.fixed.is_empty() {
+        let fixed = identifiers(&parts.fixed);
+        lets.extend(quote!(let [#(#fixed),*] = constants.fixed;));
+    }
+    lets.extend(context.dependent(&context.model.reduced));
+    let momentum = match (parts.turn, chart.momentum) {
+        (false, _) | (_, Momentum::Body) => quote!(#rows),
+        (true, Momentum::Canonical) => quote!(#rows * constants.turn),
+        (true, _) => quote!(constants.turn.tr_mul(&#rows) * constants.turn),
+    };
+    lets.extend(quote!(let momentum = #momentum;));
+    lets
+}

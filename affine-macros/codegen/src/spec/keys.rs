@@ -1,0 +1,98 @@
+//! The words that arguments begin with, and how each may look.
+
+use super::names::Named;
+
+/// The keys of `affine_model(...)`.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Key {
+    Dim,
+    Symmetry,
+    Kinetic,
+    Hamiltonian,
+    Metrics,
+    Constraint,
+    Group,
+    Potential,
+    Dissipation,
+    Forces,
+    Require,
+    Emit,
+    Crate,
+}
+
+impl Named for Key {
+    const ALL: &'static [Self] = &[
+        Self::Dim,
+        Self::Symmetry,
+        Self::Kinetic,
+        Self::Hamiltonian,
+        Self::Metrics,
+        Self::Constraint,
+        Self::Group,
+        Self::Potential,
+        Self::Dissipation,
+        Self::Forces,
+        Self::Require,
+        Self::Emit,
+        Self::Crate,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Dim => "dim",
+            Self::Symmetry => "symmetry",
+            Self::Kinetic => "kinetic",
+            Self::Hamiltonian => "hamiltonian",
+            Self::Metrics => "metrics",
+            Self::Constraint => "constraint",
+            Self::Group => "group",
+            Self::Potential => "potential",
+            Self::Dissipation => "dissipation",
+            Self::Forces => "forces",
+            Self::Require => "require",
+            Self::Emit => "emit",
+            Self::Crate => "crate",
+        }
+    }
+}
+
+impl Key {
+    /// How an entry with it may look.
+    pub(super) fn example(self) -> &'static str {
+        match self {
+            Self::Dim => "dim = 3",
+            Self::Symmetry => "symmetry(space = affine, body = metric)",
+            Self::Kinetic => "kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1)",
+            Self::Hamiltonian => {
+                "hamiltonian(casimir2 = 5/6, casimir1_squared = -1/18, vorticity_squared = 25/24)"
+            }
+            Self::Metrics => "metrics(space = diag(1, 1, 2), body = [[2, 1, 0], [1, 2, 0], [0, 0, 1]])",
+            Self::Constraint => "constraint = isochoric",
+            Self::Group => "group = unitary",
+            Self::Potential => "potential = kappa/2*sinh(q)^2",
+            Self::Dissipation => "dissipation(body_inertia = 0.1, casimir2 = 0.1)",
+            Self::Forces => "forces = custom(wind, spatial)",
+            Self::Require => "require(positive_definite)",
+            Self::Emit => "emit(taylor)",
+            Self::Crate => "crate = ::affine_runtime",
+        }
+    }
+}
+
+/// The sides of `symmetry(...)`.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Side {
+    Space,
+    Body,
+}
+
+impl Named for Side {
+    const ALL: &'static [Self] = &[Self::Space, Self::Body];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Space => "space",
+            Self::Body => "body",
+        }
+    }
+}
