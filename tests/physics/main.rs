@@ -11,6 +11,7 @@ mod dual;
 mod integrate;
 #[allow(dead_code, reason = "the tests of constraints compare with more")]
 mod reference;
+mod stated;
 #[allow(dead_code, reason = "one table for the tests of constraints as well")]
 mod tolerances;
 

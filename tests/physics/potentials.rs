@@ -1,19 +1,22 @@
 //! Generated code with potentials against the oracle: every potential with every kind of kinetic energy, n = 2 and 3,
 //! its coefficient a literal and a field.
 
-use affine_oracle::{
-    Differential, Kinetic, Motion, Observable, Place, Random, Slopes, State, Term, rational,
-};
+use core::ops::Range;
+
+use affine_oracle::{Differential, Kinetic, Motion, Observable, Place, Slopes, State};
+use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 
 use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
 use crate::conserved::exists;
 use crate::families::{matrix, vector};
 use crate::reference::{Reference, assert_close};
+use crate::stated::{
+    body_inertia, body_translation, casimir1_squared, casimir2, dalembert, dalembert_scalar, is_moving,
+    phase_point, space_inertia, space_translation, states,
+};
 use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, UNDER_POTENTIAL};
 
-/// States per model.
-const SAMPLES: u64 = 4;
 /// The coefficient of every potential.
 pub(crate) const C: f64 = 1.75;
 
@@ -22,6 +25,10 @@ pub(crate) trait Loaded<const N: usize>: Model<N> + Sized {
     const TRANSLATION: bool;
     /// The potential depends on `x`: a body at rest does not stay there.
     const HELD: bool;
+    /// In roundings times the condition of the kinetic energy.
+    const TOLERANCE: f64 = UNDER_POTENTIAL;
+    /// Seeds of the states.
+    const SEEDS: Range<u64> = 2003..2007;
 
     fn body() -> Self;
     fn kinetic() -> Kinetic;
@@ -29,16 +36,8 @@ pub(crate) trait Loaded<const N: usize>: Model<N> + Sized {
     fn at(&self, state: &State) -> Self::Point<f64>;
 
     fn states() -> impl Iterator<Item = State> {
-        (0..SAMPLES).map(|seed| {
-            let state = Random::new(2003 + seed).state(N);
-            if Self::TRANSLATION { state } else { pinned(&state) }
-        })
+        states(N, Self::SEEDS, Self::TRANSLATION)
     }
-}
-
-fn pinned(state: &State) -> State {
-    let still = state.at_rest();
-    State { x: still.p.clone(), ..still }
 }
 
 /// Hamiltonian and Hamilton's equations.
@@ -47,12 +46,12 @@ pub(crate) fn agrees_with_the_oracle<const N: usize, M: Loaded<N>>() {
     for state in M::states() {
         let reference = Reference::under(&kinetic, &state, T0, M::potential);
         let point = model.at(&state);
-        let tolerance = UNDER_POTENTIAL * reference.condition;
+        let tolerance = M::TOLERANCE * reference.condition;
         let energy = reference.expected.hamiltonian;
         assert_close("H", &[model.hamiltonian(T0, &point)], &[energy], reference.energy_size(), tolerance);
         let rates = model.hamilton_equations(T0, &model.flatten(&point));
         for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
-            reference.assert_rate(name, rate, UNDER_POTENTIAL);
+            reference.assert_rate(name, rate, M::TOLERANCE);
         }
     }
 }
@@ -63,9 +62,9 @@ pub(crate) fn reduction_keeps_the_motion<const N: usize, M: Loaded<N>>() {
     let (model, kinetic) = (M::body(), M::kinetic());
     for state in M::states().flat_map(|state| [state.at_rest(), state]) {
         let point = model.at(&state);
-        let tolerance = UNDER_POTENTIAL * kinetic.condition(&state.phi).unwrap();
+        let tolerance = M::TOLERANCE * kinetic.condition(&state.phi).unwrap();
         assert_charts_lead_back(&model, &point, &state, tolerance);
-        assert_reduced_equations_move(&model, &point, UNDER_POTENTIAL, |t, state| {
+        assert_reduced_equations_move(&model, &point, M::TOLERANCE, |t, state| {
             Reference::under(&kinetic, state, t, M::potential)
         });
     }
@@ -73,29 +72,23 @@ pub(crate) fn reduction_keeps_the_motion<const N: usize, M: Loaded<N>>() {
 
 /// The lists of conserved quantities are those whose brackets with `H` vanish: nothing is missing, nothing is claimed.
 pub(crate) fn lists_are_exact<const N: usize, M: Loaded<N>>() {
-    let kinetic = M::kinetic();
     let description = M::DESCRIPTION;
-    assert_listed::<N, M>(&kinetic, description.conserved, M::states(), M::TRANSLATION);
+    assert_listed::<N, M>(description.conserved, M::states().collect(), M::TRANSLATION);
     if M::HELD {
         // No motion keeps p = 0, so nothing can be promised beyond what all motions conserve.
         for quantity in description.conserved_at_rest {
             assert!(description.conserved.contains(quantity), "{quantity:?} of a body at rest");
         }
     } else {
-        let still = M::states().map(|state| state.at_rest());
-        assert_listed::<N, M>(&kinetic, description.conserved_at_rest, still, false);
+        let still = M::states().map(|state| state.at_rest()).collect();
+        assert_listed::<N, M>(description.conserved_at_rest, still, false);
     }
 }
 
-fn assert_listed<const N: usize, M: Loaded<N>>(
-    kinetic: &Kinetic,
-    listed: &[affine_runtime::model::Conserved],
-    states: impl Iterator<Item = State>,
-    translation: bool,
-) {
+fn assert_listed<const N: usize, M: Loaded<N>>(listed: &[Conserved], states: Vec<State>, translation: bool) {
     let listed: Vec<Observable> =
         listed.iter().map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap()).collect();
-    let states: Vec<State> = states.collect();
+    let kinetic = M::kinetic();
     let motions: Vec<Motion> =
         states.iter().map(|state| kinetic.motion(state).unwrap().under(T0, M::potential).unwrap()).collect();
     for &observable in Observable::ALL {
@@ -119,42 +112,6 @@ fn assert_listed<const N: usize, M: Loaded<N>>(
     }
 }
 
-pub(crate) fn body_inertia(n: usize) -> Term {
-    Term::body_inertia(n, rational(3, 2))
-}
-
-pub(crate) fn space_inertia(n: usize) -> Term {
-    Term::space_inertia(n, rational(3, 2))
-}
-
-pub(crate) fn casimir2(_n: usize) -> Term {
-    Term::Casimir2(rational(1, 4))
-}
-
-pub(crate) fn casimir1_squared(_n: usize) -> Term {
-    Term::Casimir1Squared(rational(1, 8))
-}
-
-pub(crate) fn body_translation(_n: usize) -> Term {
-    Term::BodyTranslation(rational(5, 4))
-}
-
-pub(crate) fn space_translation(_n: usize) -> Term {
-    Term::SpaceTranslation(rational(5, 4))
-}
-
-pub(crate) fn dalembert_scalar(n: usize) -> Term {
-    Term::dalembert(n, rational(3, 2))
-}
-
-/// `diag(1, 3/2, 2)`, or its first two rows and columns.
-pub(crate) fn dalembert(n: usize) -> Term {
-    let diagonal = (0..n).fold(affine_oracle::Matrix::zeros(n, n), |sum, a| {
-        &sum + &affine_oracle::Matrix::unit(n, a, a).scaled(&rational(2 + [0, 1, 2][a], 2))
-    });
-    Term::DAlembert(diagonal)
-}
-
 /// Tests of one model.
 macro_rules! loaded {
     ($n:literal $centre:ident $held:ident $form:ident [$($term:ident)*] ($($kinetic:tt)*) ($($potential:tt)*) $energy:expr) => {
@@ -164,7 +121,7 @@ macro_rules! loaded {
         loaded! { @$form $n ($($kinetic)*) ($($potential)*) }
 
         impl Loaded<$n> for Form {
-            const TRANSLATION: bool = loaded!(@translation $centre);
+            const TRANSLATION: bool = is_moving!($centre);
             const HELD: bool = loaded!(@held $held);
 
             fn body() -> Self {
@@ -178,8 +135,7 @@ macro_rules! loaded {
                 energy(place) * C
             }
             fn at(&self, state: &State) -> Self::Point<f64> {
-                let (phi, pi) = (matrix(&state.phi.to_f64()), TwoPoint(matrix(&state.pi.to_f64())));
-                loaded!(@point $centre self state phi pi)
+                phase_point!($centre self state)
             }
         }
 
@@ -214,18 +170,8 @@ macro_rules! loaded {
             Body { c: C }.prepare().unwrap()
         }
     };
-    (@translation pinned) => { false };
-    (@translation moving) => { true };
     (@held free) => { false };
     (@held held) => { true };
-    (@point pinned $model:ident $state:ident $phi:ident $pi:ident) => {
-        $model.at_momentum($phi, $pi).unwrap()
-    };
-    (@point moving $model:ident $state:ident $phi:ident $pi:ident) => {
-        $model
-            .at_momentum(vector(&$state.x.to_f64()), $phi, vector(&$state.p.to_f64()), $pi)
-            .unwrap()
-    };
 }
 
 /// Every potential with one kind of kinetic energy: fields in the plane, literals in space, and both in both where the

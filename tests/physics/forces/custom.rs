@@ -1,7 +1,7 @@
 //! Forces and potentials that fields compute: in every form, under kinetic energies of every frame, against forces on
 //! the canonical momenta, `N = phi^-1 Q = Q_hat phi^-1`.
 
-use affine_oracle::{Kinetic, Random, State, Term, rational};
+use affine_oracle::{Kinetic, Random, State};
 use affine_runtime::force::{self, Comoving as ComovingForce, Force, Motion, Translation};
 use affine_runtime::model::{Conserved, Description, WORK};
 use affine_runtime::potential::{self, Class, Place, Potential, Slopes};
@@ -16,10 +16,11 @@ use super::fields::{
 use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
 use crate::families::{matrix, vector};
 use crate::reference::{Reference, assert_close};
+use crate::stated::{
+    body_inertia, body_translation, casimir2, dalembert_scalar, is_moving, phase_point, space_inertia,
+    space_translation, states,
+};
 use crate::tolerances::{POWER_BALANCE, UNDER_POTENTIAL};
-
-/// States per model.
-const SAMPLES: u64 = 3;
 
 /// A model with forces, and the forces on its canonical momenta.
 trait Pushed<const N: usize>: Model<N> + Sized {
@@ -33,15 +34,7 @@ trait Pushed<const N: usize>: Model<N> + Sized {
     fn at(&self, state: &State) -> Self::Point<f64>;
 
     fn states() -> impl Iterator<Item = State> {
-        (0..SAMPLES).map(|seed| {
-            let state = Random::new(8101 + seed).state(N);
-            if Self::TRANSLATION {
-                state
-            } else {
-                let still = state.at_rest();
-                State { x: still.p.clone(), ..still }
-            }
-        })
+        states(N, 8101..8104, Self::TRANSLATION)
     }
 
     fn reference(kinetic: &Kinetic, t: f64, state: &State) -> Reference {
@@ -111,30 +104,6 @@ fn slope<const N: usize, M: Model<N>>(model: &M, start: &M::Point<f64>) -> f64 {
     (at(h) - at(-h)) / (2.0 * h)
 }
 
-fn body_inertia(n: usize) -> Term {
-    Term::body_inertia(n, rational(3, 2))
-}
-
-fn space_inertia(n: usize) -> Term {
-    Term::space_inertia(n, rational(3, 2))
-}
-
-fn dalembert(n: usize) -> Term {
-    Term::dalembert(n, rational(3, 2))
-}
-
-fn casimir2(_n: usize) -> Term {
-    Term::Casimir2(rational(1, 4))
-}
-
-fn body_translation(_n: usize) -> Term {
-    Term::BodyTranslation(rational(5, 4))
-}
-
-fn space_translation(_n: usize) -> Term {
-    Term::SpaceTranslation(rational(5, 4))
-}
-
 macro_rules! pushed {
     ($($name:ident $n:literal $centre:ident [$($term:ident)*] ($($kinetic:tt)*) ($($spec:tt)*) $field:ident
         [$($conserved:ident)*] |$motion:ident| $push:expr;)*) => { $(
@@ -148,7 +117,7 @@ macro_rules! pushed {
             }
 
             impl Pushed<$n> for Body {
-                const TRANSLATION: bool = pushed!(@translation $centre);
+                const TRANSLATION: bool = is_moving!($centre);
                 const CONSERVED: &'static [Conserved] = &[$(Conserved::$conserved),*];
 
                 fn body() -> Self {
@@ -161,8 +130,7 @@ macro_rules! pushed {
                     $push
                 }
                 fn at(&self, state: &State) -> Self::Point<f64> {
-                    let (phi, pi) = (matrix(&state.phi.to_f64()), TwoPoint(matrix(&state.pi.to_f64())));
-                    pushed!(@point $centre self state phi pi)
+                    phase_point!($centre self state)
                 }
             }
 
@@ -176,16 +144,6 @@ macro_rules! pushed {
             }
         }
     )* };
-    (@translation pinned) => { false };
-    (@translation moving) => { true };
-    (@point pinned $model:ident $state:ident $phi:ident $pi:ident) => {
-        $model.at_momentum($phi, $pi).unwrap()
-    };
-    (@point moving $model:ident $state:ident $phi:ident $pi:ident) => {
-        $model
-            .at_momentum(vector(&$state.x.to_f64()), $phi, vector(&$state.p.to_f64()), $pi)
-            .unwrap()
-    };
 }
 
 pushed! {
@@ -197,13 +155,13 @@ pushed! {
     stirring_right 2 moving [space_inertia casimir2 space_translation]
         (space_inertia = 1.5, casimir2 = 0.25, space_translation = 1.25)
         (forces = custom(field, spatial)) Stirring [LinearMomentum OrbitalAngularMomentum] |motion| stirred(motion);
-    stirring_dalembert 3 pinned [dalembert] (dalembert = 1.5)
+    stirring_dalembert 3 pinned [dalembert_scalar] (dalembert = 1.5)
         (forces = custom(field, spatial)) Stirring [] |motion| stirred(motion);
     kneading_left 2 pinned [body_inertia casimir2] (body_inertia = 1.5, casimir2 = 0.25)
         (forces = custom(field, comoving)) Kneading [] |motion| kneaded(motion);
     kneading_right 3 pinned [space_inertia casimir2] (space_inertia = 1.5, casimir2 = 0.25)
         (forces = custom(field, comoving)) Kneading [] |motion| kneaded(motion);
-    kneading_dalembert 2 pinned [dalembert] (dalembert = 1.5)
+    kneading_dalembert 2 pinned [dalembert_scalar] (dalembert = 1.5)
         (forces = custom(field, comoving)) Kneading [] |motion| kneaded(motion);
     wind_missile 3 moving [body_inertia casimir2 body_translation]
         (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25)
@@ -214,17 +172,17 @@ pushed! {
         [Spin SpinNorm ComovingAffineSpin ComovingDeviator Vorticity VorticityNorm
             Casimir1 Casimir2 DeviatorCasimir2]
         |motion| blown(motion);
-    magnet 2 moving [dalembert space_translation] (dalembert = 1.5, space_translation = 1.25)
+    magnet 2 moving [dalembert_scalar space_translation] (dalembert = 1.5, space_translation = 1.25)
         (forces = custom(field, translation, gyroscopic)) Magnet
         [Energy Spin SpinNorm Vorticity VorticityNorm CanonicalMomentum] |motion| deflected(motion);
     gyroscope_left 2 pinned [body_inertia casimir2] (body_inertia = 1.5, casimir2 = 0.25)
         (forces = custom(field, spatial, gyroscopic)) Gyroscope [Energy] |motion| gyrated(motion);
-    gyroscope_dalembert 3 pinned [dalembert] (dalembert = 1.5)
+    gyroscope_dalembert 3 pinned [dalembert_scalar] (dalembert = 1.5)
         (forces = custom(field, spatial, gyroscopic)) Gyroscope [Energy] |motion| gyrated(motion);
     spring_left 2 pinned [body_inertia casimir2] (body_inertia = 1.5, casimir2 = 0.25)
         (potential = custom(field, isotropic)) Spring [Energy Spin SpinNorm Vorticity VorticityNorm]
         |motion| under(motion, |place| place.trace_green() * 0.75);
-    spring_and_more 3 pinned [dalembert] (dalembert = 1.5)
+    spring_and_more 3 pinned [dalembert_scalar] (dalembert = 1.5)
         (potential = q^2/2 + custom(field, isotropic)) Spring [Energy Spin SpinNorm Vorticity VorticityNorm]
         |motion| under(motion, |place| place.trace_green() * 0.75 + place.q() * place.q() * 0.5);
     spring_missile 3 moving [body_inertia casimir2 body_translation]

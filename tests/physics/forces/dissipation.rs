@@ -1,6 +1,6 @@
 //! Rayleigh's dissipation function, in every frame under kinetic energies of every frame.
 
-use affine_oracle::{Kinetic, Motion, Observable, Random, State, Term, rational};
+use affine_oracle::{Kinetic, Motion, Observable, State, Term, rational};
 use affine_runtime::model::{Conserved, StateVector, WORK};
 use affine_runtime::prelude::*;
 
@@ -8,10 +8,11 @@ use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_mov
 use crate::conserved::exists;
 use crate::families::{matrix, vector};
 use crate::reference::{Reference, assert_close};
+use crate::stated::{
+    body_inertia, body_translation, casimir1_squared, casimir2, dalembert, diagonal, is_moving, phase_point,
+    space_inertia, space_translation, states,
+};
 use crate::tolerances::{DAMPED, POWER_BALANCE};
-
-/// States per model.
-const SAMPLES: u64 = 3;
 
 /// A damped model, with both forms stated a second time for the oracle.
 trait Damped<const N: usize>: Model<N> + Sized {
@@ -23,15 +24,7 @@ trait Damped<const N: usize>: Model<N> + Sized {
     fn at(&self, state: &State) -> Self::Point<f64>;
 
     fn states() -> impl Iterator<Item = State> {
-        (0..SAMPLES).map(|seed| {
-            let state = Random::new(7001 + seed).state(N);
-            if Self::TRANSLATION {
-                state
-            } else {
-                let still = state.at_rest();
-                State { x: still.p.clone(), ..still }
-            }
-        })
+        states(N, 7001..7004, Self::TRANSLATION)
     }
 }
 
@@ -114,41 +107,6 @@ fn balance_closes<const N: usize, M: Damped<N>>() {
     }
 }
 
-fn body_inertia(n: usize) -> Term {
-    Term::body_inertia(n, rational(3, 2))
-}
-
-fn space_inertia(n: usize) -> Term {
-    Term::space_inertia(n, rational(3, 2))
-}
-
-fn casimir2(_n: usize) -> Term {
-    Term::Casimir2(rational(1, 4))
-}
-
-fn casimir1_squared(_n: usize) -> Term {
-    Term::Casimir1Squared(rational(1, 8))
-}
-
-fn body_translation(_n: usize) -> Term {
-    Term::BodyTranslation(rational(5, 4))
-}
-
-fn space_translation(_n: usize) -> Term {
-    Term::SpaceTranslation(rational(5, 4))
-}
-
-/// `diag(1, 3/2, 2)`, or its first two rows and columns.
-fn dalembert(n: usize) -> Term {
-    Term::DAlembert(diagonal(n))
-}
-
-fn diagonal(n: usize) -> affine_oracle::Matrix {
-    (0..n).fold(affine_oracle::Matrix::zeros(n, n), |sum, a| {
-        &sum + &affine_oracle::Matrix::unit(n, a, a).scaled(&rational(2 + [0, 1, 2][a], 2))
-    })
-}
-
 fn body_friction(n: usize) -> Term {
     Term::BodyInertia(diagonal(n))
 }
@@ -204,7 +162,7 @@ macro_rules! damped {
         struct Body;
 
         impl Damped<$n> for Body {
-            const TRANSLATION: bool = damped!(@translation $centre);
+            const TRANSLATION: bool = is_moving!($centre);
 
             fn body() -> Self {
                 Body
@@ -216,8 +174,7 @@ macro_rules! damped {
                 Kinetic::new($n, vec![$($drag($n)),*]).unwrap()
             }
             fn at(&self, state: &State) -> Self::Point<f64> {
-                let (phi, pi) = (matrix(&state.phi.to_f64()), TwoPoint(matrix(&state.pi.to_f64())));
-                damped!(@point $centre self state phi pi)
+                phase_point!($centre self state)
             }
         }
 
@@ -237,16 +194,6 @@ macro_rules! damped {
         fn power_balance() {
             balance_closes::<$n, Body>();
         }
-    };
-    (@translation pinned) => { false };
-    (@translation moving) => { true };
-    (@point pinned $model:ident $state:ident $phi:ident $pi:ident) => {
-        $model.at_momentum($phi, $pi).unwrap()
-    };
-    (@point moving $model:ident $state:ident $phi:ident $pi:ident) => {
-        $model
-            .at_momentum(vector(&$state.x.to_f64()), $phi, vector(&$state.p.to_f64()), $pi)
-            .unwrap()
     };
 }
 
