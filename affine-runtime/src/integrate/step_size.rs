@@ -1,6 +1,7 @@
 //! Step sizes: the first one, and how they follow the error.
 
 use super::error_norm::{ErrorNorm, norm};
+use super::roughly::{exp, ln};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use crate::model::StateVector;
@@ -35,7 +36,7 @@ pub(crate) struct Controller {
 impl Controller {
     /// For an error of order `h^order`.
     pub(crate) fn of(order: f64) -> Self {
-        Self { order, previous: libm::log(SMALLEST_ERROR), rejected: false }
+        Self { order, previous: ln(SMALLEST_ERROR), rejected: false }
     }
 
     /// What the next step sizes depend on.
@@ -47,19 +48,19 @@ impl Controller {
 
     /// Factor of the step size after an accepted step with `error <= 1`.
     pub(crate) fn accept(&mut self, error: f64) -> f64 {
-        let error = libm::log(if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR });
+        let error = ln(if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR });
         let exponent = (PROPORTIONAL * self.previous - (INTEGRAL + PROPORTIONAL) * error) / self.order;
         // After a rejection the longer step has just been seen to fail.
         let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
         *self = Self { previous: error, rejected: false, ..*self };
-        (SAFETY * libm::exp(exponent)).clamp(LARGEST_CUT, growth)
+        (SAFETY * exp(exponent)).clamp(LARGEST_CUT, growth)
     }
 
     /// Factor of the step size after a rejected step; NaN stands for numbers that are not finite.
     pub(crate) fn reject(&mut self, error: f64) -> f64 {
         self.rejected = true;
         if error.is_finite() {
-            (SAFETY * libm::exp(-libm::log(error) / self.order)).clamp(LARGEST_CUT, SAFETY)
+            (SAFETY * exp(-ln(error) / self.order)).clamp(LARGEST_CUT, SAFETY)
         } else {
             LARGEST_CUT
         }
@@ -113,7 +114,7 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     }
     let second = Scalar::sqrt(rate(&end, &change));
     let fastest = if first.is_finite() && first > second { first } else { second };
-    let length = libm::pow(0.01 * tolerance, 1.0 / order) / fastest;
+    let length = exp(ln(0.01 * tolerance) / order) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.
     within(if length < 100.0 * trial { length } else { 100.0 * trial })
 }
