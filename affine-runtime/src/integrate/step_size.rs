@@ -1,5 +1,7 @@
 //! Step sizes: the first one, and how they follow the error.
 
+use core::ops::Range;
+
 use super::error_norm::{ErrorNorm, norm};
 use super::roughly::{exp, ln};
 #[cfg(feature = "std")]
@@ -96,10 +98,8 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     span: f64,
     (tolerance, order): (f64, f64),
 ) -> f64 {
-    let rate = |end: &S, change: &S| {
-        error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), |r| norm(&change.as_ref()[r]))
-    };
-    let first = rate(y, slope);
+    let sizes = error_norm.at_a_state(y.as_ref(), |r| [norm(&slope.as_ref()[r])]);
+    let [first] = sizes.largest(f64::INFINITY);
     let within = |h: f64| if h < span.abs() { h } else { span.abs() };
     // Nothing moves, or something that is zero moves: no rate to go by.
     let trial = if first > 0.0 && first.is_finite() { within(0.01 / first) } else { 1e-6 * span.abs() };
@@ -112,7 +112,9 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     for (i, change) in change.as_mut().iter_mut().enumerate() {
         *change = (slope_after.as_ref()[i] - slope.as_ref()[i]) / trial;
     }
-    let second = Scalar::sqrt(rate(&end, &change));
+    let of_change = |r: Range<usize>| norm(&change.as_ref()[r]);
+    let second = error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change);
+    let second = Scalar::sqrt(second);
     let fastest = if first.is_finite() && first > second { first } else { second };
     let length = exp(ln(0.01 * tolerance) / order) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.

@@ -2,7 +2,10 @@
 
 mod lanes;
 
-pub use lanes::{Portable, Vectors, add_multiple, add_products, lanes, multiple, set_lanes, subtract_multiple, subtract_products};
+pub use lanes::{
+    Portable, Vectors, add_multiple, add_products, lanes, multiple, set_lanes, subtract_multiple,
+    subtract_products,
+};
 
 use core::fmt;
 

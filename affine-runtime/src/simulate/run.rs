@@ -94,7 +94,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         check(self.t0, &self.start)?;
         in_range::<N, M>(self.t0, &self.start)?;
         let (t0, events) = (self.t0, self.events.len());
-        let place = Place::starting((self.t0, &self.start), None, (Statistics::default(), 0.0));
+        let place = Place::starting(None, (Statistics::default(), 0.0));
         let mut recorder = Recorder {
             model: self.model,
             trajectory,
@@ -115,6 +115,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let interrupted = matches!(outcome, Err(Reason::Interrupted(_) | Reason::StepLimit { .. }));
         if (interrupted || recorder.trajectory.stopped_by.is_some()) && !recorder.is_lost {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
+            let place = place.from(self.t0, &self.start);
             let run = self.fingerprint(t0, t_end, events);
             recorder.trajectory.checkpoint = Some(Checkpoint { run, place });
         }
@@ -162,7 +163,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             recorder.trajectory.energies.work_at_end = work;
             recorder.trajectory.computation.at_rest &= point.p().iter().all(|p| *p == 0.0);
             let cost = recorder.trajectory.statistics;
-            recorder.place = Place::starting((t, &point), Some(event), (cost, work));
+            recorder.place = Place::starting(Some(event), (cost, work));
         }
     }
 

@@ -165,12 +165,14 @@ impl Writer<'_> {
             false => quote!(#t::zero()),
         });
         let states = self.states();
-        let coefficients = states.iter().zip(rates).map(|(state, rate)| self.column_entry(state).unwrap_or(rate));
+        let coefficients =
+            states.iter().zip(rates).map(|(state, rate)| self.column_entry(state).unwrap_or(rate));
         let none = self.no_columns();
         let (columns, next_columns, advanced) = self.column_bindings();
         let zeros = number(self.states().len());
-        let open = (!self.recurrence.row.is_empty())
-            .then(|| quote!(let [first, middle @ .., row] = rows else { return ([#t::zero(); #zeros], #none) };));
+        let open = (!self.recurrence.row.is_empty()).then(
+            || quote!(let [first, middle @ .., row] = rows else { return ([#t::zero(); #zeros], #none) };),
+        );
         let rows = if self.recurrence.row.is_empty() { quote!(_rows) } else { quote!(rows) };
         let passes = self.recurrence.full.len() + self.recurrence.inner.len();
         let vectors = if passes > 0 { quote!(vectors) } else { quote!(_vectors) };

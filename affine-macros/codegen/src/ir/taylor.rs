@@ -155,7 +155,18 @@ impl Recurrence {
         let Packed { lanes, row, vectors, full, inner, places } = lanes::pack(&draft.products, draft.kept());
         let rules = draft.rules(&places);
         let columns = columns::find(&program, states, &rules, (&row[..vectors], lanes));
-        Self { columns, moving: draft.moving, ready: draft.ready, rules, lanes, row, vectors, full, inner, program }
+        Self {
+            columns,
+            moving: draft.moving,
+            ready: draft.ready,
+            rules,
+            lanes,
+            row,
+            vectors,
+            full,
+            inner,
+            program,
+        }
     }
 
     /// The slot that holds a series.

@@ -38,7 +38,10 @@ impl Writer<'_> {
 
     /// Does a slot belong to a column?
     pub(super) fn is_in_column(&self, slot: usize) -> bool {
-        self.recurrence.columns.iter().any(|column| (column.slot..column.slot + self.recurrence.lanes).contains(&slot))
+        self.recurrence
+            .columns
+            .iter()
+            .any(|column| (column.slot..column.slot + self.recurrence.lanes).contains(&slot))
     }
 
     /// The columns of a state that are all zero.
@@ -66,7 +69,8 @@ impl Writer<'_> {
     pub(super) fn column_entry(&self, state: &str) -> Option<TokenStream> {
         let lanes = self.recurrence.lanes;
         let slot = (0..self.recurrence.vectors).find(|slot| {
-            self.is_in_column(*slot) && self.recurrence.row[*slot].is_some_and(|s| self.name(s.value) == state)
+            self.is_in_column(*slot)
+                && self.recurrence.row[*slot].is_some_and(|s| self.name(s.value) == state)
         })?;
         let column = self.recurrence.columns.iter().position(|column| column.slot == slot / lanes * lanes)?;
         let (name, lane) = (next_column(column + 1), number(slot % lanes));
