@@ -25,6 +25,8 @@ use crate::scalar::{Real, Scalar};
 pub trait Taylor<const N: usize>: Model<N> {
     /// What is kept of each order.
     type Row<T: Scalar>: StateVector<T>;
+    /// Coefficients in lanes: states whose rates are the lanes of one convolution go from order to order as vectors.
+    type Columns<T: Scalar>: Copy;
 
     /// `y_1` from `y_0` at time `t`; fills the row of order 0.
     fn start<T: Scalar>(
@@ -35,15 +37,19 @@ pub trait Taylor<const N: usize>: Model<N> {
         row: &mut Self::Row<T>,
     ) -> Self::Reduced<T>;
 
-    /// `(k + 1) y_(k+1)` from `y_k`, `order = k > 0`. The rows are those of the orders 0 to k; fills the last one.
+    /// The columns of a coefficient.
+    fn columns<T: Scalar>(coefficient: &Self::Reduced<T>) -> Self::Columns<T>;
+
+    /// `y_(k+1)` from `y_k`, for `k > 0`, and its columns; `order` is `k` and `1/(k + 1)`. The rows are those of the
+    /// orders 0 to k; fills the last one.
     fn next<T: Scalar>(
         &self,
         vectors: impl Vectors,
-        order: T,
+        order: (T, T),
         constants: &Self::Constants<T>,
-        coefficient: &Self::Reduced<T>,
+        coefficient: (&Self::Reduced<T>, Self::Columns<T>),
         rows: &mut [Self::Row<T>],
-    ) -> Self::Reduced<T>;
+    ) -> (Self::Reduced<T>, Self::Columns<T>);
 
     /// Fills in all coefficients after the first, which is the reduced state at time `t`. The order is one less than
     /// the shorter of the number of coefficients, and of rows and one.
@@ -67,17 +73,16 @@ pub trait Taylor<const N: usize>: Model<N> {
         coefficients: &mut [Self::Reduced<T>],
         rows: &mut [Self::Row<T>],
     ) {
-        let (mut order, mut scale) = (T::zero(), T::one());
-        for k in 0..rows.len().min(coefficients.len().saturating_sub(1)) {
-            let coefficient = coefficients[k];
-            let mut rate = match k {
-                0 => self.start(t, constants, &coefficient, &mut rows[0]),
-                _ => self.next(vectors, order, constants, &coefficient, &mut rows[..=k]),
-            };
-            rate.as_mut().iter_mut().for_each(|rate| *rate *= scale);
-            coefficients[k + 1] = rate;
-            order += T::one();
-            scale = T::one() / (order + T::one());
+        let highest = rows.len().min(coefficients.len().saturating_sub(1));
+        let ([before, after, ..], [row, ..], 1..) = (&mut *coefficients, &mut *rows, highest) else { return };
+        *after = self.start(t, constants, before, row);
+        let (mut columns, mut order) = (Self::columns(after), T::one());
+        for k in 1..highest {
+            let (coefficient, next) = (coefficients[k], order + T::one());
+            let numbers = (order, T::one() / next);
+            (coefficients[k + 1], columns) =
+                self.next(vectors, numbers, constants, (&coefficient, columns), &mut rows[..=k]);
+            order = next;
         }
     }
 }

@@ -7,6 +7,7 @@ pub mod lie;
 pub mod nystrom;
 mod published;
 pub mod rattle;
+mod roughly;
 pub mod runge_kutta;
 pub mod splitting;
 mod stages;

@@ -1,5 +1,6 @@
 //! The norm in which integrators measure errors.
 
+mod at_a_state;
 #[cfg(feature = "std")]
 mod in_lanes;
 
@@ -42,13 +43,43 @@ pub struct ErrorNorm {
     /// Where `phi` is, if anywhere.
     phi: Option<(usize, usize)>,
     inertia: [f64; GROUPS],
+    /// By name, once and for all steps.
+    measures: [Measure; GROUPS],
+}
+
+/// What a group is measured against.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Measure {
+    /// Its size.
+    Size,
+    /// Its size, and that of the placement.
+    Position,
+    /// 1.
+    One,
+    /// It is not.
+    Nothing,
+}
+
+impl Measure {
+    fn of(group: &Group) -> Self {
+        match group.name {
+            "q" => Self::One,
+            "x" => Self::Position,
+            WORK => Self::Nothing,
+            _ => Self::Size,
+        }
+    }
 }
 
 impl ErrorNorm {
     /// The norm for a state vector that consists of `groups`, one after the other, without inertias.
     #[must_use]
     pub fn new(groups: &'static [Group]) -> Self {
-        let unplaced = Self { groups, phi: None, inertia: [0.0; GROUPS] };
+        let mut measures = [Measure::Size; GROUPS];
+        for (measure, group) in measures.iter_mut().zip(groups) {
+            *measure = Measure::of(group);
+        }
+        let unplaced = Self { groups, phi: None, inertia: [0.0; GROUPS], measures };
         Self { phi: unplaced.placement().map(|range| (range.start, range.end)), ..unplaced }
     }
 
@@ -99,11 +130,12 @@ impl ErrorNorm {
         for (k, group) in self.groups.iter().enumerate() {
             let range = start..start + group.len;
             start = range.end;
-            if group.name == WORK {
+            let measure = self.measure(k, group);
+            if measure == Measure::Nothing {
                 continue;
             }
-            let floor = self.inertia.get(k).map_or(0.0, |inertia| PART_OF_DISPLACEMENT * inertia / h);
-            let scale = self.scale(group.name, range.clone(), before, after);
+            let floor = self.floor(k, h);
+            let scale = self.scale(measure, range.clone(), before, after);
             let value = value(range);
             if value != 0.0 || !scale.is_finite() {
                 let scale = if floor > scale { floor } else { scale };
@@ -118,57 +150,31 @@ impl ErrorNorm {
         largest
     }
 
-    /// [`largest`](Self::largest) of several values at one state, whose own size is measured once.
-    #[inline(always)]
-    pub(crate) fn largest_at<const K: usize>(
-        &self,
-        h: f64,
-        y: &[f64],
-        values: impl Fn(Range<usize>) -> [f64; K],
-    ) -> [f64; K] {
-        let mut largest = [0.0; K];
-        let mut start = 0;
-        for (k, group) in self.groups.iter().enumerate() {
-            let range = start..start + group.len;
-            start = range.end;
-            if group.name == WORK {
-                continue;
-            }
-            let floor = self.inertia.get(k).map_or(0.0, |inertia| PART_OF_DISPLACEMENT * inertia / h);
-            let own = match group.name {
-                "q" => 1.0,
-                "x" => self.extent(range.clone(), y),
-                _ => norm(&y[range.clone()]),
-            };
-            let scale = if floor > own { floor } else { own };
-            for (largest, value) in largest.iter_mut().zip(values(range)) {
-                let relative = if value == 0.0 && own.is_finite() {
-                    0.0
-                } else if scale.is_finite() {
-                    value / scale
-                } else {
-                    f64::NAN
-                };
-                // A NaN is kept.
-                *largest = if relative <= *largest || largest.is_nan() { *largest } else { relative };
-            }
-        }
-        largest
-    }
-
     /// Errors of momenta are measured against more than their own size.
     pub(crate) fn has_floors(&self) -> bool {
         self.inertia.iter().any(|inertia| *inertia != 0.0)
     }
 
+    /// What an error of a momentum may be because of what it moves in a step of length `h`.
     #[inline(always)]
-    fn scale(&self, name: &str, range: Range<usize>, before: &[f64], after: &[f64]) -> f64 {
-        if name == "q" {
-            return 1.0;
+    fn floor(&self, k: usize, h: f64) -> f64 {
+        match self.inertia.get(k) {
+            Some(inertia) if *inertia != 0.0 => PART_OF_DISPLACEMENT * inertia / h,
+            _ => 0.0,
         }
-        let (a, b) = match name {
-            "x" => (self.extent(range.clone(), before), self.extent(range, after)),
-            _ => (norm(&before[range.clone()]), norm(&after[range])),
+    }
+
+    #[inline(always)]
+    fn measure(&self, k: usize, group: &Group) -> Measure {
+        self.measures.get(k).copied().unwrap_or_else(|| Measure::of(group))
+    }
+
+    #[inline(always)]
+    fn scale(&self, measure: Measure, range: Range<usize>, before: &[f64], after: &[f64]) -> f64 {
+        let (a, b) = match measure {
+            Measure::One | Measure::Nothing => return 1.0,
+            Measure::Position => (self.extent(range.clone(), before), self.extent(range, after)),
+            Measure::Size => (norm(&before[range.clone()]), norm(&after[range])),
         };
         // A NaN is kept.
         if a >= b { a } else { b }
@@ -267,7 +273,8 @@ mod tests {
         for y in [[3.0, 4.0, 0.0, 5.0, 7.0], [0.0; 5], [1.0, 0.0, f64::NAN, 0.0, 2.0]] {
             let values = [[0.0; 5], [0.0, 1.0, 2.0, 0.0, 3.0], [1e-3, 0.0, 0.0, f64::NAN, 0.0]];
             let norm_of = ErrorNorm::new(LAYOUT);
-            let together = norm_of.largest_at(0.5, &y, |r| values.map(|value| norm(&value[r.clone()])));
+            let together = norm_of.at_a_state(&y, |r| values.map(|value| norm(&value[r.clone()])));
+            let together = together.largest(0.5);
             let one_by_one = values.map(|value| norm_of.largest(0.5, &y, &y, |r| norm(&value[r])));
             for (a, b) in together.into_iter().zip(one_by_one) {
                 assert!(a == b || (a.is_nan() && b.is_nan()), "{a} is not {b}");

@@ -1,6 +1,9 @@
 //! Step sizes: the first one, and how they follow the error.
 
+use core::ops::Range;
+
 use super::error_norm::{ErrorNorm, norm};
+use super::roughly::{exp, ln};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use crate::model::StateVector;
@@ -35,7 +38,7 @@ pub(crate) struct Controller {
 impl Controller {
     /// For an error of order `h^order`.
     pub(crate) fn of(order: f64) -> Self {
-        Self { order, previous: libm::log(SMALLEST_ERROR), rejected: false }
+        Self { order, previous: ln(SMALLEST_ERROR), rejected: false }
     }
 
     /// What the next step sizes depend on.
@@ -47,19 +50,19 @@ impl Controller {
 
     /// Factor of the step size after an accepted step with `error <= 1`.
     pub(crate) fn accept(&mut self, error: f64) -> f64 {
-        let error = libm::log(if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR });
+        let error = ln(if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR });
         let exponent = (PROPORTIONAL * self.previous - (INTEGRAL + PROPORTIONAL) * error) / self.order;
         // After a rejection the longer step has just been seen to fail.
         let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
         *self = Self { previous: error, rejected: false, ..*self };
-        (SAFETY * libm::exp(exponent)).clamp(LARGEST_CUT, growth)
+        (SAFETY * exp(exponent)).clamp(LARGEST_CUT, growth)
     }
 
     /// Factor of the step size after a rejected step; NaN stands for numbers that are not finite.
     pub(crate) fn reject(&mut self, error: f64) -> f64 {
         self.rejected = true;
         if error.is_finite() {
-            (SAFETY * libm::exp(-libm::log(error) / self.order)).clamp(LARGEST_CUT, SAFETY)
+            (SAFETY * exp(-ln(error) / self.order)).clamp(LARGEST_CUT, SAFETY)
         } else {
             LARGEST_CUT
         }
@@ -95,10 +98,8 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     span: f64,
     (tolerance, order): (f64, f64),
 ) -> f64 {
-    let rate = |end: &S, change: &S| {
-        error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), |r| norm(&change.as_ref()[r]))
-    };
-    let first = rate(y, slope);
+    let sizes = error_norm.at_a_state(y.as_ref(), |r| [norm(&slope.as_ref()[r])]);
+    let [first] = sizes.largest(f64::INFINITY);
     let within = |h: f64| if h < span.abs() { h } else { span.abs() };
     // Nothing moves, or something that is zero moves: no rate to go by.
     let trial = if first > 0.0 && first.is_finite() { within(0.01 / first) } else { 1e-6 * span.abs() };
@@ -111,9 +112,11 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     for (i, change) in change.as_mut().iter_mut().enumerate() {
         *change = (slope_after.as_ref()[i] - slope.as_ref()[i]) / trial;
     }
-    let second = Scalar::sqrt(rate(&end, &change));
+    let of_change = |r: Range<usize>| norm(&change.as_ref()[r]);
+    let second = error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change);
+    let second = Scalar::sqrt(second);
     let fastest = if first.is_finite() && first > second { first } else { second };
-    let length = libm::pow(0.01 * tolerance, 1.0 / order) / fastest;
+    let length = exp(ln(0.01 * tolerance) / order) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.
     within(if length < 100.0 * trial { length } else { 100.0 * trial })
 }

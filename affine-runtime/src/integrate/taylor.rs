@@ -2,11 +2,15 @@
 
 mod lanes;
 
-pub use lanes::{Portable, Vectors, add_multiple, add_products, lanes, subtract_multiple, subtract_products};
+pub use lanes::{
+    Portable, Vectors, add_multiple, add_products, lanes, multiple, set_lanes, subtract_multiple,
+    subtract_products,
+};
 
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, norm};
+use super::roughly::{exp, ln};
 use super::step_size::shortest;
 #[cfg(feature = "std")]
 use super::tape::Tape;
@@ -186,15 +190,15 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     #[inline(always)]
     fn longest(&self) -> f64 {
         let [last, before] = [self.order, self.order - 1].map(|j| self.coefficients[j].as_ref());
+        let state = self.coefficients[0].as_ref();
+        let errors = self.error_norm.at_a_state(state, |r| [size(&last[r.clone()]), size(&before[r])]);
         let within = |h: f64| {
-            let errors = self
-                .error_norm
-                .largest_at(h, self.coefficients[0].as_ref(), |r| [size(&last[r.clone()]), size(&before[r])]);
+            let errors = errors.largest(h);
             // The logarithm of `(tolerance/|y_j|)^(1/j)`; no error is no bound, and NaN stays.
-            let logarithm = |error: f64, j: usize| libm::log(self.tolerance / error) / j as f64;
+            let logarithm = |error: f64, j: usize| ln(self.tolerance / error) / j as f64;
             let (last, before) = (logarithm(errors[0], self.order), logarithm(errors[1], self.order - 1));
             let least = if last <= before || last.is_nan() { last } else { before };
-            libm::exp(least - 0.7 / (self.order - 1) as f64)
+            exp(least - 0.7 / (self.order - 1) as f64)
         };
         let length = within(self.length);
         // Momenta may err the less, the longer the step: one that is longer than guessed is measured again.

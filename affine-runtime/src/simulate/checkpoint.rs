@@ -39,18 +39,19 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// At the start of an integration.
-    pub(super) fn starting<const N: usize, P: Phase<N>>(
-        (t, point): (f64, &P),
-        changed_by: Option<usize>,
-        (cost, work): (Statistics, f64),
-    ) -> Self {
+    /// At the start of an integration. Where that is is written down when it is asked for, by [`from`](Self::from).
+    pub(super) fn starting(changed_by: Option<usize>, (cost, work): (Statistics, f64)) -> Self {
+        let cost = [cost.steps, cost.rejected, cost.evaluations];
+        Self { changed_by, cost, work: work.to_bits(), ..Self::default() }
+    }
+
+    /// With the time and the point from which the integration started.
+    pub(super) fn from<const N: usize, P: Phase<N>>(self, t: f64, point: &P) -> Self {
         // The time, and x, phi, p and a momentum in three dimensions: one allocation.
         let mut from = Vec::with_capacity(1 + 24);
         from.push(t.to_bits());
         point.entries(&mut |entry| from.push(entry.to_bits()));
-        let cost = [cost.steps, cost.rejected, cost.evaluations];
-        Self { from, changed_by, cost, work: work.to_bits(), ..Self::default() }
+        Self { from, ..self }
     }
 
     /// Time and point from which the integration started; `like` is any point of the model.

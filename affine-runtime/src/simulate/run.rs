@@ -120,7 +120,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             origin: t0,
             t_end,
             backward: t_end < t0,
-            place: Place::starting((t0, &start), None, (Statistics::default(), 0.0)),
+            place: Place::starting(None, (Statistics::default(), 0.0)),
             is_lost: false,
             turn: None,
         };
@@ -128,10 +128,11 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         if let Some(checkpoint) = self.settings.checkpoint.take() {
             origin = self.take_up(checkpoint, events, &mut recorder)?;
         }
-        let outcome = self.legs(origin, &mut recorder);
+        let outcome = self.legs(&mut origin, &mut recorder);
         let interrupted = matches!(outcome, Err(Reason::Interrupted(_) | Reason::StepLimit { .. }));
         if (interrupted || recorder.trajectory.stopped_by.is_some()) && !recorder.is_lost {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
+            let place = place.from(origin.0, &origin.1);
             let run = self.settings.plan.fingerprint(description.name, events);
             recorder.trajectory.checkpoint = Some(Checkpoint { run, place });
         }
@@ -157,23 +158,23 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         Ok(origin)
     }
 
-    /// One integration after the other: where an event changes the point, the next one starts.
-    fn legs(&self, mut from: (f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
+    /// One integration after the other: where an event changes the point, the next one starts, and `from` is where.
+    fn legs(&self, from: &mut (f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
         let mut changes = 0;
         loop {
-            self.leg(from, recorder)?;
+            self.leg(*from, recorder)?;
             let Some(Turn::Changed { t, point, event, work }) = recorder.turn.take() else { return Ok(()) };
             check(t, &point)?;
             changes += 1;
             if changes > recorder.max_steps {
                 return Err(Reason::StepLimit { limit: recorder.max_steps });
             }
-            from = (t, point);
-            recorder.trajectory.end = from;
+            *from = (t, point);
+            recorder.trajectory.end = *from;
             recorder.trajectory.energies.work_at_end = work;
             recorder.trajectory.computation.at_rest &= point.p().iter().all(|p| *p == 0.0);
             let cost = recorder.trajectory.statistics;
-            recorder.place = Place::starting((t, &point), Some(event), (cost, work));
+            recorder.place = Place::starting(Some(event), (cost, work));
         }
     }
 

@@ -1,5 +1,6 @@
 //! `emit(taylor)`: the recurrence of Taylor coefficients, order by order.
 
+mod columns;
 mod convolutions;
 mod rules;
 
@@ -21,10 +22,11 @@ pub(super) fn taylor_impl(context: &Context) -> TokenStream {
     let t = &context.names.scalar;
     let slots = number(recurrence.row.len());
     let mut writer = Writer { context, recurrence, fixed: Vec::new() };
-    let (start, next) = (writer.start(), writer.next());
+    let (columns, start, next) = (writer.columns(), writer.start(), writer.next());
     quote! {
         impl #generics #rt::Taylor<#n> for #prepared #types #clause {
             type Row<#t: #rt::Scalar> = [#t; #slots];
+            #columns
             #start
             #next
         }
@@ -158,27 +160,35 @@ impl Writer<'_> {
         let rates = self.recurrence.program.outputs.iter().map(|(_, v)| match self.recurrence.moving[*v] {
             true => {
                 let rate = self.ident(*v);
-                quote!(#rate)
+                quote!(#rate * scale)
             }
             false => quote!(#t::zero()),
         });
+        let states = self.states();
+        let coefficients =
+            states.iter().zip(rates).map(|(state, rate)| self.column_entry(state).unwrap_or(rate));
+        let none = self.no_columns();
+        let (columns, next_columns, advanced) = self.column_bindings();
         let zeros = number(self.states().len());
-        let open = (!self.recurrence.row.is_empty())
-            .then(|| quote!(let [first, middle @ .., row] = rows else { return [#t::zero(); #zeros] };));
+        let open = (!self.recurrence.row.is_empty()).then(
+            || quote!(let [first, middle @ .., row] = rows else { return ([#t::zero(); #zeros], #none) };),
+        );
         let rows = if self.recurrence.row.is_empty() { quote!(_rows) } else { quote!(rows) };
         let passes = self.recurrence.full.len() + self.recurrence.inner.len();
         let vectors = if passes > 0 { quote!(vectors) } else { quote!(_vectors) };
-        let order = if self.reads_order() { quote!(order) } else { quote!(_order) };
+        let order = if self.reads_order() { quote!(order) } else { quote!(_) };
+        let moves = self.recurrence.program.outputs.iter().any(|(_, v)| self.recurrence.moving[*v]);
+        let scale = if moves { quote!(scale) } else { quote!(_) };
         quote! {
             #[inline(always)]
             fn next<#t: #rt::Scalar>(
                 &self,
                 #vectors: impl #rt::Vectors,
-                #order: #t,
+                (#order, #scale): (#t, #t),
                 #constants: &Self::Constants<#t>,
-                #coefficient: &Self::Reduced<#t>,
+                (#coefficient, #columns): (&Self::Reduced<#t>, Self::Columns<#t>),
                 #rows: &mut [Self::Row<#t>],
-            ) -> Self::Reduced<#t> {
+            ) -> (Self::Reduced<#t>, Self::Columns<#t>) {
                 #read
                 #lets
                 #open
@@ -190,7 +200,8 @@ impl Writer<'_> {
                 #(#late)*
                 #late_vectors
                 #stored
-                [#(#rates),*]
+                #advanced
+                ([#(#coefficients),*], #next_columns)
             }
         }
     }
@@ -213,7 +224,8 @@ impl Writer<'_> {
 
     /// States whose coefficients rules or rows read.
     fn used_states(&self) -> Vec<String> {
-        let mut read: Vec<Value> = self.recurrence.row.iter().flatten().map(|s| s.value).collect();
+        let row = self.recurrence.row.iter().enumerate().filter(|(slot, _)| !self.is_in_column(*slot));
+        let mut read: Vec<Value> = row.filter_map(|(_, s)| Some((*s)?.value)).collect();
         read.extend(self.recurrence.program.outputs.iter().map(|(_, v)| *v));
         for (_, rule) in &self.recurrence.rules {
             match rule {

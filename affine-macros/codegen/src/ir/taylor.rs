@@ -8,6 +8,7 @@
 //! * those of *ready* values (states and their linear combinations, known when order `k` begins) in full;
 //! * the others from `j = 1` to `k - 1`; the two terms with `a_k` and `b_k` join when these are known.
 
+mod columns;
 mod companions;
 mod lanes;
 mod rules;
@@ -57,6 +58,17 @@ pub struct Recurrence {
     pub full: Vec<Pass>,
     /// Convolutions `j = 1..k` of the others.
     pub inner: Vec<Pass>,
+    /// Vectors of states whose rates are the lanes of one sum.
+    pub columns: Vec<Column>,
+}
+
+/// A vector of states, whose next coefficients are a sum's lanes divided by the order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// First slot of the vector.
+    pub slot: usize,
+    /// The sum, one of the full ones.
+    pub sum: usize,
 }
 
 /// One multiplication of vectors in a convolution: `sum += left_j right_(k-j)`.
@@ -142,7 +154,19 @@ impl Recurrence {
         let draft = rules::Draft::of(&program, states);
         let Packed { lanes, row, vectors, full, inner, places } = lanes::pack(&draft.products, draft.kept());
         let rules = draft.rules(&places);
-        Self { moving: draft.moving, ready: draft.ready, rules, lanes, row, vectors, full, inner, program }
+        let columns = columns::find(&program, states, &rules, (&row[..vectors], lanes));
+        Self {
+            columns,
+            moving: draft.moving,
+            ready: draft.ready,
+            rules,
+            lanes,
+            row,
+            vectors,
+            full,
+            inner,
+            program,
+        }
     }
 
     /// The slot that holds a series.

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::{ErrorNorm, GROUPS, PART_OF_DISPLACEMENT};
+use super::{ErrorNorm, GROUPS, Measure, PART_OF_DISPLACEMENT};
 use crate::lanes::Lanes;
 use crate::model::{Group, StateVector};
 
@@ -55,9 +55,13 @@ impl<T: Lanes> NormInLanes<T> {
         for (k, group) in self.layout.groups.iter().enumerate() {
             let range = start..start + group.len;
             start = range.end;
+            let measure = self.layout.measure(k, group);
+            if measure == Measure::Nothing {
+                continue;
+            }
             let inertia = self.inertia.get(k).copied().unwrap_or(T::zero());
             let floor = T::constant(PART_OF_DISPLACEMENT, 0.0) * inertia / h;
-            let scale = self.scale(group.name, range.clone(), before, after);
+            let scale = self.scale(measure, range.clone(), before, after);
             let value = value(range);
             largest = each(|lane| {
                 relative(value.lane(lane), scale.lane(lane), floor.lane(lane), largest.lane(lane))
@@ -67,13 +71,11 @@ impl<T: Lanes> NormInLanes<T> {
     }
 
     #[inline(always)]
-    fn scale(&self, name: &str, range: Range<usize>, before: &[T], after: &[T]) -> T {
-        if name == "q" {
-            return T::one();
-        }
-        let (a, b) = match name {
-            "x" => (self.extent(range.clone(), before), self.extent(range, after)),
-            _ => (norm(&before[range.clone()]), norm(&after[range])),
+    fn scale(&self, measure: Measure, range: Range<usize>, before: &[T], after: &[T]) -> T {
+        let (a, b) = match measure {
+            Measure::One => return T::one(),
+            Measure::Position => (self.extent(range.clone(), before), self.extent(range, after)),
+            Measure::Size | Measure::Nothing => (norm(&before[range.clone()]), norm(&after[range])),
         };
         each(|lane| if a.lane(lane) >= b.lane(lane) { a.lane(lane) } else { b.lane(lane) })
     }

@@ -3,6 +3,7 @@
 use super::dormand_prince_853::*;
 use super::pair::{DormandPrince853, E3, Pair};
 use crate::integrate::error_norm::{NormInLanes, norm_in_lanes, squares_in_lanes};
+use crate::integrate::roughly::{exp, ln};
 use crate::integrate::step_size::{Controller, next_time, shortest};
 use crate::integrate::taylor::Vectors;
 use crate::integrate::widest::{Work, widest};
@@ -209,7 +210,7 @@ fn first_step<T: Lanes, S: StateVector<T>>(
     let of_lane = |lane: usize| {
         let (first, second, trial) = (first.lane(lane), second.lane(lane), trial.lane(lane));
         let fastest = if first.is_finite() && first > second { first } else { second };
-        let length = libm::pow(0.01 * tolerance, 1.0 / DormandPrince853::ERROR_ORDER) / fastest;
+        let length = exp(ln(0.01 * tolerance) / DormandPrince853::ERROR_ORDER) / fastest;
         within(if length < 100.0 * trial { length } else { 100.0 * trial })
     };
     (0..T::LANES).map(of_lane).fold(span.abs(), f64::min)

@@ -11,6 +11,8 @@ use crate::scalar::Scalar;
 
 /// Vectors of four doubles, as a processor has them; what it rounds is the same on all.
 pub trait Vectors: Copy {
+    /// `left right`, lane by lane.
+    fn product(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4];
     /// `sum + left right`, lane by lane.
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
     /// `sum - left right`, lane by lane.
@@ -22,6 +24,10 @@ pub trait Vectors: Copy {
 pub struct Portable;
 
 impl Vectors for Portable {
+    #[inline(always)]
+    fn product(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        (f64x4::from(left) * f64x4::from(right)).into()
+    }
     #[inline(always)]
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
         f64x4::from(left).mul_add(f64x4::from(right), f64x4::from(sum)).into()
@@ -35,6 +41,10 @@ impl Vectors for Portable {
 /// AVX2: found at run time on targets that do not promise it, so nothing is fused there either.
 #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
 impl Vectors for pulp::x86::V3 {
+    #[inline(always)]
+    fn product(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        pulp::cast(self.mul_f64x4(pulp::cast(left), pulp::cast(right)))
+    }
     #[inline(always)]
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
         let product = self.mul_f64x4(pulp::cast(left), pulp::cast(right));
@@ -115,6 +125,29 @@ pub fn subtract_multiple<T: Scalar, const W: usize>(
     factor: T,
 ) {
     subtract_products(vectors, sum, left, [factor; W]);
+}
+
+/// `factor left`, lane by lane.
+#[inline(always)]
+pub fn multiple<T: Scalar, const W: usize>(vectors: impl Vectors, left: [T; W], factor: T) -> [T; W] {
+    let mut product = left;
+    let factors = [factor; W];
+    if let Some((product, left, right)) = doubles(&mut product, &left, &factors) {
+        *product = vectors.product(left, right);
+    } else if let Some((product, left, right)) = doubles(&mut product, &left, &factors) {
+        *product = (f64x2::from(left) * f64x2::from(right)).into();
+    } else {
+        product.iter_mut().for_each(|lane| *lane *= factor);
+    }
+    product
+}
+
+/// Writes the lanes of a row that begin at a slot.
+#[inline(always)]
+pub fn set_lanes<T: Scalar, const W: usize>(row: &mut [T], slot: usize, vector: [T; W]) {
+    if let Some(lanes) = row.get_mut(slot..).and_then(<[T]>::first_chunk_mut) {
+        *lanes = vector;
+    }
 }
 
 /// The same, where the lanes are `V` doubles: known when the call is compiled.

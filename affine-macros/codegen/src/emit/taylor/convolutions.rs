@@ -21,7 +21,9 @@ impl Writer<'_> {
         let vectors =
             self.recurrence.row[..self.recurrence.vectors].chunks(self.recurrence.lanes).enumerate();
         vectors
-            .filter(|(_, vector)| vector.iter().all(is_ready) == ready)
+            .filter(|(index, vector)| {
+                !self.is_in_column(index * self.recurrence.lanes) && vector.iter().all(is_ready) == ready
+            })
             .map(|(index, vector)| {
                 let name = self.vector(index * self.recurrence.lanes);
                 let entries = vector.iter().map(|series| match series {
@@ -33,7 +35,7 @@ impl Writer<'_> {
             .collect()
     }
 
-    fn vector(&self, slot: usize) -> Ident {
+    pub(super) fn vector(&self, slot: usize) -> Ident {
         format_ident!("lanes_{}", slot / self.recurrence.lanes + 1)
     }
 
@@ -43,17 +45,16 @@ impl Writer<'_> {
         if row.is_empty() {
             return TokenStream::new();
         }
-        let names = (0..*vectors).step_by(*lanes).map(|slot| self.vector(slot));
-        let singles = row[*vectors..].iter().flatten().map(|series| self.current(*series));
-        let entries = names
-            .flat_map(|name| {
-                (0..*lanes).map(move |lane| {
-                    let lane = number(lane);
-                    quote!(#name[#lane])
-                })
-            })
-            .chain(singles);
-        quote!(*row = [#(#entries),*];)
+        let rt = &self.context.names.rt;
+        let columns = (0..*vectors).step_by(*lanes).map(|slot| {
+            let (name, slot) = (self.vector(slot), number(slot));
+            quote!(#rt::set_lanes(row, #slot, #name);)
+        });
+        let singles = row.iter().enumerate().skip(*vectors).filter_map(|(slot, series)| {
+            let (slot, entry) = (number(slot), self.current((*series)?));
+            Some(quote!(row[#slot] = #entry;))
+        });
+        quote!(#(#columns)* #(#singles)*)
     }
 
     /// The terms `j = 1..k` of all convolutions.
@@ -91,6 +92,10 @@ impl Writer<'_> {
                 let right = self.vector(slot);
                 quote!(#right)
             }
+            Factor::Slot(slot) if self.is_in_column(slot) => {
+                let (vector, lane) = (self.vector(slot), number(slot % self.recurrence.lanes));
+                quote!(#vector[#lane])
+            }
             Factor::Slot(slot) => {
                 self.recurrence.row[slot].map(|series| self.current(series)).unwrap_or_default()
             }
@@ -117,7 +122,7 @@ impl Writer<'_> {
         (vector(left, pass.left), right)
     }
 
-    fn sum(&self, stem: &str, sum: usize) -> Ident {
+    pub(super) fn sum(&self, stem: &str, sum: usize) -> Ident {
         format_ident!("{stem}_{}", sum + 1)
     }
 

@@ -1,0 +1,83 @@
+//! Columns of the state that go from order to order as vectors.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::super::number;
+use super::Writer;
+
+impl Writer<'_> {
+    /// The type of the columns, and how they are taken from a coefficient.
+    pub(super) fn columns(&self) -> TokenStream {
+        let (rt, t) = (&self.context.names.rt, &self.context.names.scalar);
+        let (lanes, count) = (number(self.recurrence.lanes), number(self.recurrence.columns.len()));
+        let used: Vec<String> = (0..self.recurrence.vectors)
+            .filter(|slot| self.is_in_column(*slot))
+            .filter_map(|slot| Some(self.name(self.recurrence.row[slot]?.value)))
+            .collect();
+        let used: Vec<&str> = used.iter().map(String::as_str).collect();
+        let (bind, coefficient) = self.bind(&used, "coefficient");
+        let vectors = self.recurrence.columns.iter().map(|column| {
+            let entries = self.recurrence.row[column.slot..][..self.recurrence.lanes].iter().map(|series| {
+                series.map_or(quote!(#t::zero()), |series| {
+                    let name = self.ident(series.value);
+                    quote!(#name)
+                })
+            });
+            quote!([#(#entries),*])
+        });
+        quote! {
+            type Columns<#t: #rt::Scalar> = [[#t; #lanes]; #count];
+            #[inline(always)]
+            fn columns<#t: #rt::Scalar>(#coefficient: &Self::Reduced<#t>) -> Self::Columns<#t> {
+                #bind
+                [#(#vectors),*]
+            }
+        }
+    }
+
+    /// Does a slot belong to a column?
+    pub(super) fn is_in_column(&self, slot: usize) -> bool {
+        self.recurrence
+            .columns
+            .iter()
+            .any(|column| (column.slot..column.slot + self.recurrence.lanes).contains(&slot))
+    }
+
+    /// The columns of a state that are all zero.
+    pub(super) fn no_columns(&self) -> TokenStream {
+        let t = &self.context.names.scalar;
+        let (lanes, count) = (number(self.recurrence.lanes), number(self.recurrence.columns.len()));
+        quote!([[#t::zero(); #lanes]; #count])
+    }
+
+    /// The columns as a parameter and as a result, and their next coefficients.
+    pub(super) fn column_bindings(&self) -> (TokenStream, TokenStream, TokenStream) {
+        let rt = &self.context.names.rt;
+        let columns = &self.recurrence.columns;
+        if columns.is_empty() {
+            return (quote!(_), quote!([]), TokenStream::new());
+        }
+        let names = columns.iter().map(|column| self.vector(column.slot));
+        let next: Vec<Ident> = (1..=columns.len()).map(next_column).collect();
+        let sums = columns.iter().map(|column| self.sum("full", column.sum));
+        let advanced = quote!(#(let #next = #rt::multiple(vectors, #sums, scale);)*);
+        (quote!([#(#names),*]), quote!([#(#next),*]), advanced)
+    }
+
+    /// The next coefficient of a state that stands in a column.
+    pub(super) fn column_entry(&self, state: &str) -> Option<TokenStream> {
+        let lanes = self.recurrence.lanes;
+        let slot = (0..self.recurrence.vectors).find(|slot| {
+            self.is_in_column(*slot)
+                && self.recurrence.row[*slot].is_some_and(|s| self.name(s.value) == state)
+        })?;
+        let column = self.recurrence.columns.iter().position(|column| column.slot == slot / lanes * lanes)?;
+        let (name, lane) = (next_column(column + 1), number(slot % lanes));
+        Some(quote!(#name[#lane]))
+    }
+}
+
+fn next_column(number: usize) -> Ident {
+    format_ident!("column_{number}")
+}
