@@ -2,6 +2,7 @@
 
 mod dormand_el_mikkawy_prince;
 mod step;
+mod sums;
 
 use core::fmt;
 
@@ -14,7 +15,7 @@ use super::taylor::Vectors;
 use super::widest::{Work, widest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
-use step::{Point, Step};
+use step::{Point, Reached, Step};
 
 /// Order of the leading term of the error estimate in the step size: that of the local error of the embedded solution.
 const ERROR_ORDER: f64 = 11.0;
@@ -58,6 +59,7 @@ pub struct RungeKuttaNystrom12<S, C, R: SecondOrder<S, C>> {
     step: Step<R::Half>,
     t: f64,
     end: Point<R::Half>,
+    /// Positions and momenta of `end`. The rest, which no step reads, is that of the start.
     state: S,
     length: f64,
     t_end: f64,
@@ -126,18 +128,18 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
         if self.is_finished() {
             return Ok(());
         }
-        let force = self.system.force(self.t, &self.constants, &self.end.positions.value);
         self.statistics.evaluations += 1;
-        self.step.begin(self.t, self.end, force);
+        let mut is_first = true;
         loop {
             let end = next_time(self.t, self.length, self.t_end);
             self.statistics.evaluations += 16;
             let h = end - self.t;
-            let (reached, error) = widest(Trial { integration: self, h });
+            let (reached, error) = widest(Trial { integration: self, is_first, h });
+            is_first = false;
             if error <= 1.0 {
                 self.length = h.abs() * self.controller.accept(error);
-                self.state = self.system.renewed(&whole(&self.state, &reached));
                 (self.t, self.end) = (end, reached);
+                self.state = whole(&self.state, &reached);
                 self.statistics.steps += 1;
                 return Ok(());
             }
@@ -158,11 +160,11 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
     /// [`Failure::NotFinite`], but the integration can go on.
     pub fn at(&mut self, t: f64) -> Result<S, Failure> {
         if t == self.t {
-            return Ok(self.state);
+            return Ok(self.y());
         }
         self.statistics.evaluations += 16;
         let h = t - self.step.time();
-        let (between, _) = widest(Trial { integration: self, h });
+        let (between, _) = widest(Trial { integration: self, is_first: false, h });
         let between = self.system.renewed(&whole(&self.state, &between));
         if is_finite(&between) { Ok(between) } else { Err(Failure::NotFinite) }
     }
@@ -176,7 +178,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
         tape.number(&mut self.length);
         self.controller.exchange(tape);
         tape.statistics(&mut self.statistics);
-        self.state = self.system.renewed(&whole(&self.state, &self.end));
+        self.state = whole(&self.state, &self.end);
     }
 
     /// Time reached.
@@ -187,7 +189,13 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
 
     /// State reached.
     #[must_use]
-    pub fn y(&self) -> &S {
+    pub fn y(&self) -> S {
+        self.system.renewed(&self.state)
+    }
+
+    /// Positions and momenta reached; [`renewed`](SecondOrder::renewed), the state.
+    #[cfg(feature = "std")]
+    pub(crate) fn halves(&self) -> &S {
         &self.state
     }
 
@@ -206,17 +214,17 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
     /// A step of length `h` from where the step begins, and its error relative to the tolerance; NaN where something is
     /// not finite.
     #[inline(always)]
-    fn attempt(&mut self, h: f64) -> (Point<R::Half>, f64) {
+    fn attempt(&mut self, vectors: impl Vectors, h: f64) -> (Point<R::Half>, f64) {
+        let system = (&self.system, &self.constants);
+        let Reached { point, error_slopes: [positions, momenta] } = self.step.attempt(vectors, system, h);
         let from = self.step.start();
         let before = joined::<S, R::Half>(&from.positions.value, &from.momenta.value);
-        let reached = self.step.attempt(&self.system, &self.constants, h);
-        let (positions, momenta) = self.step.error_slopes(&self.system, &self.constants, h);
+        let after = joined::<S, R::Half>(&point.positions.value, &point.momenta.value);
         let slopes = joined::<S, R::Half>(&positions, &momenta);
-        let after = joined::<S, R::Half>(&reached.positions.value, &reached.momenta.value);
         let relative = self
             .error_norm
             .largest(h.abs(), before.as_ref(), after.as_ref(), |range| norm(&slopes.as_ref()[range]));
-        (reached, h.abs() * relative / self.tolerance)
+        (point, h.abs() * relative / self.tolerance)
     }
 }
 
@@ -258,17 +266,23 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> fmt::Debug for RungeKuttaNyst
     }
 }
 
-/// A step of an integration for the time `h`.
+/// A step of an integration for the time `h`, the first from the point reached or another from the same point.
 struct Trial<'a, S, C, R: SecondOrder<S, C>> {
     integration: &'a mut RungeKuttaNystrom12<S, C, R>,
+    is_first: bool,
     h: f64,
 }
 
 impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Work for Trial<'_, S, C, R> {
     type Output = (Point<R::Half>, f64);
     #[inline(always)]
-    fn run(self, _vectors: impl Vectors) -> (Point<R::Half>, f64) {
-        self.integration.attempt(self.h)
+    fn run(self, vectors: impl Vectors) -> (Point<R::Half>, f64) {
+        let Self { integration, is_first, h } = self;
+        if is_first {
+            let RungeKuttaNystrom12 { step, system, constants, t, end, .. } = integration;
+            step.begin(system, constants, (*t, *end));
+        }
+        integration.attempt(vectors, h)
     }
 }
 

@@ -2,10 +2,11 @@
 
 use super::SecondOrder;
 use super::dormand_el_mikkawy_prince::*;
+use super::sums::{plus_multiple, sum};
 use crate::integrate::lie::Sum;
-use crate::integrate::stages::{combination, difference};
+use crate::integrate::stages::difference;
+use crate::integrate::taylor::Vectors;
 use crate::model::StateVector;
-use crate::scalar::Scalar;
 
 const STAGES: usize = 17;
 
@@ -21,24 +22,37 @@ pub(super) struct Point<H> {
     pub(super) momenta: Sum<H>,
 }
 
-/// The step of the method from a point, and the forces at its stages.
+/// The step of the method from a point, and what its stages found. As `V` is linear, the positions of a stage are
+///
+/// ```text
+/// q_i = q + c_i h V(p) + h^2 sum_j a_ij A_j,    A_j = V(F_j)
+/// ```
+///
+/// where nothing but `A_(i-1)` waits for the stage before.
 #[derive(Clone, Debug)]
 pub(super) struct Step<H> {
     t: f64,
     begin: Point<H>,
-    /// At `(t_n + c_i h, q_i)`.
+    /// `V(p)` at the beginning.
+    velocity: H,
+    /// `F_i`, at `(t_n + c_i h, q_i)`.
     forces: [H; STAGES],
+    /// `A_i`.
+    accelerations: [H; STAGES],
+}
+
+/// What a step comes to.
+pub(super) struct Reached<H> {
+    pub(super) point: Point<H>,
+    /// Differences, divided by `h`, of the solution to the embedded one, in positions and momenta.
+    pub(super) error_slopes: [H; 2],
 }
 
 impl<H: StateVector<f64>> Step<H> {
     /// Before any step.
     pub(super) fn at(t: f64, begin: Point<H>) -> Self {
-        Self { t, begin, forces: [H::zeros(); STAGES] }
-    }
-
-    /// Turns to the step from a point where the force is given.
-    pub(super) fn begin(&mut self, t: f64, begin: Point<H>, force: H) {
-        (self.t, self.begin, self.forces[0]) = (t, begin, force);
+        let [velocity, none] = [H::zeros(); 2];
+        Self { t, begin, velocity, forces: [none; STAGES], accelerations: [none; STAGES] }
     }
 
     /// When the step begins.
@@ -51,59 +65,68 @@ impl<H: StateVector<f64>> Step<H> {
         &self.begin
     }
 
+    /// Turns to the step from a point. 1 evaluation.
+    #[inline(always)]
+    pub(super) fn begin<S, C>(
+        &mut self,
+        system: &impl SecondOrder<S, C, Half = H>,
+        constants: &C,
+        (t, begin): (f64, Point<H>),
+    ) {
+        (self.t, self.begin) = (t, begin);
+        self.velocity = system.drift(constants, &begin.momenta.value);
+        self.evaluate((system, constants), 1, t, &begin.positions.value);
+    }
+
     /// The point after the time `h`. 16 evaluations.
     #[inline(always)]
     pub(super) fn attempt<S, C>(
         &mut self,
-        system: &impl SecondOrder<S, C, Half = H>,
-        constants: &C,
+        vectors: impl Vectors,
+        (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
         h: f64,
-    ) -> Point<H> {
-        let Self { t, begin, forces } = self;
-        let positions = |node: f64, sum: &H| {
-            let mut positions = system.drift(constants, &mean(&begin.momenta.value, node, h, sum));
-            for (q, begin) in positions.as_mut().iter_mut().zip(begin.positions.value.as_ref()) {
-                *q = q.fma(h, *begin);
-            }
-            positions
-        };
+    ) -> Reached<H> {
         macro_rules! stages {
             ($($number:literal $row:ident)*) => {
                 $(
                     let (_, node) = NODES[$number - 2];
-                    let at = positions(node, &combination(&*forces, &$row));
-                    forces[$number - 1] = system.force(*t + node * h, constants, &at);
+                    let [ref earlier @ .., (newest, last)] = $row;
+                    let mut at = self.begin.positions.value;
+                    plus_multiple(vectors, &mut at, &self.velocity, node * h);
+                    plus_multiple(vectors, &mut at, &sum(vectors, &self.accelerations, earlier), h * h);
+                    plus_multiple(vectors, &mut at, &self.accelerations[newest - 1], h * h * last);
+                    self.evaluate((system, constants), $number, self.t + node * h, &at);
                 )*
             };
         }
         stages!(2 A2 3 A3 4 A4 5 A5 6 A6 7 A7 8 A8 9 A9 10 A10 11 A11 12 A12 13 A13 14 A14 15 A15 16 A16 17 A17);
-        let moving = mean(&begin.momenta.value, 1.0, h, &combination(&*forces, &POSITION));
-        let rise = scaled(h, system.drift(constants, &moving));
-        let pull = scaled(h, combination(&*forces, &MOMENTUM));
-        Point { positions: begin.positions.plus(&rise), momenta: begin.momenta.plus(&pull) }
+        let (forces, accelerations) = (&self.forces, &self.accelerations);
+        let mut rise = scaled(h, self.velocity);
+        plus_multiple(vectors, &mut rise, &sum(vectors, accelerations, &POSITION), h * h);
+        let pull = scaled(h, sum(vectors, forces, &MOMENTUM));
+        let Point { positions, momenta } = &self.begin;
+        Reached {
+            point: Point { positions: positions.plus(&rise), momenta: momenta.plus(&pull) },
+            error_slopes: [
+                scaled(h, sum(vectors, accelerations, &POSITION_ERROR)),
+                sum(vectors, forces, &MOMENTUM_ERROR),
+            ],
+        }
     }
 
-    /// Differences, divided by `h`, of the solution to the embedded one, in positions and momenta.
+    /// `F` and `V(F)` of a stage.
     #[inline(always)]
-    pub(super) fn error_slopes<S, C>(
-        &self,
-        system: &impl SecondOrder<S, C, Half = H>,
-        constants: &C,
-        h: f64,
-    ) -> (H, H) {
-        let moving = scaled(h, combination(&self.forces, &POSITION_ERROR));
-        (system.drift(constants, &moving), combination(&self.forces, &MOMENTUM_ERROR))
+    fn evaluate<S, C>(
+        &mut self,
+        (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
+        stage: usize,
+        t: f64,
+        positions: &H,
+    ) {
+        let force = system.force(t, constants, positions);
+        self.forces[stage - 1] = force;
+        self.accelerations[stage - 1] = system.drift(constants, &force);
     }
-}
-
-/// `c p + h sum_j a_j F_j`: the momentum that moves the positions of a stage for the time `h`.
-#[inline(always)]
-fn mean<H: StateVector<f64>>(momenta: &H, node: f64, h: f64, sum: &H) -> H {
-    let mut mean = *sum;
-    for (mean, p) in mean.as_mut().iter_mut().zip(momenta.as_ref()) {
-        *mean = mean.fma(h, node * *p);
-    }
-    mean
 }
 
 #[inline(always)]
