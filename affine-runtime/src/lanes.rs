@@ -12,7 +12,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use num_traits::{One, Zero};
 
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, inverse_cbrt};
 
 /// A number of several lanes.
 pub trait Lanes: Scalar {
@@ -81,6 +81,15 @@ macro_rules! lanes {
             #[inline(always)]
             fn copysign(self, sign: Self) -> Self {
                 self.with(sign, Scalar::copysign)
+            }
+
+            #[inline(always)]
+            fn inverse_cbrt(self) -> Self {
+                // Straight-line in all lanes, or lane by lane.
+                match self.0.iter().all(|lane| inverse_cbrt::is_regular(*lane)) {
+                    true => self.each(inverse_cbrt::of_regular),
+                    false => self.each(Scalar::inverse_cbrt),
+                }
             }
 
             $(

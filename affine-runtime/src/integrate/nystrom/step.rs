@@ -15,6 +15,46 @@ const POSITION_ERROR: [(usize, f64); POSITION.len()] = difference(POSITION, &EMB
 /// The same of the momenta.
 const MOMENTUM_ERROR: [(usize, f64); MOMENTUM.len()] = difference(MOMENTUM, &EMBEDDED_MOMENTUM);
 
+/// A stage after the first.
+struct Later {
+    number: usize,
+    /// `c_i`
+    node: f64,
+    /// `a_ij` of the stages before the one just before.
+    earlier: &'static [(usize, f64)],
+    /// `a_i,i-1`
+    newest: f64,
+}
+
+static LATER: [Later; STAGES - 1] = [
+    later(2, &A2),
+    later(3, &A3),
+    later(4, &A4),
+    later(5, &A5),
+    later(6, &A6),
+    later(7, &A7),
+    later(8, &A8),
+    later(9, &A9),
+    later(10, &A10),
+    later(11, &A11),
+    later(12, &A12),
+    later(13, &A13),
+    later(14, &A14),
+    later(15, &A15),
+    later(16, &A16),
+    later(17, &A17),
+];
+
+const fn later(number: usize, row: &'static [(usize, f64)]) -> Later {
+    let (_, node) = NODES[number - 2];
+    match row {
+        [earlier @ .., (last, newest)] if *last == number - 1 => {
+            Later { number, node, earlier, newest: *newest }
+        }
+        earlier => Later { number, node, earlier, newest: 0.0 },
+    }
+}
+
 /// Positions and momenta.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Point<H> {
@@ -86,20 +126,15 @@ impl<H: StateVector<f64>> Step<H> {
         (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
         h: f64,
     ) -> Reached<H> {
-        macro_rules! stages {
-            ($($number:literal $row:ident)*) => {
-                $(
-                    let (_, node) = NODES[$number - 2];
-                    let [ref earlier @ .., (newest, last)] = $row;
-                    let mut at = self.begin.positions.value;
-                    plus_multiple(vectors, &mut at, &self.velocity, node * h);
-                    plus_multiple(vectors, &mut at, &sum(vectors, &self.accelerations, earlier), h * h);
-                    plus_multiple(vectors, &mut at, &self.accelerations[newest - 1], h * h * last);
-                    self.evaluate((system, constants), $number, self.t + node * h, &at);
-                )*
-            };
+        // By value: what was just stored in pieces is slow to load in others.
+        let [mut newest, ..] = self.accelerations;
+        for stage in &LATER {
+            let mut at = self.begin.positions.value;
+            plus_multiple(vectors, &mut at, &self.velocity, stage.node * h);
+            plus_multiple(vectors, &mut at, &sum(vectors, &self.accelerations, stage.earlier), h * h);
+            plus_multiple(vectors, &mut at, &newest, h * h * stage.newest);
+            newest = self.evaluate((system, constants), stage.number, self.t + stage.node * h, &at);
         }
-        stages!(2 A2 3 A3 4 A4 5 A5 6 A6 7 A7 8 A8 9 A9 10 A10 11 A11 12 A12 13 A13 14 A14 15 A15 16 A16 17 A17);
         let (forces, accelerations) = (&self.forces, &self.accelerations);
         let mut rise = scaled(h, self.velocity);
         plus_multiple(vectors, &mut rise, &sum(vectors, accelerations, &POSITION), h * h);
@@ -122,10 +157,12 @@ impl<H: StateVector<f64>> Step<H> {
         stage: usize,
         t: f64,
         positions: &H,
-    ) {
+    ) -> H {
         let force = system.force(t, constants, positions);
+        let acceleration = system.drift(constants, &force);
         self.forces[stage - 1] = force;
-        self.accelerations[stage - 1] = system.drift(constants, &force);
+        self.accelerations[stage - 1] = acceleration;
+        acceleration
     }
 }
 
