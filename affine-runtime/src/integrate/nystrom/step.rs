@@ -5,7 +5,6 @@ use super::dormand_el_mikkawy_prince::*;
 use super::sums::{plus_multiple, sum};
 use crate::integrate::lie::Sum;
 use crate::integrate::stages::difference;
-use crate::integrate::taylor::Vectors;
 use crate::model::StateVector;
 
 const STAGES: usize = 17;
@@ -22,8 +21,8 @@ struct Later {
     node: f64,
     /// `a_ij` of the stages before the one just before.
     earlier: &'static [(usize, f64)],
-    /// `a_i,i-1`
-    newest: f64,
+    /// `a_i,i-1`; the last two stages do not wait for each other.
+    newest: Option<f64>,
 }
 
 static LATER: [Later; STAGES - 1] = [
@@ -49,20 +48,13 @@ const fn later(number: usize, row: &'static [(usize, f64)]) -> Later {
     let (_, node) = NODES[number - 2];
     match row {
         [earlier @ .., (last, newest)] if *last == number - 1 => {
-            Later { number, node, earlier, newest: *newest }
+            Later { number, node, earlier, newest: Some(*newest) }
         }
-        earlier => Later { number, node, earlier, newest: 0.0 },
+        earlier => Later { number, node, earlier, newest: None },
     }
 }
 
-/// Positions and momenta.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Point<H> {
-    pub(super) positions: Sum<H>,
-    pub(super) momenta: Sum<H>,
-}
-
-/// The step of the method from a point, and what its stages found. As `V` is linear, the positions of a stage are
+/// The step of the method from a state, and what its stages found. As `V` is linear, the positions of a stage are
 ///
 /// ```text
 /// q_i = q + c_i h V(p) + h^2 sum_j a_ij A_j,    A_j = V(F_j)
@@ -70,29 +62,28 @@ pub(super) struct Point<H> {
 ///
 /// where nothing but `A_(i-1)` waits for the stage before.
 #[derive(Clone, Debug)]
-pub(super) struct Step<H> {
+pub(super) struct Step<S, H> {
     t: f64,
-    begin: Point<H>,
+    begin: Sum<S>,
     /// `V(p)` at the beginning.
     velocity: H,
     /// `F_i`, at `(t_n + c_i h, q_i)`.
     forces: [H; STAGES],
     /// `A_i`.
     accelerations: [H; STAGES],
+    /// The state in the end.
+    end: Sum<S>,
+    /// Difference, divided by `h`, of the state in the end to the embedded solution.
+    error_slope: S,
 }
 
-/// What a step comes to.
-pub(super) struct Reached<H> {
-    pub(super) point: Point<H>,
-    /// Differences, divided by `h`, of the solution to the embedded one, in positions and momenta.
-    pub(super) error_slopes: [H; 2],
-}
-
-impl<H: StateVector<f64>> Step<H> {
+impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
     /// Before any step.
-    pub(super) fn at(t: f64, begin: Point<H>) -> Self {
+    pub(super) fn at(t: f64, state: S) -> Self {
         let [velocity, none] = [H::zeros(); 2];
-        Self { t, begin, velocity, forces: [none; STAGES], accelerations: [none; STAGES] }
+        let (forces, accelerations) = ([none; STAGES], [none; STAGES]);
+        let begin = Sum::of(state);
+        Self { t, begin, velocity, forces, accelerations, end: begin, error_slope: S::zeros() }
     }
 
     /// When the step begins.
@@ -101,57 +92,65 @@ impl<H: StateVector<f64>> Step<H> {
     }
 
     /// Where the step begins.
-    pub(super) fn start(&self) -> &Point<H> {
+    pub(super) fn start(&self) -> &Sum<S> {
         &self.begin
     }
 
-    /// Turns to the step from a point. 1 evaluation.
-    #[inline(always)]
-    pub(super) fn begin<S, C>(
-        &mut self,
-        system: &impl SecondOrder<S, C, Half = H>,
-        constants: &C,
-        (t, begin): (f64, Point<H>),
-    ) {
-        (self.t, self.begin) = (t, begin);
-        self.velocity = system.drift(constants, &begin.momenta.value);
-        self.evaluate((system, constants), 1, t, &begin.positions.value);
+    /// Where it ends.
+    pub(super) fn end(&self) -> &Sum<S> {
+        &self.end
     }
 
-    /// The point after the time `h`. 16 evaluations.
+    /// Difference, divided by `h`, of the state in the end to the embedded solution.
+    pub(super) fn error_slope(&self) -> &S {
+        &self.error_slope
+    }
+
+    /// Turns to the step from a state. 1 evaluation.
     #[inline(always)]
-    pub(super) fn attempt<S, C>(
+    pub(super) fn begin<C>(
         &mut self,
-        vectors: impl Vectors,
+        (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
+        t: f64,
+        state: &Sum<S>,
+    ) {
+        (self.t, self.begin) = (t, *state);
+        let [positions, momenta] = halves(&state.value);
+        self.velocity = system.drift(constants, &momenta);
+        self.evaluate((system, constants), 1, t, &positions);
+    }
+
+    /// Steps for the time `h`. 16 evaluations.
+    #[inline(always)]
+    pub(super) fn attempt<C>(
+        &mut self,
         (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
         h: f64,
-    ) -> Reached<H> {
+    ) {
+        let [positions, _]: [H; 2] = halves(&self.begin.value);
         // By value: what was just stored in pieces is slow to load in others.
         let [mut newest, ..] = self.accelerations;
         for stage in &LATER {
-            let mut at = self.begin.positions.value;
-            plus_multiple(vectors, &mut at, &self.velocity, stage.node * h);
-            plus_multiple(vectors, &mut at, &sum(vectors, &self.accelerations, stage.earlier), h * h);
-            plus_multiple(vectors, &mut at, &newest, h * h * stage.newest);
+            let mut at = positions;
+            plus_multiple(&mut at, &self.velocity, stage.node * h);
+            plus_multiple(&mut at, &sum(&self.accelerations, stage.earlier), h * h);
+            if let Some(weight) = stage.newest {
+                plus_multiple(&mut at, &newest, h * h * weight);
+            }
             newest = self.evaluate((system, constants), stage.number, self.t + stage.node * h, &at);
         }
         let (forces, accelerations) = (&self.forces, &self.accelerations);
         let mut rise = scaled(h, self.velocity);
-        plus_multiple(vectors, &mut rise, &sum(vectors, accelerations, &POSITION), h * h);
-        let pull = scaled(h, sum(vectors, forces, &MOMENTUM));
-        let Point { positions, momenta } = &self.begin;
-        Reached {
-            point: Point { positions: positions.plus(&rise), momenta: momenta.plus(&pull) },
-            error_slopes: [
-                scaled(h, sum(vectors, accelerations, &POSITION_ERROR)),
-                sum(vectors, forces, &MOMENTUM_ERROR),
-            ],
-        }
+        plus_multiple(&mut rise, &sum(accelerations, &POSITION), h * h);
+        let pull = scaled(h, sum(forces, &MOMENTUM));
+        self.end = self.begin.plus(&joined(&rise, &pull));
+        let position_error = scaled(h, sum(accelerations, &POSITION_ERROR));
+        self.error_slope = joined(&position_error, &sum(forces, &MOMENTUM_ERROR));
     }
 
     /// `F` and `V(F)` of a stage.
     #[inline(always)]
-    fn evaluate<S, C>(
+    fn evaluate<C>(
         &mut self,
         (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
         stage: usize,
@@ -164,6 +163,24 @@ impl<H: StateVector<f64>> Step<H> {
         self.accelerations[stage - 1] = acceleration;
         acceleration
     }
+}
+
+/// Positions and momenta of a state.
+#[inline(always)]
+pub(super) fn halves<S: StateVector<f64>, H: StateVector<f64>>(state: &S) -> [H; 2] {
+    let [mut positions, mut momenta] = [H::zeros(); 2];
+    positions.as_mut().copy_from_slice(&state.as_ref()[..H::LEN]);
+    momenta.as_mut().copy_from_slice(&state.as_ref()[H::LEN..2 * H::LEN]);
+    [positions, momenta]
+}
+
+/// The state of positions and momenta, the rest being zero.
+#[inline(always)]
+pub(super) fn joined<S: StateVector<f64>, H: StateVector<f64>>(positions: &H, momenta: &H) -> S {
+    let mut state = S::zeros();
+    state.as_mut()[..H::LEN].copy_from_slice(positions.as_ref());
+    state.as_mut()[H::LEN..2 * H::LEN].copy_from_slice(momenta.as_ref());
+    state
 }
 
 #[inline(always)]
