@@ -46,12 +46,14 @@ pub(crate) fn of_regular(x: f64) -> f64 {
     let third = ((x.to_bits() >> 32) * THIRD) >> 32;
     let r = f64::from_bits((SEED - third) << 32);
     let e = (-(x * r)).fma(r * r, 1.0);
+    // In powers of `e^4`, so that little waits for what is before it.
     let square = e * e;
     let pair = |k: usize| P[k + 1].fma(e, P[k]);
     let four = |k: usize| pair(k + 2).fma(square, pair(k));
-    let fourth = square * square;
-    let power = four(8).fma(fourth * fourth, four(4).fma(fourth, four(0)));
-    (r * e).fma(power, r)
+    let (fourth, line) = (square * square, r * e);
+    let high = four(8) * (fourth * (line * fourth));
+    let rest = four(4).fma(line * fourth, high);
+    r + four(0).fma(line, rest)
 }
 
 #[cold]
