@@ -161,7 +161,9 @@ impl Arena {
                 return self.constant(Rational::ONE);
             }
             (Function::Ln, Node::Constant(one)) if one.is_one() => return self.constant(Rational::ZERO),
-            (Function::Sqrt | Function::Cbrt | Function::InverseCbrt, Node::Constant(one)) if one.is_one() => {
+            (Function::Sqrt | Function::Cbrt | Function::InverseCbrt, Node::Constant(one))
+                if one.is_one() =>
+            {
                 return argument;
             }
             (Function::Ln | Function::InverseCbrt, _) => {}

@@ -408,6 +408,9 @@ fn inverse_cube_roots() {
     let along = |program: &Program| with_tangent(program, &|_| true).run::<f64>(&point).unwrap();
     for (plain, other) in [(plain, other), (along(&program), along(&inverted))] {
         assert!(plain.len() == other.len() && plain.iter().all(|value| value.is_finite() && *value != 0.0));
-        assert!(plain.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-14 * a.abs()), "{plain:?} {other:?}");
+        assert!(
+            plain.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-14 * a.abs()),
+            "{plain:?} {other:?}"
+        );
     }
 }
