@@ -2,8 +2,8 @@
 //! bodies at once.
 //!
 //! Strict: every operation of a lane gives the bits that [`f64`] gives on the same target. Arithmetic and square roots
-//! are rounded correctly in either; a multiply-add is fused in either or in neither; elementary functions are computed
-//! lane by lane by those of `f64`.
+//! are rounded correctly in either; a multiply-add is fused in either or in neither; reciprocals of cube roots are the same
+//! products and sums; other elementary functions are computed lane by lane by those of `f64`.
 //!
 //! Lanes are arrays, and operations loops over them, which the compiler turns into the vectors of the function that it
 //! compiles: the same type serves a target's own vectors and those found at run time.
