@@ -2,8 +2,8 @@
 //! bodies at once.
 //!
 //! Strict: every operation of a lane gives the bits that [`f64`] gives on the same target. Arithmetic and square roots
-//! are rounded correctly in either; a multiply-add is fused in either or in neither; elementary functions are computed
-//! lane by lane by those of `f64`.
+//! are rounded correctly in either; a multiply-add is fused in either or in neither; reciprocals of cube roots are the same
+//! products and sums; other elementary functions are computed lane by lane by those of `f64`.
 //!
 //! Lanes are arrays, and operations loops over them, which the compiler turns into the vectors of the function that it
 //! compiles: the same type serves a target's own vectors and those found at run time.
@@ -12,7 +12,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use num_traits::{One, Zero};
 
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, inverse_cbrt};
 
 /// A number of several lanes.
 pub trait Lanes: Scalar {
@@ -81,6 +81,15 @@ macro_rules! lanes {
             #[inline(always)]
             fn copysign(self, sign: Self) -> Self {
                 self.with(sign, Scalar::copysign)
+            }
+
+            #[inline(always)]
+            fn inverse_cbrt(self) -> Self {
+                // Straight-line in all lanes, or lane by lane.
+                match self.0.iter().all(|lane| inverse_cbrt::is_regular(*lane)) {
+                    true => self.each(inverse_cbrt::of_regular),
+                    false => self.each(Scalar::inverse_cbrt),
+                }
             }
 
             $(

@@ -6,6 +6,7 @@
 
 #[cfg(feature = "double-double")]
 mod double_double;
+pub(crate) mod inverse_cbrt;
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -49,6 +50,11 @@ pub trait Scalar:
     /// Cube root.
     #[must_use]
     fn cbrt(self) -> Self;
+    /// Reciprocal of the cube root.
+    #[must_use]
+    fn inverse_cbrt(self) -> Self {
+        Self::one() / self.cbrt()
+    }
     /// Exponential function.
     #[must_use]
     fn exp(self) -> Self;
@@ -159,6 +165,7 @@ primitive!(
     libm::hypot,
     sqrt = libm::sqrt,
     cbrt = libm::cbrt,
+    inverse_cbrt = inverse_cbrt::inverse_cbrt,
     exp = libm::exp,
     exp_m1 = libm::expm1,
     ln = libm::log,

@@ -11,10 +11,11 @@ use crate::models::{DrunkMissile, Elastic, Sampled, Unprotected, between, vibrat
 /// Every function of a scalar, on numbers of all sizes, lane by lane.
 fn functions_agree<T: Lanes>() {
     type Of<S> = fn(S) -> S;
-    fn all<S: Scalar>() -> [Of<S>; 15] {
+    fn all<S: Scalar>() -> [Of<S>; 16] {
         [
             S::sqrt,
             S::cbrt,
+            S::inverse_cbrt,
             S::exp,
             S::exp_m1,
             S::ln,
@@ -51,6 +52,7 @@ fn functions_agree<T: Lanes>() {
                 (x / y, a / b),
                 (x.fma(y, z), Scalar::fma(a, b, c)),
                 (y.copysign(x), Scalar::copysign(b, a)),
+                (y.abs().inverse_cbrt(), b.abs().inverse_cbrt()),
             ];
             assert!(pairs.iter().all(|(in_lanes, of_one)| same(in_lanes.lane(lane), *of_one)), "{a} {b} {c}");
         }

@@ -4,6 +4,7 @@ pub mod build;
 pub mod call;
 pub mod count;
 pub mod fuse;
+pub mod inverse_root;
 pub mod run;
 pub mod tangent;
 pub mod taylor;

@@ -7,6 +7,7 @@ use crate::algebra::factor::{complete_sums, factored, scale_atoms};
 use crate::algebra::{Arena, Expr, Kernel, Polynomial};
 use crate::ir::Program;
 use crate::ir::build::Builder;
+use crate::ir::inverse_root::with_inverse_roots;
 
 /// Named polynomials in the order of their results, with quantities they share.
 #[derive(Clone, Debug, Default)]
@@ -101,7 +102,7 @@ pub fn straight_line(
         let value = factored(arena, form);
         builder.output(arena, name, value);
     }
-    builder.finish()
+    with_inverse_roots(&builder.finish())
 }
 
 /// The functions and reciprocals of something that varies.

@@ -161,8 +161,12 @@ impl Arena {
                 return self.constant(Rational::ONE);
             }
             (Function::Ln, Node::Constant(one)) if one.is_one() => return self.constant(Rational::ZERO),
-            (Function::Sqrt | Function::Cbrt, Node::Constant(one)) if one.is_one() => return argument,
-            (Function::Ln, _) => {}
+            (Function::Sqrt | Function::Cbrt | Function::InverseCbrt, Node::Constant(one))
+                if one.is_one() =>
+            {
+                return argument;
+            }
+            (Function::Ln | Function::InverseCbrt, _) => {}
             (_, Node::Constant(zero)) if zero.is_zero() => return argument,
             _ => {}
         }
@@ -185,7 +189,12 @@ impl Arena {
         let even = matches!(function, Function::Cos | Function::Cosh | Function::Abs);
         let odd = matches!(
             function,
-            Function::Sin | Function::Sinh | Function::Tan | Function::Tanh | Function::Cbrt
+            Function::Sin
+                | Function::Sinh
+                | Function::Tan
+                | Function::Tanh
+                | Function::Cbrt
+                | Function::InverseCbrt
         );
         if negative && (even || odd) {
             let opposite = self.neg(argument);
@@ -348,6 +357,7 @@ impl Arena {
             Function::Ln => reciprocal(self, argument, -1, (1, 1)),
             Function::Sqrt => reciprocal(self, value, -1, (1, 2)),
             Function::Cbrt => reciprocal(self, value, -2, (1, 3)),
+            Function::InverseCbrt => reciprocal(self, value, 4, (-1, 3)),
             Function::Abs => self.div(argument, value).unwrap_or(one),
             Function::Sin => self.apply(Function::Cos, argument),
             Function::Cos => {

@@ -58,6 +58,7 @@ impl Field for f64 {
             Function::Ln => self.ln(),
             Function::Sqrt => self.sqrt(),
             Function::Cbrt => self.cbrt(),
+            Function::InverseCbrt => 1.0 / self.cbrt(),
             Function::Abs => self.abs(),
             Function::Sin => self.sin(),
             Function::Cos => self.cos(),

@@ -13,6 +13,8 @@ pub enum Function {
     Sqrt,
     /// Cube root.
     Cbrt,
+    /// Reciprocal of the cube root; for programs.
+    InverseCbrt,
     /// Absolute value.
     Abs,
     /// Sine.
@@ -39,6 +41,7 @@ impl Function {
             Self::Ln => "ln",
             Self::Sqrt => "sqrt",
             Self::Cbrt => "cbrt",
+            Self::InverseCbrt => "inverse_cbrt",
             Self::Abs => "abs",
             Self::Sin => "sin",
             Self::Cos => "cos",

@@ -25,7 +25,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
         impl #generics #rt::SecondOrderEquations<#n> for #prepared #types #clause {
             type Half<#t: #rt::Scalar> = [#t; #size];
 
-            #[inline]
+            #[inline(always)]
             fn drift<#t: #rt::Scalar>(
                 &self,
                 #velocity_constants: &Self::Constants<#t>,
@@ -34,7 +34,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
                 #velocity
             }
 
-            #[inline]
+            #[inline(always)]
             fn force<#t: #rt::Scalar>(
                 &self,
                 #clock: #t,

@@ -53,6 +53,11 @@ impl Program {
             match step {
                 Op::Input(_) | Op::Constant(_) | Op::Neg(_) | Op::Call(Function::Abs, _) => {}
                 Op::Call(Function::Sqrt | Function::Cbrt, _) => count.sqrt += 1,
+                // A number of any kind computes it so.
+                Op::Call(Function::InverseCbrt, _) => {
+                    count.sqrt += 1;
+                    count.div += 1;
+                }
                 Op::Call(Function::Ln, _) => count.ln += 1,
                 Op::Call(..) => count.exp += 1,
                 Op::Add(..) | Op::Sub(..) => count.add += 1,

@@ -128,12 +128,13 @@ impl Builder {
                 let twice = self.step(Op::Add(value, value));
                 self.step(Op::Div(change, twice))
             }
-            // v' = v a'/(3 a)
-            Function::Cbrt => {
+            // v' = v a'/(3 a), v' = -v a'/(3 a)
+            Function::Cbrt | Function::InverseCbrt => {
                 let three = self.step(Op::Constant(Rational::from(3)));
                 let below = self.step(Op::Mul(three, a));
                 let above = self.step(Op::Mul(change, value));
-                self.step(Op::Div(above, below))
+                let along = self.step(Op::Div(above, below));
+                if function == Function::Cbrt { along } else { self.step(Op::Neg(along)) }
             }
             // The sign of a is |a|/a.
             Function::Abs => {

@@ -39,6 +39,9 @@ pub(super) fn latex(arena: &Arena, expr: Expr) -> String {
         Node::Symbol(name) => symbol_latex(name),
         Node::Function(Function::Sqrt, argument) => format!("\\sqrt{{{}}}", latex(arena, *argument)),
         Node::Function(Function::Cbrt, argument) => format!("\\sqrt[3]{{{}}}", latex(arena, *argument)),
+        Node::Function(Function::InverseCbrt, argument) => {
+            format!("\\left({}\\right)^{{-1/3}}", latex(arena, *argument))
+        }
         Node::Function(Function::Abs, argument) => format!("\\left|{}\\right|", latex(arena, *argument)),
         Node::Function(function, argument) => {
             format!("\\{}\\left({}\\right)", function.name(), latex(arena, *argument))

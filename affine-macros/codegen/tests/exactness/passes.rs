@@ -5,10 +5,12 @@ use std::collections::HashMap;
 use affine_codegen::algebra::bind::Constants;
 use affine_codegen::algebra::evaluate::evaluate_polynomial;
 use affine_codegen::algebra::factor::{complete_sums, factored, scale_atoms};
-use affine_codegen::algebra::{Arena, Expr, Polynomial, Rational};
+use affine_codegen::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use affine_codegen::ir::build::Builder;
 use affine_codegen::ir::count::Operations;
 use affine_codegen::ir::fuse::fuse;
+use affine_codegen::ir::inverse_root::with_inverse_roots;
+use affine_codegen::ir::tangent::with_tangent;
 use affine_codegen::ir::{Op, Program};
 use affine_codegen::optimise::{Batch, straight_line};
 use affine_oracle::Random;
@@ -365,4 +367,50 @@ fn common_subexpressions_are_shared() {
     builder.output(&arena, "sum", sum);
     let program = builder.finish();
     assert_eq!(program.operations(), Operations { mul: 2, add: 1, div: 0, ..Operations::default() });
+}
+
+/// Quotients by cube roots that nothing else reads, of 1 and of something else; one whose root is read twice, one whose root
+/// has a name, and a square root stay as they are.
+#[test]
+fn inverse_cube_roots() {
+    let input = |name: &str| Op::Input(name.to_owned());
+    let steps = vec![
+        input("x"),
+        input("y"),
+        Op::Constant(Rational::ONE),
+        Op::Call(Function::Cbrt, 0),
+        Op::Div(2, 3),
+        Op::Add(0, 1),
+        Op::Call(Function::Cbrt, 5),
+        Op::Div(1, 6),
+        Op::Mul(0, 1),
+        Op::Call(Function::Cbrt, 8),
+        Op::Div(2, 9),
+        Op::Add(9, 10),
+        Op::Call(Function::Cbrt, 1),
+        Op::Div(2, 12),
+        Op::Call(Function::Sqrt, 1),
+        Op::Div(2, 14),
+    ];
+    let outputs = [4, 7, 11, 13, 15].map(|v| (format!("out_{v}"), v)).to_vec();
+    let program = Program { steps, names: vec![(12, "root".into())], outputs, ..Program::default() };
+    let inverted = with_inverse_roots(&program);
+    well_formed(&inverted);
+    let count = |function: Function| {
+        inverted.steps.iter().filter(|step| matches!(step, Op::Call(f, _) if *f == function)).count()
+    };
+    assert_eq!([Function::InverseCbrt, Function::Cbrt, Function::Sqrt].map(count), [2, 2, 1]);
+    assert_eq!(inverted.names.len(), 1);
+
+    // Values, and changes along a direction, which have a rule of their own.
+    let point = |name: &str| Some(if name.ends_with('x') { 0.7 } else { 1.9 });
+    let [plain, other] = [&program, &inverted].map(|program| program.run::<f64>(&point).unwrap());
+    let along = |program: &Program| with_tangent(program, &|_| true).run::<f64>(&point).unwrap();
+    for (plain, other) in [(plain, other), (along(&program), along(&inverted))] {
+        assert!(plain.len() == other.len() && plain.iter().all(|value| value.is_finite() && *value != 0.0));
+        assert!(
+            plain.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-14 * a.abs()),
+            "{plain:?} {other:?}"
+        );
+    }
 }

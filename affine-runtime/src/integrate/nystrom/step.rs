@@ -2,10 +2,10 @@
 
 use super::SecondOrder;
 use super::dormand_el_mikkawy_prince::*;
+use super::sums::{plus_multiple, sum};
 use crate::integrate::lie::Sum;
-use crate::integrate::stages::{combination, difference};
+use crate::integrate::stages::difference;
 use crate::model::StateVector;
-use crate::scalar::Scalar;
 
 const STAGES: usize = 17;
 
@@ -14,31 +14,76 @@ const POSITION_ERROR: [(usize, f64); POSITION.len()] = difference(POSITION, &EMB
 /// The same of the momenta.
 const MOMENTUM_ERROR: [(usize, f64); MOMENTUM.len()] = difference(MOMENTUM, &EMBEDDED_MOMENTUM);
 
-/// Positions and momenta.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Point<H> {
-    pub(super) positions: Sum<H>,
-    pub(super) momenta: Sum<H>,
+/// A stage after the first.
+struct Later {
+    number: usize,
+    /// `c_i`
+    node: f64,
+    /// `a_ij` of the stages before the one just before.
+    earlier: &'static [(usize, f64)],
+    /// `a_i,i-1`; the last two stages do not wait for each other.
+    newest: Option<f64>,
 }
 
-/// The step of the method from a point, and the forces at its stages.
-#[derive(Clone, Debug)]
-pub(super) struct Step<H> {
-    t: f64,
-    begin: Point<H>,
-    /// At `(t_n + c_i h, q_i)`.
-    forces: [H; STAGES],
-}
+static LATER: [Later; STAGES - 1] = [
+    later(2, &A2),
+    later(3, &A3),
+    later(4, &A4),
+    later(5, &A5),
+    later(6, &A6),
+    later(7, &A7),
+    later(8, &A8),
+    later(9, &A9),
+    later(10, &A10),
+    later(11, &A11),
+    later(12, &A12),
+    later(13, &A13),
+    later(14, &A14),
+    later(15, &A15),
+    later(16, &A16),
+    later(17, &A17),
+];
 
-impl<H: StateVector<f64>> Step<H> {
-    /// Before any step.
-    pub(super) fn at(t: f64, begin: Point<H>) -> Self {
-        Self { t, begin, forces: [H::zeros(); STAGES] }
+const fn later(number: usize, row: &'static [(usize, f64)]) -> Later {
+    let (_, node) = NODES[number - 2];
+    match row {
+        [earlier @ .., (last, newest)] if *last == number - 1 => {
+            Later { number, node, earlier, newest: Some(*newest) }
+        }
+        earlier => Later { number, node, earlier, newest: None },
     }
+}
 
-    /// Turns to the step from a point where the force is given.
-    pub(super) fn begin(&mut self, t: f64, begin: Point<H>, force: H) {
-        (self.t, self.begin, self.forces[0]) = (t, begin, force);
+/// The step of the method from a state, and what its stages found. As `V` is linear, the positions of a stage are
+///
+/// ```text
+/// q_i = q + c_i h V(p) + h^2 sum_j a_ij A_j,    A_j = V(F_j)
+/// ```
+///
+/// where nothing but `A_(i-1)` waits for the stage before.
+#[derive(Clone, Debug)]
+pub(super) struct Step<S, H> {
+    t: f64,
+    begin: Sum<S>,
+    /// `V(p)` at the beginning.
+    velocity: H,
+    /// `F_i`, at `(t_n + c_i h, q_i)`.
+    forces: [H; STAGES],
+    /// `A_i`.
+    accelerations: [H; STAGES],
+    /// The state in the end.
+    end: Sum<S>,
+    /// Difference, divided by `h`, of the state in the end to the embedded solution.
+    error_slope: S,
+}
+
+impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
+    /// Before any step.
+    pub(super) fn at(t: f64, state: S) -> Self {
+        let [velocity, none] = [H::zeros(); 2];
+        let (forces, accelerations) = ([none; STAGES], [none; STAGES]);
+        let begin = Sum::of(state);
+        Self { t, begin, velocity, forces, accelerations, end: begin, error_slope: S::zeros() }
     }
 
     /// When the step begins.
@@ -47,63 +92,95 @@ impl<H: StateVector<f64>> Step<H> {
     }
 
     /// Where the step begins.
-    pub(super) fn start(&self) -> &Point<H> {
+    pub(super) fn start(&self) -> &Sum<S> {
         &self.begin
     }
 
-    /// The point after the time `h`. 16 evaluations.
-    #[inline(always)]
-    pub(super) fn attempt<S, C>(
-        &mut self,
-        system: &impl SecondOrder<S, C, Half = H>,
-        constants: &C,
-        h: f64,
-    ) -> Point<H> {
-        let Self { t, begin, forces } = self;
-        let positions = |node: f64, sum: &H| {
-            let mut positions = system.drift(constants, &mean(&begin.momenta.value, node, h, sum));
-            for (q, begin) in positions.as_mut().iter_mut().zip(begin.positions.value.as_ref()) {
-                *q = q.fma(h, *begin);
-            }
-            positions
-        };
-        macro_rules! stages {
-            ($($number:literal $row:ident)*) => {
-                $(
-                    let (_, node) = NODES[$number - 2];
-                    let at = positions(node, &combination(&*forces, &$row));
-                    forces[$number - 1] = system.force(*t + node * h, constants, &at);
-                )*
-            };
-        }
-        stages!(2 A2 3 A3 4 A4 5 A5 6 A6 7 A7 8 A8 9 A9 10 A10 11 A11 12 A12 13 A13 14 A14 15 A15 16 A16 17 A17);
-        let moving = mean(&begin.momenta.value, 1.0, h, &combination(&*forces, &POSITION));
-        let rise = scaled(h, system.drift(constants, &moving));
-        let pull = scaled(h, combination(&*forces, &MOMENTUM));
-        Point { positions: begin.positions.plus(&rise), momenta: begin.momenta.plus(&pull) }
+    /// Where it ends.
+    pub(super) fn end(&self) -> &Sum<S> {
+        &self.end
     }
 
-    /// Differences, divided by `h`, of the solution to the embedded one, in positions and momenta.
+    /// Difference, divided by `h`, of the state in the end to the embedded solution.
+    pub(super) fn error_slope(&self) -> &S {
+        &self.error_slope
+    }
+
+    /// Turns to the step from a state. 1 evaluation.
     #[inline(always)]
-    pub(super) fn error_slopes<S, C>(
-        &self,
-        system: &impl SecondOrder<S, C, Half = H>,
-        constants: &C,
+    pub(super) fn begin<C>(
+        &mut self,
+        (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
+        t: f64,
+        state: &Sum<S>,
+    ) {
+        (self.t, self.begin) = (t, *state);
+        let [positions, momenta] = halves(&state.value);
+        self.velocity = system.drift(constants, &momenta);
+        self.evaluate((system, constants), 1, t, &positions);
+    }
+
+    /// Steps for the time `h`. 16 evaluations.
+    #[inline(always)]
+    pub(super) fn attempt<C>(
+        &mut self,
+        (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
         h: f64,
-    ) -> (H, H) {
-        let moving = scaled(h, combination(&self.forces, &POSITION_ERROR));
-        (system.drift(constants, &moving), combination(&self.forces, &MOMENTUM_ERROR))
+    ) {
+        let [positions, _]: [H; 2] = halves(&self.begin.value);
+        // By value: what was just stored in pieces is slow to load in others.
+        let [mut newest, ..] = self.accelerations;
+        for stage in &LATER {
+            let mut at = positions;
+            plus_multiple(&mut at, &self.velocity, stage.node * h);
+            plus_multiple(&mut at, &sum(&self.accelerations, stage.earlier), h * h);
+            if let Some(weight) = stage.newest {
+                plus_multiple(&mut at, &newest, h * h * weight);
+            }
+            newest = self.evaluate((system, constants), stage.number, self.t + stage.node * h, &at);
+        }
+        let (forces, accelerations) = (&self.forces, &self.accelerations);
+        let mut rise = scaled(h, self.velocity);
+        plus_multiple(&mut rise, &sum(accelerations, &POSITION), h * h);
+        let pull = scaled(h, sum(forces, &MOMENTUM));
+        self.end = self.begin.plus(&joined(&rise, &pull));
+        let position_error = scaled(h, sum(accelerations, &POSITION_ERROR));
+        self.error_slope = joined(&position_error, &sum(forces, &MOMENTUM_ERROR));
+    }
+
+    /// `F` and `V(F)` of a stage.
+    #[inline(always)]
+    fn evaluate<C>(
+        &mut self,
+        (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
+        stage: usize,
+        t: f64,
+        positions: &H,
+    ) -> H {
+        let force = system.force(t, constants, positions);
+        let acceleration = system.drift(constants, &force);
+        self.forces[stage - 1] = force;
+        self.accelerations[stage - 1] = acceleration;
+        acceleration
     }
 }
 
-/// `c p + h sum_j a_j F_j`: the momentum that moves the positions of a stage for the time `h`.
+/// Positions and momenta of a state.
 #[inline(always)]
-fn mean<H: StateVector<f64>>(momenta: &H, node: f64, h: f64, sum: &H) -> H {
-    let mut mean = *sum;
-    for (mean, p) in mean.as_mut().iter_mut().zip(momenta.as_ref()) {
-        *mean = mean.fma(h, node * *p);
-    }
-    mean
+pub(super) fn halves<S: StateVector<f64>, H: StateVector<f64>>(state: &S) -> [H; 2] {
+    let [mut positions, mut momenta] = [H::zeros(); 2];
+    positions.as_mut().copy_from_slice(&state.as_ref()[..H::LEN]);
+    momenta.as_mut().copy_from_slice(&state.as_ref()[H::LEN..2 * H::LEN]);
+    [positions, momenta]
+}
+
+/// The state of positions and momenta, the rest being zero.
+#[inline(always)]
+pub(super) fn joined<S: StateVector<f64>, H: StateVector<f64>>(positions: &H, momenta: &H) -> S {
+    let mut state = S::zeros();
+    state.as_mut()[..H::LEN].copy_from_slice(positions.as_ref());
+    state.as_mut()[H::LEN..2 * H::LEN].copy_from_slice(momenta.as_ref());
+    state
 }
 
 #[inline(always)]

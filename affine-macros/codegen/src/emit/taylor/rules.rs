@@ -124,6 +124,11 @@ impl Writer<'_> {
                 let (three, four) = (quote!(#t::constant(3.0, 0.0)), quote!(#t::constant(4.0, 0.0)));
                 quote!((#u.fma(#y0, #m) * order - #weighted * #four) * (#t::one() / (#u0 * order * #three)))
             }
+            // 3 u y' = -y u'
+            (Function::InverseCbrt, [m, weighted], _) => {
+                let (two, three) = (quote!(#t::constant(2.0, 0.0)), quote!(#t::constant(3.0, 0.0)));
+                quote!((#u.fma(#y0, #m) * order + #weighted * #two) * (-#t::one() / (#u0 * order * #three)))
+            }
             // y' = z u' or y' = -z u'
             (function, [m], Some(other)) => {
                 let z0 = self.of_order_zero(other);

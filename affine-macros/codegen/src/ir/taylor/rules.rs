@@ -178,7 +178,7 @@ impl Draft {
             (Function::Exp, _) => vec![[Series::rate(argument), y]],
             (Function::Ln, _) => vec![[Series::rate(value), u]],
             (Function::Sqrt, _) => vec![[y, y]],
-            (Function::Cbrt, _) => vec![[u, y], [u, Series::rate(value)]],
+            (Function::Cbrt | Function::InverseCbrt, _) => vec![[u, y], [u, Series::rate(value)]],
             (_, Some(other)) => vec![[Series::rate(argument), Series::of(other)]],
             // |u| has the sign of u_0 throughout.
             (_, None) => {
