@@ -67,17 +67,18 @@ pub trait Taylor<const N: usize>: Model<N> {
         coefficients: &mut [Self::Reduced<T>],
         rows: &mut [Self::Row<T>],
     ) {
-        let (mut order, mut scale) = (T::zero(), T::one());
+        let mut order = T::zero();
         for k in 0..rows.len().min(coefficients.len().saturating_sub(1)) {
             let coefficient = coefficients[k];
             let mut rate = match k {
                 0 => self.start(t, constants, &coefficient, &mut rows[0]),
                 _ => self.next(vectors, order, constants, &coefficient, &mut rows[..=k]),
             };
-            rate.as_mut().iter_mut().for_each(|rate| *rate *= scale);
+            let next = order + T::one();
+            // Not by a reciprocal: its rounding would be the same in every step, and the energy drift.
+            rate.as_mut().iter_mut().for_each(|rate| *rate /= next);
             coefficients[k + 1] = rate;
-            order += T::one();
-            scale = T::one() / (order + T::one());
+            order = next;
         }
     }
 }
