@@ -40,8 +40,9 @@ pub trait Taylor<const N: usize>: Model<N> {
     /// The columns of a coefficient.
     fn columns<T: Scalar>(coefficient: &Self::Reduced<T>) -> Self::Columns<T>;
 
-    /// `y_(k+1)` from `y_k`, for `k > 0`, and its columns; `order` is `k` and `1/(k + 1)`. The rows are those of the
-    /// orders 0 to k; fills the last one.
+    /// `y_(k+1)` from `y_k`, for `k > 0`, and its columns; `order` is `k` and `k + 1`, by which rates are divided: a
+    /// reciprocal would be rounded the same way in every step, and the energy drift. The rows are those of the orders 0 to
+    /// k; fills the last one.
     fn next<T: Scalar>(
         &self,
         vectors: impl Vectors,
@@ -79,9 +80,8 @@ pub trait Taylor<const N: usize>: Model<N> {
         let (mut columns, mut order) = (Self::columns(after), T::one());
         for k in 1..highest {
             let (coefficient, next) = (coefficients[k], order + T::one());
-            let numbers = (order, T::one() / next);
             (coefficients[k + 1], columns) =
-                self.next(vectors, numbers, constants, (&coefficient, columns), &mut rows[..=k]);
+                self.next(vectors, (order, next), constants, (&coefficient, columns), &mut rows[..=k]);
             order = next;
         }
     }

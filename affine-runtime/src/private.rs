@@ -20,7 +20,7 @@ pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::integrate::nystrom::SecondOrder;
 pub use crate::integrate::splitting::{Pieces, accumulate, conjugated, growth, left_product, right_product};
 pub use crate::integrate::taylor::{
-    Series, Vectors, add_multiple, add_products, lanes, multiple, set_lanes, subtract_multiple,
+    Series, Vectors, add_multiple, add_products, divided, lanes, set_lanes, subtract_multiple,
     subtract_products,
 };
 pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};

@@ -84,7 +84,8 @@ fn by_capability<const N: usize, M: Model<N>>(
         }),
         _ => emitted::<N, M, _>(model.second_order(), "nystrom", |system| {
             // What follows from the positions is computed where it is asked for, not at every step.
-            let expand = |t: f64, halves: &M::Reduced<f64>| model.expand(t, &constants, &model.renewed(halves));
+            let expand =
+                |t: f64, halves: &M::Reduced<f64>| model.expand(t, &constants, &model.renewed(halves));
             let integration = RungeKuttaNystrom12::new((system, constants), groups, begin, t_end, tolerance);
             follow(integration, (&expand, groups), recorder)
         }),

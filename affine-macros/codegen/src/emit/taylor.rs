@@ -160,7 +160,7 @@ impl Writer<'_> {
         let rates = self.recurrence.program.outputs.iter().map(|(_, v)| match self.recurrence.moving[*v] {
             true => {
                 let rate = self.ident(*v);
-                quote!(#rate * scale)
+                quote!(#rate / divisor)
             }
             false => quote!(#t::zero()),
         });
@@ -178,13 +178,13 @@ impl Writer<'_> {
         let vectors = if passes > 0 { quote!(vectors) } else { quote!(_vectors) };
         let order = if self.reads_order() { quote!(order) } else { quote!(_) };
         let moves = self.recurrence.program.outputs.iter().any(|(_, v)| self.recurrence.moving[*v]);
-        let scale = if moves { quote!(scale) } else { quote!(_) };
+        let divisor = if moves { quote!(divisor) } else { quote!(_) };
         quote! {
             #[inline(always)]
             fn next<#t: #rt::Scalar>(
                 &self,
                 #vectors: impl #rt::Vectors,
-                (#order, #scale): (#t, #t),
+                (#order, #divisor): (#t, #t),
                 #constants: &Self::Constants<#t>,
                 (#coefficient, #columns): (&Self::Reduced<#t>, Self::Columns<#t>),
                 #rows: &mut [Self::Row<#t>],

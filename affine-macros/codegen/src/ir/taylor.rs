@@ -11,6 +11,7 @@
 mod columns;
 mod companions;
 mod lanes;
+mod quotients;
 mod rules;
 
 use crate::algebra::Function;
@@ -150,7 +151,7 @@ impl Recurrence {
     /// The recurrence of `y' = f(y)`: `states` are the inputs that move, in the order of the outputs, their rates.
     #[must_use]
     pub fn of(program: &Program, states: &[String]) -> Self {
-        let program = companions::completed(program);
+        let program = companions::completed(&quotients::divided(program));
         let draft = rules::Draft::of(&program, states);
         let Packed { lanes, row, vectors, full, inner, places } = lanes::pack(&draft.products, draft.kept());
         let rules = draft.rules(&places);

@@ -11,8 +11,8 @@ use crate::scalar::Scalar;
 
 /// Vectors of four doubles, as a processor has them; what it rounds is the same on all.
 pub trait Vectors: Copy {
-    /// `left right`, lane by lane.
-    fn product(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4];
+    /// `left/right`, lane by lane.
+    fn quotient(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4];
     /// `sum + left right`, lane by lane.
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
     /// `sum - left right`, lane by lane.
@@ -25,8 +25,8 @@ pub struct Portable;
 
 impl Vectors for Portable {
     #[inline(always)]
-    fn product(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        (f64x4::from(left) * f64x4::from(right)).into()
+    fn quotient(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        (f64x4::from(left) / f64x4::from(right)).into()
     }
     #[inline(always)]
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
@@ -42,8 +42,8 @@ impl Vectors for Portable {
 #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
 impl Vectors for pulp::x86::V3 {
     #[inline(always)]
-    fn product(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        pulp::cast(self.mul_f64x4(pulp::cast(left), pulp::cast(right)))
+    fn quotient(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        pulp::cast(self.div_f64x4(pulp::cast(left), pulp::cast(right)))
     }
     #[inline(always)]
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
@@ -127,19 +127,19 @@ pub fn subtract_multiple<T: Scalar, const W: usize>(
     subtract_products(vectors, sum, left, [factor; W]);
 }
 
-/// `factor left`, lane by lane.
+/// `left/divisor`, lane by lane.
 #[inline(always)]
-pub fn multiple<T: Scalar, const W: usize>(vectors: impl Vectors, left: [T; W], factor: T) -> [T; W] {
-    let mut product = left;
-    let factors = [factor; W];
-    if let Some((product, left, right)) = doubles(&mut product, &left, &factors) {
-        *product = vectors.product(left, right);
-    } else if let Some((product, left, right)) = doubles(&mut product, &left, &factors) {
-        *product = (f64x2::from(left) * f64x2::from(right)).into();
+pub fn divided<T: Scalar, const W: usize>(vectors: impl Vectors, left: [T; W], divisor: T) -> [T; W] {
+    let mut quotient = left;
+    let divisors = [divisor; W];
+    if let Some((quotient, left, right)) = doubles(&mut quotient, &left, &divisors) {
+        *quotient = vectors.quotient(left, right);
+    } else if let Some((quotient, left, right)) = doubles(&mut quotient, &left, &divisors) {
+        *quotient = (f64x2::from(left) / f64x2::from(right)).into();
     } else {
-        product.iter_mut().for_each(|lane| *lane *= factor);
+        quotient.iter_mut().for_each(|lane| *lane /= divisor);
     }
-    product
+    quotient
 }
 
 /// Writes the lanes of a row that begin at a slot.

@@ -61,7 +61,7 @@ impl Writer<'_> {
         let names = columns.iter().map(|column| self.vector(column.slot));
         let next: Vec<Ident> = (1..=columns.len()).map(next_column).collect();
         let sums = columns.iter().map(|column| self.sum("full", column.sum));
-        let advanced = quote!(#(let #next = #rt::multiple(vectors, #sums, scale);)*);
+        let advanced = quote!(#(let #next = #rt::divided(vectors, #sums, divisor);)*);
         (quote!([#(#names),*]), quote!([#(#next),*]), advanced)
     }
 
