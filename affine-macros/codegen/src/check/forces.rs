@@ -41,14 +41,13 @@ impl Force {
 }
 
 /// What may be stated beside a force, and whether it is and refuses it.
-fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 9] {
+fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 8] {
     let emitted = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
     let cubic = |terms: &Vec<_>| {
         terms.iter().any(|term: &crate::spec::Term<MomentumKind>| term.kind.value == MomentumKind::Casimir3)
     };
     [
         ("`constraint = isochoric` of `dalembert`", has_multiplier(spec) && !force.under_a_multiplier),
-        ("`metrics(...)`", spec.has_metrics()),
         ("`casimir3`", spec.hamiltonian.as_ref().is_some_and(cubic)),
         ("`group = unitary`", spec.group.is_some()),
         ("terms of different frames", frames::are_mixed(spec)),

@@ -2,7 +2,8 @@
 
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
-use crate::mechanics::metrics::{Bases, Metrics};
+use crate::mechanics::kinetic::{Frame, TermKind};
+use crate::mechanics::metrics::{Bases, Metrics, Rebased};
 
 use super::prepared::unbound;
 
@@ -10,15 +11,51 @@ use super::prepared::unbound;
 pub enum ChangeOfBases {
     /// From numbers.
     Known(Bases),
-    /// From the fields, when the model is prepared: programs of the entries of `g` and `eta`, row after row.
-    Prepared([Program; 2]),
+    /// From the fields, when the model is prepared.
+    Prepared(Preparation),
 }
 
 impl ChangeOfBases {
-    pub(super) fn of(arena: &mut Arena, metrics: Metrics) -> Self {
+    pub(super) fn of(arena: &mut Arena, metrics: Metrics, rebased: &[Rebased]) -> Self {
         match metrics {
             Metrics::Known(bases) => Self::Known(bases),
-            Metrics::Given(given) => Self::Prepared(given.map(|rows| entries(arena, &rows.concat()))),
+            Metrics::Given(given) => Self::Prepared(Preparation {
+                metrics: given.map(|rows| entries(arena, &rows.concat())),
+                matrices: rebased.iter().map(|matrix| GivenMatrix::of(arena, matrix)).collect(),
+            }),
+        }
+    }
+}
+
+/// What `prepare()` does for the change.
+pub struct Preparation {
+    /// Programs of the entries of `g` and `eta`, row after row.
+    pub metrics: [Program; 2],
+    /// Inertias and tensors that it carries to orthonormal bases.
+    pub matrices: Vec<GivenMatrix>,
+}
+
+/// An inertia or a tensor in the user's bases.
+pub struct GivenMatrix {
+    /// The name that coefficients have for it in orthonormal bases.
+    pub name: String,
+    /// Its entries, row after row.
+    pub entries: Program,
+    /// `O`, whose bases it goes with.
+    pub frame: Frame,
+    /// Is it contracted with both indices of `O`?
+    pub tensor: bool,
+}
+
+impl GivenMatrix {
+    fn of(arena: &mut Arena, matrix: &Rebased) -> Self {
+        let kind: TermKind = matrix.kind;
+        Self {
+            name: matrix.name.clone(),
+            entries: entries(arena, &matrix.entries),
+            // No matrix stands at a term without a frame.
+            frame: kind.internal_frame().unwrap_or(Frame::Body),
+            tensor: kind.is_tensor(),
         }
     }
 }

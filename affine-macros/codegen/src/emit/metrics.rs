@@ -4,11 +4,13 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::algebra::Rational;
-use crate::derive::ChangeOfBases;
+use crate::algebra::kernel::Callee;
+use crate::derive::{ChangeOfBases, GivenMatrix, Preparation};
+use crate::mechanics::kinetic::Frame;
 
-use super::body::{Body, exact};
-use super::prepare::over_fields;
-use super::{Context, runtime};
+use super::body::{Body, Number, exact};
+use super::prepare::{matrix_name, over_fields};
+use super::{Context, number, runtime};
 use crate::ir::Program;
 
 /// The bases as a function of the scalar, where they are known, and the method of the trait that tells of them.
@@ -35,9 +37,11 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
     };
     let [a, a_inverse, b, b_inverse] =
         [&bases.space.matrix, &bases.space.inverse, &bases.body.matrix, &bases.body.inverse].map(matrix);
+    // Fields are called over every number that equations are evaluated in.
+    let number = if context.spec.customs.is_empty() { quote!(Real) } else { quote!(Scalar) };
     let function = quote! {
         #[allow(clippy::approx_constant)]
-        fn bases<#t: #rt::Real>() -> #rt::Bases<#n, #t> {
+        fn bases<#t: #rt::#number>() -> #rt::Bases<#n, #t> {
             #rt::Bases { space: #a, space_inverse: #a_inverse, body: #b, body_inverse: #b_inverse }
         }
     };
@@ -46,7 +50,7 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
 
 /// The bases in the prepared model, and the statement of `prepare()` that finds them.
 pub(super) fn prepared(context: &Context) -> (TokenStream, TokenStream) {
-    let Some(ChangeOfBases::Prepared([space, body])) = &context.model.metrics else {
+    let Some(ChangeOfBases::Prepared(Preparation { metrics: [space, body], .. })) = &context.model.metrics else {
         return (TokenStream::new(), TokenStream::new());
     };
     let (rt, n) = (&context.names.rt, context.dim());
@@ -64,6 +68,36 @@ pub(super) fn prepared(context: &Context) -> (TokenStream, TokenStream) {
     )
 }
 
+/// The statements of `prepare()` that carry inertias and tensors to the bases, which are found before.
+pub(super) fn rebased(context: &Context) -> TokenStream {
+    let Some(ChangeOfBases::Prepared(Preparation { matrices, .. })) = &context.model.metrics else {
+        return TokenStream::new();
+    };
+    let (rt, n) = (&context.names.rt, context.dim());
+    let statement = |matrix: &GivenMatrix| {
+        let local = matrix_name(&matrix.name);
+        let Body { lets, results } = over_fields(rt, &matrix.entries);
+        let size = if matrix.tensor { context.model.dim.pow(2) } else { context.model.dim };
+        let rows = results.chunks(size).map(|row| quote!([#(#row),*]));
+        let entries = quote!([#(#rows),*]);
+        let value = match (matrix.tensor, matrix.frame) {
+            (false, Frame::Space) => quote!(#rt::rebased_inertia::<#n>(&bases.space, #entries)),
+            (false, _) => quote!(#rt::rebased_inertia::<#n>(&bases.body, #entries)),
+            (true, frame) => {
+                let (left, right) = match frame {
+                    Frame::Body => (quote!(body_inverse), quote!(body)),
+                    Frame::Space => (quote!(space_inverse), quote!(space)),
+                    Frame::Flat => (quote!(space_inverse), quote!(body)),
+                };
+                let size = number(size);
+                quote!(#rt::rebased_tensor::<#n, #size>(&bases.#left, &bases.#right, #entries))
+            }
+        };
+        quote!(let #local = { #lets #value };)
+    };
+    matrices.iter().map(statement).collect()
+}
+
 impl Context<'_> {
     /// The bases over a scalar, or over the one that is asked for where they stand.
     pub(super) fn bases(&self, scalar: Option<&TokenStream>) -> TokenStream {
@@ -72,6 +106,18 @@ impl Context<'_> {
             Some(ChangeOfBases::Prepared(_)) => quote!(self.bases.over #of ()),
             _ => quote!(bases #of ()),
         }
+    }
+
+    /// The change of bases for the fields that a program calls.
+    pub(super) fn change_for(&self, program: &Program, number: Number) -> Option<TokenStream> {
+        let calls = program.calls.iter().any(|call| matches!(call.callee, Callee::Custom(..)));
+        let rt = &self.names.rt;
+        let scalar = match number {
+            Number::Generic(scalar) => quote!(#scalar),
+            Number::Double => quote!(#rt::f64),
+        };
+        let bases = self.bases(Some(&scalar));
+        (calls && self.model.metrics.is_some()).then(|| quote!(let change = &#bases;))
     }
 
     /// Puts `point`, a reference, in orthonormal bases.
