@@ -7,6 +7,8 @@ mod fields;
 mod forces;
 #[path = "metrics/matrices.rs"]
 mod matrices;
+#[path = "metrics/quantities.rs"]
+mod quantities;
 
 use affine_oracle::{Expected, Kinetic, Matrix as Exact, Random, Rational, State, Term, rational};
 use affine_runtime::prelude::*;

@@ -1,6 +1,7 @@
 //! Constant metrics of space and body: bases in which they are the identity.
 
 mod forms;
+mod quantities;
 
 use crate::error::{Error, IllPosed, Result};
 use crate::frames::Matrix;
@@ -8,7 +9,9 @@ use crate::model::Velocity;
 use crate::scalar::{Real, Scalar};
 
 #[doc(hidden)]
-pub use forms::{rebased_inertia, rebased_tensor};
+pub use forms::{rebased_inertia, rebased_tensor, told_in_given_bases};
+#[doc(hidden)]
+pub use quantities::{form_in_given_bases, inverse_in_given_bases};
 
 /// A change of the bases of space and body, `x' = A x`, `phi' = A phi B^-1`.
 ///

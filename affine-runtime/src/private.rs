@@ -30,7 +30,10 @@ pub use crate::lattice::{
     PotentialClass, RatioForm, TwoPolarForm, Variables, rotation, turned,
 };
 pub use crate::matrix_field::symmetric_part;
-pub use crate::metrics::{Bases, orthonormal, rebased_inertia, rebased_tensor};
+pub use crate::metrics::{
+    Bases, form_in_given_bases, inverse_in_given_bases, orthonormal, rebased_inertia, rebased_tensor,
+    told_in_given_bases,
+};
 pub use crate::model::{
     Conserved, Constraint, Description, Formula, Group, Model, Operations, Regularity, TANGENT, Velocity,
     VelocityDeterminesMomentum,

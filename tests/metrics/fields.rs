@@ -126,18 +126,28 @@ fn refused_by_prepare() {
     assert!(Masses { eta, j: Matrix::<2>::new(1.0, 0.5, 0.5, 1.0) }.prepare().is_ok());
     assert!(Masses { eta, j: Matrix::<2>::new(1.0, 2.0, 2.0, 1.0) }.prepare().is_err());
     assert!(Masses { eta, j: Matrix::<2>::new(1.0, 0.5, 0.25, 1.0) }.prepare().is_err());
+    #[affine_model(dim = 2, metrics(body = eta), kinetic(casimir2 = 1, body_inertia = j))]
+    struct Given {
+        eta: Matrix<2>,
+        j: Matrix<2>,
+    }
+    let eta = Matrix::<2>::new(4.0, 0.0, 0.0, 1.0);
+    let refused = Given { eta, j: Matrix::<2>::new(0.25, 0.0, 0.0, 1.0) }.prepare();
+    let Err(affine_runtime::Error::IllPosed(defect)) = refused else { panic!("accepted") };
+    let rows: Vec<f32> = defect.velocity.expect("a velocity").rows().flatten().copied().collect();
+    assert!((rows[2] / rows[1] + 4.0).abs() < 1e-5 && rows[0].abs() < 1e-6, "{rows:?}");
 }
 
 /// No operation is added, and what is zero stays so where the metric is diagonal.
 #[test]
 fn the_right_hand_side_does_not_grow() {
-    #[affine_model(dim = 3, metrics(space = g, body = diag(a, b, 1)), kinetic(dalembert = diag(1, 2, b)))]
+    #[affine_model(dim = 3, metrics(space = g, body = diag(a, b, 1)), kinetic(dalembert = diag(1.5, 2, b)))]
     struct Diagonal {
         g: Matrix<3>,
         a: f64,
         b: f64,
     }
-    #[affine_model(dim = 3, kinetic(dalembert = diag(1, 2, b)))]
+    #[affine_model(dim = 3, kinetic(dalembert = diag(1.5, 2, b)))]
     struct Plain {
         b: f64,
     }

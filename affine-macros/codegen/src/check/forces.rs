@@ -4,8 +4,8 @@ use super::frames;
 use crate::diagnostics::{Diagnostics, ForceMistake, Region};
 use crate::spec::{Capability, Constraint, Custom, MomentumKind, Spec, TermKind};
 
-/// The forces are derived, and what they leave conserved is decided, for a mass matrix that is constant in one frame, in
-/// orthonormal bases, projected under a constraint. The equations of an isochoric body with `dalembert` are those without
+/// The forces are derived, and what they leave conserved is decided, for a mass matrix that is constant in one frame,
+/// projected under a constraint. The equations of an isochoric body with `dalembert` are those without
 /// the constraint, to which the method adds the multiplier: there potentials of fields stand as well, but nothing that
 /// depends on the velocity. What is emitted beyond the equations is derived from formulas alone.
 pub(super) fn stand_alone(spec: &Spec, found: &mut Diagnostics) {

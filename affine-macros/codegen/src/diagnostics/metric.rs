@@ -26,11 +26,6 @@ pub enum MetricMistake {
         /// What shows it: `g[2,2] = -1`.
         defect: String,
     },
-    /// A matrix or tensor beside a metric.
-    MetricTerm {
-        /// The term.
-        term: &'static str,
-    },
     /// A form of potentials that depends on the bases.
     MetricForm {
         /// The form: `G[1,2]`, `x[1]`, `tr(phi)`.
@@ -41,7 +36,6 @@ pub enum MetricMistake {
 names! { MetricMistake
     MetricNotSymmetric => "metric-not-symmetric",
     MetricNotPositive => "metric-not-positive",
-    MetricTerm => "metric-term",
     MetricForm => "metric-form",
 }
 
@@ -60,11 +54,6 @@ impl MetricMistake {
                 format!("the metric `{side}` is not positive definite: {defect}"),
                 "a metric gives every vector but zero a positive length, and has an orthonormal basis only then",
                 "write a symmetric matrix whose leading minors are all positive",
-            ),
-            Self::MetricTerm { term } => text(
-                format!("`{term}` with a matrix does not go with `metrics(...)` in this version"),
-                "equations stand in orthonormal bases of the metrics, in which its entries are in general irrational",
-                "write a scalar, or state the model in orthonormal bases and leave out `metrics(...)`",
             ),
             Self::MetricForm { form } => text(
                 format!("`{form}` does not go with `metrics(...)` in this version"),

@@ -84,18 +84,34 @@ pub(super) fn rebased(context: &Context) -> TokenStream {
             (false, Frame::Space) => quote!(#rt::rebased_inertia::<#n>(&bases.space, #entries)),
             (false, _) => quote!(#rt::rebased_inertia::<#n>(&bases.body, #entries)),
             (true, frame) => {
-                let (left, right) = match frame {
-                    Frame::Body => (quote!(body_inverse), quote!(body)),
-                    Frame::Space => (quote!(space_inverse), quote!(space)),
-                    Frame::Flat => (quote!(space_inverse), quote!(body)),
-                };
-                let size = number(size);
-                quote!(#rt::rebased_tensor::<#n, #size>(&bases.#left, &bases.#right, #entries))
+                let (factors, size) = (factors(frame), number(size));
+                quote!(#rt::rebased_tensor::<#n, #size>(#factors, #entries))
             }
         };
         quote!(let #local = { #lets #value };)
     };
     matrices.iter().map(statement).collect()
+}
+
+/// `L` and `R` of `O = L O' R`, from an affine velocity in orthonormal bases to one in the user's.
+fn factors(frame: Frame) -> TokenStream {
+    match frame {
+        Frame::Body => quote!(&bases.body_inverse, &bases.body),
+        Frame::Space => quote!(&bases.space_inverse, &bases.space),
+        Frame::Flat => quote!(&bases.space_inverse, &bases.body),
+    }
+}
+
+/// A result of `prepare()` whose error has a velocity in orthonormal bases that it found before.
+pub(super) fn told_in_given_bases(context: &Context, result: TokenStream) -> TokenStream {
+    let rt = &context.names.rt;
+    match &context.model.metrics {
+        Some(ChangeOfBases::Prepared(Preparation { matrices, .. })) if !matrices.is_empty() => {
+            let factors = factors(context.model.frame);
+            quote!(#rt::told_in_given_bases(#factors, #result))
+        }
+        _ => result,
+    }
 }
 
 impl Context<'_> {

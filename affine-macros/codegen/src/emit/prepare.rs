@@ -266,15 +266,19 @@ fn numeric_block(context: &Context, block: &NumericBlock, rt: &Ident) -> TokenSt
         });
         quote!(&[#(#entries),*])
     });
+    let inverse = quote! {
+        #rt::inverse_form::<#dim, #size, #count>(
+            [#(#entries),*],
+            #rt::total_size([#(#terms),*]),
+            #positive,
+            [#(#basis),*],
+        )
+    };
+    let inverse = metrics::told_in_given_bases(context, inverse);
     quote! {
         let [#(#names),*]: [::core::primitive::f64; #count] = {
             #lets
-            #rt::inverse_form::<#dim, #size, #count>(
-                [#(#entries),*],
-                #rt::total_size([#(#terms),*]),
-                #positive,
-                [#(#basis),*],
-            )?
+            #inverse?
         };
     }
 }
