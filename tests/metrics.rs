@@ -1,6 +1,8 @@
 //! Models with constant metrics against the same energies with the metrics written out.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "metrics/components.rs"]
+mod components;
 #[path = "metrics/fields.rs"]
 mod fields;
 #[path = "metrics/forces.rs"]

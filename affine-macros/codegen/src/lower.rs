@@ -1,5 +1,6 @@
 //! From what the user wrote to symbolic terms: the last place where the specification's syntax is known.
 
+mod components;
 mod metrics;
 mod momentum_side;
 mod potential;

@@ -107,7 +107,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     found.verdict()?;
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
-    let potential = potential(&mut arena, spec, kinetic.constraint, found);
+    let potential =
+        potential(&mut arena, spec, kinetic.constraint, (metrics.as_ref(), &mut rebased), found);
     forces.driven = driven(spec, &forces, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
@@ -164,7 +165,7 @@ fn momentum_form(
     let hessian = Hessian::new(&kinetic);
     let space_group = largest_group(&on_momenta, Side::Space);
     let body_group = largest_group(&on_momenta, Side::Body);
-    let potential = potential(&mut arena, spec, None, found);
+    let potential = potential(&mut arena, spec, None, (metrics.as_ref(), &mut rebased), found);
     forces.driven = driven(spec, &forces, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
@@ -247,9 +248,10 @@ pub(super) fn potential(
     arena: &mut Arena,
     spec: &Spec,
     group: Option<Constraint>,
+    (metrics, rebased): (Option<&Metrics>, &mut Vec<Rebased>),
     found: &mut Diagnostics,
 ) -> Option<Potential> {
-    let energy = lower::potential(arena, spec)?;
+    let energy = lower::potential(arena, spec, metrics, rebased)?;
     let (Some(group), Some(constraint), Some(written)) = (group, spec.constraint, &spec.potential) else {
         return Some(Potential::new(arena, spec.dim.value, energy));
     };

@@ -2,8 +2,8 @@
 
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
-use crate::mechanics::kinetic::{Frame, TermKind};
-use crate::mechanics::metrics::{Bases, Metrics, Rebased};
+use crate::mechanics::kinetic::Frame;
+use crate::mechanics::metrics::{Bases, Metrics, Rebased, Source};
 
 use super::prepared::unbound;
 
@@ -31,32 +31,48 @@ impl ChangeOfBases {
 pub struct Preparation {
     /// Programs of the entries of `g` and `eta`, row after row.
     pub metrics: [Program; 2],
-    /// Inertias and tensors that it carries to orthonormal bases.
+    /// Inertias and tensors that it carries to orthonormal bases, and factors of these that potentials read.
     pub matrices: Vec<GivenMatrix>,
 }
 
-/// An inertia or a tensor in the user's bases.
+/// A matrix that coefficients read.
 pub struct GivenMatrix {
-    /// The name that coefficients have for it in orthonormal bases.
+    /// The name that they have for it.
     pub name: String,
-    /// Its entries, row after row.
-    pub entries: Program,
-    /// `O`, whose bases it goes with.
-    pub frame: Frame,
-    /// Is it contracted with both indices of `O`?
-    pub tensor: bool,
+    /// What it is.
+    pub source: GivenSource,
+}
+
+/// What a matrix is made from.
+pub enum GivenSource {
+    /// An inertia or a tensor.
+    Form {
+        /// Its entries in the user's bases, row after row.
+        entries: Program,
+        /// `O`, whose bases it goes with.
+        frame: Frame,
+        /// Is it contracted with both indices of `O`?
+        tensor: bool,
+    },
+    /// `A^-1`.
+    SpaceInverse,
+    /// `B`.
+    Body,
 }
 
 impl GivenMatrix {
     fn of(arena: &mut Arena, matrix: &Rebased) -> Self {
-        let kind: TermKind = matrix.kind;
-        Self {
-            name: matrix.name.clone(),
-            entries: entries(arena, &matrix.entries),
-            // No matrix stands at a term without a frame.
-            frame: kind.internal_frame().unwrap_or(Frame::Body),
-            tensor: kind.is_tensor(),
-        }
+        let source = match &matrix.source {
+            Source::Form(kind, given) => GivenSource::Form {
+                entries: entries(arena, given),
+                // No matrix stands at a term without a frame.
+                frame: kind.internal_frame().unwrap_or(Frame::Body),
+                tensor: kind.is_tensor(),
+            },
+            Source::SpaceInverse => GivenSource::SpaceInverse,
+            Source::Body => GivenSource::Body,
+        };
+        Self { name: matrix.name.clone(), source }
     }
 }
 

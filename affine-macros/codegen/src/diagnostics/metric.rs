@@ -28,7 +28,7 @@ pub enum MetricMistake {
     },
     /// A form of potentials that depends on the bases.
     MetricForm {
-        /// The form: `G[1,2]`, `x[1]`, `tr(phi)`.
+        /// The form: `tr(phi)`, `tr(G*Ct)`.
         form: String,
     },
 }
@@ -56,9 +56,10 @@ impl MetricMistake {
                 "write a symmetric matrix whose leading minors are all positive",
             ),
             Self::MetricForm { form } => text(
-                format!("`{form}` does not go with `metrics(...)` in this version"),
-                "equations stand in orthonormal bases of the metrics, and this form depends on the bases",
-                "write the potential through `q`, `det`, `I1..In`, `norm(x)` and traces of powers of `G` or of `Ct`",
+                format!("`{form}` depends on the bases, and beside `metrics(...)` no pair of them is meant"),
+                "`phi` takes the body to space, `G` has indices of the body and `Ct` of space: the trace puts one in the \
+                 place of the other, which bases do that are chosen together",
+                "write entries such as `phi[1,2]`, or traces of powers of `G` or of `Ct`",
             ),
         }
     }

@@ -5,7 +5,7 @@ use quote::quote;
 
 use crate::algebra::Rational;
 use crate::algebra::kernel::Callee;
-use crate::derive::{ChangeOfBases, GivenMatrix, Preparation};
+use crate::derive::{ChangeOfBases, GivenMatrix, GivenSource, Preparation};
 use crate::mechanics::kinetic::Frame;
 
 use super::body::{Body, Number, exact};
@@ -76,11 +76,16 @@ pub(super) fn rebased(context: &Context) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.dim());
     let statement = |matrix: &GivenMatrix| {
         let local = matrix_name(&matrix.name);
-        let Body { lets, results } = over_fields(rt, &matrix.entries);
-        let size = if matrix.tensor { context.model.dim.pow(2) } else { context.model.dim };
+        let (entries, frame, tensor) = match &matrix.source {
+            GivenSource::Form { entries, frame, tensor } => (entries, *frame, *tensor),
+            GivenSource::SpaceInverse => return quote!(let #local = #rt::rows(&bases.space_inverse);),
+            GivenSource::Body => return quote!(let #local = #rt::rows(&bases.body);),
+        };
+        let Body { lets, results } = over_fields(rt, entries);
+        let size = if tensor { context.model.dim.pow(2) } else { context.model.dim };
         let rows = results.chunks(size).map(|row| quote!([#(#row),*]));
         let entries = quote!([#(#rows),*]);
-        let value = match (matrix.tensor, matrix.frame) {
+        let value = match (tensor, frame) {
             (false, Frame::Space) => quote!(#rt::rebased_inertia::<#n>(&bases.space, #entries)),
             (false, _) => quote!(#rt::rebased_inertia::<#n>(&bases.body, #entries)),
             (true, frame) => {

@@ -7,7 +7,7 @@ use crate::algebra::root::root;
 use crate::algebra::{Expr, Rational};
 
 pub use axes::{Axes, root_of_product};
-pub use forms::{Congruent, Rebased};
+pub use forms::{Congruent, Rebased, Source};
 
 /// Metrics other than the identity.
 #[derive(Clone, Debug, PartialEq, Eq)]

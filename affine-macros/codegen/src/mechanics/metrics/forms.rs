@@ -27,15 +27,24 @@ pub struct Congruent {
     pub velocities: Vec<Vec<(usize, Rational)>>,
 }
 
-/// A matrix or tensor in orthonormal bases that are known when the model is prepared.
+/// A matrix that is known when the model is prepared, as the bases are.
 #[derive(Clone, Debug)]
 pub struct Rebased {
     /// The field that its symbols seem to be entries of; a number, which no field of the user's is.
     pub name: String,
-    /// Its term.
-    pub kind: TermKind,
-    /// Its entries in the user's bases, row after row.
-    pub entries: Vec<Expr>,
+    /// What it is.
+    pub source: Source,
+}
+
+/// What `prepare()` makes a matrix from.
+#[derive(Clone, Debug)]
+pub enum Source {
+    /// The matrix of a term, in orthonormal bases, from its entries in the user's, row after row.
+    Form(TermKind, Vec<Expr>),
+    /// `A^-1`.
+    SpaceInverse,
+    /// `B`.
+    Body,
 }
 
 /// The bases that the two indices of an affine velocity belong to.
@@ -101,6 +110,34 @@ impl Metrics {
     }
 }
 
+impl Metrics {
+    /// `A^-1` and `B`; symbols for the entries that can differ from zero, where `prepare()` finds them.
+    pub fn factors(&self, arena: &mut Arena, rebased: &mut Vec<Rebased>) -> [Matrix; 2] {
+        let [space, body] = match self {
+            Self::Known(bases) => {
+                return [&bases.space.inverse, &bases.body.matrix].map(|rows| {
+                    let mut constant = |entry: &Rational| arena.constant(entry.clone());
+                    Matrix(rows.iter().map(|row| row.iter().map(&mut constant).collect()).collect())
+                });
+            }
+            Self::Given(metrics) => metrics.each_ref().map(|rows| {
+                Axes::pattern(&polynomials(arena, &Matrix(rows.clone())))
+            }),
+        };
+        [(&space.inverse, Source::SpaceInverse), (&body.matrix, Source::Body)].map(|(pattern, source)| {
+            let name = (rebased.len() + 1).to_string();
+            let mut entry = |i: usize, j: usize| match pattern[i][j].is_zero() {
+                true => arena.constant(Rational::ZERO),
+                false => arena.symbol(&format!("self.{name}[{},{}]", i + 1, j + 1)),
+            };
+            let n = pattern.len();
+            let symbols = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+            rebased.push(Rebased { name, source });
+            Matrix(symbols)
+        })
+    }
+}
+
 /// Symbols for the entries that can differ from zero.
 fn to_prepare(
     arena: &mut Arena,
@@ -121,7 +158,7 @@ fn to_prepare(
         false => arena.symbol(&format!("self.{name}[{},{}]", r.min(s) + 1, r.max(s) + 1)),
     };
     let symbols = (0..given.len()).map(|r| (0..given.len()).map(|s| symbol(r, s)).collect()).collect();
-    rebased.push(Rebased { name, kind: term.kind, entries });
+    rebased.push(Rebased { name, source: Source::Form(term.kind, entries) });
     Matrix(symbols)
 }
 
