@@ -63,8 +63,9 @@ use proc_macro::TokenStream;
 /// `1/2 g_ij Om^i_k Om^j_l J^kl`, so that the scalar `I` is `J = I eta^-1`, in space `I g^-1`; a tensor `K` is contracted with
 /// the components of the velocity and reads no metric. Both are carried to orthonormal bases when the program compiles, or
 /// by `prepare()` where the metric is a field. Forces and potentials of fields are told placements and velocities in the
-/// user's bases and answer there; `isotropic`, `green` and `finger` mean rotations of the metrics. Potentials in single
-/// entries are refused beside metrics.
+/// user's bases and answer there; `isotropic`, `green` and `finger` mean rotations of the metrics. Entries in potentials are
+/// those of the user's bases, `G_AB = g_ij phi^i_A phi^j_B` and `Ct^ij = eta^AB phi^i_A phi^j_B`; `tr(phi)` and `tr(G*Ct)`,
+/// which depend on the bases, are refused.
 ///
 /// Terms of different frames add: the mass matrix then depends on `phi`, and is factorised in the equations. A sum that
 /// is not positive definite at every placement is checked at each start, and a motion into a degenerate mass matrix ends

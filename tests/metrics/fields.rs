@@ -87,13 +87,15 @@ fn one_of_both() {
         let mut random = Random::new(4099 + seed);
         let given = random.inertia(2);
         let model = OfMatrix { j: numbers(&given) }.prepare().unwrap();
-        let kinetic = Kinetic::new(2, vec![Term::BodyTensor(product(2, &known, &given)), casimir2()]).unwrap();
+        let kinetic =
+            Kinetic::new(2, vec![Term::BodyTensor(product(2, &known, &given)), casimir2()]).unwrap();
         let (at, back) = pinned!(model, 2);
         agrees(&model, &kinetic, at, back);
 
         let model = OfMetric { eta: numbers(&given) }.prepare().unwrap();
         let inertia = super::twentieths(2, &[30, 5, 5, 40]);
-        let kinetic = Kinetic::new(2, vec![Term::BodyTensor(product(2, &given, &inertia)), casimir2()]).unwrap();
+        let kinetic =
+            Kinetic::new(2, vec![Term::BodyTensor(product(2, &given, &inertia)), casimir2()]).unwrap();
         let (at, back) = pinned!(model, 2);
         agrees(&model, &kinetic, at, back);
     }

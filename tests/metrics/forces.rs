@@ -176,7 +176,8 @@ fn accounted<const N: usize, M: Model<N>>(
         let state = Random::new(3100 + seed).state(N);
         let (motion, (on_p, on_pi)) = (motion::<N>(kinetic, &state), push(&state));
         let on_pi = Matrix::<N>::from_row_slice(&on_pi);
-        let power = (on_pi * motion.phi_dot).trace() + Vector::<N>::from_column_slice(&on_p).dot(&motion.x_dot);
+        let power =
+            (on_pi * motion.phi_dot).trace() + Vector::<N>::from_column_slice(&on_p).dot(&motion.x_dot);
         let expected = if energy { 0.0 } else { power };
         close("power", &[model.power(0.0, &at(&state))], &[expected], on_pi.norm() * motion.phi_dot.norm());
     }
@@ -318,7 +319,9 @@ fn potentials_of_fields() {
     agrees_under(&model, &kinetic, under, at, back);
     let kept = <Bound as Model<2>>::DESCRIPTION.conserved;
     assert!(kept.contains(&Conserved::Spin) && kept.contains(&Conserved::Vorticity));
-    let start = model.at_velocity(Matrix::<2>::new(1.1, 0.2, -0.1, 0.9), Matrix::<2>::new(0.1, 0.4, -0.3, -0.2)).unwrap();
+    let start = model
+        .at_velocity(Matrix::<2>::new(1.1, 0.2, -0.1, 0.9), Matrix::<2>::new(0.1, 0.4, -0.3, -0.2))
+        .unwrap();
     let run = Simulation::new(&model, start).until(5.0).tolerance(1e-13).run().unwrap();
     assert!(run.conservation().worst() < 1e-11, "{}", run.conservation());
 }

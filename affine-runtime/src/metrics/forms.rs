@@ -18,9 +18,8 @@ pub fn rebased_tensor<const N: usize, const M: usize>(
     right: &Matrix<N>,
     tensor: [[f64; M]; M],
 ) -> [[f64; M]; M] {
-    let weight = |entry: usize, carried: usize| {
-        left[(entry / N, carried / N)] * right[(carried % N, entry % N)]
-    };
+    let weight =
+        |entry: usize, carried: usize| left[(entry / N, carried / N)] * right[(carried % N, entry % N)];
     let half: [[f64; M]; M] = core::array::from_fn(|k| {
         core::array::from_fn(|carried| (0..M).map(|l| tensor[k][l] * weight(l, carried)).sum())
     });

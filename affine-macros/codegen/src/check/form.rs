@@ -107,8 +107,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     found.verdict()?;
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
-    let potential =
-        potential(&mut arena, spec, kinetic.constraint, (metrics.as_ref(), &mut rebased), found);
+    let potential = potential(&mut arena, spec, kinetic.constraint, (metrics.as_ref(), &mut rebased), found);
     forces.driven = driven(spec, &forces, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);

@@ -57,8 +57,8 @@ impl MetricMistake {
             ),
             Self::MetricForm { form } => text(
                 format!("`{form}` depends on the bases, and beside `metrics(...)` no pair of them is meant"),
-                "`phi` takes the body to space, `G` has indices of the body and `Ct` of space: the trace puts one in the \
-                 place of the other, which bases do that are chosen together",
+                "`phi` takes the body to space, `G` has indices of the body and `Ct` of space: the trace identifies the two, \
+                 as no more than a choice of bases does",
                 "write entries such as `phi[1,2]`, or traces of powers of `G` or of `Ct`",
             ),
         }

@@ -170,7 +170,13 @@ impl Writer<'_> {
             call.arguments.iter().map(|group| kernel::written(group, |v| self.expression(*v).0)).collect();
         let read = inputs(self.program);
         let results = call.results.iter().map(|group| kernel::bound(group, &read));
-        self.lets.extend(kernel::statement(self.scope.rt, self.scope.rebased, call.callee, arguments, results));
+        self.lets.extend(kernel::statement(
+            self.scope.rt,
+            self.scope.rebased,
+            call.callee,
+            arguments,
+            results,
+        ));
         self.called.push(call);
     }
 

@@ -50,7 +50,8 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
 
 /// The bases in the prepared model, and the statement of `prepare()` that finds them.
 pub(super) fn prepared(context: &Context) -> (TokenStream, TokenStream) {
-    let Some(ChangeOfBases::Prepared(Preparation { metrics: [space, body], .. })) = &context.model.metrics else {
+    let Some(ChangeOfBases::Prepared(Preparation { metrics: [space, body], .. })) = &context.model.metrics
+    else {
         return (TokenStream::new(), TokenStream::new());
     };
     let (rt, n) = (&context.names.rt, context.dim());

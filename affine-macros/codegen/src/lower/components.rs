@@ -34,10 +34,8 @@ pub(super) fn carried(
         return Some(energy);
     }
     let [space_inverse, body] = metrics.factors(arena, rebased);
-    let values: Vec<(Expr, Expr)> = named
-        .into_iter()
-        .map(|(symbol, base)| (symbol, value(arena, base, &space_inverse, &body)))
-        .collect();
+    let values: Vec<(Expr, Expr)> =
+        named.into_iter().map(|(symbol, base)| (symbol, value(arena, base, &space_inverse, &body))).collect();
     arena.substitute(energy, &|e| values.iter().find(|(symbol, _)| *symbol == e).map(|(_, value)| *value))
 }
 

@@ -54,8 +54,9 @@ fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Reading) -> Optio
         return Some(arena.constant(value));
     }
     let of = |arena: &mut Arena, operand: &Expression| value(arena, n, operand, reading);
-    let component =
-        |arena: &mut Arena, base: Base| if reading.given { components::symbol(arena, base) } else { base.symbol(arena) };
+    let component = |arena: &mut Arena, base: Base| {
+        if reading.given { components::symbol(arena, base) } else { base.symbol(arena) }
+    };
     match &e.kind {
         ExpressionKind::Number(value) => Some(arena.constant(value.clone())),
         // Of a matrix a potential could only take entries, and those of fields have no notation.

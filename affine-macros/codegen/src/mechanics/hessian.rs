@@ -163,8 +163,10 @@ impl Hessian {
     /// bases too: these keep their blocks.
     fn decided_by(mut self, congruent: &Congruent, kinetic: &Kinetic) -> Self {
         let velocities: Vec<Expr> = kinetic.velocity.0.concat();
-        let numeric = congruent.energy.terms().all(|(monomial, _)| monomial.iter().all(|e| velocities.contains(e)));
-        let alone = |b: &Block| b.basis[0].kind != Direction::Entry && b.eigenvalue().is_some_and(|e| !e.is_zero());
+        let numeric =
+            congruent.energy.terms().all(|(monomial, _)| monomial.iter().all(|e| velocities.contains(e)));
+        let alone =
+            |b: &Block| b.basis[0].kind != Direction::Entry && b.eigenvalue().is_some_and(|e| !e.is_zero());
         if !numeric || (congruent.exact && self.blocks.iter().all(alone)) {
             self.blocks.iter_mut().for_each(|block| block.seen_from(congruent));
             return self;

@@ -23,9 +23,8 @@ fn rows(matrix: &Matrix) -> Rows {
 }
 
 fn product(a: &Rows, b: &Rows) -> Rows {
-    let dot = |row: &Vec<Number>, j: usize| {
-        row.iter().zip(b).fold(Number::ZERO, |sum, (a, b)| &sum + &(a * &b[j]))
-    };
+    let dot =
+        |row: &Vec<Number>, j: usize| row.iter().zip(b).fold(Number::ZERO, |sum, (a, b)| &sum + &(a * &b[j]));
     a.iter().map(|row| (0..b[0].len()).map(|j| dot(row, j)).collect()).collect()
 }
 
@@ -54,7 +53,9 @@ fn velocity(model: &Model, stem: &str, momentum: &Rows) -> Rows {
 fn velocities_beside_random_metrics() {
     for (n, seeds) in [(2, 0..4), (3, 4..6)] {
         for seed in seeds {
-            for kind in ["body_inertia", "space_inertia", "dalembert", "body_tensor", "space_tensor", "flat_tensor"] {
+            for kind in
+                ["body_inertia", "space_inertia", "dalembert", "body_tensor", "space_tensor", "flat_tensor"]
+            {
                 let mut random = Random::new(6011 + seed);
                 let (g, eta) = (random.inertia(n), random.inertia(n));
                 let given = if kind.ends_with("tensor") { random.tensor(n) } else { random.inertia(n) };
@@ -123,12 +124,19 @@ fn rational_axes() {
         for n in [2, 3] {
             let metric = rows(&Random::new(823 + seed).inertia(n));
             let axes = Axes::of(&metric).unwrap();
-            let transposed: Rows = (0..n).map(|i| (0..n).map(|j| axes.matrix[j][i].clone()).collect()).collect();
-            let scaled: Rows = axes.matrix.iter().zip(&axes.squares).map(|(row, d)| row.iter().map(|e| e * d).collect()).collect();
+            let transposed: Rows =
+                (0..n).map(|i| (0..n).map(|j| axes.matrix[j][i].clone()).collect()).collect();
+            let scaled: Rows = axes
+                .matrix
+                .iter()
+                .zip(&axes.squares)
+                .map(|(row, d)| row.iter().map(|e| e * d).collect())
+                .collect();
             assert_eq!(product(&transposed, &scaled), metric);
             let unit = product(&axes.matrix, &axes.inverse);
-            let identity: Rows =
-                (0..n).map(|i| (0..n).map(|j| if i == j { Number::ONE } else { Number::ZERO }).collect()).collect();
+            let identity: Rows = (0..n)
+                .map(|i| (0..n).map(|j| if i == j { Number::ONE } else { Number::ZERO }).collect())
+                .collect();
             assert_eq!(unit, identity);
         }
     }

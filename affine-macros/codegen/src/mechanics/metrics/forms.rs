@@ -59,8 +59,7 @@ fn sides<'a>(frame: Frame, [space, body]: [&'a Axes; 2]) -> [&'a Axes; 2] {
 /// A matrix or a tensor of a term of `frame`, in the bases of `axes`.
 fn changed(term: &Term, frame: Frame, axes: [&Axes; 2], given: &Square<Polynomial>) -> Square<Polynomial> {
     let [left, right] = sides(frame, axes);
-    let lifted =
-        |rows: &[Vec<Rational>]| table(rows.len(), |i, j| Polynomial::constant(rows[i][j].clone()));
+    let lifted = |rows: &[Vec<Rational>]| table(rows.len(), |i, j| Polynomial::constant(rows[i][j].clone()));
     let matrix = match term.kind.is_tensor() {
         false => lifted(&right.matrix),
         // O[A][B] = (L^-1)[A][a] O'[a][b] R[b][B]
@@ -120,9 +119,9 @@ impl Metrics {
                     Matrix(rows.iter().map(|row| row.iter().map(&mut constant).collect()).collect())
                 });
             }
-            Self::Given(metrics) => metrics.each_ref().map(|rows| {
-                Axes::pattern(&polynomials(arena, &Matrix(rows.clone())))
-            }),
+            Self::Given(metrics) => {
+                metrics.each_ref().map(|rows| Axes::pattern(&polynomials(arena, &Matrix(rows.clone()))))
+            }
         };
         [(&space.inverse, Source::SpaceInverse), (&body.matrix, Source::Body)].map(|(pattern, source)| {
             let name = (rebased.len() + 1).to_string();
@@ -147,7 +146,9 @@ fn to_prepare(
     rebased: &mut Vec<Rebased>,
 ) -> Matrix {
     let [space, body] = [space, body].map(|rows| Axes::pattern(&polynomials(arena, &Matrix(rows.clone()))));
-    let one = |entry: &Polynomial| if entry.is_zero() { Polynomial::zero() } else { Polynomial::constant(Rational::ONE) };
+    let one = |entry: &Polynomial| {
+        if entry.is_zero() { Polynomial::zero() } else { Polynomial::constant(Rational::ONE) }
+    };
     let ones: Square<Polynomial> = given.iter().map(|row| row.iter().map(one).collect()).collect();
     let filled = changed(term, frame, [&space, &body], &ones);
     let name = (rebased.len() + 1).to_string();
@@ -190,16 +191,18 @@ impl Bases {
         let internal = terms.iter().filter(|term| term.kind.translation_frame().is_none());
         let internal: Vec<Term> = internal.map(|term| self.rational(arena, term, frame)).collect();
         // d_a times the square of row a for J; K and the Casimirs are contracted without metrics.
-        let energy = |scale: &dyn Fn(&Polynomial) -> Polynomial, wanted: &dyn Fn(&Term) -> bool, arena: &mut Arena| {
-            let terms: Vec<Term> = internal.iter().filter(|term| wanted(term)).cloned().collect();
-            scale(&Kinetic::in_frame(arena, n, frame, &terms, None).internal_energy())
-        };
+        let energy =
+            |scale: &dyn Fn(&Polynomial) -> Polynomial, wanted: &dyn Fn(&Term) -> bool, arena: &mut Arena| {
+                let terms: Vec<Term> = internal.iter().filter(|term| wanted(term)).cloned().collect();
+                scale(&Kinetic::in_frame(arena, n, frame, &terms, None).internal_energy())
+            };
         let velocity = &kinetic.velocity.0;
         let row_of = |atom: &Expr| velocity.iter().position(|row| row.contains(atom));
         let by_rows = |energy: &Polynomial| {
             let mut sum = Polynomial::zero();
             for (monomial, c) in energy.terms() {
-                let square = monomial.iter().find_map(row_of).map_or(Rational::ONE, |a| left.squares[a].clone());
+                let square =
+                    monomial.iter().find_map(row_of).map_or(Rational::ONE, |a| left.squares[a].clone());
                 sum.add_term(monomial.clone(), &(c * &square));
             }
             sum
@@ -225,7 +228,8 @@ impl Bases {
         let entries = velocity.concat();
         let square = |k: usize, l: usize| &weights[k][k] * &weights[l][l];
         let exact = sum.terms().all(|(monomial, _)| {
-            let places: Vec<usize> = monomial.iter().filter_map(|atom| entries.iter().position(|e| e == atom)).collect();
+            let places: Vec<usize> =
+                monomial.iter().filter_map(|atom| entries.iter().position(|e| e == atom)).collect();
             matches!(places.as_slice(), [k, l] if &weights[*k][*l] * &weights[*k][*l] == square(*k, *l))
         });
         let velocities = (0..n * n).map(|k| {
