@@ -48,7 +48,7 @@ pub enum Source {
 }
 
 /// The bases that the two indices of an affine velocity belong to.
-fn sides<'a>(frame: Frame, [space, body]: [&'a Axes; 2]) -> [&'a Axes; 2] {
+fn sides(frame: Frame, [space, body]: [&Axes; 2]) -> [&Axes; 2] {
     match frame {
         Frame::Body => [body, body],
         Frame::Space => [space, space],
