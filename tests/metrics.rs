@@ -3,6 +3,8 @@
 
 #[path = "metrics/components.rs"]
 mod components;
+#[path = "metrics/dissipation.rs"]
+mod dissipation;
 #[path = "metrics/fields.rs"]
 mod fields;
 #[path = "metrics/forces.rs"]
