@@ -343,6 +343,20 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "/// A lattice of two angles.
         pub struct Lattice;",
     ),
+    (
+        "metrics_inertia_2",
+        "dim = 2, metrics(space = [[2, 0.5], [0.5, 1.5]], body = [[1, -0.4], [-0.4, 3]]), \
+         kinetic(casimir2 = 0.2, body_inertia = [[1.5, 0.25], [0.25, 2]])",
+        "/// A body in oblique axes.
+        pub struct Oblique;",
+    ),
+    (
+        "fields_metrics_inertia_2",
+        "dim = 2, metrics(body = eta), kinetic(dalembert = j, space_translation = 1), \
+         dissipation(space_tensor = k), forces = custom(wind, translation)",
+        "/// A body in axes of its own.
+        pub struct Oblique { eta: Matrix<2>, j: Matrix<2>, k: Matrix<4>, wind: Wind }",
+    ),
 ];
 
 #[test]

@@ -58,7 +58,15 @@ use proc_macro::TokenStream;
 ///
 /// With `metrics(...)`, `g` and `eta` symmetric and positive definite, every transpose and norm is the metric one
 /// (`g^-1 Y^T g` in space, `eta^-1 X^T eta` in the body), and `det phi`, `q` are those of orthonormal bases. Points have
-/// the user's coordinates; equations, reduced states and plain arrays those of orthonormal bases.
+/// the user's coordinates; equations, reduced states and plain arrays those of orthonormal bases. A matrix `J` has upper
+/// indices, `1/2 eta_KL Oh^K_A Oh^L_B J^AB` (4.17) and `1/2 g_ij phi_dot^i_A phi_dot^j_B J^AB` (2.1), in space
+/// `1/2 g_ij Om^i_k Om^j_l J^kl`, so that the scalar `I` is `J = I eta^-1`, in space `I g^-1`; a tensor `K` is contracted with
+/// the components of the velocity and reads no metric. Both are carried to orthonormal bases when the program compiles, or
+/// by `prepare()` where the metric is a field. Forces and potentials of fields are told placements and velocities in the
+/// user's bases and answer there; `isotropic`, `green` and `finger` mean rotations of the metrics. Entries in potentials are
+/// those of the user's bases, `G_AB = g_ij phi^i_A phi^j_B` and `Ct^ij = eta^AB phi^i_A phi^j_B`; `tr(phi)` and `tr(G*Ct)`,
+/// which depend on the bases, are refused.
+///
 /// Terms of different frames add: the mass matrix then depends on `phi`, and is factorised in the equations. A sum that
 /// is not positive definite at every placement is checked at each start, and a motion into a degenerate mass matrix ends
 /// with `Reason::Degenerate`.
@@ -120,8 +128,8 @@ use proc_macro::TokenStream;
 /// `spatial` (`Q`), `comoving` (`Q_hat`) or `translation` (`Q_tr`), with `gyroscopic` after it where the force has no power:
 /// the energy then stays conserved.
 ///
-/// Under a constraint the forces are projected to its group. Dissipation and fields are refused beside `metrics(...)`,
-/// `casimir3`, terms of different frames, `group = unitary`, `emit(splitting)`, `emit(nystrom)` and `emit(two_polar)`, fields
+/// Under a constraint the forces are projected to its group. Dissipation and fields are refused beside `casimir3`,
+/// terms of different frames, `group = unitary`, `emit(splitting)`, `emit(nystrom)` and `emit(two_polar)`, fields
 /// also beside `emit(taylor)`; `constraint = isochoric` of `dalembert`, which a multiplier keeps, takes only potentials. Beside
 /// forces the power of a potential that contains `t` is part of the balance of energy.
 ///

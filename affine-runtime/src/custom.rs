@@ -1,9 +1,15 @@
 //! Calls of fields from emitted code: arrays in, arrays out.
 
+mod in_bases;
+
 use crate::force::{Comoving, Force, Form, Motion, Spatial, Translation};
 use crate::frames::{Matrix, Vector};
 use crate::potential::{Place, Potential, Slopes};
 use crate::scalar::Scalar;
+
+pub use in_bases::{
+    comoving_force_in, potential_energy_in, potential_slopes_in, spatial_force_in, translational_force_in,
+};
 
 type Rows<const N: usize, T> = [[T; N]; N];
 

@@ -69,7 +69,7 @@ pub struct IllPosed {
     pub velocity: Option<Direction>,
 }
 
-/// An affine velocity of the energy's frame: `Oh`, `Om` or `phi_dot`, `n x n`, to seven digits.
+/// An affine velocity of the energy's frame: `Oh`, `Om` or `phi_dot`, `n x n`, in the user's bases, to seven digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Direction {
     dim: usize,

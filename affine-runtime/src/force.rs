@@ -12,7 +12,8 @@ use core::fmt;
 use crate::frames::{Matrix, Vector, inverse};
 use crate::scalar::Scalar;
 
-/// What a force is told: a placement and its velocity at a time.
+/// What a force is told: a placement and its velocity at a time, in the bases that the user states the model in, whatever
+/// its metrics; there it answers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion<const N: usize, T = f64> {
     /// Time.

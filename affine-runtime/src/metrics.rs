@@ -1,9 +1,17 @@
 //! Constant metrics of space and body: bases in which they are the identity.
 
+mod forms;
+mod quantities;
+
 use crate::error::{Error, IllPosed, Result};
 use crate::frames::Matrix;
 use crate::model::Velocity;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
+
+#[doc(hidden)]
+pub use forms::{rebased_inertia, rebased_tensor, told_in_given_bases};
+#[doc(hidden)]
+pub use quantities::{form_in_given_bases, inverse_in_given_bases};
 
 /// A change of the bases of space and body, `x' = A x`, `phi' = A phi B^-1`.
 ///
@@ -11,7 +19,7 @@ use crate::scalar::Real;
 /// `B^T phi'^T phi' B`. Momenta follow: `p' = A^-T p`, `Sigma' = A Sigma A^-1`, `Sigma_hat' = B Sigma_hat B^-1`,
 /// `Pi' = B Pi A^-1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bases<const N: usize, T: Real = f64> {
+pub struct Bases<const N: usize, T: Scalar = f64> {
     /// `A`.
     pub space: Matrix<N, T>,
     /// `A^-1`.
@@ -59,7 +67,7 @@ impl<const N: usize> Bases<N> {
 
     /// The same numbers as another scalar.
     #[must_use]
-    pub fn over<T: Real>(&self) -> Bases<N, T> {
+    pub fn over<T: Scalar>(&self) -> Bases<N, T> {
         let over = |matrix: &Matrix<N>| matrix.map(|entry| T::constant(entry, 0.0));
         Bases {
             space: over(&self.space),

@@ -6,7 +6,7 @@ use crate::frames::{Matrix, Vector};
 use crate::sampling::rotation;
 use crate::scalar::Scalar;
 
-/// What a potential is told: a placement at a time.
+/// What a potential is told: a placement at a time, in the bases that the user states the model in, whatever its metrics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place<const N: usize, T = f64> {
     /// Time.
@@ -26,7 +26,8 @@ pub struct Slopes<const N: usize, T = f64> {
     pub phi: Matrix<N, T>,
 }
 
-/// Rotations under which a potential does not change, `U(A phi B) = U(phi)`: what stays conserved follows from it.
+/// Rotations under which a potential does not change, `U(A phi B) = U(phi)`: what stays conserved follows from it. In a
+/// model with metrics they are the rotations of these.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
     /// `isotropic`: rotations of space and body. Spin and vorticity stay conserved where the kinetic energy has them.
@@ -125,7 +126,8 @@ const SLOPE: f64 = 1e-8;
 /// Rounding of two evaluations, relative to their size.
 const ENERGY: f64 = 1e-11;
 
-/// Holds class and derivatives of a potential against samples; see [`places`](crate::sampling::places) for some.
+/// Holds class and derivatives of a potential against samples; see [`places`](crate::sampling::places) for some. The class
+/// is held against the rotations of the identity as metric.
 ///
 /// # Errors
 /// [`Unsound`] at the first place where the energy changes under a rotation of the class, or where a derivative is not

@@ -7,7 +7,8 @@ pub use crate::breathing::Breathing;
 pub use crate::capability::{Emitted, InLanes, SecondOrderEquations, Splitting, Tangent, Taylor};
 pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::custom::{
-    comoving_force, potential_energy, potential_slopes, spatial_force, translational_force,
+    comoving_force, comoving_force_in, potential_energy, potential_energy_in, potential_slopes,
+    potential_slopes_in, spatial_force, spatial_force_in, translational_force, translational_force_in,
 };
 pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
 pub use crate::dissipation::{semidefinite, semidefinite_form};
@@ -30,7 +31,10 @@ pub use crate::lattice::{
     PotentialClass, RatioForm, TwoPolarForm, Variables, rotation, turned,
 };
 pub use crate::matrix_field::symmetric_part;
-pub use crate::metrics::{Bases, orthonormal};
+pub use crate::metrics::{
+    Bases, form_in_given_bases, inverse_in_given_bases, orthonormal, rebased_inertia, rebased_tensor,
+    told_in_given_bases,
+};
 pub use crate::model::{
     Conserved, Constraint, Description, Formula, Group, Model, Operations, Regularity, TANGENT, Velocity,
     VelocityDeterminesMomentum,
@@ -96,7 +100,7 @@ pub fn rows<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> [[T; N]; N] {
 }
 
 /// The matrix with the given rows.
-pub fn matrix<const N: usize, T: Real>(rows: [[T; N]; N]) -> Matrix<N, T> {
+pub fn matrix<const N: usize, T: Scalar>(rows: [[T; N]; N]) -> Matrix<N, T> {
     Matrix::from_fn(|i, j| rows[i][j])
 }
 

@@ -15,7 +15,7 @@ mod stated;
 use crate::check::Energy;
 
 pub use lattice::{PieceProgram, PiecePrograms, RatioProgram, TwoPolar};
-pub use metrics::ChangeOfBases;
+pub use metrics::{ChangeOfBases, GivenMatrix, GivenSource, Preparation};
 pub use model::{
     Balance, Condition, Damping, Equations, Formulas, Metric, MixedMasses, Model, NumericBlock, Regularity,
     Relation, VelocitySide,

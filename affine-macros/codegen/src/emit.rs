@@ -176,7 +176,9 @@ impl Context<'_> {
             let name = format_ident!("{name}");
             quote!(#name)
         };
-        let Body { lets, results } = body(program, &Scope { number, input: &input, rt: &self.names.rt });
+        let rebased = self.model.metrics.is_some();
+        let Body { lets, results } =
+            body(program, &Scope { number, input: &input, rebased, rt: &self.names.rt });
         let coefficients = inputs(program).into_iter().filter_map(|name| {
             let (index, name) = (coefficient_index(name)?, format_ident!("{name}"));
             let value = number.of_double(quote!(self.coefficients[#index]));
@@ -191,7 +193,8 @@ impl Context<'_> {
             let field = if self.has_fields { &name } else { &custom.field };
             Some(quote!(let #name = &self.#field;))
         });
-        Body { lets: coefficients.chain(fields).chain([lets]).collect(), results }
+        let change = self.change_for(program, number);
+        Body { lets: coefficients.chain(change).chain(fields).chain([lets]).collect(), results }
     }
 }
 

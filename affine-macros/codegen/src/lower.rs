@@ -1,5 +1,6 @@
 //! From what the user wrote to symbolic terms: the last place where the specification's syntax is known.
 
+mod components;
 mod metrics;
 mod momentum_side;
 mod potential;
@@ -11,6 +12,7 @@ use crate::mechanics::custom::{Class, Custom, On, Role};
 use crate::mechanics::dissipation::Dissipation;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::kinetic::{Coefficient, Frame, Term, TermKind};
+use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 
 pub use metrics::metrics;
@@ -52,11 +54,25 @@ pub fn constraint(constraint: spec::Constraint) -> Constraint {
     }
 }
 
-/// The forces besides those of the potential, for a kinetic energy that is constant in the frame `own`.
-pub fn forces(arena: &mut Arena, spec: &Spec, own: Frame) -> Forces {
+/// The forces besides those of the potential, for a kinetic energy that is constant in the frame `own`; matrices that
+/// `prepare()` carries to orthonormal bases are added to `rebased`.
+pub fn forces(
+    arena: &mut Arena,
+    spec: &Spec,
+    own: Frame,
+    metrics: Option<&Metrics>,
+    rebased: &mut Vec<Rebased>,
+) -> Forces {
     let n = spec.dim.value;
-    let damping: Vec<Term> = terms(arena, n, &spec.dissipation).into_iter().map(|(_, term)| term).collect();
-    let dissipation = (!damping.is_empty()).then(|| Dissipation::new(arena, n, own, &damping));
+    let stated: Vec<Term> = terms(arena, n, &spec.dissipation).into_iter().map(|(_, term)| term).collect();
+    let damping = match metrics {
+        Some(metrics) => metrics.orthonormal(arena, &stated, rebased),
+        None => stated.clone(),
+    };
+    let mut dissipation = (!damping.is_empty()).then(|| Dissipation::new(arena, n, own, &damping));
+    if let (Some(metrics), Some(dissipation)) = (metrics, &mut dissipation) {
+        dissipation.decide_by(arena, metrics, &stated);
+    }
     let customs = spec.customs.iter().enumerate().map(|(k, custom)| custom_field(k + 1, custom)).collect();
     Forces { dissipation, customs, driven: false }
 }

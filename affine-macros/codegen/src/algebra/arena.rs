@@ -392,7 +392,7 @@ impl Arena {
     #[must_use]
     pub fn text(&self, expr: Expr) -> String {
         match self.node(expr) {
-            Node::Constant(value) => value.to_string(),
+            Node::Constant(value) => value.shown(),
             Node::Symbol(name) => name.clone(),
             Node::Sum(constant, terms) => self.sum_text(constant, terms),
             Node::Product(factors) => self.product_text(factors),
@@ -412,7 +412,7 @@ impl Arena {
                 }
             }
             if !c.abs().is_one() {
-                let _ = write!(text, "{}*", c.abs());
+                let _ = write!(text, "{}*", c.abs().shown());
             }
             match self.node(*term) {
                 Node::Sum(..) => {
@@ -423,7 +423,7 @@ impl Arena {
         }
         if !constant.is_zero() {
             let sign = if constant.is_negative() { "-" } else { "+" };
-            let _ = write!(text, " {sign} {}", constant.abs());
+            let _ = write!(text, " {sign} {}", constant.abs().shown());
         }
         text
     }

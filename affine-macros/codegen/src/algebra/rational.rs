@@ -129,6 +129,21 @@ impl Rational {
         }
     }
 
+    /// Does it have more digits than anyone reads, as what stands for an irrational number has?
+    #[must_use]
+    pub fn is_long(&self) -> bool {
+        match &self.0 {
+            Repr::Small(..) => false,
+            Repr::Big(b) => b.numer().bits() + b.denom().bits() > 256,
+        }
+    }
+
+    /// For readers: exactly, or the nearest double of a long one.
+    #[must_use]
+    pub fn shown(&self) -> String {
+        if self.is_long() { self.to_doubles().0.to_string() } else { self.to_string() }
+    }
+
     /// Absolute value.
     #[must_use]
     pub fn abs(&self) -> Self {

@@ -9,7 +9,7 @@ use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hessian::{Block, Direction, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
-use crate::mechanics::metrics::Metrics;
+use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
@@ -41,6 +41,8 @@ pub struct Form {
     pub unitary: bool,
     /// Metrics other than the identity; everything else stands in bases in which they are.
     pub metrics: Option<Metrics>,
+    /// Matrices that are carried to these bases when the model is prepared.
+    pub rebased: Vec<Rebased>,
     /// Are the exact flows of pieces of the Hamiltonian asked for?
     pub split: bool,
     /// Are the equations asked for as `q'' = f(t, q)`?
@@ -80,13 +82,20 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     if let Some(stated) = lower::stated(&mut arena, spec) {
         return momentum_form(arena, spec, stated, found);
     }
-    let (places, terms): (Vec<usize>, Vec<Term>) =
+    let (places, stated): (Vec<usize>, Vec<Term>) =
         lower::terms(&mut arena, spec.dim.value, &spec.kinetic).into_iter().unzip();
+    let metrics = lower::metrics(&mut arena, spec);
+    let mut rebased = Vec::new();
+    let terms = match &metrics {
+        Some(metrics) => metrics.orthonormal(&mut arena, &stated, &mut rebased),
+        None => stated.clone(),
+    };
     let kinetic = Kinetic::new(&mut arena, spec.dim.value, &terms)
         .ok()
         .filter(|k| !k.internal.is_empty())
         .ok_or_else(|| found.report(spec.kinetic_key, FormMistake::NoKineticEnergy))?;
-    let free = kinetic;
+    let mut free = kinetic;
+    free.congruent = metrics.as_ref().and_then(|metrics| metrics.congruent(&mut arena, &free, &stated));
     let kinetic = confined(&mut arena, spec, &free, &terms);
     let hessian = Hessian::new(&kinetic);
     nothing_vanishes(spec, &kinetic, &places, found);
@@ -94,11 +103,11 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     positive(spec, &kinetic, &hessian, found);
     // Symmetries are those of the energy as stated, on all of GL(n).
     claims(spec, &free, |place| spec.kinetic[places[place]].kind.value.name(), found);
-    let mut forces = forces(&mut arena, spec, kinetic.frame, found);
+    let mut forces = forces(&mut arena, spec, kinetic.frame, (metrics.as_ref(), &mut rebased), found);
     found.verdict()?;
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
-    let potential = potential(&mut arena, spec, kinetic.constraint, found);
+    let potential = potential(&mut arena, spec, kinetic.constraint, (metrics.as_ref(), &mut rebased), found);
     forces.driven = driven(spec, &forces, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
@@ -109,7 +118,6 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     let body_group = largest_group(&free, Side::Body);
     let unitary = spec.group.is_some();
     let two_polar = unitary || two_polar::asked(spec, &free, &places, potential.as_ref(), found)?;
-    let metrics = lower::metrics(&mut arena, spec);
     Ok(Form {
         arena,
         kinetic,
@@ -120,6 +128,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         potential,
         forces,
         metrics,
+        rebased,
         split: super::capabilities::asked(spec, Capability::Splitting),
         nystrom: super::capabilities::asked(spec, Capability::Nystrom),
         quantities: Quantities::of(spec),
@@ -149,11 +158,13 @@ fn momentum_form(
     let kinetic = stated
         .kinetic(&mut arena)
         .ok_or_else(|| found.report(spec.kinetic_key, FormMistake::NoKineticEnergy))?;
-    let mut forces = forces(&mut arena, spec, kinetic.frame, found);
+    let metrics = lower::metrics(&mut arena, spec);
+    let mut rebased = Vec::new();
+    let mut forces = forces(&mut arena, spec, kinetic.frame, (metrics.as_ref(), &mut rebased), found);
     let hessian = Hessian::new(&kinetic);
     let space_group = largest_group(&on_momenta, Side::Space);
     let body_group = largest_group(&on_momenta, Side::Body);
-    let potential = potential(&mut arena, spec, None, found);
+    let potential = potential(&mut arena, spec, None, (metrics.as_ref(), &mut rebased), found);
     forces.driven = driven(spec, &forces, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
@@ -161,7 +172,6 @@ fn momentum_form(
     super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
     let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
-    let metrics = lower::metrics(&mut arena, spec);
     Ok(Form {
         arena,
         kinetic,
@@ -172,6 +182,7 @@ fn momentum_form(
         potential,
         forces,
         metrics,
+        rebased,
         split: super::capabilities::asked(spec, Capability::Splitting),
         nystrom: super::capabilities::asked(spec, Capability::Nystrom),
         quantities: Quantities::of(spec),
@@ -182,8 +193,14 @@ fn momentum_form(
 }
 
 /// The forces besides those of the potential, the dissipation held against its rule.
-fn forces(arena: &mut Arena, spec: &Spec, own: Frame, found: &mut Diagnostics) -> Forces {
-    let forces = lower::forces(arena, spec, own);
+fn forces(
+    arena: &mut Arena,
+    spec: &Spec,
+    own: Frame,
+    (metrics, rebased): (Option<&Metrics>, &mut Vec<Rebased>),
+    found: &mut Diagnostics,
+) -> Forces {
+    let forces = lower::forces(arena, spec, own, metrics, rebased);
     if let Some(damping) = &forces.dissipation {
         dissipation::semidefinite(spec, damping, found);
         dissipation::nothing_vanishes(spec, damping, found);
@@ -200,9 +217,10 @@ fn driven(spec: &Spec, forces: &Forces, potential: Option<&Potential>) -> bool {
 
 /// The energy of a motion that is confined to a group.
 fn confined(arena: &mut Arena, spec: &Spec, free: &Kinetic, terms: &[Term]) -> Kinetic {
-    let group = spec.constraint.map(|constraint| lower::constraint(constraint.value));
+    let Some(constraint) = spec.constraint else { return free.clone() };
+    let group = lower::constraint(constraint.value);
     // What has constant coefficients on GL(n) has them on a subgroup.
-    Kinetic::under(arena, free.dim, terms, group).unwrap_or_else(|_| free.clone())
+    Kinetic::under(arena, free.dim, terms, Some(group)).unwrap_or_else(|_| free.clone())
 }
 
 /// Every term says something about the velocities that the constraint leaves free: `(tr Om)^2` is zero where they are
@@ -229,9 +247,10 @@ pub(super) fn potential(
     arena: &mut Arena,
     spec: &Spec,
     group: Option<Constraint>,
+    (metrics, rebased): (Option<&Metrics>, &mut Vec<Rebased>),
     found: &mut Diagnostics,
 ) -> Option<Potential> {
-    let energy = lower::potential(arena, spec)?;
+    let energy = lower::potential(arena, spec, metrics, rebased)?;
     let (Some(group), Some(constraint), Some(written)) = (group, spec.constraint, &spec.potential) else {
         return Some(Potential::new(arena, spec.dim.value, energy));
     };

@@ -5,7 +5,7 @@ use super::inertia::defect;
 use super::shapes::counts;
 use crate::algebra::Arena;
 use crate::diagnostics::{Diagnostics, MetricMistake, TermMistake};
-use crate::spec::{Expression, ExpressionKind, MatrixName, Metric, Named, Spec, Value};
+use crate::spec::{Expression, ExpressionKind, MatrixName, Metric, Spec, Value};
 
 fn stated(spec: &Spec) -> impl Iterator<Item = &Metric> {
     spec.metrics.iter().flatten()
@@ -60,28 +60,17 @@ fn asymmetric(rows: &[Vec<Expression>], n: usize) -> Option<(usize, usize)> {
         .find(|(i, j)| equal(&rows[*j][*i], &rows[*i][*j], n) == Some(false))
 }
 
-/// Beside metrics, what names components in the user's bases is not yet carried over to orthonormal ones, where its
-/// coefficients are irrational: matrices J and K, entries and coordinates, and traces of `phi` itself or of products of
-/// tensors of the body with tensors of space, which depend on the bases.
+/// Traces of `phi` itself, and of products of tensors of the body with tensors of space, take an index of space for one
+/// of the body: what they are depends on the bases, and beside metrics no pair of these is the one that is meant.
 pub(super) fn invariant(spec: &Spec, found: &mut Diagnostics) {
     if crate::lower::metrics(&mut Arena::new(), spec).is_none() {
         return;
     }
-    for term in &spec.kinetic {
-        if !matches!(term.value, Value::Scalar(_)) {
-            found.report(term.span, MetricMistake::MetricTerm { term: term.kind.value.name() });
-        }
-    }
     let mut pending: Vec<&Expression> = spec.potential.iter().map(|potential| &potential.energy).collect();
     while let Some(part) = pending.pop() {
-        let depends = match &part.kind {
-            ExpressionKind::Entry(..) | ExpressionKind::Component(_) => true,
-            ExpressionKind::Trace(factors) => {
-                factors.contains(&MatrixName::Placement) || factors.windows(2).any(|pair| pair[0] != pair[1])
-            }
-            _ => false,
-        };
-        if depends {
+        if let ExpressionKind::Trace(factors) = &part.kind
+            && (factors.contains(&MatrixName::Placement) || factors.windows(2).any(|pair| pair[0] != pair[1]))
+        {
             found.report(part.span, MetricMistake::MetricForm { form: part.to_string() });
         }
         pending.extend(part.operands());

@@ -95,7 +95,7 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
     found.verdict()?;
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
-    let potential = form::potential(&mut arena, spec, None, found);
+    let potential = form::potential(&mut arena, spec, None, (None, &mut Vec::new()), found);
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
     found.verdict()?;

@@ -2,7 +2,8 @@
 
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
-use crate::mechanics::metrics::{Bases, Metrics};
+use crate::mechanics::kinetic::Frame;
+use crate::mechanics::metrics::{Bases, Metrics, Rebased, Source};
 
 use super::prepared::unbound;
 
@@ -10,16 +11,68 @@ use super::prepared::unbound;
 pub enum ChangeOfBases {
     /// From numbers.
     Known(Bases),
-    /// From the fields, when the model is prepared: programs of the entries of `g` and `eta`, row after row.
-    Prepared([Program; 2]),
+    /// From the fields, when the model is prepared.
+    Prepared(Preparation),
 }
 
 impl ChangeOfBases {
-    pub(super) fn of(arena: &mut Arena, metrics: Metrics) -> Self {
+    pub(super) fn of(arena: &mut Arena, metrics: Metrics, rebased: &[Rebased]) -> Self {
         match metrics {
             Metrics::Known(bases) => Self::Known(bases),
-            Metrics::Given(given) => Self::Prepared(given.map(|rows| entries(arena, &rows.concat()))),
+            Metrics::Given(given) => Self::Prepared(Preparation {
+                metrics: given.map(|rows| entries(arena, &rows.concat())),
+                matrices: rebased.iter().map(|matrix| GivenMatrix::of(arena, matrix)).collect(),
+            }),
         }
+    }
+}
+
+/// What `prepare()` does for the change.
+pub struct Preparation {
+    /// Programs of the entries of `g` and `eta`, row after row.
+    pub metrics: [Program; 2],
+    /// Inertias and tensors that it carries to orthonormal bases, and factors of these that potentials read.
+    pub matrices: Vec<GivenMatrix>,
+}
+
+/// A matrix that coefficients read.
+pub struct GivenMatrix {
+    /// The name that they have for it.
+    pub name: String,
+    /// What it is.
+    pub source: GivenSource,
+}
+
+/// What a matrix is made from.
+pub enum GivenSource {
+    /// An inertia or a tensor.
+    Form {
+        /// Its entries in the user's bases, row after row.
+        entries: Program,
+        /// `O`, whose bases it goes with.
+        frame: Frame,
+        /// Is it contracted with both indices of `O`?
+        tensor: bool,
+    },
+    /// `A^-1`.
+    SpaceInverse,
+    /// `B`.
+    Body,
+}
+
+impl GivenMatrix {
+    fn of(arena: &mut Arena, matrix: &Rebased) -> Self {
+        let source = match &matrix.source {
+            Source::Form(kind, given) => GivenSource::Form {
+                entries: entries(arena, given),
+                // No matrix stands at a term without a frame.
+                frame: kind.internal_frame().unwrap_or(Frame::Body),
+                tensor: kind.is_tensor(),
+            },
+            Source::SpaceInverse => GivenSource::SpaceInverse,
+            Source::Body => GivenSource::Body,
+        };
+        Self { name: matrix.name.clone(), source }
     }
 }
 

@@ -158,8 +158,7 @@ pub(super) fn numeric_blocks(arena: &mut Arena, h: &Hamiltonian, positive: bool)
         .map(|block| {
             let name = |s: Expr| arena.name(s).unwrap_or("inverse").to_owned();
             let inverse = upper(block.form.len()).map(|(i, j)| name(block.inverse[i][j])).collect();
-            let basis = block.basis.iter().map(|vector| vector.entries.clone()).collect();
-            NumericBlock { inverse, basis, ..form_block(arena, &block.form, positive) }
+            NumericBlock { inverse, basis: block.basis.clone(), ..form_block(arena, &block.form, positive) }
         })
         .collect()
 }

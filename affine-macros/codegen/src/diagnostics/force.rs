@@ -65,9 +65,6 @@ impl ForceMistake {
                         "there a multiplier keeps the constraint, in a method whose kicks do not depend on the velocity: \
                          only potentials go with it"
                     }
-                    "`metrics(...)`" => {
-                        "velocities and placements would reach it in other bases than those that points stand in"
-                    }
                     "`casimir3`" => {
                         "what it leaves conserved is decided for velocities that are linear in the momenta"
                     }

@@ -26,14 +26,9 @@ pub enum MetricMistake {
         /// What shows it: `g[2,2] = -1`.
         defect: String,
     },
-    /// A matrix or tensor beside a metric.
-    MetricTerm {
-        /// The term.
-        term: &'static str,
-    },
     /// A form of potentials that depends on the bases.
     MetricForm {
-        /// The form: `G[1,2]`, `x[1]`, `tr(phi)`.
+        /// The form: `tr(phi)`, `tr(G*Ct)`.
         form: String,
     },
 }
@@ -41,7 +36,6 @@ pub enum MetricMistake {
 names! { MetricMistake
     MetricNotSymmetric => "metric-not-symmetric",
     MetricNotPositive => "metric-not-positive",
-    MetricTerm => "metric-term",
     MetricForm => "metric-form",
 }
 
@@ -61,15 +55,11 @@ impl MetricMistake {
                 "a metric gives every vector but zero a positive length, and has an orthonormal basis only then",
                 "write a symmetric matrix whose leading minors are all positive",
             ),
-            Self::MetricTerm { term } => text(
-                format!("`{term}` with a matrix does not go with `metrics(...)` in this version"),
-                "equations stand in orthonormal bases of the metrics, in which its entries are in general irrational",
-                "write a scalar, or state the model in orthonormal bases and leave out `metrics(...)`",
-            ),
             Self::MetricForm { form } => text(
-                format!("`{form}` does not go with `metrics(...)` in this version"),
-                "equations stand in orthonormal bases of the metrics, and this form depends on the bases",
-                "write the potential through `q`, `det`, `I1..In`, `norm(x)` and traces of powers of `G` or of `Ct`",
+                format!("`{form}` depends on the bases, and beside `metrics(...)` no pair of them is meant"),
+                "`phi` takes the body to space, `G` has indices of the body and `Ct` of space: the trace identifies the two, \
+                 as no more than a choice of bases does",
+                "write entries such as `phi[1,2]`, or traces of powers of `G` or of `Ct`",
             ),
         }
     }

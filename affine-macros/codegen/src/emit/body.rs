@@ -66,6 +66,8 @@ pub(super) struct Scope<'a> {
     pub number: Number<'a>,
     /// Expression of an input.
     pub input: &'a dyn Fn(&str) -> TokenStream,
+    /// Have the fields that it calls other bases than its equations?
+    pub rebased: bool,
     /// The runtime's support module.
     pub rt: &'a Ident,
 }
@@ -90,6 +92,7 @@ pub(super) fn body(program: &Program, scope: &Scope) -> Body {
         bound: HashMap::new(),
         lets: TokenStream::new(),
         temporaries: 0,
+        roots: 0,
     };
     writer.constants();
     for value in 0..program.steps.len() {
@@ -126,6 +129,8 @@ struct Writer<'a> {
     bound: HashMap<Value, Ident>,
     lets: TokenStream,
     temporaries: usize,
+    /// Numbers that have no short name.
+    roots: usize,
 }
 
 impl Writer<'_> {
@@ -138,6 +143,10 @@ impl Writer<'_> {
                 let name = match number {
                     zero if zero.is_zero() => format_ident!("zero"),
                     one if one.is_one() => format_ident!("one"),
+                    root if root.is_long() => {
+                        self.roots += 1;
+                        format_ident!("root{}", self.roots)
+                    }
                     _ => format_ident!("r{}", number.to_string().replace('/', "_").replace('-', "m")),
                 };
                 let exact = self.scope.number.exact(number);
@@ -161,7 +170,13 @@ impl Writer<'_> {
             call.arguments.iter().map(|group| kernel::written(group, |v| self.expression(*v).0)).collect();
         let read = inputs(self.program);
         let results = call.results.iter().map(|group| kernel::bound(group, &read));
-        self.lets.extend(kernel::statement(self.scope.rt, call.callee, arguments, results));
+        self.lets.extend(kernel::statement(
+            self.scope.rt,
+            self.scope.rebased,
+            call.callee,
+            arguments,
+            results,
+        ));
         self.called.push(call);
     }
 

@@ -14,8 +14,10 @@ pub(super) fn power(context: &Context) -> TokenStream {
     let time = time(program);
     let body = context.generic(program);
     let (lets, power) = (&body.lets, body.result());
+    let inward = context.inward();
     quote! {
         fn power<#t: #rt::Real>(&self, #time: #t, point: &Self::Point<#t>) -> #t {
+            #inward
             #bound
             #lets
             #power

@@ -5,9 +5,11 @@ use quote::{format_ident, quote};
 
 use crate::algebra::kernel::{Asked, Callee, Group};
 
-/// The statement of a call. One group of results is bound by itself, several as a tuple.
+/// The statement of a call. One group of results is bound by itself, several as a tuple. Fields of a model with metrics
+/// are told what they are asked in the user's bases, by the change `change` to orthonormal ones.
 pub(super) fn statement(
     rt: &Ident,
+    rebased: bool,
     callee: Callee,
     mut arguments: Vec<TokenStream>,
     results: impl Iterator<Item = TokenStream>,
@@ -17,18 +19,24 @@ pub(super) fn statement(
         Callee::Custom(k, asked) => {
             let field = format_ident!("custom_{k}");
             arguments.insert(0, quote!(#field));
+            let suffix = if rebased { "_in" } else { "" };
+            if rebased {
+                arguments.insert(1, quote!(change));
+            }
             match asked {
                 Asked::Force(name, gyroscopic) => {
-                    let function = format_ident!("{name}");
+                    let function = format_ident!("{name}{suffix}");
                     quote!(#rt::#function::<_, #gyroscopic, _, _>)
                 }
                 Asked::Energy(class, moves) => {
                     let class = Literal::u8_unsuffixed(class);
-                    quote!(#rt::potential_energy::<_, #class, #moves, _, _>)
+                    let function = format_ident!("potential_energy{suffix}");
+                    quote!(#rt::#function::<_, #class, #moves, _, _>)
                 }
                 Asked::Slopes(class, moves) => {
                     let class = Literal::u8_unsuffixed(class);
-                    quote!(#rt::potential_slopes::<_, #class, #moves, _, _>)
+                    let function = format_ident!("potential_slopes{suffix}");
+                    quote!(#rt::#function::<_, #class, #moves, _, _>)
                 }
             }
         }

@@ -4,11 +4,13 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::algebra::Rational;
-use crate::derive::ChangeOfBases;
+use crate::algebra::kernel::Callee;
+use crate::derive::{ChangeOfBases, GivenMatrix, GivenSource, Preparation};
+use crate::mechanics::kinetic::Frame;
 
-use super::body::{Body, exact};
-use super::prepare::over_fields;
-use super::{Context, runtime};
+use super::body::{Body, Number, exact};
+use super::prepare::{matrix_name, over_fields};
+use super::{Context, number, runtime};
 use crate::ir::Program;
 
 /// The bases as a function of the scalar, where they are known, and the method of the trait that tells of them.
@@ -35,9 +37,11 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
     };
     let [a, a_inverse, b, b_inverse] =
         [&bases.space.matrix, &bases.space.inverse, &bases.body.matrix, &bases.body.inverse].map(matrix);
+    // Fields are called over every number that equations are evaluated in.
+    let number = if context.spec.customs.is_empty() { quote!(Real) } else { quote!(Scalar) };
     let function = quote! {
         #[allow(clippy::approx_constant)]
-        fn bases<#t: #rt::Real>() -> #rt::Bases<#n, #t> {
+        fn bases<#t: #rt::#number>() -> #rt::Bases<#n, #t> {
             #rt::Bases { space: #a, space_inverse: #a_inverse, body: #b, body_inverse: #b_inverse }
         }
     };
@@ -46,7 +50,8 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
 
 /// The bases in the prepared model, and the statement of `prepare()` that finds them.
 pub(super) fn prepared(context: &Context) -> (TokenStream, TokenStream) {
-    let Some(ChangeOfBases::Prepared([space, body])) = &context.model.metrics else {
+    let Some(ChangeOfBases::Prepared(Preparation { metrics: [space, body], .. })) = &context.model.metrics
+    else {
         return (TokenStream::new(), TokenStream::new());
     };
     let (rt, n) = (&context.names.rt, context.dim());
@@ -64,6 +69,57 @@ pub(super) fn prepared(context: &Context) -> (TokenStream, TokenStream) {
     )
 }
 
+/// The statements of `prepare()` that carry inertias and tensors to the bases, which are found before.
+pub(super) fn rebased(context: &Context) -> TokenStream {
+    let Some(ChangeOfBases::Prepared(Preparation { matrices, .. })) = &context.model.metrics else {
+        return TokenStream::new();
+    };
+    let (rt, n) = (&context.names.rt, context.dim());
+    let statement = |matrix: &GivenMatrix| {
+        let local = matrix_name(&matrix.name);
+        let (entries, frame, tensor) = match &matrix.source {
+            GivenSource::Form { entries, frame, tensor } => (entries, *frame, *tensor),
+            GivenSource::SpaceInverse => return quote!(let #local = #rt::rows(&bases.space_inverse);),
+            GivenSource::Body => return quote!(let #local = #rt::rows(&bases.body);),
+        };
+        let Body { lets, results } = over_fields(rt, entries);
+        let size = if tensor { context.model.dim.pow(2) } else { context.model.dim };
+        let rows = results.chunks(size).map(|row| quote!([#(#row),*]));
+        let entries = quote!([#(#rows),*]);
+        let value = match (tensor, frame) {
+            (false, Frame::Space) => quote!(#rt::rebased_inertia::<#n>(&bases.space, #entries)),
+            (false, _) => quote!(#rt::rebased_inertia::<#n>(&bases.body, #entries)),
+            (true, frame) => {
+                let (factors, size) = (factors(frame), number(size));
+                quote!(#rt::rebased_tensor::<#n, #size>(#factors, #entries))
+            }
+        };
+        quote!(let #local = { #lets #value };)
+    };
+    matrices.iter().map(statement).collect()
+}
+
+/// `L` and `R` of `O = L O' R`, from an affine velocity in orthonormal bases to one in the user's.
+fn factors(frame: Frame) -> TokenStream {
+    match frame {
+        Frame::Body => quote!(&bases.body_inverse, &bases.body),
+        Frame::Space => quote!(&bases.space_inverse, &bases.space),
+        Frame::Flat => quote!(&bases.space_inverse, &bases.body),
+    }
+}
+
+/// A result of `prepare()` whose error has a velocity in orthonormal bases that it found before.
+pub(super) fn told_in_given_bases(context: &Context, result: TokenStream) -> TokenStream {
+    let rt = &context.names.rt;
+    match &context.model.metrics {
+        Some(ChangeOfBases::Prepared(Preparation { matrices, .. })) if !matrices.is_empty() => {
+            let factors = factors(context.model.frame);
+            quote!(#rt::told_in_given_bases(#factors, #result))
+        }
+        _ => result,
+    }
+}
+
 impl Context<'_> {
     /// The bases over a scalar, or over the one that is asked for where they stand.
     pub(super) fn bases(&self, scalar: Option<&TokenStream>) -> TokenStream {
@@ -72,6 +128,18 @@ impl Context<'_> {
             Some(ChangeOfBases::Prepared(_)) => quote!(self.bases.over #of ()),
             _ => quote!(bases #of ()),
         }
+    }
+
+    /// The change of bases for the fields that a program calls.
+    pub(super) fn change_for(&self, program: &Program, number: Number) -> Option<TokenStream> {
+        let calls = program.calls.iter().any(|call| matches!(call.callee, Callee::Custom(..)));
+        let rt = &self.names.rt;
+        let scalar = match number {
+            Number::Generic(scalar) => quote!(#scalar),
+            Number::Double => quote!(#rt::f64),
+        };
+        let bases = self.bases(Some(&scalar));
+        (calls && self.model.metrics.is_some()).then(|| quote!(let change = &#bases;))
     }
 
     /// Puts `point`, a reference, in orthonormal bases.

@@ -78,6 +78,7 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let matrices = matrices(context, rt);
     let conditions = conditions(context, rt);
     let (_, bases) = metrics::prepared(context);
+    let rebased = metrics::rebased(context);
     let clones = called(context).map(|(name, field)| {
         let field = &field.ident;
         quote!(, #name: ::core::clone::Clone::clone(&self.#field))
@@ -89,6 +90,8 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let blocks: TokenStream =
         context.model.numeric_blocks.iter().map(|block| numeric_block(context, block, rt)).collect();
     let damping = damping(&context.model.damping, rt);
+    // What is carried to orthonormal bases is looked at in them.
+    let (first, last) = if rebased.is_empty() { (None, Some(&bases)) } else { (Some(&bases), None) };
     let Body { lets, results } = over_fields(rt, &context.model.coefficients);
     quote! {
         impl #generics #model #types #clause {
@@ -99,10 +102,12 @@ pub(super) fn method(context: &Context) -> TokenStream {
             /// is degenerate to rounding, a required sign is missing, or a coefficient overflows.
             #visibility fn prepare(&self) -> #rt::Result<#prepared #of> {
                 #matrices
+                #first
+                #rebased
                 #conditions
                 #blocks
                 #damping
-                #bases
+                #last
                 #lets
                 let coefficients = #rt::finite([#(#results),*])?;
                 ::core::result::Result::Ok(#prepared { coefficients #(#fields)* })
@@ -133,7 +138,7 @@ fn matrices(context: &Context, rt: &Ident) -> TokenStream {
 }
 
 /// The local variable of a field of matrix type.
-fn matrix_name(field: impl std::fmt::Display) -> Ident {
+pub(super) fn matrix_name(field: impl std::fmt::Display) -> Ident {
     format_ident!("matrix_{}", field.to_string().trim_start_matches("r#"))
 }
 
@@ -163,7 +168,7 @@ pub(super) fn over_fields(rt: &Ident, program: &Program) -> Body {
             quote!(#name)
         }
     };
-    body(program, &Scope { number: Number::Double, input: &input, rt })
+    body(program, &Scope { number: Number::Double, input: &input, rebased: false, rt })
 }
 
 /// Eigenvalues share one threshold, a mass has its own.
@@ -261,15 +266,19 @@ fn numeric_block(context: &Context, block: &NumericBlock, rt: &Ident) -> TokenSt
         });
         quote!(&[#(#entries),*])
     });
+    let inverse = quote! {
+        #rt::inverse_form::<#dim, #size, #count>(
+            [#(#entries),*],
+            #rt::total_size([#(#terms),*]),
+            #positive,
+            [#(#basis),*],
+        )
+    };
+    let inverse = metrics::told_in_given_bases(context, inverse);
     quote! {
         let [#(#names),*]: [::core::primitive::f64; #count] = {
             #lets
-            #rt::inverse_form::<#dim, #size, #count>(
-                [#(#entries),*],
-                #rt::total_size([#(#terms),*]),
-                #positive,
-                [#(#basis),*],
-            )?
+            #inverse?
         };
     }
 }

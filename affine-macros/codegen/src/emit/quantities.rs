@@ -32,14 +32,22 @@ fn metric(context: &Context) -> TokenStream {
         true => " Rows and columns: the components of `p`, then the entries of `Pi^T` row by row.",
         false => " Rows and columns: the entries of `Pi^T` row by row.",
     };
-    let square = |program: &Program| {
+    let bases = context.bases(Some(&quote!(#rt::f64)));
+    let square = |program: &Program, carried: &str| {
         let placement = mixed::placement(context, program, &quote!(phi));
         let Body { lets, results } = context.double(program);
         let rows = results.chunks(metric.size).map(|row| quote!([#(#row),*]));
         let reads = !placement.is_empty();
-        (quote!(#placement #lets #rt::matrix([#(#rows),*])), if reads { quote!(phi) } else { quote!(_phi) })
+        let (mut inward, mut form) = (TokenStream::new(), quote!(#rt::matrix([#(#rows),*])));
+        if context.model.metrics.is_some() {
+            let carried = format_ident!("{carried}");
+            inward = if reads { quote!(let phi = &#bases.placement(phi);) } else { TokenStream::new() };
+            form = quote!(#rt::#carried::<#n, #size>(&#bases, #form));
+        }
+        (quote!(#inward #placement #lets #form), if reads { quote!(phi) } else { quote!(_phi) })
     };
-    let ((entries, phi), (inverse, inverse_phi)) = (square(&metric.entries), square(&metric.inverse));
+    let ((entries, phi), (inverse, inverse_phi)) =
+        (square(&metric.entries, "form_in_given_bases"), square(&metric.inverse, "inverse_in_given_bases"));
     quote! {
         /// The configuration metric `Gamma(phi)`, twice the kinetic energy as a form in the velocities.
         ///
@@ -66,13 +74,21 @@ fn acceleration(context: &Context) -> TokenStream {
     let Body { lets, results } = context.double(program);
     let point_name = if bound.is_empty() { quote!(_point) } else { quote!(point) };
     let at = inputs(program).contains(&TIME).then(|| quote!(t: #rt::f64,));
+    let inward = if bound.is_empty() { TokenStream::new() } else { context.inward() };
+    let acceleration = quote!(#rt::vector([#(#results),*]));
+    let bases = context.bases(Some(&quote!(#rt::f64)));
+    let acceleration = match context.model.metrics {
+        Some(_) => quote!(#bases.space_inverse * #acceleration),
+        None => acceleration,
+    };
     quote! {
         /// The acceleration `d^2 x/dt^2` of the centre of mass along the motion through `point`: the derivative of
         /// `dx/dt` along Hamilton's equations (section 4).
         #visibility fn acceleration(&self, #at #point_name: &#point) -> #rt::Vector<#n> {
+            #inward
             #bound
             #lets
-            #rt::vector([#(#results),*])
+            #acceleration
         }
     }
 }

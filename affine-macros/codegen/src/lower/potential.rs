@@ -3,17 +3,30 @@
 use crate::algebra::ring::{Square, product};
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::check::constant;
+use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::potential::stretches::{canonical, is_stretched};
 use crate::mechanics::potential::{Base, TIME};
 use crate::spec::{Expression, ExpressionKind, MatrixName, Spec, numbered};
 
-use super::FIELD;
+use super::{FIELD, components};
 
-/// The potential energy, if the model states one that is not constant: an expression in the symbols of [`Base`].
-pub fn potential(arena: &mut Arena, spec: &Spec) -> Option<Expr> {
+/// The potential energy, if the model states one that is not constant: an expression in the symbols of [`Base`]. Beside
+/// metrics these stand in orthonormal bases; what `prepare()` has to know of them is added to `rebased`.
+pub fn potential(
+    arena: &mut Arena,
+    spec: &Spec,
+    metrics: Option<&Metrics>,
+    rebased: &mut Vec<Rebased>,
+) -> Option<Expr> {
     let written = spec.potential.as_ref()?;
     let n = spec.dim.value;
-    let mut energy = energy(arena, n, &written.energy, None)?;
+    let mut energy = match metrics {
+        None => energy(arena, n, &written.energy, None)?,
+        Some(metrics) => {
+            let given = value(arena, n, &written.energy, Reading { difference: None, given: true })?;
+            components::carried(arena, n, given, metrics, rebased)?
+        }
+    };
     if is_stretched(arena, n, energy) {
         energy = canonical(arena, n, energy);
     }
@@ -24,15 +37,31 @@ pub fn potential(arena: &mut Arena, spec: &Spec) -> Option<Expr> {
 
 /// The symbolic value, with `difference` for `d`; `None` only for what the checks refuse.
 pub(crate) fn energy(arena: &mut Arena, n: usize, e: &Expression, difference: Option<Expr>) -> Option<Expr> {
+    value(arena, n, e, Reading { difference, given: false })
+}
+
+/// How an expression is read.
+#[derive(Clone, Copy)]
+struct Reading {
+    /// What `d` stands for.
+    difference: Option<Expr>,
+    /// Are components told from those in orthonormal bases?
+    given: bool,
+}
+
+fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Reading) -> Option<Expr> {
     if let Some(value) = constant(e, n) {
         return Some(arena.constant(value));
     }
-    let of = |arena: &mut Arena, operand: &Expression| energy(arena, n, operand, difference);
+    let of = |arena: &mut Arena, operand: &Expression| value(arena, n, operand, reading);
+    let component = |arena: &mut Arena, base: Base| {
+        if reading.given { components::symbol(arena, base) } else { base.symbol(arena) }
+    };
     match &e.kind {
         ExpressionKind::Number(value) => Some(arena.constant(value.clone())),
         // Of a matrix a potential could only take entries, and those of fields have no notation.
         ExpressionKind::FieldEntry(..) => None,
-        ExpressionKind::Symbol(name) if name == "d" => difference,
+        ExpressionKind::Symbol(name) if name == "d" => reading.difference,
         ExpressionKind::Symbol(name) => symbol(arena, n, &name.to_string()),
         ExpressionKind::Negate(a) => {
             let a = of(arena, a)?;
@@ -64,9 +93,9 @@ pub(crate) fn energy(arena: &mut Arena, n: usize, e: &Expression, difference: Op
         }
         ExpressionKind::Trace(factors) => trace(arena, n, factors),
         ExpressionKind::Entry(matrix, row, column) => {
-            Some(entry(*matrix, row.checked_sub(1)?, column.checked_sub(1)?).symbol(arena))
+            Some(component(arena, entry(*matrix, row.checked_sub(1)?, column.checked_sub(1)?)))
         }
-        ExpressionKind::Component(index) => Some(Base::Position(index.checked_sub(1)?).symbol(arena)),
+        ExpressionKind::Component(index) => Some(component(arena, Base::Position(index.checked_sub(1)?))),
         ExpressionKind::Norm => {
             let mut squares = Vec::new();
             for i in 0..n {
@@ -80,7 +109,8 @@ pub(crate) fn energy(arena: &mut Arena, n: usize, e: &Expression, difference: Op
             let mut terms = Vec::new();
             for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
                 let difference = difference_of(arena, a, b);
-                terms.push((energy(arena, n, f, Some(difference))?, Rational::ONE));
+                let difference = Some(difference);
+                terms.push((value(arena, n, f, Reading { difference, ..reading })?, Rational::ONE));
             }
             Some(arena.linear(&terms))
         }
@@ -105,6 +135,7 @@ fn applied(arena: &mut Arena, function: Function, argument: Expr) -> Expr {
 
 /// Traces and diagonal entries of `G` and `Ct` are positive.
 fn is_positive(name: &str) -> bool {
+    let name = name.strip_prefix(components::GIVEN).unwrap_or(name);
     let diagonal = |entry: &str| matches!(entry, "11" | "22" | "33");
     ["trace_1", "trace_2"].contains(&name)
         || name.strip_prefix("green_").or_else(|| name.strip_prefix("finger_")).is_some_and(diagonal)

@@ -11,7 +11,7 @@ use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::kinetic::{Coefficient, Frame, Kinetic, Term, TermKind};
-use crate::mechanics::notation::{field_latex, latex, matrix_field, plain};
+use crate::mechanics::notation::{field_latex, is_number, latex, matrix_field, plain};
 
 pub use equations::equations;
 pub use hamiltonian::{hamiltonian, kinetic_energy_of_momenta};
@@ -137,7 +137,7 @@ fn matrix_name(arena: &Arena, matrix: &Matrix, letter: &str) -> (String, String)
     let name = |e: &Expr| Some(matrix_field(arena.name(*e)?)?.0.to_owned());
     let field = name(&matrix.0[0][0])
         .filter(|field| matrix.0.iter().flatten().all(|entry| name(entry).as_ref() == Some(field)));
-    match field {
+    match field.filter(|field| !is_number(field)) {
         Some(field) => (field.clone(), field_latex(&field)),
         None => (letter.to_owned(), letter.to_owned()),
     }

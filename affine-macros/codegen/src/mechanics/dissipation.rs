@@ -14,6 +14,7 @@ use super::equations::Load;
 use super::hamiltonian::Hamiltonian;
 use super::hessian::Hessian;
 use super::kinetic::{Coefficient, Frame, Kinetic, Term};
+use super::metrics::Metrics;
 use super::shared::{Shared, atoms, frame_of};
 
 /// A dissipation function.
@@ -76,6 +77,16 @@ impl Dissipation {
             }
         }
         Self { dim, parts, centre }
+    }
+
+    /// With the blocks of its Hessians in rational bases, from its terms in the user's.
+    pub fn decide_by(&mut self, arena: &mut Arena, metrics: &Metrics, stated: &[Term]) {
+        for part in &mut self.parts {
+            let of_part = |term: &&Term| part.form.terms.iter().any(|own| own.kind == term.kind);
+            let terms: Vec<Term> = stated.iter().filter(of_part).cloned().collect();
+            part.form.congruent = metrics.congruent(arena, &part.form, &terms);
+            part.hessian = Hessian::new(&part.form);
+        }
     }
 
     /// What is left of it while the centre of mass is at rest.

@@ -4,6 +4,7 @@ use crate::algebra::linear::{self, Inertia};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::kinetic::Kinetic;
+use super::metrics::Congruent;
 
 /// The Hessian `d^2 T / dO_k dO_l` on the `n^2` entries of the affine velocity, row-major, split into the blocks
 /// that do not mix.
@@ -13,6 +14,9 @@ pub struct Hessian {
     pub blocks: Vec<Block>,
     /// Entry `[k][l]`, a polynomial in the model's parameters.
     pub matrix: Vec<Vec<Polynomial>>,
+    /// What entry `[k][l]` of the inverse is times, where the blocks are those of a [congruent](super::metrics::Congruent)
+    /// form in rational bases.
+    weights: Option<Vec<Vec<Rational>>>,
 }
 
 /// A block of the Hessian in a rational basis.
@@ -22,6 +26,10 @@ pub struct Block {
     pub basis: Vec<BasisVector>,
     /// The form on them.
     pub form: Vec<Vec<Polynomial>>,
+    /// Their squares, `tr(O O^T)`.
+    squares: Vec<Rational>,
+    /// What they are in the user's bases, likewise places and weights.
+    velocities: Vec<Vec<(usize, Rational)>>,
 }
 
 /// A direction in the space of affine velocities.
@@ -56,8 +64,8 @@ impl Block {
     /// The eigenvalue of a block of size one, with respect to the norm `tr(O O^T)`.
     #[must_use]
     pub fn eigenvalue(&self) -> Option<Polynomial> {
-        let [vector] = self.basis.as_slice() else { return None };
-        Some(self.form[0][0].scaled(&vector.square().recip()?))
+        let [square] = self.squares.as_slice() else { return None };
+        Some(self.form[0][0].scaled(&square.recip()?))
     }
 
     /// The form as numbers, if it is numeric.
@@ -78,12 +86,27 @@ impl Block {
     #[must_use]
     pub fn velocity(&self, dim: usize, components: &[Rational]) -> Vec<Rational> {
         let mut direction = vec![Rational::ZERO; dim * dim];
-        for (weight, vector) in components.iter().zip(&self.basis) {
-            for (k, w) in &vector.entries {
+        for (weight, velocity) in components.iter().zip(&self.velocities) {
+            for (k, w) in velocity {
                 direction[*k] = &direction[*k] + &(weight * w);
             }
         }
         direction
+    }
+
+    /// Writes the velocities of vectors in orthonormal bases in the user's.
+    fn seen_from(&mut self, congruent: &Congruent) {
+        let seen = |vector: &BasisVector| {
+            let mut velocity = vec![Rational::ZERO; congruent.velocities.len()];
+            for (k, w) in &vector.entries {
+                let per_root = w.checked_div(&congruent.roots[*k]).unwrap_or(Rational::ZERO);
+                for (place, weight) in &congruent.velocities[*k] {
+                    velocity[*place] = &velocity[*place] + &(&per_root * weight);
+                }
+            }
+            velocity.into_iter().enumerate().filter(|(_, weight)| !weight.is_zero()).collect()
+        };
+        self.velocities = self.basis.iter().map(seen).collect();
     }
 
     /// The value of the form at these components, if it is numeric.
@@ -128,7 +151,36 @@ impl Hessian {
                 (work, (blocks[0].basis[0].kind == Direction::Entry) != left)
             })
             .unwrap_or_default();
-        Self { blocks, matrix }
+        let hessian = Self { blocks, matrix, weights: None };
+        match &kinetic.congruent {
+            Some(congruent) => hessian.decided_by(congruent, kinetic),
+            None => hessian,
+        }
+    }
+
+    /// With the blocks of the same form in rational bases, where what is decided about numbers is decided exactly. With
+    /// fields it is left to `prepare()`, and an isotropic form has rational coefficients and eigenvalues in orthonormal
+    /// bases too: these keep their blocks.
+    fn decided_by(mut self, congruent: &Congruent, kinetic: &Kinetic) -> Self {
+        let velocities: Vec<Expr> = kinetic.velocity.0.concat();
+        let numeric =
+            congruent.energy.terms().all(|(monomial, _)| monomial.iter().all(|e| velocities.contains(e)));
+        let alone =
+            |b: &Block| b.basis[0].kind != Direction::Entry && b.eigenvalue().is_some_and(|e| !e.is_zero());
+        if !numeric || (congruent.exact && self.blocks.iter().all(alone)) {
+            self.blocks.iter_mut().for_each(|block| block.seen_from(congruent));
+            return self;
+        }
+        let slopes = congruent.energy.gradient(&velocities);
+        let form: Vec<Vec<Polynomial>> = slopes.iter().map(|slope| slope.gradient(&velocities)).collect();
+        let mut blocks = blocks(&form, entries(kinetic.dim));
+        for block in &mut blocks {
+            let places = block.basis.iter().filter_map(|vector| vector.entries.first()).map(|(k, _)| *k);
+            let places: Vec<usize> = places.collect();
+            block.squares = places.iter().map(|k| congruent.weights[*k][*k].clone()).collect();
+            block.velocities = places.iter().map(|k| congruent.velocities[*k].clone()).collect();
+        }
+        Self { blocks, weights: Some(congruent.weights.clone()), ..self }
     }
 
     /// The inverse: entry `[k][l]` is a polynomial in parameters, reciprocals of eigenvalues, and symbols for
@@ -144,7 +196,9 @@ impl Hessian {
                 for (value, right) in row.iter().zip(&block.basis) {
                     for (k, wk) in &left.entries {
                         for (l, wl) in &right.entries {
-                            result.matrix[*k][*l].add_scaled(value, &(wk * wl));
+                            let weight = self.weights.as_ref().map(|weights| &weights[*k][*l]);
+                            let weight = weight.map_or(wk * wl, |weight| &(wk * wl) * weight);
+                            result.matrix[*k][*l].add_scaled(value, &weight);
                         }
                     }
                 }
@@ -166,8 +220,8 @@ pub struct Inverse {
 /// A symmetric block whose inverse is computed from the values of the fields.
 #[derive(Clone, Debug)]
 pub struct NumericBlock {
-    /// What the form is written in, where it stands first.
-    pub basis: Vec<BasisVector>,
+    /// What the form is written in, where it stands first: row-major places and weights, in the user's bases.
+    pub basis: Vec<Vec<(usize, Rational)>>,
     /// The form, in parameters.
     pub form: Vec<Vec<Polynomial>>,
     /// Symbols of the inverse, row after row; symmetric.
@@ -202,7 +256,7 @@ impl Inverse {
             |i: usize, j: usize| arena.symbol(&format!("inverse_{b}_{}_{}", i.min(j) + 1, i.max(j) + 1));
         let inverse: Vec<Vec<Expr>> = (0..size).map(|i| (0..size).map(|j| symbol(i, j)).collect()).collect();
         self.numeric_blocks.push(NumericBlock {
-            basis: block.basis.clone(),
+            basis: block.velocities.clone(),
             form: block.form.clone(),
             inverse,
         });
@@ -260,6 +314,8 @@ fn blocks(matrix: &[Vec<Polynomial>], basis: Vec<BasisVector>) -> Vec<Block> {
         .filter_map(|root| {
             let members: Vec<usize> = (0..basis.len()).filter(|i| component[*i] == root).collect();
             (!members.is_empty()).then(|| Block {
+                squares: members.iter().map(|i| basis[*i].square()).collect(),
+                velocities: members.iter().map(|i| basis[*i].entries.clone()).collect(),
                 basis: members.iter().map(|i| basis[*i].clone()).collect(),
                 form: members
                     .iter()

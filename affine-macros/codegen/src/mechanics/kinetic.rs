@@ -3,6 +3,7 @@
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::constraint::Constraint;
+use super::metrics::Congruent;
 
 /// A term of the kinetic energy and its coefficient.
 #[derive(Clone, Debug)]
@@ -126,6 +127,8 @@ pub struct Kinetic {
     pub internal: Vec<(usize, Polynomial)>,
     /// Frame and mass of the translational term, with its place among the terms.
     pub translation: Option<Translation>,
+    /// The internal energy in rational bases, where metrics make its coefficients irrational.
+    pub congruent: Option<Congruent>,
 }
 
 /// The translational term `m/2 |v|^2` in the frame of `v`.
@@ -226,6 +229,7 @@ impl Kinetic {
             terms: terms.to_vec(),
             internal: Vec::new(),
             translation: None,
+            congruent: None,
         };
         for (place, term) in terms.iter().enumerate() {
             match (form(term.kind).translation_frame(), &term.value) {

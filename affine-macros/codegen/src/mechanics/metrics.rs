@@ -1,8 +1,13 @@
 //! Constant metrics of space and body: the bases in which they are the identity.
 
-use crate::algebra::linear;
+mod axes;
+mod forms;
+
 use crate::algebra::root::root;
 use crate::algebra::{Expr, Rational};
+
+pub use axes::{Axes, root_of_product};
+pub use forms::{Congruent, Rebased, Source};
 
 /// Metrics other than the identity.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,6 +35,8 @@ pub struct Factor {
     pub matrix: Vec<Vec<Rational>>,
     /// Likewise.
     pub inverse: Vec<Vec<Rational>>,
+    /// The rational basis that it normalises.
+    pub axes: Axes,
 }
 
 impl Bases {
@@ -44,22 +51,18 @@ impl Bases {
 }
 
 impl Factor {
-    /// `L` with `metric = L^T L`: `L_kj = (g_kj - sum over i < k of L_ik L_ij)/L_kk`.
+    /// `A = diag(sqrt d) U` of `g = U^T diag(d) U`.
     fn of(metric: &[Vec<Rational>]) -> Option<Self> {
-        let n = metric.len();
-        let mut matrix = vec![vec![Rational::ZERO; n]; n];
-        for k in 0..n {
-            let rest = |matrix: &[Vec<Rational>], j: usize| {
-                (0..k).fold(metric[k][j].clone(), |sum, i| &sum - &(&matrix[i][k] * &matrix[i][j]))
-            };
-            let pivot = root(&rest(&matrix, k))?;
-            for j in k + 1..n {
-                matrix[k][j] = rest(&matrix, j).checked_div(&pivot)?;
-            }
-            matrix[k][k] = pivot;
-        }
-        let inverse = linear::inverse(&matrix)?;
-        Some(Self { matrix, inverse })
+        let axes = Axes::of(metric)?;
+        let roots: Vec<Rational> = axes.squares.iter().map(root).collect::<Option<_>>()?;
+        let reciprocals: Vec<Rational> = roots.iter().map(Rational::recip).collect::<Option<_>>()?;
+        let n = roots.len();
+        let scaled = |entry: &dyn Fn(usize, usize) -> Rational| -> Vec<Vec<Rational>> {
+            (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+        };
+        let matrix = scaled(&|i, j| &axes.matrix[i][j] * &roots[i]);
+        let inverse = scaled(&|i, j| &axes.inverse[i][j] * &reciprocals[j]);
+        Some(Self { matrix, inverse, axes })
     }
 }
 

@@ -71,6 +71,7 @@ impl Stated {
             terms: Vec::new(),
             internal,
             translation: self.mass(arena),
+            congruent: None,
         }
     }
 
@@ -86,6 +87,7 @@ impl Stated {
                 terms: Vec::new(),
                 internal: Vec::new(),
                 translation: self.mass(arena),
+                congruent: None,
             });
         }
         let mut reciprocal = |(_, value): (Direction, Polynomial)| -> Option<Polynomial> {

@@ -22,6 +22,7 @@ pub(super) fn plain(arena: &Arena, expr: Expr) -> String {
     let mut written = String::with_capacity(parts.len());
     for part in parts.split_inclusive(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.')) {
         written += &match part.strip_prefix("self.") {
+            Some(field) if is_number(field) => format!("J{field}"),
             Some(field) => field.to_owned(),
             None => match NAMES.iter().find(|(symbol, _)| part.starts_with(symbol)) {
                 Some((symbol, name)) => format!("{name}{}", &part[symbol.len()..]),
@@ -101,7 +102,7 @@ pub(super) fn latex(arena: &Arena, expr: Expr) -> String {
 }
 
 fn number_latex(value: &Rational) -> String {
-    let text = value.to_string();
+    let text = value.shown();
     match text.split_once('/') {
         Some((above, below)) => match above.strip_prefix('-') {
             Some(above) => format!("-\\frac{{{above}}}{{{below}}}"),
@@ -118,8 +119,16 @@ pub(super) fn matrix_field(symbol: &str) -> Option<(&str, &str, &str)> {
     Some((field, row, column))
 }
 
+/// Is it the name of no field, but of a matrix in orthonormal bases?
+pub(super) fn is_number(field: &str) -> bool {
+    field.starts_with(|c: char| c.is_ascii_digit())
+}
+
 /// The name of a field in LaTeX.
 pub(super) fn field_latex(field: &str) -> String {
+    if is_number(field) {
+        return format!("J_{{{field}}}");
+    }
     format!("\\mathit{{{}}}", field.replace('_', "\\_"))
 }
 

@@ -9,6 +9,7 @@ mod fields;
 mod inertia;
 mod kernels;
 mod linear;
+mod metrics;
 mod mixed;
 mod models;
 mod passes;
