@@ -70,7 +70,7 @@ fn agrees_with_the_oracle<const N: usize, M: Driven<N>>() {
         let reference = M::reference(T0, &state);
         let rates = model.hamilton_equations(T0, &model.flatten(&point));
         for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
-            assert_components(&reference, N, name, rate);
+            assert_components(&reference, N, name, rate, UNDER_POTENTIAL);
         }
         let tolerance = UNDER_POTENTIAL * reference.condition;
         assert_charts_lead_back(&model, &point, &state, tolerance);

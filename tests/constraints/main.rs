@@ -16,4 +16,7 @@ mod reference;
 mod tolerances;
 
 mod confined;
+#[macro_use]
+mod drawn;
 mod driven;
+mod stated;

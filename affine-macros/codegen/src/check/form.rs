@@ -138,6 +138,7 @@ fn momentum_form(
 ) -> Result<Form, Reported> {
     momentum_side::invertible(spec, &stated, found);
     momentum_side::positive(spec, &stated, found);
+    momentum_side::nothing_vanishes(&mut arena, spec, &stated, found);
     let on_momenta = stated.on_momenta(&mut arena);
     let name = |place: usize| {
         spec.hamiltonian.iter().flatten().nth(place).map_or("hamiltonian", |term| term.kind.value.name())
@@ -153,7 +154,7 @@ fn momentum_form(
     let hessian = Hessian::new(&kinetic);
     let space_group = largest_group(&on_momenta, Side::Space);
     let body_group = largest_group(&on_momenta, Side::Body);
-    let potential = potential(&mut arena, spec, None, found);
+    let potential = potential(&mut arena, spec, kinetic.constraint, found);
     forces.driven = driven(spec, &forces, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
@@ -216,7 +217,8 @@ fn nothing_vanishes(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mu
             let mistake = ConstraintMistake::VanishingTerm {
                 term: kind.value.name(),
                 constraint: constraint.value.name(),
-                velocities: constraint.value.velocities(),
+                of: "affine velocities",
+                directions: constraint.value.velocities(),
             };
             found.report(kind.span, mistake);
         }

@@ -17,8 +17,10 @@ pub enum ConstraintMistake {
         term: &'static str,
         /// The constraint.
         constraint: &'static str,
-        /// What velocities are under it: `traceless`, `skew`.
-        velocities: &'static str,
+        /// What it is a form of: `affine velocities`, `affine momenta`.
+        of: &'static str,
+        /// What they are under it: `traceless`, `skew`.
+        directions: &'static str,
     },
     /// An energy in `phi_dot` whose mass matrix depends on the placement under the constraint.
     ConstrainedMassMatrix {
@@ -56,16 +58,19 @@ impl ConstraintMistake {
                     "metrics(...)" => {
                         "the group of a constraint is that of orthonormal bases, and points stand in others"
                     }
-                    _ => "under a constraint momenta are restricted, and T is known only from velocities",
+                    _ => {
+                        "the velocity is quadratic in the momentum: those that the group leaves free are no linear condition \
+                         on momenta, and no multiplier is linear in them"
+                    }
                 },
                 match *key {
                     "metrics(...)" => "state the model in orthonormal bases and leave out `metrics(...)`",
-                    _ => "state the energy in `kinetic(...)`",
+                    _ => "leave out `casimir3` or the constraint",
                 },
             ),
-            Self::VanishingTerm { term, constraint, velocities } => text(
+            Self::VanishingTerm { term, constraint, of, directions } => text(
                 format!("`{term}` is zero under `constraint = {constraint}`"),
-                format!("affine velocities are {velocities} there, and it is zero on all of them"),
+                format!("{of} are {directions} there, and it is zero on all of them"),
                 format!("remove `{term}` or the constraint"),
             ),
             Self::ConstrainedMassMatrix { term, constraint, group } => text(
