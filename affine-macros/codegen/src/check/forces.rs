@@ -1,11 +1,9 @@
 //! What dissipations and what fields compute do not stand beside.
 
-use super::frames;
 use crate::diagnostics::{Diagnostics, ForceMistake, Region};
 use crate::spec::{Capability, Constraint, Custom, MomentumKind, Spec, TermKind};
 
-/// The forces are derived, and what they leave conserved is decided, for a mass matrix that is constant in one frame, in
-/// orthonormal bases, projected under a constraint. The equations of an isochoric body with `dalembert` are those without
+/// The forces are derived, and what they leave conserved is decided, in orthonormal bases, projected under a constraint. The equations of an isochoric body with `dalembert` are those without
 /// the constraint, to which the method adds the multiplier: there potentials of fields stand as well, but nothing that
 /// depends on the velocity. What is emitted beyond the equations is derived from formulas alone.
 pub(super) fn stand_alone(spec: &Spec, found: &mut Diagnostics) {
@@ -41,7 +39,7 @@ impl Force {
 }
 
 /// What may be stated beside a force, and whether it is and refuses it.
-fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 9] {
+fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 8] {
     let emitted = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
     let cubic = |terms: &Vec<_>| {
         terms.iter().any(|term: &crate::spec::Term<MomentumKind>| term.kind.value == MomentumKind::Casimir3)
@@ -51,7 +49,6 @@ fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 9] {
         ("`metrics(...)`", spec.has_metrics()),
         ("`casimir3`", spec.hamiltonian.as_ref().is_some_and(cubic)),
         ("`group = unitary`", spec.group.is_some()),
-        ("terms of different frames", frames::are_mixed(spec)),
         ("`emit(taylor)`", emitted(Capability::Taylor) && !force.is_formula),
         ("`emit(splitting)`", emitted(Capability::Splitting)),
         ("`emit(nystrom)`", emitted(Capability::Nystrom)),

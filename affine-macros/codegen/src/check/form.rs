@@ -99,7 +99,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
     let potential = potential(&mut arena, spec, kinetic.constraint, found);
-    forces.driven = driven(spec, &forces, potential.as_ref());
+    forces.driven = driven(spec, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
@@ -155,7 +155,7 @@ fn momentum_form(
     let space_group = largest_group(&on_momenta, Side::Space);
     let body_group = largest_group(&on_momenta, Side::Body);
     let potential = potential(&mut arena, spec, kinetic.constraint, found);
-    forces.driven = driven(spec, &forces, potential.as_ref());
+    forces.driven = driven(spec, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
@@ -183,7 +183,7 @@ fn momentum_form(
 }
 
 /// The forces besides those of the potential, the dissipation held against its rule.
-fn forces(arena: &mut Arena, spec: &Spec, own: Frame, found: &mut Diagnostics) -> Forces {
+pub(super) fn forces(arena: &mut Arena, spec: &Spec, own: Frame, found: &mut Diagnostics) -> Forces {
     let forces = lower::forces(arena, spec, own);
     if let Some(damping) = &forces.dissipation {
         dissipation::semidefinite(spec, damping, found);
@@ -192,11 +192,13 @@ fn forces(arena: &mut Arena, spec: &Spec, own: Frame, found: &mut Diagnostics) -
     forces
 }
 
-/// Is the work of a potential that depends on the time part of a balance of power? The kicks of the method that solves for
-/// a multiplier have no place for it.
-fn driven(spec: &Spec, forces: &Forces, potential: Option<&Potential>) -> bool {
-    let depends = potential.is_some_and(Potential::depends_on_time);
-    depends && !forces.is_empty() && !super::forces::has_multiplier(spec)
+/// Is the work of a potential that depends on the time, `dH/dt = dU/dt` at rest, part of the motion? The halves and kicks of
+/// the methods that take the equations apart have no place for it.
+pub(super) fn driven(spec: &Spec, potential: Option<&Potential>) -> bool {
+    let apart = [Capability::Splitting, Capability::Nystrom];
+    let taken_apart =
+        super::forces::has_multiplier(spec) || apart.iter().any(|c| super::capabilities::asked(spec, *c));
+    potential.is_some_and(Potential::depends_on_time) && !taken_apart
 }
 
 /// The energy of a motion that is confined to a group.

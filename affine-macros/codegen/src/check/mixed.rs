@@ -3,6 +3,7 @@
 use crate::algebra::Arena;
 use crate::diagnostics::{CapabilityMistake, Diagnostics, FormMistake, Reported};
 use crate::lower;
+use crate::mechanics::forces::Forces;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
 use crate::mechanics::mixed::{Internal, Masses, Mixed};
@@ -28,6 +29,8 @@ pub struct MixedForm {
     pub body_group: Group,
     /// The potential energy.
     pub potential: Option<Potential>,
+    /// The forces that no potential has, and the potentials that fields compute.
+    pub forces: Forces,
     /// What else is emitted.
     pub quantities: Quantities,
 }
@@ -92,10 +95,13 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
     for part in mixed.parts() {
         form::claims(spec, &part, |place| spec.kinetic[places[place]].kind.value.name(), found);
     }
+    let own = if let [one] = mixed.internal.as_slice() { one.frame } else { Frame::Flat };
+    let mut forces = form::forces(&mut arena, spec, own, found);
     found.verdict()?;
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
     let potential = form::potential(&mut arena, spec, None, found);
+    forces.driven = form::driven(spec, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
     found.verdict()?;
@@ -106,6 +112,7 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
         body_group: mixed.largest_group(Side::Body),
         mixed,
         potential,
+        forces,
         quantities: Quantities::of(spec),
         arena,
     })

@@ -17,9 +17,11 @@ use super::kinetic::{Frame, Kinetic, Term};
 use super::symmetry::{Group, Side, largest_group};
 
 pub use centre::Masses;
-pub use conserved::conserved;
+pub use conserved::{conserved, unmoved};
 pub use factorisation::{Factorisation, SymmetricBlock};
-pub use formulas::{centre_equations, energy, hamiltonian, internal_equations, internal_hamiltonian};
+pub use formulas::{
+    ForceNames, centre_equations, energy, hamiltonian, internal_equations, internal_hamiltonian,
+};
 pub use motion::{Internal, Legendre, slopes_of};
 pub use sample::Sample;
 

@@ -23,6 +23,7 @@ pub(super) struct Programs {
     pub(super) mixed_masses: Option<MixedMasses>,
     pub(super) kinetic_energy: Program,
     pub(super) hamiltonian: Program,
+    pub(super) power: Option<Program>,
     pub(super) isotropic: Option<Program>,
 }
 
@@ -55,6 +56,7 @@ impl Body<'_> {
             false => None,
         };
         let (hamiltonian, at_a_point) = self.hamiltonian(arena, chart)?;
+        let power = self.power(arena, chart)?.map(|batch| inline(arena, &batch, &at_a_point));
         Some(Programs {
             legendre: inline(arena, &legendre, &inputs),
             velocity: inline(arena, &velocity, &momenta.0.concat()),
@@ -62,6 +64,7 @@ impl Body<'_> {
             mixed_masses,
             kinetic_energy: inline(arena, &energy, &inputs),
             hamiltonian: inline(arena, &hamiltonian, &at_a_point),
+            power,
             isotropic: self.isotropic().map(|batch| inline(arena, &batch, &[])),
         })
     }
@@ -188,8 +191,30 @@ impl Body<'_> {
             let (value, shared) = u.energy_at_a_point(arena, chart);
             join(&mut batch, &value, shared);
             inputs.push(Base::MeanLogStretch.symbol(arena));
+            inputs.extend((0..chart.dim).map(|a| Base::LogStretch(a).symbol(arena)));
         }
+        for custom in &self.forces.customs {
+            if let Some((value, kernel)) = custom.energy(arena, chart) {
+                join(&mut batch, &value, Definitions::new());
+                batch.kernels.push(kernel);
+            }
+        }
+        inputs.extend(self.time(arena));
         Some((batch, inputs))
+    }
+
+    /// The power of the forces that no potential has, and of the time in a potential, where it is accounted for.
+    fn power(&self, arena: &mut Arena, chart: &Chart) -> Option<Option<Batch>> {
+        if self.forces.is_empty() && !self.forces.driven {
+            return Some(None);
+        }
+        // Another potential has no power.
+        let driving = self.potential.filter(|_| self.forces.driven);
+        let system = self.systems_under(arena, chart, driving)?.swap_remove(0);
+        let Some((_, power)) = system.work else { return Some(None) };
+        let results = vec![("power".to_owned(), power)];
+        let batch = Batch { shared: system.shared, kernels: system.kernels, results };
+        Some(Some(batch.pruned(arena)))
     }
 }
 
