@@ -171,6 +171,13 @@ families! {
         potential = tr(G)/2 - ln(det)";
     balance_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2), potential = tr(G)/2 + x[1], \
         emit(balance)";
+    rigid_hamiltonian_3: "dim = 3, constraint = rigid, \
+        hamiltonian(casimir2 = 5/6, vorticity_squared = 25/24, space_translation = 1/2), potential = 0.7*phi[3,3]";
+    mixed_damped_2: "dim = 2, kinetic(dalembert = 2, casimir2 = 0.2, body_translation = 1, space_translation = 2), \
+        potential = tr(G)/2, dissipation(space_inertia = 0.5, dalembert = diag(1, 2), body_translation = 0.25)";
+    driven_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1), \
+        potential = hyperbolic_dilatation(10) + (2 + cos(3*t))*neo_hookean(0.5)";
+    driven_by_time_alone_2: "dim = 2, kinetic(dalembert = 1), potential = cos(t)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.
