@@ -5,7 +5,7 @@ use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
 
 use crate::charts::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
-use crate::confined::{Start, assert_components, assert_listed, off_the_group, starts};
+use crate::group::{Start, assert_components, assert_listed, off_the_group, starts};
 use crate::reference::{Reference, assert_close, entries, exact_state, norm};
 use crate::tolerances::{ON_THE_GROUP, POWER_BALANCE};
 
@@ -96,7 +96,7 @@ pub(crate) fn full_equations<const N: usize, M: Drawn<N>>() {
 
             let (size, energy) = (reference.energy_size(), reference.expected.hamiltonian);
             assert_close("H", &[model.hamiltonian(T0, &point)], &[energy], size, tolerance);
-            let free = Reference::confined(&kinetic, M::CONSTRAINT, &state, T0, crate::confined::none);
+            let free = Reference::confined(&kinetic, M::CONSTRAINT, &state, T0, crate::group::none);
             let found = model.kinetic_energy(point.phi(), &velocity);
             assert_close("T", &[found], &[free.expected.hamiltonian], size, tolerance);
 
@@ -188,7 +188,7 @@ macro_rules! drawn {
         mod $name {
             #[allow(clippy::wildcard_imports)]
             use super::*;
-            use crate::confined::Start;
+            use crate::group::Start;
             use crate::drawn::{Coefficients, Drawn};
 
             #[affine_model(dim = $n, constraint = $key, $($spec)* $(, potential = $($potential)*)?)]

@@ -19,4 +19,5 @@ mod confined;
 #[macro_use]
 mod drawn;
 mod driven;
+mod group;
 mod stated;

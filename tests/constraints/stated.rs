@@ -7,7 +7,7 @@ use affine_oracle::{
 };
 use affine_runtime::prelude::*;
 
-use crate::confined::none;
+use crate::group::none;
 use crate::drawn::Coefficients;
 use crate::tolerances::UNDER_POTENTIAL;
 

@@ -168,9 +168,10 @@ impl Body<'_> {
         if self.masses.are_none() {
             return CentreVelocity::Fixed;
         }
-        CentreVelocity::Defined(
-            (1..=self.mixed.dim).map(|i| arena.symbol(&format!("x_dot_{i}"))).collect(),
-        )
+        let mut symbols =
+            |stem: &str| (1..=self.mixed.dim).map(|i| arena.symbol(&format!("{stem}_{i}"))).collect();
+        let x_dot = symbols("x_dot");
+        CentreVelocity::Defined { x_dot, v_hat: self.masses.body.map(|_| symbols("v_hat")) }
     }
 
     /// The velocity `(dH/dM)^T` of the chart under the name that forces know, where the energy has another.

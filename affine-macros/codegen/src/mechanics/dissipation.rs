@@ -7,7 +7,7 @@
 mod invariance;
 
 use crate::algebra::ring::{Square, product, sum, table, times, transpose};
-use crate::algebra::{Arena, Matrix, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::equations::Load;
@@ -154,9 +154,9 @@ impl Dissipation {
         let (own, inverse_mass) = match velocity {
             CentreVelocity::Fixed => return Vec::new(),
             CentreVelocity::PerMass(own, inverse_mass) => (own, inverse_mass),
-            CentreVelocity::Defined(_) => {
+            CentreVelocity::Defined { v_hat, .. } => {
                 let x_dot = shared.x_dot(chart, velocity);
-                return self.drag_on_centre(shared, chart, &x_dot, power);
+                return self.drag_on_centre(shared, chart, (&x_dot, v_hat.as_deref()), power);
             }
         };
         let phi = atoms(&chart.phi);
@@ -204,7 +204,7 @@ impl Dissipation {
         &self,
         shared: &mut Shared,
         chart: &Chart,
-        x_dot: &[Polynomial],
+        (x_dot, v_hat): (&[Polynomial], Option<&[Expr]>),
         power: &mut Polynomial,
     ) -> Vec<Polynomial> {
         let mut force = vec![Polynomial::zero(); self.dim];
@@ -212,7 +212,10 @@ impl Dissipation {
             let slope = match frame {
                 Frame::Body => {
                     let inverse = shared.inverse(&atoms(&chart.phi));
-                    let v_hat = shared.vector("v_hat", &times(&inverse, x_dot));
+                    let v_hat = match v_hat {
+                        Some(known) => known.iter().map(|v| Polynomial::atom(*v)).collect(),
+                        None => shared.vector("v_hat", &times(&inverse, x_dot)),
+                    };
                     times(&transpose(&inverse), &v_hat)
                 }
                 _ => x_dot.to_vec(),

@@ -13,8 +13,13 @@ pub enum CentreVelocity {
     Fixed,
     /// From its momentum in the frame of the mass, by `1/m`.
     PerMass(Frame, Polynomial),
-    /// `x_dot` as symbols, which the equations define.
-    Defined(Vec<Expr>),
+    /// As symbols, which the equations define.
+    Defined {
+        /// `x_dot`.
+        x_dot: Vec<Expr>,
+        /// `v_hat = phi^-1 x_dot`, where they define it too.
+        v_hat: Option<Vec<Expr>>,
+    },
 }
 
 /// Quantities that forces share.
@@ -88,7 +93,7 @@ impl Shared<'_> {
         let Some(linear) = chart.linear else { return Vec::new() };
         let (own, inverse_mass) = match centre {
             CentreVelocity::Fixed => return Vec::new(),
-            CentreVelocity::Defined(x_dot) => return x_dot.iter().map(|v| Polynomial::atom(*v)).collect(),
+            CentreVelocity::Defined { x_dot, .. } => return x_dot.iter().map(|v| Polynomial::atom(*v)).collect(),
             CentreVelocity::PerMass(own, inverse_mass) => (own, inverse_mass),
         };
         let phi = atoms(&chart.phi);
