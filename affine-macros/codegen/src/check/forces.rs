@@ -1,5 +1,6 @@
 //! What dissipations and what fields compute do not stand beside.
 
+use super::frames;
 use crate::diagnostics::{Diagnostics, ForceMistake, Region};
 use crate::spec::{Capability, Constraint, Custom, MomentumKind, Spec, TermKind};
 
@@ -60,4 +61,5 @@ fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 8] {
 pub(super) fn has_multiplier(spec: &Spec) -> bool {
     spec.constraint.is_some_and(|constraint| constraint.value == Constraint::Isochoric)
         && spec.term(TermKind::Dalembert).is_some()
+        && !frames::are_mixed(spec)
 }

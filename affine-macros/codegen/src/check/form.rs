@@ -10,6 +10,7 @@ use crate::mechanics::forces::Forces;
 use crate::mechanics::hessian::{Block, Direction, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
 use crate::mechanics::metrics::Metrics;
+use crate::mechanics::mixed::Mixed;
 use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
@@ -80,20 +81,20 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     if let Some(stated) = lower::stated(&mut arena, spec) {
         return momentum_form(arena, spec, stated, found);
     }
-    let (places, terms): (Vec<usize>, Vec<Term>) =
-        lower::terms(&mut arena, spec.dim.value, &spec.kinetic).into_iter().unzip();
-    let kinetic = Kinetic::new(&mut arena, spec.dim.value, &terms)
-        .ok()
-        .filter(|k| !k.internal.is_empty())
+    let stated = lower::terms(&mut arena, spec.dim.value, &spec.kinetic);
+    let (places, terms): (Vec<usize>, Vec<Term>) = stated.iter().cloned().unzip();
+    let free = Mixed::new(&mut arena, spec.dim.value, &terms, Frame::Body, None);
+    let (own_places, kinetic) = confined(&mut arena, spec, stated)
+        .filter(|(_, kinetic)| !kinetic.internal.is_empty())
         .ok_or_else(|| found.report(spec.kinetic_key, FormMistake::NoKineticEnergy))?;
-    let free = kinetic;
-    let kinetic = confined(&mut arena, spec, &free, &terms);
     let hessian = Hessian::new(&kinetic);
-    nothing_vanishes(spec, &kinetic, &places, found);
+    nothing_vanishes(spec, std::slice::from_ref(&kinetic), &own_places, found);
     invertible(spec, &hessian, found);
     positive(spec, &kinetic, &hessian, found);
     // Symmetries are those of the energy as stated, on all of GL(n).
-    claims(spec, &free, |place| spec.kinetic[places[place]].kind.value.name(), found);
+    for part in parts_of(&free, &kinetic) {
+        claims(spec, &part, |place| spec.kinetic[places[place]].kind.value.name(), found);
+    }
     let mut forces = forces(&mut arena, spec, kinetic.frame, found);
     found.verdict()?;
     super::smooth::potential(&mut arena, spec, found);
@@ -105,10 +106,10 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
-    let space_group = largest_group(&free, Side::Space);
-    let body_group = largest_group(&free, Side::Body);
+    let space_group = free.largest_group(Side::Space);
+    let body_group = free.largest_group(Side::Body);
     let unitary = spec.group.is_some();
-    let two_polar = unitary || two_polar::asked(spec, &free, &places, potential.as_ref(), found)?;
+    let two_polar = unitary || two_polar::asked(spec, &kinetic, &places, potential.as_ref(), found)?;
     let metrics = lower::metrics(&mut arena, spec);
     Ok(Form {
         arena,
@@ -201,19 +202,33 @@ pub(super) fn driven(spec: &Spec, potential: Option<&Potential>) -> bool {
     potential.is_some_and(Potential::depends_on_time) && !taken_apart
 }
 
-/// The energy of a motion that is confined to a group.
-fn confined(arena: &mut Arena, spec: &Spec, free: &Kinetic, terms: &[Term]) -> Kinetic {
-    let group = spec.constraint.map(|constraint| lower::constraint(constraint.value));
-    // What has constant coefficients on GL(n) has them on a subgroup.
-    Kinetic::under(arena, free.dim, terms, group).unwrap_or_else(|_| free.clone())
+/// The energy of a motion that may be confined to a group, with the places of its terms; `None` without a common frame,
+/// which such energies have.
+fn confined(arena: &mut Arena, spec: &Spec, stated: Vec<(usize, Term)>) -> Option<(Vec<usize>, Kinetic)> {
+    let group = spec.constraint.as_ref().map(|constraint| lower::constraint(constraint.value));
+    let restated = match group {
+        Some(group) => group.restated(arena, stated),
+        None => stated,
+    };
+    let (places, terms): (Vec<usize>, Vec<Term>) = restated.into_iter().unzip();
+    Some((places, Kinetic::under(arena, spec.dim.value, &terms, group).ok()?))
+}
+
+/// The energy whose claims are judged: as one where it has one frame on GL(n), else part by part.
+fn parts_of(free: &Mixed, kinetic: &Kinetic) -> Vec<Kinetic> {
+    match kinetic.constraint {
+        None => vec![kinetic.clone()],
+        Some(_) => free.parts(),
+    }
 }
 
 /// Every term says something about the velocities that the constraint leaves free: `(tr Om)^2` is zero where they are
 /// traceless, and would be read by nobody.
-fn nothing_vanishes(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mut Diagnostics) {
+pub(super) fn nothing_vanishes(spec: &Spec, parts: &[Kinetic], places: &[usize], found: &mut Diagnostics) {
     let Some(constraint) = spec.constraint else { return };
-    for (place, energy) in &kinetic.internal {
-        let alone = Kinetic { internal: vec![(*place, energy.clone())], ..kinetic.clone() };
+    let energies = parts.iter().flat_map(|part| part.internal.iter().map(move |energy| (part, energy)));
+    for (part, (place, energy)) in energies {
+        let alone = Kinetic { internal: vec![(*place, energy.clone())], ..part.clone() };
         if Hessian::new(&alone).is_zero() {
             let kind = spec.kinetic[places[*place]].kind;
             let mistake = ConstraintMistake::VanishingTerm {

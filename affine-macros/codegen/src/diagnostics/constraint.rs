@@ -22,15 +22,6 @@ pub enum ConstraintMistake {
         /// What they are under it: `traceless`, `skew`.
         directions: &'static str,
     },
-    /// An energy in `phi_dot` whose mass matrix depends on the placement under the constraint.
-    ConstrainedMassMatrix {
-        /// The term.
-        term: &'static str,
-        /// The constraint.
-        constraint: &'static str,
-        /// The group: `phi = e^q R with a rotation R`.
-        group: &'static str,
-    },
     /// A potential that is constant, or has no value, wherever the constraint holds.
     ConstrainedPotential {
         /// `is constant`, `has no value`.
@@ -45,7 +36,6 @@ pub enum ConstraintMistake {
 names! { ConstraintMistake
     ConstraintBeside => "constraint-beside",
     VanishingTerm => "vanishing-term",
-    ConstrainedMassMatrix => "constrained-mass-matrix",
     ConstrainedPotential => "constrained-potential",
 }
 
@@ -72,14 +62,6 @@ impl ConstraintMistake {
                 format!("`{term}` is zero under `constraint = {constraint}`"),
                 format!("{of} are {directions} there, and it is zero on all of them"),
                 format!("remove `{term}` or the constraint"),
-            ),
-            Self::ConstrainedMassMatrix { term, constraint, group } => text(
-                format!("`{term}` has no constant mass matrix under `constraint = {constraint}`"),
-                format!(
-                    "phi_dot = phi Oh with {group}: as a form of Oh it depends on phi; of the energies in phi_dot only \
-                     `dalembert` goes with a constraint, of which at most D is left or a multiplier keeps det phi = 1"
-                ),
-                "write `dalembert`, or `body_tensor`, which is constant in Oh, or remove the constraint",
             ),
             Self::ConstrainedPotential { defect, constraint, group } => text(
                 format!("this potential {defect} under `constraint = {constraint}`"),

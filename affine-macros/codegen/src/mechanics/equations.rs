@@ -116,7 +116,7 @@ pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form)
 impl System {
     /// Under a constraint: rates of the affine momentum projected, and entries of momentum and velocity that are linear
     /// in others written through those.
-    fn confined(mut self, chart: &Chart, velocity: &Matrix) -> Self {
+    pub(super) fn confined(mut self, chart: &Chart, velocity: &Matrix) -> Self {
         let Some(group) = chart.confined else { return self };
         let rate = |a, b| {
             let found = self.rates.iter().find(|(z, _, _)| *z == Coordinate::M(a, b));

@@ -13,6 +13,7 @@ use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved_at_points};
 use crate::mechanics::equations::Load;
 use crate::mechanics::flow::{Flow, Push};
+use crate::mechanics::group_point::POINTS;
 use crate::mechanics::metric::Definitions;
 
 use super::sample::Sample;
@@ -26,9 +27,10 @@ pub fn conserved(
     slopes: &[(Coordinate, Polynomial)],
     shared: &Definitions,
 ) -> Vec<Candidate> {
-    let points = points(arena, shared);
-    let [first, second] = points.each_ref().map(|point| |p: &Polynomial| point.value(arena, p));
-    conserved_at_points(chart, slopes, &[&first, &second])
+    let points = points(arena, chart, shared);
+    let values: Vec<_> = points.iter().map(|point| |p: &Polynomial| point.value(arena, p)).collect();
+    let values: Vec<&dyn Fn(&Polynomial) -> Residue> = values.iter().map(|value| value as _).collect();
+    conserved_at_points(chart, slopes, &values)
 }
 
 /// Those of the candidates that forces leave at rest, but for the energy, which they take: the rates that they give are
@@ -44,7 +46,7 @@ pub fn unmoved(
 ) -> Vec<Candidate> {
     candidates.retain(|candidate| *candidate != Candidate::Energy);
     let defined = [shared.clone(), load.shared.clone()].concat();
-    for point in points(arena, &defined) {
+    for point in points(arena, chart, &defined) {
         let value = |p: &Polynomial| point.value(arena, p);
         let flow = Flow::vertical(chart, push(chart, load, &value), &value);
         candidates.retain(|candidate| flow.leaves(*candidate));
@@ -52,12 +54,13 @@ pub fn unmoved(
     candidates
 }
 
-fn points(arena: &Arena, shared: &Definitions) -> [Sample; 2] {
-    ["first.", "second."].map(|name| {
-        let mut point = Sample::generic(name);
-        point.define(arena, shared);
-        point
-    })
+fn points(arena: &Arena, chart: &Chart, shared: &Definitions) -> Vec<Sample> {
+    let mut points: Vec<Sample> = match chart.confined {
+        None => ["first.", "second."].map(Sample::generic).to_vec(),
+        Some(group) => (0..POINTS).map(|seed| Sample::on_the_group(arena, chart, group, seed)).collect(),
+    };
+    points.iter_mut().for_each(|point| point.define(arena, shared));
+    points
 }
 
 /// The forces on `p` and `Pi`, times `det phi` where the affine momentum of the chart is not `Pi`.
