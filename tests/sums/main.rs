@@ -22,5 +22,6 @@ mod reference;
 #[path = "../physics/tolerances.rs"]
 mod tolerances;
 
+mod confined;
 mod damped;
 mod driven;

@@ -83,7 +83,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     }
     let stated = lower::terms(&mut arena, spec.dim.value, &spec.kinetic);
     let (places, terms): (Vec<usize>, Vec<Term>) = stated.iter().cloned().unzip();
-    let free = Mixed::new(&mut arena, spec.dim.value, &terms, Frame::Body, None);
+    // Symmetries are those of the energy as stated, on all of GL(n), where its terms may have different frames.
+    let free = spec.constraint.as_ref().map(|_| Mixed::new(&mut arena, spec.dim.value, &terms, Frame::Body, None));
     let (own_places, kinetic) = confined(&mut arena, spec, stated)
         .filter(|(_, kinetic)| !kinetic.internal.is_empty())
         .ok_or_else(|| found.report(spec.kinetic_key, FormMistake::NoKineticEnergy))?;
@@ -91,9 +92,9 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     nothing_vanishes(spec, std::slice::from_ref(&kinetic), &own_places, found);
     invertible(spec, &hessian, found);
     positive(spec, &kinetic, &hessian, found);
-    // Symmetries are those of the energy as stated, on all of GL(n).
-    for part in parts_of(&free, &kinetic) {
-        claims(spec, &part, |place| spec.kinetic[places[place]].kind.value.name(), found);
+    let free = free.map_or_else(|| vec![kinetic.clone()], |free| free.parts());
+    for part in &free {
+        claims(spec, part, |place| spec.kinetic[places[place]].kind.value.name(), found);
     }
     let mut forces = forces(&mut arena, spec, kinetic.frame, found);
     found.verdict()?;
@@ -106,8 +107,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
-    let space_group = free.largest_group(Side::Space);
-    let body_group = free.largest_group(Side::Body);
+    let group = |side: Side| free.iter().map(|part| largest_group(part, side)).min().unwrap_or(Group::Affine);
+    let (space_group, body_group) = (group(Side::Space), group(Side::Body));
     let unitary = spec.group.is_some();
     let two_polar = unitary || two_polar::asked(spec, &kinetic, &places, potential.as_ref(), found)?;
     let metrics = lower::metrics(&mut arena, spec);
@@ -212,14 +213,6 @@ fn confined(arena: &mut Arena, spec: &Spec, stated: Vec<(usize, Term)>) -> Optio
     };
     let (places, terms): (Vec<usize>, Vec<Term>) = restated.into_iter().unzip();
     Some((places, Kinetic::under(arena, spec.dim.value, &terms, group).ok()?))
-}
-
-/// The energy whose claims are judged: as one where it has one frame on GL(n), else part by part.
-fn parts_of(free: &Mixed, kinetic: &Kinetic) -> Vec<Kinetic> {
-    match kinetic.constraint {
-        None => vec![kinetic.clone()],
-        Some(_) => free.parts(),
-    }
 }
 
 /// Every term says something about the velocities that the constraint leaves free: `(tr Om)^2` is zero where they are

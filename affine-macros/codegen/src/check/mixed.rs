@@ -61,10 +61,11 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
         );
     }
     super::capabilities::one_frame(spec, found);
+    super::capabilities::on_the_group(spec, found);
     let mut arena = Arena::new();
     let stated = lower::terms(&mut arena, spec.dim.value, &spec.kinetic);
     let (places, free): (Vec<usize>, Vec<Term>) = stated.iter().cloned().unzip();
-    let free = Mixed::new(&mut arena, spec.dim.value, &free, Frame::Body, None);
+    let free = group.map(|_| Mixed::new(&mut arena, spec.dim.value, &free, Frame::Body, None));
     let (own_places, terms): (Vec<usize>, Vec<Term>) = match group {
         Some(group) => group.restated(&mut arena, stated),
         None => stated,
@@ -99,6 +100,7 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
     }
     form::nothing_vanishes(spec, &mixed.internal, &own_places, found);
     // Symmetries are those of the energy as stated, on all of GL(n).
+    let free = free.unwrap_or_else(|| mixed.clone());
     for part in free.parts() {
         form::claims(spec, &part, |place| spec.kinetic[places[place]].kind.value.name(), found);
     }

@@ -15,7 +15,8 @@ use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::mechanics::loads::beside;
-use crate::mechanics::mixed::{self, ForceNames, Internal, Masses, Mixed};
+use crate::mechanics::metric::Definitions;
+use crate::mechanics::mixed::{self, Confined, Factorisation, ForceNames, Internal, Masses, Mixed};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::{self, ClosedForm, Commuting, Reduction};
 use crate::mechanics::shared::CentreVelocity;
@@ -31,6 +32,8 @@ enum Inner {
     Constant(Box<Kinetic>, Box<Hamiltonian>),
     /// Its mass matrix depends on `phi`.
     Varying(Box<Internal>),
+    /// The same of a motion that is confined to a group.
+    Confined(Box<Confined>),
 }
 
 /// Derives a model; `None` only for energies that the checks refuse.
@@ -76,8 +79,8 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
     let signature = body.signature(hessian.as_ref(), positive, require_positive);
     Some(Model {
         dim: mixed.dim,
-        constraint: None,
-        projected: false,
+        constraint: mixed.constraint,
+        projected: mixed.constraint.is_some(),
         frame: body.inner.frame(),
         translation: body.translation(),
         conditions: body.conditions(arena, hessian.as_ref(), require_positive),
@@ -122,6 +125,9 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
 
 impl Inner {
     fn new(arena: &mut Arena, mixed: &Mixed, hessian: Option<&Hessian>) -> Option<Self> {
+        if let Some(group) = mixed.constraint {
+            return Some(Self::Confined(Box::new(Confined::new(arena, mixed, group)?)));
+        }
         match (mixed.internal.as_slice(), hessian) {
             ([one], Some(hessian)) => {
                 let h = Hamiltonian::new(arena, one, hessian)?;
@@ -135,6 +141,16 @@ impl Inner {
         match self {
             Self::Constant(kinetic, _) => kinetic.frame,
             Self::Varying(_) => Frame::Flat,
+            Self::Confined(_) => Frame::Body,
+        }
+    }
+
+    /// The factorised mass matrix, where it depends on the placement.
+    fn factorised(&self) -> Option<(&Factorisation, &Definitions)> {
+        match self {
+            Self::Constant(..) => None,
+            Self::Varying(internal) => Some((&internal.factorisation, &internal.shared)),
+            Self::Confined(internal) => Some((&internal.factorisation, &internal.shared)),
         }
     }
 }
@@ -201,7 +217,17 @@ impl Body<'_> {
     /// The chart of the internal motion with spatial `p`, or without translation.
     fn chart(&self, arena: &mut Arena, moving: bool) -> Chart {
         let linear = (moving && !self.masses.are_none()).then_some(Linear::Space);
-        Chart::new(arena, self.mixed.dim, Momentum::of(self.inner.frame()), linear)
+        let chart = Chart::new(arena, self.mixed.dim, Momentum::of(self.inner.frame()), linear);
+        chart.under(self.mixed.constraint)
+    }
+
+    /// What the motion of the centre of mass adds.
+    fn of_the_centre(&self, arena: &mut Arena, chart: &Chart) -> Option<Load> {
+        let load = self.masses.load(arena, chart)?;
+        Some(match chart.confined {
+            Some(group) => load.confined(arena, chart, group),
+            None => load,
+        })
     }
 
     /// Hamilton's equations of a chart, in each form that may be the shortest.
@@ -218,6 +244,7 @@ impl Body<'_> {
     ) -> Option<Vec<System>> {
         let internal = match &self.inner {
             Inner::Varying(internal) => vec![internal.system(arena, self.mixed, chart)],
+            Inner::Confined(internal) => vec![internal.system(arena, self.mixed, chart)],
             Inner::Constant(_, h) => {
                 let energy = h.internal();
                 let mut forms = vec![hamilton(arena, chart, &energy, equations::Form::ThroughVelocity)];
@@ -229,7 +256,7 @@ impl Body<'_> {
         };
         let mut loads = Vec::new();
         if chart.linear.is_some() {
-            loads.push(self.masses.load(arena, chart)?);
+            loads.push(self.of_the_centre(arena, chart)?);
         }
         loads.extend(self.pushes(arena, chart, potential));
         let joined = |mut system: System| {
@@ -255,6 +282,7 @@ impl Body<'_> {
                 let system = internal.system(arena, self.mixed, &still);
                 (mixed::slopes_of(&system), system.shared)
             }
+            Inner::Confined(internal) => internal.slopes(arena, self.mixed, &still),
             Inner::Constant(_, h) => {
                 let velocities = equations::velocities(arena, &still, &h.internal());
                 (gradient(&still, &h.internal()), velocities.concat())
@@ -341,6 +369,13 @@ impl Body<'_> {
                 let mut list = mixed::internal_equations(self.mixed, &self.masses, self.potential, &names);
                 list.extend(mixed::centre_equations(&self.masses, self.potential, &names));
                 (mixed::internal_hamiltonian(), list)
+            }
+            Inner::Confined(internal) => {
+                let names = ForceNames::of(chart, self.forces);
+                let pulls = (self.masses.body.is_some(), self.potential.is_some());
+                let mut list = mixed::confined_equations(self.mixed, internal.group, pulls, &names);
+                list.extend(mixed::centre_equations(&self.masses, self.potential, &names));
+                (mixed::confined_hamiltonian(), list)
             }
             Inner::Constant(_, h) => {
                 let system = describe::system(arena, &reduction.system);

@@ -185,7 +185,15 @@ impl System {
             })
             .cloned()
             .collect();
-        let value = |atom: Expr| trivial.iter().find(|(s, _)| *s == atom).map(|(_, p)| p.clone());
+        let known = |atom: Expr| trivial.iter().find(|(s, _)| *s == atom).map(|(_, p)| p);
+        // One may stand for another.
+        let value = |atom: Expr| {
+            let mut value = known(atom)?;
+            while let Some(next) = value.terms().next().and_then(|(m, _)| known(*m.first()?)) {
+                value = next;
+            }
+            Some(value.clone())
+        };
         self = self.substitute(&value);
         self.shared.retain(|(s, _)| !trivial.iter().any(|(t, _)| t == s));
         loop {

@@ -23,7 +23,8 @@ pub use confined::Confined;
 pub use conserved::{conserved, unmoved};
 pub use factorisation::{Factorisation, SymmetricBlock};
 pub use formulas::{
-    ForceNames, centre_equations, energy, hamiltonian, internal_equations, internal_hamiltonian,
+    ForceNames, centre_equations, confined_equations, confined_hamiltonian, energy, hamiltonian,
+    internal_equations, internal_hamiltonian,
 };
 pub use motion::{Internal, Legendre, slopes_of};
 pub use sample::Sample;

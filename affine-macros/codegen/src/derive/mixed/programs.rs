@@ -9,7 +9,7 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::metric::{Definitions, inverse_placement};
-use crate::mechanics::mixed::Legendre;
+use crate::mechanics::mixed::{Confined, Legendre};
 use crate::mechanics::potential::Base;
 use crate::optimise::{Batch, straight_line};
 
@@ -78,14 +78,12 @@ impl Body<'_> {
                 result("energy", kinetic.internal_energy()),
             ],
             Inner::Varying(internal) => {
-                let Legendre { shared, momentum, energy } = Legendre::new(arena, self.mixed);
-                let n = self.mixed.dim;
-                let solution = table(n, |i, a| Polynomial::atom(internal.velocity.0[i][a]));
-                [
-                    Batch { shared: shared.clone(), ..matrix_batch(arena, momenta, &momentum) },
-                    Batch { shared: internal.shared.clone(), ..matrix_batch(arena, velocities, &solution) },
-                    Batch { shared, ..result("energy", energy) },
-                ]
+                let legendre = Legendre::new(arena, self.mixed);
+                both_ways(arena, legendre, (&internal.velocity, &internal.shared), [velocities, momenta])
+            }
+            Inner::Confined(internal) => {
+                let legendre = Confined::legendre(arena, self.mixed, internal.group);
+                both_ways(arena, legendre, (&internal.velocity, &internal.shared), [velocities, momenta])
             }
         }
     }
@@ -172,6 +170,9 @@ impl Body<'_> {
             Inner::Varying(internal) => {
                 Batch { shared: internal.shared.clone(), ..result("energy", internal.energy(chart)) }
             }
+            Inner::Confined(internal) => {
+                Batch { shared: internal.shared.clone(), ..result("energy", internal.energy()) }
+            }
             Inner::Constant(_, h) => result("energy", h.internal()),
         };
         let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
@@ -216,6 +217,21 @@ impl Body<'_> {
         let batch = Batch { shared: system.shared, kernels: system.kernels, results };
         Some(Some(batch.pruned(arena)))
     }
+}
+
+/// The Legendre transformation, its inverse through the symbols that solve it, and `T_int`.
+fn both_ways(
+    arena: &mut Arena,
+    Legendre { shared, momentum, energy }: Legendre,
+    (solution, solving): (&Matrix, &Definitions),
+    [velocities, momenta]: [&Matrix; 2],
+) -> [Batch; 3] {
+    let solution = table(solution.dim(), |i, a| Polynomial::atom(solution.0[i][a]));
+    [
+        Batch { shared: shared.clone(), ..matrix_batch(arena, momenta, &momentum) }.pruned(arena),
+        Batch { shared: solving.clone(), ..matrix_batch(arena, velocities, &solution) },
+        Batch { shared, ..result("energy", energy) }.pruned(arena),
+    ]
 }
 
 /// `v_hat = phi^-1 x_dot`, with what leads there.

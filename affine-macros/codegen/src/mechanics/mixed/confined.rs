@@ -36,6 +36,8 @@ pub struct Confined {
     pub shared: Definitions,
     /// `Oh` as symbols, defined among the shared quantities.
     pub velocity: Matrix,
+    /// Momenta and velocities along a basis of the Lie algebra.
+    components: Vec<(Polynomial, Expr)>,
     /// The factorised mass matrix on a basis of the Lie algebra.
     pub factorisation: Factorisation,
 }
@@ -77,7 +79,8 @@ impl Confined {
             }
             shared.push((symbol, entry));
         }
-        Some(Self { group, shared, velocity, factorisation })
+        let components = momenta.into_iter().zip(speeds).collect();
+        Some(Self { group, shared, velocity, components, factorisation })
     }
 
     /// Hamilton's equations of the internal motion.
@@ -152,15 +155,11 @@ impl Confined {
 
     /// `tr(Sigma_hat Oh)/2`.
     #[must_use]
-    pub fn energy(&self, chart: &Chart) -> Polynomial {
+    pub fn energy(&self) -> Polynomial {
         let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
-        let dependent = chart.dependent();
-        let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
         let mut sum = Polynomial::zero();
-        for (row, column) in self.velocity.0.iter().zip(transpose(&atoms(&chart.m))) {
-            for (velocity, momentum) in row.iter().zip(&column) {
-                sum.add_product(&Polynomial::atom(*velocity), &momentum.substitute(&value), &half);
-            }
+        for (momentum, speed) in &self.components {
+            sum.add_product(momentum, &Polynomial::atom(*speed), &half);
         }
         sum
     }
@@ -191,7 +190,15 @@ impl Confined {
             };
             add(&mut momentum, &pulled, &Rational::ONE);
         }
-        Legendre { shared, momentum: group.projected(&momentum), energy }
+        // Of the entries of Oh those that determine the others.
+        let dependent = group.dependent(&Matrix::symbols(arena, Frame::Body.velocity_name(), n));
+        let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
+        let projected = group.projected(&momentum);
+        Legendre {
+            shared: shared.into_iter().map(|(symbol, p)| (symbol, p.substitute(&value))).collect(),
+            momentum: table(n, |a, b| projected[a][b].substitute(&value)),
+            energy: energy.substitute(&value),
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::algebra::Arena;
 use crate::mechanics::charts::Chart;
+use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{Formula, kinetic_energy};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::kinetic::Frame;
@@ -150,6 +151,81 @@ pub fn internal_equations(
     list.push(formula(format!("dPi/dt = {}", joined(text)), format!("\\dot\\Pi = {}", joined(tex))));
     if potential.is_some() {
         list.push(formula("N = -(dU/dphi)^T", "N = -(\\partial U/\\partial\\varphi)^T"));
+    }
+    list
+}
+
+/// `H` of the internal motion on a group.
+#[must_use]
+pub fn confined_hamiltonian() -> Formula {
+    formula("H = 1/2 tr(Sigma_hat Omega_hat)", "H = \\frac{1}{2}\\operatorname{tr}(\\hat\\Sigma\\hat\\Omega)")
+}
+
+/// The Legendre transformation on a group and the balance of `Sigma_hat`, in the parts that the energy has; `pulls` tells
+/// whether the centre of mass and a potential act on it.
+#[must_use]
+pub fn confined_equations(
+    mixed: &Mixed,
+    group: Constraint,
+    (centre, potential): (bool, bool),
+    names: &ForceNames,
+) -> Vec<Formula> {
+    let has = |frame: Frame| mixed.internal.iter().any(|part| part.frame == frame);
+    let mut momenta: Vec<Formula> = Vec::new();
+    let mut parts: Vec<(&str, &str)> = Vec::new();
+    let mut rate: Vec<(String, String)> = Vec::new();
+    if has(Frame::Body) {
+        momenta.push(formula(
+            "X = (dT_body/dOmega_hat)^T",
+            "X = (\\partial T_{body}/\\partial\\hat\\Omega)^T",
+        ));
+        parts.push(("X", "X"));
+        rate.push(("+ [X, Omega_hat]".into(), "+ [X, \\hat\\Omega]".into()));
+    }
+    if has(Frame::Space) {
+        let text = "Y = phi^-1 (dT_space/dOmega)^T phi";
+        let latex = "Y = \\varphi^{-1}(\\partial T_{space}/\\partial\\Omega)^T\\varphi";
+        momenta.push(formula(text, latex));
+        parts.push(("Y", "Y"));
+    }
+    if has(Frame::Flat) {
+        let text = "Z = (dT_flat/dphi_dot)^T phi";
+        let latex = "Z = (\\partial T_{flat}/\\partial\\dot\\varphi)^T\\varphi";
+        momenta.push(formula(text, latex));
+        parts.push(("Z", "Z"));
+        rate.push(("+ Z Omega_hat".into(), "+ Z\\hat\\Omega".into()));
+    }
+    if centre {
+        rate.push(("- m v_hat v_hat^T".into(), "- m \\hat v\\hat v^T".into()));
+    }
+    if potential {
+        rate.push(("+ Q_hat".into(), "+ \\hat Q".into()));
+    }
+    rate.extend(names.on_affine.iter().map(|(text, latex)| (signed(text), signed(latex))));
+    let sum = |which: fn(&(&'static str, &'static str)) -> &'static str| {
+        parts.iter().map(which).collect::<Vec<_>>().join(" + ")
+    };
+    let mut list = momenta;
+    list.push(formula(
+        format!("Sigma_hat = P ({}), solved for Omega_hat by L D L^T", sum(|p| p.0)),
+        format!("\\hat\\Sigma = P ({})", sum(|p| p.1)),
+    ));
+    list.push(formula("dphi/dt = phi Omega_hat", "\\dot\\varphi = \\varphi\\hat\\Omega"));
+    if rate.is_empty() {
+        rate.push(("0".into(), "0".into()));
+    }
+    let (text, latex): (Vec<String>, Vec<String>) = rate.into_iter().unzip();
+    list.push(formula(
+        format!("dSigma_hat/dt = P ({})", joined(text)),
+        format!("\\dot{{\\hat\\Sigma}} = P ({})", joined(latex)),
+    ));
+    let (text, latex) = group.projection();
+    list.push(formula(text, latex));
+    if potential {
+        list.push(formula(
+            "Q_hat = -(dU/dphi)^T phi",
+            "\\hat Q = -(\\partial U/\\partial\\varphi)^T\\varphi",
+        ));
     }
     list
 }
