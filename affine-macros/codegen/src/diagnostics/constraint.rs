@@ -49,8 +49,8 @@ impl ConstraintMistake {
                         "the group of a constraint is that of orthonormal bases, and points stand in others"
                     }
                     _ => {
-                        "the velocity is quadratic in the momentum: those that the group leaves free are no linear condition \
-                         on momenta, and no multiplier is linear in them"
+                        "the velocity is quadratic in the momentum: the momenta whose velocities the group leaves free form no \
+                         linear space"
                     }
                 },
                 match *key {
