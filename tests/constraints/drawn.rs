@@ -1,6 +1,8 @@
 //! Constrained models with random coefficients against the oracle's multipliers.
 
-use affine_oracle::{Constraint, Differential, Kinetic, Motion, Place, Random, Rational, State, rational, rounded};
+use affine_oracle::{
+    Constraint, Differential, Kinetic, Motion, Place, Random, Rational, State, rational, rounded,
+};
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
 

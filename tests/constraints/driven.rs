@@ -9,8 +9,8 @@ use affine_runtime::prelude::*;
 use crate::charts::{
     T0, assert_charts_lead_back, assert_reduced_equations_move, exists, groups, matrix, vector,
 };
-use crate::group::{Start, assert_components, diagonal, has_another_name, none, starts};
 use crate::fields::{Fibre, Kneading, Spring, Stirring, Wind, blown, canonical, kneaded, stirred, under};
+use crate::group::{Start, assert_components, diagonal, has_another_name, none, starts};
 use crate::reference::{Reference, exact_state};
 use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, POWER_BALANCE, UNDER_POTENTIAL};
 

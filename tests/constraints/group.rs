@@ -1,8 +1,6 @@
 //! Placements and momenta on a constraint group, and what is compared there.
 
-use affine_oracle::{
-    Constraint, Differential, Matrix as Exact, Motion, Observable, Place, Random, rational,
-};
+use affine_oracle::{Constraint, Differential, Matrix as Exact, Motion, Observable, Place, Random, rational};
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 

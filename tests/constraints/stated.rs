@@ -2,13 +2,13 @@
 //! stated, which it confirms, and then restricted to the velocities that the constraint leaves.
 
 use affine_oracle::{
-    Constraint, Differential, Hamiltonian, Invariant, Kinetic, Place, Random, Rational, State, Term, rational,
-    rounded,
+    Constraint, Differential, Hamiltonian, Invariant, Kinetic, Place, Random, Rational, State, Term,
+    rational, rounded,
 };
 use affine_runtime::prelude::*;
 
-use crate::group::none;
 use crate::drawn::Coefficients;
+use crate::group::none;
 use crate::tolerances::UNDER_POTENTIAL;
 
 /// Eigenvalues `a`, `2c - a`, `a + n b` of `a/2 C(2) + b/2 C(1)^2 + c/2 |W|^2`.
@@ -58,7 +58,12 @@ fn energies_belong_together() {
         let state: State = random.state(n);
         let [a, b, c, k] = ["a", "b", "c", "k"].map(|name| v.value(name));
         let stated = |norm: Invariant, translation: Invariant| {
-            Hamiltonian::new(vec![Invariant::Casimir2(a.clone()), Invariant::Casimir1Squared(b.clone()), norm, translation])
+            Hamiltonian::new(vec![
+                Invariant::Casimir2(a.clone()),
+                Invariant::Casimir1Squared(b.clone()),
+                norm,
+                translation,
+            ])
         };
         for (hamiltonian, terms) in [
             (

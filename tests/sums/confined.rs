@@ -4,10 +4,12 @@ use affine_oracle::{
     Constraint, Differential, Kinetic, Matrix as Exact, Place, Random, Rational, Term, rational,
 };
 use affine_runtime::prelude::*;
+use affine_runtime::simulate::Reason;
+use affine_runtime::{Error, error::IllPosed};
 
 use crate::drawn::Coefficients;
 use crate::group::none;
-use crate::tolerances::{MIXED, UNDER_POTENTIAL};
+use crate::tolerances::{DEGENERATION, MIXED, UNDER_POTENTIAL};
 
 /// Rounding errors of the factorisation, and of gradients in `f64`.
 const ROUNDING: f64 = MIXED + UNDER_POTENTIAL;
@@ -138,4 +140,50 @@ drawn! { ROUNDING;
             Term::BodyInertia(&Exact::unit(2, 0, 0).scaled(&square(&v, "b")) + &Exact::unit(2, 1, 1)),
             Term::SpaceTensor(planar_tensor()), Term::FlatTensor(planar_tensor()),
         ], none;
+}
+
+/// `T = 1/2 tr(phi_dot phi_dot^T) - a/2 tr Oh^2` with `det phi = 1`: along `phi = diag(e^s, e^-s)` it is
+/// `(cosh 2s - a) s'^2`, which degenerates at `cosh 2s = a`.
+#[affine_model(dim = 2, constraint = isochoric, kinetic(dalembert = 1, casimir2 = -a))]
+struct Pinched {
+    a: f64,
+}
+
+fn stretched(s: f64) -> Matrix<2> {
+    Matrix::<2>::new(s.exp(), 0.0, 0.0, (-s).exp())
+}
+
+/// The place is reached after `integral of sqrt((cosh 2s - a)/E) ds`, `s = s* + u^2`, by Simpson's rule.
+#[test]
+fn a_degenerate_mass_matrix_ends_the_run() {
+    let (a, s0, speed) = (1.25_f64, 1.0_f64, -0.8_f64);
+    let model = Pinched { a }.prepare().unwrap();
+    let shape = Matrix::<2>::new(1.0, 0.0, 0.0, -1.0);
+    let start = model.at_velocity(stretched(s0), stretched(s0) * shape * speed).unwrap();
+    let energy = ((2.0 * s0).cosh() - a) * speed * speed;
+    assert!((model.hamiltonian(0.0, &start) - energy).abs() <= 1e-13 * energy);
+    let place = a.acosh() / 2.0;
+    let (last, panels) = ((s0 - place).sqrt(), 1000_u32);
+    let slope = |u: f64| (((2.0 * (place + u * u)).cosh() - a).max(0.0) / energy).sqrt() * 2.0 * u;
+    let h = last / f64::from(panels);
+    let panel = |k: u32| {
+        let u = h * f64::from(k);
+        (slope(u) + 4.0 * slope(u + h / 2.0) + slope(u + h)) * h / 6.0
+    };
+    let time: f64 = (0..panels).map(panel).sum();
+    let halt = Simulation::new(&model, start).until(2.0 * time).tolerance(1e-12).run().unwrap_err();
+    let Reason::Degenerate { t, .. } = halt.stop.reason else { panic!("{}", halt.stop) };
+    assert!((t - time).abs() <= DEGENERATION * time, "{t} of {time}");
+}
+
+/// A start where the mass matrix on the Lie algebra is degenerate is refused.
+#[test]
+fn a_degenerate_start_is_refused() {
+    let model = Pinched { a: 1.0 }.prepare().unwrap();
+    let zero = Matrix::<2>::zeros();
+    let refused = model.at_momentum(stretched(0.0), Comoving(zero)).unwrap_err();
+    assert!(matches!(refused, Error::IllPosed(IllPosed { condition: "det K(phi) != 0", .. })), "{refused}");
+    assert!(model.at_velocity(stretched(0.0), zero).is_err());
+    assert!(model.at_velocity(stretched(0.5), zero).is_ok());
+    assert!(matches!(model.at_velocity(stretched(0.0) * 2.0, zero), Err(Error::OffConstraint { .. })));
 }

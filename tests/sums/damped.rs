@@ -261,7 +261,9 @@ mod fields_beside_sums {
             stirred::<3>(&at),
             blown(&at),
             under(&at, |place| {
-                place.green(1, 1).power(2) * 0.75 + place.trace_green() * 0.5 + place.distance().power(2) * 0.5
+                place.green(1, 1).power(2) * 0.75
+                    + place.trace_green() * 0.5
+                    + place.distance().power(2) * 0.5
             }),
         ];
         let mut sum = (vec![0.0; 3], vec![0.0; 9]);
@@ -287,9 +289,13 @@ mod fields_beside_sums {
                 expected.assert_rate(name, rate, ROUNDING);
             }
             assert_reduced_equations_move(&model, &point, ROUNDING, |t, state| reference(&kinetic, t, state));
-            let run = Simulation::new(&model, point).from(T0).until(T0 + 0.25).tolerance(1e-12).run().unwrap();
+            let run =
+                Simulation::new(&model, point).from(T0).until(T0 + 0.25).tolerance(1e-12).run().unwrap();
             let balance = run.power_balance().unwrap();
-            assert!(balance.relative() <= POWER_BALANCE && balance.work.abs() > 1e-4 * balance.scale, "{balance}");
+            assert!(
+                balance.relative() <= POWER_BALANCE && balance.work.abs() > 1e-4 * balance.scale,
+                "{balance}"
+            );
         }
     }
 }

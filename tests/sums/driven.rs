@@ -95,6 +95,7 @@ fn methods_that_take_the_equations_apart() {
     #[affine_model(dim = 2, emit(splitting), kinetic(dalembert = 1.5), potential = tr(G)/2*(2 + cos(t)))]
     struct Split;
     let [phi, pi] = state(6320);
-    let run = Simulation::new(&Split, Split.at_momentum(phi, TwoPoint(pi)).unwrap()).until(0.5).run().unwrap();
+    let run =
+        Simulation::new(&Split, Split.at_momentum(phi, TwoPoint(pi)).unwrap()).until(0.5).run().unwrap();
     assert!(run.power_balance().is_none());
 }

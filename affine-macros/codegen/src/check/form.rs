@@ -84,7 +84,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     let stated = lower::terms(&mut arena, spec.dim.value, &spec.kinetic);
     let (places, terms): (Vec<usize>, Vec<Term>) = stated.iter().cloned().unzip();
     // Symmetries are those of the energy as stated, on all of GL(n), where its terms may have different frames.
-    let free = spec.constraint.as_ref().map(|_| Mixed::new(&mut arena, spec.dim.value, &terms, Frame::Body, None));
+    let free =
+        spec.constraint.as_ref().map(|_| Mixed::new(&mut arena, spec.dim.value, &terms, Frame::Body, None));
     let (own_places, kinetic) = confined(&mut arena, spec, stated)
         .filter(|(_, kinetic)| !kinetic.internal.is_empty())
         .ok_or_else(|| found.report(spec.kinetic_key, FormMistake::NoKineticEnergy))?;

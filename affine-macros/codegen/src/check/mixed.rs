@@ -72,8 +72,8 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
     }
     .into_iter()
     .unzip();
-    let mut sums =
-        [Frame::Body, Frame::Space].map(|casimirs| Mixed::new(&mut arena, spec.dim.value, &terms, casimirs, group));
+    let mut sums = [Frame::Body, Frame::Space]
+        .map(|casimirs| Mixed::new(&mut arena, spec.dim.value, &terms, casimirs, group));
     let hessian = match sums[0].internal.as_slice() {
         [one] if group.is_none() => {
             let hessian = Hessian::new(one);

@@ -58,7 +58,8 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
     let systems = body.systems(arena, &chart)?;
     // The plain array has no place for the work.
     let workless = |system: &System| System { work: None, ..system.clone() };
-    let ways: Vec<Batch> = systems.iter().map(|system| batch(arena, &workless(system).tidied(arena))).collect();
+    let ways: Vec<Batch> =
+        systems.iter().map(|system| batch(arena, &workless(system).tidied(arena))).collect();
     let time = body.time(arena);
     let full = shortest(arena, &chart, &ways, time, &mut coefficients);
     let (conserved, conserved_at_rest, rotations) = body.conserved(arena, &chart)?;
@@ -271,11 +272,7 @@ impl Body<'_> {
     }
 
     /// What is conserved, what is with `p = 0`, and whether rotations of space leave the motion and the forces unchanged.
-    fn conserved(
-        &self,
-        arena: &mut Arena,
-        chart: &Chart,
-    ) -> Option<(Vec<Candidate>, Vec<Candidate>, bool)> {
+    fn conserved(&self, arena: &mut Arena, chart: &Chart) -> Option<(Vec<Candidate>, Vec<Candidate>, bool)> {
         let still = self.chart(arena, false);
         let (slopes, mut shared) = match &self.inner {
             Inner::Varying(internal) => {
@@ -305,7 +302,8 @@ impl Body<'_> {
                 at_rest.clone_from(&moving);
             }
         }
-        let rotations = moving.contains(&Candidate::TotalAngularMomentum) && self.forces.are_isotropic_in_space();
+        let rotations =
+            moving.contains(&Candidate::TotalAngularMomentum) && self.forces.are_isotropic_in_space();
         if !self.forces.is_empty() {
             let centre = self.centre_velocity(arena);
             shared.extend(self.velocity_names(arena, chart).shared);

@@ -61,7 +61,12 @@ impl GroupPoint {
     }
 
     /// Its values by name.
-    pub(super) fn values(arena: &Arena, chart: &Chart, group: Constraint, seed: usize) -> HashMap<String, Residue> {
+    pub(super) fn values(
+        arena: &Arena,
+        chart: &Chart,
+        group: Constraint,
+        seed: usize,
+    ) -> HashMap<String, Residue> {
         Self::new(arena, chart, group, seed).values
     }
 

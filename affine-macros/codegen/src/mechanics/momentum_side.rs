@@ -94,7 +94,8 @@ impl Stated {
     pub fn vanishing(&self, arena: &mut Arena) -> Vec<usize> {
         let on_momenta = Kinetic { constraint: self.constraint, ..self.on_momenta(arena) };
         let parts = on_momenta.internal.iter();
-        let alone = |part: &(usize, Polynomial)| Kinetic { internal: vec![part.clone()], ..on_momenta.clone() };
+        let alone =
+            |part: &(usize, Polynomial)| Kinetic { internal: vec![part.clone()], ..on_momenta.clone() };
         parts.filter(|part| Hessian::new(&alone(part)).is_zero()).map(|(place, _)| *place).collect()
     }
 

@@ -93,7 +93,9 @@ impl Shared<'_> {
         let Some(linear) = chart.linear else { return Vec::new() };
         let (own, inverse_mass) = match centre {
             CentreVelocity::Fixed => return Vec::new(),
-            CentreVelocity::Defined { x_dot, .. } => return x_dot.iter().map(|v| Polynomial::atom(*v)).collect(),
+            CentreVelocity::Defined { x_dot, .. } => {
+                return x_dot.iter().map(|v| Polynomial::atom(*v)).collect();
+            }
             CentreVelocity::PerMass(own, inverse_mass) => (own, inverse_mass),
         };
         let phi = atoms(&chart.phi);

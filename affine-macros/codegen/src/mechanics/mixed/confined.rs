@@ -61,12 +61,9 @@ impl Confined {
         let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
         // The momentum conjugate to Oh_ab is Sigma_hat_ba.
         let conjugate = chart.m.transpose().0.concat();
-        let momenta: Vec<Polynomial> = basis
-            .iter()
-            .map(|e| along(e, |k| Polynomial::atom(conjugate[k])).substitute(&value))
-            .collect();
-        let speeds: Vec<Expr> =
-            (1..=basis.len()).map(|k| arena.symbol(&format!("speed_{k}"))).collect();
+        let momenta: Vec<Polynomial> =
+            basis.iter().map(|e| along(e, |k| Polynomial::atom(conjugate[k])).substitute(&value)).collect();
+        let speeds: Vec<Expr> = (1..=basis.len()).map(|k| arena.symbol(&format!("speed_{k}"))).collect();
         factorisation.solve(arena, "", &momenta, &speeds, &mut shared);
         let velocity = Matrix::symbols(arena, Frame::Body.velocity_name(), n);
         for (k, symbol) in velocity.0.concat().into_iter().enumerate() {
@@ -236,9 +233,8 @@ impl Placed {
     fn new(arena: &mut Arena, n: usize, group: Constraint) -> Self {
         let symbols = Matrix::symbols(arena, "phi", n);
         let phi = atoms(&symbols);
-        let unit = |value: &Polynomial| {
-            table(n, |a, b| if a == b { value.clone() } else { Polynomial::zero() })
-        };
+        let unit =
+            |value: &Polynomial| table(n, |a, b| if a == b { value.clone() } else { Polynomial::zero() });
         let one = Polynomial::constant(Rational::ONE);
         match group {
             Constraint::Rigid => Self {
@@ -288,9 +284,9 @@ impl Placed {
         let form = hessian(part);
         let n = part.dim;
         match part.frame {
-            Frame::Body => table(basis.len(), |k, l| {
-                along(&basis[k], |a| along(&basis[l], |b| form[a][b].clone()))
-            }),
+            Frame::Body => {
+                table(basis.len(), |k, l| along(&basis[k], |a| along(&basis[l], |b| form[a][b].clone())))
+            }
             Frame::Flat if same_blocks(&form, n) => {
                 let inertia = table(n, |a, b| form[a][b].clone());
                 self.by_rows(&inertia, true, basis)
@@ -368,8 +364,12 @@ impl Placed {
         let n = part.dim;
         let form = hessian(part);
         let oh = atoms(&Matrix::symbols(arena, Frame::Body.velocity_name(), n));
-        let fresh: Definitions =
-            self.shared.iter().filter(|(s, _)| !shared.iter().any(|(known, _)| known == s)).cloned().collect();
+        let fresh: Definitions = self
+            .shared
+            .iter()
+            .filter(|(s, _)| !shared.iter().any(|(known, _)| known == s))
+            .cloned()
+            .collect();
         shared.extend(fresh);
         if same_blocks(&form, n) {
             let j = table(n, |a, b| form[a][b].clone());

@@ -175,10 +175,8 @@ pub fn confined_equations(
     let mut parts: Vec<(&str, &str)> = Vec::new();
     let mut rate: Vec<(String, String)> = Vec::new();
     if has(Frame::Body) {
-        momenta.push(formula(
-            "X = (dT_body/dOmega_hat)^T",
-            "X = (\\partial T_{body}/\\partial\\hat\\Omega)^T",
-        ));
+        momenta
+            .push(formula("X = (dT_body/dOmega_hat)^T", "X = (\\partial T_{body}/\\partial\\hat\\Omega)^T"));
         parts.push(("X", "X"));
         rate.push(("+ [X, Omega_hat]".into(), "+ [X, \\hat\\Omega]".into()));
     }
@@ -232,11 +230,7 @@ pub fn confined_equations(
 
 /// The velocity of the centre of mass and the balance of `p`.
 #[must_use]
-pub fn centre_equations(
-    masses: &Masses,
-    potential: Option<&Potential>,
-    names: &ForceNames,
-) -> Vec<Formula> {
+pub fn centre_equations(masses: &Masses, potential: Option<&Potential>, names: &ForceNames) -> Vec<Formula> {
     let velocity = match (masses.body.is_some(), masses.space.is_some()) {
         (false, false) => return Vec::new(),
         (true, false) => formula("dx/dt = phi phi^T p / m", "\\dot x = \\varphi\\varphi^T p / m"),
