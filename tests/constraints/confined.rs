@@ -6,6 +6,7 @@ use affine_oracle::{
 };
 use affine_runtime::Error;
 use affine_runtime::frames::inverse;
+use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
 

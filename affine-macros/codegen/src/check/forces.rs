@@ -4,9 +4,10 @@ use super::frames;
 use crate::diagnostics::{Diagnostics, ForceMistake, Region};
 use crate::spec::{Capability, Constraint, Custom, MomentumKind, Spec, TermKind};
 
-/// The forces are derived, and what they leave conserved is decided, in orthonormal bases, projected under a constraint. The equations of an isochoric body with `dalembert` are those without
-/// the constraint, to which the method adds the multiplier: there potentials of fields stand as well, but nothing that
-/// depends on the velocity. What is emitted beyond the equations is derived from formulas alone.
+/// The forces are derived, and what they leave conserved is decided, in orthonormal bases, projected under a constraint.
+/// The equations of an isochoric body with `dalembert` are those without the constraint, to which the method adds the
+/// multiplier: there potentials of fields stand as well, but nothing that depends on the velocity. What is emitted beyond
+/// the equations is derived from formulas alone.
 pub(super) fn stand_alone(spec: &Spec, found: &mut Diagnostics) {
     let damping = spec.dissipation.first().map(|term| Force {
         name: "dissipation(...)".to_owned(),
