@@ -171,6 +171,18 @@ families! {
         potential = tr(G)/2 - ln(det)";
     balance_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2), potential = tr(G)/2 + x[1], \
         emit(balance)";
+    rigid_hamiltonian_3: "dim = 3, constraint = rigid, \
+        hamiltonian(casimir2 = 5/6, vorticity_squared = 25/24, space_translation = 1/2), potential = 0.7*phi[3,3]";
+    mixed_damped_2: "dim = 2, kinetic(dalembert = 2, casimir2 = 0.2, body_translation = 1, space_translation = 2), \
+        potential = tr(G)/2, dissipation(space_inertia = 0.5, dalembert = diag(1, 2), body_translation = 0.25)";
+    driven_2: "dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1), \
+        potential = hyperbolic_dilatation(10) + (2 + cos(3*t))*neo_hookean(0.5)";
+    driven_by_time_alone_2: "dim = 2, kinetic(dalembert = 1), potential = cos(t)";
+    rigid_sum_3: "dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 1.5, 2), space_inertia = diag(2, 1, 1)), \
+        potential = 0.7*phi[3,3]";
+    isochoric_sum_2: "dim = 2, constraint = isochoric, kinetic(dalembert = diag(1, 2), casimir2 = 0.2)";
+    conformal_sum_2: "dim = 2, constraint = conformal, kinetic(dalembert = diag(1, 2), body_inertia = diag(2, 1), \
+        body_translation = 2)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.

@@ -111,7 +111,10 @@ use proc_macro::TokenStream;
 /// of the identity. The energy is inverted there, the affine spin is the part of it that acts there (a matrix of the
 /// same kind), and only the eigenvalues on the directions left free have to differ from zero: `I+A`, `I-A` (isochoric),
 /// `I-A` (rigid), `I-A`, `I+A+nB` (conformal). `dalembert` is `body_inertia` under `rigid` and `D^2` times that under
-/// `conformal`; under `isochoric` Hamilton's equations are those of `(phi, Pi)` without the force of the multiplier. A term that
+/// `conformal`; under `isochoric` Hamilton's equations are those of `(phi, Pi)` without the force of the multiplier. Terms of
+/// different frames, and `flat_tensor`, have a mass matrix on the Lie algebra that depends on `phi`, factorised as without the
+/// constraint; what is the same on the group counts as one frame, as scalar inertias of body and space where `phi` is a rotation
+/// up to scale. A Hamiltonian stands for the energy of its velocities, restricted to those that are left free. A term that
 /// vanishes on the group and a potential that is constant there are mistakes; a symmetry is claimed of the energy
 /// without the constraint. Starting points off the constraint by more than 32 roundings times the condition of `phi`
 /// are refused with their defect.
@@ -129,9 +132,10 @@ use proc_macro::TokenStream;
 /// the energy then stays conserved.
 ///
 /// Under a constraint the forces are projected to its group. Dissipation and fields are refused beside `casimir3`,
-/// terms of different frames, `group = unitary`, `emit(splitting)`, `emit(nystrom)` and `emit(two_polar)`, fields
-/// also beside `emit(taylor)`; `constraint = isochoric` of `dalembert`, which a multiplier keeps, takes only potentials. Beside
-/// forces the power of a potential that contains `t` is part of the balance of energy.
+/// `group = unitary`, `emit(splitting)`, `emit(nystrom)` and `emit(two_polar)`, fields also beside `emit(taylor)`;
+/// `constraint = isochoric` of `dalembert`, which a multiplier keeps, takes only potentials. The power `dU/dt` of a potential
+/// that contains `t` is part of the balance of energy, with forces or alone, but beside `emit(splitting)`, `emit(nystrom)`
+/// and that multiplier.
 ///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
 /// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`; the signature

@@ -42,8 +42,8 @@ pub trait Model<const N: usize> {
     /// The Hamiltonian `H` of a phase point at time `t`, which only a potential that contains the time reads.
     fn hamiltonian<T: Real>(&self, t: T, point: &Self::Point<T>) -> T;
 
-    /// The power of the forces that no potential has, `-2 R` of a dissipation function `R`, and beside them `dU/dt` at rest
-    /// of a potential that contains the time: `dH/dt`. Zero for a model without such forces.
+    /// The power of the forces that no potential has, `-2 R` of a dissipation function `R`, and `dU/dt` at rest of a
+    /// potential that contains the time: `dH/dt`. Zero for a model without either.
     fn power<T: Real>(&self, _t: T, _point: &Self::Point<T>) -> T {
         T::zero()
     }

@@ -2,8 +2,7 @@
 //! energy, with and without potential and translation, n = 2 and 3.
 
 use affine_oracle::{
-    Constraint, Differential, Kinetic, Matrix as Exact, Motion, Observable, Place, Random, Slopes, State,
-    Term, rational,
+    Constraint, Differential, Kinetic, Matrix as Exact, Motion, Place, Slopes, State, Term, rational,
 };
 use affine_runtime::Error;
 use affine_runtime::frames::inverse;
@@ -11,12 +10,10 @@ use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
 
-use crate::charts::{T0, assert_charts_lead_back, assert_reduced_equations_move, exists, groups};
+use crate::charts::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
+use crate::group::{Start, assert_components, assert_listed, diagonal, none, off_the_group, starts};
 use crate::reference::{Reference, assert_close, entries, exact_state};
-use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, FREE_DILATATION, ON_THE_GROUP, UNDER_POTENTIAL};
-
-/// Points per model.
-const SAMPLES: u64 = 4;
+use crate::tolerances::{FREE_DILATATION, ON_THE_GROUP, UNDER_POTENTIAL};
 
 /// A constrained model, stated a second time for the oracle.
 trait Confined<const N: usize>: Model<N> + Sized {
@@ -59,47 +56,6 @@ trait Confined<const N: usize>: Model<N> + Sized {
     }
 }
 
-/// A placement on the group, a matrix `spin` of its algebra, position and momentum of the centre.
-#[derive(Clone, Copy)]
-pub(crate) struct Start<const N: usize> {
-    pub(crate) x: Vector<N>,
-    pub(crate) phi: Matrix<N>,
-    pub(crate) p: Vector<N>,
-    pub(crate) spin: Matrix<N>,
-}
-
-pub(crate) fn starts<const N: usize>(constraint: Constraint) -> impl Iterator<Item = Start<N>> {
-    (0..SAMPLES).map(move |seed| {
-        let mut random = Random::new(77 + seed);
-        let mut square = || Matrix::<N>::from_row_slice(&random.matrix(N, N).to_f64());
-        let (a, b, spin) = (square() * 0.5, square() * 0.5, square());
-        let one = Matrix::<N>::identity();
-        let rotation = || {
-            let w = a - a.transpose();
-            (one - w).try_inverse().unwrap() * (one + w)
-        };
-        let phi = match constraint {
-            // Exact: products of triangular matrices of short binary fractions.
-            Constraint::Isochoric => {
-                (a.lower_triangle() - Matrix::<N>::from_diagonal(&a.diagonal()) + one)
-                    * (b.upper_triangle() - Matrix::<N>::from_diagonal(&b.diagonal()) + one)
-            }
-            Constraint::Rigid => rotation(),
-            Constraint::Conformal => rotation() * (1.25 + 0.5 * b[(0, 0)]),
-        };
-        let skew = (spin - spin.transpose()) * 0.5;
-        let mean = one * (spin.trace() / N as f64);
-        let spin = match constraint {
-            Constraint::Isochoric => spin - mean,
-            Constraint::Rigid => skew,
-            Constraint::Conformal => skew + mean,
-        };
-        let mut vector = || Vector::<N>::from_column_slice(&random.matrix(N, 1).to_f64());
-        let (x, p) = (vector(), vector());
-        Start { x, phi, p: if seed % 2 == 0 { p } else { Vector::<N>::zeros() }, spin }
-    })
-}
-
 /// Velocities, energies, Hamilton's equations, and the way back from velocities.
 fn agrees_with_the_oracle<const N: usize, M: Confined<N>>() {
     let model = M::body();
@@ -117,7 +73,7 @@ fn agrees_with_the_oracle<const N: usize, M: Confined<N>>() {
 
         let rates = model.hamilton_equations(T0, &model.flatten(&point));
         for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
-            assert_components(&reference, N, name, rate);
+            assert_components(&reference, N, name, rate, UNDER_POTENTIAL);
         }
 
         if M::MULTIPLIER {
@@ -145,23 +101,6 @@ fn assert_right_but_for_the_multiplier<const N: usize, M: Confined<N>>(
     let mean = Matrix::<N>::identity() * (sigma_dot.trace() / N as f64);
     reference.assert_rate("phi", &entries(&phi_dot), UNDER_POTENTIAL);
     reference.assert_rate("Sigma", &entries(&(sigma_dot - mean)), UNDER_POTENTIAL);
-}
-
-/// The components of a group of the plain array: of a projected momentum those that determine the others.
-pub(crate) fn assert_components(reference: &Reference, n: usize, name: &str, rate: &[f64]) {
-    let (expected, size) = reference.rate(name);
-    let independent: Vec<f64> = match (expected.len() == n * n, rate.len()) {
-        (true, len) if len == n * n - 1 => expected[..len].to_vec(),
-        (true, len) if len < n * n => {
-            let mut places: Vec<usize> = (0..n * n).filter(|k| k % n > k / n).collect();
-            if len > places.len() {
-                places.insert(0, 0);
-            }
-            places.into_iter().map(|k| expected[k]).collect()
-        }
-        _ => expected.to_vec(),
-    };
-    assert_close(name, rate, &independent, size, UNDER_POTENTIAL * reference.condition);
 }
 
 /// `expand` undoes `reduce`; its derivative along the reduced equations is the vector field of the oracle.
@@ -193,56 +132,17 @@ fn lists_are_exact<const N: usize, M: Confined<N>>() {
         let slopes = Slopes::of(M::potential, T0, &state.x.to_f64(), &state.phi.to_f64());
         slopes.x.iter().any(|slope| *slope != 0.0)
     };
-    assert_listed::<N, M>(&kinetic, M::DESCRIPTION.conserved, &states, M::TRANSLATION);
+    let motion = |state| kinetic.constrained_motion(M::CONSTRAINT, state, T0, M::potential).unwrap();
+    let motions: Vec<Motion> = states.iter().map(motion).collect();
+    let group = (M::CONSTRAINT, M::MULTIPLIER);
+    assert_listed(N, group, M::DESCRIPTION.conserved, &motions, M::TRANSLATION);
     if states.iter().any(held) {
         assert_eq!(M::DESCRIPTION.conserved_at_rest, M::DESCRIPTION.conserved);
     } else {
         let still: Vec<State> = states.iter().map(State::at_rest).collect();
-        assert_listed::<N, M>(&kinetic, M::DESCRIPTION.conserved_at_rest, &still, false);
+        let motions: Vec<Motion> = still.iter().map(motion).collect();
+        assert_listed(N, group, M::DESCRIPTION.conserved_at_rest, &motions, false);
     }
-}
-
-fn assert_listed<const N: usize, M: Confined<N>>(
-    kinetic: &Kinetic,
-    listed: &[Conserved],
-    states: &[State],
-    translation: bool,
-) {
-    let listed: Vec<Observable> =
-        listed.iter().map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap()).collect();
-    let motion = |state| kinetic.constrained_motion(M::CONSTRAINT, state, T0, M::potential).unwrap();
-    let motions: Vec<Motion> = states.iter().map(motion).collect();
-    for &observable in Observable::ALL {
-        if observable == Observable::Energy {
-            assert!(listed.contains(&observable));
-            continue;
-        }
-        let named =
-            exists(observable, N, translation) && !has_another_name(M::CONSTRAINT, M::MULTIPLIER, observable);
-        let rates = motions.iter().flat_map(|motion| motion.bracket(observable).unwrap().to_f64());
-        let largest = rates.fold(0.0, |largest: f64, rate| largest.max(rate.abs()));
-        assert!(
-            largest <= BRACKET_ZERO || largest > BRACKET_VISIBLE,
-            "{observable:?} undecided: {largest:e}"
-        );
-        assert_eq!(listed.contains(&observable), named && largest <= BRACKET_ZERO, "{observable:?} listed");
-    }
-}
-
-/// Is the observable, at the projected momentum, a number or another observable?
-pub(crate) fn has_another_name(constraint: Constraint, multiplier: bool, observable: Observable) -> bool {
-    use Observable as O;
-    let deviators = [O::Deviator, O::ComovingDeviator, O::DeviatorCasimir2, O::DeviatorCasimir3];
-    let more: &[Observable] = match constraint {
-        // Nothing of Pi but its part in the dual of the algebra is known to this comparison.
-        Constraint::Isochoric if multiplier => &[O::Casimir1],
-        Constraint::Isochoric => &[O::Casimir1],
-        Constraint::Rigid => {
-            &[O::AffineSpin, O::ComovingAffineSpin, O::Casimir1, O::Casimir2, O::Casimir3, O::VorticityNorm]
-        }
-        Constraint::Conformal => &[O::VorticityNorm],
-    };
-    deviators.contains(&observable) || more.contains(&observable)
 }
 
 /// What is off the group, off the algebra or off its dual is refused, with the size of the defect.
@@ -289,29 +189,11 @@ fn nothing_drifts<const N: usize, M: Confined<N>>() {
             }
         };
         let (_, end) = run.end();
-        let phi = end.phi();
-        let defect = match M::CONSTRAINT {
-            // ln det phi = n q
-            Constraint::Isochoric => end.mean_log_stretch(),
-            Constraint::Rigid => (phi.tr_mul(phi) - Matrix::<N>::identity()).norm(),
-            Constraint::Conformal => {
-                let green = phi.tr_mul(phi);
-                (green - Matrix::<N>::identity() * (green.trace() / N as f64)).norm() / green.norm()
-            }
-        };
+        let (phi, defect) = (end.phi(), off_the_group(M::CONSTRAINT, end));
         // A placement of condition c is on the group to c roundings.
         let condition = phi.norm() * inverse(phi).norm();
-        assert!(defect.abs() < ON_THE_GROUP * condition, "{defect:e} at {condition:e}");
+        assert!(defect < ON_THE_GROUP * condition, "{defect:e} at {condition:e}");
     }
-}
-
-pub(crate) fn none(_place: &Place) -> Differential {
-    Differential::constant(0.0)
-}
-
-pub(crate) fn diagonal(entries: &[i64]) -> Exact {
-    let n = entries.len();
-    (0..n).fold(Exact::zeros(n, n), |sum, a| &sum + &Exact::unit(n, a, a).scaled(&rational(entries[a], 2)))
 }
 
 /// Rows of quarters.

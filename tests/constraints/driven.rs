@@ -9,8 +9,8 @@ use affine_runtime::prelude::*;
 use crate::charts::{
     T0, assert_charts_lead_back, assert_reduced_equations_move, exists, groups, matrix, vector,
 };
-use crate::confined::{Start, assert_components, diagonal, has_another_name, none, starts};
 use crate::fields::{Fibre, Kneading, Spring, Stirring, Wind, blown, canonical, kneaded, stirred, under};
+use crate::group::{Start, assert_components, diagonal, has_another_name, none, starts};
 use crate::reference::{Reference, exact_state};
 use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, POWER_BALANCE, UNDER_POTENTIAL};
 
@@ -70,7 +70,7 @@ fn agrees_with_the_oracle<const N: usize, M: Driven<N>>() {
         let reference = M::reference(T0, &state);
         let rates = model.hamilton_equations(T0, &model.flatten(&point));
         for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
-            assert_components(&reference, N, name, rate);
+            assert_components(&reference, N, name, rate, UNDER_POTENTIAL);
         }
         let tolerance = UNDER_POTENTIAL * reference.condition;
         assert_charts_lead_back(&model, &point, &state, tolerance);

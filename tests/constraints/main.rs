@@ -16,4 +16,8 @@ mod reference;
 mod tolerances;
 
 mod confined;
+#[macro_use]
+mod drawn;
 mod driven;
+mod group;
+mod stated;

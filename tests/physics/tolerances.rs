@@ -21,6 +21,10 @@ pub(crate) const DAMPED: f64 = 2e-14;
 /// The balance of energy and work over a run at tolerance 1e-12: the errors of some hundred steps.
 pub(crate) const POWER_BALANCE: f64 = 1e-11;
 
+/// The same where the power depends on the time alone: the steps are those of the motion, which does not see it. Of order 8
+/// in steps of some hundredths.
+pub(crate) const UNSEEN_POWER: f64 = 1e-9;
+
 /// A closed form against integration, over a time in which the body turns or stretches by 1.5: errors of the
 /// integrator are eps per step, of the closed form eps times the norm of the exponents, of either times the growth of
 /// the motion. The largest error seen is 2e-13.

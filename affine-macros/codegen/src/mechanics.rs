@@ -26,7 +26,7 @@ pub mod potential;
 pub mod reduce;
 pub mod second_order;
 pub mod separation;
-mod shared;
+pub mod shared;
 pub mod splitting;
 pub mod symmetry;
 pub mod two_polar;

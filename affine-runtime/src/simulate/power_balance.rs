@@ -9,8 +9,8 @@ use crate::state::Phase;
 
 /// The balance `H(t) - H(t0) = W(t)`, `W` the integral of the power over time, along a trajectory.
 ///
-/// The power of a dissipation function `R` is `-2 R` (Goldstein, *Classical Mechanics*, section 1.5); beside such forces a
-/// potential that contains the time has the power `dU/dt` at rest. `W` is
+/// The power of a dissipation function `R` is `-2 R` (Goldstein, *Classical Mechanics*, section 1.5); a potential
+/// that contains the time has the power `dU/dt` at rest. `W` is
 /// integrated with the motion, as one more variable that the steps do not depend on, so that the balance closes to
 /// the error of the integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ impl PowerBalance {
 }
 
 impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
-    /// The balance of energy and work; `None` for a model without forces other than those of a potential, whose
+    /// The balance of energy and work; `None` for a model without forces other than those of a potential at rest, whose
     /// energy stands among what [`conservation`](Self::conservation) lists.
     #[must_use]
     pub fn power_balance(&self) -> Option<PowerBalance> {

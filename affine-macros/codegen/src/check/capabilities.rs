@@ -6,7 +6,7 @@ use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::mechanics::potential::Potential;
-use crate::spec::{Capability, Named, Spec, TermKind};
+use crate::spec::{Capability, Named, Spanned, Spec, TermKind};
 
 /// In ratios of stretches the lattice of the Casimirs is rational. What moves the places otherwise is not.
 pub(super) fn ratios(spec: &Spec, found: &mut Diagnostics) {
@@ -154,6 +154,20 @@ pub(super) fn one_frame(spec: &Spec, found: &mut Diagnostics) {
         let beside = "terms of different frames".to_owned();
         let why = "the mass matrix of the sum depends on phi, and phi'' on phi_dot";
         found.report(nystrom.span, CapabilityMistake::NotSecondOrder { beside, why });
+    }
+}
+
+/// Metric and acceleration are derived over all velocities: on a group the forms that are restricted to its Lie algebra
+/// depend on the placement, and have no names.
+pub(super) fn on_the_group(spec: &Spec, found: &mut Diagnostics) {
+    let asked = |c: &&Spanned<Capability>| matches!(c.value, Capability::Metric | Capability::Acceleration);
+    for capability in spec.emit.iter().filter(asked).filter(|_| spec.constraint.is_some()) {
+        let mistake = CapabilityMistake::CapabilityBeside {
+            capability: capability.value.name(),
+            beside: "a sum of frames under a constraint",
+            why: "it is derived over all of phi_dot, of which the constraint leaves a part that turns with phi",
+        };
+        found.report(capability.span, mistake);
     }
 }
 

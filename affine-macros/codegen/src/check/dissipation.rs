@@ -35,7 +35,8 @@ pub(super) fn nothing_vanishes(spec: &Spec, dissipation: &Dissipation, found: &m
                 let mistake = ConstraintMistake::VanishingTerm {
                     term: term.kind.value.name(),
                     constraint: constraint.value.name(),
-                    velocities: constraint.value.velocities(),
+                    of: "affine velocities",
+                    directions: constraint.value.velocities(),
                 };
                 found.report(term.kind.span, mistake);
             }

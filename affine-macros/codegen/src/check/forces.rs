@@ -4,10 +4,10 @@ use super::frames;
 use crate::diagnostics::{Diagnostics, ForceMistake, Region};
 use crate::spec::{Capability, Constraint, Custom, MomentumKind, Spec, TermKind};
 
-/// The forces are derived, and what they leave conserved is decided, for a mass matrix that is constant in one frame,
-/// projected under a constraint. The equations of an isochoric body with `dalembert` are those without
-/// the constraint, to which the method adds the multiplier: there potentials of fields stand as well, but nothing that
-/// depends on the velocity. What is emitted beyond the equations is derived from formulas alone.
+/// The forces are derived, and what they leave conserved is decided, in orthonormal bases, projected under a constraint.
+/// The equations of an isochoric body with `dalembert` are those without the constraint, to which the method adds the
+/// multiplier: there potentials of fields stand as well, but nothing that depends on the velocity. What is emitted beyond
+/// the equations is derived from formulas alone.
 pub(super) fn stand_alone(spec: &Spec, found: &mut Diagnostics) {
     let damping = spec.dissipation.first().map(|term| Force {
         name: "dissipation(...)".to_owned(),
@@ -41,7 +41,7 @@ impl Force {
 }
 
 /// What may be stated beside a force, and whether it is and refuses it.
-fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 8] {
+fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 7] {
     let emitted = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
     let cubic = |terms: &Vec<_>| {
         terms.iter().any(|term: &crate::spec::Term<MomentumKind>| term.kind.value == MomentumKind::Casimir3)
@@ -50,7 +50,6 @@ fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 8] {
         ("`constraint = isochoric` of `dalembert`", has_multiplier(spec) && !force.under_a_multiplier),
         ("`casimir3`", spec.hamiltonian.as_ref().is_some_and(cubic)),
         ("`group = unitary`", spec.group.is_some()),
-        ("terms of different frames", frames::are_mixed(spec)),
         ("`emit(taylor)`", emitted(Capability::Taylor) && !force.is_formula),
         ("`emit(splitting)`", emitted(Capability::Splitting)),
         ("`emit(nystrom)`", emitted(Capability::Nystrom)),
@@ -62,4 +61,5 @@ fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 8] {
 pub(super) fn has_multiplier(spec: &Spec) -> bool {
     spec.constraint.is_some_and(|constraint| constraint.value == Constraint::Isochoric)
         && spec.term(TermKind::Dalembert).is_some()
+        && !frames::are_mixed(spec)
 }

@@ -10,6 +10,7 @@ use crate::mechanics::forces::Forces;
 use crate::mechanics::hessian::{Block, Direction, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
 use crate::mechanics::metrics::{Metrics, Rebased};
+use crate::mechanics::mixed::Mixed;
 use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
@@ -90,34 +91,37 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         Some(metrics) => metrics.orthonormal(&mut arena, &stated, &mut rebased),
         None => stated.clone(),
     };
-    let kinetic = Kinetic::new(&mut arena, spec.dim.value, &terms)
-        .ok()
-        .filter(|k| !k.internal.is_empty())
+    // Symmetries are those of the energy as stated, on all of GL(n), where its terms may have different frames.
+    let free =
+        spec.constraint.as_ref().map(|_| Mixed::new(&mut arena, spec.dim.value, &terms, Frame::Body, None));
+    let placed = places.iter().copied().zip(terms).collect();
+    let (own_places, mut kinetic) = confined(&mut arena, spec, placed)
+        .filter(|(_, kinetic)| !kinetic.internal.is_empty())
         .ok_or_else(|| found.report(spec.kinetic_key, FormMistake::NoKineticEnergy))?;
-    let mut free = kinetic;
-    free.congruent = metrics.as_ref().and_then(|metrics| metrics.congruent(&mut arena, &free, &stated));
-    let kinetic = confined(&mut arena, spec, &free, &terms);
+    kinetic.congruent = metrics.as_ref().and_then(|metrics| metrics.congruent(&mut arena, &kinetic, &stated));
     let hessian = Hessian::new(&kinetic);
-    nothing_vanishes(spec, &kinetic, &places, found);
+    nothing_vanishes(spec, std::slice::from_ref(&kinetic), &own_places, found);
     invertible(spec, &hessian, found);
     positive(spec, &kinetic, &hessian, found);
-    // Symmetries are those of the energy as stated, on all of GL(n).
-    claims(spec, &free, |place| spec.kinetic[places[place]].kind.value.name(), found);
+    let free = free.map_or_else(|| vec![kinetic.clone()], |free| free.parts());
+    for part in &free {
+        claims(spec, part, |place| spec.kinetic[places[place]].kind.value.name(), found);
+    }
     let mut forces = forces(&mut arena, spec, kinetic.frame, (metrics.as_ref(), &mut rebased), found);
     found.verdict()?;
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
     let potential = potential(&mut arena, spec, kinetic.constraint, (metrics.as_ref(), &mut rebased), found);
-    forces.driven = driven(spec, &forces, potential.as_ref());
+    forces.driven = driven(spec, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
     super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
-    let space_group = largest_group(&free, Side::Space);
-    let body_group = largest_group(&free, Side::Body);
+    let group = |side: Side| free.iter().map(|part| largest_group(part, side)).min().unwrap_or(Group::Affine);
+    let (space_group, body_group) = (group(Side::Space), group(Side::Body));
     let unitary = spec.group.is_some();
-    let two_polar = unitary || two_polar::asked(spec, &free, &places, potential.as_ref(), found)?;
+    let two_polar = unitary || two_polar::asked(spec, &kinetic, &places, potential.as_ref(), found)?;
     Ok(Form {
         arena,
         kinetic,
@@ -147,6 +151,7 @@ fn momentum_form(
 ) -> Result<Form, Reported> {
     momentum_side::invertible(spec, &stated, found);
     momentum_side::positive(spec, &stated, found);
+    momentum_side::nothing_vanishes(&mut arena, spec, &stated, found);
     let on_momenta = stated.on_momenta(&mut arena);
     let name = |place: usize| {
         spec.hamiltonian.iter().flatten().nth(place).map_or("hamiltonian", |term| term.kind.value.name())
@@ -164,8 +169,8 @@ fn momentum_form(
     let hessian = Hessian::new(&kinetic);
     let space_group = largest_group(&on_momenta, Side::Space);
     let body_group = largest_group(&on_momenta, Side::Body);
-    let potential = potential(&mut arena, spec, None, (metrics.as_ref(), &mut rebased), found);
-    forces.driven = driven(spec, &forces, potential.as_ref());
+    let potential = potential(&mut arena, spec, kinetic.constraint, (metrics.as_ref(), &mut rebased), found);
+    forces.driven = driven(spec, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
     super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
@@ -193,7 +198,7 @@ fn momentum_form(
 }
 
 /// The forces besides those of the potential, the dissipation held against its rule.
-fn forces(
+pub(super) fn forces(
     arena: &mut Arena,
     spec: &Spec,
     own: Frame,
@@ -208,33 +213,41 @@ fn forces(
     forces
 }
 
-/// Is the work of a potential that depends on the time part of a balance of power? The kicks of the method that solves for
-/// a multiplier have no place for it.
-fn driven(spec: &Spec, forces: &Forces, potential: Option<&Potential>) -> bool {
-    let depends = potential.is_some_and(Potential::depends_on_time);
-    depends && !forces.is_empty() && !super::forces::has_multiplier(spec)
+/// Is the work of a potential that depends on the time, `dH/dt = dU/dt` at rest, part of the motion? The halves and kicks of
+/// the methods that take the equations apart have no place for it.
+pub(super) fn driven(spec: &Spec, potential: Option<&Potential>) -> bool {
+    let apart = [Capability::Splitting, Capability::Nystrom];
+    let taken_apart =
+        super::forces::has_multiplier(spec) || apart.iter().any(|c| super::capabilities::asked(spec, *c));
+    potential.is_some_and(Potential::depends_on_time) && !taken_apart
 }
 
-/// The energy of a motion that is confined to a group.
-fn confined(arena: &mut Arena, spec: &Spec, free: &Kinetic, terms: &[Term]) -> Kinetic {
-    let Some(constraint) = spec.constraint else { return free.clone() };
-    let group = lower::constraint(constraint.value);
-    // What has constant coefficients on GL(n) has them on a subgroup.
-    Kinetic::under(arena, free.dim, terms, Some(group)).unwrap_or_else(|_| free.clone())
+/// The energy of a motion that may be confined to a group, with the places of its terms; `None` without a common frame,
+/// which such energies have.
+fn confined(arena: &mut Arena, spec: &Spec, stated: Vec<(usize, Term)>) -> Option<(Vec<usize>, Kinetic)> {
+    let group = spec.constraint.as_ref().map(|constraint| lower::constraint(constraint.value));
+    let restated = match group {
+        Some(group) => group.restated(arena, stated),
+        None => stated,
+    };
+    let (places, terms): (Vec<usize>, Vec<Term>) = restated.into_iter().unzip();
+    Some((places, Kinetic::under(arena, spec.dim.value, &terms, group).ok()?))
 }
 
 /// Every term says something about the velocities that the constraint leaves free: `(tr Om)^2` is zero where they are
 /// traceless, and would be read by nobody.
-fn nothing_vanishes(spec: &Spec, kinetic: &Kinetic, places: &[usize], found: &mut Diagnostics) {
+pub(super) fn nothing_vanishes(spec: &Spec, parts: &[Kinetic], places: &[usize], found: &mut Diagnostics) {
     let Some(constraint) = spec.constraint else { return };
-    for (place, energy) in &kinetic.internal {
-        let alone = Kinetic { internal: vec![(*place, energy.clone())], ..kinetic.clone() };
+    let energies = parts.iter().flat_map(|part| part.internal.iter().map(move |energy| (part, energy)));
+    for (part, (place, energy)) in energies {
+        let alone = Kinetic { internal: vec![(*place, energy.clone())], ..part.clone() };
         if Hessian::new(&alone).is_zero() {
             let kind = spec.kinetic[places[*place]].kind;
             let mistake = ConstraintMistake::VanishingTerm {
                 term: kind.value.name(),
                 constraint: constraint.value.name(),
-                velocities: constraint.value.velocities(),
+                of: "affine velocities",
+                directions: constraint.value.velocities(),
             };
             found.report(kind.span, mistake);
         }

@@ -2,18 +2,24 @@
 
 use super::constant::constant;
 use crate::diagnostics::{Diagnostics, FormMistake};
-use crate::spec::{Claim, Spec, Term, TermKind};
+use crate::spec::{Claim, Constraint, Spec, Term, TermKind, Value};
 
 /// Where H is derived by inverting a matrix that depends on phi: the terms that are not exactly zero have constant
 /// coefficients in different velocities. Internal and translational ones are inverted apart, and count apart. The
-/// Casimirs have constant coefficients in Oh as well as in Om.
+/// Casimirs have constant coefficients in Oh as well as in Om. Under a constraint a flat tensor is a matrix that depends on
+/// phi by itself.
 pub(super) fn are_mixed(spec: &Spec) -> bool {
+    let constraint = spec.constraint.as_ref().map(|constraint| constraint.value);
+    let flat = |term: &&Term| term.kind.value == TermKind::FlatTensor && !is_zero(term, spec.dim.value);
+    if constraint.is_some() && spec.kinetic.iter().any(|term| flat(&term)) {
+        return true;
+    }
     let terms = |translation: bool| {
         let of_motion = move |term: &&Term| term.kind.value.is_translation() == translation;
         spec.kinetic.iter().filter(of_motion).filter(|term| !is_zero(term, spec.dim.value))
     };
     [false, true].into_iter().any(|translation| {
-        let frames: Vec<Frame> = terms(translation).map(|term| frame(term.kind.value)).collect();
+        let frames: Vec<Frame> = terms(translation).map(|term| frame(term, constraint)).collect();
         let has = |wanted: Frame| frames.contains(&wanted);
         let affine = has(Frame::Comoving) || has(Frame::Spatial) || has(Frame::Both);
         (has(Frame::Flat) && affine) || (has(Frame::Comoving) && has(Frame::Spatial))
@@ -33,7 +39,22 @@ enum Frame {
     Flat,
 }
 
-fn frame(kind: TermKind) -> Frame {
+fn frame(term: &Term, constraint: Option<Constraint>) -> Frame {
+    let scalar = matches!(term.value, Value::Scalar(_));
+    match (constraint, term.kind.value) {
+        // tr(Om Om^T) = tr(Oh Oh^T) where phi is a rotation up to scale, and G = 1 where it is one.
+        (Some(Constraint::Rigid | Constraint::Conformal), TermKind::BodyInertia | TermKind::SpaceInertia)
+            if scalar =>
+        {
+            Frame::Both
+        }
+        (Some(Constraint::Rigid), TermKind::Dalembert) => Frame::Comoving,
+        (Some(Constraint::Rigid), TermKind::BodyTranslation) => Frame::Spatial,
+        (_, kind) => unconfined(kind),
+    }
+}
+
+fn unconfined(kind: TermKind) -> Frame {
     match kind {
         TermKind::Casimir2 | TermKind::Casimir1Squared => Frame::Both,
         TermKind::BodyInertia | TermKind::BodyTensor | TermKind::BodyTranslation => Frame::Comoving,

@@ -3,9 +3,10 @@
 use crate::algebra::Arena;
 use crate::diagnostics::{CapabilityMistake, Diagnostics, FormMistake, Reported};
 use crate::lower;
+use crate::mechanics::forces::Forces;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
-use crate::mechanics::mixed::{Internal, Masses, Mixed};
+use crate::mechanics::mixed::{Confined, Internal, Masses, Mixed};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Group, Side};
 use crate::spec::{Capability, Named, Requirement, Spec};
@@ -28,6 +29,8 @@ pub struct MixedForm {
     pub body_group: Group,
     /// The potential energy.
     pub potential: Option<Potential>,
+    /// The forces that no potential has, and the potentials that fields compute.
+    pub forces: Forces,
     /// What else is emitted.
     pub quantities: Quantities,
 }
@@ -46,12 +49,10 @@ pub struct Positive {
 /// # Errors
 /// [`Reported`] if any rule is broken; all broken ones are in the bag.
 pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Reported> {
-    for (key, _) in [("constraint", spec.constraint.is_some()), ("metrics(...)", spec.has_metrics())]
-        .into_iter()
-        .filter(|(_, stated)| *stated)
-    {
-        found.report(spec.kinetic_key, FormMistake::SumBeside { key });
+    if spec.has_metrics() {
+        found.report(spec.kinetic_key, FormMistake::SumBeside { key: "metrics(...)" });
     }
+    let group = spec.constraint.as_ref().map(|constraint| lower::constraint(constraint.value));
     if let Some(lattice) = spec.emit.iter().find(|capability| capability.value == Capability::TwoPolar) {
         let part = "terms of different frames".to_owned();
         found.report(
@@ -60,13 +61,21 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
         );
     }
     super::capabilities::one_frame(spec, found);
+    super::capabilities::on_the_group(spec, found);
     let mut arena = Arena::new();
-    let (places, terms): (Vec<usize>, Vec<Term>) =
-        lower::terms(&mut arena, spec.dim.value, &spec.kinetic).into_iter().unzip();
-    let mut sums =
-        [Frame::Body, Frame::Space].map(|casimirs| Mixed::new(&mut arena, spec.dim.value, &terms, casimirs));
+    let stated = lower::terms(&mut arena, spec.dim.value, &spec.kinetic);
+    let (places, free): (Vec<usize>, Vec<Term>) = stated.iter().cloned().unzip();
+    let free = group.map(|_| Mixed::new(&mut arena, spec.dim.value, &free, Frame::Body, None));
+    let (own_places, terms): (Vec<usize>, Vec<Term>) = match group {
+        Some(group) => group.restated(&mut arena, stated),
+        None => stated,
+    }
+    .into_iter()
+    .unzip();
+    let mut sums = [Frame::Body, Frame::Space]
+        .map(|casimirs| Mixed::new(&mut arena, spec.dim.value, &terms, casimirs, group));
     let hessian = match sums[0].internal.as_slice() {
-        [one] => {
+        [one] if group.is_none() => {
             let hessian = Hessian::new(one);
             form::invertible(spec, &hessian, found);
             Some(hessian)
@@ -89,23 +98,34 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
     if !positive.internal {
         unproved(spec, &mixed, found);
     }
-    for part in mixed.parts() {
+    form::nothing_vanishes(spec, &mixed.internal, &own_places, found);
+    // Symmetries are those of the energy as stated, on all of GL(n).
+    let free = free.unwrap_or_else(|| mixed.clone());
+    for part in free.parts() {
         form::claims(spec, &part, |place| spec.kinetic[places[place]].kind.value.name(), found);
     }
+    let own = match (group, mixed.internal.as_slice()) {
+        (Some(_), _) => Frame::Body,
+        (None, [one]) => one.frame,
+        (None, _) => Frame::Flat,
+    };
+    let mut forces = form::forces(&mut arena, spec, own, (None, &mut Vec::new()), found);
     found.verdict()?;
     super::smooth::potential(&mut arena, spec, found);
     found.verdict()?;
-    let potential = form::potential(&mut arena, spec, None, (None, &mut Vec::new()), found);
+    let potential = form::potential(&mut arena, spec, group, (None, &mut Vec::new()), found);
+    forces.driven = form::driven(spec, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
     found.verdict()?;
     Ok(MixedForm {
         hessian,
         positive,
-        space_group: mixed.largest_group(Side::Space),
-        body_group: mixed.largest_group(Side::Body),
+        space_group: free.largest_group(Side::Space),
+        body_group: free.largest_group(Side::Body),
         mixed,
         potential,
+        forces,
         quantities: Quantities::of(spec),
         arena,
     })
@@ -114,7 +134,11 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
 /// The momentum determines the velocity at some placement: the mass matrix is not singular everywhere. Where along a
 /// motion it becomes so is for the run to notice.
 fn regular_somewhere(spec: &Spec, arena: &mut Arena, mixed: &Mixed, found: &mut Diagnostics) {
-    if Internal::new(arena, mixed).is_none() {
+    let singular = match mixed.constraint {
+        None => Internal::new(arena, mixed).is_none(),
+        Some(group) => Confined::new(arena, mixed, group).is_none(),
+    };
+    if singular {
         let names = spec.kinetic.iter().filter(|term| !term.kind.value.is_translation());
         let terms: Vec<&str> = names.map(|term| crate::spec::Named::name(term.kind.value)).collect();
         found.report(spec.kinetic_key, FormMistake::DegenerateSum { terms: terms.join(" + ") });

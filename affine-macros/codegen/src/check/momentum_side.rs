@@ -1,8 +1,8 @@
 //! The Hamiltonian as stated on the momentum side.
 
 use super::constant::constant;
-use crate::algebra::Polynomial;
-use crate::diagnostics::{Diagnostics, Directions, FormMistake, TermMistake};
+use crate::algebra::{Arena, Polynomial};
+use crate::diagnostics::{ConstraintMistake, Diagnostics, Directions, FormMistake, TermMistake};
 use crate::mechanics::hessian::Direction;
 use crate::mechanics::momentum_side::Stated;
 use crate::spec::{Expression, MomentumKind, Named, Requirement, Spec, Term, Value};
@@ -77,11 +77,13 @@ pub(super) fn invertible(spec: &Spec, stated: &Stated, found: &mut Diagnostics) 
         return;
     }
     let sum = stated.invariants();
-    for (direction, value) in stated.eigenvalues().into_iter().filter(|(_, value)| value.is_zero()) {
+    let eigenvalues = stated.eigenvalues();
+    let shears = eigenvalues.iter().any(|(direction, _)| *direction == Direction::Shear);
+    for (direction, value) in eigenvalues.into_iter().filter(|(_, value)| value.is_zero()) {
         // Without a norm, or without the other Casimir, these vanish with `casimir2`, which is reported.
         let alone = match direction {
-            Direction::Rotation => sum.skew.is_zero() && value == sum.casimir2,
-            Direction::Dilatation => sum.casimir1_squared.is_zero(),
+            Direction::Rotation => shears && sum.skew.is_zero() && value == sum.casimir2,
+            Direction::Dilatation => shears && sum.casimir1_squared.is_zero(),
             Direction::Shear | Direction::Entry => false,
         };
         if !alone {
@@ -89,6 +91,20 @@ pub(super) fn invertible(spec: &Spec, stated: &Stated, found: &mut Diagnostics) 
             let mistake = FormMistake::DegenerateHamiltonian { eigenvalue, numbers, directions };
             found.report(spec.kinetic_key, mistake);
         }
+    }
+}
+
+/// Every term says something about the momenta that the constraint leaves: `C(1)^2` is zero where they are traceless.
+pub(super) fn nothing_vanishes(arena: &mut Arena, spec: &Spec, stated: &Stated, found: &mut Diagnostics) {
+    let Some(constraint) = &spec.constraint else { return };
+    for term in stated.vanishing(arena).into_iter().filter_map(|place| terms(spec).nth(place)) {
+        let mistake = ConstraintMistake::VanishingTerm {
+            term: term.kind.value.name(),
+            constraint: constraint.value.name(),
+            of: "affine momenta",
+            directions: constraint.value.velocities(),
+        };
+        found.report(term.kind.span, mistake);
     }
 }
 

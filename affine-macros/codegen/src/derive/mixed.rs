@@ -4,24 +4,27 @@ mod checks;
 mod programs;
 
 use crate::algebra::bind::Constants;
-use crate::algebra::{Arena, Expr, Polynomial};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 use crate::check::MixedForm;
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::describe;
-use crate::mechanics::equations::{self, System, gradient, hamilton};
+use crate::mechanics::equations::{self, Load, System, gradient, hamilton};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic};
-use crate::mechanics::mixed::{self, Internal, Masses, Mixed};
+use crate::mechanics::loads::beside;
+use crate::mechanics::metric::Definitions;
+use crate::mechanics::mixed::{self, Confined, Factorisation, ForceNames, Internal, Masses, Mixed};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::{self, ClosedForm, Commuting, Reduction};
+use crate::mechanics::shared::CentreVelocity;
 use crate::optimise::Batch;
 
-use super::prepared::coefficient_program;
+use super::prepared::{coefficient_program, damping};
 use super::programs::{Pieces, Reduced, batch, shortest, shortest_reduction};
-use super::{Damping, Formulas, Model, VelocitySide, quantities};
+use super::{Formulas, Model, VelocitySide, quantities};
 
 /// The internal motion: of one frame, or of several.
 enum Inner {
@@ -29,23 +32,37 @@ enum Inner {
     Constant(Box<Kinetic>, Box<Hamiltonian>),
     /// Its mass matrix depends on `phi`.
     Varying(Box<Internal>),
+    /// The same of a motion that is confined to a group.
+    Confined(Box<Confined>),
 }
 
 /// Derives a model; `None` only for energies that the checks refuse.
 pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
-    let MixedForm { mut arena, mixed, hessian, positive, space_group, body_group, potential, quantities } =
-        form;
+    let MixedForm {
+        mut arena,
+        mixed,
+        hessian,
+        positive,
+        space_group,
+        body_group,
+        potential,
+        forces,
+        quantities,
+    } = form;
     let arena = &mut arena;
     let inner = Inner::new(arena, &mixed, hessian.as_ref())?;
-    let body = Body { inner, masses: Masses::of(&mixed), potential: potential.as_ref(), mixed: &mixed };
+    let masses = Masses::of(&mixed);
+    let body = Body { inner, masses, potential: potential.as_ref(), forces: &forces, mixed: &mixed };
     let mut coefficients = Constants::new("c");
     let chart = body.chart(arena, true);
     let systems = body.systems(arena, &chart)?;
-    let ways: Vec<Batch> = systems.iter().map(|system| batch(arena, system)).collect();
-    let time = potential.as_ref().and_then(Potential::time);
+    // The plain array has no place for the work.
+    let workless = |system: &System| System { work: None, ..system.clone() };
+    let ways: Vec<Batch> =
+        systems.iter().map(|system| batch(arena, &workless(system).tidied(arena))).collect();
+    let time = body.time(arena);
     let full = shortest(arena, &chart, &ways, time, &mut coefficients);
-    let (conserved, conserved_at_rest) = body.conserved(arena, &chart)?;
-    let rotations = conserved.contains(&Candidate::TotalAngularMomentum);
+    let (conserved, conserved_at_rest, rotations) = body.conserved(arena, &chart)?;
     let reductions = body.reductions(arena, rotations)?;
     let Reduced { reduction, equations: reduced, trajectory, fixed, .. } =
         shortest_reduction(arena, reductions, time, |_, _, _| Pieces::default(), &mut coefficients)?;
@@ -63,14 +80,14 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
     let signature = body.signature(hessian.as_ref(), positive, require_positive);
     Some(Model {
         dim: mixed.dim,
-        constraint: None,
-        projected: false,
+        constraint: mixed.constraint,
+        projected: mixed.constraint.is_some(),
         frame: body.inner.frame(),
         translation: body.translation(),
         conditions: body.conditions(arena, hessian.as_ref(), require_positive),
         numeric_blocks: body.numeric_blocks(arena, require_positive),
         coefficients: coefficient_program(arena, &coefficients),
-        damping: Damping::default(),
+        damping: damping(arena, &forces),
         velocity_side: Some(VelocitySide {
             legendre: programs.legendre,
             kinetic_energy: programs.kinetic_energy,
@@ -83,7 +100,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         acceleration,
         balance: None,
         hamiltonian: programs.hamiltonian,
-        power: None,
+        power: programs.power,
         full,
         reduced,
         reduction,
@@ -95,7 +112,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         conserved,
         conserved_at_rest,
         signature,
-        has_forces: potential.is_some(),
+        has_forces: potential.is_some() || !forces.is_empty(),
         groups: (space_group, body_group),
         metrics: None,
         two_polar: None,
@@ -109,6 +126,9 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
 
 impl Inner {
     fn new(arena: &mut Arena, mixed: &Mixed, hessian: Option<&Hessian>) -> Option<Self> {
+        if let Some(group) = mixed.constraint {
+            return Some(Self::Confined(Box::new(Confined::new(arena, mixed, group)?)));
+        }
         match (mixed.internal.as_slice(), hessian) {
             ([one], Some(hessian)) => {
                 let h = Hamiltonian::new(arena, one, hessian)?;
@@ -122,6 +142,16 @@ impl Inner {
         match self {
             Self::Constant(kinetic, _) => kinetic.frame,
             Self::Varying(_) => Frame::Flat,
+            Self::Confined(_) => Frame::Body,
+        }
+    }
+
+    /// The factorised mass matrix, where it depends on the placement.
+    fn factorised(&self) -> Option<(&Factorisation, &Definitions)> {
+        match self {
+            Self::Constant(..) => None,
+            Self::Varying(internal) => Some((&internal.factorisation, &internal.shared)),
+            Self::Confined(internal) => Some((&internal.factorisation, &internal.shared)),
         }
     }
 }
@@ -131,6 +161,7 @@ struct Body<'a> {
     inner: Inner,
     masses: Masses,
     potential: Option<&'a Potential>,
+    forces: &'a Forces,
     mixed: &'a Mixed,
 }
 
@@ -144,16 +175,77 @@ impl Body<'_> {
         }
     }
 
+    /// The time as a symbol, where any force depends on it.
+    fn time(&self, arena: &mut Arena) -> Option<Expr> {
+        self.potential.and_then(Potential::time).or_else(|| self.forces.time(arena))
+    }
+
+    /// How the velocity of the centre of mass is known to forces.
+    fn centre_velocity(&self, arena: &mut Arena) -> CentreVelocity {
+        if self.masses.are_none() {
+            return CentreVelocity::Fixed;
+        }
+        let mut symbols =
+            |stem: &str| (1..=self.mixed.dim).map(|i| arena.symbol(&format!("{stem}_{i}"))).collect();
+        let x_dot = symbols("x_dot");
+        CentreVelocity::Defined { x_dot, v_hat: self.masses.body.map(|_| symbols("v_hat")) }
+    }
+
+    /// The velocity `(dH/dM)^T` of the chart under the name that forces know, where the energy has another.
+    fn velocity_names(&self, arena: &mut Arena, chart: &Chart) -> Load {
+        let Inner::Varying(internal) = &self.inner else { return Load::default() };
+        let symbols = Matrix::symbols(arena, chart.momentum.velocity_name(), chart.dim).0.concat();
+        let values = internal.velocity.0.concat().into_iter().map(Polynomial::atom);
+        Load { shared: symbols.into_iter().zip(values).collect(), ..Load::default() }
+    }
+
+    /// What a potential and the forces add.
+    fn pushes(&self, arena: &mut Arena, chart: &Chart, potential: Option<&Potential>) -> Vec<Load> {
+        let centre = self.centre_velocity(arena);
+        let mut list = Vec::new();
+        if !self.forces.is_empty() {
+            list.push(self.velocity_names(arena, chart));
+        }
+        // Last: where it has a root of det phi, 1/det phi comes from that.
+        let mut loads = beside(arena, chart, &centre, potential, self.forces);
+        if potential.is_some() {
+            loads.rotate_left(1);
+        }
+        list.extend(loads);
+        list
+    }
+
     /// The chart of the internal motion with spatial `p`, or without translation.
     fn chart(&self, arena: &mut Arena, moving: bool) -> Chart {
         let linear = (moving && !self.masses.are_none()).then_some(Linear::Space);
-        Chart::new(arena, self.mixed.dim, Momentum::of(self.inner.frame()), linear)
+        let chart = Chart::new(arena, self.mixed.dim, Momentum::of(self.inner.frame()), linear);
+        chart.under(self.mixed.constraint)
+    }
+
+    /// What the motion of the centre of mass adds.
+    fn of_the_centre(&self, arena: &mut Arena, chart: &Chart) -> Option<Load> {
+        let load = self.masses.load(arena, chart)?;
+        Some(match chart.confined {
+            Some(group) => load.confined(arena, chart, group),
+            None => load,
+        })
     }
 
     /// Hamilton's equations of a chart, in each form that may be the shortest.
     fn systems(&self, arena: &mut Arena, chart: &Chart) -> Option<Vec<System>> {
+        self.systems_under(arena, chart, self.potential)
+    }
+
+    /// The same with another potential in place of its own.
+    fn systems_under(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        potential: Option<&Potential>,
+    ) -> Option<Vec<System>> {
         let internal = match &self.inner {
             Inner::Varying(internal) => vec![internal.system(arena, self.mixed, chart)],
+            Inner::Confined(internal) => vec![internal.system(arena, self.mixed, chart)],
             Inner::Constant(_, h) => {
                 let energy = h.internal();
                 let mut forms = vec![hamilton(arena, chart, &energy, equations::Form::ThroughVelocity)];
@@ -165,10 +257,9 @@ impl Body<'_> {
         };
         let mut loads = Vec::new();
         if chart.linear.is_some() {
-            loads.push(self.masses.load(arena, chart)?);
+            loads.push(self.of_the_centre(arena, chart)?);
         }
-        // Last: where it has a root of det phi, 1/det phi comes from that.
-        loads.extend(self.potential.iter().map(|u| u.load(arena, chart)));
+        loads.extend(self.pushes(arena, chart, potential));
         let joined = |mut system: System| {
             for load in &loads {
                 // What two of them use has one name.
@@ -180,16 +271,21 @@ impl Body<'_> {
         Some(internal.into_iter().map(joined).collect())
     }
 
-    /// What is conserved, and what is with `p = 0`.
-    fn conserved(&self, arena: &mut Arena, chart: &Chart) -> Option<(Vec<Candidate>, Vec<Candidate>)> {
+    /// What is conserved, what is with `p = 0`, and whether rotations of space leave the motion and the forces unchanged.
+    fn conserved(&self, arena: &mut Arena, chart: &Chart) -> Option<(Vec<Candidate>, Vec<Candidate>, bool)> {
         let still = self.chart(arena, false);
         let (slopes, mut shared) = match &self.inner {
             Inner::Varying(internal) => {
                 let system = internal.system(arena, self.mixed, &still);
                 (mixed::slopes_of(&system), system.shared)
             }
-            Inner::Constant(_, h) => (gradient(&still, &h.internal()), Vec::new()),
+            Inner::Confined(internal) => internal.slopes(arena, self.mixed, &still),
+            Inner::Constant(_, h) => {
+                let velocities = equations::velocities(arena, &still, &h.internal());
+                (gradient(&still, &h.internal()), velocities.concat())
+            }
         };
+        let resting = shared.clone();
         let mut at_rest = mixed::conserved(arena, &still, &slopes, &shared);
         let mut moving = at_rest.clone();
         if chart.linear.is_some() {
@@ -206,12 +302,29 @@ impl Body<'_> {
                 at_rest.clone_from(&moving);
             }
         }
-        Some((moving, at_rest))
+        let rotations =
+            moving.contains(&Candidate::TotalAngularMomentum) && self.forces.are_isotropic_in_space();
+        if !self.forces.is_empty() {
+            let centre = self.centre_velocity(arena);
+            shared.extend(self.velocity_names(arena, chart).shared);
+            moving = self.forces.keep_varying(arena, chart, (&centre, &shared), moving);
+            at_rest = match self.forces.push_from_rest() {
+                true => moving.clone(),
+                false => {
+                    let shared = [resting, self.velocity_names(arena, &still).shared].concat();
+                    let fixed = (&CentreVelocity::Fixed, &shared);
+                    self.forces.at_rest().keep_varying(arena, &still, fixed, at_rest)
+                }
+            };
+        }
+        Some((moving, at_rest, rotations))
     }
 
     /// `|p|^2/(2m)` commutes with what contains neither `x` nor `p`.
     fn drifts(&self) -> Option<Expr> {
-        let free = self.masses.body.is_none() && self.potential.is_none_or(|u| !u.moves_the_centre());
+        let free = self.masses.body.is_none()
+            && self.potential.is_none_or(|u| !u.moves_the_centre())
+            && self.forces.leave_the_centre();
         self.masses.space.filter(|_| free)
     }
 
@@ -234,7 +347,7 @@ impl Body<'_> {
     /// Geodesics with `p = 0` are those of the internal motion.
     fn closed_form(&self, arena: &mut Arena) -> Option<(ClosedForm, bool)> {
         let Inner::Constant(_, h) = &self.inner else { return None };
-        if self.potential.is_some() {
+        if self.potential.is_some() || !self.forces.is_empty() {
             return None;
         }
         let commuting = reduce::commuting(arena, h, None, &Forces::default());
@@ -250,20 +363,29 @@ impl Body<'_> {
     ) -> Formulas {
         let (internal, mut equations) = match &self.inner {
             Inner::Varying(_) => {
-                let mut list = mixed::internal_equations(self.mixed, &self.masses, self.potential);
-                list.extend(mixed::centre_equations(&self.masses, self.potential));
+                let names = ForceNames::of(chart, self.forces);
+                let mut list = mixed::internal_equations(self.mixed, &self.masses, self.potential, &names);
+                list.extend(mixed::centre_equations(&self.masses, self.potential, &names));
                 (mixed::internal_hamiltonian(), list)
+            }
+            Inner::Confined(internal) => {
+                let names = ForceNames::of(chart, self.forces);
+                let pulls = (self.masses.body.is_some(), self.potential.is_some());
+                let mut list = mixed::confined_equations(self.mixed, internal.group, pulls, &names);
+                list.extend(mixed::centre_equations(&self.masses, self.potential, &names));
+                (mixed::confined_hamiltonian(), list)
             }
             Inner::Constant(_, h) => {
                 let system = describe::system(arena, &reduction.system);
                 (describe::hamiltonian(arena, h, &h.internal(), None, &Forces::default()), system)
             }
         };
-        let hamiltonian = mixed::hamiltonian(arena, internal, &self.masses, self.potential);
+        let hamiltonian = mixed::hamiltonian(arena, internal, &self.masses, self.potential, self.forces);
         let reduced = equations.clone();
         if matches!(self.inner, Inner::Constant(..)) {
             equations = self.systems(arena, chart).map_or_else(Vec::new, |s| describe::system(arena, &s[0]));
         }
+        equations.extend(self.forces.formulas(arena));
         let mut left_out = Vec::new();
         if self.masses.are_none() {
             left_out.push("x and p: the model has no translation".to_owned());

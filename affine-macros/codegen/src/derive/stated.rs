@@ -19,13 +19,14 @@ pub(super) fn conditions(arena: &mut Arena, stated: &Stated, positive: bool) -> 
         (false, Frame::Space) => "2 spin_squared - casimir2",
         (false, _) => "2 vorticity_squared - casimir2",
     };
-    let mut values: Vec<(&'static str, &'static str, Polynomial)> = stated
-        .eigenvalues()
+    let eigenvalues = stated.eigenvalues();
+    let shears = eigenvalues.iter().any(|(direction, _)| *direction == Direction::Shear);
+    let mut values: Vec<(&'static str, &'static str, Polynomial)> = eigenvalues
         .into_iter()
         .filter_map(|(direction, value)| {
             let (name, directions) = match direction {
                 // Without a norm it is the eigenvalue on shears but for its sign, which the former decides.
-                Direction::Rotation if rotation == "-casimir2" && !positive => return None,
+                Direction::Rotation if rotation == "-casimir2" && !positive && shears => return None,
                 Direction::Rotation => (rotation, "skew momenta (rotation)"),
                 Direction::Dilatation => {
                     ("casimir2 + n casimir1_squared", "multiples of the identity (dilatation)")

@@ -17,17 +17,10 @@ pub enum ConstraintMistake {
         term: &'static str,
         /// The constraint.
         constraint: &'static str,
-        /// What velocities are under it: `traceless`, `skew`.
-        velocities: &'static str,
-    },
-    /// An energy in `phi_dot` whose mass matrix depends on the placement under the constraint.
-    ConstrainedMassMatrix {
-        /// The term.
-        term: &'static str,
-        /// The constraint.
-        constraint: &'static str,
-        /// The group: `phi = e^q R with a rotation R`.
-        group: &'static str,
+        /// What it is a form of: `affine velocities`, `affine momenta`.
+        of: &'static str,
+        /// What they are under it: `traceless`, `skew`.
+        directions: &'static str,
     },
     /// A potential that is constant, or has no value, wherever the constraint holds.
     ConstrainedPotential {
@@ -43,7 +36,6 @@ pub enum ConstraintMistake {
 names! { ConstraintMistake
     ConstraintBeside => "constraint-beside",
     VanishingTerm => "vanishing-term",
-    ConstrainedMassMatrix => "constrained-mass-matrix",
     ConstrainedPotential => "constrained-potential",
 }
 
@@ -56,25 +48,20 @@ impl ConstraintMistake {
                     "metrics(...)" => {
                         "the group of a constraint is that of orthonormal bases, and points stand in others"
                     }
-                    _ => "under a constraint momenta are restricted, and T is known only from velocities",
+                    _ => {
+                        "the velocity is quadratic in the momentum: the momenta whose velocities the group leaves free form no \
+                         linear space"
+                    }
                 },
                 match *key {
                     "metrics(...)" => "state the model in orthonormal bases and leave out `metrics(...)`",
-                    _ => "state the energy in `kinetic(...)`",
+                    _ => "leave out `casimir3` or the constraint",
                 },
             ),
-            Self::VanishingTerm { term, constraint, velocities } => text(
+            Self::VanishingTerm { term, constraint, of, directions } => text(
                 format!("`{term}` is zero under `constraint = {constraint}`"),
-                format!("affine velocities are {velocities} there, and it is zero on all of them"),
+                format!("{of} are {directions} there, and it is zero on all of them"),
                 format!("remove `{term}` or the constraint"),
-            ),
-            Self::ConstrainedMassMatrix { term, constraint, group } => text(
-                format!("`{term}` has no constant mass matrix under `constraint = {constraint}`"),
-                format!(
-                    "phi_dot = phi Oh with {group}: as a form of Oh it depends on phi; of the energies in phi_dot only \
-                     `dalembert` goes with a constraint, of which at most D is left or a multiplier keeps det phi = 1"
-                ),
-                "write `dalembert`, or `body_tensor`, which is constant in Oh, or remove the constraint",
             ),
             Self::ConstrainedPotential { defect, constraint, group } => text(
                 format!("this potential {defect} under `constraint = {constraint}`"),

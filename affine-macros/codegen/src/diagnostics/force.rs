@@ -69,9 +69,6 @@ impl ForceMistake {
                         "what it leaves conserved is decided for velocities that are linear in the momenta"
                     }
                     "`group = unitary`" => "the lattice of U(n) is that of the Casimir terms alone",
-                    "terms of different frames" => {
-                        "what it leaves conserved is decided for a mass matrix that is constant in one frame"
-                    }
                     _ => "what is emitted there is derived from T and from potentials that are formulas",
                 },
                 "remove one of the two",

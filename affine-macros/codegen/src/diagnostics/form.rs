@@ -114,7 +114,7 @@ impl FormMistake {
             ),
             Self::SumBeside { key } => text(
                 format!("`{key}` does not go with terms of different frames in this version"),
-                "their sum has a mass matrix that depends on phi, and is derived on all of GL(n) in orthonormal bases",
+                "their sum has a mass matrix that depends on phi, and is derived in orthonormal bases",
                 format!("keep the terms of one frame, or remove `{key}`"),
             ),
             Self::Degenerate { eigenvalue, numbers, directions } => text(

@@ -14,9 +14,13 @@ pub(super) fn power(context: &Context) -> TokenStream {
     let time = time(program);
     let body = context.generic(program);
     let (lets, power) = (&body.lets, body.result());
-    let inward = context.inward();
+    // The power of a potential of the time alone is that at every point.
+    let (point, inward) = match bound.is_empty() {
+        true => (quote!(_point), TokenStream::new()),
+        false => (quote!(point), context.inward()),
+    };
     quote! {
-        fn power<#t: #rt::Real>(&self, #time: #t, point: &Self::Point<#t>) -> #t {
+        fn power<#t: #rt::Real>(&self, #time: #t, #point: &Self::Point<#t>) -> #t {
             #inward
             #bound
             #lets

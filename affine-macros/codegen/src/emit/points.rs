@@ -171,7 +171,7 @@ fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
         /// `OffConstraint` where placement, velocity or momentum violates the constraint by more than rounding.
     };
     if context.model.projected {
-        let confined = quote!(#rt::confined_point(#group, phi, spin, #centre));
+        let confined = mixed::regular(context, quote!(#rt::confined_point(#group, phi, spin, #centre)));
         return Confinement { off, from_momentum: confined.clone(), tangent, from_velocity: confined };
     }
     let from_momentum = quote! {

@@ -132,6 +132,7 @@ pub(super) fn conserved_at_points(
 ) -> Vec<Candidate> {
     let mut list = Candidate::ALL.to_vec();
     list.retain(|c| c.exists(chart.dim, chart.linear.is_some()));
+    list.retain(|c| chart.confined.is_none_or(|group| c.means_something(group)));
     for point in points {
         let flow = Flow::new(chart, slopes, point);
         list.retain(|c| flow.bracket(*c).iter().all(Ring::vanishes));

@@ -6,6 +6,8 @@
 //! here `P` commutes with conjugation by elements of `G`, so that `Sigma = phi Sigma_hat phi^-1` holds for the
 //! projected momenta too.
 
+mod terms;
+
 use crate::algebra::ring::{Ring, Square, deviator, table};
 use crate::algebra::{Expr, Matrix, Polynomial, Rational};
 

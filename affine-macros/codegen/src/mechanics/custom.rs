@@ -10,10 +10,9 @@ use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::conserved::Candidate;
 use super::equations::Load;
-use super::hamiltonian::Hamiltonian;
 use super::kinetic::Frame;
 use super::potential::TIME;
-use super::shared::{Shared, atoms, frame_of};
+use super::shared::{CentreVelocity, Shared, atoms, frame_of};
 
 /// A field that computes a force or a potential.
 #[derive(Clone, Debug)]
@@ -91,10 +90,10 @@ impl Class {
 
 impl Custom {
     /// What it adds to Hamilton's equations of a chart.
-    pub fn load(&self, arena: &mut Arena, chart: &Chart, h: &Hamiltonian) -> Load {
+    pub fn load(&self, arena: &mut Arena, chart: &Chart, velocity: &CentreVelocity) -> Load {
         let mut shared = Shared { arena, list: Vec::new() };
         let (kernel, affine, centre, work) = match self.role {
-            Role::Force { on, gyroscopic } => self.force(&mut shared, chart, h, on, gyroscopic),
+            Role::Force { on, gyroscopic } => self.force(&mut shared, chart, velocity, on, gyroscopic),
             Role::Potential { class, moves } => self.slopes(&mut shared, chart, class, moves),
         };
         let mut forces = Vec::new();
@@ -117,11 +116,18 @@ impl Custom {
         Load { shared: shared.list, kernels: vec![kernel], forces, work }
     }
 
-    fn force(&self, shared: &mut Shared, chart: &Chart, h: &Hamiltonian, on: On, gyroscopic: bool) -> Parts {
+    fn force(
+        &self,
+        shared: &mut Shared,
+        chart: &Chart,
+        centre: &CentreVelocity,
+        on: On,
+        gyroscopic: bool,
+    ) -> Parts {
         let n = chart.dim;
         let phi_dot = shared.phi_dot(chart);
         let phi_dot = shared.matrix("phi_dot", &phi_dot);
-        let x_dot = shared.x_dot(chart, h);
+        let x_dot = shared.x_dot(chart, centre);
         let mut arguments = placed(shared.arena, chart);
         arguments.push(Group::Vector(or_zero(x_dot.clone(), n)));
         arguments.push(Group::Matrix(phi_dot.clone()));

@@ -7,15 +7,14 @@
 mod invariance;
 
 use crate::algebra::ring::{Square, product, sum, table, times, transpose};
-use crate::algebra::{Arena, Matrix, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::equations::Load;
-use super::hamiltonian::Hamiltonian;
 use super::hessian::Hessian;
 use super::kinetic::{Coefficient, Frame, Kinetic, Term};
 use super::metrics::Metrics;
-use super::shared::{Shared, atoms, frame_of};
+use super::shared::{CentreVelocity, Shared, atoms, frame_of};
 
 /// A dissipation function.
 #[derive(Clone, Debug)]
@@ -102,10 +101,10 @@ impl Dissipation {
     }
 
     /// What it adds to Hamilton's equations of a chart, with its power `-2 R`.
-    pub fn load(&self, arena: &mut Arena, chart: &Chart, h: &Hamiltonian) -> Load {
+    pub fn load(&self, arena: &mut Arena, chart: &Chart, velocity: &CentreVelocity) -> Load {
         let mut shared = Shared { arena, list: Vec::new() };
         let (affine, mut power) = self.affine_force(&mut shared, chart);
-        let centre = self.centre_force(&mut shared, chart, h, &mut power);
+        let centre = self.centre_force(&mut shared, chart, velocity, &mut power);
         let mut forces = Vec::new();
         for (a, b) in (0..self.dim).flat_map(|a| (0..self.dim).map(move |b| (a, b))) {
             let mut force = affine[a][b].clone();
@@ -159,11 +158,17 @@ impl Dissipation {
         &self,
         shared: &mut Shared,
         chart: &Chart,
-        h: &Hamiltonian,
+        velocity: &CentreVelocity,
         power: &mut Polynomial,
     ) -> Vec<Polynomial> {
-        let (Some(linear), Some((own, inverse_mass))) = (chart.linear, &h.translation) else {
-            return Vec::new();
+        let Some(linear) = chart.linear else { return Vec::new() };
+        let (own, inverse_mass) = match velocity {
+            CentreVelocity::Fixed => return Vec::new(),
+            CentreVelocity::PerMass(own, inverse_mass) => (own, inverse_mass),
+            CentreVelocity::Defined { v_hat, .. } => {
+                let x_dot = shared.x_dot(chart, velocity);
+                return self.drag_on_centre(shared, chart, (&x_dot, v_hat.as_deref()), power);
+            }
         };
         let phi = atoms(&chart.phi);
         let p: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
@@ -200,6 +205,38 @@ impl Dissipation {
         }
         let force = shared.vector("drag_centre", &force);
         for (force, velocity) in force.iter().zip(&velocity) {
+            power.add_product(force, velocity, &Rational::ONE);
+        }
+        force
+    }
+
+    /// `Q_tr = -(c_space 1 + c_body phi^-T phi^-1) x_dot`. Adds its power.
+    fn drag_on_centre(
+        &self,
+        shared: &mut Shared,
+        chart: &Chart,
+        (x_dot, v_hat): (&[Polynomial], Option<&[Expr]>),
+        power: &mut Polynomial,
+    ) -> Vec<Polynomial> {
+        let mut force = vec![Polynomial::zero(); self.dim];
+        for (frame, coefficient) in &self.centre {
+            let slope = match frame {
+                Frame::Body => {
+                    let inverse = shared.inverse(&atoms(&chart.phi));
+                    let v_hat = match v_hat {
+                        Some(known) => known.iter().map(|v| Polynomial::atom(*v)).collect(),
+                        None => shared.vector("v_hat", &times(&inverse, x_dot)),
+                    };
+                    times(&transpose(&inverse), &v_hat)
+                }
+                _ => x_dot.to_vec(),
+            };
+            for (sum, slope) in force.iter_mut().zip(&slope) {
+                sum.add_product(slope, coefficient, &Rational::MINUS_ONE);
+            }
+        }
+        let force = shared.vector("drag_centre", &force);
+        for (force, velocity) in force.iter().zip(x_dot) {
             power.add_product(force, velocity, &Rational::ONE);
         }
         force

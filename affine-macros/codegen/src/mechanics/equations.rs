@@ -116,7 +116,7 @@ pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form)
 impl System {
     /// Under a constraint: rates of the affine momentum projected, and entries of momentum and velocity that are linear
     /// in others written through those.
-    fn confined(mut self, chart: &Chart, velocity: &Matrix) -> Self {
+    pub(super) fn confined(mut self, chart: &Chart, velocity: &Matrix) -> Self {
         let Some(group) = chart.confined else { return self };
         let rate = |a, b| {
             let found = self.rates.iter().find(|(z, _, _)| *z == Coordinate::M(a, b));
@@ -185,7 +185,15 @@ impl System {
             })
             .cloned()
             .collect();
-        let value = |atom: Expr| trivial.iter().find(|(s, _)| *s == atom).map(|(_, p)| p.clone());
+        let known = |atom: Expr| trivial.iter().find(|(s, _)| *s == atom).map(|(_, p)| p);
+        // One may stand for another.
+        let value = |atom: Expr| {
+            let mut value = known(atom)?;
+            while let Some(next) = value.terms().next().and_then(|(m, _)| known(*m.first()?)) {
+                value = next;
+            }
+            Some(value.clone())
+        };
         self = self.substitute(&value);
         self.shared.retain(|(s, _)| !trivial.iter().any(|(t, _)| t == s));
         loop {

@@ -10,7 +10,10 @@ use super::dissipation::Dissipation;
 use super::equations::Load;
 use super::hamiltonian::{Hamiltonian, Isotropic};
 use super::kinetic::Frame;
+use super::metric::Definitions;
+use super::mixed;
 use super::potential::TIME;
+use super::shared::CentreVelocity;
 
 /// The forces of a model besides those of its potential.
 #[derive(Clone, Debug, Default)]
@@ -31,10 +34,10 @@ impl Forces {
     }
 
     /// What they add to Hamilton's equations of a chart.
-    pub fn loads(&self, arena: &mut Arena, chart: &Chart, h: &Hamiltonian) -> Vec<Load> {
+    pub fn loads(&self, arena: &mut Arena, chart: &Chart, centre: &CentreVelocity) -> Vec<Load> {
         let mut loads: Vec<Load> =
-            self.dissipation.iter().map(|dissipation| dissipation.load(arena, chart, h)).collect();
-        loads.extend(self.customs.iter().map(|custom| custom.load(arena, chart, h)));
+            self.dissipation.iter().map(|dissipation| dissipation.load(arena, chart, centre)).collect();
+        loads.extend(self.customs.iter().map(|custom| custom.load(arena, chart, centre)));
         loads
     }
 
@@ -51,6 +54,20 @@ impl Forces {
             None => candidates,
             Some(dissipation) => dissipation.keeps(arena, chart, h, &candidates),
         }
+    }
+
+    /// The same for a mass matrix that depends on the placement; `shared` defines the velocities of the chart.
+    pub fn keep_varying(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        (centre, shared): (&CentreVelocity, &Definitions),
+        mut candidates: Vec<Candidate>,
+    ) -> Vec<Candidate> {
+        candidates.retain(|candidate| self.customs.iter().all(|custom| custom.keeps(*candidate)));
+        let Some(dissipation) = &self.dissipation else { return candidates };
+        let load = dissipation.load(arena, chart, centre);
+        mixed::unmoved(arena, chart, &load, shared, candidates)
     }
 
     /// Those that act where `p = 0`.
@@ -115,7 +132,7 @@ impl Forces {
     }
 
     /// What defines them, and the balance of energy.
-    pub(super) fn formulas(&self, arena: &mut Arena) -> Vec<Formula> {
+    pub fn formulas(&self, arena: &mut Arena) -> Vec<Formula> {
         let mut list = Vec::new();
         let mut power: Vec<(String, String)> = Vec::new();
         if let Some(dissipation) = &self.dissipation {

@@ -16,7 +16,7 @@ use super::constraint::Constraint;
 use super::weight::{INVERSE_SQUARE, SQUARE};
 
 /// Number of points that decide.
-const POINTS: usize = 3;
+pub(super) const POINTS: usize = 3;
 
 /// Values of the placement, of a projected momentum and of `exp(q)`; of every other name one that depends on it alone.
 pub(super) struct GroupPoint {
@@ -58,6 +58,16 @@ impl GroupPoint {
         ];
         point.values.extend(of_the_dilatation.map(|(name, value)| (name.to_owned(), value)));
         point
+    }
+
+    /// Its values by name.
+    pub(super) fn values(
+        arena: &Arena,
+        chart: &Chart,
+        group: Constraint,
+        seed: usize,
+    ) -> HashMap<String, Residue> {
+        Self::new(arena, chart, group, seed).values
     }
 
     fn value(&self, name: &str) -> Residue {

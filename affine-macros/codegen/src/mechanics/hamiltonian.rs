@@ -6,6 +6,7 @@ use super::charts::{Chart, Linear, Momentum};
 use super::constraint::Constraint;
 use super::hessian::{Direction, Hessian, NumericBlock};
 use super::kinetic::{Frame, Kinetic};
+use super::shared::CentreVelocity;
 use super::weight::Weight;
 
 /// The kinetic Hamiltonian in pieces.
@@ -122,6 +123,15 @@ impl Hamiltonian {
     #[must_use]
     pub fn confined(&self) -> Option<Constraint> {
         self.constraint.filter(|_| self.frame != Frame::Flat)
+    }
+
+    /// How the velocity of the centre of mass follows.
+    #[must_use]
+    pub fn centre_velocity(&self) -> CentreVelocity {
+        match &self.translation {
+            None => CentreVelocity::Fixed,
+            Some((frame, inverse_mass)) => CentreVelocity::PerMass(*frame, inverse_mass.clone()),
+        }
     }
 
     /// The internal energy in a chart, with its skew part (of isotropic energies) left out on request; `None`

@@ -270,7 +270,7 @@ fn entries(n: usize) -> Vec<BasisVector> {
 }
 
 /// Symmetric traceless, skew and trace directions, orthogonal and rational.
-fn invariant(n: usize) -> Vec<BasisVector> {
+pub(super) fn invariant(n: usize) -> Vec<BasisVector> {
     let one = || Rational::ONE;
     let mut basis = Vec::new();
     for a in 0..n {

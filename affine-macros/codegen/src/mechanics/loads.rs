@@ -9,6 +9,7 @@ use super::equations::Load;
 use super::forces::Forces;
 use super::hamiltonian::Hamiltonian;
 use super::potential::Potential;
+use super::shared::CentreVelocity;
 
 /// What the weight of the energy, the potential and the forces add to Hamilton's equations of a chart; under a constraint
 /// all of it projected. The power of the forces comes with it, and where it is accounted for `dU/dt` of a potential that
@@ -21,13 +22,21 @@ pub fn loads(
     forces: &Forces,
 ) -> Vec<Load> {
     let mut loads: Vec<Load> = h.weight.iter().map(|weight| weight.load(chart, h)).collect();
-    if let Some(u) = potential {
-        let load = u.load(arena, chart);
-        let drive = if forces.driven { u.drive(arena) } else { None };
-        let work = drive.map(|power| (arena.symbol("work"), power));
-        loads.push(Load { work, ..load });
-    }
-    let pushes = forces.loads(arena, chart, h).into_iter();
+    loads.extend(beside(arena, chart, &h.centre_velocity(), potential, forces));
+    loads
+}
+
+/// The same but for the weight, whatever the energy; `centre` says how the velocity of the centre of mass is known.
+pub fn beside(
+    arena: &mut Arena,
+    chart: &Chart,
+    centre: &CentreVelocity,
+    potential: Option<&Potential>,
+    forces: &Forces,
+) -> Vec<Load> {
+    let mut loads = Vec::new();
+    loads.extend(potential.map(|u| of_potential(arena, chart, u, forces)));
+    let pushes = forces.loads(arena, chart, centre).into_iter();
     loads.extend(pushes.map(|load| match chart.confined {
         Some(group) => load.confined(arena, chart, group),
         None => load,
@@ -35,10 +44,19 @@ pub fn loads(
     loads
 }
 
+/// What a potential adds, with `dU/dt` where that is accounted for.
+pub(super) fn of_potential(arena: &mut Arena, chart: &Chart, u: &Potential, forces: &Forces) -> Load {
+    let load = u.load(arena, chart);
+    let drive = if forces.driven { u.drive(arena) } else { None };
+    let work = drive.map(|power| (arena.symbol("work"), power));
+    Load { work, ..load }
+}
+
 impl Load {
     /// The same for a motion confined to a group: of the forces on the affine momentum the part that acts on its Lie
     /// algebra, and entries of momentum and velocity that are linear in others written through those.
-    fn confined(self, arena: &mut Arena, chart: &Chart, group: Constraint) -> Self {
+    #[must_use]
+    pub fn confined(self, arena: &mut Arena, chart: &Chart, group: Constraint) -> Self {
         let on_spin = |a, b| {
             let found = self.forces.iter().find(|(z, _)| *z == Coordinate::M(a, b));
             found.map_or_else(Polynomial::zero, |(_, force)| force.clone())

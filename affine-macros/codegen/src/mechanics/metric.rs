@@ -181,7 +181,7 @@ impl PullBack<'_> {
 }
 
 /// Is a form over `Om` the same for every row of `Om`, and free of products of two rows: `1/2 tr(Om J Om^T)`?
-fn same_blocks(form: &Square<Polynomial>, n: usize) -> bool {
+pub(super) fn same_blocks(form: &Square<Polynomial>, n: usize) -> bool {
     let entry = |i: usize, k: usize, j: usize, l: usize| &form[n * i + k][n * j + l];
     let indices = || (0..n).flat_map(|k| (0..n).map(move |l| (k, l)));
     indices().all(|(i, j)| {

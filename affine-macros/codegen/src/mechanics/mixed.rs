@@ -5,6 +5,7 @@
 //! canonical. Energies that agree on the internal motion and differ in the translation keep their own frame.
 
 mod centre;
+mod confined;
 mod conserved;
 mod factorisation;
 mod formulas;
@@ -13,13 +14,18 @@ mod sample;
 
 use crate::algebra::Arena;
 
-use super::kinetic::{Frame, Kinetic, Term};
+use super::constraint::Constraint;
+use super::kinetic::{Frame, Kinetic, Term, TermKind};
 use super::symmetry::{Group, Side, largest_group};
 
 pub use centre::Masses;
-pub use conserved::conserved;
+pub use confined::Confined;
+pub use conserved::{conserved, unmoved};
 pub use factorisation::{Factorisation, SymmetricBlock};
-pub use formulas::{centre_equations, energy, hamiltonian, internal_equations, internal_hamiltonian};
+pub use formulas::{
+    ForceNames, centre_equations, confined_equations, confined_hamiltonian, energy, hamiltonian,
+    internal_equations, internal_hamiltonian,
+};
 pub use motion::{Internal, Legendre, slopes_of};
 pub use sample::Sample;
 
@@ -28,6 +34,8 @@ pub use sample::Sample;
 pub struct Mixed {
     /// Dimension of space.
     pub dim: usize,
+    /// The group that the motion is confined to; `None` for GL+(n).
+    pub constraint: Option<Constraint>,
     /// Internal energies of different frames.
     pub internal: Vec<Kinetic>,
     /// Translational energies of different frames.
@@ -36,9 +44,19 @@ pub struct Mixed {
 
 impl Mixed {
     /// Sorts the terms by their frames. The Casimirs, which have constant coefficients in body and space, go with
-    /// `casimirs` where it has other terms, and to the affine frame that has some otherwise.
-    pub fn new(arena: &mut Arena, dim: usize, terms: &[Term], casimirs: Frame) -> Self {
-        let has = |frame: Frame| terms.iter().any(|term| term.kind.internal_frame() == Some(frame));
+    /// `casimirs` where it has other terms, and to the affine frame that has some otherwise. Under a constraint each term has
+    /// the frame that it has [there](Constraint::form_of), but for d'Alembert's of a conformal motion, whose weight is not
+    /// constant.
+    pub fn new(
+        arena: &mut Arena,
+        dim: usize,
+        terms: &[Term],
+        casimirs: Frame,
+        constraint: Option<Constraint>,
+    ) -> Self {
+        let rigid = constraint.filter(|group| *group == Constraint::Rigid);
+        let form = |kind: TermKind| rigid.map_or(kind, |group| group.form_of(kind));
+        let has = |frame: Frame| terms.iter().any(|term| form(term.kind).internal_frame() == Some(frame));
         let affine = match (has(Frame::Body), has(Frame::Space)) {
             (true, true) => casimirs,
             (false, true) => Frame::Space,
@@ -46,13 +64,14 @@ impl Mixed {
         };
         let internal = |term: &Term| match term.kind.translation_frame() {
             Some(_) => None,
-            None => Some(term.kind.internal_frame().unwrap_or(affine)),
+            None => Some(form(term.kind).internal_frame().unwrap_or(affine)),
         };
         let mut part = |wanted: &dyn Fn(&Term) -> bool| {
             let places: Vec<usize> = (0..terms.len()).filter(|place| wanted(&terms[*place])).collect();
             let chosen: Vec<Term> = places.iter().map(|place| terms[*place].clone()).collect();
             // Terms of one frame have a common one.
-            let mut kinetic = Kinetic::new(arena, dim, &chosen).ok().filter(|_| !chosen.is_empty())?;
+            let kinetic = Kinetic::under(arena, dim, &chosen, rigid).ok().filter(|_| !chosen.is_empty())?;
+            let mut kinetic = Kinetic { constraint, ..kinetic };
             kinetic.internal.iter_mut().for_each(|(place, _)| *place = places[*place]);
             kinetic.translation.iter_mut().for_each(|t| t.place = places[t.place]);
             Some(kinetic)
@@ -61,9 +80,9 @@ impl Mixed {
         let inner = frames.iter().filter_map(|frame| part(&|term| internal(term) == Some(*frame))).collect();
         let outer = frames
             .iter()
-            .filter_map(|frame| part(&|term| term.kind.translation_frame() == Some(*frame)))
+            .filter_map(|frame| part(&|term| form(term.kind).translation_frame() == Some(*frame)))
             .collect();
-        Self { dim, internal: inner, translations: outer }
+        Self { dim, constraint, internal: inner, translations: outer }
     }
 
     /// All energies.
@@ -80,9 +99,10 @@ impl Mixed {
         self.parts().iter().map(|part| largest_group(part, side)).min().unwrap_or(Group::Affine)
     }
 
-    /// `n^2`, and `n` more with translation.
+    /// `n^2` or the dimension of the group, and `n` more with translation.
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
-        self.dim * self.dim + if self.translations.is_empty() { 0 } else { self.dim }
+        let internal = self.constraint.map_or(self.dim * self.dim, |group| group.dimension(self.dim));
+        internal + if self.translations.is_empty() { 0 } else { self.dim }
     }
 }

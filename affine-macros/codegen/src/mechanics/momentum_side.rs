@@ -2,8 +2,9 @@
 
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
+use super::constraint::Constraint;
 use super::hamiltonian::{Hamiltonian, Isotropic};
-use super::hessian::Direction;
+use super::hessian::{Direction, Hessian};
 use super::kinetic::{Coefficient, Frame, Kinetic, Term, TermKind, Translation};
 
 /// `a/2 tr X^2 + b/2 (tr X)^2 + c/2 |W|^2 + d/3 tr X^3`, `W = X - X^T`, and `k/2 |p_hat|^2` or `k/2 |p|^2`.
@@ -11,6 +12,8 @@ use super::kinetic::{Coefficient, Frame, Kinetic, Term, TermKind, Translation};
 pub struct Stated {
     /// Dimension of space.
     pub dim: usize,
+    /// The group that the motion is confined to; `None` for GL+(n).
+    pub constraint: Option<Constraint>,
     /// Frame of `X`: that of the squared norm, or else of the translation; the Casimirs are the same in both.
     pub frame: Frame,
     /// Each internal term alone, with its place among the terms.
@@ -39,10 +42,21 @@ impl Stated {
         !self.invariants().casimir3.is_zero()
     }
 
+    /// The eigenvalues on the momenta that the constraint leaves.
+    #[must_use]
+    pub fn eigenvalues(&self) -> Vec<(Direction, Polynomial)> {
+        let mut list = self.unconfined_eigenvalues().to_vec();
+        list.retain(|(direction, _)| self.leaves_free(*direction));
+        list
+    }
+
+    fn leaves_free(&self, direction: Direction) -> bool {
+        self.constraint.is_none_or(|group| group.leaves_free(direction))
+    }
+
     /// Eigenvalues of the quadratic part on symmetric traceless, skew and trace momenta: `a`, `2c - a`, `a + n b`, from
     /// `tr X^2 = -tr X X^T` and `|W|^2 = 2 tr X X^T` on skew `X`.
-    #[must_use]
-    pub fn eigenvalues(&self) -> [(Direction, Polynomial); 3] {
+    fn unconfined_eigenvalues(&self) -> [(Direction, Polynomial); 3] {
         let sum = self.invariants();
         let two = Rational::from(2);
         let mut rotation = sum.skew.scaled(&two);
@@ -57,7 +71,8 @@ impl Stated {
     }
 
     /// The form on momenta in place of velocities: `phi -> A phi B` changes `Sigma_hat` as `Oh` and `Sigma` as `Om`, so
-    /// that what is invariant of the one is of the other.
+    /// that what is invariant of the one is of the other. Of all momenta, those that a constraint takes away too: the
+    /// groups are those of the Hamiltonian as stated.
     #[must_use]
     pub fn on_momenta(&self, arena: &mut Arena) -> Kinetic {
         let spin = Matrix::symbols(arena, self.frame.momentum_name(), self.dim);
@@ -75,8 +90,21 @@ impl Stated {
         }
     }
 
+    /// The places of the terms that are zero on all momenta that the constraint leaves, `X = P X`.
+    #[must_use]
+    pub fn vanishing(&self, arena: &mut Arena) -> Vec<usize> {
+        let on_momenta = Kinetic { constraint: self.constraint, ..self.on_momenta(arena) };
+        let parts = on_momenta.internal.iter();
+        let alone =
+            |part: &(usize, Polynomial)| Kinetic { internal: vec![part.clone()], ..on_momenta.clone() };
+        parts.filter(|part| Hessian::new(&alone(part)).is_zero()).map(|(place, _)| *place).collect()
+    }
+
     /// The kinetic energy on the velocity side, `I`, `A`, `B` from `I + A = 1/a`, `I - A = 1/(2c - a)`,
     /// `I + A + n B = 1/(a + n b)`; without internal form for a cubic Hamiltonian. `None` where it is degenerate.
+    ///
+    /// A constraint restricts it to the velocities of a Lie algebra, which in either frame is a sum of the invariant
+    /// directions: of the three reciprocals those that it leaves free are taken, and the others do not matter.
     pub fn kinetic(&self, arena: &mut Arena) -> Option<Kinetic> {
         if self.is_cubic() {
             return Some(Kinetic {
@@ -95,7 +123,10 @@ impl Stated {
             let reciprocal = arena.pow(value, -1)?;
             Some(Polynomial::normal_form(arena, reciprocal))
         };
-        let [shear, rotation, dilatation] = self.eigenvalues();
+        let [shear, rotation, dilatation] = self.unconfined_eigenvalues();
+        // What no velocity reads is chosen so that the terms are few.
+        let shear = if self.leaves_free(Direction::Shear) { shear } else { rotation.clone() };
+        let dilatation = if self.leaves_free(Direction::Dilatation) { dilatation } else { shear.clone() };
         let (shear, rotation, dilatation) =
             (reciprocal(shear)?, reciprocal(rotation)?, reciprocal(dilatation)?);
         let half = Rational::ratio(1, 2)?;
@@ -121,7 +152,7 @@ impl Stated {
                 if t.frame == Frame::Body { TermKind::BodyTranslation } else { TermKind::SpaceTranslation };
             terms.push(Term { kind, value: Coefficient::Scalar(t.mass) });
         }
-        Kinetic::new(arena, self.dim, &terms).ok()
+        Kinetic::under(arena, self.dim, &terms, self.constraint).ok()
     }
 
     /// The Hamiltonian as it stands, for one that is no quadratic form.

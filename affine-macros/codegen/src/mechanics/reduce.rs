@@ -11,7 +11,7 @@ use super::equations::{Form, Load, System, hamilton};
 use super::forces::Forces;
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetic::Frame;
-use super::loads::loads;
+use super::loads::{loads, of_potential};
 use super::potential::Potential;
 use super::separation::{Separation, shear_system};
 
@@ -164,7 +164,7 @@ pub fn candidates(
     }
     // Proved of potentials that are formulas alone: forces couple the dilatation to the rest, or are unknown.
     let separated = match forces.is_empty() {
-        true => separated(arena, h, potential, &commuting),
+        true => separated(arena, h, (potential, forces), &commuting),
         false => Vec::new(),
     };
     let entire: Vec<Reduction> = momenta
@@ -188,7 +188,7 @@ pub fn candidates(
 fn separated(
     arena: &mut Arena,
     h: &Hamiltonian,
-    potential: Option<&Potential>,
+    (potential, forces): (Option<&Potential>, &Forces),
     commuting: &[Commuting],
 ) -> Vec<Reduction> {
     let drifts = commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
@@ -207,7 +207,7 @@ fn separated(
     charts
         .into_iter()
         .filter_map(|chart| {
-            let load = u.load(arena, &chart);
+            let load = of_potential(arena, &chart, u, forces);
             let mut system = shear_system(arena, &chart, iso, &load)?;
             let fixed = take_constants(&mut system);
             let states = states(arena, "Psi", "O", &system);

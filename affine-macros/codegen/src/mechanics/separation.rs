@@ -93,7 +93,7 @@ pub(super) fn shear_system(
     let psi = Matrix::symbols(arena, "psi", n);
     let velocity = velocity(arena, n);
     let forces = forces(arena, chart, &psi, load);
-    let mut system = System { shared: forces.shared, ..System::default() };
+    let mut system = System { shared: forces.shared, work: forces.work, ..System::default() };
     let o = Matrix::symbols(arena, "isochoric", n);
     for (a, b) in pairs(n) {
         system.shared.push((o.0[a][b], velocity[a][b].clone()));
@@ -140,7 +140,8 @@ pub(super) fn shear_system(
 /// What is a constant at `det phi = 1`.
 const UNDEFORMED: [&str; 5] = ["det", "inverse_det", "dilatation", "inverse_dilatation", "q"];
 
-/// The forces at `q = 0` with `Psi` for `phi`.
+/// The forces at `q = 0` with `Psi` for `phi`. Where they do not depend on `q`, nor `U_dil` on the time, neither does their
+/// power `dU/dt`.
 fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
     let value_at_rest = UNDEFORMED.map(|name| {
         let value = if name == "q" { Rational::ZERO } else { Rational::ONE };
@@ -160,6 +161,7 @@ fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
             .map(|(symbol, p)| (*symbol, p.substitute(&value)))
             .collect(),
         forces: load.forces.iter().map(|(z, p)| (*z, p.substitute(&value))).collect(),
+        work: load.work.as_ref().map(|(symbol, power)| (*symbol, power.substitute(&value))),
         ..Load::default()
     }
 }

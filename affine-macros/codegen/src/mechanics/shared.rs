@@ -4,8 +4,23 @@ use crate::algebra::ring::{Square, adjugate, product, table, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Linear, Momentum};
-use super::hamiltonian::Hamiltonian;
 use super::kinetic::Frame;
+
+/// How the velocity of the centre of mass is known.
+#[derive(Clone, Debug)]
+pub enum CentreVelocity {
+    /// It stands still.
+    Fixed,
+    /// From its momentum in the frame of the mass, by `1/m`.
+    PerMass(Frame, Polynomial),
+    /// As symbols, which the equations define.
+    Defined {
+        /// `x_dot`.
+        x_dot: Vec<Expr>,
+        /// `v_hat = phi^-1 x_dot`, where they define it too.
+        v_hat: Option<Vec<Expr>>,
+    },
+}
 
 /// Quantities that forces share.
 pub(super) struct Shared<'a> {
@@ -74,9 +89,14 @@ impl Shared<'_> {
     }
 
     /// `x_dot`; nothing where the chart has no `p`.
-    pub(super) fn x_dot(&mut self, chart: &Chart, h: &Hamiltonian) -> Vec<Polynomial> {
-        let (Some(linear), Some((own, inverse_mass))) = (chart.linear, &h.translation) else {
-            return Vec::new();
+    pub(super) fn x_dot(&mut self, chart: &Chart, centre: &CentreVelocity) -> Vec<Polynomial> {
+        let Some(linear) = chart.linear else { return Vec::new() };
+        let (own, inverse_mass) = match centre {
+            CentreVelocity::Fixed => return Vec::new(),
+            CentreVelocity::Defined { x_dot, .. } => {
+                return x_dot.iter().map(|v| Polynomial::atom(*v)).collect();
+            }
+            CentreVelocity::PerMass(own, inverse_mass) => (own, inverse_mass),
         };
         let phi = atoms(&chart.phi);
         let per_mass: Vec<Polynomial> =

@@ -29,17 +29,20 @@ pub struct Weight {
 impl Weight {
     /// The weight `D^2` of the internal energy, where it has one.
     pub fn of(arena: &mut Arena, kinetic: &Kinetic) -> Option<Self> {
-        kinetic.is_weighted().then(|| {
-            let [square, inverse] = [SQUARE, INVERSE_SQUARE].map(|name| arena.symbol(name));
-            let mut length = Polynomial::zero();
-            for i in 1..=kinetic.dim {
-                let entry = arena.symbol(&format!("phi_{i}1"));
-                length.add_term(vec![entry, entry], &Rational::ONE);
-            }
-            // A symbol is not the number zero.
-            let reciprocal = Polynomial::atom(arena.pow(square, -1).unwrap_or(square));
-            Self { square, inverse, definitions: vec![(square, length), (inverse, reciprocal)] }
-        })
+        kinetic.is_weighted().then(|| Self::squares(arena, kinetic.dim))
+    }
+
+    /// `D^2` and `D^-2` of a placement in R+ SO(n).
+    pub(super) fn squares(arena: &mut Arena, dim: usize) -> Self {
+        let [square, inverse] = [SQUARE, INVERSE_SQUARE].map(|name| arena.symbol(name));
+        let mut length = Polynomial::zero();
+        for i in 1..=dim {
+            let entry = arena.symbol(&format!("phi_{i}1"));
+            length.add_term(vec![entry, entry], &Rational::ONE);
+        }
+        // A symbol is not the number zero.
+        let reciprocal = Polynomial::atom(arena.pow(square, -1).unwrap_or(square));
+        Self { square, inverse, definitions: vec![(square, length), (inverse, reciprocal)] }
     }
 
     /// The force `-dH_int/dq 1/n = 2 H_int/n 1` on `Sigma_hat`, and what defines the weight.

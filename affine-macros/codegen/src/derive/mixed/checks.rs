@@ -24,10 +24,8 @@ impl Body<'_> {
         coefficients: &mut Constants,
     ) -> Option<Option<Regularity>> {
         let mut parts: Vec<(Factorisation, Definitions)> = Vec::new();
-        if let Inner::Varying(internal) = &self.inner
-            && !positive.internal
-        {
-            parts.push((internal.factorisation.clone(), internal.shared.clone()));
+        if let Some((factorisation, shared)) = self.inner.factorised().filter(|_| !positive.internal) {
+            parts.push((factorisation.clone(), shared.clone()));
         }
         if self.masses.are_mixed() && !positive.centre {
             parts.push(self.masses.factorised(arena)?);
@@ -96,7 +94,7 @@ impl Body<'_> {
         };
         let terms = self.mixed.internal.iter().flat_map(|part| &part.terms);
         let inertia = terms.filter(|term| term.kind == TermKind::Dalembert).map(|term| &term.value).next();
-        if let (Inner::Varying(_), Some(inertia)) = (&self.inner, inertia) {
+        if let (Inner::Varying(_) | Inner::Confined(_), Some(inertia)) = (&self.inner, inertia) {
             for minor in leading_minors(arena, inertia) {
                 add(arena, "a leading minor of J", "a row of phi_dot", true, minor);
             }
@@ -111,7 +109,7 @@ impl Body<'_> {
     pub(super) fn numeric_blocks(&self, arena: &mut Arena, required: bool) -> Vec<NumericBlock> {
         match &self.inner {
             Inner::Constant(kinetic, h) => numeric_blocks(arena, h, required || kinetic.is_dalembert()),
-            Inner::Varying(_) => Vec::new(),
+            Inner::Varying(_) | Inner::Confined(_) => Vec::new(),
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::metric::{Definitions, inverse_placement};
-use crate::mechanics::mixed::Legendre;
+use crate::mechanics::mixed::{Confined, Legendre};
 use crate::mechanics::potential::Base;
 use crate::optimise::{Batch, straight_line};
 
@@ -23,6 +23,7 @@ pub(super) struct Programs {
     pub(super) mixed_masses: Option<MixedMasses>,
     pub(super) kinetic_energy: Program,
     pub(super) hamiltonian: Program,
+    pub(super) power: Option<Program>,
     pub(super) isotropic: Option<Program>,
 }
 
@@ -55,6 +56,7 @@ impl Body<'_> {
             false => None,
         };
         let (hamiltonian, at_a_point) = self.hamiltonian(arena, chart)?;
+        let power = self.power(arena, chart)?.map(|batch| inline(arena, &batch, &at_a_point));
         Some(Programs {
             legendre: inline(arena, &legendre, &inputs),
             velocity: inline(arena, &velocity, &momenta.0.concat()),
@@ -62,6 +64,7 @@ impl Body<'_> {
             mixed_masses,
             kinetic_energy: inline(arena, &energy, &inputs),
             hamiltonian: inline(arena, &hamiltonian, &at_a_point),
+            power,
             isotropic: self.isotropic().map(|batch| inline(arena, &batch, &[])),
         })
     }
@@ -75,14 +78,12 @@ impl Body<'_> {
                 result("energy", kinetic.internal_energy()),
             ],
             Inner::Varying(internal) => {
-                let Legendre { shared, momentum, energy } = Legendre::new(arena, self.mixed);
-                let n = self.mixed.dim;
-                let solution = table(n, |i, a| Polynomial::atom(internal.velocity.0[i][a]));
-                [
-                    Batch { shared: shared.clone(), ..matrix_batch(arena, momenta, &momentum) },
-                    Batch { shared: internal.shared.clone(), ..matrix_batch(arena, velocities, &solution) },
-                    Batch { shared, ..result("energy", energy) },
-                ]
+                let legendre = Legendre::new(arena, self.mixed);
+                both_ways(arena, legendre, (&internal.velocity, &internal.shared), [velocities, momenta])
+            }
+            Inner::Confined(internal) => {
+                let legendre = Confined::legendre(arena, self.mixed, internal.group);
+                both_ways(arena, legendre, (&internal.velocity, &internal.shared), [velocities, momenta])
             }
         }
     }
@@ -169,6 +170,9 @@ impl Body<'_> {
             Inner::Varying(internal) => {
                 Batch { shared: internal.shared.clone(), ..result("energy", internal.energy(chart)) }
             }
+            Inner::Confined(internal) => {
+                Batch { shared: internal.shared.clone(), ..result("energy", internal.energy()) }
+            }
             Inner::Constant(_, h) => result("energy", h.internal()),
         };
         let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
@@ -188,9 +192,46 @@ impl Body<'_> {
             let (value, shared) = u.energy_at_a_point(arena, chart);
             join(&mut batch, &value, shared);
             inputs.push(Base::MeanLogStretch.symbol(arena));
+            inputs.extend((0..chart.dim).map(|a| Base::LogStretch(a).symbol(arena)));
         }
+        for custom in &self.forces.customs {
+            if let Some((value, kernel)) = custom.energy(arena, chart) {
+                join(&mut batch, &value, Definitions::new());
+                batch.kernels.push(kernel);
+            }
+        }
+        inputs.extend(self.time(arena));
         Some((batch, inputs))
     }
+
+    /// The power of the forces that no potential has, and of the time in a potential, where it is accounted for.
+    fn power(&self, arena: &mut Arena, chart: &Chart) -> Option<Option<Batch>> {
+        if self.forces.is_empty() && !self.forces.driven {
+            return Some(None);
+        }
+        // Another potential has no power.
+        let driving = self.potential.filter(|_| self.forces.driven);
+        let system = self.systems_under(arena, chart, driving)?.swap_remove(0);
+        let Some((_, power)) = system.work else { return Some(None) };
+        let results = vec![("power".to_owned(), power)];
+        let batch = Batch { shared: system.shared, kernels: system.kernels, results };
+        Some(Some(batch.pruned(arena)))
+    }
+}
+
+/// The Legendre transformation, its inverse through the symbols that solve it, and `T_int`.
+fn both_ways(
+    arena: &mut Arena,
+    Legendre { shared, momentum, energy }: Legendre,
+    (solution, solving): (&Matrix, &Definitions),
+    [velocities, momenta]: [&Matrix; 2],
+) -> [Batch; 3] {
+    let solution = table(solution.dim(), |i, a| Polynomial::atom(solution.0[i][a]));
+    [
+        Batch { shared: shared.clone(), ..matrix_batch(arena, momenta, &momentum) }.pruned(arena),
+        Batch { shared: solving.clone(), ..matrix_batch(arena, velocities, &solution) },
+        Batch { shared, ..result("energy", energy) }.pruned(arena),
+    ]
 }
 
 /// `v_hat = phi^-1 x_dot`, with what leads there.

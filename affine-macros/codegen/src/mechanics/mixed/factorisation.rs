@@ -66,7 +66,17 @@ impl Factorisation {
         matrix: &Square<Polynomial>,
         shared: &mut Definitions,
     ) -> Option<Self> {
-        let mut points = [Sample::generic(""), Sample::undeformed()];
+        Self::at(arena, stem, matrix, shared, [Sample::generic(""), Sample::undeformed()])
+    }
+
+    /// The same of placements of which the first point is a generic one, the second the undeformed.
+    pub fn at(
+        arena: &mut Arena,
+        stem: &str,
+        matrix: &Square<Polynomial>,
+        shared: &mut Definitions,
+        mut points: [Sample; 2],
+    ) -> Option<Self> {
         points.iter_mut().for_each(|point| point.define(arena, shared));
         let mut blocks: Vec<Block> = Vec::new();
         for members in components(matrix) {

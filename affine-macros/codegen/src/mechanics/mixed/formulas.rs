@@ -1,7 +1,10 @@
 //! A mixed energy and its equations as formulas.
 
 use crate::algebra::Arena;
+use crate::mechanics::charts::Chart;
+use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{Formula, kinetic_energy};
+use crate::mechanics::forces::Forces;
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::notation::{latex, plain};
 use crate::mechanics::potential::Potential;
@@ -11,6 +14,38 @@ use super::{Masses, Mixed};
 /// A formula from text and LaTeX.
 fn formula(text: impl Into<String>, latex: impl Into<String>) -> Formula {
     Formula { text: text.into(), latex: latex.into() }
+}
+
+/// Names of the forces that no potential has, on `p` and on `Pi`, in text and LaTeX.
+#[derive(Default)]
+pub struct ForceNames {
+    on_linear: Vec<(String, String)>,
+    on_affine: Vec<(String, String)>,
+}
+
+impl ForceNames {
+    /// Those of a chart.
+    #[must_use]
+    pub fn of(chart: &Chart, forces: &Forces) -> Self {
+        let mut names = Self::default();
+        forces.name_on(chart, &mut names.on_linear, &mut names.on_affine);
+        names
+    }
+}
+
+/// A summand with its sign apart.
+fn signed(name: &str) -> String {
+    match name.strip_prefix('-') {
+        Some(rest) => format!("- {rest}"),
+        None => format!("+ {name}"),
+    }
+}
+
+/// Summands that carry their signs as a sum.
+fn joined(summands: Vec<String>) -> String {
+    let sum = summands.join(" ");
+    let sum = sum.strip_prefix("+ ").unwrap_or(&sum);
+    sum.strip_prefix("- ").map_or_else(|| sum.to_owned(), |rest| format!("-{rest}"))
 }
 
 /// `T` as the sum of its terms, frame after frame.
@@ -36,6 +71,7 @@ pub fn hamiltonian(
     internal: Formula,
     masses: &Masses,
     potential: Option<&Potential>,
+    forces: &Forces,
 ) -> Formula {
     let mut sum = internal;
     if !masses.are_none() {
@@ -45,6 +81,10 @@ pub fn hamiltonian(
     if let Some(u) = potential {
         sum.text += &format!(" + {}", plain(arena, u.energy));
         sum.latex += &format!(" + {}", latex(arena, u.energy));
+    }
+    for u in forces.potentials() {
+        sum.text += &format!(" + {}", u.text);
+        sum.latex += &format!(" + {}", u.latex);
     }
     sum
 }
@@ -57,7 +97,12 @@ pub fn internal_hamiltonian() -> Formula {
 
 /// The Legendre transformation and the balance of `Pi`, in the parts that the energy has.
 #[must_use]
-pub fn internal_equations(mixed: &Mixed, masses: &Masses, potential: Option<&Potential>) -> Vec<Formula> {
+pub fn internal_equations(
+    mixed: &Mixed,
+    masses: &Masses,
+    potential: Option<&Potential>,
+    names: &ForceNames,
+) -> Vec<Formula> {
     let has = |frame: Frame| mixed.internal.iter().any(|part| part.frame == frame);
     let mut parts: Vec<(&str, &str)> = Vec::new();
     let mut rate: Vec<(String, String)> = Vec::new();
@@ -93,6 +138,7 @@ pub fn internal_equations(mixed: &Mixed, masses: &Masses, potential: Option<&Pot
     if potential.is_some() {
         rate.push(("+ N".into(), "+ N".into()));
     }
+    rate.extend(names.on_affine.iter().map(|(text, latex)| (signed(text), signed(latex))));
     let mut list: Vec<Formula> = momenta.into_iter().map(|(text, latex)| formula(text, latex)).collect();
     list.push(formula(
         format!(
@@ -101,7 +147,6 @@ pub fn internal_equations(mixed: &Mixed, masses: &Masses, potential: Option<&Pot
         ),
         format!("\\Pi = {}", parts.iter().map(|p| p.1).collect::<Vec<_>>().join(" + ")),
     ));
-    let joined = |rate: Vec<String>| rate.join(" ").trim_start_matches("+ ").replacen("- ", "-", 1);
     let (text, tex): (Vec<String>, Vec<String>) = rate.into_iter().unzip();
     list.push(formula(format!("dPi/dt = {}", joined(text)), format!("\\dot\\Pi = {}", joined(tex))));
     if potential.is_some() {
@@ -110,9 +155,82 @@ pub fn internal_equations(mixed: &Mixed, masses: &Masses, potential: Option<&Pot
     list
 }
 
+/// `H` of the internal motion on a group.
+#[must_use]
+pub fn confined_hamiltonian() -> Formula {
+    formula("H = 1/2 tr(Sigma_hat Omega_hat)", "H = \\frac{1}{2}\\operatorname{tr}(\\hat\\Sigma\\hat\\Omega)")
+}
+
+/// The Legendre transformation on a group and the balance of `Sigma_hat`, in the parts that the energy has; `pulls` tells
+/// whether the centre of mass and a potential act on it.
+#[must_use]
+pub fn confined_equations(
+    mixed: &Mixed,
+    group: Constraint,
+    (centre, potential): (bool, bool),
+    names: &ForceNames,
+) -> Vec<Formula> {
+    let has = |frame: Frame| mixed.internal.iter().any(|part| part.frame == frame);
+    let mut momenta: Vec<Formula> = Vec::new();
+    let mut parts: Vec<(&str, &str)> = Vec::new();
+    let mut rate: Vec<(String, String)> = Vec::new();
+    if has(Frame::Body) {
+        momenta
+            .push(formula("X = (dT_body/dOmega_hat)^T", "X = (\\partial T_{body}/\\partial\\hat\\Omega)^T"));
+        parts.push(("X", "X"));
+        rate.push(("+ [X, Omega_hat]".into(), "+ [X, \\hat\\Omega]".into()));
+    }
+    if has(Frame::Space) {
+        let text = "Y = phi^-1 (dT_space/dOmega)^T phi";
+        let latex = "Y = \\varphi^{-1}(\\partial T_{space}/\\partial\\Omega)^T\\varphi";
+        momenta.push(formula(text, latex));
+        parts.push(("Y", "Y"));
+    }
+    if has(Frame::Flat) {
+        let text = "Z = (dT_flat/dphi_dot)^T phi";
+        let latex = "Z = (\\partial T_{flat}/\\partial\\dot\\varphi)^T\\varphi";
+        momenta.push(formula(text, latex));
+        parts.push(("Z", "Z"));
+        rate.push(("+ Z Omega_hat".into(), "+ Z\\hat\\Omega".into()));
+    }
+    if centre {
+        rate.push(("- m v_hat v_hat^T".into(), "- m \\hat v\\hat v^T".into()));
+    }
+    if potential {
+        rate.push(("+ Q_hat".into(), "+ \\hat Q".into()));
+    }
+    rate.extend(names.on_affine.iter().map(|(text, latex)| (signed(text), signed(latex))));
+    let sum = |which: fn(&(&'static str, &'static str)) -> &'static str| {
+        parts.iter().map(which).collect::<Vec<_>>().join(" + ")
+    };
+    let mut list = momenta;
+    list.push(formula(
+        format!("Sigma_hat = P ({}), solved for Omega_hat by L D L^T", sum(|p| p.0)),
+        format!("\\hat\\Sigma = P ({})", sum(|p| p.1)),
+    ));
+    list.push(formula("dphi/dt = phi Omega_hat", "\\dot\\varphi = \\varphi\\hat\\Omega"));
+    if rate.is_empty() {
+        rate.push(("0".into(), "0".into()));
+    }
+    let (text, latex): (Vec<String>, Vec<String>) = rate.into_iter().unzip();
+    list.push(formula(
+        format!("dSigma_hat/dt = P ({})", joined(text)),
+        format!("\\dot{{\\hat\\Sigma}} = P ({})", joined(latex)),
+    ));
+    let (text, latex) = group.projection();
+    list.push(formula(text, latex));
+    if potential {
+        list.push(formula(
+            "Q_hat = -(dU/dphi)^T phi",
+            "\\hat Q = -(\\partial U/\\partial\\varphi)^T\\varphi",
+        ));
+    }
+    list
+}
+
 /// The velocity of the centre of mass and the balance of `p`.
 #[must_use]
-pub fn centre_equations(masses: &Masses, potential: Option<&Potential>) -> Vec<Formula> {
+pub fn centre_equations(masses: &Masses, potential: Option<&Potential>, names: &ForceNames) -> Vec<Formula> {
     let velocity = match (masses.body.is_some(), masses.space.is_some()) {
         (false, false) => return Vec::new(),
         (true, false) => formula("dx/dt = phi phi^T p / m", "\\dot x = \\varphi\\varphi^T p / m"),
@@ -122,9 +240,15 @@ pub fn centre_equations(masses: &Masses, potential: Option<&Potential>) -> Vec<F
             "\\dot x = \\varphi (m_b 1 + m_s G)^{-1}\\varphi^T p",
         ),
     };
-    let force = match potential.is_some_and(Potential::moves_the_centre) {
-        true => formula("dp/dt = -dU/dx", "\\dot p = -\\partial U/\\partial x"),
-        false => formula("dp/dt = 0", "\\dot p = 0"),
-    };
+    let mut forces: Vec<(String, String)> = Vec::new();
+    if potential.is_some_and(Potential::moves_the_centre) {
+        forces.push(("- dU/dx".into(), "- \\partial U/\\partial x".into()));
+    }
+    forces.extend(names.on_linear.iter().map(|(text, latex)| (signed(text), signed(latex))));
+    if forces.is_empty() {
+        forces.push(("0".into(), "0".into()));
+    }
+    let (text, latex): (Vec<String>, Vec<String>) = forces.into_iter().unzip();
+    let force = formula(format!("dp/dt = {}", joined(text)), format!("\\dot p = {}", joined(latex)));
     vec![velocity, force]
 }

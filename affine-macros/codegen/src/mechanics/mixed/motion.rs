@@ -151,11 +151,11 @@ pub fn slopes_of(system: &System) -> Vec<(Coordinate, Polynomial)> {
     list.filter(|(_, slope)| !slope.is_zero()).collect()
 }
 
-fn atoms(symbols: &Matrix) -> Square<Polynomial> {
+pub(super) fn atoms(symbols: &Matrix) -> Square<Polynomial> {
     symbols.0.iter().map(|row| row.iter().map(|symbol| Polynomial::atom(*symbol)).collect()).collect()
 }
 
-fn add(sum: &mut Square<Polynomial>, other: &Square<Polynomial>, weight: &Rational) {
+pub(super) fn add(sum: &mut Square<Polynomial>, other: &Square<Polynomial>, weight: &Rational) {
     for (row, others) in sum.iter_mut().zip(other) {
         row.iter_mut().zip(others).for_each(|(value, more)| value.add_scaled(more, weight));
     }
@@ -168,7 +168,7 @@ fn define_all(shared: &mut Definitions, symbols: &Matrix, values: Square<Polynom
 }
 
 /// A matrix of quantities `stem_11`, `stem_12`, ...; one whose entries are symbols already stays as it is.
-fn named(
+pub(super) fn named(
     arena: &mut Arena,
     shared: &mut Definitions,
     stem: &str,

@@ -5,6 +5,9 @@ use std::collections::HashMap;
 use crate::algebra::evaluate::{Field, evaluate_polynomial};
 use crate::algebra::residue::Residue;
 use crate::algebra::{Arena, Polynomial, Rational};
+use crate::mechanics::charts::Chart;
+use crate::mechanics::constraint::Constraint;
+use crate::mechanics::group_point::GroupPoint;
 use crate::mechanics::metric::Definitions;
 
 /// A point: parameters and coordinates have values that depend on their names and on the point's own.
@@ -26,6 +29,13 @@ impl Sample {
     #[must_use]
     pub fn undeformed() -> Self {
         Self { point: "", undeformed: true, defined: HashMap::new() }
+    }
+
+    /// A point of the constraint group with a projected momentum, one for each seed.
+    #[must_use]
+    pub fn on_the_group(arena: &Arena, chart: &Chart, group: Constraint, seed: usize) -> Self {
+        let point = ["first.", "second.", "third."][seed % 3];
+        Self { point, undeformed: false, defined: GroupPoint::values(arena, chart, group, seed) }
     }
 
     fn of_name(&self, name: &str) -> Residue {

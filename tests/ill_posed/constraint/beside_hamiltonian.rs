@@ -1,6 +1,0 @@
-use affine_runtime::affine_model;
-
-#[affine_model(dim = 3, constraint = isochoric, hamiltonian(casimir2 = 1, vorticity_squared = 2))]
-struct Model;
-
-fn main() {}

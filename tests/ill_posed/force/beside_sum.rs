@@ -1,6 +1,0 @@
-use affine_runtime::affine_model;
-
-#[affine_model(dim = 2, kinetic(body_inertia = 1, space_inertia = 1), dissipation(dalembert = 1))]
-struct Model;
-
-fn main() {}
