@@ -1,12 +1,17 @@
 //! Several doubles side by side as one number: emitted right-hand sides, generic over [`Scalar`], compute several
 //! bodies at once.
 //!
-//! Strict: every operation of a lane gives the bits that [`f64`] gives on the same target. Arithmetic and square roots
-//! are rounded correctly in either; a multiply-add is fused in either or in neither; elementary functions are computed
-//! lane by lane by those of `f64`.
+//! Strict, [`F64x4`] and [`F64x8`]: every operation of a lane gives the bits that [`f64`] gives on the same target.
+//! Arithmetic and square roots are rounded correctly in either; a multiply-add is fused in either or in neither;
+//! elementary functions are computed lane by lane by those of `f64`.
+//!
+//! Fast, [`FastF64x4`] and [`FastF64x8`]: the same but for `cbrt`, `exp`, `exp_m1`, `ln`, `ln_1p`, `sinh`, `cosh` and
+//! `tanh`, which all lanes compute at once, to within [`FAST_ULP`] units of the last place.
 //!
 //! Lanes are arrays, and operations loops over them, which the compiler turns into the vectors of the function that it
 //! compiles: the same type serves a target's own vectors and those found at run time.
+
+mod elementary;
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -27,7 +32,7 @@ pub trait Lanes: Scalar {
 }
 
 macro_rules! lanes {
-    ($(#[$doc:meta])* $name:ident, $count:literal, $($function:ident),*) => {
+    ($(#[$doc:meta])* $name:ident, $count:literal, $($function:ident = $value:expr),*) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name([f64; $count]);
@@ -86,7 +91,7 @@ macro_rules! lanes {
             $(
                 #[inline(always)]
                 fn $function(self) -> Self {
-                    self.each(<f64 as Scalar>::$function)
+                    self.each($value)
                 }
             )*
         }
@@ -139,14 +144,42 @@ macro_rules! lanes {
     };
 }
 
-lanes!(
+macro_rules! strict {
+    ($(#[$doc:meta])* $name:ident, $count:literal, $($function:ident),*) => {
+        lanes!($(#[$doc])* $name, $count, $($function = <f64 as Scalar>::$function),*);
+    };
+}
+
+macro_rules! fast {
+    ($(#[$doc:meta])* $name:ident, $count:literal, $($function:ident),*; $($at_once:ident),*) => {
+        lanes!(
+            $(#[$doc])* $name,
+            $count,
+            $($function = <f64 as Scalar>::$function,)*
+            $($at_once = elementary::$at_once),*
+        );
+    };
+}
+
+strict!(
     /// Four doubles: a vector register of AVX2.
     F64x4, 4, sqrt, abs, cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh
 );
-lanes!(
+strict!(
     /// Eight doubles: two vector registers of AVX2.
     F64x8, 8, sqrt, abs, cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh
 );
+fast!(
+    /// Four doubles with fast elementary functions.
+    FastF64x4, 4, sqrt, abs, sin, cos, tan; cbrt, exp, exp_m1, ln, ln_1p, sinh, cosh, tanh
+);
+fast!(
+    /// Eight doubles with fast elementary functions.
+    FastF64x8, 8, sqrt, abs, sin, cos, tan; cbrt, exp, exp_m1, ln, ln_1p, sinh, cosh, tanh
+);
+
+/// Largest error of a fast elementary function in units of the last place of its value, where that is a normal number.
+pub const FAST_ULP: f64 = 2.5;
 
 /// The lanes that an [`Ensemble`](crate::Ensemble) takes: one register of AVX2. Compilers split arrays of eight.
 pub type Widest = F64x4;
