@@ -75,7 +75,7 @@ fn within(x: f64, least: f64, most: f64) -> f64 {
 
 /// `e^x`.
 #[inline(always)]
-pub(super) fn exp(x: f64) -> f64 {
+pub(crate) fn exp(x: f64) -> f64 {
     let (less, k) = reduced(within(x, -746.0, 710.0));
     // In two factors: the power itself may be out of range.
     let half = (0.5 * k + INTEGER) - INTEGER;
@@ -84,7 +84,7 @@ pub(super) fn exp(x: f64) -> f64 {
 
 /// `e^x - 1`.
 #[inline(always)]
-pub(super) fn exp_m1(x: f64) -> f64 {
+pub(crate) fn exp_m1(x: f64) -> f64 {
     let (less, k) = reduced(within(x, -40.0, 710.0));
     let half = power_of_two(k - 1.0);
     let value = 2.0 * (half * less + (half - 0.5));
@@ -102,28 +102,28 @@ fn quarters(x: f64) -> (f64, f64) {
 
 /// `sinh x`.
 #[inline(always)]
-pub(super) fn sinh(x: f64) -> f64 {
+pub(crate) fn sinh(x: f64) -> f64 {
     let (less, _) = quarters(x.abs());
     (2.0 * (less + less / (4.0 * less + 1.0))).copysign(x)
 }
 
 /// `cosh x`.
 #[inline(always)]
-pub(super) fn cosh(x: f64) -> f64 {
+pub(crate) fn cosh(x: f64) -> f64 {
     let (_, quarter) = quarters(x.abs());
     2.0 * (quarter + 0.0625 / quarter)
 }
 
 /// `tanh x`.
 #[inline(always)]
-pub(super) fn tanh(x: f64) -> f64 {
+pub(crate) fn tanh(x: f64) -> f64 {
     let less = exp_m1(2.0 * within(x.abs(), 0.0, 22.0));
     (less / (less + 2.0)).copysign(x)
 }
 
 /// `ln x`.
 #[inline(always)]
-pub(super) fn ln(x: f64) -> f64 {
+pub(crate) fn ln(x: f64) -> f64 {
     const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;
     const ONE: u64 = 0x3ff0_0000_0000_0000;
     const SQRT_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
@@ -146,7 +146,7 @@ pub(super) fn ln(x: f64) -> f64 {
 
 /// `ln(1 + x)`.
 #[inline(always)]
-pub(super) fn ln_1p(x: f64) -> f64 {
+pub(crate) fn ln_1p(x: f64) -> f64 {
     let u = 1.0 + x;
     // What the sum lost, relative to it.
     let lost = (x - (u - 1.0)) / u;
@@ -157,7 +157,7 @@ pub(super) fn ln_1p(x: f64) -> f64 {
 
 /// `x^(1/3)`.
 #[inline(always)]
-pub(super) fn cbrt(x: f64) -> f64 {
+pub(crate) fn cbrt(x: f64) -> f64 {
     /// Of the exponent 4/3 of the bias, less what makes the error of the guess the same to both sides.
     const GUESS: u64 = 0x553e_e8b4;
     /// `2^18`, whose cube brings subnormal numbers up and the largest, whose root cubed may be too large, down.
