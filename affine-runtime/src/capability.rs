@@ -9,7 +9,7 @@ use crate::integrate::lie::Sum;
 use crate::integrate::nystrom::SecondOrder;
 use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::{Portable, Series, Vectors};
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, in_lane};
 use crate::model::{Group, Model, StateVector};
 use crate::scalar::{Real, Scalar};
 
@@ -100,6 +100,33 @@ pub trait InLanes<const N: usize>: Model<N> {
     /// The constants of one trajectory to a lane, those of the last in the lanes that are left. Of what moves in closed
     /// form the reduced equations read nothing, and lanes hold nothing.
     fn constants_in_lanes<T: Lanes>(constants: &[Self::Constants<f64>]) -> Self::Constants<T>;
+
+    /// The constants of the trajectory in a lane.
+    fn constants_of_lane<T: Lanes>(constants: &Self::Constants<T>, lane: usize) -> Self::Constants<T::Lane>;
+
+    /// [`Model::reduced_equations`] of every lane, written to `rates`: a loop over lanes, which compilers turn into vector
+    /// instructions where no function is called in it, as none is with [`Fast`](crate::lanes::Fast) numbers but for
+    /// sines, cosines and tangents.
+    #[inline(always)]
+    fn equations_in_lanes<T: Lanes>(
+        &self,
+        t: T,
+        constants: &Self::Constants<T>,
+        y: &Self::Reduced<T>,
+        rates: &mut Self::Reduced<T>,
+    ) {
+        for lane in 0..T::LANES {
+            let mut state = Self::Reduced::<T::Lane>::zeros();
+            for (component, lanes) in state.as_mut().iter_mut().zip(y.as_ref()) {
+                *component = in_lane(lanes, lane);
+            }
+            let (t, constants) = (in_lane(&t, lane), Self::constants_of_lane(constants, lane));
+            let of_lane = self.reduced_equations(t, &constants, &state);
+            for (lanes, component) in rates.as_mut().iter_mut().zip(of_lane.as_ref()) {
+                lanes.set_lane(lane, component.to_f64());
+            }
+        }
+    }
 }
 
 /// `emit(splitting)`: exact flows of pieces of the Hamiltonian over the reduced state, those of the kinetic energy first.

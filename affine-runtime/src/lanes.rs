@@ -1,21 +1,31 @@
-//! Several doubles side by side as one number: emitted right-hand sides, generic over [`Scalar`], compute several
-//! bodies at once.
+//! Several doubles side by side as one number: the bodies of an ensemble, each in a lane.
 //!
-//! Strict: every operation of a lane gives the bits that [`f64`] gives on the same target. Arithmetic and square roots
-//! are rounded correctly in either; a multiply-add is fused in either or in neither; reciprocals of cube roots are the same
-//! products and sums; other elementary functions are computed lane by lane by those of `f64`.
+//! Strict, [`F64x4`] and [`F64x16`]: every operation of a lane gives the bits that [`f64`] gives on the same target.
+//! Arithmetic and square roots are rounded correctly in either; a multiply-add is fused in either or in neither;
+//! elementary functions are computed lane by lane by those of `f64`.
+//!
+//! Fast, [`FastF64x16`]: the same but for roots of order 3 and exponential, logarithmic and hyperbolic functions, those
+//! of [`Fast`], which become vector instructions, right to [`FAST_ULP`] units of the last place.
 //!
 //! Lanes are arrays, and operations loops over them, which the compiler turns into the vectors of the function that it
 //! compiles: the same type serves a target's own vectors and those found at run time.
+
+mod elementary;
+mod fast;
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use num_traits::{One, Zero};
 
-use crate::scalar::{Scalar, inverse_cbrt};
+use crate::scalar::{Real, Scalar};
+
+pub use fast::{FAST_ULP, Fast};
 
 /// A number of several lanes.
 pub trait Lanes: Scalar {
+    /// The number in one lane.
+    type Lane: Real;
+
     /// Number of lanes.
     const LANES: usize;
 
@@ -24,113 +34,128 @@ pub trait Lanes: Scalar {
 
     /// A lane; NaN beyond the last.
     fn lane(&self, index: usize) -> f64;
+
+    /// Puts a number into a lane; does nothing beyond the last.
+    fn set_lane(&mut self, index: usize, value: f64);
 }
 
-macro_rules! lanes {
-    ($(#[$doc:meta])* $name:ident, $count:literal, $($function:ident),*) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct $name([f64; $count]);
+/// `LANES` numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Several<S, const LANES: usize>([S; LANES]);
 
-        impl $name {
-            #[inline(always)]
-            fn each(self, function: impl Fn(f64) -> f64) -> Self {
-                Self(self.0.map(function))
-            }
+/// Four doubles.
+pub type F64x4 = Several<f64, 4>;
+/// Sixteen doubles.
+pub type F64x16 = Several<f64, 16>;
+/// Sixteen doubles with fast elementary functions.
+pub type FastF64x16 = Several<Fast, 16>;
 
-            /// A loop over indices: what becomes one vector operation.
-            #[inline(always)]
-            fn with(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
-                let mut lanes = [0.0; $count];
-                for lane in 0..$count {
-                    lanes[lane] = operation(self.0[lane], other.0[lane]);
-                }
-                Self(lanes)
-            }
+/// The lanes that an [`Ensemble`](crate::Ensemble) takes.
+pub type Widest = F64x16;
+
+impl<S: Copy, const LANES: usize> Several<S, LANES> {
+    #[inline(always)]
+    fn each(mut self, function: impl Fn(S) -> S) -> Self {
+        for lane in &mut self.0 {
+            *lane = function(*lane);
         }
+        self
+    }
 
-        impl Lanes for $name {
-            const LANES: usize = $count;
-
-            #[inline(always)]
-            fn from_lanes(lane: impl FnMut(usize) -> f64) -> Self {
-                Self(core::array::from_fn(lane))
-            }
-
-            #[inline(always)]
-            fn lane(&self, index: usize) -> f64 {
-                self.0.get(index).copied().unwrap_or(f64::NAN)
-            }
+    /// A loop over indices: what becomes vector operations.
+    #[inline(always)]
+    fn with(mut self, other: Self, operation: impl Fn(S, S) -> S) -> Self {
+        for lane in 0..LANES {
+            self.0[lane] = operation(self.0[lane], other.0[lane]);
         }
+        self
+    }
+}
 
-        impl Scalar for $name {
-            #[inline(always)]
-            fn constant(hi: f64, _lo: f64) -> Self {
-                Self([hi; $count])
-            }
+impl<S: Real, const LANES: usize> Lanes for Several<S, LANES> {
+    type Lane = S;
+    const LANES: usize = LANES;
 
-            #[inline(always)]
-            fn fma(self, factor: Self, term: Self) -> Self {
-                let mut lanes = [0.0; $count];
-                for lane in 0..$count {
-                    lanes[lane] = self.0[lane].fma(factor.0[lane], term.0[lane]);
-                }
-                Self(lanes)
-            }
+    #[inline(always)]
+    fn from_lanes(mut lane: impl FnMut(usize) -> f64) -> Self {
+        Self(core::array::from_fn(|index| S::from_f64(lane(index))))
+    }
 
-            #[inline(always)]
-            fn copysign(self, sign: Self) -> Self {
-                self.with(sign, Scalar::copysign)
-            }
+    #[inline(always)]
+    fn lane(&self, index: usize) -> f64 {
+        self.0.get(index).map_or(f64::NAN, |lane| lane.to_f64())
+    }
 
-            #[inline(always)]
-            fn inverse_cbrt(self) -> Self {
-                // Straight-line in all lanes, or lane by lane.
-                match self.0.iter().all(|lane| inverse_cbrt::is_regular(*lane)) {
-                    true => self.each(inverse_cbrt::of_regular),
-                    false => self.each(Scalar::inverse_cbrt),
-                }
-            }
-
-            $(
-                #[inline(always)]
-                fn $function(self) -> Self {
-                    self.each(<f64 as Scalar>::$function)
-                }
-            )*
+    #[inline(always)]
+    fn set_lane(&mut self, index: usize, value: f64) {
+        if let Some(lane) = self.0.get_mut(index) {
+            *lane = S::from_f64(value);
         }
+    }
+}
 
-        impl Zero for $name {
-            #[inline(always)]
-            fn zero() -> Self {
-                Self([0.0; $count])
-            }
-            fn is_zero(&self) -> bool {
-                *self == Self::zero()
-            }
-        }
-
-        impl One for $name {
-            #[inline(always)]
-            fn one() -> Self {
-                Self([1.0; $count])
-            }
-        }
-
-        impl Neg for $name {
-            type Output = Self;
-            #[inline(always)]
-            fn neg(self) -> Self {
-                self.each(|lane| -lane)
-            }
-        }
-
-        lanes!(@operators $name, Add add AddAssign add_assign, Sub sub SubAssign sub_assign,
-            Mul mul MulAssign mul_assign, Div div DivAssign div_assign);
-    };
-    (@operators $name:ident, $($trait:ident $method:ident $assign:ident $assigned:ident),*) => {
+macro_rules! elementary {
+    ($($function:ident),*) => {
         $(
-            impl $trait for $name {
+            #[inline(always)]
+            fn $function(self) -> Self {
+                self.each(S::$function)
+            }
+        )*
+    };
+}
+
+impl<S: Real, const LANES: usize> Scalar for Several<S, LANES> {
+    #[inline(always)]
+    fn constant(hi: f64, lo: f64) -> Self {
+        Self([S::constant(hi, lo); LANES])
+    }
+
+    #[inline(always)]
+    fn fma(mut self, factor: Self, term: Self) -> Self {
+        for lane in 0..LANES {
+            self.0[lane] = self.0[lane].fma(factor.0[lane], term.0[lane]);
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        self.with(sign, S::copysign)
+    }
+
+    elementary!(sqrt, abs, cbrt, inverse_cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh);
+}
+
+impl<S: Real, const LANES: usize> Zero for Several<S, LANES> {
+    #[inline(always)]
+    fn zero() -> Self {
+        Self([S::zero(); LANES])
+    }
+    fn is_zero(&self) -> bool {
+        *self == Self::zero()
+    }
+}
+
+impl<S: Real, const LANES: usize> One for Several<S, LANES> {
+    #[inline(always)]
+    fn one() -> Self {
+        Self([S::one(); LANES])
+    }
+}
+
+impl<S: Real, const LANES: usize> Neg for Several<S, LANES> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.each(S::neg)
+    }
+}
+
+macro_rules! operators {
+    ($($trait:ident $method:ident $assign:ident $assigned:ident),*) => {
+        $(
+            impl<S: Real, const LANES: usize> $trait for Several<S, LANES> {
                 type Output = Self;
                 #[inline(always)]
                 fn $method(self, other: Self) -> Self {
@@ -138,7 +163,7 @@ macro_rules! lanes {
                 }
             }
 
-            impl $assign for $name {
+            impl<S: Real, const LANES: usize> $assign for Several<S, LANES> {
                 #[inline(always)]
                 fn $assigned(&mut self, other: Self) {
                     *self = self.with(other, $trait::$method);
@@ -147,21 +172,16 @@ macro_rules! lanes {
         )*
     };
 }
-
-lanes!(
-    /// Four doubles: a vector register of AVX2.
-    F64x4, 4, sqrt, abs, cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh
-);
-lanes!(
-    /// Eight doubles: two vector registers of AVX2.
-    F64x8, 8, sqrt, abs, cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh
-);
-
-/// The lanes that an [`Ensemble`](crate::Ensemble) takes: one register of AVX2. Compilers split arrays of eight.
-pub type Widest = F64x4;
+operators!(Add add AddAssign add_assign, Sub sub SubAssign sub_assign, Mul mul MulAssign mul_assign, Div div DivAssign div_assign);
 
 /// An entry of several records, one to a lane; the last record fills what is left of them.
 #[inline]
 pub fn gathered<T: Lanes, C>(records: &[C], entry: impl Fn(&C) -> f64) -> T {
     T::from_lanes(|lane| records.get(lane).or(records.last()).map_or(f64::NAN, &entry))
+}
+
+/// What stands in a lane.
+#[inline(always)]
+pub fn in_lane<T: Lanes>(lanes: &T, lane: usize) -> T::Lane {
+    T::Lane::from_f64(lanes.lane(lane))
 }

@@ -1,6 +1,6 @@
 //! What emitted code uses besides the public traits. No stable interface: it changes with the macro.
 
-pub use core::primitive::f64;
+pub use core::primitive::{f64, usize};
 
 pub use crate::balance::{Balance, CentreBalance};
 pub use crate::breathing::Breathing;
@@ -25,7 +25,7 @@ pub use crate::integrate::taylor::{
     subtract_products,
 };
 pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
-pub use crate::lanes::{Lanes, gathered};
+pub use crate::lanes::{Lanes, gathered, in_lane};
 pub use crate::lattice::{
     Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, LatticePieces, MetricSide,
     PotentialClass, RatioForm, TwoPolarForm, Variables, rotation, turned,

@@ -109,6 +109,7 @@ pub trait Real: Scalar + PartialOrd {
 
     /// The number nearest to a double.
     #[must_use]
+    #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self::constant(value, 0.0)
     }
@@ -153,6 +154,7 @@ macro_rules! primitive {
             fn is_finite(self) -> bool {
                 <$type>::is_finite(self)
             }
+            #[inline(always)]
             fn to_f64(self) -> f64 {
                 f64::from(self)
             }

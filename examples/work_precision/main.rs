@@ -7,6 +7,7 @@ mod problems;
 use std::fs;
 use std::path::Path;
 
+use affine_runtime::capability::InLanes;
 use affine_runtime::prelude::*;
 use affine_runtime::report::{WorkPrecision, WorkPrecisionDiagram, reference_solution};
 
@@ -32,7 +33,7 @@ struct Reports {
 }
 
 impl Visitor for Reports {
-    fn visit<M: Model<3>>(
+    fn visit<M: InLanes<3>>(
         &mut self,
         name: &'static str,
         model: &M,

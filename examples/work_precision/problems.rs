@@ -1,5 +1,6 @@
 //! The benchmark problems: models, starts, reference ends.
 
+use affine_runtime::capability::InLanes;
 use affine_runtime::prelude::*;
 
 /// Problem P1: affine in space, metrical in the body, with translation; no potential.
@@ -7,7 +8,7 @@ use affine_runtime::prelude::*;
     dim = 3,
     symmetry(space = affine, body = metric),
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
-    emit(taylor),
+    emit(taylor, lanes),
 )]
 pub(crate) struct DrunkMissile;
 
@@ -17,7 +18,7 @@ pub(crate) struct DrunkMissile;
     symmetry(space = affine, body = metric),
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(c1),
-    emit(taylor),
+    emit(taylor, lanes),
 )]
 pub(crate) struct Vibrating {
     /// Stiffness of the dilatation.
@@ -32,7 +33,7 @@ pub(crate) struct Vibrating {
     symmetry(space = metric, body = affine),
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1),
     potential = hyperbolic_dilatation(10) + neo_hookean(0.5),
-    emit(taylor),
+    emit(taylor, lanes),
 )]
 pub(crate) struct Mirrored;
 
@@ -41,7 +42,7 @@ pub(crate) struct Mirrored;
     dim = 3,
     kinetic(dalembert = diag(1, 1.5, 2)),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
-    emit(taylor, nystrom),
+    emit(taylor, nystrom, lanes),
 )]
 pub(crate) struct Elastic {
     /// Stiffness of the dilatation.
@@ -54,7 +55,7 @@ pub(crate) struct Elastic {
     symmetry(space = affine, body = metric),
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
-    emit(taylor),
+    emit(taylor, lanes),
 )]
 pub(crate) struct StiffMissile {
     /// Stiffness of the dilatation.
@@ -70,7 +71,7 @@ pub(crate) trait Visitor {
     ///
     /// # Errors
     /// Those of what is done.
-    fn visit<M: Model<3>>(
+    fn visit<M: InLanes<3>>(
         &mut self,
         name: &'static str,
         model: &M,

@@ -1,7 +1,7 @@
 //! Lanes give the bits of scalars.
 
 use affine_oracle::Random;
-use affine_runtime::lanes::{F64x4, F64x8, Lanes};
+use affine_runtime::lanes::{F64x4, F64x16, Lanes};
 use affine_runtime::model::StateVector;
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;
@@ -35,7 +35,7 @@ fn functions_agree<T: Lanes>() {
     let mut random = Random::new(17);
     for _ in 0..200 {
         let mut number = || between(&mut random, -1.0, 1.0) * between(&mut random, -40.0, 40.0).exp2();
-        let mut numbers = || [(); 8].map(|()| number());
+        let mut numbers = || [(); 16].map(|()| number());
         let (mut a, b, c) = (numbers(), numbers(), numbers());
         (a[1], a[2], a[3]) = (-0.0, f64::INFINITY, f64::NAN);
         let [x, y, z] = [a, b, c].map(|numbers| T::from_lanes(|lane| numbers[lane]));
@@ -63,7 +63,7 @@ fn functions_agree<T: Lanes>() {
 #[test]
 fn numbers_in_lanes_are_those_of_scalars() {
     functions_agree::<F64x4>();
-    functions_agree::<F64x8>();
+    functions_agree::<F64x16>();
 }
 
 /// Emitted right-hand sides of different bodies at different times, with constants of their own.
@@ -78,7 +78,10 @@ fn equations_agree<const N: usize, M: Sampled<N>, T: Lanes>(model: &M) {
     }
     let in_lanes = M::constants_in_lanes::<T>(&constants);
     let t = T::from_lanes(|lane| 0.3 + lane as f64);
-    let rates = model.reduced_equations(t, &in_lanes, &state);
+    let at_once = model.reduced_equations(t, &in_lanes, &state);
+    let mut rates = M::Reduced::<T>::zeros();
+    model.equations_in_lanes(t, &in_lanes, &state, &mut rates);
+    assert_eq!(at_once.as_ref(), rates.as_ref());
     for (lane, (state, constants)) in reduced.iter().enumerate() {
         let alone = model.reduced_equations(0.3 + lane as f64, constants, state);
         let bits = |number: f64| number.to_bits();
@@ -91,10 +94,10 @@ fn equations_agree<const N: usize, M: Sampled<N>, T: Lanes>(model: &M) {
 #[test]
 fn emitted_equations_in_lanes_are_those_of_scalars() {
     equations_agree::<3, _, F64x4>(&DrunkMissile);
-    equations_agree::<3, _, F64x8>(&DrunkMissile);
+    equations_agree::<3, _, F64x16>(&DrunkMissile);
     equations_agree::<3, _, F64x4>(&vibrating());
-    equations_agree::<3, _, F64x8>(&vibrating());
-    equations_agree::<3, _, F64x8>(&Elastic);
+    equations_agree::<3, _, F64x16>(&vibrating());
+    equations_agree::<3, _, F64x16>(&Elastic);
     equations_agree::<2, _, F64x4>(&Unprotected);
 }
 
@@ -112,7 +115,7 @@ where
                 .run()
                 .unwrap();
             let ensemble = || Ensemble::new(model, [start; 5]).until(t_end).tolerance(1e-9);
-            for ends in [ensemble().run_in::<F64x4>().unwrap(), ensemble().run_in::<F64x8>().unwrap()] {
+            for ends in [ensemble().run_in::<F64x4>().unwrap(), ensemble().run_in::<F64x16>().unwrap()] {
                 assert_eq!(ends.len(), 5);
                 for end in ends {
                     assert_eq!(end.unwrap(), *alone.end().1, "{} to {t_end}", M::DESCRIPTION.name);

@@ -1,5 +1,6 @@
 //! What becomes of each body of an ensemble.
 
+use affine_runtime::lanes::{Lanes, Widest};
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::{Reason, Setting};
 
@@ -21,9 +22,12 @@ fn bodies_come_to_where_each_comes_alone() {
     }
 }
 
+/// More than there are lanes.
+const BODIES: usize = Widest::LANES + 4;
+
 #[test]
 fn a_bad_body_does_not_touch_the_others() {
-    let good = Unprotected.samples(8, 7);
+    let good = Unprotected.samples(BODIES, 7);
     let collapsing = Unprotected
         .at_momentum(
             Vector::<2>::zeros(),
@@ -34,7 +38,7 @@ fn a_bad_body_does_not_touch_the_others() {
         .unwrap();
     let ensemble =
         |starts: Vec<_>| Ensemble::new(&Unprotected, starts).until(0.6).tolerance(1e-10).run().unwrap();
-    for lane in [0, 3, 7] {
+    for lane in [0, 3, 15, 16, 19] {
         let mut with_bad = good.clone();
         with_bad[lane] = collapsing;
         let ends = ensemble(with_bad.clone());
@@ -43,9 +47,8 @@ fn a_bad_body_does_not_touch_the_others() {
         let alone = Simulation::new(&Unprotected, collapsing).until(0.6).tolerance(1e-10).output([]);
         assert_eq!(*stop, alone.method(Method::RungeKutta8).run().unwrap_err().stop);
         // As if the bad one were not there: one after the other in the same lanes, the last repeated.
-        let group = 8 / if cfg!(target_feature = "avx512f") { 1 } else { 2 };
         for (k, end) in ends.iter().enumerate().filter(|(k, _)| *k != lane) {
-            let neighbours: Vec<_> = (0..8).filter(|j| j / group == k / group && *j != lane).collect();
+            let neighbours: Vec<_> = (0..BODIES).filter(|j| j / Widest::LANES == k / Widest::LANES && *j != lane).collect();
             let without = ensemble(neighbours.iter().map(|j| good[*j]).collect());
             let place = neighbours.iter().position(|j| *j == k).unwrap();
             assert_eq!(end, &without[place], "body {k} beside {lane}");

@@ -213,15 +213,15 @@ where
 }
 
 /// The reduced equations of a group.
-struct Reduced<'a, const N: usize, M: Model<N>, T: Lanes> {
+struct Reduced<'a, const N: usize, M: InLanes<N>, T: Lanes> {
     model: &'a M,
     constants: M::Constants<T>,
 }
 
-impl<const N: usize, M: Model<N>, T: Lanes> Equations<T, M::Reduced<T>> for Reduced<'_, N, M, T> {
+impl<const N: usize, M: InLanes<N>, T: Lanes> Equations<T, M::Reduced<T>> for Reduced<'_, N, M, T> {
     #[inline(always)]
-    fn slope(&self, t: T, y: &M::Reduced<T>) -> M::Reduced<T> {
-        self.model.reduced_equations(t, &self.constants, y)
+    fn slope(&self, t: T, y: &M::Reduced<T>, slope: &mut M::Reduced<T>) {
+        self.model.equations_in_lanes(t, &self.constants, y, slope);
     }
 }
 

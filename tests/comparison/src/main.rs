@@ -19,6 +19,7 @@ mod tools;
 use std::fs;
 use std::time::Duration;
 
+use affine_runtime::capability::InLanes;
 use affine_runtime::prelude::*;
 use affine_runtime::report::{Series, WorkPrecision, WorkPrecisionDiagram, WorkPrecisionPoint};
 
@@ -83,7 +84,7 @@ struct Comparison {
 }
 
 impl Visitor for Comparison {
-    fn visit<M: Model<3>>(
+    fn visit<M: InLanes<3>>(
         &mut self,
         name: &'static str,
         model: &M,

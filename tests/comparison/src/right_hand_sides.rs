@@ -3,17 +3,19 @@
 //! *Same function*: Hamilton's equations of the phase point as the model has it. *Same task*: the reduced equations,
 //! which are what is integrated.
 
-use affine_runtime::prelude::*;
+use affine_runtime::capability::InLanes;
+use affine_runtime::lanes::{F64x16, FastF64x16, Lanes};
+use affine_runtime::model::StateVector;
 
 use crate::by_hand;
 use crate::problems::Visitor;
-use crate::timing::{Times, net};
+use crate::timing::{Equations, Times, net, net_in_lanes};
 
 /// Times every problem once; those that differ in their numbers alone are left out.
 pub(crate) struct RightHandSides;
 
 impl Visitor for RightHandSides {
-    fn visit<M: Model<3>>(
+    fn visit<M: InLanes<3>>(
         &mut self,
         name: &'static str,
         model: &M,
@@ -32,7 +34,14 @@ impl Visitor for RightHandSides {
                 task / by_hand
             )
         };
-        println!("{name:<9}{}   {}", columns(|times| times.chain), columns(|times| times.throughput));
+        let lanes = [in_lanes::<F64x16, M>(model, &start), in_lanes::<FastF64x16, M>(model, &start)];
+        println!(
+            "{name:<9}{}   {}   {:>9.1}{:>9.1}",
+            columns(|times| times.chain),
+            columns(|times| times.throughput),
+            lanes[0],
+            lanes[1],
+        );
         Ok(())
     }
 }
@@ -41,8 +50,31 @@ impl Visitor for RightHandSides {
 pub(crate) fn print_head() {
     println!("net evaluation times in ns: written by hand, same function, same task; ratios to the first\n");
     let columns = format!("{:>9}{:>9}{:>9}{:>8}{:>8}", "by hand", "function", "task", "f/hand", "t/hand");
-    println!("{:<9}{:<43}   state after state", "", "dependent chain");
-    println!("{:<9}{columns}   {columns}", "problem");
+    println!("{:<9}{:<43}   {:<43}   in lanes, task", "", "dependent chain", "state after state");
+    println!("{:<9}{columns}   {columns}   {:>9}{:>9}", "problem", "strict", "fast");
+}
+
+/// The reduced equations, in lanes.
+fn in_lanes<T: Lanes, M: InLanes<3>>(model: &M, start: &M::Point<f64>) -> f64 {
+    let (reduced, constants) = model.reduce(0.0, start);
+    let constants = M::constants_in_lanes::<T>(&[constants]);
+    let mut state = M::Reduced::<T>::zeros();
+    for (component, value) in state.as_mut().iter_mut().zip(reduced.as_ref()) {
+        *component = T::from_lanes(|_| *value);
+    }
+    net_in_lanes::<T, _>(state, &Reduced::<T, M> { model, constants })
+}
+
+struct Reduced<'a, T: Lanes, M: InLanes<3>> {
+    model: &'a M,
+    constants: M::Constants<T>,
+}
+
+impl<T: Lanes, M: InLanes<3>> Equations<M::Reduced<T>> for Reduced<'_, T, M> {
+    #[inline(always)]
+    fn slope(&self, y: &M::Reduced<T>, slope: &mut M::Reduced<T>) {
+        self.model.equations_in_lanes(T::zero(), &self.constants, y, slope);
+    }
 }
 
 /// States of the sizes that the problems have.

@@ -3,6 +3,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use affine_runtime::lanes::Lanes;
+
 /// States of the throughput measurement.
 const STATES: usize = 4096;
 /// Evaluations of one chain.
@@ -23,6 +25,53 @@ pub(crate) struct Times {
 pub(crate) fn net<const D: usize>(start: [f64; D], f: impl Fn(&[f64; D]) -> [f64; D]) -> Times {
     let (whole, floor) = (gross(start, f), gross(start, |y| *y));
     Times { chain: whole.chain - floor.chain, throughput: whole.throughput - floor.throughput }
+}
+
+/// A right-hand side. A trait, since a closure is not made part of the function that is compiled for wide vectors.
+pub(crate) trait Equations<S> {
+    /// Writes the slope; to be `#[inline(always)]`.
+    fn slope(&self, y: &S, slope: &mut S);
+}
+
+struct Copying;
+
+impl<S: Copy> Equations<S> for Copying {
+    #[inline(always)]
+    fn slope(&self, y: &S, slope: &mut S) {
+        *slope = *y;
+    }
+}
+
+/// Nanoseconds for one of 4096 states that lie in lanes, with the widest vectors there are, less those of copying.
+pub(crate) fn net_in_lanes<T: Lanes, S: Copy>(state: S, equations: &impl Equations<S>) -> f64 {
+    (gross_in_lanes::<T, S>(state, equations) - gross_in_lanes::<T, S>(state, &Copying)) / STATES as f64
+}
+
+fn gross_in_lanes<T: Lanes, S: Copy>(state: S, equations: &impl Equations<S>) -> f64 {
+    let states = vec![state; STATES / T::LANES];
+    let mut slopes = states.clone();
+    let arch = pulp::Arch::new();
+    least(|| {
+        arch.dispatch(Pass { states: black_box(&states), slopes: &mut slopes, equations });
+        black_box(&slopes);
+    })
+}
+
+/// A right-hand side at each state.
+struct Pass<'a, S, E> {
+    states: &'a [S],
+    slopes: &'a mut [S],
+    equations: &'a E,
+}
+
+impl<S, E: Equations<S>> pulp::WithSimd for Pass<'_, S, E> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) {
+        for (state, slope) in self.states.iter().zip(self.slopes) {
+            self.equations.slope(state, slope);
+        }
+    }
 }
 
 fn gross<const D: usize>(start: [f64; D], f: impl Fn(&[f64; D]) -> [f64; D]) -> Times {

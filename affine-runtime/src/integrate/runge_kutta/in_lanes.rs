@@ -11,12 +11,14 @@ use crate::lanes::Lanes;
 use crate::model::{Group, StateVector};
 
 const STAGES: usize = 13;
+/// Place of the slope at the end of a step, which is the first of the next.
+const AT_END: usize = 12;
 
 /// `y' = f(t, y)` in lanes. A trait, since a closure cannot be made part of the function that is compiled for the
 /// processor's vectors: what is called from there is compiled for the vectors of every processor.
 pub(crate) trait Equations<T, S> {
-    /// `f(t, y)`; to be `#[inline(always)]`.
-    fn slope(&self, t: T, y: &S) -> S;
+    /// Writes `f(t, y)`; to be `#[inline(always)]`. In place, since states of many lanes are long.
+    fn slope(&self, t: T, y: &S, slope: &mut S);
 }
 
 /// Bodies in lanes from `t0` to `t_end`: [`RungeKutta8`](super::RungeKutta8) operation by operation, but for the step
@@ -52,10 +54,15 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         tolerance: f64,
     ) -> Result<Self, Failing> {
         let t = T::constant(t0, 0.0);
-        let slope = f.slope(t, &y0);
+        let value = |t, y: &S| {
+            let mut slope = S::zeros();
+            f.slope(t, y, &mut slope);
+            slope
+        };
+        let slope = value(t, &y0);
         none(T::LANES, |lane| !is_finite(&y0, lane) || !is_finite(&slope, lane))?;
-        let norm = NormInLanes::probed(groups, &|t, y: &S| f.slope(t, y), (t, &y0, &slope));
-        let length = first_step(&|t, y: &S| f.slope(t, y), &norm, (t0, &y0, &slope), t_end - t0, tolerance);
+        let norm = NormInLanes::probed(groups, &value, (t, &y0, &slope));
+        let length = first_step(&value, &norm, (t0, &y0, &slope), t_end - t0, tolerance);
         let mut stages = [S::zeros(); STAGES];
         stages[0] = slope;
         let controller = Controller::of(DormandPrince853::ERROR_ORDER);
@@ -69,12 +76,12 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
     pub(crate) fn advance(&mut self) -> Result<(), Failing> {
         loop {
             let end = next_time(self.t, self.length, self.t_end);
-            let (error, slope) = widest(Trial { integration: self, end });
+            let error = widest(Trial { integration: self, end });
             let mut worst = worst(&error);
             if worst <= 1.0 {
-                if none(T::LANES, |lane| !is_finite(&slope, lane)).is_ok() {
+                if none(T::LANES, |lane| !is_finite(&self.stages[AT_END], lane)).is_ok() {
                     self.length = (end - self.t).abs() * self.controller.accept(worst);
-                    (self.t, self.y, self.stages[0]) = (end, self.trial, slope);
+                    (self.t, self.y, self.stages[0]) = (end, self.trial, self.stages[AT_END]);
                     self.steps += 1;
                     return Ok(());
                 }
@@ -117,41 +124,34 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         self.stage::<10, 7>(end, &A10);
         self.stage::<11, 8>(end, &A11);
         self.stage::<12, 9>(end, &A12);
-        self.trial = self.moved(end, &B);
+        self.moved(end, &B);
     }
 
     #[inline(always)]
     fn stage<const NUMBER: usize, const TERMS: usize>(&mut self, end: f64, row: &[(usize, f64); TERMS]) {
         let (_, node) = NODES[NUMBER - 2];
         let time = if node == 1.0 { end } else { self.t + node * (end - self.t) };
-        self.stages[NUMBER - 1] = self.f.slope(T::constant(time, 0.0), &self.moved(end, row));
+        self.moved(end, row);
+        self.f.slope(T::constant(time, 0.0), &self.trial, &mut self.stages[NUMBER - 1]);
     }
 
+    /// The trial state at the stage of a row.
     #[inline(always)]
-    fn moved<const TERMS: usize>(&self, end: f64, row: &[(usize, f64); TERMS]) -> S {
+    fn moved<const TERMS: usize>(&mut self, end: f64, row: &[(usize, f64); TERMS]) {
         let h = T::constant(end - self.t, 0.0);
-        let mut moved = self.combination(row);
-        for (m, y) in moved.as_mut().iter_mut().zip(self.y.as_ref()) {
-            *m = m.fma(h, *y);
+        for (i, trial) in self.trial.as_mut().iter_mut().enumerate() {
+            *trial = combination(&self.stages, i, row).fma(h, self.y.as_ref()[i]);
         }
-        moved
-    }
-
-    #[inline(always)]
-    fn combination<const TERMS: usize>(&self, row: &[(usize, f64); TERMS]) -> S {
-        let mut sum = S::zeros();
-        for (i, sum) in sum.as_mut().iter_mut().enumerate() {
-            for (stage, coefficient) in row {
-                *sum = self.stages[stage - 1].as_ref()[i].fma(T::constant(*coefficient, 0.0), *sum);
-            }
-        }
-        sum
     }
 
     /// Estimated errors relative to the tolerance.
     #[inline(always)]
     fn error(&self, end: f64) -> T {
-        let (fifth, third) = (self.combination(&E5), self.combination(&E3));
+        let (mut fifth, mut third) = (S::zeros(), S::zeros());
+        for i in 0..S::LEN {
+            fifth.as_mut()[i] = combination(&self.stages, i, &E5);
+            third.as_mut()[i] = combination(&self.stages, i, &E3);
+        }
         let h = T::constant((end - self.t).abs(), 0.0);
         let relative = self.norm.largest(h, self.y.as_ref(), self.trial.as_ref(), |range| {
             let fifth = squares_in_lanes(&fifth.as_ref()[range.clone()]);
@@ -163,19 +163,35 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
     }
 }
 
-/// A step of an integration to the time `end`: its errors, and the slope behind it, which most steps need.
+/// Component `i` of the slopes, each times the coefficient that a row has for it.
+#[inline(always)]
+fn combination<T: Lanes, S: StateVector<T>, const TERMS: usize>(
+    stages: &[S; STAGES],
+    i: usize,
+    row: &[(usize, f64); TERMS],
+) -> T {
+    let mut sum = T::zero();
+    for (stage, coefficient) in row {
+        sum = stages[stage - 1].as_ref()[i].fma(T::constant(*coefficient, 0.0), sum);
+    }
+    sum
+}
+
+/// A step of an integration to the time `end`, with the slope behind it, which most steps need; its errors.
 struct Trial<'a, T, S, F> {
     integration: &'a mut RungeKutta8InLanes<T, S, F>,
     end: f64,
 }
 
 impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Work for Trial<'_, T, S, F> {
-    type Output = (T, S);
+    type Output = T;
     #[inline(always)]
-    fn run(self, _vectors: impl Vectors) -> (T, S) {
-        self.integration.attempt(self.end);
-        let slope = self.integration.f.slope(T::constant(self.end, 0.0), &self.integration.trial);
-        (self.integration.error(self.end), slope)
+    fn run(self, _vectors: impl Vectors) -> T {
+        let integration = self.integration;
+        integration.attempt(self.end);
+        let slope = &mut integration.stages[AT_END];
+        integration.f.slope(T::constant(self.end, 0.0), &integration.trial, slope);
+        integration.error(self.end)
     }
 }
 

@@ -1,6 +1,6 @@
-//! `emit(lanes)`: the constants of several trajectories as those of one in lanes.
+//! `emit(lanes)`: the constants of several trajectories as those of one in lanes, and back.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
 use super::{Context, Parts};
@@ -15,42 +15,82 @@ pub(in crate::emit) fn implementation(context: &Context) -> TokenStream {
     let (generics, types, clause) = context.generics();
     let (t, constants) = (&context.names.scalar, &context.names.constants);
     let parts = Parts::of(context);
-    let scalar = |name: TokenStream| quote!(#rt::gathered(constants, |lane| lane.#name));
-    let vector = |name: TokenStream| quote!(#rt::Vector::<#n, #t>::from_fn(|row, _| #rt::gathered(constants, |lane| lane.#name[row])));
-    let matrix = |name: TokenStream| {
-        quote! {
-            #rt::Matrix::<#n, #t>::from_fn(|row, column| {
-                #rt::gathered(constants, |lane| lane.#name[(row, column)])
-            })
-        }
-    };
-    let list = |name: TokenStream| quote!(::core::array::from_fn(|k| #rt::gathered(constants, |lane| lane.#name[k])));
-    let fields = [
-        (parts.origin, quote!(t0), scalar(quote!(t0))),
-        (parts.turn, quote!(turn), matrix(quote!(turn))),
-        (parts.linear, quote!(p), vector(quote!(p))),
-        (parts.drift, quote!(x0), vector(quote!(x0))),
-        (parts.drift, quote!(drift), vector(quote!(drift))),
-        (parts.momentum, quote!(momentum), matrix(quote!(momentum))),
-        (!parts.fixed.is_empty(), quote!(fixed), list(quote!(fixed))),
-        (parts.whirl.is_some(), quote!(whirl), matrix(quote!(whirl))),
-        (parts.dilatation, quote!(dilatation), quote!(#rt::Breathing::none())),
-        (parts.coefficients > 0, quote!(coefficients), list(quote!(coefficients))),
-    ];
-    let stored: Vec<_> = fields.iter().filter(|(wanted, ..)| *wanted).collect();
-    let (parameter, marker) = if stored.is_empty() {
-        (quote!(_constants), Some(quote!(scalar: ::core::marker::PhantomData)))
+    let stored: Vec<Stored> = [
+        (parts.origin, "t0", Shape::Number),
+        (parts.turn, "turn", Shape::Matrix),
+        (parts.linear, "p", Shape::Vector),
+        (parts.drift, "x0", Shape::Vector),
+        (parts.drift, "drift", Shape::Vector),
+        (parts.momentum, "momentum", Shape::Matrix),
+        (!parts.fixed.is_empty(), "fixed", Shape::List),
+        (parts.whirl.is_some(), "whirl", Shape::Matrix),
+        (parts.dilatation, "dilatation", Shape::Dilatation),
+        (parts.coefficients > 0, "coefficients", Shape::List),
+    ]
+    .into_iter()
+    .filter_map(|(wanted, name, shape)| wanted.then(|| Stored { name: Ident::new(name, Span::call_site()), shape }))
+    .collect();
+    let (argument, lane, marker) = if stored.is_empty() {
+        (quote!(_constants), quote!(_lane), Some(quote!(scalar: ::core::marker::PhantomData)))
     } else {
-        (quote!(constants), None)
+        (quote!(constants), quote!(lane), None)
     };
-    let stored = stored.iter().map(|(_, name, value)| quote!(#name: #value,));
+    let gathered = stored.iter().map(|field| field.with(context, |entry| quote!(#rt::gathered(constants, |lane| lane.#entry))));
+    let of_lane = stored.iter().map(|field| field.with(context, |entry| quote!(#rt::in_lane(&constants.#entry, lane))));
     quote! {
         impl #generics #rt::InLanes<#n> for #prepared #types #clause {
             fn constants_in_lanes<#t: #rt::Lanes>(
-                #parameter: &[Self::Constants<#rt::f64>],
+                #argument: &[Self::Constants<#rt::f64>],
             ) -> Self::Constants<#t> {
-                #constants { #(#stored)* #marker }
+                #constants { #(#gathered,)* #marker }
+            }
+
+            #[inline(always)]
+            fn constants_of_lane<#t: #rt::Lanes>(
+                #argument: &Self::Constants<#t>,
+                #lane: #rt::usize,
+            ) -> Self::Constants<#t::Lane> {
+                #constants { #(#of_lane,)* #marker }
             }
         }
+    }
+}
+
+/// What is stored of a trajectory.
+struct Stored {
+    name: Ident,
+    shape: Shape,
+}
+
+enum Shape {
+    Number,
+    Vector,
+    Matrix,
+    List,
+    /// A motion that no equation reads.
+    Dilatation,
+}
+
+impl Stored {
+    /// The field, entry by entry a function of the entry it comes from.
+    fn with(&self, context: &Context, from: impl Fn(TokenStream) -> TokenStream) -> TokenStream {
+        let (rt, n, name) = (&context.names.rt, context.dim(), &self.name);
+        let value = match self.shape {
+            Shape::Number => from(quote!(#name)),
+            Shape::Vector => {
+                let entry = from(quote!(#name[row]));
+                quote!(#rt::Vector::<#n, _>::from_fn(|row, _| #entry))
+            }
+            Shape::Matrix => {
+                let entry = from(quote!(#name[(row, column)]));
+                quote!(#rt::Matrix::<#n, _>::from_fn(|row, column| #entry))
+            }
+            Shape::List => {
+                let entry = from(quote!(#name[k]));
+                quote!(::core::array::from_fn(|k| #entry))
+            }
+            Shape::Dilatation => quote!(#rt::Breathing::none()),
+        };
+        quote!(#name: #value)
     }
 }
