@@ -90,7 +90,10 @@ fn fast_functions_at_the_ends_are_those_of_scalars() {
             let (found, expected) = (fast(lanes).lane(3), strict(x));
             let same = found == expected && found.is_sign_positive() == expected.is_sign_positive();
             let close = (found - expected).abs() <= (4.0 * f64::EPSILON * expected.abs()).max(5e-324);
-            assert!(same || close || (found.is_nan() && expected.is_nan()), "{name}({x:e}): {found:e} {expected:e}");
+            assert!(
+                same || close || (found.is_nan() && expected.is_nan()),
+                "{name}({x:e}): {found:e} {expected:e}"
+            );
         }
     }
 }

@@ -48,7 +48,8 @@ fn a_bad_body_does_not_touch_the_others() {
         assert_eq!(*stop, alone.method(Method::RungeKutta8).run().unwrap_err().stop);
         // As if the bad one were not there: one after the other in the same lanes, the last repeated.
         for (k, end) in ends.iter().enumerate().filter(|(k, _)| *k != lane) {
-            let neighbours: Vec<_> = (0..BODIES).filter(|j| j / Widest::LANES == k / Widest::LANES && *j != lane).collect();
+            let neighbours: Vec<_> =
+                (0..BODIES).filter(|j| j / Widest::LANES == k / Widest::LANES && *j != lane).collect();
             let without = ensemble(neighbours.iter().map(|j| good[*j]).collect());
             let place = neighbours.iter().position(|j| *j == k).unwrap();
             assert_eq!(end, &without[place], "body {k} beside {lane}");

@@ -28,15 +28,20 @@ pub(in crate::emit) fn implementation(context: &Context) -> TokenStream {
         (parts.coefficients > 0, "coefficients", Shape::List),
     ]
     .into_iter()
-    .filter_map(|(wanted, name, shape)| wanted.then(|| Stored { name: Ident::new(name, Span::call_site()), shape }))
+    .filter_map(|(wanted, name, shape)| {
+        wanted.then(|| Stored { name: Ident::new(name, Span::call_site()), shape })
+    })
     .collect();
     let (argument, lane, marker) = if stored.is_empty() {
         (quote!(_constants), quote!(_lane), Some(quote!(scalar: ::core::marker::PhantomData)))
     } else {
         (quote!(constants), quote!(lane), None)
     };
-    let gathered = stored.iter().map(|field| field.with(context, |entry| quote!(#rt::gathered(constants, |lane| lane.#entry))));
-    let of_lane = stored.iter().map(|field| field.with(context, |entry| quote!(#rt::in_lane(&constants.#entry, lane))));
+    let gathered = stored
+        .iter()
+        .map(|field| field.with(context, |entry| quote!(#rt::gathered(constants, |lane| lane.#entry))));
+    let of_lane =
+        stored.iter().map(|field| field.with(context, |entry| quote!(#rt::in_lane(&constants.#entry, lane))));
     quote! {
         impl #generics #rt::InLanes<#n> for #prepared #types #clause {
             fn constants_in_lanes<#t: #rt::Lanes>(
