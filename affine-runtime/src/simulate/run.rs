@@ -44,7 +44,7 @@ struct Run<'a, const N: usize, P> {
 }
 
 impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
-    fn outcome(self) -> Outcome<N, P> {
+    fn outcome(mut self) -> Outcome<N, P> {
         let mut trajectory = self.empty_trajectory();
         let model = self.model;
         let outcome = self.drive(&mut trajectory);
@@ -98,7 +98,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         }
     }
 
-    fn drive(mut self, trajectory: &mut Trajectory<N, P>) -> Result<(), Reason> {
+    fn drive(&mut self, trajectory: &mut Trajectory<N, P>) -> Result<(), Reason> {
         let description = self.model.description();
         let (t_end, schedule) = self.settings.checked(description)?;
         let Settings { start, plan: Plan { t0, max_steps, .. }, .. } = self.settings;
