@@ -4,6 +4,26 @@ use core::ops::Range;
 
 use crate::model::{Constraint, Description, Group, WORK};
 
+/// Where a state holds what a run looks at without expanding it.
+#[derive(Clone, Debug)]
+pub(super) struct Layout {
+    /// The placement, row by row, up to factors of positive determinant that the expansion restores.
+    pub(super) placement: Option<Range<usize>>,
+    /// The work of the forces that no potential has.
+    pub(super) work: Option<usize>,
+}
+
+impl Layout {
+    /// That of a state of a body in dimension `n`.
+    pub(super) const fn of(groups: &[Group], n: usize) -> Self {
+        let work = match components(groups, WORK) {
+            Some(range) => Some(range.start),
+            None => None,
+        };
+        Self { placement: placement_in(groups, n), work }
+    }
+}
+
 /// Number of components.
 pub(super) const fn total(groups: &[Group]) -> usize {
     let mut total = 0;
@@ -27,17 +47,16 @@ pub(super) const fn placement_in(groups: &[Group], n: usize) -> Option<Range<usi
     }
 }
 
-/// The component that is the work of the forces that no potential has.
-pub(super) const fn work_in(groups: &[Group]) -> Option<usize> {
-    match components(groups, WORK) {
-        Some(range) => Some(range.start),
-        None => None,
-    }
-}
-
 /// The reduced equations are those of the body without constraint, over `phi` and `Pi`.
 pub(super) const fn is_canonical(model: &Description) -> bool {
     components(model.reduced, "Pi").is_some()
+}
+
+/// The forces of a model contain `1/det phi`: with `q` or `D` in the potential the force on `Pi` is a multiple of
+/// `phi^-T`, cofactors times `1/det phi`.
+pub(super) const fn needs_determinant(model: &Description) -> bool {
+    let carries = components(model.reduced, "1/D").is_some() || components(model.reduced, "q").is_some();
+    carries && is_canonical(model)
 }
 
 /// The phase point is that of an isochoric body, with `Pi` its momentum.

@@ -1,7 +1,7 @@
 //! The integrators, each begun on the state that it steps.
 
 use super::halt::{Reason, Setting};
-use super::layout::{is_canonical, is_isochoric_in_pi, moves_on_group, placement_in};
+use super::layout::{Layout, is_canonical, is_isochoric_in_pi, moves_on_group, placement_in};
 use super::mechanics::Course;
 use super::motion::{Expanded, Expansion};
 use super::recorder::Recorder;
@@ -69,25 +69,25 @@ fn by_capability<const N: usize, M: Model<N>>(
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
     let Course { t0, start, t_end, tolerance, .. } = *course;
-    let groups = M::DESCRIPTION.reduced;
+    let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
     let (reduced, constants) = model.reduce(t0, &start);
     let begin = (t0, reduced);
     let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
     match method {
         Method::Taylor { order } => emitted::<N, M, _>(model.taylor(), "taylor", |series| {
             let integration = Taylor::new((series, constants), groups, begin, t_end, tolerance, order);
-            follow(integration, (&expand, groups), recorder)
+            follow(integration, (&expand, layout), recorder)
         }),
         Method::Splitting { order, step } => emitted::<N, M, _>(model.splitting(), "splitting", |pieces| {
             let integration = Splitting::new((pieces, constants), order, begin, t_end, step);
-            follow(integration.ok_or(Setting::Order { given: order })?, (&expand, groups), recorder)
+            follow(integration.ok_or(Setting::Order { given: order })?, (&expand, layout), recorder)
         }),
         _ => emitted::<N, M, _>(model.second_order(), "nystrom", |system| {
             // What follows from the positions is computed where it is asked for, not at every step.
             let expand =
                 |t: f64, halves: &M::Reduced<f64>| model.expand(t, &constants, &model.renewed(halves));
             let integration = RungeKuttaNystrom12::new((system, constants), groups, begin, t_end, tolerance);
-            follow(integration, (&expand, groups), recorder)
+            follow(integration, (&expand, layout), recorder)
         }),
     }
 }
@@ -119,7 +119,7 @@ fn reduced<const N: usize, M: Model<N>>(
     // What is carried along would spoil the geometry of Gauss collocation: it is computed from the rest.
     let closed = |t: f64, reduced: &M::Reduced<f64>| equations(t, &model.renewed(reduced));
     let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
-    let state = (M::DESCRIPTION.reduced, reduced);
+    let state = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) }, reduced);
     by_equations(coordinates, (equations, closed), state, &expand, (method, course), recorder)
 }
 
@@ -138,7 +138,7 @@ fn with_reaction<const N: usize, M: Model<N>>(
     let reaction = reaction.map_err(|failure| recorder.reason(failure))?;
     let equations = |t: f64, full: &M::Full<f64>| reaction.rates(&free, t, full);
     let expand = |_: f64, full: &M::Full<f64>| model.unflatten(&reaction.with_momentum(full));
-    let state = (groups, reaction.with_velocity(&start));
+    let state = (groups, const { Layout::of(M::DESCRIPTION.full, N) }, reaction.with_velocity(&start));
     let chart = chart::<N, M>(groups)?;
     by_equations(chart, (equations, equations), state, &expand, (method, course), recorder)
 }
@@ -147,7 +147,7 @@ fn with_reaction<const N: usize, M: Model<N>>(
 fn by_equations<const N: usize, S: StateVector<f64>, P: Phase<N>>(
     coordinates: impl Coordinates<S>,
     (equations, closed): (impl Fn(f64, &S) -> S, impl Fn(f64, &S) -> S),
-    (groups, state): (&'static [Group], S),
+    (groups, layout, state): (&'static [Group], Layout, S),
     expand: Expansion<'_, S, P>,
     (method, course): (Method, &Course<P>),
     recorder: &mut Recorder<'_, '_, N, P>,
@@ -158,15 +158,15 @@ fn by_equations<const N: usize, S: StateVector<f64>, P: Phase<N>>(
         Method::Gauss { stages, step } => {
             let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
             let integration = Gauss::within(coordinates, closed, tableau, begin, t_end, step);
-            follow(integration, (expand, groups), recorder)
+            follow(integration, (expand, layout), recorder)
         }
         Method::RungeKutta5 => {
             let integration = RungeKutta5::within(coordinates, equations, groups, begin, t_end, tolerance);
-            follow(integration.map(Explicit::new), (expand, groups), recorder)
+            follow(integration.map(Explicit::new), (expand, layout), recorder)
         }
         _ => {
             let integration = RungeKutta8::within(coordinates, equations, groups, begin, t_end, tolerance);
-            follow(integration.map(Explicit::new), (expand, groups), recorder)
+            follow(integration.map(Explicit::new), (expand, layout), recorder)
         }
     }
 }
@@ -184,19 +184,20 @@ fn by_rattle<const N: usize, M: Model<N>>(
     let composition = Composition::of_order(order).ok_or(Setting::Order { given: order })?;
     let equations = |t: f64, full: &M::Full<f64>| model.hamilton_equations(t, full);
     let expand = |_: f64, full: &M::Full<f64>| model.unflatten(full);
-    let (groups, begin) = (M::DESCRIPTION.full, (course.t0, model.flatten(&course.start)));
+    let (groups, layout) = (M::DESCRIPTION.full, const { Layout::of(M::DESCRIPTION.full, N) });
+    let begin = (course.t0, model.flatten(&course.start));
     let integration = Rattle::<N, _, _>::new(equations, groups, composition, begin, course.t_end, step);
-    follow(integration, (&expand, groups), recorder)
+    follow(integration, (&expand, layout), recorder)
 }
 
 /// Follows an integration that has begun.
 fn follow<const N: usize, S: StateVector<f64>, P: Phase<N>>(
     integration: Result<impl Stepper<S>, Failure>,
-    (expand, groups): (Expansion<'_, S, P>, &[Group]),
+    (expand, layout): (Expansion<'_, S, P>, Layout),
     recorder: &mut Recorder<'_, '_, N, P>,
 ) -> Result<(), Reason> {
     let integration = integration.map_err(|failure| recorder.reason(failure))?;
-    recorder.follow(&mut Expanded::new(integration, expand, groups, N))
+    recorder.follow(&mut Expanded::new(integration, expand, layout))
 }
 
 /// The chart of the group to which the motion is confined, for states that hold the placement.

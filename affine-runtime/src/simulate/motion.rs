@@ -1,12 +1,10 @@
 //! A motion of phase points, step by step, whatever is integrated and how.
 
-use core::ops::Range;
-
 use super::checkpoint::Bits;
-use super::layout::{placement_in, work_in};
+use super::layout::Layout;
 use super::stepper::Stepper;
 use crate::integrate::{Failure, Statistics};
-use crate::model::{Group, StateVector};
+use crate::model::StateVector;
 
 /// A phase point with the work done since the integration started.
 pub(super) type WithWork<P> = (P, f64);
@@ -50,19 +48,17 @@ pub(super) trait Motion<P> {
 pub(super) struct Expanded<'e, I, S, P> {
     integration: I,
     expand: Expansion<'e, S, P>,
-    placement: Option<Range<usize>>,
-    work: Option<usize>,
+    layout: Layout,
     kept: Option<(f64, S)>,
 }
 
 impl<'e, I: Stepper<S>, S: StateVector<f64>, P> Expanded<'e, I, S, P> {
-    /// States of a body in dimension `n` that `groups` lay out.
-    pub(super) fn new(integration: I, expand: Expansion<'e, S, P>, groups: &[Group], n: usize) -> Self {
-        Self { integration, expand, placement: placement_in(groups, n), work: work_in(groups), kept: None }
+    pub(super) fn new(integration: I, expand: Expansion<'e, S, P>, layout: Layout) -> Self {
+        Self { integration, expand, layout, kept: None }
     }
 
     fn expanded(&self, t: f64, state: &S) -> WithWork<P> {
-        ((self.expand)(t, state), self.work.map_or(0.0, |work| state.as_ref()[work]))
+        ((self.expand)(t, state), self.layout.work.map_or(0.0, |work| state.as_ref()[work]))
     }
 }
 
@@ -90,7 +86,7 @@ impl<I: Stepper<S>, S: StateVector<f64>, P> Motion<P> for Expanded<'_, I, S, P> 
         self.integration.t()
     }
     fn placement(&self) -> Option<&[f64]> {
-        self.placement.clone().map(|range| &self.integration.y().as_ref()[range])
+        self.layout.placement.clone().map(|range| &self.integration.y().as_ref()[range])
     }
     fn is_finished(&self) -> bool {
         self.integration.is_finished()

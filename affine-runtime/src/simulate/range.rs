@@ -1,18 +1,9 @@
 //! Where forces of a flat body leave the range of numbers before its placement does.
 
 use super::halt::Reason;
-use super::layout::is_canonical;
 use super::point::is_clearly_positive;
 use crate::frames::Matrix;
 use crate::kinematics::LogDeterminant;
-use crate::model::Description;
-
-/// The forces of a model contain `1/det phi`: with `q` or `D` in the potential the force on `Pi` is a multiple of
-/// `phi^-T`, cofactors times `1/det phi`.
-pub(super) fn needs_determinant(model: &Description) -> bool {
-    let carries = model.reduced.iter().any(|group| matches!(group.name, "1/D" | "q"));
-    carries && is_canonical(model)
-}
 
 /// Refuses a placement at which `1/det phi` is no normal number. A number that underflows would leave the force out
 /// without a word.

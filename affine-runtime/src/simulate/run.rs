@@ -5,7 +5,7 @@ use super::halt::{Halt, Outcome, Reason, Setting, Stop};
 use super::layout::total;
 use super::mechanics::{Course, Mechanics};
 use super::point::{check, energy_scale};
-use super::range::{in_range, needs_determinant};
+use super::range::in_range;
 use super::recorder::{Recorder, Turn};
 use super::settings::{Plan, Settings};
 use super::trajectory::{Computation, Energies, Trajectory};
@@ -44,7 +44,7 @@ struct Run<'a, const N: usize, P> {
 }
 
 impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
-    fn outcome(self) -> Outcome<N, P> {
+    fn outcome(mut self) -> Outcome<N, P> {
         let mut trajectory = self.empty_trajectory();
         let model = self.model;
         let outcome = self.drive(&mut trajectory);
@@ -98,12 +98,12 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         }
     }
 
-    fn drive(mut self, trajectory: &mut Trajectory<N, P>) -> Result<(), Reason> {
+    fn drive(&mut self, trajectory: &mut Trajectory<N, P>) -> Result<(), Reason> {
         let description = self.model.description();
         let (t_end, schedule) = self.settings.checked(description)?;
         let Settings { start, plan: Plan { t0, max_steps, .. }, .. } = self.settings;
         check(t0, &start)?;
-        let needs_determinant = needs_determinant(description);
+        let needs_determinant = self.model.needs_determinant();
         if needs_determinant {
             in_range(t0, start.phi())?;
         }
