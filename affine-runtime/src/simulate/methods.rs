@@ -65,8 +65,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let model = self.model;
         recorder.begin(self.t0, self.start)?;
         let (reduced, constants) = model.reduce(self.t0, &self.start);
-        // What follows from the positions is computed where it is asked for, not at every step.
-        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, &model.renewed(reduced));
+        let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
         let (groups, begin) = (M::DESCRIPTION.reduced, (self.t0, reduced));
         let system = model.second_order();
         let system = system.ok_or(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "nystrom" })?;

@@ -133,7 +133,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Stepper<S> for RungeKuttaNyst
         RungeKuttaNystrom12::t(self)
     }
     fn y(&self) -> &S {
-        self.halves()
+        RungeKuttaNystrom12::y(self)
     }
     fn is_finished(&self) -> bool {
         RungeKuttaNystrom12::is_finished(self)
