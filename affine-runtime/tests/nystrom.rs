@@ -71,7 +71,7 @@ fn solution_is_of_order_12() {
 fn errors_and_costs_follow_the_tolerance() {
     for (tolerance, steps) in [(1e-3, 17), (1e-6, 21), (1e-9, 31), (1e-12, 45)] {
         let run = run(0.0, 6.0, tolerance);
-        let error = distance(&run.y(), &exact(6.0));
+        let error = distance(&Coupled.renewed(run.y()), &exact(6.0));
         let Statistics { steps: taken, rejected, evaluations } = run.statistics();
         assert!(error < 10.0 * tolerance, "{tolerance:e}: {error:e}");
         assert!(taken <= steps, "{tolerance:e}: {taken} steps, {rejected} rejected");
@@ -82,7 +82,7 @@ fn errors_and_costs_follow_the_tolerance() {
 #[test]
 fn forth_and_back() {
     let there = run(0.5, 8.0, 1e-13);
-    let start = (8.0, there.y());
+    let start = (8.0, Coupled.renewed(there.y()));
     let mut back = RungeKuttaNystrom12::new((Coupled, ()), GROUPS, start, 0.5, 1e-13).unwrap();
     let mut before = back.t();
     while !back.is_finished() {
@@ -91,7 +91,7 @@ fn forth_and_back() {
         before = back.t();
     }
     assert_eq!(back.t(), 0.5);
-    assert!(distance(&back.y(), &exact(0.5)) < 1e-11);
+    assert!(distance(&Coupled.renewed(back.y()), &exact(0.5)) < 1e-11);
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn between_steps_the_error_is_that_of_a_step() {
             let t = before + part * (run.t() - before);
             assert!(distance(&run.at(t).unwrap(), &exact(t)) < 1e-9, "t = {t}");
         }
-        assert_eq!(run.at(run.t()).unwrap(), run.y());
+        assert_eq!(run.at(run.t()).unwrap(), Coupled.renewed(run.y()));
         before = run.t();
     }
 }
@@ -114,7 +114,7 @@ fn between_steps_the_error_is_that_of_a_step() {
 fn nothing_to_do_costs_one_evaluation() {
     let mut run = RungeKuttaNystrom12::new((Coupled, ()), GROUPS, (2.0, exact(2.0)), 2.0, 1e-9).unwrap();
     run.advance().unwrap();
-    assert_eq!((run.t(), run.y()), (2.0, exact(2.0)));
+    assert_eq!((run.t(), *run.y()), (2.0, exact(2.0)));
     assert_eq!(run.statistics(), Statistics { steps: 0, rejected: 0, evaluations: 1 });
 }
 
@@ -144,11 +144,11 @@ fn blow_up_stops_before_the_pole_and_keeps_the_state() {
         }
     };
     assert!(matches!(failure, Failure::StepUnderflow | Failure::NotFinite), "{failure}");
-    let (t, y) = (run.t(), run.y());
+    let (t, y) = (run.t(), *run.y());
     assert!((t - 1.0).abs() < 1e-6, "{t}");
     assert!(y[0] > 1e6 && y[0].is_finite());
     assert_eq!(run.advance(), Err(failure), "and again");
-    assert_eq!((run.t(), run.y()), (t, y));
+    assert_eq!((run.t(), *run.y()), (t, y));
     let nowhere = RungeKuttaNystrom12::new((Pole, ()), LINE, (0.0, [f64::NAN, 0.0]), 1.0, 1e-6);
     assert_eq!(nowhere.map(|run| run.t()), Err(Failure::NotFinite));
 }

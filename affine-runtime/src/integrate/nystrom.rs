@@ -157,7 +157,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
     /// [`Failure::NotFinite`], but the integration can go on.
     pub fn at(&mut self, t: f64) -> Result<S, Failure> {
         if t == self.t {
-            return Ok(self.y());
+            return Ok(self.system.renewed(self.y()));
         }
         self.statistics.evaluations += 16;
         let h = t - self.step.time();
@@ -182,15 +182,10 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
         self.t
     }
 
-    /// State reached.
+    /// State reached: its positions and momenta. What is a function of the positions, which no step reads, is that of the
+    /// start; [`SecondOrder::renewed`] computes it.
     #[must_use]
-    pub fn y(&self) -> S {
-        self.system.renewed(&self.state.value)
-    }
-
-    /// Positions and momenta reached; [`renewed`](SecondOrder::renewed), the state.
-    #[cfg(feature = "std")]
-    pub(crate) fn halves(&self) -> &S {
+    pub fn y(&self) -> &S {
         &self.state.value
     }
 

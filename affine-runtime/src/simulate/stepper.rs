@@ -35,12 +35,9 @@ pub(super) trait Stepper<S> {
     }
 }
 
-/// What the integrators have by the names of [`Stepper`], but for the state, which may have another.
+/// What the integrators have by the names of [`Stepper`].
 macro_rules! by_the_same_names {
     ($integration:ident) => {
-        by_the_same_names!($integration, y);
-    };
-    ($integration:ident, $state:ident) => {
         fn advance(&mut self) -> Result<(), Failure> {
             $integration::advance(self)
         }
@@ -48,7 +45,7 @@ macro_rules! by_the_same_names {
             $integration::t(self)
         }
         fn y(&self) -> &S {
-            $integration::$state(self)
+            $integration::y(self)
         }
         fn is_finished(&self) -> bool {
             $integration::is_finished(self)
@@ -123,7 +120,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Stepper<S> for Taylor<S, C, R> {
 }
 
 impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Stepper<S> for RungeKuttaNystrom12<S, C, R> {
-    by_the_same_names!(RungeKuttaNystrom12, halves);
+    by_the_same_names!(RungeKuttaNystrom12);
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         self.at(t)
     }
