@@ -57,7 +57,7 @@ pub trait Series<S, C> {
 /// solution.
 ///
 /// What a polynomial leaves out has the same sign in every step of a motion, rounding has not: a tolerance next to the
-/// rounding of a double is met a hundred times over, see [`truncation`].
+/// rounding of a double is met a hundred times over.
 ///
 /// The polynomial is the dense output. Steps are summed with compensation.
 ///
@@ -86,21 +86,20 @@ pub struct Taylor<S, C, R: Series<S, C>> {
 /// Orders beyond those of Jorba and Zou, for the cost of coefficients that is linear in the order.
 const MORE_ORDERS: f64 = 6.0;
 
-/// `ceil(7 - ln(tolerance)/2)`, within what there is.
-#[must_use]
-pub fn order_for(tolerance: f64) -> usize {
-    let order = libm::ceil(1.0 - 0.5 * libm::log(tolerance)) + MORE_ORDERS;
-    (order as usize).clamp(LOWEST_ORDER, HIGHEST_ORDER)
+/// The tolerance that a step meets: a hundredth of `tolerance` at 1e-15, all of it from 1e-14 on.
+///
+/// With order 25 for 1e-15 the truncation of the benchmark problem P3 adds `1e-3 eps` to the energy in each step. That is as
+/// much as all rounding after 1e5 steps, and grows linearly from there on.
+fn truncation(tolerance: f64) -> f64 {
+    let nearness = (tolerance / 1e-14).clamp(0.1, 1.0);
+    tolerance * nearness * nearness
 }
 
-/// The tolerance that a step shall meet: `tolerance min(1, tolerance/1e-14)^2`, at 1e-15 a hundredth of it.
-///
-/// With order 25 for 1e-15 the truncation of P3 adds `1e-3 eps` to the energy in each step, which after 1e5 steps is as much
-/// as all rounding together, and from there on grows linearly.
+/// `ceil(7 - ln(tolerance)/2)` for the tolerance that a step meets, within what there is: two more at 1e-15.
 #[must_use]
-pub fn truncation(tolerance: f64) -> f64 {
-    let nearness = tolerance / 1e-14;
-    if nearness < 1.0 { tolerance * nearness * nearness } else { tolerance }
+pub fn order_for(tolerance: f64) -> usize {
+    let order = libm::ceil(1.0 - 0.5 * libm::log(truncation(tolerance))) + MORE_ORDERS;
+    (order as usize).clamp(LOWEST_ORDER, HIGHEST_ORDER)
 }
 
 impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
@@ -133,10 +132,9 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         };
         let mut coefficients = [S::zeros(); HIGHEST_ORDER + 1];
         coefficients[0] = y0;
-        let tolerance = truncation(tolerance);
         Ok(Self {
             error_norm,
-            tolerance,
+            tolerance: truncation(tolerance),
             order: order.unwrap_or(order_for(tolerance)).clamp(LOWEST_ORDER, HIGHEST_ORDER),
             begin: t0,
             t: t0,
