@@ -367,7 +367,16 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "dim = 2, metrics(body = eta), kinetic(dalembert = j, space_translation = 1), \
          dissipation(space_tensor = k), forces = custom(wind, translation)",
         "/// A body in axes of its own.
-        pub struct Oblique { eta: Matrix<2>, j: Matrix<2>, k: Matrix<4>, wind: Wind }",
+        pub struct Oblique<W: Clone + affine_runtime::force::Force<2, Form = affine_runtime::force::Translation>> {
+            /// Lengths in the body.
+            pub eta: affine_runtime::frames::Matrix<2>,
+            /// Inertia.
+            pub j: [[f64; 2]; 2],
+            /// Friction.
+            pub k: [[f64; 4]; 4],
+            /// What blows.
+            pub wind: W,
+        }",
     ),
 ];
 

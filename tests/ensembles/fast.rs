@@ -7,8 +7,11 @@ use qd::Quad;
 
 use crate::models::between;
 
+/// A function, by its name, and where it has normal values.
+type Function<S> = (&'static str, fn(S) -> S, fn(f64) -> bool);
+
 /// The functions that fast lanes have of their own, with the numbers of which they have normal values, in double-double too.
-fn functions<S: Scalar>() -> [(&'static str, fn(S) -> S, fn(f64) -> bool); 9] {
+fn functions<S: Scalar>() -> [Function<S>; 9] {
     [
         ("cbrt", S::cbrt, |_| true),
         ("inverse_cbrt", S::inverse_cbrt, |x| x != 0.0),

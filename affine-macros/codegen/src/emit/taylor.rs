@@ -152,7 +152,9 @@ impl Writer<'_> {
         let (ready, late): (Vec<_>, Vec<_>) =
             self.recurrence.rules.iter().partition(|(value, _)| self.recurrence.ready[*value]);
         let early = ready.iter().map(|(value, rule)| self.statement(*value, rule));
-        let late = late.iter().map(|(value, rule)| self.statement(*value, rule));
+        let unread = self.read_by_columns_alone();
+        let late = late.iter().filter(|(value, _)| !unread.contains(value));
+        let late = late.map(|(value, rule)| self.statement(*value, rule));
         let (early_vectors, late_vectors) = (self.vectors(true), self.vectors(false));
         let stored = self.stored();
         let middle = self.loops();
@@ -227,24 +229,45 @@ impl Writer<'_> {
         let row = self.recurrence.row.iter().enumerate().filter(|(slot, _)| !self.is_in_column(*slot));
         let mut read: Vec<Value> = row.filter_map(|(_, s)| Some((*s)?.value)).collect();
         read.extend(self.recurrence.program.outputs.iter().map(|(_, v)| *v));
-        for (_, rule) in &self.recurrence.rules {
-            match rule {
-                Rule::Sum(terms) => read.extend(terms.iter().flat_map(|(_, term)| match *term {
-                    Term::Value(v) | Term::Scaled(_, v) | Term::Divided(v, _) => vec![v],
-                    Term::Ends(a, b) => vec![a, b],
-                    Term::Lane(_) => Vec::new(),
-                })),
-                Rule::Quotient { numerator, denominator, .. } => {
-                    read.extend(numerator.iter().chain([denominator]));
-                }
-                Rule::Function { argument, .. } => read.push(*argument),
-            }
-        }
+        read.extend(self.read_by_rules());
         let inputs = read.into_iter().filter(|v| self.recurrence.moving[*v]);
         inputs
             .filter(|v| matches!(self.recurrence.program.steps[*v], Op::Input(_)))
             .map(|v| self.name(v))
             .collect()
+    }
+
+    /// What rules read of the present order.
+    fn read_by_rules(&self) -> Vec<Value> {
+        let read = |(_, rule): &(Value, Rule)| match rule {
+            Rule::Sum(terms) => terms
+                .iter()
+                .flat_map(|(_, term)| match *term {
+                    Term::Value(v) | Term::Scaled(_, v) | Term::Divided(v, _) => vec![v],
+                    Term::Ends(a, b) => vec![a, b],
+                    Term::Lane(_) => Vec::new(),
+                })
+                .collect(),
+            Rule::Quotient { numerator, denominator, .. } => {
+                numerator.iter().chain([denominator]).copied().collect()
+            }
+            Rule::Function { argument, .. } => vec![*argument],
+        };
+        self.recurrence.rules.iter().flat_map(read).collect()
+    }
+
+    /// Rates that only columns read, as the sums that they are the lanes of.
+    fn read_by_columns_alone(&self) -> Vec<Value> {
+        let elsewhere = self.read_by_rules();
+        let in_row = |value: Value| self.recurrence.row.iter().flatten().any(|series| series.value == value);
+        let (in_columns, apart): (Vec<_>, Vec<_>) = self
+            .states()
+            .into_iter()
+            .zip(&self.recurrence.program.outputs)
+            .partition(|(state, _)| self.column_entry(state).is_some());
+        let is_output = |value: Value| apart.iter().any(|(_, (_, v))| *v == value);
+        let rates = in_columns.into_iter().map(|(_, (_, value))| *value);
+        rates.filter(|v| !elsewhere.contains(v) && !in_row(*v) && !is_output(*v)).collect()
     }
 
     fn reads_order(&self) -> bool {

@@ -47,8 +47,9 @@ impl Writer<'_> {
     /// The columns of a state that are all zero.
     pub(super) fn no_columns(&self) -> TokenStream {
         let t = &self.context.names.scalar;
-        let (lanes, count) = (number(self.recurrence.lanes), number(self.recurrence.columns.len()));
-        quote!([[#t::zero(); #lanes]; #count])
+        let lanes = number(self.recurrence.lanes);
+        let zeros = self.recurrence.columns.iter().map(|_| quote!([#t::zero(); #lanes]));
+        quote!([#(#zeros),*])
     }
 
     /// The columns as a parameter and as a result, and their next coefficients.
