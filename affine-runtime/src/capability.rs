@@ -211,6 +211,7 @@ pub enum NotEmitted {}
 
 /// Whether there are values of a capability's type, [`NotEmitted`] being the one without: only then does `Option<R>` have
 /// to tell two cases apart. What is done under this condition is not compiled for models that have no use for it.
+#[cfg(feature = "std")]
 pub(crate) const fn is_emitted<R>() -> bool {
     size_of::<Option<R>>() != 0
 }
