@@ -125,6 +125,7 @@ families! {
     metrics_left_missile_2: "dim = 2, metrics(space = [[2, 0.5], [0.5, 1.5]], body = diag(4, 1)), \
         kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 2)";
     metrics_dalembert_3: "dim = 3, metrics(body = diag(1, 2, 4)), kinetic(dalembert = 3)";
+    lanes_missile_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), emit(lanes)";
     flat_tensor_drift_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2, \
         flat_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])";
     hencky_3: "dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), potential = q1^2 + q2^2 + q3^2";

@@ -1,6 +1,6 @@
 //! Factorisations and functions of `2x2` and `3x3` matrices.
 
-mod exponential;
+pub(crate) mod exponential;
 mod jacobi;
 mod stretches;
 mod two_polar;

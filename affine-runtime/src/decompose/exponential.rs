@@ -8,7 +8,7 @@ use crate::scalar::Real;
 const SERIES_RADIUS: f64 = 0.7;
 
 /// `1/k!` for `k = 0..=16`.
-const SERIES: [f64; 17] = [
+pub(crate) const SERIES: [f64; 17] = [
     1.0,
     1.0,
     1.0 / 2.0,
@@ -28,9 +28,9 @@ const SERIES: [f64; 17] = [
     1.0 / 20_922_789_888_000.0,
 ];
 
-/// `ln 2` in two parts; the first has 32 trailing zero bits, so that its small multiples are exact.
-const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;
-const LN2_LOW: f64 = 1.908_214_929_270_587_7e-10;
+/// `ln 2` in two parts; the first has 21 trailing zero bits, so that integers below `2^21` multiply it exactly.
+pub(crate) const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;
+pub(crate) const LN2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
 /// `exp(A) = exp(tr A/n) exp(B)`, `B = A - (tr A/n) 1`, of an `n` by `n` matrix, `n` = 2 or 3.
 ///

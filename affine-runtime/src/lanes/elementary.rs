@@ -5,29 +5,11 @@
 
 use core::f64::consts::LOG2_E;
 
+use crate::decompose::exponential::{LN2_HIGH, LN2_LOW, SERIES};
 use crate::scalar::inverse_cbrt;
-
-/// `ln 2` in two parts, of which the first has 21 binary zeros at the end: integers below 2^21 multiply it exactly.
-const LN_2: (f64, f64) = (f64::from_bits(0x3fe6_2e42_fee0_0000), f64::from_bits(0x3dea_39ef_3579_3c76));
 
 /// `2^52 + 2^51`: what is added to it is rounded to an integer, found in the lowest bits.
 const INTEGER: f64 = 6_755_399_441_055_744.0;
-
-/// `1/2, 1/3!, .. 1/13!`: for `|r| <= ln 2/2` the next term of the exponential series is below `2^-57`.
-const EXPONENTIAL: [f64; 12] = [
-    1.0 / 2.0,
-    1.0 / 6.0,
-    1.0 / 24.0,
-    1.0 / 120.0,
-    1.0 / 720.0,
-    1.0 / 5_040.0,
-    1.0 / 40_320.0,
-    1.0 / 362_880.0,
-    1.0 / 3_628_800.0,
-    1.0 / 39_916_800.0,
-    1.0 / 479_001_600.0,
-    1.0 / 6_227_020_800.0,
-];
 
 /// `2/3, 2/5, .. 2/23`: for `s^2 <= (3 - 2 sqrt 2)^2` the next term of `2 artanh(s)/s` is below `2^-63`.
 const LOGARITHM: [f64; 11] = [
@@ -46,10 +28,10 @@ const LOGARITHM: [f64; 11] = [
 
 /// `sum_k c_k x^k`.
 #[inline(always)]
-fn polynomial<const D: usize>(coefficients: &[f64; D], x: f64) -> f64 {
+fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     let mut sum = 0.0;
-    for k in (0..D).rev() {
-        sum = sum * x + coefficients[k];
+    for coefficient in coefficients.iter().rev() {
+        sum = sum * x + coefficient;
     }
     sum
 }
@@ -64,8 +46,9 @@ fn power_of_two(k: f64) -> f64 {
 #[inline(always)]
 fn reduced(x: f64) -> (f64, f64) {
     let k = (x * LOG2_E + INTEGER) - INTEGER;
-    let r = (x - k * LN_2.0) - k * LN_2.1;
-    (r + r * r * polynomial(&EXPONENTIAL, r), k)
+    let r = (x - k * LN2_HIGH) - k * LN2_LOW;
+    // The first term left out, r^14/14!, is below 2^-57.
+    (r + r * r * polynomial(&SERIES[2..14], r), k)
 }
 
 /// An argument within limits; NaN stays.
@@ -140,7 +123,7 @@ pub(crate) fn ln(x: f64) -> f64 {
     let s = f / (2.0 + f);
     let (square, half) = (s * s, 0.5 * f * f);
     let rest = s * (half + square * polynomial(&LOGARITHM, square));
-    let value = k * LN_2.0 - ((half - (rest + k * LN_2.1)) - f);
+    let value = k * LN2_HIGH - ((half - (rest + k * LN2_LOW)) - f);
     let value = if x < f64::INFINITY { value } else { x };
     let value = if x == 0.0 { f64::NEG_INFINITY } else { value };
     if x < 0.0 { f64::NAN } else { value }

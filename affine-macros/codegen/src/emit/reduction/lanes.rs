@@ -79,16 +79,16 @@ enum Shape {
 impl Stored {
     /// The field, entry by entry a function of the entry it comes from.
     fn with(&self, context: &Context, from: impl Fn(TokenStream) -> TokenStream) -> TokenStream {
-        let (rt, n, name) = (&context.names.rt, context.dim(), &self.name);
+        let (rt, name) = (&context.names.rt, &self.name);
         let value = match self.shape {
             Shape::Number => from(quote!(#name)),
             Shape::Vector => {
                 let entry = from(quote!(#name[row]));
-                quote!(#rt::Vector::<#n, _>::from_fn(|row, _| #entry))
+                quote!(#rt::Vector::from_fn(|row, _| #entry))
             }
             Shape::Matrix => {
                 let entry = from(quote!(#name[(row, column)]));
-                quote!(#rt::Matrix::<#n, _>::from_fn(|row, column| #entry))
+                quote!(#rt::Matrix::from_fn(|row, column| #entry))
             }
             Shape::List => {
                 let entry = from(quote!(#name[k]));
