@@ -1,10 +1,13 @@
 //! Functions of `det phi` as variables of their own, `r = 1/D = (det phi)^(-1/n)` and `q = ln(det phi)/n`: their rates are
 //! polynomials, and with them the equations are. What overflows, `det phi`, is not formed.
 
+mod isochoric;
+
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Momentum};
 use super::equations::System;
+use isochoric::{inverts_the_placement, through_the_isochoric_part};
 
 /// A function of `det phi` that is integrated beside `phi`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,35 +56,36 @@ impl Carried {
 }
 
 /// The system with `r' = -(r/n) tr(phi^-1 phi')` in place of the root, `q' = tr(phi^-1 phi')/n` in place of the
-/// logarithm; `None` where nothing takes either.
+/// logarithm; `None` where nothing takes either. A flat body whose forces take `phi^-1` carries `r` in any case.
 pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) -> Option<System> {
     let tidied = system.clone().tidied(arena);
-    let [r, q] = Carried::ALL.map(|carried| {
-        let symbol = carried.symbol(arena);
-        tidied.shared.iter().any(|(known, _)| *known == symbol).then_some(symbol)
-    });
+    let symbols = Carried::ALL.map(|carried| carried.symbol(arena));
+    let [takes_r, takes_q] = symbols.map(|symbol| tidied.shared.iter().any(|(known, _)| *known == symbol));
+    let inverts = inverts_the_placement(arena, chart, &tidied);
+    if !(takes_r || takes_q || inverts) {
+        return None;
+    }
+    let [r, q] = symbols;
+    let carries_r = takes_r || inverts;
     let mut system = system.clone();
-    system.shared.retain(|(symbol, _)| Some(*symbol) != r && Some(*symbol) != q);
-    let expansion = match (chart.momentum, r) {
-        (Momentum::Body | Momentum::Space | Momentum::Total, _) => trace_of_velocity(arena, chart),
-        (Momentum::Canonical, Some(r)) => {
-            flat_expansion(arena, chart, &system, &Polynomial::term(vec![r; chart.dim], Rational::ONE))
-        }
-        (Momentum::Canonical, None) => {
-            let inverse_det = Polynomial::atom(arena.symbol("inverse_det"));
-            flat_expansion(arena, chart, &system, &inverse_det)
+    system.shared.retain(|(symbol, _)| !(carries_r && *symbol == r) && !(takes_q && *symbol == q));
+    let expansion = match chart.momentum {
+        Momentum::Body | Momentum::Space | Momentum::Total => trace_of_velocity(arena, chart),
+        Momentum::Canonical => {
+            system = through_the_isochoric_part(arena, chart, &system, r);
+            flat_expansion(arena, chart, &system, r)
         }
     };
     let order = i64::try_from(chart.dim).ok()?;
-    if let Some(r) = r {
+    if carries_r {
         let rate = Polynomial::atom(r).mul(&expansion).scaled(&Rational::ratio(-1, order)?);
         system.rates.push((Coordinate::Carried(r), r, rate));
     }
-    if let Some(q) = q {
+    if takes_q {
         let rate = expansion.scaled(&Rational::ratio(1, order)?);
         system.rates.push((Coordinate::Carried(q), q, rate));
     }
-    (r.is_some() || q.is_some()).then_some(system)
+    Some(system)
 }
 
 /// `tr(phi^-1 phi') = tr O`.
@@ -94,8 +98,8 @@ fn trace_of_velocity(arena: &mut Arena, chart: &Chart) -> Polynomial {
     trace
 }
 
-/// `tr(phi^-1 phi') = r^n sum_iA cof_iA phi'_iA`, `cof = d(det phi)/dphi`.
-fn flat_expansion(arena: &mut Arena, chart: &Chart, system: &System, inverse_det: &Polynomial) -> Polynomial {
+/// `tr(phi^-1 phi') = r sum_iA cof_iA phi'_iA` with the cofactors of `Psi = r phi`.
+fn flat_expansion(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> Polynomial {
     let cofactors = Matrix::symbols(arena, "cofactor", chart.dim);
     let mut sum = Polynomial::zero();
     for (z, _, rate) in &system.rates {
@@ -103,5 +107,5 @@ fn flat_expansion(arena: &mut Arena, chart: &Chart, system: &System, inverse_det
             sum.add_product(&Polynomial::atom(cofactors.0[i][a]), rate, &Rational::ONE);
         }
     }
-    sum.mul(inverse_det)
+    sum.mul(&Polynomial::atom(r))
 }

@@ -289,12 +289,13 @@ impl Plan {
         let mut reductions = Vec::new();
         for system in systems {
             let free = !self.multiplier && self.chart.confined.is_none();
-            if let Some(rootless) =
-                free.then(|| carrying_the_dilatation(arena, &self.chart, &system)).flatten()
-            {
-                reductions.push(self.state_only(arena, rootless, layout));
+            let rootless = free.then(|| carrying_the_dilatation(arena, &self.chart, &system)).flatten();
+            // A flat body must not form det phi, however short its equations were with it.
+            let alone = rootless.is_some() && self.chart.momentum == Momentum::Canonical;
+            reductions.extend(rootless.map(|rootless| self.state_only(arena, rootless, layout)));
+            if !alone {
+                reductions.push(self.state_only(arena, system, layout));
             }
-            reductions.push(self.state_only(arena, system, layout));
         }
         reductions
     }
