@@ -7,7 +7,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Momentum};
 use super::equations::System;
-use isochoric::{inverts_the_placement, through_the_isochoric_part};
+use isochoric::{inverts_the_placement, without_the_determinant};
 
 /// A function of `det phi` that is integrated beside `phi`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,26 +55,34 @@ impl Carried {
     }
 }
 
+/// A system with functions of `det phi` as state.
+pub(super) struct Carrying {
+    pub(super) system: System,
+    /// Do its forces take `phi^-1`?
+    pub(super) inverts: bool,
+}
+
 /// The system with `r' = -(r/n) tr(phi^-1 phi')` in place of the root, `q' = tr(phi^-1 phi')/n` in place of the
-/// logarithm; `None` where nothing takes either. A flat body whose forces take `phi^-1` carries `r` in any case.
-pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) -> Option<System> {
+/// logarithm; `None` where nothing takes either. Where forces take `phi^-1`, `r` is carried in any case.
+pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) -> Option<Carrying> {
     let tidied = system.clone().tidied(arena);
     let symbols = Carried::ALL.map(|carried| carried.symbol(arena));
     let [takes_r, takes_q] = symbols.map(|symbol| tidied.shared.iter().any(|(known, _)| *known == symbol));
-    let inverts = inverts_the_placement(arena, chart, &tidied);
+    let inverts = inverts_the_placement(arena, &tidied);
     if !(takes_r || takes_q || inverts) {
         return None;
     }
     let [r, q] = symbols;
+    // On a flat body the force of q is a multiple of phi^-T.
     let carries_r = takes_r || inverts;
-    let mut system = system.clone();
+    let mut system = match carries_r {
+        true => without_the_determinant(arena, (chart, inverts), system, r),
+        false => system.clone(),
+    };
     system.shared.retain(|(symbol, _)| !(carries_r && *symbol == r) && !(takes_q && *symbol == q));
     let expansion = match chart.momentum {
         Momentum::Body | Momentum::Space | Momentum::Total => trace_of_velocity(arena, chart),
-        Momentum::Canonical => {
-            system = through_the_isochoric_part(arena, chart, &system, r);
-            flat_expansion(arena, chart, &system, r)
-        }
+        Momentum::Canonical => flat_expansion(arena, chart, &system, r),
     };
     let order = i64::try_from(chart.dim).ok()?;
     if carries_r {
@@ -85,7 +93,7 @@ pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: 
         let rate = expansion.scaled(&Rational::ratio(1, order)?);
         system.rates.push((Coordinate::Carried(q), q, rate));
     }
-    Some(system)
+    Some(Carrying { system, inverts })
 }
 
 /// `tr(phi^-1 phi') = tr O`.

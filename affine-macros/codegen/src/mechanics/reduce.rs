@@ -290,9 +290,9 @@ impl Plan {
         for system in systems {
             let free = !self.multiplier && self.chart.confined.is_none();
             let rootless = free.then(|| carrying_the_dilatation(arena, &self.chart, &system)).flatten();
-            // A flat body must not form det phi, however short its equations were with it.
-            let alone = rootless.is_some() && self.chart.momentum == Momentum::Canonical;
-            reductions.extend(rootless.map(|rootless| self.state_only(arena, rootless, layout)));
+            // Forces with phi^-1 must not form det phi, however short their equations were with it.
+            let alone = rootless.as_ref().is_some_and(|rootless| rootless.inverts);
+            reductions.extend(rootless.map(|rootless| self.state_only(arena, rootless.system, layout)));
             if !alone {
                 reductions.push(self.state_only(arena, system, layout));
             }

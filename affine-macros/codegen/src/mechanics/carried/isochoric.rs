@@ -1,20 +1,55 @@
-//! Flat bodies: `phi^-1 = r adj(Psi)` with the isochoric part `Psi = r phi`, `det Psi = 1`. Neither `det phi`, which leaves
-//! the range of numbers n times as early as `phi`, nor cofactors of `phi` are formed.
+//! Equations without `det phi`, which leaves the range of numbers n times as early as `phi` does: the isochoric part
+//! `Psi = r phi` has `det Psi = 1`, and `phi^-1 = r adj Psi`.
 
 use crate::algebra::ring::{Square, adjugate, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::equations::System;
+use crate::mechanics::weight::SQUARE;
 
-/// Does a system over `phi` and `Pi` take the inverse of `phi`?
-pub(super) fn inverts_the_placement(arena: &mut Arena, chart: &Chart, tidied: &System) -> bool {
+/// Do the forces take the inverse of `phi`?
+pub(super) fn inverts_the_placement(arena: &mut Arena, tidied: &System) -> bool {
     let inverse_det = arena.symbol("inverse_det");
-    chart.momentum == Momentum::Canonical && tidied.shared.iter().any(|(symbol, _)| *symbol == inverse_det)
+    tidied.shared.iter().any(|(symbol, _)| *symbol == inverse_det)
+}
+
+/// The system without `det phi`, `r` being state.
+pub(super) fn without_the_determinant(
+    arena: &mut Arena,
+    (chart, inverts): (&Chart, bool),
+    system: &System,
+    r: Expr,
+) -> System {
+    if inverts || chart.momentum == Momentum::Canonical {
+        through_the_isochoric_part(arena, chart, system, r)
+    } else if chart.dim == 3 {
+        through_the_square(arena, chart, system, r)
+    } else {
+        system.clone()
+    }
+}
+
+/// The system with `D = r D^2`, where `D^2` is the determinant with one row of `Psi` in place of that of `phi`: two
+/// multiplications more than `r^2 det phi`. In the plane `D = r det phi` has the range of `D^2` as it stands.
+fn through_the_square(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> System {
+    let [det, dilatation, square] = ["det", "dilatation", SQUARE].map(|name| arena.symbol(name));
+    let psi = Matrix::symbols(arena, "psi", chart.dim).0;
+    let adjugate = adjugate(&atoms(&chart.phi.0));
+    let mut system = system.clone();
+    system.shared.retain(|(symbol, _)| *symbol != det && *symbol != dilatation);
+    let mut expanded = Polynomial::zero();
+    for a in 0..chart.dim {
+        system.shared.push((psi[0][a], Polynomial::term(vec![r, chart.phi.0[0][a]], Rational::ONE)));
+        expanded.add_product(&Polynomial::atom(psi[0][a]), &adjugate[a][0], &Rational::ONE);
+    }
+    system.shared.push((square, expanded));
+    system.shared.push((dilatation, Polynomial::term(vec![r, square], Rational::ONE)));
+    system
 }
 
 /// The system with `cof Psi` for the cofactors and `r` for `1/det phi`: products of the two are what they were, since
 /// `cof Psi = r^(n-1) cof phi`.
-pub(super) fn through_the_isochoric_part(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> System {
+fn through_the_isochoric_part(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> System {
     let n = chart.dim;
     let psi = Matrix::symbols(arena, "psi", n).0;
     let adjugate = adjugate(&atoms(&psi));
