@@ -5,7 +5,6 @@ use super::halt::{Halt, Outcome, Reason, Setting, Stop};
 use super::layout::total;
 use super::mechanics::{Course, Mechanics};
 use super::point::{check, energy_scale};
-use super::range::in_range;
 use super::recorder::{Recorder, Turn};
 use super::settings::{Plan, Settings};
 use super::trajectory::{Computation, Energies, Trajectory};
@@ -103,14 +102,10 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let (t_end, schedule) = self.settings.checked(description)?;
         let Settings { start, plan: Plan { t0, max_steps, .. }, .. } = self.settings;
         check(t0, &start)?;
-        let needs_determinant = self.model.needs_determinant();
-        if needs_determinant {
-            in_range(t0, start.phi())?;
-        }
         let events = self.settings.events.len();
         let mut recorder = Recorder {
             model: self.model,
-            needs_determinant,
+            needs_determinant: false,
             trajectory,
             schedule,
             progress: self.settings.progress.take(),

@@ -5,6 +5,7 @@ mod bad_settings;
 mod coincident;
 mod collapse;
 mod degenerate;
+mod flat;
 mod long_runs;
 mod many_steps;
 mod more_stretches;
