@@ -32,7 +32,13 @@ impl Pair {
 impl Series<[f64; 2], ()> for Pair {
     type Row = [f64; 0];
 
-    fn coefficients(&self, t: f64, (): &(), coefficients: &mut [[f64; 2]], _rows: &mut [[f64; 0]]) {
+    fn coefficients(
+        &self,
+        (t, unit): (f64, f64),
+        (): &(),
+        coefficients: &mut [[f64; 2]],
+        _rows: &mut [[f64; 0]],
+    ) {
         let (t, order) = (t / self.second, coefficients.len() - 1);
         let factorial = |k: usize| (1..=k).map(|i| i as f64).product::<f64>();
         let (sin, cos) = t.sin_cos();
@@ -46,7 +52,7 @@ impl Series<[f64; 2], ()> for Pair {
             let rates =
                 [cosine(k) + product(k, excess, |j| y[j][1]), -2.0 * product(k, time, square) + excess(k)];
             y.push(rates.map(|rate| rate / (k as f64 + 1.0)));
-            coefficients[k + 1] = y[k + 1].map(|c| c * self.metre / self.second.powi(k as i32 + 1));
+            coefficients[k + 1] = y[k + 1].map(|c| c * self.metre * (unit / self.second).powi(k as i32 + 1));
         }
     }
 }
@@ -59,10 +65,16 @@ struct Pole {
 impl Series<[f64; 1], ()> for Pole {
     type Row = [f64; 0];
 
-    fn coefficients(&self, t: f64, (): &(), coefficients: &mut [[f64; 1]], _rows: &mut [[f64; 0]]) {
+    fn coefficients(
+        &self,
+        (t, unit): (f64, f64),
+        (): &(),
+        coefficients: &mut [[f64; 1]],
+        _rows: &mut [[f64; 0]],
+    ) {
         for k in 1..coefficients.len() {
             let square = product(k - 1, |j| coefficients[j][0], |j| coefficients[j][0]);
-            coefficients[k] = [if t > self.edge { f64::NAN } else { square / k as f64 }];
+            coefficients[k] = [if t > self.edge { f64::NAN } else { square * unit / k as f64 }];
         }
     }
 }

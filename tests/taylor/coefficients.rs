@@ -39,7 +39,7 @@ fn by_recurrence<const N: usize, M: Taylor<N>, T: Real>(model: &M) -> Vec<Vec<f6
     // Rows from another computation do no harm.
     let mut rows = vec![M::Row::<T>::zeros(); LENGTH - 1];
     rows.iter_mut().for_each(|row| row.as_mut().fill(T::from_f64(7.0)));
-    model.coefficients(T::zero(), &constants, &mut coefficients, &mut rows);
+    model.coefficients((T::zero(), T::one()), &constants, &mut coefficients, &mut rows);
     coefficients.iter().map(|c| c.as_ref().iter().map(|v| v.to_f64()).collect()).collect()
 }
 
