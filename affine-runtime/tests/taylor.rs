@@ -222,3 +222,23 @@ fn units_of_time_and_state_do_not_matter() {
     }
     assert!(other.is_finished());
 }
+
+#[test]
+fn coefficients_beyond_the_range_of_numbers_are_taken_in_another_unit_of_time() {
+    let plain = pair(0.0, 2.0, 1e-12, None);
+    let finished = |mut integration: Taylor<[f64; 2], (), Pair>| {
+        while !integration.is_finished() {
+            integration.advance().unwrap();
+        }
+        integration
+    };
+    let plain = finished(plain);
+    for exponent in [-400, -60, 60, 400] {
+        let unit = 2.0_f64.powi(exponent);
+        let scaled = Pair { second: unit, metre: 1.0 };
+        let start = (0.0, scaled.exact(0.0));
+        let other = finished(Taylor::new((scaled, ()), PAIR, start, 2.0 * unit, 1e-12, None).unwrap());
+        assert!(distance(other.y(), plain.y()) < 1e-12, "2^{exponent}: {other:?} {plain:?}");
+        assert!(other.statistics().steps.abs_diff(plain.statistics().steps) <= 1, "2^{exponent}");
+    }
+}
