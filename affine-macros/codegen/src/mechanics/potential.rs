@@ -7,6 +7,7 @@ mod at_a_point;
 mod axes;
 mod base;
 mod dilatation;
+mod far_away;
 mod invariance;
 mod load;
 mod principal;
@@ -35,6 +36,9 @@ pub struct Potential {
     time: Option<Expr>,
     invariance: Evidence,
 }
+
+/// Name of the symbol of `D = exp(q)`.
+pub const DILATATION: &str = "dilatation";
 
 /// Name of the symbol of the time.
 pub const TIME: &str = "t";
