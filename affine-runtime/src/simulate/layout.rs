@@ -57,6 +57,11 @@ pub(super) const fn carries_dilatation(model: &Description) -> bool {
     components(model.reduced, "1/D").is_some() || components(model.reduced, "q").is_some()
 }
 
+/// The momentum of the phase point is that of a flat metric, `Pi`, and the placement may be any.
+pub(super) const fn is_free_in_pi(model: &Description) -> bool {
+    model.constraint.is_none() && components(model.full, "Pi").is_some()
+}
+
 /// The phase point is that of an isochoric body, with `Pi` its momentum.
 pub(super) const fn is_isochoric_in_pi(model: &Description) -> bool {
     matches!(model.constraint, Some(Constraint::Isochoric)) && components(model.full, "Pi").is_some()

@@ -18,9 +18,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     /// Runs the simulation.
     ///
     /// Every step and every output is checked: finite, and `det phi > 0`; the time of a collapse is found within the step,
-    /// see [`Reason::Placement`]. What happens between two good steps is not seen: a body without a potential that
-    /// prevents it may collapse and turn inside out twice in between. On a straight line, the closed form of a free
-    /// body in a flat metric, every collapse is seen.
+    /// see [`Reason::Placement`], also where a body in a flat metric collapses and turns inside out twice within a step:
+    /// steps that change the placement by half of itself or more are looked into.
     ///
     /// # Errors
     /// [`Halt`] with the [`Reason`], the time, the step and the trajectory so far; the conversion to
