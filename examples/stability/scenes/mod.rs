@@ -7,6 +7,7 @@ mod collapse;
 mod degenerate;
 mod energies;
 mod flat;
+mod growth;
 mod long_runs;
 mod many_steps;
 mod more_stretches;
