@@ -30,13 +30,7 @@ pub trait Series<S, C> {
 
     /// Fills in all coefficients `y_k unit^k` after the first, which is the state, `at` a time and with a unit of time; as
     /// many rows as coefficients, less one. The unit, a power of two, keeps them in the range of numbers.
-    fn coefficients(
-        &self,
-        at: (f64, f64),
-        constants: &C,
-        coefficients: &mut [S],
-        rows: &mut [Self::Row],
-    );
+    fn coefficients(&self, at: (f64, f64), constants: &C, coefficients: &mut [S], rows: &mut [Self::Row]);
 
     /// The same coefficients, on the vectors of a processor where that is worth the while.
     #[inline(always)]

@@ -1,7 +1,9 @@
 //! The integrators, each begun on the state that it steps.
 
 use super::halt::{Reason, Setting};
-use super::layout::{Layout, carries_dilatation, is_canonical, is_isochoric_in_pi, moves_on_group, placement_in};
+use super::layout::{
+    Layout, carries_dilatation, is_canonical, is_isochoric_in_pi, moves_on_group, placement_in,
+};
 use super::mechanics::Course;
 use super::motion::{Expanded, Expansion};
 use super::range::in_range;

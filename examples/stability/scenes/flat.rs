@@ -154,7 +154,8 @@ fn methods_that_form_det(report: &mut StabilityReport) -> affine_runtime::Result
             ("Nystrom", Method::RungeKuttaNystrom12, SAME),
             ("splitting", Method::Splitting { order: 8, step: 0.01 * c }, 1e-10),
         ] {
-            let named = scene("d'Alembert, D and 1/D", 3, format!("{name}, q = {q}"), "phi", Oracle::Invariance);
+            let named =
+                scene("d'Alembert, D and 1/D", 3, format!("{name}, q = {q}"), "phi", Oracle::Invariance);
             let demand = if inside { Demand::Held(most) } else { Demand::Refused("range") };
             report.case(named, demand, || {
                 let from = mapped.at_velocity(phi * c, rate)?;

@@ -135,10 +135,9 @@ fn units(report: &mut StabilityReport) -> affine_runtime::Result<()> {
         for (what, mass, stiffness, time) in energies {
             let named =
                 |model, n| scene(model, n, format!("unit of {what} {unit:e}"), "phi", Oracle::Invariance);
-            for (name, method) in [
-                ("d'Alembert", Method::RungeKutta8),
-                ("d'Alembert, Taylor", Method::Taylor { order: None }),
-            ] {
+            for (name, method) in
+                [("d'Alembert", Method::RungeKutta8), ("d'Alembert, Taylor", Method::Taylor { order: None })]
+            {
                 report.case(named(name, 3), Demand::Held(SAME), || {
                     let model = Elastic { j: mass, kappa: 10.0 * stiffness, c: 0.5 * stiffness }.prepare()?;
                     let start = model.at_velocity(phi, velocity / time)?;

@@ -113,7 +113,8 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
     });
     let internal = defined(result("energy", full_h.substitute(&projected)), h.weight.as_ref());
     let far_away = potential.and_then(|u| u.energy_far_away(arena, &full_chart));
-    let far_away = far_away.map(|value| energy_of(arena, &full_chart, internal.clone(), Some(value), &forces));
+    let far_away =
+        far_away.map(|value| energy_of(arena, &full_chart, internal.clone(), Some(value), &forces));
     let near = potential.map(|u| u.energy_at_a_point(arena, &full_chart));
     let energy = energy_of(arena, &full_chart, internal, near, &forces);
     let points = point_inputs(arena, &full_chart, potential, &forces);

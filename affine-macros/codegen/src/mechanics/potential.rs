@@ -13,6 +13,7 @@ mod load;
 mod principal;
 mod restriction;
 mod rewriting;
+mod scaled;
 pub mod stretches;
 mod tensors;
 
