@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::conservation::larger;
-use super::halt::Halt;
+use super::halt::Outcome;
 use super::output::Output;
 use super::trajectory::Trajectory;
 use super::{Settings, Simulation};
@@ -31,8 +31,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     /// leads elsewhere.
     ///
     /// # Errors
-    /// [`Halt`] of whichever run stopped.
-    pub fn forward_and_back(self) -> Result<RoundTrip<N, M::Point<f64>>, Halt<N, M::Point<f64>>> {
+    /// [`Halt`](super::Halt) of whichever run stopped.
+    pub fn forward_and_back(self) -> Outcome<N, M::Point<f64>, RoundTrip<N, M::Point<f64>>> {
         let (model, mut plan) = (self.model, self.settings.plan.clone());
         let forward = self.run()?;
         let (reached, end) = forward.end();
