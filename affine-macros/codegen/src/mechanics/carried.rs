@@ -79,7 +79,8 @@ pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: 
         true => without_the_determinant(arena, (chart, inverts), system, r),
         false => system.clone(),
     };
-    system.shared.retain(|(symbol, _)| !(carries_r && *symbol == r) && !(takes_q && *symbol == q));
+    let is_state = |symbol: Expr| carries_r && symbol == r || takes_q && symbol == q;
+    system.shared.retain(|(symbol, _)| !is_state(*symbol));
     let expansion = match chart.momentum {
         Momentum::Body | Momentum::Space | Momentum::Total => trace_of_velocity(arena, chart),
         Momentum::Canonical => flat_expansion(arena, chart, &system, r),
