@@ -1,6 +1,6 @@
 //! Several doubles side by side as one number: the bodies of an ensemble, each in a lane.
 //!
-//! Strict, [`F64x4`] and [`F64x16`]: every operation of a lane gives the bits that [`f64`] gives on the same target.
+//! Strict, [`F64x8`] and [`F64x16`]: every operation of a lane gives the bits that [`f64`] gives on the same target.
 //! Arithmetic and square roots are rounded correctly in either; a multiply-add is fused in either or in neither;
 //! elementary functions are computed lane by lane by those of `f64`.
 //!
@@ -39,12 +39,13 @@ pub trait Lanes: Scalar {
     fn set_lane(&mut self, index: usize, value: f64);
 }
 
-/// `LANES` numbers.
+/// `LANES` numbers. A line of the cache, or several whole ones, so that no vector stands in two of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
 pub struct Several<S, const LANES: usize>([S; LANES]);
 
-/// Four doubles.
-pub type F64x4 = Several<f64, 4>;
+/// Eight doubles.
+pub type F64x8 = Several<f64, 8>;
 /// Sixteen doubles.
 pub type F64x16 = Several<f64, 16>;
 /// Sixteen doubles with fast elementary functions.

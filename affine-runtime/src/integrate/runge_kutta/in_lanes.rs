@@ -1,14 +1,17 @@
-//! The method of order 8 for several bodies at once, with steps that they share.
+//! The method of order 8 for several bodies at once, each in a lane with steps of its own.
+
+use num_traits::Zero;
 
 use super::dormand_prince_853::*;
 use super::pair::{DormandPrince853, E3, Pair};
-use crate::integrate::error_norm::{NormInLanes, norm_in_lanes, squares_in_lanes};
-use crate::integrate::roughly::{exp, ln};
-use crate::integrate::step_size::{Controller, next_time, shortest};
+use super::start::Start;
+use crate::integrate::error_norm::NormInLanes;
+use crate::integrate::step_size::in_lanes::{Clocks, fate};
 use crate::integrate::taylor::Vectors;
-use crate::integrate::widest::{Work, widest};
-use crate::lanes::Lanes;
+use crate::integrate::widest::{Work, widest_in_lanes};
+use crate::lanes::{Lanes, in_lane};
 use crate::model::{Group, StateVector};
+use crate::scalar::{Real, Scalar};
 
 const STAGES: usize = 13;
 /// Place of the slope at the end of a step, which is the first of the next.
@@ -19,232 +22,210 @@ const AT_END: usize = 12;
 pub(crate) trait Equations<T, S> {
     /// Writes `f(t, y)`; to be `#[inline(always)]`. In place, since states of many lanes are long.
     fn slope(&self, t: T, y: &S, slope: &mut S);
+
+    /// A step may end at the state in a lane; to be `#[inline(always)]`.
+    fn is_sound(&self, y: &S, lane: usize) -> bool;
 }
 
-/// Bodies in lanes from `t0` to `t_end`: [`RungeKutta8`](super::RungeKutta8) operation by operation, but for the step
-/// size, which is that of the lane with the largest error. Where all lanes hold the same body, each has the bits of that
-/// body alone.
+/// Bodies in lanes: [`RungeKutta8`](super::RungeKutta8) of each, operation by operation, at its own time and with its own
+/// steps. A lane that is done is given the next body, while the others are on their way.
 pub(crate) struct RungeKutta8InLanes<T, S, F> {
     f: F,
     norm: NormInLanes<T>,
     tolerance: f64,
-    controller: Controller,
-    t: f64,
+    clocks: Clocks<T>,
     y: S,
     trial: S,
     stages: [S; STAGES],
-    length: f64,
-    t_end: f64,
-    steps: u64,
 }
 
-/// Lanes that a step cannot be taken with.
-pub(crate) type Failing = Vec<usize>;
+/// What happens to the body in a lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fate {
+    /// It has come to the end.
+    Arrived,
+    /// It cannot go on, or not in lanes.
+    Stuck,
+}
 
 impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F> {
-    /// The integration at its start.
-    ///
-    /// # Errors
-    /// The lanes whose state or slope is not finite.
-    pub(crate) fn new(
-        f: F,
-        groups: &'static [Group],
-        (t0, y0): (f64, S),
-        t_end: f64,
-        tolerance: f64,
-    ) -> Result<Self, Failing> {
-        let t = T::constant(t0, 0.0);
-        let value = |t, y: &S| {
-            let mut slope = S::zeros();
-            f.slope(t, y, &mut slope);
-            slope
-        };
-        let slope = value(t, &y0);
-        none(T::LANES, |lane| !is_finite(&y0, lane) || !is_finite(&slope, lane))?;
-        let norm = NormInLanes::probed(groups, &value, (t, &y0, &slope));
-        let length = first_step(&value, &norm, (t0, &y0, &slope), t_end - t0, tolerance);
-        let mut stages = [S::zeros(); STAGES];
-        stages[0] = slope;
-        let controller = Controller::of(DormandPrince853::ERROR_ORDER);
-        Ok(Self { f, norm, tolerance, controller, t: t0, y: y0, trial: y0, stages, length, t_end, steps: 0 })
-    }
-
-    /// Takes one accepted step.
-    ///
-    /// # Errors
-    /// The lanes whose errors stay above the tolerance however short the step.
-    pub(crate) fn advance(&mut self) -> Result<(), Failing> {
-        loop {
-            let end = next_time(self.t, self.length, self.t_end);
-            let error = widest(Trial { integration: self, end });
-            let mut worst = worst(&error);
-            if worst <= 1.0 {
-                if none(T::LANES, |lane| !is_finite(&self.stages[AT_END], lane)).is_ok() {
-                    self.length = (end - self.t).abs() * self.controller.accept(worst);
-                    (self.t, self.y, self.stages[0]) = (end, self.trial, self.stages[AT_END]);
-                    self.steps += 1;
-                    return Ok(());
-                }
-                worst = f64::NAN;
-            }
-            self.length = (end - self.t).abs() * self.controller.reject(worst);
-            if self.length <= shortest(self.t, self.t_end) {
-                none(T::LANES, |lane| error.lane(lane) > 1.0 || error.lane(lane).is_nan())?;
-                // Slopes at the end alone are not finite.
-                return Err((0..T::LANES).collect());
-            }
+    /// Lanes without bodies, for motions to `t_end` of at most so many steps. All are to be given one before the first
+    /// step: there is no motion from a state of zeros.
+    pub(crate) fn new(f: F, groups: &'static [Group], t_end: f64, tolerance: f64, max_steps: u64) -> Self {
+        Self {
+            f,
+            norm: NormInLanes::new(groups),
+            tolerance,
+            clocks: Clocks::new(DormandPrince853::ERROR_ORDER, t_end, max_steps),
+            y: S::zeros(),
+            trial: S::zeros(),
+            stages: [S::zeros(); STAGES],
         }
     }
 
-    /// Time reached.
-    pub(crate) fn t(&self) -> f64 {
-        self.t
+    /// The equations.
+    pub(crate) fn equations(&mut self) -> &mut F {
+        &mut self.f
     }
 
-    /// States reached.
+    /// Puts a body into a lane.
+    pub(crate) fn start<R: StateVector<f64>>(&mut self, lane: usize, (t0, y0): (f64, &R), start: &Start<R>) {
+        let from = y0.as_ref().iter().zip(start.slope.as_ref());
+        for ((y, slope), (y0, slope0)) in self.y.as_mut().iter_mut().zip(self.stages[0].as_mut()).zip(from) {
+            y.set_lane(lane, *y0);
+            slope.set_lane(lane, *slope0);
+        }
+        self.norm.set_lane(lane, &start.error_norm);
+        self.clocks.start(lane, t0, start.length);
+    }
+
+    /// Stops what moves in a lane.
+    pub(crate) fn rest(&mut self, lane: usize) {
+        self.clocks.rest(lane);
+    }
+
+    /// Tries one step in every lane; what becomes of a body, where its way ends.
+    pub(crate) fn advance(&mut self) -> impl Iterator<Item = (usize, Fate)> + use<T, S, F> {
+        let fates = widest_in_lanes(Trial(self));
+        (0..T::LANES).filter_map(move |lane| match fates.lane(lane) {
+            fate::UNDER_WAY => None,
+            fate::ARRIVED => Some((lane, Fate::Arrived)),
+            _ => Some((lane, Fate::Stuck)),
+        })
+    }
+
+    /// A component of the state reached in a lane.
     pub(crate) fn y(&self) -> &S {
         &self.y
     }
 
-    /// Accepted steps.
-    pub(crate) fn steps(&self) -> u64 {
-        self.steps
+    #[inline(always)]
+    fn step(&mut self) -> T {
+        self.clocks.aim();
+        let h = self.clocks.end - self.clocks.t;
+        self.stage::<2, 1>(h, &A2);
+        self.stage::<3, 2>(h, &A3);
+        self.stage::<4, 2>(h, &A4);
+        self.stage::<5, 3>(h, &A5);
+        self.stage::<6, 3>(h, &A6);
+        self.stage::<7, 4>(h, &A7);
+        self.stage::<8, 5>(h, &A8);
+        self.stage::<9, 6>(h, &A9);
+        self.stage::<10, 7>(h, &A10);
+        self.stage::<11, 8>(h, &A11);
+        self.stage::<12, 9>(h, &A12);
+        self.moved(h, &B);
+        self.f.slope(self.clocks.end, &self.trial, &mut self.stages[AT_END]);
+        let error = self.error(h.abs());
+        self.turn(error)
     }
 
     #[inline(always)]
-    fn attempt(&mut self, end: f64) {
-        self.stage::<2, 1>(end, &A2);
-        self.stage::<3, 2>(end, &A3);
-        self.stage::<4, 2>(end, &A4);
-        self.stage::<5, 3>(end, &A5);
-        self.stage::<6, 3>(end, &A6);
-        self.stage::<7, 4>(end, &A7);
-        self.stage::<8, 5>(end, &A8);
-        self.stage::<9, 6>(end, &A9);
-        self.stage::<10, 7>(end, &A10);
-        self.stage::<11, 8>(end, &A11);
-        self.stage::<12, 9>(end, &A12);
-        self.moved(end, &B);
-    }
-
-    #[inline(always)]
-    fn stage<const NUMBER: usize, const TERMS: usize>(&mut self, end: f64, row: &[(usize, f64); TERMS]) {
+    fn stage<const NUMBER: usize, const TERMS: usize>(&mut self, h: T, row: &[(usize, f64); TERMS]) {
         let (_, node) = NODES[NUMBER - 2];
-        let time = if node == 1.0 { end } else { self.t + node * (end - self.t) };
-        self.moved(end, row);
-        self.f.slope(T::constant(time, 0.0), &self.trial, &mut self.stages[NUMBER - 1]);
-    }
-
-    /// The trial state at the stage of a row.
-    #[inline(always)]
-    fn moved<const TERMS: usize>(&mut self, end: f64, row: &[(usize, f64); TERMS]) {
-        let h = T::constant(end - self.t, 0.0);
-        for (i, trial) in self.trial.as_mut().iter_mut().enumerate() {
-            *trial = combination(&self.stages, i, row).fma(h, self.y.as_ref()[i]);
+        let mut time = self.clocks.end;
+        if node != 1.0 {
+            for lane in 0..T::LANES {
+                time.set_lane(lane, self.clocks.t.lane(lane) + node * h.lane(lane));
+            }
         }
+        self.moved(h, row);
+        self.f.slope(time, &self.trial, &mut self.stages[NUMBER - 1]);
     }
 
-    /// Estimated errors relative to the tolerance.
+    /// The trial states at the stage of a row.
     #[inline(always)]
-    fn error(&self, end: f64) -> T {
-        let (mut fifth, mut third) = (S::zeros(), S::zeros());
+    fn moved<const TERMS: usize>(&mut self, h: T, row: &[(usize, f64); TERMS]) {
         for i in 0..S::LEN {
-            fifth.as_mut()[i] = combination(&self.stages, i, &E5);
-            third.as_mut()[i] = combination(&self.stages, i, &E3);
+            let (y, mut moved) = (self.y.as_ref()[i], T::zero());
+            for lane in 0..T::LANES {
+                let sum: T::Lane = combination(&self.stages, (i, lane), row);
+                moved.set_lane(lane, sum.fma(in_lane(&h, lane), in_lane(&y, lane)).to_f64());
+            }
+            self.trial.as_mut()[i] = moved;
         }
-        let h = T::constant((end - self.t).abs(), 0.0);
-        let relative = self.norm.largest(h, self.y.as_ref(), self.trial.as_ref(), |range| {
-            let fifth = squares_in_lanes(&fifth.as_ref()[range.clone()]);
-            let third = squares_in_lanes(&third.as_ref()[range]);
-            let value = fifth / (fifth + T::constant(0.01, 0.0) * third).sqrt();
-            T::from_lanes(|lane| if fifth.lane(lane) == 0.0 { 0.0 } else { value.lane(lane) })
-        });
-        h * relative / T::constant(self.tolerance, 0.0)
+    }
+
+    /// Estimated errors relative to the tolerance, of steps of these lengths.
+    #[inline(always)]
+    fn error(&self, h: T) -> T {
+        let (before, after) = (self.y.as_ref(), self.trial.as_ref());
+        let (mut largest, mut start) = (T::zero(), 0);
+        for (k, group) in self.norm.groups().iter().enumerate() {
+            let range = start..start + group.len;
+            start = range.end;
+            let (mut fifth, mut third) = (T::zero(), T::zero());
+            for i in range.clone() {
+                for lane in 0..T::LANES {
+                    let of_fifth = combination::<T, S, _>(&self.stages, (i, lane), &E5).to_f64();
+                    let of_third = combination::<T, S, _>(&self.stages, (i, lane), &E3).to_f64();
+                    fifth.set_lane(lane, fifth.lane(lane) + of_fifth * of_fifth);
+                    third.set_lane(lane, third.lane(lane) + of_third * of_third);
+                }
+            }
+            let mut value = T::zero();
+            for lane in 0..T::LANES {
+                value.set_lane(lane, DormandPrince853::error((fifth.lane(lane), third.lane(lane))));
+            }
+            largest = self.norm.larger(largest, (k, range), value, h, (before, after));
+        }
+        for lane in 0..T::LANES {
+            largest.set_lane(lane, h.lane(lane) * largest.lane(lane) / self.tolerance);
+        }
+        largest
+    }
+
+    /// Accepts the steps with errors of at most 1 whose slopes at the end are finite; what becomes of the lanes.
+    #[inline(always)]
+    fn turn(&mut self, error: T) -> T {
+        let (mut not_finite, mut accepted, mut unsound) = (T::zero(), T::zero(), T::zero());
+        for slope in self.stages[AT_END].as_ref() {
+            for lane in 0..T::LANES {
+                // 0, or NaN once one of them is not finite.
+                not_finite.set_lane(lane, not_finite.lane(lane) + 0.0 * slope.lane(lane));
+            }
+        }
+        for lane in 0..T::LANES {
+            let is_accepted = error.lane(lane) <= 1.0 && not_finite.lane(lane) == 0.0;
+            accepted.set_lane(lane, if is_accepted { 1.0 } else { 0.0 });
+            unsound.set_lane(lane, if self.f.is_sound(&self.trial, lane) { 0.0 } else { 1.0 });
+        }
+        for i in 0..S::LEN {
+            let (slope, trial) = (self.stages[AT_END].as_ref()[i], self.trial.as_ref()[i]);
+            let (first, y) = (&mut self.stages[0].as_mut()[i], &mut self.y.as_mut()[i]);
+            for lane in 0..T::LANES {
+                let is_accepted = accepted.lane(lane) != 0.0;
+                first.set_lane(lane, if is_accepted { slope.lane(lane) } else { first.lane(lane) });
+                y.set_lane(lane, if is_accepted { trial.lane(lane) } else { y.lane(lane) });
+            }
+        }
+        self.clocks.turn(accepted, error, unsound)
     }
 }
 
-/// Component `i` of the slopes, each times the coefficient that a row has for it.
+/// Component `i` of the slopes in a lane, each times the coefficient that a row has for it.
 #[inline(always)]
 fn combination<T: Lanes, S: StateVector<T>, const TERMS: usize>(
     stages: &[S; STAGES],
-    i: usize,
+    (i, lane): (usize, usize),
     row: &[(usize, f64); TERMS],
-) -> T {
-    let mut sum = T::zero();
-    for (stage, coefficient) in row {
-        sum = stages[stage - 1].as_ref()[i].fma(T::constant(*coefficient, 0.0), sum);
+) -> T::Lane {
+    let [(first, leading), ref rest @ ..] = row[..] else { return T::Lane::zero() };
+    let of = |stage: usize| in_lane(&stages[stage - 1].as_ref()[i], lane);
+    let mut sum = of(first) * T::Lane::from_f64(leading);
+    for (stage, coefficient) in rest {
+        sum = of(*stage).fma(T::Lane::from_f64(*coefficient), sum);
     }
     sum
 }
 
-/// A step of an integration to the time `end`, with the slope behind it, which most steps need; its errors.
-struct Trial<'a, T, S, F> {
-    integration: &'a mut RungeKutta8InLanes<T, S, F>,
-    end: f64,
-}
+/// A step in every lane.
+struct Trial<'a, T, S, F>(&'a mut RungeKutta8InLanes<T, S, F>);
 
 impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Work for Trial<'_, T, S, F> {
     type Output = T;
     #[inline(always)]
     fn run(self, _vectors: impl Vectors) -> T {
-        let integration = self.integration;
-        integration.attempt(self.end);
-        let slope = &mut integration.stages[AT_END];
-        integration.f.slope(T::constant(self.end, 0.0), &integration.trial, slope);
-        integration.error(self.end)
+        self.0.step()
     }
-}
-
-/// The first step of the lane that has the shortest one; see the scalar `first_step`.
-fn first_step<T: Lanes, S: StateVector<T>>(
-    f: &impl Fn(T, &S) -> S,
-    error_norm: &NormInLanes<T>,
-    (t, y, slope): (f64, &S, &S),
-    span: f64,
-    tolerance: f64,
-) -> f64 {
-    let forever = T::constant(f64::INFINITY, 0.0);
-    let rate = |end: &S, change: &S| {
-        error_norm.largest(forever, y.as_ref(), end.as_ref(), |r| norm_in_lanes(&change.as_ref()[r]))
-    };
-    let first = rate(y, slope);
-    let within = |h: f64| if h < span.abs() { h } else { span.abs() };
-    let trial = T::from_lanes(|lane| {
-        let first = first.lane(lane);
-        if first > 0.0 && first.is_finite() { within(0.01 / first) } else { 1e-6 * span.abs() }
-    });
-    let signed = T::from_lanes(|lane| trial.lane(lane).copysign(span));
-    let (mut end, mut change) = (*y, S::zeros());
-    for (y, slope) in end.as_mut().iter_mut().zip(slope.as_ref()) {
-        *y += signed * *slope;
-    }
-    let slope_after = f(T::constant(t, 0.0) + signed, &end);
-    for (i, change) in change.as_mut().iter_mut().enumerate() {
-        *change = (slope_after.as_ref()[i] - slope.as_ref()[i]) / trial;
-    }
-    let second = rate(&end, &change).sqrt();
-    let of_lane = |lane: usize| {
-        let (first, second, trial) = (first.lane(lane), second.lane(lane), trial.lane(lane));
-        let fastest = if first.is_finite() && first > second { first } else { second };
-        let length = exp(ln(0.01 * tolerance) / DormandPrince853::ERROR_ORDER) / fastest;
-        within(if length < 100.0 * trial { length } else { 100.0 * trial })
-    };
-    (0..T::LANES).map(of_lane).fold(span.abs(), f64::min)
-}
-
-/// The largest error; NaN where one is.
-fn worst<T: Lanes>(error: &T) -> f64 {
-    (0..T::LANES)
-        .map(|lane| error.lane(lane))
-        .fold(0.0, |worst, e| if e <= worst || f64::is_nan(worst) { worst } else { e })
-}
-
-/// The lanes that something is wrong with, as an error.
-fn none(lanes: usize, is_wrong: impl Fn(usize) -> bool) -> Result<(), Failing> {
-    let wrong: Failing = (0..lanes).filter(|lane| is_wrong(*lane)).collect();
-    if wrong.is_empty() { Ok(()) } else { Err(wrong) }
-}
-
-fn is_finite<T: Lanes, S: StateVector<T>>(y: &S, lane: usize) -> bool {
-    y.as_ref().iter().all(|v| v.lane(lane).is_finite())
 }

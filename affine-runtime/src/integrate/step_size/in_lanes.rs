@@ -1,0 +1,103 @@
+//! Times and step sizes of several bodies, each with its own: lane by lane the numbers of [`Controller`], operation by
+//! operation.
+
+use super::{Controller, next_time, shortest};
+use crate::lanes::Lanes;
+
+/// Where the lanes are in time, and how they go on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Clocks<T> {
+    /// Time reached.
+    pub(crate) t: T,
+    /// End of the step that is tried.
+    pub(crate) end: T,
+    /// Length of the next step.
+    length: T,
+    /// Accepted steps.
+    steps: T,
+    previous: T,
+    /// 1 after a rejected step, or 0.
+    rejected: T,
+    order: f64,
+    t_end: f64,
+    max_steps: f64,
+}
+
+/// What becomes of a lane by a step, as the number in its lane.
+pub(crate) mod fate {
+    /// It goes on.
+    pub(crate) const UNDER_WAY: f64 = 0.0;
+    /// It has come to the end.
+    pub(crate) const ARRIVED: f64 = 1.0;
+    /// It cannot go on.
+    pub(crate) const STUCK: f64 = 2.0;
+}
+
+impl<T: Lanes> Clocks<T> {
+    /// Lanes at rest at the end.
+    pub(crate) fn new(order: f64, t_end: f64, max_steps: u64) -> Self {
+        let (zero, t) = (T::zero(), T::constant(t_end, 0.0));
+        let max_steps = max_steps as f64;
+        Self { t, end: t, length: zero, steps: zero, previous: zero, rejected: zero, order, t_end, max_steps }
+    }
+
+    /// Sets a lane to the start of a body.
+    pub(crate) fn start(&mut self, lane: usize, t: f64, length: f64) {
+        let Controller { previous, .. } = Controller::of(self.order);
+        self.t.set_lane(lane, t);
+        self.length.set_lane(lane, length);
+        self.previous.set_lane(lane, previous);
+        self.rejected.set_lane(lane, 0.0);
+        self.steps.set_lane(lane, 0.0);
+    }
+
+    /// Nothing moves in a lane from now on.
+    pub(crate) fn rest(&mut self, lane: usize) {
+        self.start(lane, self.t_end, 0.0);
+    }
+
+    /// The ends of the steps to try.
+    #[inline(always)]
+    pub(crate) fn aim(&mut self) {
+        for lane in 0..T::LANES {
+            let end = next_time(self.t.lane(lane), self.length.lane(lane), self.t_end);
+            self.end.set_lane(lane, end);
+        }
+    }
+
+    /// Turns to the next steps: where `accepted` is not 0 from the ends of those that were tried with these errors,
+    /// elsewhere from where these began. What becomes of the lanes; those that `unsound` is not 0 for cannot go on from the
+    /// end of an accepted step.
+    #[inline(always)]
+    pub(crate) fn turn(&mut self, accepted: T, error: T, unsound: T) -> T {
+        let mut fates = T::zero();
+        for lane in 0..T::LANES {
+            let accepted = accepted.lane(lane) != 0.0;
+            let (t, end, error) = (self.t.lane(lane), self.end.lane(lane), error.lane(lane));
+            let (previous, rejected) = (self.previous.lane(lane), self.rejected.lane(lane) != 0.0);
+            let (mut after, mut again) =
+                (Controller { order: self.order, previous, rejected }, Controller { order: self.order, previous, rejected });
+            let tried = (end - t).abs();
+            let longer = tried * after.accept(error);
+            // An error that does not reject stands for slopes that are not finite.
+            let shorter = tried * again.reject(if error <= 1.0 { f64::NAN } else { error });
+            let steps = self.steps.lane(lane) + if accepted { 1.0 } else { 0.0 };
+            let is_lost = if accepted {
+                unsound.lane(lane) != 0.0 || steps >= self.max_steps
+            } else {
+                shorter <= shortest(t, self.t_end)
+            };
+            let has_arrived = accepted && end == self.t_end && unsound.lane(lane) == 0.0;
+            let fate = if is_lost { fate::STUCK } else { fate::UNDER_WAY };
+            let fate = if has_arrived { fate::ARRIVED } else { fate };
+            // A lane at rest.
+            fates.set_lane(lane, if t == self.t_end { fate::UNDER_WAY } else { fate });
+            self.t.set_lane(lane, if accepted { end } else { t });
+            self.length.set_lane(lane, if accepted { longer } else { shorter });
+            self.previous.set_lane(lane, if accepted { after.previous } else { previous });
+            self.rejected.set_lane(lane, if accepted { 0.0 } else { 1.0 });
+            self.steps.set_lane(lane, steps);
+        }
+        fates
+    }
+}
