@@ -24,23 +24,6 @@ pub(crate) fn widest<W: Work>(work: W) -> W::Output {
     }
 }
 
-/// The same for loops over lanes, which fill vectors of any width: with AVX-512 where the processor has it.
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx512f")))]
-#[inline(always)]
-pub(crate) fn widest_in_lanes<W: Work>(work: W) -> W::Output {
-    match pulp::x86::V4::try_new() {
-        Some(vectors) => vectors.vectorize(Once { work, vectors: Portable }),
-        None => widest(work),
-    }
-}
-
-/// The same: the target says what vectors there are.
-#[cfg(not(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx512f"))))]
-#[inline(always)]
-pub(crate) fn widest_in_lanes<W: Work>(work: W) -> W::Output {
-    widest(work)
-}
-
 /// The work done: the target says what vectors there are.
 #[cfg(not(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2"))))]
 #[inline(always)]
@@ -48,14 +31,14 @@ pub(crate) fn widest<W: Work>(work: W) -> W::Output {
     work.run(Portable)
 }
 
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx512f")))]
-struct Once<W, V> {
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+struct Once<W> {
     work: W,
-    vectors: V,
+    vectors: pulp::x86::V3,
 }
 
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx512f")))]
-impl<W: Work, V: Vectors> pulp::NullaryFnOnce for Once<W, V> {
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+impl<W: Work> pulp::NullaryFnOnce for Once<W> {
     type Output = W::Output;
     #[inline(always)]
     fn call(self) -> W::Output {

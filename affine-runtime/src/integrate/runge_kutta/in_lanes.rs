@@ -1,17 +1,15 @@
 //! The method of order 8 for several bodies at once, each in a lane with steps of its own.
 
-use num_traits::Zero;
+use pulp::{Arch, Simd, WithSimd};
 
 use super::dormand_prince_853::*;
 use super::pair::{DormandPrince853, E3, Pair};
 use super::start::Start;
 use crate::integrate::error_norm::NormInLanes;
 use crate::integrate::step_size::in_lanes::{Clocks, fate};
-use crate::integrate::taylor::Vectors;
-use crate::integrate::widest::{Work, widest_in_lanes};
-use crate::lanes::{Lanes, in_lane};
+use crate::lanes::Lanes;
+use crate::lanes::parts::{part, parts, plus, set_part};
 use crate::model::{Group, StateVector};
-use crate::scalar::{Real, Scalar};
 
 const STAGES: usize = 13;
 /// Place of the slope at the end of a step, which is the first of the next.
@@ -86,7 +84,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
 
     /// Tries one step in every lane; what becomes of a body, where its way ends.
     pub(crate) fn advance(&mut self) -> impl Iterator<Item = (usize, Fate)> + use<T, S, F> {
-        let fates = widest_in_lanes(Trial(self));
+        let fates = Arch::new().dispatch(Trial(self));
         (0..T::LANES).filter_map(move |lane| match fates.lane(lane) {
             fate::UNDER_WAY => None,
             fate::ARRIVED => Some((lane, Fate::Arrived)),
@@ -100,121 +98,126 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
     }
 
     #[inline(always)]
-    fn step(&mut self) -> T {
-        self.clocks.aim();
+    fn step<V: Simd>(&mut self, simd: V) -> T {
         let h = self.clocks.end - self.clocks.t;
-        self.stage::<2, 1>(h, &A2);
-        self.stage::<3, 2>(h, &A3);
-        self.stage::<4, 2>(h, &A4);
-        self.stage::<5, 3>(h, &A5);
-        self.stage::<6, 3>(h, &A6);
-        self.stage::<7, 4>(h, &A7);
-        self.stage::<8, 5>(h, &A8);
-        self.stage::<9, 6>(h, &A9);
-        self.stage::<10, 7>(h, &A10);
-        self.stage::<11, 8>(h, &A11);
-        self.stage::<12, 9>(h, &A12);
-        self.moved(h, &B);
+        self.stage::<V, 2, 1>(simd, h, &A2);
+        self.stage::<V, 3, 2>(simd, h, &A3);
+        self.stage::<V, 4, 2>(simd, h, &A4);
+        self.stage::<V, 5, 3>(simd, h, &A5);
+        self.stage::<V, 6, 3>(simd, h, &A6);
+        self.stage::<V, 7, 4>(simd, h, &A7);
+        self.stage::<V, 8, 5>(simd, h, &A8);
+        self.stage::<V, 9, 6>(simd, h, &A9);
+        self.stage::<V, 10, 7>(simd, h, &A10);
+        self.stage::<V, 11, 8>(simd, h, &A11);
+        self.stage::<V, 12, 9>(simd, h, &A12);
+        self.moved(simd, h, &B);
         self.f.slope(self.clocks.end, &self.trial, &mut self.stages[AT_END]);
-        let error = self.error(h.abs());
-        self.turn(error)
+        let error = self.error(simd, h.abs());
+        self.turn(simd, error)
     }
 
     #[inline(always)]
-    fn stage<const NUMBER: usize, const TERMS: usize>(&mut self, h: T, row: &[(usize, f64); TERMS]) {
+    fn stage<V: Simd, const NUMBER: usize, const TERMS: usize>(
+        &mut self,
+        simd: V,
+        h: T,
+        row: &[(usize, f64); TERMS],
+    ) {
         let (_, node) = NODES[NUMBER - 2];
         let mut time = self.clocks.end;
         if node != 1.0 {
-            for lane in 0..T::LANES {
-                time.set_lane(lane, self.clocks.t.lane(lane) + node * h.lane(lane));
-            }
+            time = self.clocks.t + T::constant(node, 0.0) * h;
         }
-        self.moved(h, row);
+        self.moved(simd, h, row);
         self.f.slope(time, &self.trial, &mut self.stages[NUMBER - 1]);
     }
 
     /// The trial states at the stage of a row.
     #[inline(always)]
-    fn moved<const TERMS: usize>(&mut self, h: T, row: &[(usize, f64); TERMS]) {
-        for i in 0..S::LEN {
-            let (y, mut moved) = (self.y.as_ref()[i], T::zero());
-            for lane in 0..T::LANES {
-                let sum: T::Lane = combination(&self.stages, (i, lane), row);
-                moved.set_lane(lane, sum.fma(in_lane(&h, lane), in_lane(&y, lane)).to_f64());
+    fn moved<V: Simd, const TERMS: usize>(&mut self, simd: V, h: T, row: &[(usize, f64); TERMS]) {
+        for k in 0..parts::<V, T>() {
+            let h = part(simd, &h, k);
+            for i in 0..S::LEN {
+                let sum = combination(simd, &self.stages, (i, k), row);
+                let y = part(simd, &self.y.as_ref()[i], k);
+                set_part(simd, &mut self.trial.as_mut()[i], k, plus(simd, sum, h, y));
             }
-            self.trial.as_mut()[i] = moved;
         }
     }
 
     /// Estimated errors relative to the tolerance, of steps of these lengths.
     #[inline(always)]
-    fn error(&self, h: T) -> T {
+    fn error<V: Simd>(&self, simd: V, h: T) -> T {
         let (before, after) = (self.y.as_ref(), self.trial.as_ref());
         let (mut largest, mut start) = (T::zero(), 0);
-        for (k, group) in self.norm.groups().iter().enumerate() {
+        for (g, group) in self.norm.groups().iter().enumerate() {
             let range = start..start + group.len;
             start = range.end;
-            let (mut fifth, mut third) = (T::zero(), T::zero());
-            for i in range.clone() {
-                for lane in 0..T::LANES {
-                    let of_fifth = combination::<T, S, _>(&self.stages, (i, lane), &E5).to_f64();
-                    let of_third = combination::<T, S, _>(&self.stages, (i, lane), &E3).to_f64();
-                    fifth.set_lane(lane, fifth.lane(lane) + of_fifth * of_fifth);
-                    third.set_lane(lane, third.lane(lane) + of_third * of_third);
-                }
-            }
             let mut value = T::zero();
-            for lane in 0..T::LANES {
-                value.set_lane(lane, DormandPrince853::error((fifth.lane(lane), third.lane(lane))));
+            for k in 0..parts::<V, T>() {
+                let zero = simd.splat_f64s(0.0);
+                let (mut fifth, mut third) = (zero, zero);
+                for i in range.clone() {
+                    let of_fifth = combination(simd, &self.stages, (i, k), &E5);
+                    let of_third = combination(simd, &self.stages, (i, k), &E3);
+                    fifth = simd.add_f64s(fifth, simd.mul_f64s(of_fifth, of_fifth));
+                    third = simd.add_f64s(third, simd.mul_f64s(of_third, of_third));
+                }
+                // As the pair has it.
+                let size = simd.add_f64s(fifth, simd.mul_f64s(simd.splat_f64s(0.01), third));
+                let error = simd.div_f64s(fifth, simd.sqrt_f64s(size));
+                let is_zero = simd.equal_f64s(fifth, zero);
+                set_part(simd, &mut value, k, simd.select_f64s(is_zero, zero, error));
             }
-            largest = self.norm.larger(largest, (k, range), value, h, (before, after));
+            largest = self.norm.larger(largest, (g, range), value, h, (before, after));
         }
-        for lane in 0..T::LANES {
-            largest.set_lane(lane, h.lane(lane) * largest.lane(lane) / self.tolerance);
-        }
-        largest
+        h * largest / T::constant(self.tolerance, 0.0)
     }
 
     /// Accepts the steps with errors of at most 1 whose slopes at the end are finite; what becomes of the lanes.
     #[inline(always)]
-    fn turn(&mut self, error: T) -> T {
-        let (mut not_finite, mut accepted, mut unsound) = (T::zero(), T::zero(), T::zero());
-        for slope in self.stages[AT_END].as_ref() {
-            for lane in 0..T::LANES {
-                // 0, or NaN once one of them is not finite.
-                not_finite.set_lane(lane, not_finite.lane(lane) + 0.0 * slope.lane(lane));
-            }
-        }
+    fn turn<V: Simd>(&mut self, simd: V, error: T) -> T {
+        let (mut accepted, mut unsound) = (T::zero(), T::zero());
         for lane in 0..T::LANES {
-            let is_accepted = error.lane(lane) <= 1.0 && not_finite.lane(lane) == 0.0;
-            accepted.set_lane(lane, if is_accepted { 1.0 } else { 0.0 });
             unsound.set_lane(lane, if self.f.is_sound(&self.trial, lane) { 0.0 } else { 1.0 });
         }
-        for i in 0..S::LEN {
-            let (slope, trial) = (self.stages[AT_END].as_ref()[i], self.trial.as_ref()[i]);
-            let (first, y) = (&mut self.stages[0].as_mut()[i], &mut self.y.as_mut()[i]);
-            for lane in 0..T::LANES {
-                let is_accepted = accepted.lane(lane) != 0.0;
-                first.set_lane(lane, if is_accepted { slope.lane(lane) } else { first.lane(lane) });
-                y.set_lane(lane, if is_accepted { trial.lane(lane) } else { y.lane(lane) });
+        let (zero, one) = (simd.splat_f64s(0.0), simd.splat_f64s(1.0));
+        for k in 0..parts::<V, T>() {
+            let mut not_finite = zero;
+            for slope in self.stages[AT_END].as_ref() {
+                // 0, or NaN once one of them is not finite.
+                not_finite = simd.add_f64s(not_finite, simd.mul_f64s(zero, part(simd, slope, k)));
+            }
+            let error = simd.add_f64s(part(simd, &error, k), not_finite);
+            let is_accepted = simd.less_than_or_equal_f64s(error, one);
+            set_part(simd, &mut accepted, k, simd.select_f64s(is_accepted, one, zero));
+            for i in 0..S::LEN {
+                let (slope, trial) = (self.stages[AT_END].as_ref()[i], self.trial.as_ref()[i]);
+                let (first, y) = (&mut self.stages[0].as_mut()[i], &mut self.y.as_mut()[i]);
+                for (kept, next) in [(first, slope), (y, trial)] {
+                    let (before, after) = (part(simd, kept, k), part(simd, &next, k));
+                    set_part(simd, kept, k, simd.select_f64s(is_accepted, after, before));
+                }
             }
         }
         self.clocks.turn(accepted, error, unsound)
     }
 }
 
-/// Component `i` of the slopes in a lane, each times the coefficient that a row has for it.
+/// Component `i` of the slopes in a vector of lanes, each times the coefficient that a row has for it.
 #[inline(always)]
-fn combination<T: Lanes, S: StateVector<T>, const TERMS: usize>(
+fn combination<V: Simd, T: Lanes, S: StateVector<T>, const TERMS: usize>(
+    simd: V,
     stages: &[S; STAGES],
-    (i, lane): (usize, usize),
+    (i, k): (usize, usize),
     row: &[(usize, f64); TERMS],
-) -> T::Lane {
-    let [(first, leading), ref rest @ ..] = row[..] else { return T::Lane::zero() };
-    let of = |stage: usize| in_lane(&stages[stage - 1].as_ref()[i], lane);
-    let mut sum = of(first) * T::Lane::from_f64(leading);
-    for (stage, coefficient) in rest {
-        sum = of(*stage).fma(T::Lane::from_f64(*coefficient), sum);
+) -> V::f64s {
+    let mut sum = simd.splat_f64s(0.0);
+    for (term, (stage, coefficient)) in row.iter().enumerate() {
+        let slope = part(simd, &stages[stage - 1].as_ref()[i], k);
+        let coefficient = simd.splat_f64s(*coefficient);
+        sum = if term == 0 { simd.mul_f64s(slope, coefficient) } else { plus(simd, slope, coefficient, sum) };
     }
     sum
 }
@@ -222,10 +225,10 @@ fn combination<T: Lanes, S: StateVector<T>, const TERMS: usize>(
 /// A step in every lane.
 struct Trial<'a, T, S, F>(&'a mut RungeKutta8InLanes<T, S, F>);
 
-impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Work for Trial<'_, T, S, F> {
+impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> WithSimd for Trial<'_, T, S, F> {
     type Output = T;
     #[inline(always)]
-    fn run(self, _vectors: impl Vectors) -> T {
-        self.0.step()
+    fn with_simd<V: Simd>(self, simd: V) -> T {
+        self.0.step(simd)
     }
 }

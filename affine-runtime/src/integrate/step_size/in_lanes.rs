@@ -11,8 +11,6 @@ pub(crate) struct Clocks<T> {
     pub(crate) t: T,
     /// End of the step that is tried.
     pub(crate) end: T,
-    /// Length of the next step.
-    length: T,
     /// Accepted steps.
     steps: T,
     previous: T,
@@ -38,14 +36,14 @@ impl<T: Lanes> Clocks<T> {
     pub(crate) fn new(order: f64, t_end: f64, max_steps: u64) -> Self {
         let (zero, t) = (T::zero(), T::constant(t_end, 0.0));
         let max_steps = max_steps as f64;
-        Self { t, end: t, length: zero, steps: zero, previous: zero, rejected: zero, order, t_end, max_steps }
+        Self { t, end: t, steps: zero, previous: zero, rejected: zero, order, t_end, max_steps }
     }
 
     /// Sets a lane to the start of a body.
     pub(crate) fn start(&mut self, lane: usize, t: f64, length: f64) {
         let Controller { previous, .. } = Controller::of(self.order);
         self.t.set_lane(lane, t);
-        self.length.set_lane(lane, length);
+        self.end.set_lane(lane, next_time(t, length, self.t_end));
         self.previous.set_lane(lane, previous);
         self.rejected.set_lane(lane, 0.0);
         self.steps.set_lane(lane, 0.0);
@@ -54,15 +52,6 @@ impl<T: Lanes> Clocks<T> {
     /// Nothing moves in a lane from now on.
     pub(crate) fn rest(&mut self, lane: usize) {
         self.start(lane, self.t_end, 0.0);
-    }
-
-    /// The ends of the steps to try.
-    #[inline(always)]
-    pub(crate) fn aim(&mut self) {
-        for lane in 0..T::LANES {
-            let end = next_time(self.t.lane(lane), self.length.lane(lane), self.t_end);
-            self.end.set_lane(lane, end);
-        }
     }
 
     /// Turns to the next steps: where `accepted` is not 0 from the ends of those that were tried with these errors,
@@ -92,8 +81,9 @@ impl<T: Lanes> Clocks<T> {
             let fate = if has_arrived { fate::ARRIVED } else { fate };
             // A lane at rest.
             fates.set_lane(lane, if t == self.t_end { fate::UNDER_WAY } else { fate });
-            self.t.set_lane(lane, if accepted { end } else { t });
-            self.length.set_lane(lane, if accepted { longer } else { shorter });
+            let (t, length) = if accepted { (end, longer) } else { (t, shorter) };
+            self.t.set_lane(lane, t);
+            self.end.set_lane(lane, next_time(t, length, self.t_end));
             self.previous.set_lane(lane, if accepted { after.previous } else { previous });
             self.rejected.set_lane(lane, if accepted { 0.0 } else { 1.0 });
             self.steps.set_lane(lane, steps);
