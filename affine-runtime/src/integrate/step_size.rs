@@ -52,24 +52,32 @@ impl Controller {
     }
 
     /// Factor of the step size after an accepted step with `error <= 1`.
-    ///
-    /// Like all here that is called between two steps: without branches, for many bodies at once.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn accept(&mut self, error: f64) -> f64 {
-        let error = ln_of_normal(if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR });
-        let exponent = (PROPORTIONAL * self.previous - (INTEGRAL + PROPORTIONAL) * error) / self.order;
-        // After a rejection the longer step has just been seen to fail.
-        let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
-        *self = Self { previous: error, rejected: false, ..*self };
-        within(LARGEST_CUT, growth, SAFETY * exp_of_moderate(exponent))
+        self.factor(true, error)
     }
 
-    /// Factor of the step size after a rejected step with `error > 1`; NaN stands for numbers that are not finite.
-    #[inline(always)]
+    /// Factor of the step size after a rejected step; NaN stands for numbers that are not finite.
+    #[inline]
     pub(crate) fn reject(&mut self, error: f64) -> f64 {
-        self.rejected = true;
-        let factor = SAFETY * exp_of_moderate(-ln_of_normal(error) / self.order);
-        if error < f64::INFINITY { within(LARGEST_CUT, SAFETY, factor) } else { LARGEST_CUT }
+        self.factor(false, error)
+    }
+
+    /// Either. All that is called between two steps is without branches, for many bodies at once.
+    #[inline(always)]
+    fn factor(&mut self, accepted: bool, error: f64) -> f64 {
+        let seen = if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR };
+        // What is not finite cuts a step as the largest number does.
+        let failed = if error < f64::MAX { error } else { f64::MAX };
+        let logarithm = ln_of_normal(if accepted { seen } else { failed });
+        let trend = PROPORTIONAL * self.previous - (INTEGRAL + PROPORTIONAL) * logarithm;
+        let exponent = (if accepted { trend } else { -logarithm }) / self.order;
+        // After a rejection the longer step has just been seen to fail.
+        let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
+        let growth = if accepted { growth } else { SAFETY };
+        self.previous = if accepted { logarithm } else { self.previous };
+        self.rejected = !accepted;
+        within(LARGEST_CUT, growth, SAFETY * exp_of_moderate(exponent))
     }
 }
 

@@ -2,15 +2,15 @@
 
 use core::ops::Range;
 
+use pulp::Simd;
+
 use super::{ErrorNorm, GROUPS, IN_RANGE, Measure, PART_OF_DISPLACEMENT, scaled_norm};
 use crate::lanes::Lanes;
+use crate::lanes::parts::{part, parts, set_part};
 use crate::model::Group;
-use crate::scalar::Scalar;
 
 /// [`ErrorNorm`] with inertias for each lane.
 ///
-/// Its loops over lanes become vector instructions in a function that is compiled for them: all here is inlined into it,
-/// and there are no closures, which are not.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NormInLanes<T> {
     layout: ErrorNorm,
@@ -30,78 +30,81 @@ impl<T: Lanes> NormInLanes<T> {
         }
     }
 
-    /// The groups.
-    #[inline(always)]
-    pub(crate) fn groups(&self) -> &'static [Group] {
-        self.layout.groups
-    }
-
-    /// The larger of `largest` and of `value` over the scale of group `k` for steps of lengths `h`: a turn of the loop of
+    /// The larger of `largest` and of `value` over the scale of group `g` for steps of lengths `h`: a turn of the loop of
     /// [`ErrorNorm::largest`].
     #[inline(always)]
-    pub(crate) fn larger(
+    pub(crate) fn larger<V: Simd>(
         &self,
-        largest: T,
-        (k, range): (usize, Range<usize>),
+        simd: V,
+        mut largest: T,
+        (g, group, range): (usize, &Group, Range<usize>),
         value: T,
-        h: T,
-        (before, after): (&[T], &[T]),
+        (h, before, after): (T, &[T], &[T]),
     ) -> T {
-        let Some(group) = self.layout.groups.get(k) else { return largest };
-        let measure = self.layout.measure(k, group);
-        if measure == Measure::Nothing {
-            return largest;
-        }
-        let (a, b) = match measure {
-            Measure::One | Measure::Nothing => (T::one(), T::one()),
-            Measure::Position => (self.extent(range.clone(), before), self.extent(range, after)),
-            Measure::Size => (norm(before, range.clone()), norm(after, range)),
+        let (a, b) = match self.layout.measure(g, group) {
+            Measure::Nothing => return largest,
+            Measure::One => (T::one(), T::one()),
+            Measure::Position => {
+                (self.extent(simd, range.clone(), before), self.extent(simd, range, after))
+            }
+            Measure::Size => (norm(simd, before, range.clone()), norm(simd, after, range)),
         };
-        let inertia = self.inertia.get(k).copied().unwrap_or(T::zero());
-        let mut larger = T::zero();
-        for lane in 0..T::LANES {
-            let (a, b, inertia) = (a.lane(lane), b.lane(lane), inertia.lane(lane));
-            let floor = if inertia == 0.0 { 0.0 } else { PART_OF_DISPLACEMENT * inertia / h.lane(lane) };
-            let scale = if a >= b { a } else { b };
-            larger.set_lane(lane, relative(value.lane(lane), scale, floor, largest.lane(lane)));
+        let inertia = self.inertia.get(g).copied().unwrap_or(T::zero());
+        for k in 0..parts::<V, T>() {
+            let (a, b, inertia) = (part(simd, &a, k), part(simd, &b, k), part(simd, &inertia, k));
+            let floor = simd.mul_f64s(simd.splat_f64s(PART_OF_DISPLACEMENT), inertia);
+            let floor = simd.div_f64s(floor, part(simd, &h, k));
+            let zero = simd.splat_f64s(0.0);
+            let floor = simd.select_f64s(simd.equal_f64s(inertia, zero), zero, floor);
+            let size = simd.select_f64s(simd.greater_than_or_equal_f64s(a, b), a, b);
+            let larger = relative(simd, (part(simd, &value, k), size, floor), part(simd, &largest, k));
+            set_part(simd, &mut largest, k, larger);
         }
-        larger
+        largest
     }
 
     #[inline(always)]
-    fn extent(&self, configuration: Range<usize>, y: &[T]) -> T {
-        let own = norm(y, configuration.clone());
+    fn extent<V: Simd>(&self, simd: V, configuration: Range<usize>, y: &[T]) -> T {
+        let own = norm(simd, y, configuration.clone());
         match self.layout.phi {
-            Some((start, end)) if start != configuration.start => own + norm(y, start..end),
+            Some((start, end)) if start != configuration.start => own + norm(simd, y, start..end),
             _ => own,
         }
     }
 }
 
-/// The larger of what was found so far and of `value` over its scale; NaN where one is.
+/// The larger of what was found so far and of a value over its scale, a size or a floor; NaN where one is.
 #[inline(always)]
-fn relative(value: f64, scale: f64, floor: f64, largest: f64) -> f64 {
-    let no_error = value == 0.0 && scale.is_finite();
-    let scale = if floor > scale { floor } else { scale };
-    let relative = if scale.is_finite() { value / scale } else { f64::NAN };
-    let larger = if relative <= largest { largest } else { relative };
-    if no_error || largest.is_nan() { largest } else { larger }
+fn relative<V: Simd>(simd: V, (value, size, floor): (V::f64s, V::f64s, V::f64s), largest: V::f64s) -> V::f64s {
+    let is_finite = |number| simd.less_than_or_equal_f64s(simd.abs_f64s(number), simd.splat_f64s(f64::MAX));
+    let no_error = simd.and_m64s(simd.equal_f64s(value, simd.splat_f64s(0.0)), is_finite(size));
+    let scale = simd.select_f64s(simd.greater_than_f64s(floor, size), floor, size);
+    let relative = simd.div_f64s(value, scale);
+    let relative = simd.select_f64s(is_finite(scale), relative, simd.splat_f64s(f64::NAN));
+    let larger =
+        simd.select_f64s(simd.less_than_or_equal_f64s(relative, largest), largest, relative);
+    let larger = simd.select_f64s(simd.equal_f64s(largest, largest), larger, largest);
+    simd.select_f64s(no_error, largest, larger)
 }
 
 /// Euclidean norms.
 #[inline(always)]
-fn norm<T: Lanes>(y: &[T], range: Range<usize>) -> T {
-    let mut squares = T::zero();
-    for component in &y[range.clone()] {
-        squares += *component * *component;
+fn norm<V: Simd, T: Lanes>(simd: V, y: &[T], range: Range<usize>) -> T {
+    let (mut squares, mut norms, mut doubt) = (T::zero(), T::zero(), simd.splat_f64s(0.0));
+    for k in 0..parts::<V, T>() {
+        let mut sum = simd.splat_f64s(0.0);
+        for component in &y[range.clone()] {
+            let component = part(simd, component, k);
+            sum = simd.add_f64s(sum, simd.mul_f64s(component, component));
+        }
+        let (least, most) = (simd.splat_f64s(*IN_RANGE.start()), simd.splat_f64s(*IN_RANGE.end()));
+        let above = simd.greater_than_or_equal_f64s(sum, least);
+        let in_range = simd.and_m64s(above, simd.less_than_or_equal_f64s(sum, most));
+        doubt = simd.select_f64s(in_range, doubt, simd.splat_f64s(1.0));
+        set_part(simd, &mut squares, k, sum);
+        set_part(simd, &mut norms, k, simd.sqrt_f64s(sum));
     }
-    let (mut norms, mut all_in_range) = (T::zero(), true);
-    for lane in 0..T::LANES {
-        let squares = squares.lane(lane);
-        norms.set_lane(lane, Scalar::sqrt(squares));
-        all_in_range &= IN_RANGE.contains(&squares);
-    }
-    if all_in_range { norms } else { scaled(&y[range], squares, norms) }
+    if simd.reduce_max_f64s(doubt) == 0.0 { norms } else { scaled(&y[range], squares, norms) }
 }
 
 /// Norms whose squares leave the range in some lane.

@@ -18,6 +18,9 @@ const AT_END: usize = 12;
 /// `y' = f(t, y)` in lanes. A trait, since a closure cannot be made part of the function that is compiled for the
 /// processor's vectors: what is called from there is compiled for the vectors of every processor.
 pub(crate) trait Equations<T, S> {
+    /// What states consist of.
+    const GROUPS: &'static [Group];
+
     /// Writes `f(t, y)`; to be `#[inline(always)]`. In place, since states of many lanes are long.
     fn slope(&self, t: T, y: &S, slope: &mut S);
 
@@ -49,10 +52,10 @@ pub(crate) enum Fate {
 impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F> {
     /// Lanes without bodies, for motions to `t_end` of at most so many steps. All are to be given one before the first
     /// step: there is no motion from a state of zeros.
-    pub(crate) fn new(f: F, groups: &'static [Group], t_end: f64, tolerance: f64, max_steps: u64) -> Self {
+    pub(crate) fn new(f: F, t_end: f64, tolerance: f64, max_steps: u64) -> Self {
         Self {
             f,
-            norm: NormInLanes::new(groups),
+            norm: NormInLanes::new(F::GROUPS),
             tolerance,
             clocks: Clocks::new(DormandPrince853::ERROR_ORDER, t_end, max_steps),
             y: S::zeros(),
@@ -151,7 +154,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
     fn error<V: Simd>(&self, simd: V, h: T) -> T {
         let (before, after) = (self.y.as_ref(), self.trial.as_ref());
         let (mut largest, mut start) = (T::zero(), 0);
-        for (g, group) in self.norm.groups().iter().enumerate() {
+        for (g, group) in F::GROUPS.iter().enumerate() {
             let range = start..start + group.len;
             start = range.end;
             let mut value = T::zero();
@@ -170,7 +173,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
                 let is_zero = simd.equal_f64s(fifth, zero);
                 set_part(simd, &mut value, k, simd.select_f64s(is_zero, zero, error));
             }
-            largest = self.norm.larger(largest, (g, range), value, h, (before, after));
+            largest = self.norm.larger(simd, largest, (g, group, range), value, (h, before, after));
         }
         h * largest / T::constant(self.tolerance, 0.0)
     }
@@ -178,7 +181,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
     /// Accepts the steps with errors of at most 1 whose slopes at the end are finite; what becomes of the lanes.
     #[inline(always)]
     fn turn<V: Simd>(&mut self, simd: V, error: T) -> T {
-        let (mut accepted, mut unsound) = (T::zero(), T::zero());
+        let (mut errors, mut unsound) = (T::zero(), T::zero());
         for lane in 0..T::LANES {
             unsound.set_lane(lane, if self.f.is_sound(&self.trial, lane) { 0.0 } else { 1.0 });
         }
@@ -191,7 +194,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
             }
             let error = simd.add_f64s(part(simd, &error, k), not_finite);
             let is_accepted = simd.less_than_or_equal_f64s(error, one);
-            set_part(simd, &mut accepted, k, simd.select_f64s(is_accepted, one, zero));
+            set_part(simd, &mut errors, k, error);
             for i in 0..S::LEN {
                 let (slope, trial) = (self.stages[AT_END].as_ref()[i], self.trial.as_ref()[i]);
                 let (first, y) = (&mut self.stages[0].as_mut()[i], &mut self.y.as_mut()[i]);
@@ -201,7 +204,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
                 }
             }
         }
-        self.clocks.turn(accepted, error, unsound)
+        self.clocks.turn(errors, unsound)
     }
 }
 

@@ -54,40 +54,36 @@ impl<T: Lanes> Clocks<T> {
         self.start(lane, self.t_end, 0.0);
     }
 
-    /// Turns to the next steps: where `accepted` is not 0 from the ends of those that were tried with these errors,
-    /// elsewhere from where these began. What becomes of the lanes; those that `unsound` is not 0 for cannot go on from the
-    /// end of an accepted step.
+    /// Turns to the next steps: where errors are at most 1 from the ends of those that were tried, elsewhere, also where an
+    /// error is NaN, from where these began. What becomes of the lanes; those that `unsound` is not 0 for cannot go on from
+    /// the end of an accepted step.
     #[inline(always)]
-    pub(crate) fn turn(&mut self, accepted: T, error: T, unsound: T) -> T {
+    pub(crate) fn turn(&mut self, error: T, unsound: T) -> T {
+        let Self { order, t_end, max_steps, .. } = *self;
+        let mut next = *self;
         let mut fates = T::zero();
         for lane in 0..T::LANES {
-            let accepted = accepted.lane(lane) != 0.0;
             let (t, end, error) = (self.t.lane(lane), self.end.lane(lane), error.lane(lane));
             let (previous, rejected) = (self.previous.lane(lane), self.rejected.lane(lane) != 0.0);
-            let (mut after, mut again) =
-                (Controller { order: self.order, previous, rejected }, Controller { order: self.order, previous, rejected });
-            let tried = (end - t).abs();
-            let longer = tried * after.accept(error);
-            // An error that does not reject stands for slopes that are not finite.
-            let shorter = tried * again.reject(if error <= 1.0 { f64::NAN } else { error });
+            let accepted = error <= 1.0;
+            let mut controller = Controller { order, previous, rejected };
+            let length = (end - t).abs() * controller.factor(accepted, error);
             let steps = self.steps.lane(lane) + if accepted { 1.0 } else { 0.0 };
-            let is_lost = if accepted {
-                unsound.lane(lane) != 0.0 || steps >= self.max_steps
-            } else {
-                shorter <= shortest(t, self.t_end)
-            };
-            let has_arrived = accepted && end == self.t_end && unsound.lane(lane) == 0.0;
-            let fate = if is_lost { fate::STUCK } else { fate::UNDER_WAY };
-            let fate = if has_arrived { fate::ARRIVED } else { fate };
-            // A lane at rest.
-            fates.set_lane(lane, if t == self.t_end { fate::UNDER_WAY } else { fate });
-            let (t, length) = if accepted { (end, longer) } else { (t, shorter) };
-            self.t.set_lane(lane, t);
-            self.end.set_lane(lane, next_time(t, length, self.t_end));
-            self.previous.set_lane(lane, if accepted { after.previous } else { previous });
-            self.rejected.set_lane(lane, if accepted { 0.0 } else { 1.0 });
-            self.steps.set_lane(lane, steps);
+            let has_arrived = if end == t_end { fate::ARRIVED } else { fate::UNDER_WAY };
+            let goes_on = if steps >= max_steps && end != t_end { fate::STUCK } else { has_arrived };
+            let after = if unsound.lane(lane) == 0.0 { goes_on } else { fate::STUCK };
+            let again = if length <= shortest(t, t_end) { fate::STUCK } else { fate::UNDER_WAY };
+            let fate = if accepted { after } else { again };
+            // A lane at rest has no fate.
+            fates.set_lane(lane, if t == t_end { fate::UNDER_WAY } else { fate });
+            let t = if accepted { end } else { t };
+            next.t.set_lane(lane, t);
+            next.end.set_lane(lane, next_time(t, length, t_end));
+            next.previous.set_lane(lane, controller.previous);
+            next.rejected.set_lane(lane, if accepted { 0.0 } else { 1.0 });
+            next.steps.set_lane(lane, steps);
         }
+        *self = next;
         fates
     }
 }

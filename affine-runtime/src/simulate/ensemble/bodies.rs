@@ -9,7 +9,7 @@ use crate::integrate::in_lanes::{Equations, Fate, RungeKutta8InLanes};
 use crate::integrate::runge_kutta::DormandPrince853;
 use crate::integrate::runge_kutta::start::Start;
 use crate::lanes::Lanes;
-use crate::model::StateVector;
+use crate::model::{Group, StateVector};
 use crate::simulate::layout::placement_in;
 use crate::simulate::point::is_clearly_positive;
 
@@ -62,8 +62,7 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
         let Ensemble { model, t0, tolerance, max_steps, .. } = *ensemble;
         let constants = vec![first.constants; T::LANES];
         let equations = Reduced { model, constants: M::constants_in_lanes(&constants) };
-        let groups = M::DESCRIPTION.reduced;
-        let integration = RungeKutta8InLanes::new(equations, groups, t_end, tolerance, max_steps);
+        let integration = RungeKutta8InLanes::new(equations, t_end, tolerance, max_steps);
         let bodies = vec![None; T::LANES];
         let mut lanes = Self { integration, model, t0, t_end, bodies, constants, has_changed: false };
         lanes.put(0, &first);
@@ -131,6 +130,8 @@ struct Reduced<'a, const N: usize, M: InLanes<N>, T: Lanes> {
 }
 
 impl<const N: usize, M: InLanes<N>, T: Lanes> Equations<T, M::Reduced<T>> for Reduced<'_, N, M, T> {
+    const GROUPS: &'static [Group] = M::DESCRIPTION.reduced;
+
     #[inline(always)]
     fn slope(&self, t: T, y: &M::Reduced<T>, slope: &mut M::Reduced<T>) {
         self.model.equations_in_lanes(t, &self.constants, y, slope);
