@@ -201,6 +201,7 @@ fn determinant_by_elimination<const N: usize, T: Real>(mut matrix: Matrix<N, T>)
 }
 
 /// `e` with `2^(e-1) <= |value| < 2^e`; the value is neither zero nor infinite.
+#[inline]
 fn binary_exponent<T: Real>(value: T) -> i32 {
     let value = value.to_f64();
     // The bits of a normal number say it.
@@ -217,6 +218,7 @@ fn times_power_of_two<T: Real>(value: T, exponent: i32) -> T {
 }
 
 /// `2^exponent`: where that is a normal number, from its bits.
+#[inline]
 fn power_of_two(exponent: i32) -> f64 {
     if (-1022..=1023).contains(&exponent) {
         f64::from_bits(((exponent + 1023) as u64) << 52)
