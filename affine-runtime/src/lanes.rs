@@ -4,7 +4,7 @@
 //! Arithmetic and square roots are rounded correctly in either; a multiply-add is fused in either or in neither;
 //! elementary functions are computed lane by lane by those of `f64`.
 //!
-//! Fast, [`FastF64x16`]: the same but for roots of order 3 and exponential, logarithmic and hyperbolic functions, those
+//! Fast, [`FastF64x8`]: the same but for roots of order 3 and exponential, logarithmic and hyperbolic functions, those
 //! of [`Fast`], which become vector instructions, right to [`FAST_ULP`] units of the last place.
 //!
 //! Lanes are arrays, and operations loops over them, which the compiler turns into the vectors of the function that it
@@ -57,11 +57,12 @@ pub struct Several<S, const LANES: usize>([f64; LANES], PhantomData<S>);
 pub type F64x8 = Several<f64, 8>;
 /// Sixteen doubles.
 pub type F64x16 = Several<f64, 16>;
-/// Sixteen doubles with fast elementary functions.
-pub type FastF64x16 = Several<Fast, 16>;
+/// Eight doubles with fast elementary functions.
+pub type FastF64x8 = Several<Fast, 8>;
 
-/// The lanes that an [`Ensemble`](crate::Ensemble) takes.
-pub type Widest = F64x16;
+/// The lanes that an [`Ensemble`](crate::Ensemble) takes: one vector of AVX-512, two of AVX2. Of sixteen lanes the stages of a
+/// step hardly fit into the nearest cache, and with AVX2 a right-hand side of the size of P2 no longer into the registers.
+pub type Widest = F64x8;
 
 impl<S: Real, const LANES: usize> Several<S, LANES> {
     #[inline(always)]

@@ -23,14 +23,14 @@ pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
 /// let ends = Ensemble::new(&model, starts).until(10.0).tolerance(1e-9).run()?;
 /// ```
 ///
-/// Bodies are computed in lanes, [`Widest`] next to one another in the order of the starts, by the Runge-Kutta method of
-/// order 8. The bodies of a group share their steps: each has an error of its own in each step, and the worst decides. A
-/// body that cannot go on (numbers that are not finite, a collapse, a step that underflows) leaves its group, which starts
-/// again with another body in its lane, and is integrated alone: its outcome, an end or a [`Stop`], is that of a
-/// [`Simulation`], and the others come to what they would have come to without it. Bodies with a closed form take that,
-/// and bodies under a constraint, whose steps are taken on its group, are integrated one by one.
+/// Bodies are computed in lanes, [`Widest`] at once, by the Runge-Kutta method of order 8. Each is at its own time and takes
+/// its own steps, and where one has come to the end, the next takes its lane: every body comes to what
+/// [`Method::RungeKutta8`] gives for it alone, bit for bit in strict lanes, whatever its neighbours and their number. A body
+/// that cannot go on (numbers that are not finite, a collapse, a step that underflows) leaves its lane and is integrated
+/// alone: its outcome, an end or a [`Stop`], is that of a [`Simulation`]. Bodies with a closed form take that, and bodies
+/// under a constraint, whose steps are taken on its group, are integrated one by one.
 ///
-/// With the feature `parallel` groups are spread over the threads of the current `rayon` pool. Results are the same bits
+/// With the feature `parallel` bodies are spread over the threads of the current `rayon` pool. Results are the same bits
 /// for any number of threads.
 pub struct Ensemble<'a, const N: usize, M: Model<N>> {
     model: &'a M,
@@ -73,7 +73,7 @@ impl<'a, const N: usize, M: Model<N>> Ensemble<'a, N, M> {
         Self { tolerance: eps, ..self }
     }
 
-    /// Largest number of accepted steps of a group or a body.
+    /// Largest number of accepted steps of a body.
     #[must_use]
     pub fn max_steps(self, max_steps: u64) -> Self {
         Self { max_steps, ..self }
@@ -109,7 +109,8 @@ where
         self.run_in::<Widest>()
     }
 
-    /// The same in lanes of another number, or of another kind.
+    /// The same in lanes of another number, a multiple of eight, or of another kind: in strict lanes the same bits, in
+    /// [fast](crate::lanes::FastF64x8) ones results that agree within the tolerance.
     ///
     /// # Errors
     /// As [`run`](Self::run).

@@ -44,9 +44,7 @@ impl<T: Lanes> NormInLanes<T> {
         let (a, b) = match self.layout.measure(g, group) {
             Measure::Nothing => return largest,
             Measure::One => (T::one(), T::one()),
-            Measure::Position => {
-                (self.extent(simd, range.clone(), before), self.extent(simd, range, after))
-            }
+            Measure::Position => (self.extent(simd, range.clone(), before), self.extent(simd, range, after)),
             Measure::Size => (norm(simd, before, range.clone()), norm(simd, after, range)),
         };
         let inertia = self.inertia.get(g).copied().unwrap_or(T::zero());
@@ -75,14 +73,17 @@ impl<T: Lanes> NormInLanes<T> {
 
 /// The larger of what was found so far and of a value over its scale, a size or a floor; NaN where one is.
 #[inline(always)]
-fn relative<V: Simd>(simd: V, (value, size, floor): (V::f64s, V::f64s, V::f64s), largest: V::f64s) -> V::f64s {
+fn relative<V: Simd>(
+    simd: V,
+    (value, size, floor): (V::f64s, V::f64s, V::f64s),
+    largest: V::f64s,
+) -> V::f64s {
     let is_finite = |number| simd.less_than_or_equal_f64s(simd.abs_f64s(number), simd.splat_f64s(f64::MAX));
     let no_error = simd.and_m64s(simd.equal_f64s(value, simd.splat_f64s(0.0)), is_finite(size));
     let scale = simd.select_f64s(simd.greater_than_f64s(floor, size), floor, size);
     let relative = simd.div_f64s(value, scale);
     let relative = simd.select_f64s(is_finite(scale), relative, simd.splat_f64s(f64::NAN));
-    let larger =
-        simd.select_f64s(simd.less_than_or_equal_f64s(relative, largest), largest, relative);
+    let larger = simd.select_f64s(simd.less_than_or_equal_f64s(relative, largest), largest, relative);
     let larger = simd.select_f64s(simd.equal_f64s(largest, largest), larger, largest);
     simd.select_f64s(no_error, largest, larger)
 }

@@ -53,6 +53,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
     /// Lanes without bodies, for motions to `t_end` of at most so many steps. All are to be given one before the first
     /// step: there is no motion from a state of zeros.
     pub(crate) fn new(f: F, t_end: f64, tolerance: f64, max_steps: u64) -> Self {
+        const { assert!(T::LANES.is_multiple_of(8), "lanes fill the vectors of every processor") }
         Self {
             f,
             norm: NormInLanes::new(F::GROUPS),
@@ -95,7 +96,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         })
     }
 
-    /// A component of the state reached in a lane.
+    /// States reached.
     pub(crate) fn y(&self) -> &S {
         &self.y
     }
@@ -233,5 +234,101 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> WithSimd for Trial<'_, T, 
     #[inline(always)]
     fn with_simd<V: Simd>(self, simd: V) -> T {
         self.0.step(simd)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integrate::{Failure, RungeKutta8};
+    use crate::lanes::F64x8;
+    use crate::scalar::Scalar;
+
+    const GROUPS: &[Group] = &[Group { name: "x", len: 1 }, Group { name: "v", len: 1 }];
+    const T_END: f64 = 20.0;
+    const TOLERANCE: f64 = 1e-10;
+
+    /// `x'' = -x^3`: the larger the amplitude, the faster.
+    fn slope<T: Scalar>([x, v]: &[T; 2]) -> [T; 2] {
+        [*v, -(*x * *x * *x)]
+    }
+
+    struct Duffing;
+
+    impl Equations<F64x8, [F64x8; 2]> for Duffing {
+        const GROUPS: &'static [Group] = GROUPS;
+        #[inline(always)]
+        fn slope(&self, _t: F64x8, y: &[F64x8; 2], rates: &mut [F64x8; 2]) {
+            *rates = slope(y);
+        }
+        #[inline(always)]
+        fn is_sound(&self, _y: &[F64x8; 2], _lane: usize) -> bool {
+            true
+        }
+    }
+
+    fn start(y: &[f64; 2]) -> Result<Start<[f64; 2]>, Failure> {
+        Start::of::<DormandPrince853>(&|_, y| slope(y), GROUPS, (0.0, y), T_END, TOLERANCE)
+    }
+
+    /// One body after the other through eight lanes: each is there as many attempts as it takes alone, and none waits.
+    #[test]
+    fn no_lane_waits_for_another() -> Result<(), Failure> {
+        let bodies: Vec<[f64; 2]> = (0..21).map(|k| [0.1 * 1.3_f64.powi(k), 0.0]).collect();
+        let mut alone = Vec::new();
+        for y in &bodies {
+            let mut integration = RungeKutta8::new(|_, y| slope(y), GROUPS, (0.0, *y), T_END, TOLERANCE)?;
+            while !integration.is_finished() {
+                integration.advance()?;
+            }
+            let cost = integration.statistics();
+            alone.push((*integration.y(), cost.steps + cost.rejected));
+        }
+        let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 1_000_000);
+        let (mut waiting, mut begun, mut found) = (8..bodies.len(), Vec::new(), vec![None; bodies.len()]);
+        for lane in 0..8 {
+            lanes.start(lane, (0.0, &bodies[lane]), &start(&bodies[lane])?);
+            begun.push((lane, 0));
+        }
+        for attempt in 1_u64.. {
+            for (lane, fate) in lanes.advance() {
+                let (body, begin) = begun[lane];
+                assert_eq!(fate, Fate::Arrived);
+                found[body] = Some((lanes.y().map(|component| component.lane(lane)), attempt - begin));
+                match waiting.next() {
+                    Some(next) => {
+                        lanes.start(lane, (0.0, &bodies[next]), &start(&bodies[next])?);
+                        begun[lane] = (next, attempt);
+                    }
+                    None => lanes.rest(lane),
+                }
+            }
+            if found.iter().all(Option::is_some) {
+                break;
+            }
+        }
+        let alone: Vec<_> = alone.into_iter().map(Some).collect();
+        assert_eq!(found, alone);
+        let attempts: Vec<u64> = alone.iter().flatten().map(|(_, attempts)| *attempts).collect();
+        assert_eq!((attempts[0], attempts[20]), (20, 2962), "slow and fast bodies");
+        Ok(())
+    }
+
+    #[test]
+    fn a_lane_of_too_many_steps_is_stuck() -> Result<(), Failure> {
+        let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 3);
+        for lane in 0..8 {
+            let y = [if lane == 5 { 1.0 } else { 1e-6 }, 0.0];
+            lanes.start(lane, (0.0, &y), &start(&y)?);
+        }
+        let mut fates = Vec::new();
+        for _ in 0..3 {
+            for (lane, fate) in lanes.advance() {
+                fates.push((lane, fate));
+                lanes.rest(lane);
+            }
+        }
+        assert!(fates.contains(&(5, Fate::Stuck)), "{fates:?}");
+        Ok(())
     }
 }

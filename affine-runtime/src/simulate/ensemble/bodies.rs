@@ -33,7 +33,8 @@ impl<const N: usize, M: InLanes<N>> Begun<N, M> {
         let equations = |t: f64, y: &M::Reduced<f64>| model.reduced_equations(t, &constants, y);
         let groups = M::DESCRIPTION.reduced;
         let start =
-            Start::of::<DormandPrince853>(&equations, groups, (t0, &state), t_end, ensemble.tolerance).ok()?;
+            Start::of::<DormandPrince853>(&equations, groups, (t0, &state), t_end, ensemble.tolerance)
+                .ok()?;
         Some(Self { body, state, constants, start })
     }
 }
