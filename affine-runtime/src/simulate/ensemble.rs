@@ -12,7 +12,7 @@ use crate::capability::InLanes;
 use crate::lanes::{Lanes, Widest};
 use crate::model::Model;
 use crate::state::Phase;
-use bodies::{Begun, Bodies};
+use bodies::{Begun, Bodies, Done};
 
 /// Where each body of an ensemble is in the end, or why it did not get there.
 pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
@@ -130,7 +130,7 @@ where
         if let Some(first) = begun.next() {
             let mut bodies = Bodies::<N, T, M>::filled(self, first, &mut begun, t_end);
             while bodies.are_moving() {
-                for (lane, body, end) in bodies.advance() {
+                for Done { lane, body, end } in bodies.advance() {
                     ends[body] = end.filter(is_sound);
                     match begun.next() {
                         Some(next) => bodies.put(lane, &next),

@@ -39,6 +39,14 @@ impl<const N: usize, M: InLanes<N>> Begun<N, M> {
     }
 }
 
+/// A body that is done with its lane.
+pub(super) struct Done<P> {
+    pub(super) lane: usize,
+    pub(super) body: usize,
+    /// Where it has come to; `None` where it cannot go on.
+    pub(super) end: Option<P>,
+}
+
 /// Lanes, each with a body or at rest.
 pub(super) struct Bodies<'a, const N: usize, T: Lanes, M: InLanes<N>> {
     integration: RungeKutta8InLanes<T, M::Reduced<T>, Reduced<'a, N, M, T>>,
@@ -99,16 +107,15 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
         self.bodies.iter().any(Option::is_some)
     }
 
-    /// Tries one step of every body; lanes whose body has come to the end or cannot go on, with the body and where it has
-    /// come to.
-    pub(super) fn advance(&mut self) -> Vec<(usize, usize, Option<M::Point<f64>>)> {
+    /// Tries one step of every body; the lanes that this leaves without.
+    pub(super) fn advance(&mut self) -> Vec<Done<M::Point<f64>>> {
         if core::mem::take(&mut self.has_changed) {
             self.integration.equations().constants = M::constants_in_lanes(&self.constants);
         }
         let mut done = Vec::new();
         for (lane, fate) in self.integration.advance() {
             if let Some(body) = self.bodies[lane] {
-                done.push((lane, body, (fate == Fate::Arrived).then(|| self.end(lane))));
+                done.push(Done { lane, body, end: (fate == Fate::Arrived).then(|| self.end(lane)) });
             }
         }
         done
