@@ -314,6 +314,33 @@ mod tests {
         Ok(())
     }
 
+    /// States after some attempts on one kind of vectors, with the fates on the way, as bits.
+    fn course(attempt: impl Fn(Trial<'_, F64x8, [F64x8; 2], Duffing>) -> F64x8) -> Result<Vec<u64>, Failure> {
+        let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 1_000_000);
+        for lane in 0..8 {
+            let y = [1.5_f64.powi(lane as i32), 0.1];
+            lanes.start(lane, (0.0, &y), &start(&y)?);
+        }
+        let mut seen = Vec::new();
+        for _ in 0..60 {
+            let fates = attempt(Trial(&mut lanes));
+            let numbers = [fates, lanes.y[0], lanes.y[1], lanes.clocks.t];
+            seen.extend(numbers.iter().flat_map(|lanes| lanes.as_slice()).map(|number| number.to_bits()));
+        }
+        Ok(seen)
+    }
+
+    #[test]
+    fn vectors_of_any_width_round_the_same() -> Result<(), Failure> {
+        let widest = course(|trial| Arch::new().dispatch(trial))?;
+        assert_eq!(course(|trial| pulp::Scalar::vectorize(pulp::Scalar, trial))?, widest);
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = pulp::x86::V3::try_new() {
+            assert_eq!(course(|trial| Simd::vectorize(avx2, trial))?, widest);
+        }
+        Ok(())
+    }
+
     #[test]
     fn a_lane_of_too_many_steps_is_stuck() -> Result<(), Failure> {
         let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 3);
