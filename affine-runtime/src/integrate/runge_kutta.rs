@@ -101,8 +101,8 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
         t_end: f64,
         tolerance: f64,
     ) -> Result<Self, Failure> {
-        let start = Start::of::<P>(&f, groups, (t0, &y0), t_end, tolerance)?;
-        let Start { slope, error_norm, length, evaluations } = start;
+        let (start, evaluations) = Start::of::<P>(&f, groups, (t0, &y0), t_end, tolerance)?;
+        let Start { slope, error_norm, length } = start;
         let statistics = Statistics { evaluations, ..Statistics::default() };
         let controller = Controller::of(P::ERROR_ORDER);
         let begin = Sum::of(y0);

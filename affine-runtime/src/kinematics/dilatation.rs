@@ -208,9 +208,12 @@ fn binary_exponent<T: Real>(value: T) -> i32 {
     if value.is_normal() { ((value.to_bits() >> 52) & 0x7ff) as i32 - 1022 } else { libm::frexp(value).1 }
 }
 
-/// `value 2^exponent`, exact where the result is a normal number. In quarters, because the power itself may lie
-/// outside the range of `T` where the result does not.
+/// `value 2^exponent`, exact where the result is a normal number. In quarters where the power itself may lie outside the
+/// range of `T` where the result does not.
 fn times_power_of_two<T: Real>(value: T, exponent: i32) -> T {
+    if (-64..=64).contains(&exponent) {
+        return value * T::from_f64(power_of_two(exponent));
+    }
     let quarter = exponent / 4;
     [quarter, quarter, quarter, exponent - 3 * quarter]
         .into_iter()

@@ -12,7 +12,7 @@ use crate::capability::InLanes;
 use crate::lanes::{Lanes, Widest};
 use crate::model::Model;
 use crate::state::Phase;
-use bodies::{Begun, Bodies, Done};
+use bodies::{Bodies, Done, begun};
 
 /// Where each body of an ensemble is in the end, or why it did not get there.
 pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
@@ -125,7 +125,8 @@ where
     fn ends<T: Lanes>(&self, starts: &[M::Point<f64>], t_end: f64) -> Ends<M::Point<f64>> {
         let apart: Vec<Option<Method>> = starts.iter().map(|start| self.apart(start, t_end)).collect();
         let together = starts.iter().enumerate().filter(|(body, _)| apart[*body].is_none());
-        let mut begun = together.filter_map(|body| Begun::of(self, body, t_end));
+        let together: Vec<_> = together.collect();
+        let mut begun = together.chunks(T::LANES).flat_map(|points| begun::<N, T, M>(self, points, t_end));
         let mut ends = vec![None; starts.len()];
         if let Some(first) = begun.next() {
             let mut bodies = Bodies::<N, T, M>::filled(self, first, &mut begun, t_end);

@@ -5,9 +5,10 @@ use core::ops::Range;
 use pulp::Simd;
 
 use super::{ErrorNorm, GROUPS, IN_RANGE, Measure, PART_OF_DISPLACEMENT, scaled_norm};
+use crate::integrate::in_lanes::Equations;
 use crate::lanes::Lanes;
 use crate::lanes::parts::{part, parts, set_part};
-use crate::model::Group;
+use crate::model::{Group, StateVector};
 
 /// [`ErrorNorm`] with inertias for each lane.
 ///
@@ -21,6 +22,65 @@ impl<T: Lanes> NormInLanes<T> {
     /// The norm for states that consist of `groups`, without inertias.
     pub(crate) fn new(groups: &'static [Group]) -> Self {
         Self { layout: ErrorNorm::new(groups), inertia: [T::zero(); GROUPS] }
+    }
+
+    /// The norm with the inertias at `(t, y)`, where `f(t, y) = slope`: [`ErrorNorm::probed`].
+    #[inline(always)]
+    pub(crate) fn probed<V: Simd, S: StateVector<T>, F: Equations<T, S>>(
+        simd: V,
+        f: &F,
+        (t, y, slope): (T, &S, &S),
+    ) -> Self {
+        let mut probed = Self::new(F::GROUPS);
+        let (mut changed, mut rates) = (*y, S::zeros());
+        for (g, group) in F::GROUPS.iter().enumerate().take(GROUPS) {
+            let Some(moved) = probed.layout.moved_by(group) else { continue };
+            let own = probed.layout.range(g);
+            let mut change = norm(simd, y.as_ref(), own.clone());
+            for size in change.as_mut_slice() {
+                *size = if *size > 0.0 { *size } else { 1.0 };
+            }
+            let mut response = T::zero();
+            for component in own {
+                changed.as_mut()[component] += change;
+                f.slope(t, &changed, &mut rates);
+                changed.as_mut()[component] = y.as_ref()[component];
+                let mut squares = T::zero();
+                for i in moved.clone() {
+                    let difference = rates.as_ref()[i] - slope.as_ref()[i];
+                    squares += difference * difference;
+                }
+                for (response, found) in response.as_mut_slice().iter_mut().zip(squares.sqrt().as_slice()) {
+                    *response = if *found <= *response { *response } else { *found };
+                }
+            }
+            let mut inertia = change * probed.extent(simd, moved, y.as_ref()) / response;
+            for inertia in inertia.as_mut_slice() {
+                *inertia = if inertia.is_finite() { *inertia } else { 0.0 };
+            }
+            probed.inertia[g] = inertia;
+        }
+        probed
+    }
+
+    /// The norm of the body in a lane.
+    pub(crate) fn lane(&self, lane: usize) -> ErrorNorm {
+        ErrorNorm { inertia: self.inertia.each_ref().map(|inertia| inertia.lane(lane)), ..self.layout }
+    }
+
+    /// The largest size, over the scales of the groups, of what moves a state at the rates `change` to `end`.
+    #[inline(always)]
+    pub(crate) fn rate<V: Simd, S: StateVector<T>>(&self, simd: V, change: &S, y: &S, end: &S) -> T {
+        let forever = T::constant(f64::INFINITY, 0.0);
+        let (mut largest, mut start) = (T::zero(), 0);
+        for (g, group) in self.layout.groups.iter().enumerate() {
+            let range = start..start + group.len;
+            start = range.end;
+            let value = norm(simd, change.as_ref(), range.clone());
+            let states = (forever, y.as_ref(), end.as_ref());
+            largest = self.larger(simd, largest, (g, group, range), value, states);
+        }
+        largest
     }
 
     /// Puts the norm of another body into a lane.

@@ -268,7 +268,8 @@ mod tests {
     }
 
     fn start(y: &[f64; 2]) -> Result<Start<[f64; 2]>, Failure> {
-        Start::of::<DormandPrince853>(&|_, y| slope(y), GROUPS, (0.0, y), T_END, TOLERANCE)
+        let start = Start::of::<DormandPrince853>(&|_, y| slope(y), GROUPS, (0.0, y), T_END, TOLERANCE);
+        start.map(|(start, _)| start)
     }
 
     /// One body after the other through eight lanes: each is there as many attempts as it takes alone, and none waits.

@@ -1,5 +1,11 @@
 //! What an integration begins with.
 
+#[cfg(feature = "std")]
+mod in_lanes;
+
+#[cfg(feature = "std")]
+pub(crate) use in_lanes::starts_in_lanes;
+
 use super::Pair;
 use crate::integrate::Failure;
 use crate::integrate::error_norm::ErrorNorm;
@@ -15,12 +21,10 @@ pub(crate) struct Start<S> {
     pub(crate) error_norm: ErrorNorm,
     /// Length of the first step, which has the sign of no direction.
     pub(crate) length: f64,
-    /// Evaluations that it took.
-    pub(super) evaluations: u64,
 }
 
 impl<S: StateVector<f64>> Start<S> {
-    /// The start of `y' = f(t, y)` from `(t0, y0)` to `t_end`.
+    /// The start of `y' = f(t, y)` from `(t0, y0)` to `t_end`, and the evaluations that it took.
     ///
     /// # Errors
     /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite.
@@ -30,18 +34,18 @@ impl<S: StateVector<f64>> Start<S> {
         (t0, y0): (f64, &S),
         t_end: f64,
         tolerance: f64,
-    ) -> Result<Self, Failure> {
+    ) -> Result<(Self, u64), Failure> {
         let slope = f(t0, y0);
         if !is_finite(y0) || !is_finite(&slope) {
             return Err(Failure::NotFinite);
         }
         if t_end == t0 {
-            return Ok(Self { slope, error_norm: ErrorNorm::new(groups), length: 0.0, evaluations: 1 });
+            return Ok((Self { slope, error_norm: ErrorNorm::new(groups), length: 0.0 }, 1));
         }
         let at_start = (t0, y0, &slope);
         let (error_norm, probes) = ErrorNorm::probed(groups, f, at_start);
         let length = first_step(f, &error_norm, at_start, t_end - t0, (tolerance, P::ERROR_ORDER));
-        Ok(Self { slope, error_norm, length, evaluations: probes + 2 })
+        Ok((Self { slope, error_norm, length }, probes + 2))
     }
 }
 

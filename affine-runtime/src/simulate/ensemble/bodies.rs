@@ -6,9 +6,8 @@ use super::Ensemble;
 use crate::capability::InLanes;
 use crate::frames::Matrix;
 use crate::integrate::in_lanes::{Equations, Fate, RungeKutta8InLanes};
-use crate::integrate::runge_kutta::DormandPrince853;
-use crate::integrate::runge_kutta::start::Start;
-use crate::lanes::Lanes;
+use crate::integrate::runge_kutta::start::{Start, starts_in_lanes};
+use crate::lanes::{Lanes, gathered};
 use crate::model::{Group, StateVector};
 use crate::simulate::layout::placement_in;
 use crate::simulate::point::is_clearly_positive;
@@ -21,22 +20,27 @@ pub(super) struct Begun<const N: usize, M: InLanes<N>> {
     start: Start<M::Reduced<f64>>,
 }
 
-impl<const N: usize, M: InLanes<N>> Begun<N, M> {
-    /// A body at its start; `None` where there is nothing to begin with.
-    pub(super) fn of(
-        ensemble: &Ensemble<'_, N, M>,
-        (body, point): (usize, &M::Point<f64>),
-        t_end: f64,
-    ) -> Option<Self> {
-        let (model, t0) = (ensemble.model, ensemble.t0);
-        let (state, constants) = model.reduce(t0, point);
-        let equations = |t: f64, y: &M::Reduced<f64>| model.reduced_equations(t, &constants, y);
-        let groups = M::DESCRIPTION.reduced;
-        let start =
-            Start::of::<DormandPrince853>(&equations, groups, (t0, &state), t_end, ensemble.tolerance)
-                .ok()?;
-        Some(Self { body, state, constants, start })
+/// As many bodies as there are lanes, or fewer, at their start; those are left out for which there is nothing to begin with.
+pub(super) fn begun<const N: usize, T: Lanes, M: InLanes<N>>(
+    ensemble: &Ensemble<'_, N, M>,
+    points: &[(usize, &M::Point<f64>)],
+    t_end: f64,
+) -> Vec<Begun<N, M>> {
+    let Ensemble { model, t0, tolerance, .. } = *ensemble;
+    let (states, constants): (Vec<_>, Vec<_>) =
+        points.iter().map(|(_, point)| model.reduce(t0, point)).unzip();
+    let equations = Reduced { model, constants: M::constants_in_lanes::<T>(&constants) };
+    let mut in_lanes = M::Reduced::<T>::zeros();
+    for (k, component) in in_lanes.as_mut().iter_mut().enumerate() {
+        *component = gathered(&states, |state: &M::Reduced<f64>| state.as_ref()[k]);
     }
+    let starts = starts_in_lanes(&equations, (t0, &in_lanes), t_end, tolerance);
+    let bodies = points.iter().zip(states).zip(constants).zip(starts);
+    bodies
+        .filter_map(|((((body, _), state), constants), start)| {
+            Some(Begun { body: *body, state, constants, start: start? })
+        })
+        .collect()
 }
 
 /// A body that is done with its lane.
