@@ -131,3 +131,17 @@ fn every_body_has_the_bits_of_itself_alone() {
     bodies_are_as_alone(&Elastic);
     bodies_are_as_alone(&Unprotected);
 }
+
+/// Bodies at rest, and momenta whose squares underflow: norms that are not the plain ones.
+#[test]
+fn bodies_at_rest_have_the_bits_of_themselves_alone() {
+    let moving = Elastic.samples(1, 13)[0];
+    let starts: Vec<_> = [0.0, 1e-170, 1.0, 1e-150, 1e-100]
+        .map(|size| Elastic.at_momentum(*moving.phi(), TwoPoint(moving.pi().0.0 * size)).unwrap())
+        .to_vec();
+    let ends = Ensemble::new(&Elastic, starts.clone()).until(0.7).tolerance(1e-9).run().unwrap();
+    for (start, end) in starts.iter().zip(ends) {
+        let alone = Simulation::new(&Elastic, *start).until(0.7).tolerance(1e-9).method(Method::RungeKutta8);
+        assert_eq!(end.unwrap(), *alone.run().unwrap().end().1);
+    }
+}

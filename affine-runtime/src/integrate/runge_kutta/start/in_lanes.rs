@@ -18,7 +18,8 @@ pub(crate) fn starts_in_lanes<T: Lanes, S: StateVector<T>, R: StateVector<f64>>(
     t_end: f64,
     tolerance: f64,
 ) -> impl Iterator<Item = Option<Start<R>>> {
-    let begun = Arch::new().dispatch(Beginning { f, at_start: T::constant(t0, 0.0), t0, y0, t_end, tolerance });
+    let begun =
+        Arch::new().dispatch(Beginning { f, at_start: T::constant(t0, 0.0), t0, y0, t_end, tolerance });
     (0..T::LANES).map(move |lane| {
         let mut slope = R::zeros();
         for (component, lanes) in slope.as_mut().iter_mut().zip(begun.slope.as_ref()) {
