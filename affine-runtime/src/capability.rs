@@ -118,6 +118,8 @@ pub trait InLanes<const N: usize>: Model<N> {
         y: &Self::Reduced<T>,
         rates: &mut Self::Reduced<T>,
     ) {
+        // Their own, so that nothing that is read can be what is written: few lanes are not worth a check of that.
+        let mut of_lanes = Self::Reduced::<T>::zeros();
         for lane in 0..T::LANES {
             let mut state = Self::Reduced::<T::Lane>::zeros();
             for (component, lanes) in state.as_mut().iter_mut().zip(y.as_ref()) {
@@ -125,10 +127,11 @@ pub trait InLanes<const N: usize>: Model<N> {
             }
             let (t, constants) = (in_lane(&t, lane), Self::constants_of_lane(constants, lane));
             let of_lane = self.reduced_equations(t, &constants, &state);
-            for (lanes, component) in rates.as_mut().iter_mut().zip(of_lane.as_ref()) {
+            for (lanes, component) in of_lanes.as_mut().iter_mut().zip(of_lane.as_ref()) {
                 lanes.set_lane(lane, component.to_f64());
             }
         }
+        *rates = of_lanes;
     }
 }
 

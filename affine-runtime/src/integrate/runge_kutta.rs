@@ -5,6 +5,7 @@ mod dormand_prince_853;
 #[cfg(feature = "std")]
 pub(crate) mod in_lanes;
 mod pair;
+pub(crate) mod start;
 mod step;
 #[cfg(test)]
 mod trees;
@@ -16,13 +17,14 @@ use core::fmt;
 
 use super::error_norm::{ErrorNorm, IN_RANGE, sum_of_squares};
 use super::lie::{Coordinates, Flat, Sum};
-use super::step_size::{Controller, first_step, next_time, shortest};
+use super::step_size::{Controller, next_time, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::taylor::Vectors;
 use super::widest::{Work, widest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
+use start::{Start, is_finite};
 
 /// The method of Dormand and Prince of order 8.
 ///
@@ -99,19 +101,9 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
         t_end: f64,
         tolerance: f64,
     ) -> Result<Self, Failure> {
-        let slope = f(t0, &y0);
-        if !is_finite(&y0) || !is_finite(&slope) {
-            return Err(Failure::NotFinite);
-        }
-        let mut statistics = Statistics { evaluations: 1, ..Statistics::default() };
-        let (mut error_norm, mut length) = (ErrorNorm::new(groups), 0.0);
-        if t_end != t0 {
-            let probes;
-            (error_norm, probes) = ErrorNorm::probed(groups, &f, (t0, &y0, &slope));
-            statistics.evaluations += probes;
-            length = first_step(&f, &error_norm, (t0, &y0, &slope), t_end - t0, (tolerance, P::ERROR_ORDER));
-            statistics.evaluations += 1;
-        }
+        let (start, evaluations) = Start::of::<P>(&f, groups, (t0, &y0), t_end, tolerance)?;
+        let Start { slope, error_norm, length } = start;
+        let statistics = Statistics { evaluations, ..Statistics::default() };
         let controller = Controller::of(P::ERROR_ORDER);
         let begin = Sum::of(y0);
         let origin = coordinates.origin(&begin).value;
@@ -320,8 +312,4 @@ fn in_coordinates<S: StateVector<f64>, C: Coordinates<S>>(
         let state = coordinates.state(base, z).value;
         coordinates.velocity(&state, z, &f(t, &state))
     }
-}
-
-fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
-    y.as_ref().iter().all(|v| v.is_finite())
 }
