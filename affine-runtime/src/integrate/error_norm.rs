@@ -215,7 +215,7 @@ impl ErrorNorm {
 }
 
 /// Sums of squares within these bounds have neither overflowed nor lost digits to underflow.
-const IN_RANGE: core::ops::RangeInclusive<f64> = 1e-280..=1e300;
+pub(crate) const IN_RANGE: core::ops::RangeInclusive<f64> = 1e-280..=1e300;
 
 /// Euclidean norm.
 #[inline(always)]

@@ -15,7 +15,7 @@ pub use step::{Dense, OneStep, Step};
 
 use core::fmt;
 
-use super::error_norm::{ErrorNorm, sum_of_squares};
+use super::error_norm::{ErrorNorm, IN_RANGE, sum_of_squares};
 use super::lie::{Coordinates, Flat, Sum};
 use super::step_size::{Controller, next_time, shortest};
 #[cfg(feature = "std")]
@@ -252,8 +252,9 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
         let before = self.begin.value.as_ref();
         let after = reached.as_ref();
         let relative = self.error_norm.largest(self.step.length().abs(), before, after, |range| {
-            let squares = |slopes: &S| sum_of_squares(&slopes.as_ref()[range.clone()]);
-            P::error((squares(&first), squares(&second)))
+            let slopes = [&first, &second].map(|slopes| &slopes.as_ref()[range.clone()]);
+            let [first, second] = slopes.map(sum_of_squares);
+            if IN_RANGE.contains(&first) { P::error((first, second)) } else { scaled_error::<P>(slopes) }
         });
         self.step.length().abs() * relative / self.tolerance
     }
@@ -269,6 +270,21 @@ impl<P: Pair, S: StateVector<f64>, F, C> fmt::Debug for RungeKutta<P, S, F, C> {
             .field("statistics", &self.statistics)
             .finish_non_exhaustive()
     }
+}
+
+/// The error estimate of a group whose squares leave the range of numbers; NaN where one of its components is.
+#[cold]
+fn scaled_error<P: Pair>(slopes: [&[f64]; 2]) -> f64 {
+    let all = slopes.into_iter().flatten();
+    let larger = |largest: f64, v: &f64| {
+        if v.abs() <= largest || largest.is_nan() { largest } else { v.abs() }
+    };
+    let largest = all.fold(0.0, larger);
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    let squares = slopes.map(|slopes| slopes.iter().map(|v| (v / largest) * (v / largest)).sum());
+    largest * P::error((squares[0], squares[1]))
 }
 
 /// A step of an integration to the time `end`.

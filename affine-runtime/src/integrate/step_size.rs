@@ -125,12 +125,17 @@ pub(crate) fn first_step<S: StateVector<f64>>(
         *y += signed * slope;
     }
     let slope_after = f(t + signed, &end);
-    for (i, change) in change.as_mut().iter_mut().enumerate() {
-        *change = (slope_after.as_ref()[i] - slope.as_ref()[i]) / trial;
-    }
-    let of_change = |r: Range<usize>| norm(&change.as_ref()[r]);
-    let second = error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change);
-    let second = Scalar::sqrt(second);
+    let mut over = |time: f64| {
+        for (i, change) in change.as_mut().iter_mut().enumerate() {
+            *change = (slope_after.as_ref()[i] - slope.as_ref()[i]) / time;
+        }
+        let of_change = |r: Range<usize>| norm(&change.as_ref()[r]);
+        error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change)
+    };
+    let of_second = over(trial);
+    // Rates of rates leave the range of numbers first.
+    let of_second = if of_second.is_finite() { of_second } else { over(1.0) / trial };
+    let second = Scalar::sqrt(of_second);
     let fastest = if first.is_finite() && first > second { first } else { second };
     let length = exp(ln(0.01 * tolerance) / order) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.

@@ -40,6 +40,13 @@ pub fn isochoric_part<const N: usize, T: Real>(phi: &Matrix<N, T>) -> Matrix<N, 
     phi.map(|entry| entry / dilatation)
 }
 
+/// Is an entry of `phi` above 2, or `D` below 1/2? Elsewhere the stretches are between 1/288 and 6, and numbers counted
+/// from their values at `phi = 1` are as good as any.
+pub fn far_from_undeformed<const N: usize, T: Real>(phi: &Matrix<N, T>) -> bool {
+    let two = T::one() + T::one();
+    phi.iter().any(|entry| entry.abs() > two) || dilatation(phi) * two < T::one()
+}
+
 /// `det phi = sign exp(mantissa) 2^(N exponent)`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LogDeterminant<const N: usize, T> {
