@@ -6,6 +6,7 @@ use core::fmt;
 
 use super::halt::{Setting, Stop};
 use super::layout::placement_in;
+use super::orientation::passes_through_zero;
 use super::point::is_clearly_positive;
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
 use crate::capability::InLanes;
@@ -28,7 +29,8 @@ pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
 /// [`Method::RungeKutta8`] gives for it alone, bit for bit in strict lanes, whatever its neighbours and their number. A body
 /// that cannot go on (numbers that are not finite, a collapse, a step that underflows) leaves its lane and is integrated
 /// alone: its outcome, an end or a [`Stop`], is that of a [`Simulation`]. Bodies with a closed form take that, and bodies
-/// under a constraint, whose steps are taken on its group, are integrated one by one.
+/// under a constraint, whose steps are taken on its group, are integrated one by one; so are bodies in a flat metric whose
+/// potential does not know `q`, of which every step is looked at whether `det phi` stays positive within it.
 ///
 /// With the feature `parallel` bodies are spread over the threads of the current `rayon` pool. Results are the same bits
 /// for any number of threads.
@@ -150,8 +152,11 @@ where
             return Some(Method::ClosedForm);
         }
         let is_placed = const { placement_in(M::DESCRIPTION.reduced, N).is_some() };
-        // The signature of a mass matrix that depends on the placement is looked after step by step.
-        let is_special = M::DESCRIPTION.constraint.is_some() || self.model.regularity(start.phi()).is_some();
+        // The signature of a mass matrix that depends on the placement is looked after step by step, and the orientation
+        // of a body that nothing keeps from losing it within them.
+        let is_special = M::DESCRIPTION.constraint.is_some()
+            || self.model.regularity(start.phi()).is_some()
+            || passes_through_zero(&M::DESCRIPTION);
         let alone = !is_placed || is_special || t_end == self.t0 || !is_sound(start);
         alone.then_some(Method::RungeKutta8)
     }

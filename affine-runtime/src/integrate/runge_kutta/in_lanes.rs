@@ -5,7 +5,7 @@ use pulp::{Arch, Simd, WithSimd};
 use super::dormand_prince_853::*;
 use super::pair::{DormandPrince853, E3, Pair};
 use super::start::Start;
-use crate::integrate::error_norm::NormInLanes;
+use crate::integrate::error_norm::{IN_RANGE, NormInLanes};
 use crate::integrate::step_size::in_lanes::{Clocks, fate};
 use crate::lanes::Lanes;
 use crate::lanes::parts::{part, parts, plus, set_part};
@@ -117,8 +117,8 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         self.stage::<V, 12, 9>(simd, h, &A12);
         self.moved(simd, h, &B);
         self.f.slope(self.clocks.end, &self.trial, &mut self.stages[AT_END]);
-        let error = self.error(simd, h.abs());
-        self.turn(simd, error)
+        let (error, doubt) = self.error(simd, h.abs());
+        self.turn(simd, error, doubt)
     }
 
     #[inline(always)]
@@ -150,21 +150,23 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         }
     }
 
-    /// Estimated errors relative to the tolerance, of steps of these lengths.
+    /// Estimated errors relative to the tolerance, of steps of these lengths; and 1 where squares leave the range of
+    /// numbers, so that a body has to be looked at alone.
     #[inline(always)]
-    fn error<V: Simd>(&self, simd: V, h: T) -> T {
+    fn error<V: Simd>(&self, simd: V, h: T) -> (T, T) {
         let (before, after) = (self.y.as_ref(), self.trial.as_ref());
-        let (mut largest, mut start) = (T::zero(), 0);
+        let (mut largest, mut doubt, mut start) = (T::zero(), T::zero(), 0);
         for (g, group) in F::GROUPS.iter().enumerate() {
             let range = start..start + group.len;
             start = range.end;
             let mut value = T::zero();
             for k in 0..parts::<V, T>() {
                 let zero = simd.splat_f64s(0.0);
-                let (mut fifth, mut third) = (zero, zero);
+                let (mut fifth, mut third, mut sizes) = (zero, zero, zero);
                 for i in range.clone() {
                     let of_fifth = combination(simd, &self.stages, (i, k), &E5);
                     let of_third = combination(simd, &self.stages, (i, k), &E3);
+                    sizes = simd.add_f64s(sizes, simd.abs_f64s(of_fifth));
                     fifth = simd.add_f64s(fifth, simd.mul_f64s(of_fifth, of_fifth));
                     third = simd.add_f64s(third, simd.mul_f64s(of_third, of_third));
                 }
@@ -173,18 +175,25 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
                 let error = simd.div_f64s(fifth, simd.sqrt_f64s(size));
                 let is_zero = simd.equal_f64s(fifth, zero);
                 set_part(simd, &mut value, k, simd.select_f64s(is_zero, zero, error));
+                let in_range = simd.and_m64s(
+                    simd.greater_than_or_equal_f64s(fifth, simd.splat_f64s(*IN_RANGE.start())),
+                    simd.less_than_or_equal_f64s(fifth, simd.splat_f64s(*IN_RANGE.end())),
+                );
+                let is_plain = simd.or_m64s(in_range, simd.equal_f64s(sizes, zero));
+                let before = part(simd, &doubt, k);
+                set_part(simd, &mut doubt, k, simd.select_f64s(is_plain, before, simd.splat_f64s(1.0)));
             }
             largest = self.norm.larger(simd, largest, (g, group, range), value, (h, before, after));
         }
-        h * largest / T::constant(self.tolerance, 0.0)
+        (h * largest / T::constant(self.tolerance, 0.0), doubt)
     }
 
     /// Accepts the steps with errors of at most 1 whose slopes at the end are finite; what becomes of the lanes.
     #[inline(always)]
-    fn turn<V: Simd>(&mut self, simd: V, error: T) -> T {
-        let (mut errors, mut unsound) = (T::zero(), T::zero());
+    fn turn<V: Simd>(&mut self, simd: V, error: T, doubt: T) -> T {
+        let (mut errors, mut unsound) = (T::zero(), doubt);
         for lane in 0..T::LANES {
-            unsound.set_lane(lane, if self.f.is_sound(&self.trial, lane) { 0.0 } else { 1.0 });
+            unsound.set_lane(lane, if self.f.is_sound(&self.trial, lane) { unsound.lane(lane) } else { 1.0 });
         }
         let (zero, one) = (simd.splat_f64s(0.0), simd.splat_f64s(1.0));
         for k in 0..parts::<V, T>() {
@@ -194,6 +203,9 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
                 not_finite = simd.add_f64s(not_finite, simd.mul_f64s(zero, part(simd, slope, k)));
             }
             let error = simd.add_f64s(part(simd, &error, k), not_finite);
+            // Accepted, and then given up.
+            let is_plain = simd.equal_f64s(part(simd, &doubt, k), zero);
+            let error = simd.select_f64s(is_plain, error, zero);
             let is_accepted = simd.less_than_or_equal_f64s(error, one);
             set_part(simd, &mut errors, k, error);
             for i in 0..S::LEN {

@@ -11,7 +11,7 @@ use crate::lanes::Lanes;
 use crate::model::StateVector;
 
 /// The start of each lane from its state at `t0` to `t_end`, which is another time; `None` where the state or its slope is
-/// not finite.
+/// not finite, or rates leave the range of numbers.
 pub(crate) fn starts_in_lanes<T: Lanes, S: StateVector<T>, R: StateVector<f64>>(
     f: &impl Equations<T, S>,
     (t0, y0): (f64, &S),
@@ -27,7 +27,7 @@ pub(crate) fn starts_in_lanes<T: Lanes, S: StateVector<T>, R: StateVector<f64>>(
         }
         let is_finite = |y: &S| y.as_ref().iter().all(|v| v.lane(lane).is_finite());
         let start = Start { slope, error_norm: begun.norm.lane(lane), length: begun.length.lane(lane) };
-        (is_finite(y0) && is_finite(&begun.slope)).then_some(start)
+        (is_finite(y0) && is_finite(&begun.slope) && !start.length.is_nan()).then_some(start)
     })
 }
 
@@ -61,7 +61,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> WithSimd for Beginning<'_,
 }
 
 impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Beginning<'_, T, S, F> {
-    /// Lengths of the first steps: the scalar `first_step`.
+    /// Lengths of the first steps: the scalar `first_step`; NaN where rates of rates are not finite.
     #[inline(always)]
     fn first_step<V: Simd>(&self, simd: V, norm: &NormInLanes<T>, slope: &S) -> T {
         let (y, span) = (self.y0, self.t_end - self.t0);
@@ -83,14 +83,16 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Beginning<'_, T, S, F> {
         for (after, before) in after.as_mut().iter_mut().zip(slope.as_ref()) {
             *after = (*after - *before) / trial;
         }
-        let second = norm.rate(simd, &after, y, &end).sqrt();
+        let of_second = norm.rate(simd, &after, y, &end);
+        let second = of_second.sqrt();
         let allowed = exp(ln(0.01 * self.tolerance) / DormandPrince853::ERROR_ORDER);
         let mut lengths = T::zero();
         for lane in 0..T::LANES {
             let (first, second, trial) = (first.lane(lane), second.lane(lane), trial.lane(lane));
             let fastest = if first.is_finite() && first > second { first } else { second };
             let length = allowed / fastest;
-            lengths.set_lane(lane, within(if length < 100.0 * trial { length } else { 100.0 * trial }));
+            let length = within(if length < 100.0 * trial { length } else { 100.0 * trial });
+            lengths.set_lane(lane, if of_second.lane(lane).is_finite() { length } else { f64::NAN });
         }
         lengths
     }
