@@ -4,6 +4,7 @@ use super::{ChangeOfBases, TwoPolar, second_order, splitting};
 use crate::algebra::Rational;
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::ir::packed::Packed;
 use crate::ir::tangent::with_tangent;
 use crate::ir::taylor::Recurrence;
 use crate::mechanics::conserved::Candidate;
@@ -95,6 +96,8 @@ pub struct Model {
     pub tangent: Option<Program>,
     /// The equations as `q' = V(p)`, `p' = F(t, q)`, if asked for.
     pub second_order: Option<second_order::Halves>,
+    /// The reduced equations in vectors of four, where that pays.
+    pub packed: Option<Packed>,
 }
 
 /// The Legendre transformation and the energy in velocities.
@@ -226,6 +229,10 @@ impl Model {
                 }
                 _ => {}
             }
+        }
+        // Charts of groups take numbers, and Runge-Kutta-Nystrom steps leave little to do.
+        if self.constraint.is_none() && self.second_order.is_none() {
+            self.packed = Packed::of(program, &self.reduced.groups);
         }
         self
     }

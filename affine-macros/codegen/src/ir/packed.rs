@@ -1,0 +1,200 @@
+//! Right-hand sides in vectors of four: lanes that go through the same operations go through them together.
+//!
+//! Superword parallelism (S. Larsen, S. Amarasinghe, Proc. PLDI 2000, 145-156), from the results down: the components of
+//! the state stand in vectors of four, rows of a matrix as a rule, and so do their rates. Where the lanes of a vector are
+//! made by one operation each, and the same, its operands are vectors again: a vector of the state, one value in all
+//! lanes, or numbers gathered from anywhere, whichever costs least. What is read by no vector but through such values
+//! stays scalar.
+//!
+//! Operations are those of the scalar program, lane by lane, and so are the results but for the sign of what is not a
+//! number. Lanes that lack an operation get one that changes nothing: `x + -0`, which is `x` for every `x`.
+
+mod layout;
+mod pack;
+mod run;
+mod schedule;
+
+use super::{Op, Program, Value};
+use layout::Layout;
+
+/// What stands in a lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lane {
+    /// Nothing that is read.
+    Free,
+    /// `-0`, which adds nothing.
+    MinusZero,
+    /// A value.
+    Of(Value),
+    /// A value with the other sign.
+    Minus(Value),
+}
+
+/// What stands in the lanes of a vector.
+pub type Lanes = [Lane; 4];
+
+/// Index of a vector.
+pub type Index = usize;
+
+/// How a vector is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Four {
+    /// A vector of the state.
+    State(usize),
+    /// One value in all lanes.
+    All(Value),
+    /// Lane by lane.
+    Gathered(Lanes),
+    /// `-a`
+    Neg(Index),
+    /// `a + b`
+    Add(Index, Index),
+    /// `a - b`
+    Sub(Index, Index),
+    /// `a * b`
+    Mul(Index, Index),
+    /// `a * b + c`
+    MulAdd(Index, Index, Index),
+}
+
+impl Four {
+    /// The vectors that it reads.
+    #[must_use]
+    pub fn operands(self) -> Vec<Index> {
+        match self {
+            Self::State(_) | Self::All(_) | Self::Gathered(_) => Vec::new(),
+            Self::Neg(a) => vec![a],
+            Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) => vec![a, b],
+            Self::MulAdd(a, b, c) => vec![a, b, c],
+        }
+    }
+
+    /// The values that it reads.
+    #[must_use]
+    pub fn values(self) -> Vec<Value> {
+        match self {
+            Self::All(value) => vec![value],
+            Self::Gathered(lanes) => lanes.into_iter().filter_map(Lane::value).collect(),
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl Lane {
+    /// The value, whatever its sign.
+    #[must_use]
+    pub fn value(self) -> Option<Value> {
+        match self {
+            Self::Of(value) | Self::Minus(value) => Some(value),
+            Self::Free | Self::MinusZero => None,
+        }
+    }
+}
+
+/// A vector with what stands in its lanes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Vector {
+    /// Its lanes.
+    pub lanes: Lanes,
+    /// How it is made.
+    pub made: Four,
+}
+
+/// What is computed next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// A step of the scalar program.
+    Scalar(Value),
+    /// A vector.
+    Vector(Index),
+}
+
+/// A right-hand side in vectors.
+#[derive(Clone, Debug)]
+pub struct Packed {
+    /// The scalar program.
+    pub program: Program,
+    /// The component in each lane of each vector of the state.
+    pub state: Vec<[Option<usize>; 4]>,
+    /// All vectors.
+    pub vectors: Vec<Vector>,
+    /// What is computed, in order; what is an input is not.
+    pub steps: Vec<Step>,
+    /// Values that are lanes of vectors.
+    pub in_lanes: Vec<(Value, (Index, usize))>,
+    /// The rates of the vectors of the state.
+    pub rates: Vec<Index>,
+}
+
+/// Instructions for each vector of the state in a stage of the method of order 8, of whose rows the average has five
+/// terms.
+const OF_A_SUM: usize = 13;
+/// Instructions for each component of the state that a compiler adds in shuffles between vectors and numbers; measured:
+/// 251 in all for P2 and 198 for P1, of 14 and 12 components with 92 and 66 operations.
+const OF_A_SHUFFLE: usize = 7;
+
+impl Packed {
+    /// The right-hand side whose results are the rates of the components of `groups`, in their order; `None` where
+    /// scalars do as well, or where it calls functions of the runtime.
+    #[must_use]
+    pub fn of(program: &Program, groups: &[(&'static str, Vec<String>)]) -> Option<Self> {
+        let components: usize = groups.iter().map(|(_, names)| names.len()).sum();
+        if !program.calls.is_empty() || components != program.outputs.len() {
+            return None;
+        }
+        let scalar = program.steps.iter().map(weight).sum::<usize>()
+            + OF_A_SHUFFLE * components
+            + OF_A_SUM * components.div_ceil(4);
+        let packed = Self::cheapest(program, groups)?;
+        // Four fifths: less is not worth the lines.
+        (5 * packed.cost() <= 4 * scalar).then_some(packed)
+    }
+
+    /// By the best layout of the state: that of one group after the other is chosen.
+    #[must_use]
+    pub fn cheapest(program: &Program, groups: &[(&'static str, Vec<String>)]) -> Option<Self> {
+        let mut layout = Layout::in_rows(groups);
+        let mut best = Self::with(program, &layout);
+        for alternative in layout.alternatives() {
+            let other = layout.with(&alternative);
+            let packed = Self::with(program, &other);
+            if packed.cost() < best.cost() {
+                (layout, best) = (other, packed);
+            }
+        }
+        (!best.rates.is_empty()).then_some(best)
+    }
+
+    fn with(program: &Program, layout: &Layout) -> Self {
+        let state = layout.vectors();
+        let (vectors, rates) = pack::pack(program, layout.names(), &state);
+        schedule::scheduled(program, state, vectors, rates)
+    }
+
+    /// Instructions of a stage, about.
+    #[must_use]
+    pub fn cost(&self) -> usize {
+        let of_step = |step: &Step| match *step {
+            Step::Scalar(value) => weight(&self.program.steps[value]),
+            Step::Vector(index) => pack::cost(&self.program, self.vectors[index].made),
+        };
+        self.steps.iter().map(of_step).sum::<usize>() + OF_A_SUM * self.state.len()
+    }
+
+    /// Where a value is found, if it is a lane.
+    #[must_use]
+    pub fn lane(&self, value: Value) -> Option<(Index, usize)> {
+        self.in_lanes.iter().find(|(known, _)| *known == value).map(|(_, place)| *place)
+    }
+}
+
+/// Instructions of a scalar step, about.
+fn weight(step: &Op) -> usize {
+    match step {
+        Op::Input(_) | Op::Constant(_) | Op::Neg(_) => 0,
+        Op::Add(..) | Op::Sub(..) | Op::Mul(..) => 1,
+        Op::MulAdd(..) => 2,
+        Op::Div(..) => 8,
+        Op::Call(..) => 20,
+    }
+}

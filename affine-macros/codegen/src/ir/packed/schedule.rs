@@ -1,0 +1,115 @@
+//! The order of vectors and scalar steps.
+
+use super::{Four, Index, Lane, Packed, Step, Vector};
+use crate::ir::{Op, Program, Value};
+
+/// Puts everything that the rates need in order.
+pub(super) fn scheduled(
+    program: &Program,
+    state: Vec<[Option<usize>; 4]>,
+    vectors: Vec<Vector>,
+    rates: Vec<Index>,
+) -> Packed {
+    let mut scheduler = Scheduler {
+        program,
+        vectors: &vectors,
+        reaches: reaches(program),
+        done: vec![false; vectors.len()],
+        computed: vec![false; program.steps.len()],
+        open: Vec::new(),
+        steps: Vec::new(),
+        in_lanes: Vec::new(),
+    };
+    for rate in &rates {
+        scheduler.vector(*rate);
+    }
+    let Scheduler { steps, in_lanes, .. } = scheduler;
+    Packed { program: program.clone(), state, steps, in_lanes, rates, vectors }
+}
+
+/// Which values each value depends on, itself among them.
+fn reaches(program: &Program) -> Vec<Vec<bool>> {
+    let mut all: Vec<Vec<bool>> = Vec::with_capacity(program.steps.len());
+    for (value, op) in program.steps.iter().enumerate() {
+        let mut own = vec![false; program.steps.len()];
+        own[value] = true;
+        for operand in op.operands() {
+            own.iter_mut().zip(&all[operand]).for_each(|(own, reached)| *own |= reached);
+        }
+        all.push(own);
+    }
+    all
+}
+
+struct Scheduler<'p> {
+    program: &'p Program,
+    vectors: &'p [Vector],
+    reaches: Vec<Vec<bool>>,
+    done: Vec<bool>,
+    /// Values that are known, as scalars or in lanes.
+    computed: Vec<bool>,
+    /// What is being computed: nothing that depends on it can help.
+    open: Vec<Value>,
+    steps: Vec<Step>,
+    in_lanes: Vec<(Value, (Index, usize))>,
+}
+
+impl Scheduler<'_> {
+    fn vector(&mut self, index: Index) {
+        if self.done[index] {
+            return;
+        }
+        let Vector { lanes, made } = self.vectors[index];
+        let before = self.open.len();
+        self.open.extend(lanes.into_iter().filter_map(Lane::value).filter(|_| makes(made)));
+        for operand in made.operands() {
+            self.vector(operand);
+        }
+        for value in made.values() {
+            self.scalar(value);
+        }
+        self.open.truncate(before);
+        self.done[index] = true;
+        self.steps.push(Step::Vector(index));
+    }
+
+    fn scalar(&mut self, value: Value) {
+        if self.computed[value] {
+            return;
+        }
+        if let Some((index, lane)) = self.lane_for(value) {
+            self.vector(index);
+            self.in_lanes.push((value, (index, lane)));
+        } else {
+            self.open.push(value);
+            for operand in self.program.steps[value].operands() {
+                self.scalar(operand);
+            }
+            self.open.pop();
+            if !matches!(self.program.steps[value], Op::Input(_)) {
+                self.steps.push(Step::Scalar(value));
+            }
+        }
+        self.computed[value] = true;
+    }
+
+    /// A vector in which the value is made, without waiting for what waits for it.
+    fn lane_for(&self, value: Value) -> Option<(Index, usize)> {
+        let is_free = |vector: &Vector| {
+            vector
+                .lanes
+                .into_iter()
+                .filter_map(Lane::value)
+                .all(|v| self.open.iter().all(|open| !self.reaches[v][*open]))
+        };
+        self.vectors.iter().enumerate().find_map(|(index, vector)| {
+            let lane = vector.lanes.iter().position(|lane| *lane == Lane::Of(value))?;
+            (makes(vector.made) && (self.done[index] || is_free(vector))).then_some((index, lane))
+        })
+    }
+}
+
+/// Are the lanes computed there, or read from the state?
+fn makes(four: Four) -> bool {
+    !matches!(four, Four::All(_) | Four::Gathered(_))
+}
