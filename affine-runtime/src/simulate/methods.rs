@@ -11,6 +11,7 @@ use crate::capability::is_emitted;
 use crate::integrate::gauss::Tableau;
 use crate::integrate::lie::{Chart, Coordinates, Flat};
 use crate::integrate::rattle::{Composition, Reaction};
+use crate::integrate::runge_kutta::InVectors;
 use crate::integrate::{
     Failure, Gauss, Rattle, RungeKutta5, RungeKutta8, RungeKuttaNystrom12, Splitting, Taylor,
 };
@@ -30,6 +31,9 @@ pub(super) fn integrate<const N: usize, M: Model<N>>(
         Method::Rattle { order, step } => by_rattle(model, (order, step), course, recorder),
         Method::Taylor { .. } | Method::RungeKuttaNystrom12 | Method::Splitting { .. } => {
             by_capability(model, method, course, recorder)
+        }
+        Method::RungeKutta8 | Method::RungeKutta5 if model.packing().is_some() => {
+            in_vectors(model, method, course, recorder)
         }
         _ if const { !moves_on_group(&M::DESCRIPTION, N) } => reduced(model, Flat, method, course, recorder),
         _ if const { is_canonical(&M::DESCRIPTION) } => with_reaction(model, method, course, recorder),
@@ -90,6 +94,29 @@ fn by_capability<const N: usize, M: Model<N>>(
             follow(integration, (&expand, layout), recorder)
         }),
     }
+}
+
+/// The reduced state in vectors of four.
+fn in_vectors<const N: usize, M: Model<N>>(
+    model: &M,
+    method: Method,
+    course: &Course<M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    let Course { t0, start, t_end, tolerance, .. } = *course;
+    let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
+    let (reduced, constants) = model.reduce(t0, &start);
+    let begin = (t0, reduced);
+    let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
+    emitted::<N, M, _>(model.packing(), "packing", |packing| {
+        let field = InVectors(packing, constants);
+        if method == Method::RungeKutta5 {
+            let integration = RungeKutta5::in_vectors(field, groups, begin, t_end, tolerance);
+            return follow(integration.map(Explicit::new), (&expand, layout), recorder);
+        }
+        let integration = RungeKutta8::in_vectors(field, groups, begin, t_end, tolerance);
+        follow(integration.map(Explicit::new), (&expand, layout), recorder)
+    })
 }
 
 /// What is done with a capability of a model that has it.
