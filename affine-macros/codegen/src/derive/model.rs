@@ -230,8 +230,9 @@ impl Model {
                 _ => {}
             }
         }
-        // Charts of groups take numbers, and Runge-Kutta-Nystrom steps leave little to do.
-        if self.constraint.is_none() && self.second_order.is_none() {
+        // Charts of groups take single components; Runge-Kutta-Nystrom steps and closed forms leave nothing to do.
+        let is_closed = matches!(self.closed_form, Some((_, false)));
+        if self.constraint.is_none() && self.second_order.is_none() && !is_closed {
             self.packed = Packed::of(program, &self.reduced.groups);
         }
         self

@@ -101,7 +101,7 @@ pub struct Vector {
 }
 
 /// What is computed next.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Step {
     /// A step of the scalar program.
     Scalar(Value),
@@ -132,6 +132,8 @@ const OF_A_SUM: usize = 13;
 /// Instructions for each component of the state that a compiler adds in shuffles between vectors and numbers; measured:
 /// 251 in all for P2 and 198 for P1, of 14 and 12 components with 92 and 66 operations.
 const OF_A_SHUFFLE: usize = 7;
+/// States of fewer components fill two vectors: their steps are short whichever way they are taken.
+const FEWEST: usize = 9;
 
 impl Packed {
     /// The right-hand side whose results are the rates of the components of `groups`, in their order; `None` where
@@ -139,7 +141,7 @@ impl Packed {
     #[must_use]
     pub fn of(program: &Program, groups: &[(&'static str, Vec<String>)]) -> Option<Self> {
         let components: usize = groups.iter().map(|(_, names)| names.len()).sum();
-        if !program.calls.is_empty() || components != program.outputs.len() {
+        if components < FEWEST {
             return None;
         }
         let scalar = program.steps.iter().map(weight).sum::<usize>()
@@ -153,6 +155,9 @@ impl Packed {
     /// By the best layout of the state: that of one group after the other is chosen.
     #[must_use]
     pub fn cheapest(program: &Program, groups: &[(&'static str, Vec<String>)]) -> Option<Self> {
+        if !program.calls.is_empty() {
+            return None;
+        }
         let mut layout = Layout::in_rows(groups);
         let mut best = Self::with(program, &layout);
         for alternative in layout.alternatives() {
@@ -179,6 +184,39 @@ impl Packed {
             Step::Vector(index) => pack::cost(&self.program, self.vectors[index].made),
         };
         self.steps.iter().map(of_step).sum::<usize>() + OF_A_SUM * self.state.len()
+    }
+
+    /// The scalar program of what is computed outside of lanes and gathered into them.
+    #[must_use]
+    pub fn read(&self) -> Program {
+        let mut program = self.program.clone();
+        let inputs = self.steps.iter().flat_map(|step| match *step {
+            Step::Scalar(value) => self.program.steps[value].operands(),
+            Step::Vector(index) => self.vectors[index].made.values(),
+        });
+        let read = inputs.filter(|value| matches!(self.program.steps[*value], Op::Input(_)));
+        program.outputs = read.map(|value| (String::new(), value)).collect();
+        program.without_dead_steps()
+    }
+
+    /// The steps that a step reads.
+    #[must_use]
+    pub fn operands(&self, step: Step) -> Vec<Step> {
+        let of = |value: Value| match self.lane(value) {
+            Some((index, _)) => Step::Vector(index),
+            None => Step::Scalar(value),
+        };
+        match step {
+            Step::Scalar(value) => self.program.steps[value].operands().into_iter().map(of).collect(),
+            Step::Vector(index) => {
+                let made = self.vectors[index].made;
+                made.operands()
+                    .into_iter()
+                    .map(Step::Vector)
+                    .chain(made.values().into_iter().map(of))
+                    .collect()
+            }
+        }
     }
 
     /// Where a value is found, if it is a lane.

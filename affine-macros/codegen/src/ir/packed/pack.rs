@@ -105,7 +105,10 @@ impl Packer<'_> {
         };
         let any_product = is(&|op| matches!(op, Op::Mul(..)));
         let any_fused = is(&|op| matches!(op, Op::MulAdd(..)));
-        let any_sum = is(&|op| matches!(op, Op::Add(..) | Op::Sub(..)));
+        // Of the other sign a sum has no operands here.
+        let any_sum = lanes.iter().any(
+            |lane| matches!(lane, Lane::Of(v) if matches!(self.program.steps[*v], Op::Add(..) | Op::Sub(..))),
+        );
         let made = if any_fused {
             let [a, b, c] = self.operands(lanes, Self::as_fused)?;
             let [a, b] = self.aligned([a, b]);

@@ -13,10 +13,11 @@ pub(super) fn scheduled(
     let mut scheduler = Scheduler {
         program,
         vectors: &vectors,
-        reaches: reaches(program),
+        needs: needs(program, &vectors),
         done: vec![false; vectors.len()],
         computed: vec![false; program.steps.len()],
         open: Vec::new(),
+        open_vectors: Vec::new(),
         steps: Vec::new(),
         in_lanes: Vec::new(),
     };
@@ -34,22 +35,48 @@ fn reaches(program: &Program) -> Vec<Vec<bool>> {
         let mut own = vec![false; program.steps.len()];
         own[value] = true;
         for operand in op.operands() {
-            own.iter_mut().zip(&all[operand]).for_each(|(own, reached)| *own |= reached);
+            unite(&mut own, &all[operand]);
         }
         all.push(own);
     }
     all
 }
 
+/// What the operands of each vector depend on, in lanes that others read as well: values; and vectors, itself among
+/// them.
+fn needs(program: &Program, vectors: &[Vector]) -> Vec<(Vec<bool>, Vec<bool>)> {
+    let reaches = reaches(program);
+    let mut all: Vec<(Vec<bool>, Vec<bool>)> = Vec::with_capacity(vectors.len());
+    for (index, Vector { made, .. }) in vectors.iter().enumerate() {
+        let (mut values, mut own) = (vec![false; program.steps.len()], vec![false; vectors.len()]);
+        own[index] = true;
+        made.values().iter().for_each(|value| unite(&mut values, &reaches[*value]));
+        for operand in made.operands() {
+            let in_lanes = vectors[operand].lanes.iter().filter_map(|lane| lane.value());
+            in_lanes.for_each(|value| unite(&mut values, &reaches[value]));
+            unite(&mut values, &all[operand].0);
+            unite(&mut own, &all[operand].1);
+        }
+        all.push((values, own));
+    }
+    all
+}
+
+fn unite(set: &mut [bool], other: &[bool]) {
+    set.iter_mut().zip(other).for_each(|(own, other)| *own |= other);
+}
+
 struct Scheduler<'p> {
     program: &'p Program,
     vectors: &'p [Vector],
-    reaches: Vec<Vec<bool>>,
+    needs: Vec<(Vec<bool>, Vec<bool>)>,
     done: Vec<bool>,
     /// Values that are known, as scalars or in lanes.
     computed: Vec<bool>,
     /// What is being computed: nothing that depends on it can help.
     open: Vec<Value>,
+    /// Vectors that are.
+    open_vectors: Vec<Index>,
     steps: Vec<Step>,
     in_lanes: Vec<(Value, (Index, usize))>,
 }
@@ -61,6 +88,7 @@ impl Scheduler<'_> {
         }
         let Vector { lanes, made } = self.vectors[index];
         let before = self.open.len();
+        self.open_vectors.push(index);
         self.open.extend(lanes.into_iter().filter_map(Lane::value).filter(|_| makes(made)));
         for operand in made.operands() {
             self.vector(operand);
@@ -69,6 +97,7 @@ impl Scheduler<'_> {
             self.scalar(value);
         }
         self.open.truncate(before);
+        self.open_vectors.pop();
         self.done[index] = true;
         self.steps.push(Step::Vector(index));
     }
@@ -95,16 +124,14 @@ impl Scheduler<'_> {
 
     /// A vector in which the value is made, without waiting for what waits for it.
     fn lane_for(&self, value: Value) -> Option<(Index, usize)> {
-        let is_free = |vector: &Vector| {
-            vector
-                .lanes
-                .into_iter()
-                .filter_map(Lane::value)
-                .all(|v| self.open.iter().all(|open| !self.reaches[v][*open]))
+        let is_free = |index: Index| {
+            let (values, vectors) = &self.needs[index];
+            !self.open.iter().chain([&value]).any(|open| values[*open])
+                && !self.open_vectors.iter().any(|open| vectors[*open])
         };
         self.vectors.iter().enumerate().find_map(|(index, vector)| {
             let lane = vector.lanes.iter().position(|lane| *lane == Lane::Of(value))?;
-            (makes(vector.made) && (self.done[index] || is_free(vector))).then_some((index, lane))
+            (makes(vector.made) && (self.done[index] || is_free(index))).then_some((index, lane))
         })
     }
 }
