@@ -16,6 +16,8 @@ mod schedule;
 
 use super::{Op, Program, Value};
 use layout::Layout;
+use pack::pack;
+use schedule::scheduled;
 
 /// What stands in a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,6 +69,12 @@ impl Four {
             Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) => vec![a, b],
             Self::MulAdd(a, b, c) => vec![a, b, c],
         }
+    }
+
+    /// Are its lanes computed there, or read from the state?
+    #[must_use]
+    pub fn makes(self) -> bool {
+        !matches!(self, Self::All(_) | Self::Gathered(_))
     }
 
     /// The values that it reads.
@@ -132,8 +140,8 @@ const OF_A_SUM: usize = 13;
 /// Instructions for each component of the state that a compiler adds in shuffles between vectors and numbers; measured:
 /// 251 in all for P2 and 198 for P1, of 14 and 12 components with 92 and 66 operations.
 const OF_A_SHUFFLE: usize = 7;
-/// States of fewer components fill two vectors: their steps are short whichever way they are taken.
-const FEWEST: usize = 9;
+/// Where it was not measured whether it pays: states of the plane.
+const FEWEST: usize = 12;
 
 impl Packed {
     /// The right-hand side whose results are the rates of the components of `groups`, in their order; `None` where
@@ -147,43 +155,30 @@ impl Packed {
         let scalar = program.steps.iter().map(weight).sum::<usize>()
             + OF_A_SHUFFLE * components
             + OF_A_SUM * components.div_ceil(4);
-        let packed = Self::cheapest(program, groups)?;
+        let (packed, cost) = Self::cheapest(program, groups)?;
         // Four fifths: less is not worth the lines.
-        (5 * packed.cost() <= 4 * scalar).then_some(packed)
+        (5 * cost <= 4 * scalar).then_some(packed)
     }
 
-    /// By the best layout of the state: that of one group after the other is chosen.
+    /// By the best layout of the state, chosen group by group, and about how many instructions a stage takes; `None`
+    /// where runtime functions are called.
     #[must_use]
-    pub fn cheapest(program: &Program, groups: &[(&'static str, Vec<String>)]) -> Option<Self> {
+    pub fn cheapest(program: &Program, groups: &[(&'static str, Vec<String>)]) -> Option<(Self, usize)> {
         if !program.calls.is_empty() {
             return None;
         }
+        let with = |layout: &Layout| pack(program, layout.names(), layout.vectors());
         let mut layout = Layout::in_rows(groups);
-        let mut best = Self::with(program, &layout);
+        let mut best = with(&layout);
         for alternative in layout.alternatives() {
             let other = layout.with(&alternative);
-            let packed = Self::with(program, &other);
-            if packed.cost() < best.cost() {
-                (layout, best) = (other, packed);
+            let draft = with(&other);
+            if draft.cost < best.cost {
+                (layout, best) = (other, draft);
             }
         }
-        (!best.rates.is_empty()).then_some(best)
-    }
-
-    fn with(program: &Program, layout: &Layout) -> Self {
-        let state = layout.vectors();
-        let (vectors, rates) = pack::pack(program, layout.names(), &state);
-        schedule::scheduled(program, state, vectors, rates)
-    }
-
-    /// Instructions of a stage, about.
-    #[must_use]
-    pub fn cost(&self) -> usize {
-        let of_step = |step: &Step| match *step {
-            Step::Scalar(value) => weight(&self.program.steps[value]),
-            Step::Vector(index) => pack::cost(&self.program, self.vectors[index].made),
-        };
-        self.steps.iter().map(of_step).sum::<usize>() + OF_A_SUM * self.state.len()
+        let cost = best.cost;
+        Some((scheduled(program, best), cost))
     }
 
     /// The scalar program of what is computed outside of lanes and gathered into them.

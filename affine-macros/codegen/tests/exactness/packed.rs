@@ -1,35 +1,36 @@
-use affine_codegen::ir::packed::Packed;
-
 use super::models::derived;
-
+use affine_codegen::ir::packed::Packed;
 #[test]
 fn show() {
-    for (name, args) in [(
-        "f",
-        "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1), potential = (G[1,1] - 1)^2 + Ct[1,2]^2 + q^2/2",
-    )] {
-        let model = derived(args, "struct Body;");
-        let packed = Packed::cheapest(&model.reduced.program, &model.reduced.groups).unwrap();
-        let names = |v: usize| match &packed.program.steps[v] {
-            affine_codegen::ir::Op::Input(n) => n.clone(),
-            op => packed
-                .program
-                .names
-                .iter()
-                .chain(packed.program.outputs.iter().map(|(n, v)| (*v, n.clone())).collect::<Vec<_>>().iter())
-                .find(|(x, _)| *x == v)
-                .map_or(format!("{op:?}"), |(_, n)| n.clone()),
-        };
-        println!("{name} {:?}", packed.state);
-        for step in &packed.steps {
-            match step {
-                affine_codegen::ir::packed::Step::Scalar(v) => println!("  scalar {v} {}", names(*v)),
-                affine_codegen::ir::packed::Step::Vector(i) => {
-                    let v = packed.vectors[*i];
-                    println!("  {i}: {:?} {:?} {:?}", v.made, v.lanes, v.lanes.map(|l| l.value().map(names)))
-                }
-            }
+    let t = std::fs::read_to_string("/work/wt/columns/tests/snapshots.rs").unwrap();
+    let flat = t.replace("\\\n", "");
+    for line in flat.lines() {
+        let Some((name, rest)) = line.trim().split_once(": \"") else { continue };
+        let Some((args, _)) = rest.split_once('"') else { continue };
+        if !name.ends_with("_3")
+            || args.contains("constraint")
+            || args.contains("group")
+            || name.contains("custom")
+            || name.contains("field")
+        {
+            continue;
         }
-        println!("{:?}", packed.in_lanes);
+        let args: String = args.split_whitespace().collect::<Vec<_>>().join(" ");
+        let args: &'static str = Box::leak(args.into_boxed_str());
+        let Ok((model, d)) = std::panic::catch_unwind(|| {
+            let t = std::time::Instant::now();
+            (derived(args, "struct Body;"), t.elapsed())
+        }) else {
+            continue;
+        };
+        let t = std::time::Instant::now();
+        let p = Packed::cheapest(&model.reduced.program, &model.reduced.groups);
+        println!(
+            "{name}: steps {} derived {d:?} packed {:?} cost {:?} {}",
+            model.reduced.program.steps.len(),
+            t.elapsed(),
+            p.map(|p| p.1),
+            Packed::of(&model.reduced.program, &model.reduced.groups).is_some()
+        );
     }
 }

@@ -1,14 +1,20 @@
 //! Vectors from the results down.
 
-use super::{Four, Index, Lane, Lanes, Vector, weight};
+use super::{Four, Index, Lane, Lanes, OF_A_SUM, Vector, weight};
 use crate::ir::{Op, Program, Value};
 
-/// The vectors that make the rates of those of the state, and which these are.
-pub(super) fn pack(
-    program: &Program,
-    names: &[String],
-    state: &[[Option<usize>; 4]],
-) -> (Vec<Vector>, Vec<Index>) {
+/// Vectors that are in no order yet.
+pub(super) struct Draft {
+    pub(super) state: Vec<[Option<usize>; 4]>,
+    pub(super) vectors: Vec<Vector>,
+    /// The rates of the vectors of the state.
+    pub(super) rates: Vec<Index>,
+    /// Instructions of all, and of the scalar steps that they need, about.
+    pub(super) cost: usize,
+}
+
+/// The vectors that make the rates of those of the state.
+pub(super) fn pack(program: &Program, names: &[String], state: Vec<[Option<usize>; 4]>) -> Draft {
     let input =
         |name: &String| program.steps.iter().position(|op| matches!(op, Op::Input(own) if own == name));
     let inputs: Vec<Option<Value>> = names.iter().map(input).collect();
@@ -22,7 +28,8 @@ pub(super) fn pack(
     let mut packer = Packer { program, fixed: fixed(program, names), vectors: of_state.collect() };
     let rates =
         state.iter().map(|vector| packer.pack(lanes_of(vector, &|k| Some(program.outputs[k].1)))).collect();
-    (packer.vectors, rates)
+    let cost = packer.cost() + OF_A_SUM * state.len();
+    Draft { state, vectors: packer.vectors, rates, cost }
 }
 
 /// Values that are the same at every state.
@@ -240,25 +247,25 @@ impl Packer<'_> {
 
     /// Instructions of all vectors, and of the scalar steps that they need.
     fn cost(&self) -> usize {
-        let mut needed = vec![false; self.program.steps.len()];
+        // What is found in a lane needs no step.
+        let mut found = vec![false; self.program.steps.len()];
+        for vector in self.vectors.iter().filter(|vector| vector.made.makes()) {
+            vector.lanes.iter().for_each(|lane| {
+                if let Lane::Of(value) = lane {
+                    found[*value] = true;
+                }
+            });
+        }
         let mut open: Vec<Value> = self.vectors.iter().flat_map(|vector| vector.made.values()).collect();
+        let mut cost = self.vectors.iter().map(|vector| cost(self.program, vector.made)).sum();
         while let Some(value) = open.pop() {
-            if !needed[value] && !self.is_lane(value) {
-                needed[value] = true;
+            if !found[value] {
+                found[value] = true;
+                cost += weight(&self.program.steps[value]);
                 open.extend(self.program.steps[value].operands());
             }
         }
-        let scalar = |v: Value| if needed[v] { weight(&self.program.steps[v]) } else { 0 };
-        let vectors = self.vectors.iter().map(|vector| cost(self.program, vector.made));
-        vectors.sum::<usize>() + (0..needed.len()).map(scalar).sum::<usize>()
-    }
-
-    /// Is the value made in a lane?
-    fn is_lane(&self, value: Value) -> bool {
-        self.vectors.iter().any(|vector| {
-            !matches!(vector.made, Four::All(_) | Four::Gathered(_))
-                && vector.lanes.contains(&Lane::Of(value))
-        })
+        cost
     }
 }
 

@@ -1,15 +1,12 @@
 //! The order of vectors and scalar steps.
 
-use super::{Four, Index, Lane, Packed, Step, Vector};
+use super::pack::Draft;
+use super::{Index, Lane, Packed, Step, Vector};
 use crate::ir::{Op, Program, Value};
 
 /// Puts everything that the rates need in order.
-pub(super) fn scheduled(
-    program: &Program,
-    state: Vec<[Option<usize>; 4]>,
-    vectors: Vec<Vector>,
-    rates: Vec<Index>,
-) -> Packed {
+pub(super) fn scheduled(program: &Program, draft: Draft) -> Packed {
+    let Draft { state, vectors, rates, .. } = draft;
     let mut scheduler = Scheduler {
         program,
         vectors: &vectors,
@@ -89,7 +86,7 @@ impl Scheduler<'_> {
         let Vector { lanes, made } = self.vectors[index];
         let before = self.open.len();
         self.open_vectors.push(index);
-        self.open.extend(lanes.into_iter().filter_map(Lane::value).filter(|_| makes(made)));
+        self.open.extend(lanes.into_iter().filter_map(Lane::value).filter(|_| made.makes()));
         for operand in made.operands() {
             self.vector(operand);
         }
@@ -131,12 +128,7 @@ impl Scheduler<'_> {
         };
         self.vectors.iter().enumerate().find_map(|(index, vector)| {
             let lane = vector.lanes.iter().position(|lane| *lane == Lane::Of(value))?;
-            (makes(vector.made) && (self.done[index] || is_free(index))).then_some((index, lane))
+            (vector.made.makes() && (self.done[index] || is_free(index))).then_some((index, lane))
         })
     }
-}
-
-/// Are the lanes computed there, or read from the state?
-fn makes(four: Four) -> bool {
-    !matches!(four, Four::All(_) | Four::Gathered(_))
 }
