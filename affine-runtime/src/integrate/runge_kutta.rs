@@ -264,20 +264,22 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
     fn attempt(&mut self, vectors: impl Vectors, end: f64) -> (Sum<S>, f64) {
         self.step.attempt_in(&self.field.stages(vectors, self.coordinates, &self.begin), end);
         let reached = self.coordinates.state(&self.begin, &self.field.read(self.step.trial_end()));
-        let slope_at_end = |this: &mut Self| {
-            let place = (&reached.value, this.step.trial_end());
-            let (rate, slope) = this.field.at(vectors, this.coordinates, end, place);
-            this.trial_rate = rate;
-            this.step.set_end(slope);
-        };
         if P::NEEDS_END {
-            slope_at_end(self);
+            self.slope_at(vectors, end, &reached.value);
         }
         let error = self.error(vectors, &reached.value);
         if !P::NEEDS_END && error <= 1.0 {
-            slope_at_end(self);
+            self.slope_at(vectors, end, &reached.value);
         }
         (reached, error)
+    }
+
+    /// The slope at the end of the attempted step.
+    #[inline(always)]
+    fn slope_at(&mut self, vectors: impl Vectors, end: f64, reached: &S) {
+        let (rate, slope) = self.field.at(vectors, self.coordinates, end, (reached, self.step.trial_end()));
+        self.trial_rate = rate;
+        self.step.set_end(slope);
     }
 
     /// Turns to the next step, in coordinates around the state reached.

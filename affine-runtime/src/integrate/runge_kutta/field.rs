@@ -1,5 +1,7 @@
 //! What a Runge-Kutta method integrates, in the variables in which its steps are taken.
 
+use core::marker::PhantomData;
+
 use crate::integrate::lie::{Coordinates, Flat, Sum};
 use crate::integrate::packed::{self, Packing};
 use crate::integrate::stages;
@@ -103,9 +105,7 @@ impl<S: StateVector<f64>, K, R: Packing<S, K>> Field<S, Flat, R::Packed> for InV
     }
     #[inline(always)]
     fn stages(&self, vectors: impl Vectors, _: Flat, _: &Sum<S>) -> impl Stages<R::Packed> {
-        let Self(packing, constants) = self;
-        let slope = move |t: f64, z: &R::Packed| packing.slope(vectors, t, constants, z);
-        SumsInVectors { slope, vectors }
+        StagesInVectors { field: self, vectors, state: PhantomData }
     }
     #[inline(always)]
     fn at(&self, vectors: impl Vectors, _: Flat, t: f64, (_, z): (&S, &R::Packed)) -> (S, R::Packed) {
@@ -115,23 +115,30 @@ impl<S: StateVector<f64>, K, R: Packing<S, K>> Field<S, Flat, R::Packed> for InV
     }
 }
 
-/// A slope, beside sums over stages in vectors.
-struct SumsInVectors<F, V> {
-    slope: F,
+/// Slopes and sums over stages on the vectors of a processor. No closure: of those compilers decide by themselves
+/// whether they become part of what is compiled for these vectors.
+struct StagesInVectors<'f, S, R, K, V> {
+    field: &'f InVectors<R, K>,
     vectors: V,
+    state: PhantomData<S>,
 }
 
-impl<L: StateVector<f64>, F: Fn(f64, &L) -> L, V: Vectors> Stages<L> for SumsInVectors<F, V> {
+impl<S, K, R: Packing<S, K>, V: Vectors> Stages<R::Packed> for StagesInVectors<'_, S, R, K, V> {
     #[inline(always)]
-    fn slope(&self, t: f64, z: &L) -> L {
-        (self.slope)(t, z)
+    fn slope(&self, t: f64, z: &R::Packed) -> R::Packed {
+        let InVectors(packing, constants) = self.field;
+        packing.slope(self.vectors, t, constants, z)
     }
     #[inline(always)]
-    fn combination<const TERMS: usize>(&self, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
+    fn combination<const TERMS: usize>(
+        &self,
+        stages: &[R::Packed],
+        row: &[(usize, f64); TERMS],
+    ) -> R::Packed {
         packed::combination(self.vectors, stages, row)
     }
     #[inline(always)]
-    fn plus_multiple(&self, z: &L, h: f64, rise: &L) -> L {
+    fn plus_multiple(&self, z: &R::Packed, h: f64, rise: &R::Packed) -> R::Packed {
         packed::plus_multiple(self.vectors, z, h, rise)
     }
 }
