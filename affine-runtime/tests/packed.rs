@@ -86,7 +86,8 @@ fn same_bits<const N: usize, M: Model<N>>(model: &M, start: M::Point<f64>) {
         (Method::RungeKutta8, eighth.y(), eighth.statistics()),
         (Method::RungeKutta5, fifth.y(), fifth.statistics()),
     ] {
-        let run = Simulation::new(model, start).until(t_end).tolerance(tolerance).method(method).run().unwrap();
+        let run =
+            Simulation::new(model, start).until(t_end).tolerance(tolerance).method(method).run().unwrap();
         let expected = model.flatten(&model.expand(t_end, &constants, end));
         assert_eq!(bits(&model.flatten(run.end().1)), bits(&expected), "{method:?}");
         assert_eq!(run.statistics(), statistics, "{method:?}");

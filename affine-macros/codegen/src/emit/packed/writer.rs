@@ -121,7 +121,7 @@ impl Writer<'_> {
         let is_light = match step {
             Step::Scalar(value) => matches!(self.packed.program.steps[value], Op::Neg(_)),
             Step::Vector(index) => {
-                matches!(self.packed.vectors[index].made, Four::All(_) | Four::Gathered(_) | Four::Neg(_))
+                matches!(self.packed.vectors[index].made, Four::All(_) | Four::Neg(_))
             }
         };
         let nested = self.packed.operands(step).into_iter().filter(|s| !self.bound.contains_key(s));
