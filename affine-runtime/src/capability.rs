@@ -7,6 +7,7 @@
 use crate::dual::Dual;
 use crate::integrate::lie::Sum;
 use crate::integrate::nystrom::SecondOrder;
+use crate::integrate::packed::Packing;
 use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::{Portable, Series, Vectors};
 use crate::lanes::{Lanes, in_lane};
@@ -207,6 +208,28 @@ pub trait SecondOrderEquations<const N: usize>: Model<N> {
     ) -> Self::Half<T>;
 }
 
+/// The reduced equations in vectors of four doubles, of every model for which that takes fewer instructions: what its
+/// Runge-Kutta steps are taken in.
+pub trait PackedEquations<const N: usize>: Model<N> {
+    /// The reduced state in vectors of four.
+    type Packed: StateVector<f64>;
+
+    /// The state in vectors: some components may stand in several lanes, and some lanes hold none.
+    fn packed(state: &Self::Reduced<f64>) -> Self::Packed;
+
+    /// The state of vectors.
+    fn unpacked(packed: &Self::Packed) -> Self::Reduced<f64>;
+
+    /// [`Model::reduced_equations`] of doubles, to the bit but for signs of what is not a number.
+    fn packed_equations(
+        &self,
+        vectors: impl Vectors,
+        t: f64,
+        constants: &Self::Constants<f64>,
+        packed: &Self::Packed,
+    ) -> Self::Packed;
+}
+
 /// A model that has the capability in question.
 #[derive(Clone, Copy, Debug)]
 pub struct Emitted<'a, M, const N: usize>(pub &'a M);
@@ -314,6 +337,49 @@ impl<S, C> SecondOrder<S, C> for NotEmitted {
     }
 
     fn renewed(&self, _: &S) -> S {
+        match *self {}
+    }
+}
+
+impl<const N: usize, M: PackedEquations<N>> Packing<M::Reduced<f64>, M::Constants<f64>>
+    for Emitted<'_, M, N>
+{
+    type Packed = M::Packed;
+
+    #[inline(always)]
+    fn packed(&self, state: &M::Reduced<f64>) -> M::Packed {
+        M::packed(state)
+    }
+
+    #[inline(always)]
+    fn unpacked(&self, packed: &M::Packed) -> M::Reduced<f64> {
+        M::unpacked(packed)
+    }
+
+    #[inline(always)]
+    fn slope(
+        &self,
+        vectors: impl Vectors,
+        t: f64,
+        constants: &M::Constants<f64>,
+        packed: &M::Packed,
+    ) -> M::Packed {
+        self.0.packed_equations(vectors, t, constants, packed)
+    }
+}
+
+impl<S, C> Packing<S, C> for NotEmitted {
+    type Packed = [f64; 0];
+
+    fn packed(&self, _: &S) -> [f64; 0] {
+        match *self {}
+    }
+
+    fn unpacked(&self, _: &[f64; 0]) -> S {
+        match *self {}
+    }
+
+    fn slope(&self, _: impl Vectors, _: f64, _: &C, _: &[f64; 0]) -> [f64; 0] {
         match *self {}
     }
 }

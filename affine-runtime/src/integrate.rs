@@ -5,6 +5,7 @@ mod error_norm;
 pub mod gauss;
 pub mod lie;
 pub mod nystrom;
+pub mod packed;
 mod published;
 pub mod rattle;
 mod roughly;

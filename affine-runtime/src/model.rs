@@ -5,6 +5,7 @@ use core::fmt::Debug;
 use crate::capability::NotEmitted;
 use crate::frames::{Matrix, Vector};
 use crate::integrate::nystrom::SecondOrder;
+use crate::integrate::packed::Packing;
 use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::Series;
 use crate::metrics::Bases;
@@ -129,6 +130,11 @@ pub trait Model<const N: usize> {
 
     /// The reduced equations as `q' = V(p)`, `p' = F(t, q)`, where `emit(nystrom)` asked for them.
     fn second_order(&self) -> Option<impl SecondOrder<Self::Reduced<f64>, Self::Constants<f64>>> {
+        None::<NotEmitted>
+    }
+
+    /// The reduced equations in vectors of four doubles, where that takes fewer instructions.
+    fn packing(&self) -> Option<impl Packing<Self::Reduced<f64>, Self::Constants<f64>>> {
         None::<NotEmitted>
     }
 }

@@ -4,7 +4,9 @@ pub use core::primitive::{f64, usize};
 
 pub use crate::balance::{Balance, CentreBalance};
 pub use crate::breathing::Breathing;
-pub use crate::capability::{Emitted, InLanes, SecondOrderEquations, Splitting, Tangent, Taylor};
+pub use crate::capability::{
+    Emitted, InLanes, PackedEquations, SecondOrderEquations, Splitting, Tangent, Taylor,
+};
 pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::custom::{
     comoving_force, comoving_force_in, potential_energy, potential_energy_in, potential_slopes,
@@ -19,6 +21,7 @@ pub use crate::frames::{
 };
 pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::integrate::nystrom::SecondOrder;
+pub use crate::integrate::packed::{Four, Packed, Packing};
 pub use crate::integrate::splitting::{Pieces, accumulate, conjugated, growth, left_product, right_product};
 pub use crate::integrate::taylor::{
     Series, Vectors, add_multiple, add_products, divided, lanes, set_lanes, subtract_multiple,

@@ -9,6 +9,7 @@ mod kernel;
 mod metrics;
 mod mixed;
 mod names;
+mod packed;
 mod points;
 mod prepare;
 mod quantities;
@@ -65,6 +66,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let tangent = tangent::implementation(&context);
     let taylor = taylor::taylor_impl(&context);
     let lanes = reduction::lanes::implementation(&context);
+    let packed = packed::implementation(&context);
     quote! {
         #item
         #prepared_type
@@ -81,6 +83,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #taylor
             #tangent
             #lanes
+            #packed
         };
     }
 }
@@ -243,6 +246,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let splitting = splitting::capability(context);
     let second_order = second_order::capability(context);
     let taylor = taylor::capability(context);
+    let packing = packed::capability(context);
     let power = forces::power(context);
     quote! {
         #(#[doc = #docs])*
@@ -259,6 +263,7 @@ fn model_impl(context: &Context) -> TokenStream {
             #splitting
             #second_order
             #taylor
+            #packing
             #power
         }
     }

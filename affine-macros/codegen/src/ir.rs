@@ -5,6 +5,7 @@ pub mod call;
 pub mod count;
 pub mod fuse;
 pub mod inverse_root;
+pub mod packed;
 pub mod run;
 pub mod tangent;
 pub mod taylor;

@@ -2,6 +2,7 @@
 
 mod dormand_prince_54;
 mod dormand_prince_853;
+mod field;
 #[cfg(feature = "std")]
 pub(crate) mod in_lanes;
 mod pair;
@@ -10,6 +11,7 @@ mod step;
 #[cfg(test)]
 mod trees;
 
+pub use field::{Field, InVectors, Stages};
 pub use pair::{DormandPrince54, DormandPrince853, Pair};
 pub use step::{Dense, OneStep, Step};
 
@@ -17,10 +19,11 @@ use core::fmt;
 
 use super::error_norm::{ErrorNorm, IN_RANGE, sum_of_squares};
 use super::lie::{Coordinates, Flat, Sum};
+use super::packed::Packing;
 use super::step_size::{Controller, next_time, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
-use super::taylor::Vectors;
+use super::taylor::{Portable, Vectors};
 use super::widest::{Work, widest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
@@ -34,13 +37,13 @@ use start::{Start, is_finite};
 ///
 /// Cost: 12 evaluations per accepted step, 11 (or 12, where only the slope at its end is not finite) per rejected
 /// one, 3 for the dense output of a step.
-pub type RungeKutta8<S, F, C = Flat> = RungeKutta<DormandPrince853, S, F, C>;
+pub type RungeKutta8<S, F, C = Flat, L = S> = RungeKutta<DormandPrince853, S, F, C, L>;
 
 /// The method of Dormand and Prince of order 5, the usual baseline.
 ///
 /// The estimated error is the difference to the embedded solution of order 4, of order `h^5`. Cost: 6 evaluations per
 /// step, accepted or rejected; the dense output is free.
-pub type RungeKutta5<S, F, C = Flat> = RungeKutta<DormandPrince54, S, F, C>;
+pub type RungeKutta5<S, F, C = Flat, L = S> = RungeKutta<DormandPrince54, S, F, C, L>;
 
 /// Adaptive integration of `y' = f(t, y)` from `t0` to `t_end`, in either direction of time, by an embedded explicit
 /// Runge-Kutta method: [`RungeKutta8`] or [`RungeKutta5`].
@@ -50,14 +53,14 @@ pub type RungeKutta5<S, F, C = Flat> = RungeKutta<DormandPrince54, S, F, C>;
 ///
 /// Cost: that of the steps; at the start 2 evaluations, and one for each component of a momentum.
 #[derive(Clone)]
-pub struct RungeKutta<P, S, F, C = Flat> {
-    f: F,
+pub struct RungeKutta<P, S, F, C = Flat, L = S> {
+    field: F,
     coordinates: C,
     error_norm: ErrorNorm,
     tolerance: f64,
     controller: Controller,
     /// In the coordinates around `begin`.
-    step: OneStep<P, S>,
+    step: OneStep<P, L>,
     begin: Sum<S>,
     /// The state reached.
     end: Sum<S>,
@@ -87,6 +90,22 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta<P, S, F> {
     }
 }
 
+impl<P: Pair, S: StateVector<f64>, K, R: Packing<S, K>> RungeKutta<P, S, InVectors<R, K>, Flat, R::Packed> {
+    /// The integration at its start, with steps in vectors of four.
+    ///
+    /// # Errors
+    /// As [`new`](RungeKutta::new).
+    pub fn in_vectors(
+        field: InVectors<R, K>,
+        groups: &'static [Group],
+        start: (f64, S),
+        t_end: f64,
+        tolerance: f64,
+    ) -> Result<Self, Failure> {
+        Self::begun(Flat, field, groups, start, t_end, tolerance)
+    }
+}
+
 impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta<P, S, F, C> {
     /// The integration at its start, in other coordinates: on a group, in the chart around the beginning of each step.
     /// Errors are those of the state itself, in the norm of `groups`.
@@ -97,19 +116,36 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
         coordinates: C,
         f: F,
         groups: &'static [Group],
+        start: (f64, S),
+        t_end: f64,
+        tolerance: f64,
+    ) -> Result<Self, Failure> {
+        Self::begun(coordinates, f, groups, start, t_end, tolerance)
+    }
+}
+
+impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>>
+    RungeKutta<P, S, F, C, L>
+{
+    fn begun(
+        coordinates: C,
+        field: F,
+        groups: &'static [Group],
         (t0, y0): (f64, S),
         t_end: f64,
         tolerance: f64,
     ) -> Result<Self, Failure> {
+        let f = |t: f64, y: &S| field.rate(t, y);
         let (start, evaluations) = Start::of::<P>(&f, groups, (t0, &y0), t_end, tolerance)?;
         let Start { slope, error_norm, length } = start;
         let statistics = Statistics { evaluations, ..Statistics::default() };
         let controller = Controller::of(P::ERROR_ORDER);
         let begin = Sum::of(y0);
         let origin = coordinates.origin(&begin).value;
-        let step = OneStep::at(t0, origin, coordinates.velocity(&y0, &origin, &slope));
+        let velocity = coordinates.velocity(&y0, &origin, &slope);
+        let step = OneStep::at(t0, field.stored(&origin), field.stored(&velocity));
         Ok(Self {
-            f,
+            field,
             coordinates,
             error_norm,
             tolerance,
@@ -144,7 +180,6 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
             let (reached, mut error) = widest(Trial { integration: self, end });
             if error <= 1.0 {
                 if !P::NEEDS_END {
-                    self.slope_at(end, &reached.value);
                     self.statistics.evaluations += 1;
                 }
                 self.rate = self.trial_rate;
@@ -172,8 +207,8 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
     /// Dense output over the last accepted step: [`Pair::DENSE_EVALUATIONS`].
     pub fn dense(&mut self) -> Dense<S, C> {
         self.statistics.evaluations += P::DENSE_EVALUATIONS;
-        let dense = self.step.dense(&in_coordinates(&self.f, self.coordinates, &self.begin));
-        dense.around(self.coordinates, self.begin, self.end.value)
+        let dense = self.step.dense_in(&self.field.stages(Portable, self.coordinates, &self.begin));
+        dense.read(|stored| self.field.read(stored)).around(self.coordinates, self.begin, self.end.value)
     }
 
     /// Everything that the next steps depend on, of an integration between two steps.
@@ -187,7 +222,8 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
         self.controller.exchange(tape);
         tape.statistics(&mut self.statistics);
         let origin = self.coordinates.origin(&self.end).value;
-        self.step = OneStep::at(t, origin, self.coordinates.velocity(&self.end.value, &origin, &self.rate));
+        let velocity = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
+        self.step = OneStep::at(t, self.field.stored(&origin), self.field.stored(&velocity));
         self.begin = self.end;
     }
 
@@ -215,40 +251,44 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
         self.statistics
     }
 
-    /// Computes a step to the time `end`: the state there, and its error.
+    /// Computes a step to the time `end`: the state there, and its error. Where the step is good, the slope there too.
     #[inline(always)]
-    fn attempt(&mut self, end: f64) -> (Sum<S>, f64) {
-        self.step.attempt(&in_coordinates(&self.f, self.coordinates, &self.begin), end);
-        let reached = self.coordinates.state(&self.begin, self.step.trial_end());
+    fn attempt(&mut self, vectors: impl Vectors, end: f64) -> (Sum<S>, f64) {
+        self.step.attempt_in(&self.field.stages(vectors, self.coordinates, &self.begin), end);
+        let reached = self.coordinates.state(&self.begin, &self.field.read(self.step.trial_end()));
         if P::NEEDS_END {
-            self.slope_at(end, &reached.value);
+            self.slope_at(vectors, end, &reached.value);
         }
-        let error = self.error(&reached.value);
+        let error = self.error(vectors, &reached.value);
+        if !P::NEEDS_END && error <= 1.0 {
+            self.slope_at(vectors, end, &reached.value);
+        }
         (reached, error)
     }
 
     /// The slope at the end of the attempted step.
     #[inline(always)]
-    fn slope_at(&mut self, end: f64, reached: &S) {
-        self.trial_rate = (self.f)(end, reached);
-        let slope = self.coordinates.velocity(reached, self.step.trial_end(), &self.trial_rate);
+    fn slope_at(&mut self, vectors: impl Vectors, end: f64, reached: &S) {
+        let (rate, slope) = self.field.at(vectors, self.coordinates, end, (reached, self.step.trial_end()));
+        self.trial_rate = rate;
         self.step.set_end(slope);
     }
 
     /// Turns to the next step, in coordinates around the state reached.
     fn begin_next(&mut self) {
         let origin = self.coordinates.origin(&self.end).value;
-        let slope = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
+        let velocity = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
         self.begin = self.end;
-        self.step.begin_next_at(origin, slope);
+        self.step.begin_next_at(self.field.stored(&origin), self.field.stored(&velocity));
     }
 
     /// Estimated error of the attempted step relative to the tolerance; NaN where something is not finite.
     #[inline(always)]
-    fn error(&self, reached: &S) -> f64 {
-        let (first, second) = self.step.error_slopes();
-        let first = self.coordinates.change(&self.begin, &first);
-        let second = self.coordinates.change(&self.begin, &second);
+    fn error(&self, vectors: impl Vectors, reached: &S) -> f64 {
+        let stages = self.field.stages(vectors, self.coordinates, &self.begin);
+        let (first, second) = self.step.error_slopes(&stages);
+        let [first, second] =
+            [first, second].map(|slope| self.coordinates.change(&self.begin, &self.field.read(&slope)));
         let before = self.begin.value.as_ref();
         let after = reached.as_ref();
         let relative = self.error_norm.largest(self.step.length().abs(), before, after, |range| {
@@ -260,7 +300,7 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
     }
 }
 
-impl<P: Pair, S: StateVector<f64>, F, C> fmt::Debug for RungeKutta<P, S, F, C> {
+impl<P: Pair, S: StateVector<f64>, F, C, L: StateVector<f64>> fmt::Debug for RungeKutta<P, S, F, C, L> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct(P::NAME)
             .field("t", &self.step.end_time())
@@ -288,28 +328,17 @@ fn scaled_error<P: Pair>(slopes: [&[f64]; 2]) -> f64 {
 }
 
 /// A step of an integration to the time `end`.
-struct Trial<'a, P, S, F, C> {
-    integration: &'a mut RungeKutta<P, S, F, C>,
+struct Trial<'a, P, S, F, C, L> {
+    integration: &'a mut RungeKutta<P, S, F, C, L>,
     end: f64,
 }
 
-impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Work for Trial<'_, P, S, F, C> {
+impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>> Work
+    for Trial<'_, P, S, F, C, L>
+{
     type Output = (Sum<S>, f64);
     #[inline(always)]
-    fn run(self, _vectors: impl Vectors) -> (Sum<S>, f64) {
-        self.integration.attempt(self.end)
-    }
-}
-
-/// `z'` as a function of `t` and of the coordinates `z` around `base`.
-#[inline(always)]
-fn in_coordinates<S: StateVector<f64>, C: Coordinates<S>>(
-    f: &impl Fn(f64, &S) -> S,
-    coordinates: C,
-    base: &Sum<S>,
-) -> impl Fn(f64, &S) -> S {
-    move |t, z| {
-        let state = coordinates.state(base, z).value;
-        coordinates.velocity(&state, z, &f(t, &state))
+    fn run(self, vectors: impl Vectors) -> (Sum<S>, f64) {
+        self.integration.attempt(vectors, self.end)
     }
 }

@@ -13,7 +13,9 @@ use super::{Method, TAYLOR_TOLERANCE};
 use crate::capability::is_emitted;
 use crate::integrate::gauss::Tableau;
 use crate::integrate::lie::{Chart, Coordinates, Flat};
+use crate::integrate::packed::Packing;
 use crate::integrate::rattle::{Composition, Reaction};
+use crate::integrate::runge_kutta::InVectors;
 use crate::integrate::{
     Failure, Gauss, Rattle, RungeKutta5, RungeKutta8, RungeKuttaNystrom12, Splitting, Taylor,
 };
@@ -38,7 +40,9 @@ pub(super) fn integrate<const N: usize, M: Model<N>>(
         Method::Taylor { .. } | Method::RungeKuttaNystrom12 | Method::Splitting { .. } => {
             by_capability(model, method, course, recorder)
         }
-        _ if const { !moves_on_group(&M::DESCRIPTION, N) } => reduced(model, Flat, method, course, recorder),
+        _ if const { !moves_on_group(&M::DESCRIPTION, N) } => {
+            free(model, model.packing(), method, course, recorder)
+        }
         _ if const { is_canonical(&M::DESCRIPTION) } => with_reaction(model, method, course, recorder),
         _ => reduced(model, chart::<N, M>(M::DESCRIPTION.reduced)?, method, course, recorder),
     }
@@ -106,6 +110,44 @@ fn by_capability<const N: usize, M: Model<N>>(
     }
 }
 
+/// The reduced state of a body without constraints, in vectors of four where the model has its equations so; implicit
+/// methods take single components.
+fn free<const N: usize, M: Model<N>, R: Packing<M::Reduced<f64>, M::Constants<f64>>>(
+    model: &M,
+    packing: Option<R>,
+    method: Method,
+    course: &Course<M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    if const { !is_emitted::<R>() } {
+        return reduced(model, Flat, method, course, recorder);
+    }
+    let Course { t0, start, t_end, tolerance, .. } = *course;
+    let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
+    let (reduced, constants) = model.reduce(t0, &start);
+    let begin = (t0, reduced);
+    let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
+    emitted::<N, M, _>(packing, "packing", |packing| match method {
+        Method::Gauss { stages, step } => {
+            let closed = |t: f64, reduced: &M::Reduced<f64>| {
+                model.reduced_equations(t, &constants, &model.renewed(reduced))
+            };
+            let integration = gauss(Flat, closed, begin, (stages, t_end, step))?;
+            follow(integration, (&expand, layout), recorder)
+        }
+        Method::RungeKutta5 => {
+            let field = InVectors(packing, constants);
+            let integration = RungeKutta5::in_vectors(field, groups, begin, t_end, tolerance);
+            follow(integration.map(Explicit::new), (&expand, layout), recorder)
+        }
+        _ => {
+            let field = InVectors(packing, constants);
+            let integration = RungeKutta8::in_vectors(field, groups, begin, t_end, tolerance);
+            follow(integration.map(Explicit::new), (&expand, layout), recorder)
+        }
+    })
+}
+
 /// What is done with a capability of a model that has it.
 fn emitted<const N: usize, M: Model<N>, R>(
     capability: Option<R>,
@@ -170,8 +212,7 @@ fn by_equations<const N: usize, S: StateVector<f64>, P: Phase<N>>(
     let begin = (t0, state);
     match method {
         Method::Gauss { stages, step } => {
-            let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
-            let integration = Gauss::within(coordinates, closed, tableau, begin, t_end, step);
+            let integration = gauss(coordinates, closed, begin, (stages, t_end, step))?;
             follow(integration, (expand, layout), recorder)
         }
         Method::RungeKutta5 => {
@@ -183,6 +224,17 @@ fn by_equations<const N: usize, S: StateVector<f64>, P: Phase<N>>(
             follow(integration.map(Explicit::new), (expand, layout), recorder)
         }
     }
+}
+
+/// Gauss collocation by its number of stages, to an end, in steps of a length.
+fn gauss<S: StateVector<f64>, C: Coordinates<S>, F: Fn(f64, &S) -> S>(
+    coordinates: C,
+    equations: F,
+    begin: (f64, S),
+    (stages, t_end, step): (usize, f64, f64),
+) -> Result<Result<Gauss<S, F, C>, Failure>, Setting> {
+    let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
+    Ok(Gauss::within(coordinates, equations, tableau, begin, t_end, step))
 }
 
 /// RATTLE on the phase point itself.

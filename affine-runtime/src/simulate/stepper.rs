@@ -3,7 +3,7 @@
 use super::checkpoint::Bits;
 use crate::integrate::lie::Coordinates;
 use crate::integrate::nystrom::SecondOrder;
-use crate::integrate::runge_kutta::{Dense, Pair, RungeKutta};
+use crate::integrate::runge_kutta::{Dense, Field, Pair, RungeKutta};
 use crate::integrate::splitting::{Pieces, Splitting};
 use crate::integrate::taylor::{Series, Taylor};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKuttaNystrom12, Statistics};
@@ -60,19 +60,19 @@ macro_rules! by_the_same_names {
 }
 
 /// The explicit method with the dense output of its last step, which is formed once for all times in it.
-pub(super) struct Explicit<P, S, F, C> {
-    integration: RungeKutta<P, S, F, C>,
+pub(super) struct Explicit<P, S, F, C, L> {
+    integration: RungeKutta<P, S, F, C, L>,
     dense: Option<Dense<S, C>>,
 }
 
-impl<P, S, F, C> Explicit<P, S, F, C> {
-    pub(super) fn new(integration: RungeKutta<P, S, F, C>) -> Self {
+impl<P, S, F, C, L> Explicit<P, S, F, C, L> {
+    pub(super) fn new(integration: RungeKutta<P, S, F, C, L>) -> Self {
         Self { integration, dense: None }
     }
 }
 
-impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S>
-    for Explicit<P, S, F, C>
+impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>> Stepper<S>
+    for Explicit<P, S, F, C, L>
 {
     fn advance(&mut self) -> Result<(), Failure> {
         self.dense = None;

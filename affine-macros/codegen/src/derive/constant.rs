@@ -191,6 +191,7 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         tangent: None,
         splitting: pieces.splitting,
         second_order: pieces.second_order,
+        packed: None,
     })
 }
 

@@ -122,6 +122,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         tangent: None,
         splitting: None,
         second_order: None,
+        packed: None,
     })
 }
 

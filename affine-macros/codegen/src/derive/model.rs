@@ -4,6 +4,7 @@ use super::{ChangeOfBases, TwoPolar, second_order, splitting};
 use crate::algebra::Rational;
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::ir::packed::Packed;
 use crate::ir::tangent::with_tangent;
 use crate::ir::taylor::Recurrence;
 use crate::mechanics::conserved::Candidate;
@@ -97,6 +98,8 @@ pub struct Model {
     pub tangent: Option<Program>,
     /// The equations as `q' = V(p)`, `p' = F(t, q)`, if asked for.
     pub second_order: Option<second_order::Halves>,
+    /// The reduced equations in vectors of four, where that pays.
+    pub packed: Option<Packed>,
 }
 
 /// The Legendre transformation and the energy in velocities.
@@ -228,6 +231,11 @@ impl Model {
                 }
                 _ => {}
             }
+        }
+        // Charts of groups take single components; Runge-Kutta-Nystrom steps and closed forms leave nothing to do.
+        let is_closed = matches!(self.closed_form, Some((_, false)));
+        if self.constraint.is_none() && self.second_order.is_none() && !is_closed {
+            self.packed = Packed::of(program, &self.reduced.groups);
         }
         self
     }

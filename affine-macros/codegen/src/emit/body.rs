@@ -36,7 +36,7 @@ pub(super) enum Number<'a> {
 
 impl Number<'_> {
     /// The number, to double-double precision where it is generic.
-    fn exact(self, number: &Rational) -> TokenStream {
+    pub(super) fn exact(self, number: &Rational) -> TokenStream {
         match self {
             Self::Generic(scalar) => exact(scalar, number),
             Self::Double => literal(number.to_doubles().0, "f64"),
@@ -73,7 +73,7 @@ pub(super) struct Scope<'a> {
 
 /// Binding strength of an expression's outermost operator.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Strength {
+pub(super) enum Strength {
     Sum,
     Product,
     Sign,
@@ -115,7 +115,7 @@ pub(super) fn inputs(program: &Program) -> Vec<&str> {
 }
 
 /// Expressions nested deeper than this are cut by a name.
-const DEEPEST: usize = 4;
+pub(super) const DEEPEST: usize = 4;
 
 struct Writer<'a> {
     program: &'a Program,
@@ -139,15 +139,7 @@ impl Writer<'_> {
             if let Op::Constant(number) = step
                 && !self.ends_with(value)
             {
-                let name = match number {
-                    zero if zero.is_zero() => format_ident!("zero"),
-                    one if one.is_one() => format_ident!("one"),
-                    root if root.is_long() => {
-                        self.roots += 1;
-                        format_ident!("root{}", self.roots)
-                    }
-                    _ => format_ident!("r{}", number.to_string().replace('/', "_").replace('-', "m")),
-                };
+                let name = name_of(number, &mut self.roots);
                 let exact = self.scope.number.exact(number);
                 self.lets.extend(quote!(let #name = #exact;));
                 self.bound.insert(value, name);
@@ -252,6 +244,19 @@ impl Writer<'_> {
     fn at_least(&self, value: Value, least: Strength) -> TokenStream {
         let (tokens, strength) = self.expression(value);
         if strength < least { quote!((#tokens)) } else { tokens }
+    }
+}
+
+/// The name of a number; `roots` counts those that have no short one.
+pub(super) fn name_of(number: &Rational, roots: &mut usize) -> Ident {
+    match number {
+        zero if zero.is_zero() => format_ident!("zero"),
+        one if one.is_one() => format_ident!("one"),
+        root if root.is_long() => {
+            *roots += 1;
+            format_ident!("root{roots}")
+        }
+        _ => format_ident!("r{}", number.to_string().replace('/', "_").replace('-', "m")),
     }
 }
 

@@ -12,6 +12,7 @@ mod linear;
 mod metrics;
 mod mixed;
 mod models;
+mod packed;
 mod passes;
 mod points;
 mod polynomials;

@@ -1,5 +1,6 @@
 //! The embedded pairs of methods.
 
+use super::field::Stages;
 use super::step::OneStep;
 use super::{dormand_prince_54 as dp54, dormand_prince_853 as dp853};
 use crate::integrate::stages::difference;
@@ -21,16 +22,16 @@ pub trait Pair: Sized {
     const NEEDS_END: bool;
 
     /// Fills in the stages of a step and where it ends.
-    fn attempt<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Fn(f64, &S) -> S);
+    fn attempt<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>);
 
     /// Differences, divided by `h`, of the solution to the embedded ones.
-    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>) -> (S, S);
+    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> (S, S);
 
     /// The error estimate from the squares of the sizes of these.
     fn error(squares: (f64, f64)) -> f64;
 
     /// The last coefficients of the dense output, divided by `h`.
-    fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Fn(f64, &S) -> S) -> [S; 4];
+    fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>) -> [S; 4];
 }
 
 /// The method of Dormand and Prince of order 8 with error estimators of orders 5 and 3 and a dense output of order 7.
@@ -48,7 +49,7 @@ impl Pair for DormandPrince853 {
     const NEEDS_END: bool = false;
 
     #[inline(always)]
-    fn attempt<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Fn(f64, &S) -> S) {
+    fn attempt<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>) {
         use dp853::*;
         step.stage(f, NODES[0], &A2);
         step.stage(f, NODES[1], &A3);
@@ -61,12 +62,12 @@ impl Pair for DormandPrince853 {
         step.stage(f, NODES[8], &A10);
         step.stage(f, NODES[9], &A11);
         step.stage(f, NODES[10], &A12);
-        step.end_at(&B);
+        step.end_at(f, &B);
     }
 
     #[inline(always)]
-    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>) -> (S, S) {
-        (step.combination(&dp853::E5), step.combination(&E3))
+    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> (S, S) {
+        (step.combination(f, &dp853::E5), step.combination(f, &E3))
     }
 
     #[inline(always)]
@@ -74,12 +75,17 @@ impl Pair for DormandPrince853 {
         if fifth == 0.0 { 0.0 } else { fifth / Scalar::sqrt(fifth + 0.01 * third) }
     }
 
-    fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Fn(f64, &S) -> S) -> [S; 4] {
+    fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>) -> [S; 4] {
         use dp853::*;
         step.stage(f, NODES[12], &A14);
         step.stage(f, NODES[13], &A15);
         step.stage(f, NODES[14], &A16);
-        [step.combination(&D4), step.combination(&D5), step.combination(&D6), step.combination(&D7)]
+        [
+            step.combination(f, &D4),
+            step.combination(f, &D5),
+            step.combination(f, &D6),
+            step.combination(f, &D7),
+        ]
     }
 }
 
@@ -95,19 +101,19 @@ impl Pair for DormandPrince54 {
     const NEEDS_END: bool = true;
 
     #[inline(always)]
-    fn attempt<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Fn(f64, &S) -> S) {
+    fn attempt<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>) {
         use dp54::*;
         step.stage(f, NODES[0], &A2);
         step.stage(f, NODES[1], &A3);
         step.stage(f, NODES[2], &A4);
         step.stage(f, NODES[3], &A5);
         step.stage(f, NODES[4], &A6);
-        step.end_at(&B);
+        step.end_at(f, &B);
     }
 
     #[inline(always)]
-    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>) -> (S, S) {
-        (step.combination(&dp54::E), S::zeros())
+    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> (S, S) {
+        (step.combination(f, &dp54::E), S::zeros())
     }
 
     #[inline(always)]
@@ -115,7 +121,7 @@ impl Pair for DormandPrince54 {
         Scalar::sqrt(fourth)
     }
 
-    fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, _: &impl Fn(f64, &S) -> S) -> [S; 4] {
-        [step.combination(&dp54::D), S::zeros(), S::zeros(), S::zeros()]
+    fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>) -> [S; 4] {
+        [step.combination(f, &dp54::D), S::zeros(), S::zeros(), S::zeros()]
     }
 }

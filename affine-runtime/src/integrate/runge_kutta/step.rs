@@ -2,11 +2,10 @@
 
 use core::marker::PhantomData;
 
+use super::field::Stages;
 use super::pair::{DormandPrince853, Pair};
 use crate::integrate::lie::{Coordinates, Flat, Sum};
-use crate::integrate::stages::combination;
 use crate::model::StateVector;
-use crate::scalar::Scalar;
 
 const STAGES: usize = 16;
 
@@ -43,6 +42,12 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
     /// Computes the step to the time `end`, from the same point as before: [`Pair::EVALUATIONS`].
     #[inline(always)]
     pub fn attempt(&mut self, f: &impl Fn(f64, &S) -> S, end: f64) {
+        self.attempt_in(f, end);
+    }
+
+    /// The same, with sums of its own.
+    #[inline(always)]
+    pub(super) fn attempt_in(&mut self, f: &impl Stages<S>, end: f64) {
         self.t_trial = end;
         self.accepted = false;
         P::attempt(self, f);
@@ -96,6 +101,11 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
 
     /// Dense output of an accepted step: [`Pair::DENSE_EVALUATIONS`].
     pub fn dense(&mut self, f: &impl Fn(f64, &S) -> S) -> Dense<S> {
+        self.dense_in(f)
+    }
+
+    /// The same, with sums of its own.
+    pub(super) fn dense_in(&mut self, f: &impl Stages<S>) -> Dense<S> {
         let last = P::dense(self, f);
         let h = self.length();
         let mut coefficients = [S::zeros(); 7];
@@ -155,43 +165,42 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
 
     /// Differences, divided by `h`, of the solution to the embedded ones.
     #[inline(always)]
-    pub(super) fn error_slopes(&self) -> (S, S) {
-        P::error_slopes(self)
+    pub(super) fn error_slopes(&self, f: &impl Stages<S>) -> (S, S) {
+        P::error_slopes(self, f)
     }
 
     /// `k_s = f(t + c_s h, y + h sum_j a_sj k_j)`, by stage and node.
     #[inline(always)]
     pub(super) fn stage<const TERMS: usize>(
         &mut self,
-        f: &impl Fn(f64, &S) -> S,
+        f: &impl Stages<S>,
         (number, node): (usize, f64),
         row: &[(usize, f64); TERMS],
     ) {
         let time = if node == 1.0 { self.t_trial } else { self.t + node * self.length() };
-        self.stages[number - 1] = f(time, &self.moved(row));
+        self.stages[number - 1] = f.slope(time, &self.moved(f, row));
     }
 
     /// The end of the step by its weights.
     #[inline(always)]
-    pub(super) fn end_at<const TERMS: usize>(&mut self, weights: &[(usize, f64); TERMS]) {
-        self.y_trial = self.moved(weights);
+    pub(super) fn end_at<const TERMS: usize>(&mut self, f: &impl Stages<S>, weights: &[(usize, f64); TERMS]) {
+        self.y_trial = self.moved(f, weights);
     }
 
     /// `y + h sum_j a_j k_j`.
     #[inline(always)]
-    fn moved<const TERMS: usize>(&self, row: &[(usize, f64); TERMS]) -> S {
-        let h = self.length();
-        let mut moved = self.combination(row);
-        for (m, y) in moved.as_mut().iter_mut().zip(self.y.as_ref()) {
-            *m = m.fma(h, *y);
-        }
-        moved
+    fn moved<const TERMS: usize>(&self, f: &impl Stages<S>, row: &[(usize, f64); TERMS]) -> S {
+        f.plus_multiple(&self.y, self.length(), &self.combination(f, row))
     }
 
     /// `sum_j a_j k_j`.
     #[inline(always)]
-    pub(super) fn combination<const TERMS: usize>(&self, row: &[(usize, f64); TERMS]) -> S {
-        combination(&self.stages, row)
+    pub(super) fn combination<const TERMS: usize>(
+        &self,
+        f: &impl Stages<S>,
+        row: &[(usize, f64); TERMS],
+    ) -> S {
+        f.combination(&self.stages, row)
     }
 }
 
@@ -208,6 +217,15 @@ pub struct Dense<S, C = Flat> {
     coefficients: [S; 7],
     coordinates: C,
     base: Sum<S>,
+}
+
+impl<L: StateVector<f64>> Dense<L> {
+    /// The same polynomial of states that are stored otherwise.
+    pub(super) fn read<S: StateVector<f64>>(self, read: impl Fn(&L) -> S) -> Dense<S> {
+        let Self { t, t_end, y, y_end, coefficients, .. } = self;
+        let (y, y_end, coefficients) = (read(&y), read(&y_end), coefficients.map(|c| read(&c)));
+        Dense { t, t_end, y, y_end, coefficients, coordinates: Flat, base: Sum::of(y) }
+    }
 }
 
 impl<S: StateVector<f64>> Dense<S> {

@@ -1,0 +1,124 @@
+//! The reduced equations in vectors of four.
+
+mod names;
+mod writer;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::ir::packed::Packed;
+
+use super::dynamics::time;
+use super::splitting::coefficient_names;
+use super::{Context, coefficient_index, identifiers, inputs, number, pattern};
+
+/// The implementation of the capability.
+pub(super) fn implementation(context: &Context) -> TokenStream {
+    let Some(packed) = &context.model.packed else { return TokenStream::new() };
+    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
+    let (generics, types, clause) = context.generics();
+    let size = number(4 * packed.state.len());
+    let change = change_of_storage(context, packed);
+    let equations = equations(context, packed);
+    quote! {
+        impl #generics #rt::PackedEquations<#n> for #prepared #types #clause {
+            type Packed = #rt::Packed<#size>;
+            #change
+            #equations
+        }
+    }
+}
+
+/// The hook by which a simulation finds the capability.
+pub(super) fn capability(context: &Context) -> TokenStream {
+    if context.model.packed.is_none() {
+        return TokenStream::new();
+    }
+    let rt = &context.names.rt;
+    quote! {
+        fn packing(
+            &self,
+        ) -> ::core::option::Option<impl #rt::Packing<Self::Reduced<#rt::f64>, Self::Constants<#rt::f64>>> {
+            ::core::option::Option::Some(#rt::Emitted(self))
+        }
+    }
+}
+
+/// `packed` and `unpacked`.
+fn change_of_storage(context: &Context, packed: &Packed) -> TokenStream {
+    let rt = &context.names.rt;
+    let names: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let all = identifiers(&names);
+    let lanes: Vec<Option<usize>> = packed.state.iter().flatten().copied().collect();
+    let filled = lanes.iter().map(|lane| match lane {
+        Some(component) => {
+            let name = &all[*component];
+            quote!(#name)
+        }
+        None => quote!(0.0),
+    });
+    // A component that stands in several lanes is read from the first.
+    let bound = lanes.iter().enumerate().map(|(k, lane)| match lane {
+        Some(component) if !lanes[..k].contains(lane) => {
+            let name = &all[*component];
+            quote!(#name)
+        }
+        _ => quote!(_),
+    });
+    quote! {
+        #[inline(always)]
+        fn packed(state: &Self::Reduced<#rt::f64>) -> Self::Packed {
+            let [#(#all),*] = *state;
+            #rt::Packed([#(#filled),*])
+        }
+
+        #[inline(always)]
+        fn unpacked(packed: &Self::Packed) -> Self::Reduced<#rt::f64> {
+            let [#(#bound),*] = packed.0;
+            [#(#all),*]
+        }
+    }
+}
+
+fn equations(context: &Context, packed: &Packed) -> TokenStream {
+    let rt = &context.names.rt;
+    let program = packed.read();
+    let used = inputs(&program);
+    let own = coefficient_names(context);
+    let (constants, read) = match own.iter().any(|name| used.contains(&name.as_str())) {
+        true => {
+            let bound = pattern(&own, &used);
+            (quote!(constants), quote!(let #bound = constants.coefficients;))
+        }
+        false => (quote!(_constants), TokenStream::new()),
+    };
+    let coefficients = used.iter().filter_map(|name| {
+        let (index, name) = (coefficient_index(name)?, quote::format_ident!("{name}"));
+        Some(quote!(let #name = self.coefficients[#index];))
+    });
+    let clock = time(&program);
+    let written = writer::written(context, packed);
+    let (state, lets, rates) = (&written.state, &written.lets, &written.rates);
+    let all = written.broadcasts.then(|| quote!(let all = |value| #rt::Four::of(vectors, [value; 4]);));
+    let four = written.gathers.then(|| quote!(let four = |lanes| #rt::Four::of(vectors, lanes);));
+    let scalar = written.fuses.then(|| quote!(use #rt::Scalar as _;));
+    quote! {
+        #[inline(always)]
+        fn packed_equations(
+            &self,
+            vectors: impl #rt::Vectors,
+            #clock: #rt::f64,
+            #constants: &Self::Constants<#rt::f64>,
+            packed: &Self::Packed,
+        ) -> Self::Packed {
+            #scalar
+            #all
+            #four
+            #(#coefficients)*
+            #read
+            let [#(#state),*] = packed.vectors(vectors);
+            #lets
+            #rt::Packed::of([#(#rates),*])
+        }
+    }
+}

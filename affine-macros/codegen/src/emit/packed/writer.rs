@@ -1,0 +1,267 @@
+//! Statements and expressions over vectors and numbers.
+
+use std::collections::HashMap;
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::super::body::{DEEPEST, Number, Strength, inner, name_of};
+use super::super::{Context, number};
+use super::names;
+use crate::ir::packed::{Four, Index, Lane, Packed, Step};
+use crate::ir::{Op, Value};
+
+/// The equations, written down.
+pub(super) struct Written {
+    /// Names of the vectors of the state.
+    pub state: Vec<TokenStream>,
+    /// `let` statements.
+    pub lets: TokenStream,
+    /// The rates of the vectors of the state.
+    pub rates: Vec<TokenStream>,
+    /// Does a number go to all lanes?
+    pub broadcasts: bool,
+    /// Are lanes gathered?
+    pub gathers: bool,
+    /// Are numbers multiplied and added?
+    pub fuses: bool,
+}
+
+/// Writes the equations down.
+pub(super) fn written(context: &Context, packed: &Packed) -> Written {
+    let mut writer = Writer {
+        context,
+        packed,
+        names: names::of_vectors(packed),
+        uses: uses(packed),
+        depth: HashMap::new(),
+        bound: HashMap::new(),
+        lets: TokenStream::new(),
+        temporaries: 0,
+    };
+    let state = writer.state();
+    writer.constants();
+    packed.steps.iter().for_each(|step| writer.bind(*step));
+    let rates = packed.rates.iter().map(|rate| writer.expression(Step::Vector(*rate)).0).collect();
+    let makes = |wanted: &dyn Fn(Four) -> bool| {
+        packed.steps.iter().any(|step| matches!(step, Step::Vector(k) if wanted(packed.vectors[*k].made)))
+    };
+    let fused =
+        |step: &Step| matches!(step, Step::Scalar(v) if matches!(packed.program.steps[*v], Op::MulAdd(..)));
+    Written {
+        state,
+        lets: writer.lets,
+        rates,
+        broadcasts: makes(&|four| matches!(four, Four::All(_))),
+        gathers: makes(&|four| matches!(four, Four::Gathered(_))),
+        fuses: packed.steps.iter().any(fused),
+    }
+}
+
+/// How often each step is read.
+fn uses(packed: &Packed) -> HashMap<Step, usize> {
+    let mut uses = HashMap::new();
+    let mut read = |step: Step| *uses.entry(step).or_default() += 1;
+    for step in &packed.steps {
+        packed.operands(*step).into_iter().for_each(&mut read);
+    }
+    packed.rates.iter().for_each(|rate| read(Step::Vector(*rate)));
+    uses
+}
+
+struct Writer<'a> {
+    context: &'a Context<'a>,
+    packed: &'a Packed,
+    /// Names of vectors.
+    names: Vec<Option<String>>,
+    uses: HashMap<Step, usize>,
+    /// How deep the expression of each step is nested.
+    depth: HashMap<Step, usize>,
+    bound: HashMap<Step, Ident>,
+    lets: TokenStream,
+    temporaries: usize,
+}
+
+impl Writer<'_> {
+    /// The vectors of the state: those that are read have names.
+    fn state(&mut self) -> Vec<TokenStream> {
+        let mut bound = Vec::new();
+        for (k, _) in self.packed.state.iter().enumerate() {
+            let step = Step::Vector(k);
+            match (&self.names[k], self.uses.contains_key(&step)) {
+                (Some(name), true) => {
+                    let name = format_ident!("{name}");
+                    bound.push(quote!(#name));
+                    self.bound.insert(step, name);
+                }
+                _ => bound.push(quote!(_)),
+            }
+        }
+        bound
+    }
+
+    /// Numbers first, named by their exact value.
+    fn constants(&mut self) {
+        let mut roots = 0;
+        for step in &self.packed.steps {
+            if let Step::Scalar(value) = step
+                && let Op::Constant(exact) = &self.packed.program.steps[*value]
+            {
+                let (name, exact) = (name_of(exact, &mut roots), Number::Double.exact(exact));
+                self.lets.extend(quote!(let #name = #exact;));
+                self.bound.insert(*step, name);
+            }
+        }
+    }
+
+    fn bind(&mut self, step: Step) {
+        if self.bound.contains_key(&step) {
+            return;
+        }
+        let is_light = match step {
+            Step::Scalar(value) => matches!(self.packed.program.steps[value], Op::Neg(_)),
+            Step::Vector(index) => {
+                matches!(self.packed.vectors[index].made, Four::All(_) | Four::Neg(_))
+            }
+        };
+        let nested = self.packed.operands(step).into_iter().filter(|s| !self.bound.contains_key(s));
+        let depth = nested.filter_map(|s| self.depth.get(&s)).max().copied().unwrap_or(0);
+        self.depth.insert(step, depth + usize::from(!is_light));
+        let uses = self.uses.get(&step).copied().unwrap_or(0);
+        let name = match self.name(step) {
+            Some(name) => name,
+            None if is_light || (uses < 2 && depth + 1 < DEEPEST) => return,
+            None => {
+                self.temporaries += 1;
+                format!("t{}", self.temporaries)
+            }
+        };
+        let (name, (expression, _)) = (format_ident!("{name}"), self.expression(step));
+        self.lets.extend(quote!(let #name = #expression;));
+        self.bound.insert(step, name);
+    }
+
+    /// The name of what a step computes.
+    fn name(&self, step: Step) -> Option<String> {
+        match step {
+            Step::Scalar(value) => names::name(self.packed, value).map(str::to_owned),
+            Step::Vector(index) => self.names[index].clone(),
+        }
+    }
+
+    /// A value of the scalar program, from its lane if it has one.
+    fn value(&self, value: Value) -> (TokenStream, Strength) {
+        if let Op::Input(name) = &self.packed.program.steps[value]
+            && self.packed.lane(value).is_none()
+        {
+            let name = format_ident!("{name}");
+            return (quote!(#name), Strength::Atom);
+        }
+        match self.packed.lane(value) {
+            Some((index, lane)) => {
+                let (vector, lane) = (self.at_least(Step::Vector(index), Strength::Atom), number(lane));
+                (quote!(#vector[#lane]), Strength::Atom)
+            }
+            None => self.expression(Step::Scalar(value)),
+        }
+    }
+
+    fn expression(&self, step: Step) -> (TokenStream, Strength) {
+        if let Some(name) = self.bound.get(&step) {
+            return (quote!(#name), Strength::Atom);
+        }
+        match step {
+            Step::Scalar(value) => self.scalar(&self.packed.program.steps[value]),
+            Step::Vector(index) => self.vector(index),
+        }
+    }
+
+    fn scalar(&self, op: &Op) -> (TokenStream, Strength) {
+        let rt = &self.context.names.rt;
+        let operand = |value: &Value| self.value(*value);
+        match op {
+            Op::Input(name) => {
+                let name = format_ident!("{name}");
+                (quote!(#name), Strength::Atom)
+            }
+            Op::Constant(exact) => (Number::Double.exact(exact), Strength::Sign),
+            Op::Call(function, a) => {
+                let (name, a) = (format_ident!("{}", function.name()), operand(a).0);
+                (quote!(#rt::Scalar::#name(#a)), Strength::Atom)
+            }
+            Op::Neg(a) => negative(operand(a)),
+            Op::Add(a, b) => infix(operand(a), quote!(+), operand(b), (Strength::Sum, Strength::Sum)),
+            Op::Sub(a, b) => {
+                infix(operand(a), inner(quote!(-)), operand(b), (Strength::Sum, Strength::Product))
+            }
+            Op::Mul(a, b) => product(operand(a), operand(b)),
+            Op::Div(a, b) => infix(operand(a), quote!(/), operand(b), (Strength::Product, Strength::Sign)),
+            Op::MulAdd(a, b, c) => fused(operand(a), operand(b), operand(c)),
+        }
+    }
+
+    fn vector(&self, index: Index) -> (TokenStream, Strength) {
+        let operand = |index: Index| self.expression(Step::Vector(index));
+        match self.packed.vectors[index].made {
+            // Bound where it is read.
+            Four::State(_) => (TokenStream::new(), Strength::Atom),
+            Four::All(value) => {
+                let value = self.value(value).0;
+                (quote!(all(#value)), Strength::Atom)
+            }
+            Four::Gathered(lanes) => {
+                let lanes = lanes.map(|lane| match lane {
+                    Lane::Free => quote!(0.0),
+                    Lane::MinusZero => quote!(-0.0),
+                    Lane::Of(value) => self.value(value).0,
+                    Lane::Minus(value) => negative(self.value(value)).0,
+                });
+                (quote!(four([#(#lanes),*])), Strength::Atom)
+            }
+            Four::Neg(a) => negative(operand(a)),
+            Four::Add(a, b) => infix(operand(a), quote!(+), operand(b), (Strength::Sum, Strength::Sum)),
+            Four::Sub(a, b) => {
+                infix(operand(a), inner(quote!(-)), operand(b), (Strength::Sum, Strength::Product))
+            }
+            Four::Mul(a, b) => product(operand(a), operand(b)),
+            Four::MulAdd(a, b, c) => fused(operand(a), operand(b), operand(c)),
+        }
+    }
+
+    fn at_least(&self, step: Step, least: Strength) -> TokenStream {
+        at_least(self.expression(step), least)
+    }
+}
+
+fn at_least((tokens, strength): (TokenStream, Strength), least: Strength) -> TokenStream {
+    if strength < least { quote!((#tokens)) } else { tokens }
+}
+
+fn negative(operand: (TokenStream, Strength)) -> (TokenStream, Strength) {
+    let operand = at_least(operand, Strength::Sign);
+    let minus = inner(quote!(-));
+    (quote!(#minus #operand), Strength::Sign)
+}
+
+fn infix(
+    a: (TokenStream, Strength),
+    sign: TokenStream,
+    b: (TokenStream, Strength),
+    (own, right): (Strength, Strength),
+) -> (TokenStream, Strength) {
+    let (a, b) = (at_least(a, own), at_least(b, right));
+    (quote!(#a #sign #b), own)
+}
+
+fn product(a: (TokenStream, Strength), b: (TokenStream, Strength)) -> (TokenStream, Strength) {
+    infix(a, inner(quote!(*)), b, (Strength::Product, Strength::Product))
+}
+
+fn fused(
+    a: (TokenStream, Strength),
+    (b, _): (TokenStream, Strength),
+    (c, _): (TokenStream, Strength),
+) -> (TokenStream, Strength) {
+    let a = at_least(a, Strength::Atom);
+    (quote!(#a.fma(#b, #c)), Strength::Atom)
+}

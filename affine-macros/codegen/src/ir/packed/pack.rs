@@ -1,0 +1,303 @@
+//! Vectors from the results down.
+
+use super::{Four, Index, Lane, Lanes, OF_A_SUM, Vector, weight};
+use crate::ir::{Op, Program, Value};
+
+/// Vectors that are in no order yet.
+pub(super) struct Draft {
+    pub(super) state: Vec<[Option<usize>; 4]>,
+    pub(super) vectors: Vec<Vector>,
+    /// The rates of the vectors of the state.
+    pub(super) rates: Vec<Index>,
+    /// Instructions of all, and of the scalar steps that they need, about.
+    pub(super) cost: usize,
+}
+
+/// The vectors that make the rates of those of the state.
+pub(super) fn pack(program: &Program, names: &[String], state: Vec<[Option<usize>; 4]>) -> Draft {
+    let input =
+        |name: &String| program.steps.iter().position(|op| matches!(op, Op::Input(own) if own == name));
+    let inputs: Vec<Option<Value>> = names.iter().map(input).collect();
+    let lanes_of = |vector: &[Option<usize>; 4], value: &dyn Fn(usize) -> Option<Value>| {
+        vector.map(|component| component.and_then(value).map_or(Lane::Free, Lane::Of))
+    };
+    let of_state = state.iter().enumerate().map(|(k, vector)| Vector {
+        lanes: lanes_of(vector, &|component| inputs[component]),
+        made: Four::State(k),
+    });
+    let mut packer = Packer { program, fixed: fixed(program, names), vectors: of_state.collect() };
+    let rates =
+        state.iter().map(|vector| packer.pack(lanes_of(vector, &|k| Some(program.outputs[k].1)))).collect();
+    let cost = packer.cost() + OF_A_SUM * state.len();
+    Draft { state, vectors: packer.vectors, rates, cost }
+}
+
+/// Values that are the same at every state.
+fn fixed(program: &Program, state: &[String]) -> Vec<bool> {
+    let mut fixed: Vec<bool> = Vec::with_capacity(program.steps.len());
+    for op in &program.steps {
+        let is_fixed = match op {
+            Op::Input(name) => name != "t" && !state.contains(name),
+            op => op.operands().into_iter().all(|v| fixed[v]),
+        };
+        fixed.push(is_fixed);
+    }
+    fixed
+}
+
+/// Instructions of a vector, about.
+pub(super) fn cost(program: &Program, four: Four) -> usize {
+    match four {
+        Four::State(_) | Four::Neg(_) => 0,
+        // A number in memory goes to all lanes as it is read.
+        Four::All(value) => usize::from(!matches!(program.steps[value], Op::Constant(_))),
+        Four::Gathered(lanes) => lanes
+            .into_iter()
+            .filter_map(Lane::value)
+            .filter(|v| !matches!(program.steps[*v], Op::Constant(_)))
+            .count(),
+        Four::Add(..) | Four::Sub(..) | Four::Mul(..) => 1,
+        Four::MulAdd(..) => 2,
+    }
+}
+
+struct Packer<'p> {
+    program: &'p Program,
+    fixed: Vec<bool>,
+    vectors: Vec<Vector>,
+}
+
+/// Operands of the lanes of a vector.
+type Operands<const K: usize> = [Lanes; K];
+
+impl Packer<'_> {
+    /// The vector with these lanes.
+    fn pack(&mut self, lanes: Lanes) -> Index {
+        let lanes = lanes.map(|lane| self.without_sign(lane));
+        if let Some(known) = self.known(lanes) {
+            return known;
+        }
+        if let Some(positive) = opposite(lanes) {
+            let positive = self.pack(positive);
+            return self.push(lanes, Four::Neg(positive));
+        }
+        if let Some(value) = single(lanes) {
+            return self.push(lanes, Four::All(value));
+        }
+        if lanes.iter().filter_map(|lane| lane.value()).all(|v| self.fixed[v]) {
+            return self.push(lanes, Four::Gathered(lanes));
+        }
+        self.cheaper(lanes)
+    }
+
+    /// By one operation, or gathered.
+    fn cheaper(&mut self, lanes: Lanes) -> Index {
+        let mark = self.vectors.len();
+        let Some(together) = self.together(lanes) else { return self.push(lanes, Four::Gathered(lanes)) };
+        let cost_together = self.cost();
+        let made = self.vectors.split_off(mark);
+        let gathered = self.push(lanes, Four::Gathered(lanes));
+        if self.cost() < cost_together {
+            return gathered;
+        }
+        self.vectors.truncate(mark);
+        self.vectors.extend(made);
+        together
+    }
+
+    /// By the operation that makes every lane.
+    fn together(&mut self, lanes: Lanes) -> Option<Index> {
+        let is = |wanted: &dyn Fn(&Op) -> bool| {
+            lanes.iter().filter_map(|lane| lane.value()).any(|v| wanted(&self.program.steps[v]))
+        };
+        let any_product = is(&|op| matches!(op, Op::Mul(..)));
+        let any_fused = is(&|op| matches!(op, Op::MulAdd(..)));
+        // Of the other sign a sum has no operands here.
+        let any_sum = lanes.iter().any(
+            |lane| matches!(lane, Lane::Of(v) if matches!(self.program.steps[*v], Op::Add(..) | Op::Sub(..))),
+        );
+        let made = if any_fused {
+            let [a, b, c] = self.operands(lanes, Self::as_fused)?;
+            let [a, b] = self.aligned([a, b]);
+            let [a, b, c] = [a, b, c].map(|operand| self.pack(operand));
+            Four::MulAdd(a, b, c)
+        } else if let (true, Some(factors)) = (any_product, self.operands(lanes, Self::as_product)) {
+            let factors = self.aligned(factors);
+            let [a, b] = factors.map(|operand| self.pack(operand));
+            Four::Mul(a, b)
+        } else if let (true, Some(terms)) = (any_sum, self.operands(lanes, Self::as_difference)) {
+            let [a, b] = terms.map(|operand| self.pack(operand));
+            Four::Sub(a, b)
+        } else if any_sum {
+            let terms = self.operands(lanes, |packer, lane| Some(packer.as_sum(lane)))?;
+            let terms = self.aligned(terms);
+            let [a, b] = terms.map(|operand| self.pack(operand));
+            Four::Add(a, b)
+        } else {
+            return None;
+        };
+        Some(self.push(lanes, made))
+    }
+
+    /// The operands of each lane.
+    fn operands<const K: usize>(
+        &self,
+        lanes: Lanes,
+        of: impl Fn(&Self, Lane) -> Option<[Lane; K]>,
+    ) -> Option<Operands<K>> {
+        let mut operands = [[Lane::Free; 4]; K];
+        for (place, lane) in lanes.into_iter().enumerate().filter(|(_, lane)| *lane != Lane::Free) {
+            for (operand, entry) in operands.iter_mut().zip(of(self, lane)?) {
+                operand[place] = entry;
+            }
+        }
+        Some(operands)
+    }
+
+    fn as_fused(&self, lane: Lane) -> Option<[Lane; 3]> {
+        match lane {
+            Lane::Of(v) if let Op::MulAdd(a, b, c) = self.program.steps[v] => Some([a, b, c].map(Lane::Of)),
+            // A product with nothing added.
+            lane => self.as_product(lane).map(|[a, b]| [a, b, Lane::MinusZero]),
+        }
+    }
+
+    fn as_product(&self, lane: Lane) -> Option<[Lane; 2]> {
+        match (lane, &self.program.steps[lane.value()?]) {
+            (Lane::Of(_), Op::Mul(a, b)) => Some([Lane::Of(*a), Lane::Of(*b)]),
+            (_, Op::Mul(a, b)) => Some([Lane::Minus(*a), Lane::Of(*b)]),
+            _ => None,
+        }
+    }
+
+    fn as_difference(&self, lane: Lane) -> Option<[Lane; 2]> {
+        match lane {
+            Lane::Of(v) if let Op::Sub(a, b) = self.program.steps[v] => Some([Lane::Of(a), Lane::Of(b)]),
+            _ => None,
+        }
+    }
+
+    fn as_sum(&self, lane: Lane) -> [Lane; 2] {
+        match lane {
+            Lane::Of(v) => match self.program.steps[v] {
+                Op::Add(a, b) => [Lane::Of(a), Lane::Of(b)],
+                Op::Sub(a, b) => [Lane::Of(a), Lane::Minus(b)],
+                _ => [lane, Lane::MinusZero],
+            },
+            lane => [lane, Lane::MinusZero],
+        }
+    }
+
+    /// Operands that may be exchanged, lane by lane, so that they are vectors that are known, or cheap.
+    fn aligned(&self, [a, b]: Operands<2>) -> Operands<2> {
+        let mut wanted: Vec<Lanes> = self.vectors.iter().map(|vector| vector.lanes).collect();
+        let entries = a.iter().chain(&b).filter(|lane| lane.value().is_some());
+        wanted.extend(entries.map(|lane| [*lane; 4]));
+        let exchanged = wanted.into_iter().filter_map(|wanted| exchanged([a, b], wanted));
+        let mut best = [a, b];
+        for other in exchanged {
+            if self.difficulty(other) < self.difficulty(best) {
+                best = other;
+            }
+        }
+        best
+    }
+
+    /// A guess at what it costs to have these vectors.
+    fn difficulty(&self, operands: Operands<2>) -> usize {
+        let of = |lanes: Lanes| {
+            let lanes = lanes.map(|lane| self.without_sign(lane));
+            let is_fixed = lanes.iter().filter_map(|lane| lane.value()).all(|v| self.fixed[v]);
+            if is_fixed || self.known(lanes).is_some() {
+                0
+            } else if single(lanes).is_some() {
+                1
+            } else {
+                4
+            }
+        };
+        operands.into_iter().map(of).sum()
+    }
+
+    /// A vector that has these lanes.
+    fn known(&self, lanes: Lanes) -> Option<Index> {
+        let has = |vector: &Vector| {
+            vector.lanes.iter().zip(lanes).all(|(own, lane)| lane == Lane::Free || *own == lane)
+        };
+        self.vectors.iter().position(has)
+    }
+
+    /// `-a` as the other sign of `a`.
+    fn without_sign(&self, lane: Lane) -> Lane {
+        match lane {
+            Lane::Of(v) if let Op::Neg(a) = self.program.steps[v] => self.without_sign(Lane::Minus(a)),
+            Lane::Minus(v) if let Op::Neg(a) = self.program.steps[v] => self.without_sign(Lane::Of(a)),
+            lane => lane,
+        }
+    }
+
+    fn push(&mut self, lanes: Lanes, made: Four) -> Index {
+        let all = match made {
+            Four::All(value) => [Lane::Of(value); 4],
+            _ => lanes,
+        };
+        self.vectors.push(Vector { lanes: all, made });
+        self.vectors.len() - 1
+    }
+
+    /// Instructions of all vectors, and of the scalar steps that they need.
+    fn cost(&self) -> usize {
+        // What is found in a lane needs no step.
+        let mut found = vec![false; self.program.steps.len()];
+        for vector in self.vectors.iter().filter(|vector| vector.made.makes()) {
+            vector.lanes.iter().for_each(|lane| {
+                if let Lane::Of(value) = lane {
+                    found[*value] = true;
+                }
+            });
+        }
+        let mut open: Vec<Value> = self.vectors.iter().flat_map(|vector| vector.made.values()).collect();
+        let mut cost = self.vectors.iter().map(|vector| cost(self.program, vector.made)).sum();
+        while let Some(value) = open.pop() {
+            if !found[value] {
+                found[value] = true;
+                cost += weight(&self.program.steps[value]);
+                open.extend(self.program.steps[value].operands());
+            }
+        }
+        cost
+    }
+}
+
+/// The same lanes with the other sign, where all have one.
+fn opposite(lanes: Lanes) -> Option<Lanes> {
+    let positive = lanes.map(|lane| match lane {
+        Lane::Minus(value) => Lane::Of(value),
+        lane => lane,
+    });
+    let all = lanes.iter().all(|lane| matches!(lane, Lane::Free | Lane::Minus(_)));
+    (all && positive != lanes).then_some(positive)
+}
+
+/// The value that stands in all lanes.
+fn single(lanes: Lanes) -> Option<Value> {
+    let mut read = lanes.into_iter().filter(|lane| *lane != Lane::Free);
+    match read.next() {
+        Some(Lane::Of(value)) => read.all(|lane| lane == Lane::Of(value)).then_some(value),
+        _ => None,
+    }
+}
+
+/// Operands exchanged lane by lane so that the first is `wanted`, where that can be.
+fn exchanged([a, b]: Operands<2>, wanted: Lanes) -> Option<Operands<2>> {
+    let mut first = [Lane::Free; 4];
+    let mut second = [Lane::Free; 4];
+    for lane in (0..4).filter(|lane| a[*lane] != Lane::Free) {
+        (first[lane], second[lane]) = match wanted[lane] {
+            entry if entry == a[lane] => (a[lane], b[lane]),
+            entry if entry == b[lane] => (b[lane], a[lane]),
+            _ => return None,
+        };
+    }
+    Some([first, second])
+}

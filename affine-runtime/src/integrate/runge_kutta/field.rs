@@ -1,0 +1,144 @@
+//! What a Runge-Kutta method integrates, in the variables in which its steps are taken.
+
+use core::marker::PhantomData;
+
+use crate::integrate::lie::{Coordinates, Flat, Sum};
+use crate::integrate::packed::{self, Packing};
+use crate::integrate::stages;
+use crate::integrate::taylor::Vectors;
+use crate::model::StateVector;
+use crate::scalar::Scalar;
+
+/// `z' = f(t, z)` as the stages of a step see it, and the sums over them.
+pub trait Stages<L: StateVector<f64>> {
+    /// `f(t, z)`.
+    fn slope(&self, t: f64, z: &L) -> L;
+
+    /// `sum_j a_j k_j` of pairs (stage, coefficient), stages counted from 1.
+    #[inline(always)]
+    fn combination<const TERMS: usize>(&self, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
+        stages::combination(stages, row)
+    }
+
+    /// `z + h rise`.
+    #[inline(always)]
+    fn plus_multiple(&self, z: &L, h: f64, rise: &L) -> L {
+        let mut sum = *rise;
+        for (sum, z) in sum.as_mut().iter_mut().zip(z.as_ref()) {
+            *sum = sum.fma(h, *z);
+        }
+        sum
+    }
+}
+
+impl<L: StateVector<f64>, F: Fn(f64, &L) -> L> Stages<L> for F {
+    #[inline(always)]
+    fn slope(&self, t: f64, z: &L) -> L {
+        self(t, z)
+    }
+}
+
+/// `y' = f(t, y)` of states `S` with what steps are taken in: `L` is how coordinates of the kind `C` are stored.
+///
+/// Functions of states are such, with `L = S`; [`InVectors`] is the other kind.
+pub trait Field<S, C, L: StateVector<f64>> {
+    /// `f(t, y)`.
+    fn rate(&self, t: f64, y: &S) -> S;
+
+    /// Coordinates, or a rate of them, as they are stored.
+    fn stored(&self, z: &S) -> L;
+
+    /// And back.
+    fn read(&self, stored: &L) -> S;
+
+    /// `z'` as a function of time and of coordinates around `base`.
+    fn stages(&self, vectors: impl Vectors, coordinates: C, base: &Sum<S>) -> impl Stages<L>;
+
+    /// `f` at the state `y` with the coordinates `z`, and `z'` there.
+    fn at(&self, vectors: impl Vectors, coordinates: C, t: f64, place: (&S, &L)) -> (S, L);
+}
+
+impl<S: StateVector<f64>, C: Coordinates<S>, F: Fn(f64, &S) -> S> Field<S, C, S> for F {
+    #[inline(always)]
+    fn rate(&self, t: f64, y: &S) -> S {
+        self(t, y)
+    }
+    #[inline(always)]
+    fn stored(&self, z: &S) -> S {
+        *z
+    }
+    #[inline(always)]
+    fn read(&self, stored: &S) -> S {
+        *stored
+    }
+    #[inline(always)]
+    fn stages(&self, _vectors: impl Vectors, coordinates: C, base: &Sum<S>) -> impl Stages<S> {
+        move |t: f64, z: &S| {
+            let state = coordinates.state(base, z).value;
+            coordinates.velocity(&state, z, &self(t, &state))
+        }
+    }
+    #[inline(always)]
+    fn at(&self, _vectors: impl Vectors, coordinates: C, t: f64, (y, z): (&S, &S)) -> (S, S) {
+        let rate = self(t, y);
+        (rate, coordinates.velocity(y, z, &rate))
+    }
+}
+
+/// Equations whose steps are taken in vectors of four, and the constants of the trajectory.
+#[derive(Clone, Copy, Debug)]
+pub struct InVectors<R, K>(pub R, pub K);
+
+impl<S: StateVector<f64>, K, R: Packing<S, K>> Field<S, Flat, R::Packed> for InVectors<R, K> {
+    #[inline(always)]
+    fn rate(&self, t: f64, y: &S) -> S {
+        let Self(packing, constants) = self;
+        packing.unpacked(&packing.slope(crate::integrate::taylor::Portable, t, constants, &packing.packed(y)))
+    }
+    #[inline(always)]
+    fn stored(&self, z: &S) -> R::Packed {
+        self.0.packed(z)
+    }
+    #[inline(always)]
+    fn read(&self, stored: &R::Packed) -> S {
+        self.0.unpacked(stored)
+    }
+    #[inline(always)]
+    fn stages(&self, vectors: impl Vectors, _: Flat, _: &Sum<S>) -> impl Stages<R::Packed> {
+        StagesInVectors { field: self, vectors, state: PhantomData }
+    }
+    #[inline(always)]
+    fn at(&self, vectors: impl Vectors, _: Flat, t: f64, (_, z): (&S, &R::Packed)) -> (S, R::Packed) {
+        let Self(packing, constants) = self;
+        let slope = packing.slope(vectors, t, constants, z);
+        (packing.unpacked(&slope), slope)
+    }
+}
+
+/// Slopes and sums over stages on the vectors of a processor. No closure: of those compilers decide by themselves
+/// whether they become part of what is compiled for these vectors.
+struct StagesInVectors<'f, S, R, K, V> {
+    field: &'f InVectors<R, K>,
+    vectors: V,
+    state: PhantomData<S>,
+}
+
+impl<S, K, R: Packing<S, K>, V: Vectors> Stages<R::Packed> for StagesInVectors<'_, S, R, K, V> {
+    #[inline(always)]
+    fn slope(&self, t: f64, z: &R::Packed) -> R::Packed {
+        let InVectors(packing, constants) = self.field;
+        packing.slope(self.vectors, t, constants, z)
+    }
+    #[inline(always)]
+    fn combination<const TERMS: usize>(
+        &self,
+        stages: &[R::Packed],
+        row: &[(usize, f64); TERMS],
+    ) -> R::Packed {
+        packed::combination(self.vectors, stages, row)
+    }
+    #[inline(always)]
+    fn plus_multiple(&self, z: &R::Packed, h: f64, rise: &R::Packed) -> R::Packed {
+        packed::plus_multiple(self.vectors, z, h, rise)
+    }
+}
