@@ -3,8 +3,8 @@
 mod lanes;
 
 pub use lanes::{
-    Portable, Vectors, add_multiple, add_products, divided, lanes, set_lanes, subtract_multiple,
-    subtract_products,
+    Portable, Vectors, add_multiple, add_pair, add_products, divided, doubled, halved, halves, lanes,
+    set_lanes, subtract_multiple, subtract_pair, subtract_products,
 };
 
 use core::fmt;

@@ -158,7 +158,7 @@ impl Writer<'_> {
         let (early_vectors, late_vectors) = (self.vectors(true), self.vectors(false));
         let stored = self.stored();
         let middle = self.loops();
-        let ends = self.recurrence.full.iter().map(|pass| self.ends(pass));
+        let ends = self.ends();
         let rates = self.recurrence.program.outputs.iter().map(|(_, v)| match self.recurrence.moving[*v] {
             true => {
                 let rate = self.ident(*v);
@@ -198,7 +198,7 @@ impl Writer<'_> {
                 #bind
                 #(#early)*
                 #early_vectors
-                #(#ends)*
+                #ends
                 #(#late)*
                 #late_vectors
                 #stored

@@ -72,7 +72,7 @@ pub struct Column {
     pub sum: usize,
 }
 
-/// One multiplication of vectors in a convolution: `sum += left_j right_(k-j)`.
+/// One multiplication of vectors in a convolution: `sum += left_j right_(k-j)`. Squares and others have sums apart.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pass {
     /// Which sum.
@@ -83,6 +83,14 @@ pub struct Pass {
     pub left: usize,
     /// The right factor.
     pub right: Factor,
+}
+
+impl Pass {
+    /// A vector with itself: the terms `j` and `k - j` are equal.
+    #[must_use]
+    pub fn is_square(&self) -> bool {
+        self.right == Factor::Vector(self.left)
+    }
 }
 
 /// The right factor of a [`Pass`].

@@ -17,6 +17,10 @@ pub trait Vectors: Copy {
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
     /// `sum - left right`, lane by lane.
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
+    /// `sum + (left right + left' right')`, lane by lane: the sum waits for one addition.
+    fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4];
+    /// `sum - (left right + left' right')`, lane by lane.
+    fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4];
 }
 
 /// The vectors that every processor of the target has.
@@ -36,6 +40,16 @@ impl Vectors for Portable {
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
         f64x4::from(left).mul_neg_add(f64x4::from(right), f64x4::from(sum)).into()
     }
+    #[inline(always)]
+    fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x4::from));
+        (f64x4::from(sum) + one.mul_add(by, other * with)).into()
+    }
+    #[inline(always)]
+    fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x4::from));
+        (f64x4::from(sum) - one.mul_add(by, other * with)).into()
+    }
 }
 
 /// AVX2: found at run time on targets that do not promise it, so nothing is fused there either.
@@ -54,6 +68,16 @@ impl Vectors for pulp::x86::V3 {
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
         let product = self.mul_f64x4(pulp::cast(left), pulp::cast(right));
         pulp::cast(self.sub_f64x4(pulp::cast(sum), product))
+    }
+    #[inline(always)]
+    fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        let [one, other] = [one, other].map(|[a, b]| self.mul_f64x4(pulp::cast(a), pulp::cast(b)));
+        pulp::cast(self.add_f64x4(pulp::cast(sum), self.add_f64x4(one, other)))
+    }
+    #[inline(always)]
+    fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        let [one, other] = [one, other].map(|[a, b]| self.mul_f64x4(pulp::cast(a), pulp::cast(b)));
+        pulp::cast(self.sub_f64x4(pulp::cast(sum), self.add_f64x4(one, other)))
     }
 }
 
@@ -127,6 +151,73 @@ pub fn subtract_multiple<T: Scalar, const W: usize>(
     subtract_products(vectors, sum, left, [factor; W]);
 }
 
+/// `sum += left right + left' right'`, lane by lane: a product of two series has its terms in such pairs, `j` and `k - j`.
+#[inline(always)]
+pub fn add_pair<T: Scalar, const W: usize>(
+    vectors: impl Vectors,
+    sum: &mut [T; W],
+    one: [[T; W]; 2],
+    other: [[T; W]; 2],
+) {
+    if let Some((sum, one, other)) = pairs(sum, one, other) {
+        *sum = vectors.plus_pair(*sum, one, other);
+    } else if let Some((sum, one, other)) = pairs(sum, one, other) {
+        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x2::from));
+        *sum = (f64x2::from(*sum) + one.mul_add(by, other * with)).into();
+    } else {
+        for lane in 0..W {
+            sum[lane] += one[0][lane].fma(one[1][lane], other[0][lane] * other[1][lane]);
+        }
+    }
+}
+
+/// `sum -= left right + left' right'`, lane by lane.
+#[inline(always)]
+pub fn subtract_pair<T: Scalar, const W: usize>(
+    vectors: impl Vectors,
+    sum: &mut [T; W],
+    one: [[T; W]; 2],
+    other: [[T; W]; 2],
+) {
+    if let Some((sum, one, other)) = pairs(sum, one, other) {
+        *sum = vectors.minus_pair(*sum, one, other);
+    } else if let Some((sum, one, other)) = pairs(sum, one, other) {
+        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x2::from));
+        *sum = (f64x2::from(*sum) - one.mul_add(by, other * with)).into();
+    } else {
+        for lane in 0..W {
+            sum[lane] -= one[0][lane].fma(one[1][lane], other[0][lane] * other[1][lane]);
+        }
+    }
+}
+
+/// The rows before the middle, the one in the middle where their number is odd, those behind: a convolution pairs them
+/// off, from the middle on, so that what was computed last comes last.
+#[inline(always)]
+pub fn halves<R>(rows: &[R]) -> (&[R], Option<&R>, &[R]) {
+    let (low, rest) = rows.split_at(rows.len() / 2);
+    match rest {
+        [middle, high @ ..] if high.len() == low.len() => (low, Some(middle), high),
+        high => (low, None, high),
+    }
+}
+
+/// `vector/2`: the term in the middle of a square, whose other terms come in equal pairs and are formed once.
+#[inline(always)]
+pub fn halved<T: Scalar, const W: usize>(vectors: impl Vectors, vector: [T; W]) -> [T; W] {
+    let mut half = [T::zero(); W];
+    add_multiple(vectors, &mut half, vector, T::constant(0.5, 0.0));
+    half
+}
+
+/// `2 sum`: of a square, both terms of each pair.
+#[inline(always)]
+pub fn doubled<T: Scalar, const W: usize>(vectors: impl Vectors, sum: [T; W]) -> [T; W] {
+    let mut twice = sum;
+    add_multiple(vectors, &mut twice, sum, T::one());
+    twice
+}
+
 /// `left/divisor`, lane by lane.
 #[inline(always)]
 pub fn divided<T: Scalar, const W: usize>(vectors: impl Vectors, left: [T; W], divisor: T) -> [T; W] {
@@ -160,4 +251,18 @@ fn doubles<'s, T: Scalar, const W: usize, const V: usize>(
     let left: &[f64; V] = (left as &dyn Any).downcast_ref()?;
     let right: &[f64; V] = (right as &dyn Any).downcast_ref()?;
     Some(((sum as &mut dyn Any).downcast_mut()?, *left, *right))
+}
+
+/// The same of two products.
+#[inline(always)]
+#[allow(clippy::type_complexity, reason = "a name for two pairs of vectors would say less")]
+fn pairs<'s, T: Scalar, const W: usize, const V: usize>(
+    sum: &'s mut [T; W],
+    one: [[T; W]; 2],
+    other: [[T; W]; 2],
+) -> Option<(&'s mut [f64; V], [[f64; V]; 2], [[f64; V]; 2])> {
+    let (sum, left, right) = doubles(sum, &one[0], &one[1])?;
+    let (mut unread, with) = (other[0], &other[1]);
+    let (_, other, with) = doubles(&mut unread, &other[0], with)?;
+    Some((sum, [left, right], [other, with]))
 }

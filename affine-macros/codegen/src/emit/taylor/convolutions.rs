@@ -7,10 +7,8 @@ use super::super::number;
 use super::Writer;
 use crate::ir::taylor::{Factor, Pass, Place, Recurrence, Series, sums};
 
-/// Sums that are formed in one loop: with four lanes each, twelve registers of the narrowest vector unit. Nine in one loop,
-/// several accumulators to a sum, and the newest row behind the loop were all measured, and no faster: some of these
-/// registers then live on the stack.
-const SUMS_PER_LOOP: usize = 6;
+/// Sums that are formed in one loop.
+const SUMS_PER_LOOP: usize = 9;
 
 impl Writer<'_> {
     /// The vectors of ready series, or the others: all lanes of a row that begin at `slot`.
@@ -57,9 +55,10 @@ impl Writer<'_> {
         quote!(#(#columns)* #(#singles)*)
     }
 
-    /// The terms `j = 1..k` of all convolutions.
+    /// The terms `0 < j < k` of all convolutions, in pairs `j` and `k - j`. The pair that has the newest row comes last: no
+    /// other waits for it.
     pub(super) fn loops(&self) -> TokenStream {
-        let t = &self.context.names.scalar;
+        let (rt, t) = (&self.context.names.rt, &self.context.names.scalar);
         let lanes = number(self.recurrence.lanes);
         let all = [("full", &self.recurrence.full), ("inner", &self.recurrence.inner)];
         let sums: Vec<(&str, usize)> =
@@ -68,75 +67,114 @@ impl Writer<'_> {
             all.iter().flat_map(|(stem, passes)| passes.iter().map(move |pass| (*stem, pass))).collect();
         let blocks = sums.chunks(SUMS_PER_LOOP).map(|block| {
             let names = block.iter().map(|(stem, sum)| self.sum(stem, *sum));
-            let own = passes.iter().filter(|(stem, pass)| block.contains(&(*stem, pass.sum)));
-            let statements = own.map(|(stem, pass)| {
-                let (left, right) = self.factors(pass, &quote!(left), &quote!(right));
-                self.pass(stem, pass, &left, &right)
+            let own = || passes.iter().filter(|(stem, pass)| block.contains(&(*stem, pass.sum)));
+            let centres = own().map(|(stem, pass)| self.centre(stem, pass));
+            let pairs = own().map(|(stem, pass)| {
+                let [left, right] = [quote!(left), quote!(right)].map(|row| self.factors(pass, &row));
+                self.pair(stem, pass, left, right)
             });
             quote! {
                 #(let mut #names = [#t::zero(); #lanes];)*
-                for (left, right) in middle.iter().zip(middle.iter().rev()) {
-                    #(#statements)*
+                if let ::core::option::Option::Some(centre) = centre {
+                    #(#centres)*
+                }
+                for (left, right) in low.iter().rev().zip(high) {
+                    #(#pairs)*
                 }
             }
         });
-        blocks.collect()
+        let halves = (!sums.is_empty()).then(|| quote!(let (low, centre, high) = #rt::halves(middle);));
+        let doubled = self.doubled("inner", &self.recurrence.inner);
+        quote!(#halves #(#blocks)* #doubled)
     }
 
-    /// The terms `j = 0` and `j = k` of a full convolution.
-    pub(super) fn ends(&self, pass: &Pass) -> TokenStream {
-        let (first_left, first_right) = self.factors(pass, &quote!(first), &quote!(first));
-        let left = self.vector(pass.left);
-        let right = match pass.right {
-            Factor::Vector(slot) => {
-                let right = self.vector(slot);
-                quote!(#right)
-            }
-            Factor::Slot(slot) if self.is_in_column(slot) => {
-                let (vector, lane) = (self.vector(slot), number(slot % self.recurrence.lanes));
-                quote!(#vector[#lane])
-            }
-            Factor::Slot(slot) => {
-                self.recurrence.row[slot].map(|series| self.current(series)).unwrap_or_default()
-            }
-        };
-        let one = self.pass("full", pass, &first_left, &right);
-        let other = self.pass("full", pass, &quote!(#left), &first_right);
-        quote!(#one #other)
+    /// The terms `j = 0` and `j = k` of the full convolutions.
+    pub(super) fn ends(&self) -> TokenStream {
+        let ends = self.recurrence.full.iter().map(|pass| {
+            let left = self.vector(pass.left);
+            let right = match pass.right {
+                Factor::Vector(slot) => {
+                    let right = self.vector(slot);
+                    quote!(#right)
+                }
+                Factor::Slot(slot) => {
+                    let entry = self.newest(slot);
+                    self.in_all_lanes(&entry)
+                }
+            };
+            self.pair("full", pass, self.factors(pass, &quote!(first)), [quote!(#left), right])
+        });
+        let doubled = self.doubled("full", &self.recurrence.full);
+        quote!(#(#ends)* #doubled)
     }
 
-    /// The factors of a multiplication from two rows.
-    fn factors(&self, pass: &Pass, left: &TokenStream, right: &TokenStream) -> (TokenStream, TokenStream) {
+    /// What a slot holds at order `k`.
+    fn newest(&self, slot: usize) -> TokenStream {
+        if self.is_in_column(slot) {
+            let (vector, lane) = (self.vector(slot), number(slot % self.recurrence.lanes));
+            return quote!(#vector[#lane]);
+        }
+        self.recurrence.row[slot].map(|series| self.current(series)).unwrap_or_default()
+    }
+
+    /// The factors of a multiplication, both from one row.
+    fn factors(&self, pass: &Pass, row: &TokenStream) -> [TokenStream; 2] {
         let rt = &self.context.names.rt;
-        let vector = |row: &TokenStream, slot: usize| {
+        let vector = |slot: usize| {
             let slot = number(slot);
             quote!(#rt::lanes(#row, #slot))
         };
         let right = match pass.right {
-            Factor::Vector(slot) => vector(right, slot),
+            Factor::Vector(slot) => vector(slot),
             Factor::Slot(slot) => {
                 let slot = number(slot);
-                quote!(#right[#slot])
+                self.in_all_lanes(&quote!(#row[#slot]))
             }
         };
-        (vector(left, pass.left), right)
+        [vector(pass.left), right]
+    }
+
+    fn in_all_lanes(&self, entry: &TokenStream) -> TokenStream {
+        let lanes = number(self.recurrence.lanes);
+        quote!([#entry; #lanes])
+    }
+
+    /// The terms `j` and `k - j` from the factors of two rows; of a square, one of two that are equal.
+    fn pair(&self, stem: &str, pass: &Pass, one: [TokenStream; 2], other: [TokenStream; 2]) -> TokenStream {
+        let rt = &self.context.names.rt;
+        let (sum, [a, b], [c, d]) = (self.sum(stem, pass.sum), one, other);
+        if pass.is_square() {
+            return self.product(pass, &sum, &a, &c);
+        }
+        let function = if pass.negative { quote!(subtract_pair) } else { quote!(add_pair) };
+        quote!(#rt::#function(vectors, &mut #sum, [#a, #d], [#c, #b]);)
+    }
+
+    /// The term `j = k/2`; of a square, half of it.
+    fn centre(&self, stem: &str, pass: &Pass) -> TokenStream {
+        let rt = &self.context.names.rt;
+        let [left, right] = self.factors(pass, &quote!(centre));
+        let left = if pass.is_square() { quote!(#rt::halved(vectors, #left)) } else { left };
+        self.product(pass, &self.sum(stem, pass.sum), &left, &right)
+    }
+
+    fn product(&self, pass: &Pass, sum: &Ident, left: &TokenStream, right: &TokenStream) -> TokenStream {
+        let rt = &self.context.names.rt;
+        let function = if pass.negative { quote!(subtract_products) } else { quote!(add_products) };
+        quote!(#rt::#function(vectors, &mut #sum, #left, #right);)
+    }
+
+    /// Squares from their halves.
+    fn doubled(&self, stem: &str, passes: &[Pass]) -> TokenStream {
+        let rt = &self.context.names.rt;
+        let mut squares: Vec<usize> = passes.iter().filter(|p| p.is_square()).map(|p| p.sum).collect();
+        squares.dedup();
+        let squares = squares.into_iter().map(|sum| self.sum(stem, sum));
+        quote!(#(let #squares = #rt::doubled(vectors, #squares);)*)
     }
 
     pub(super) fn sum(&self, stem: &str, sum: usize) -> Ident {
         format_ident!("{stem}_{}", sum + 1)
-    }
-
-    fn pass(&self, stem: &str, pass: &Pass, left: &TokenStream, right: &TokenStream) -> TokenStream {
-        let rt = &self.context.names.rt;
-        let sum = self.sum(stem, pass.sum);
-        let name = match (pass.negative, pass.right) {
-            (false, Factor::Vector(_)) => "add_products",
-            (true, Factor::Vector(_)) => "subtract_products",
-            (false, Factor::Slot(_)) => "add_multiple",
-            (true, Factor::Slot(_)) => "subtract_multiple",
-        };
-        let function = format_ident!("{name}");
-        quote!(#rt::#function(vectors, &mut #sum, #left, #right);)
     }
 
     /// A convolution that has been formed.
