@@ -8,7 +8,7 @@ use crate::dual::Dual;
 use crate::integrate::lie::Sum;
 use crate::integrate::nystrom::SecondOrder;
 use crate::integrate::splitting::Pieces;
-use crate::integrate::taylor::{Portable, Series, Vectors};
+use crate::integrate::taylor::{Divisor, Portable, Series, Vectors};
 use crate::lanes::{Lanes, in_lane};
 use crate::model::{Group, Model, StateVector};
 use crate::scalar::{Real, Scalar};
@@ -40,15 +40,22 @@ pub trait Taylor<const N: usize>: Model<N> {
     /// The columns of a coefficient.
     fn columns<T: Scalar>(coefficient: &Self::Reduced<T>) -> Self::Columns<T>;
 
-    /// `y_(k+1)` from `y_k`, for `k > 0`, and its columns; `order` is `k` and `k + 1`, by which rates are divided: a
-    /// reciprocal would be rounded the same way in every step, and the energy drift. The rows are those of the orders 0 to
-    /// k; fills the last one.
+    /// Writes what of an order above 0 follows from its coefficient alone, given with its columns, to its row.
+    fn ready<T: Scalar>(
+        &self,
+        constants: &Self::Constants<T>,
+        coefficient: (&Self::Reduced<T>, Self::Columns<T>),
+        row: &mut Self::Row<T>,
+    );
+
+    /// `y_(k+1)` from `y_k`, for `k > 0`, and its columns; `order` is `k` and `k + 1`, by which rates are divided. The rows
+    /// are those of the orders 0 to k; fills the slots of the last one that [`Taylor::ready`] left.
     fn next<T: Scalar>(
         &self,
         vectors: impl Vectors,
-        order: (T, T),
+        order: (T, Divisor<T>),
         constants: &Self::Constants<T>,
-        coefficient: (&Self::Reduced<T>, Self::Columns<T>),
+        coefficient: &Self::Reduced<T>,
         rows: &mut [Self::Row<T>],
     ) -> (Self::Reduced<T>, Self::Columns<T>);
 
@@ -76,13 +83,21 @@ pub trait Taylor<const N: usize>: Model<N> {
     ) {
         let highest = rows.len().min(coefficients.len().saturating_sub(1));
         let ([before, after, ..], [row, ..], 1..) = (&mut *coefficients, &mut *rows, highest) else { return };
-        *after = self.start(t, constants, before, row);
-        let (mut columns, mut order) = (Self::columns(after), T::one());
+        // A copy, which no row can be taken for: what follows from constants alone is computed once.
+        let constants = *constants;
+        *after = self.start(t, &constants, before, row);
+        if let Some(row) = rows.get_mut(1) {
+            self.ready(&constants, (after, Self::columns(after)), row);
+        }
+        let mut order = T::one();
         for k in 1..highest {
-            let (coefficient, next) = (coefficients[k], order + T::one());
-            (coefficients[k + 1], columns) =
-                self.next(vectors, (order, next), constants, (&coefficient, columns), &mut rows[..=k]);
-            order = next;
+            let by = (order, Divisor::of(k + 1));
+            let (next, columns) = self.next(vectors, by, &constants, &coefficients[k], &mut rows[..=k]);
+            coefficients[k + 1] = next;
+            if let Some(row) = rows.get_mut(k + 1) {
+                self.ready(&constants, (&next, columns), row);
+            }
+            order += T::one();
         }
     }
 }

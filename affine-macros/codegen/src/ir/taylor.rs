@@ -161,9 +161,12 @@ impl Recurrence {
     pub fn of(program: &Program, states: &[String]) -> Self {
         let program = companions::completed(&quotients::divided(program));
         let draft = rules::Draft::of(&program, states);
-        let Packed { lanes, row, vectors, full, inner, places } = lanes::pack(&draft.products, draft.kept());
+        let Packed { lanes, mut row, vectors, full, inner, places } =
+            lanes::pack(&draft.products, draft.kept());
         let rules = draft.rules(&places);
         let columns = columns::find(&program, states, &rules, (&row[..vectors], lanes));
+        // Vectors of all rows then begin at multiples of their length, and none lies across two lines of a cache.
+        row.resize(row.len().next_multiple_of(lanes), None);
         Self {
             columns,
             moving: draft.moving,

@@ -7,12 +7,13 @@ use core::any::Any;
 
 use wide::{f64x2, f64x4};
 
+use super::divisor::{Divisor, over};
 use crate::scalar::Scalar;
 
 /// Vectors of four doubles, as a processor has them; what it rounds is the same on all.
 pub trait Vectors: Copy {
-    /// `left/right`, lane by lane.
-    fn quotient(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4];
+    /// `left right + left' right'`, lane by lane.
+    fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4];
     /// `sum + left right`, lane by lane.
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
     /// `sum - left right`, lane by lane.
@@ -29,8 +30,9 @@ pub struct Portable;
 
 impl Vectors for Portable {
     #[inline(always)]
-    fn quotient(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        (f64x4::from(left) / f64x4::from(right)).into()
+    fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x4::from));
+        one.mul_add(by, other * with).into()
     }
     #[inline(always)]
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
@@ -42,13 +44,11 @@ impl Vectors for Portable {
     }
     #[inline(always)]
     fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x4::from));
-        (f64x4::from(sum) + one.mul_add(by, other * with)).into()
+        (f64x4::from(sum) + f64x4::from(self.pair(one, other))).into()
     }
     #[inline(always)]
     fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x4::from));
-        (f64x4::from(sum) - one.mul_add(by, other * with)).into()
+        (f64x4::from(sum) - f64x4::from(self.pair(one, other))).into()
     }
 }
 
@@ -56,8 +56,9 @@ impl Vectors for Portable {
 #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
 impl Vectors for pulp::x86::V3 {
     #[inline(always)]
-    fn quotient(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        pulp::cast(self.div_f64x4(pulp::cast(left), pulp::cast(right)))
+    fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        let [one, other] = [one, other].map(|[a, b]| self.mul_f64x4(pulp::cast(a), pulp::cast(b)));
+        pulp::cast(self.add_f64x4(one, other))
     }
     #[inline(always)]
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
@@ -71,13 +72,11 @@ impl Vectors for pulp::x86::V3 {
     }
     #[inline(always)]
     fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        let [one, other] = [one, other].map(|[a, b]| self.mul_f64x4(pulp::cast(a), pulp::cast(b)));
-        pulp::cast(self.add_f64x4(pulp::cast(sum), self.add_f64x4(one, other)))
+        pulp::cast(self.add_f64x4(pulp::cast(sum), pulp::cast(self.pair(one, other))))
     }
     #[inline(always)]
     fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        let [one, other] = [one, other].map(|[a, b]| self.mul_f64x4(pulp::cast(a), pulp::cast(b)));
-        pulp::cast(self.sub_f64x4(pulp::cast(sum), self.add_f64x4(one, other)))
+        pulp::cast(self.sub_f64x4(pulp::cast(sum), pulp::cast(self.pair(one, other))))
     }
 }
 
@@ -131,24 +130,13 @@ pub fn subtract_products<T: Scalar, const W: usize>(
 
 /// `sum += factor left`.
 #[inline(always)]
-pub fn add_multiple<T: Scalar, const W: usize>(
+pub(super) fn add_multiple<T: Scalar, const W: usize>(
     vectors: impl Vectors,
     sum: &mut [T; W],
     left: [T; W],
     factor: T,
 ) {
     add_products(vectors, sum, left, [factor; W]);
-}
-
-/// `sum -= factor left`.
-#[inline(always)]
-pub fn subtract_multiple<T: Scalar, const W: usize>(
-    vectors: impl Vectors,
-    sum: &mut [T; W],
-    left: [T; W],
-    factor: T,
-) {
-    subtract_products(vectors, sum, left, [factor; W]);
 }
 
 /// `sum += left right + left' right'`, lane by lane: a product of two series has its terms in such pairs, `j` and `k - j`.
@@ -218,17 +206,31 @@ pub fn doubled<T: Scalar, const W: usize>(vectors: impl Vectors, sum: [T; W]) ->
     twice
 }
 
+/// The rows but for the first and the last.
+#[inline(always)]
+pub fn between<R>(rows: &[R]) -> &[R] {
+    match rows {
+        [_, middle @ .., _] => middle,
+        _ => &[],
+    }
+}
+
 /// `left/divisor`, lane by lane.
 #[inline(always)]
-pub fn divided<T: Scalar, const W: usize>(vectors: impl Vectors, left: [T; W], divisor: T) -> [T; W] {
+pub fn divided<T: Scalar, const W: usize>(
+    vectors: impl Vectors,
+    left: [T; W],
+    divisor: Divisor<T>,
+) -> [T; W] {
+    let (one, other) = ([left, [divisor.nearest; W]], [left, [divisor.rest; W]]);
     let mut quotient = left;
-    let divisors = [divisor; W];
-    if let Some((quotient, left, right)) = doubles(&mut quotient, &left, &divisors) {
-        *quotient = vectors.quotient(left, right);
-    } else if let Some((quotient, left, right)) = doubles(&mut quotient, &left, &divisors) {
-        *quotient = (f64x2::from(left) / f64x2::from(right)).into();
+    if let Some((quotient, one, other)) = pairs(&mut quotient, one, other) {
+        *quotient = vectors.pair(one, other);
+    } else if let Some((quotient, one, other)) = pairs(&mut quotient, one, other) {
+        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x2::from));
+        *quotient = one.mul_add(by, other * with).into();
     } else {
-        quotient.iter_mut().for_each(|lane| *lane /= divisor);
+        quotient.iter_mut().for_each(|lane| *lane = over(*lane, divisor));
     }
     quotient
 }
