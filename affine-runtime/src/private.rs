@@ -21,8 +21,8 @@ pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::integrate::nystrom::SecondOrder;
 pub use crate::integrate::splitting::{Pieces, accumulate, conjugated, growth, left_product, right_product};
 pub use crate::integrate::taylor::{
-    Divisor, Series, Vectors, add_multiple, add_pair, add_products, between, divided, doubled, halved,
-    halves, lanes, over, set_lanes, subtract_pair, subtract_products,
+    Divisor, Series, Vectors, add_pair, add_products, between, divided, doubled, halved, halves, lanes, over,
+    set_lanes, subtract_pair, subtract_products,
 };
 pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
 pub use crate::lanes::{Lanes, gathered, in_lane};

@@ -5,8 +5,8 @@ mod lanes;
 
 pub use divisor::{Divisor, over};
 pub use lanes::{
-    Portable, Vectors, add_multiple, add_pair, add_products, between, divided, doubled, halved, halves,
-    lanes, set_lanes, subtract_pair, subtract_products,
+    Portable, Vectors, add_pair, add_products, between, divided, doubled, halved, halves, lanes, set_lanes,
+    subtract_pair, subtract_products,
 };
 
 use core::fmt;
