@@ -79,11 +79,16 @@ pub struct Taylor<S, C, R: Series<S, C>> {
     carry: S,
     t_end: f64,
     coefficients: [S; HIGHEST_ORDER + 1],
-    rows: [R::Row; HIGHEST_ORDER],
+    rows: Rows<[R::Row; HIGHEST_ORDER]>,
     length: f64,
     failure: Option<Failure>,
     statistics: Statistics,
 }
+
+/// Rows that begin with a line of a cache: vectors that lie across two take twice the time to load.
+#[derive(Clone)]
+#[repr(align(64))]
+struct Rows<R>(R);
 
 /// Orders beyond those of Jorba and Zou, for the cost of coefficients that is linear in the order.
 const MORE_ORDERS: f64 = 6.0;
@@ -144,7 +149,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             carry: S::zeros(),
             t_end,
             coefficients,
-            rows: [R::Row::zeros(); HIGHEST_ORDER],
+            rows: Rows([R::Row::zeros(); HIGHEST_ORDER]),
             length: (t_end - t0).abs(),
             failure: None,
             statistics: Statistics { evaluations: probes + 1, ..Statistics::default() },
@@ -171,7 +176,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     fn step(&mut self, vectors: impl Vectors) -> Result<(), Failure> {
         self.coefficients[0] = self.y;
         let coefficients = &mut self.coefficients[..=self.order];
-        let rows = &mut self.rows[..self.order];
+        let rows = &mut self.rows.0[..self.order];
         self.series.coefficients_on(vectors, self.t, &self.constants, coefficients, rows);
         self.statistics.evaluations += 1;
         let length = self.longest();
