@@ -43,6 +43,7 @@ pub trait Taylor<const N: usize>: Model<N> {
     /// Writes what of an order above 0 follows from its coefficient alone, given with its columns, to its row.
     fn ready<T: Scalar>(
         &self,
+        vectors: impl Vectors,
         constants: &Self::Constants<T>,
         coefficient: (&Self::Reduced<T>, Self::Columns<T>),
         row: &mut Self::Row<T>,
@@ -87,7 +88,7 @@ pub trait Taylor<const N: usize>: Model<N> {
         let constants = *constants;
         *after = self.start(t, &constants, before, row);
         if let Some(row) = rows.get_mut(1) {
-            self.ready(&constants, (after, Self::columns(after)), row);
+            self.ready(vectors, &constants, (after, Self::columns(after)), row);
         }
         let mut order = T::one();
         for k in 1..highest {
@@ -95,7 +96,7 @@ pub trait Taylor<const N: usize>: Model<N> {
             let (next, columns) = self.next(vectors, by, &constants, &coefficients[k], &mut rows[..=k]);
             coefficients[k + 1] = next;
             if let Some(row) = rows.get_mut(k + 1) {
-                self.ready(&constants, (&next, columns), row);
+                self.ready(vectors, &constants, (&next, columns), row);
             }
             order += T::one();
         }

@@ -12,6 +12,8 @@ use crate::scalar::Scalar;
 
 /// Vectors of four doubles, as a processor has them; what it rounds is the same on all.
 pub trait Vectors: Copy {
+    /// The same, as one vector where it might else be taken apart: stored so, it can be loaded so at once.
+    fn whole(self, vector: [f64; 4]) -> [f64; 4];
     /// `left right + left' right'`, lane by lane.
     fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4];
     /// `sum + left right`, lane by lane.
@@ -29,6 +31,10 @@ pub trait Vectors: Copy {
 pub struct Portable;
 
 impl Vectors for Portable {
+    #[inline(always)]
+    fn whole(self, vector: [f64; 4]) -> [f64; 4] {
+        vector
+    }
     #[inline(always)]
     fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
         let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x4::from));
@@ -55,6 +61,11 @@ impl Vectors for Portable {
 /// AVX2: found at run time on targets that do not promise it, so nothing is fused there either.
 #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
 impl Vectors for pulp::x86::V3 {
+    #[inline(always)]
+    fn whole(self, vector: [f64; 4]) -> [f64; 4] {
+        // The factor is gone when the compiler has seen that all of the vector is read.
+        pulp::cast(self.mul_f64x4(pulp::cast(vector), self.splat_f64x4(1.0)))
+    }
     #[inline(always)]
     fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
         let [one, other] = [one, other].map(|[a, b]| self.mul_f64x4(pulp::cast(a), pulp::cast(b)));
@@ -237,9 +248,17 @@ pub fn divided<T: Scalar, const W: usize>(
 
 /// Writes the lanes of a row that begin at a slot.
 #[inline(always)]
-pub fn set_lanes<T: Scalar, const W: usize>(row: &mut [T], slot: usize, vector: [T; W]) {
+pub fn set_lanes<T: Scalar, const W: usize>(
+    vectors: impl Vectors,
+    row: &mut [T],
+    slot: usize,
+    vector: [T; W],
+) {
     if let Some(lanes) = row.get_mut(slot..).and_then(<[T]>::first_chunk_mut) {
         *lanes = vector;
+        if let Some((lanes, vector, _)) = doubles(lanes, &vector, &vector) {
+            *lanes = vectors.whole(vector);
+        }
     }
 }
 

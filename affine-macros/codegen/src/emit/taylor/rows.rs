@@ -46,19 +46,22 @@ impl Writer<'_> {
                 self.newest_vector(slot)
             };
             let slot = number(slot);
-            quote!(#rt::set_lanes(row, #slot, #vector);)
+            quote!(#rt::set_lanes(vectors, row, #slot, #vector);)
         });
         let singles = singles.into_iter().map(|(slot, series)| {
             let (slot, entry) = (number(slot), self.current(series));
             quote!(row[#slot] = #entry;)
         });
-        let stores: TokenStream = vectors.chain(singles).collect();
+        let vectors: TokenStream = vectors.collect();
+        let vectors_read = if vectors.is_empty() { quote!(_vectors) } else { quote!(vectors) };
+        let stores: TokenStream = vectors.into_iter().chain(singles.flatten()).collect();
         let row = if stores.is_empty() { quote!(_row) } else { quote!(row) };
         let columns = if columns.is_empty() { quote!(_) } else { quote!([#(#columns),*]) };
         quote! {
             #[inline(always)]
             fn ready<#t: #rt::Scalar>(
                 &self,
+                #vectors_read: impl #rt::Vectors,
                 #constants: &Self::Constants<#t>,
                 (#coefficient, #columns): (&Self::Reduced<#t>, Self::Columns<#t>),
                 #row: &mut Self::Row<#t>,
@@ -79,7 +82,7 @@ impl Writer<'_> {
             .filter(|slot| !self.is_in_ready_vector(*slot))
             .map(|slot| {
                 let (vector, slot) = (self.newest_vector(slot), number(slot));
-                quote!(#rt::set_lanes(row, #slot, #vector);)
+                quote!(#rt::set_lanes(vectors, row, #slot, #vector);)
             });
         let singles = self.late_slots().filter(|(slot, _)| *slot >= self.recurrence.vectors);
         let singles = singles.map(|(slot, series)| {
