@@ -16,7 +16,7 @@ use super::roughly::{exp, ln};
 use super::step_size::shortest;
 #[cfg(feature = "std")]
 use super::tape::Tape;
-use super::widest::{Work, widest};
+use super::widest::{Work, roomiest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
 
@@ -169,7 +169,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         if self.is_finished() {
             return Ok(());
         }
-        widest(Advance(self)).inspect_err(|failure| self.failure = Some(*failure))
+        roomiest(Advance(self)).inspect_err(|failure| self.failure = Some(*failure))
     }
 
     #[inline(always)]

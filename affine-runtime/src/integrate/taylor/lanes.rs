@@ -91,6 +91,35 @@ impl Vectors for pulp::x86::V3 {
     }
 }
 
+/// AVX-512, of which the vectors of AVX2 have use for the registers.
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+impl Vectors for pulp::x86::V4 {
+    #[inline(always)]
+    fn whole(self, vector: [f64; 4]) -> [f64; 4] {
+        Vectors::whole(*self, vector)
+    }
+    #[inline(always)]
+    fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        Vectors::pair(*self, one, other)
+    }
+    #[inline(always)]
+    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        Vectors::plus_product(*self, sum, left, right)
+    }
+    #[inline(always)]
+    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        Vectors::minus_product(*self, sum, left, right)
+    }
+    #[inline(always)]
+    fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        Vectors::plus_pair(*self, sum, one, other)
+    }
+    #[inline(always)]
+    fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        Vectors::minus_pair(*self, sum, one, other)
+    }
+}
+
 /// The lanes of a row that begin at a slot.
 #[inline(always)]
 pub fn lanes<T: Scalar, const W: usize>(row: &[T], slot: usize) -> [T; W] {
