@@ -19,6 +19,7 @@ use super::tape::Tape;
 use super::widest::{Work, roomiest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
+use crate::scalar::Scalar;
 
 /// The highest order.
 pub const HIGHEST_ORDER: usize = 32;
@@ -211,29 +212,43 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         let [last, before] = [self.order, self.order - 1].map(|j| self.coefficients[j].as_ref());
         let state = self.coefficients[0].as_ref();
         let errors = self.error_norm.at_a_state(state, |r| [size(&last[r.clone()]), size(&before[r])]);
-        let within = |h: f64| {
-            let errors = errors.largest(h);
+        let within = |errors: [f64; 2]| {
             // The logarithm of `(tolerance/|y_j|)^(1/j)`; no error is no bound, and NaN stays.
             let logarithm = |error: f64, j: usize| ln(self.tolerance / error) / j as f64;
             let (last, before) = (logarithm(errors[0], self.order), logarithm(errors[1], self.order - 1));
             let least = if last <= before || last.is_nan() { last } else { before };
             exp(least - 0.7 / (self.order - 1) as f64)
         };
-        let length = within(self.length);
+        let guessed = errors.largest(self.length);
+        let length = within(guessed);
         // Momenta may err the less, the longer the step: one that is longer than guessed is measured again.
-        if length > self.length && self.error_norm.has_floors() { within(length) } else { length }
-    }
-
-    /// `sum_(k > 0) y_k h^k`.
-    #[inline(always)]
-    fn rise(&self, h: f64) -> S {
-        let mut rise = self.coefficients[self.order];
-        for coefficient in self.coefficients[1..self.order].iter().rev() {
-            for (rise, coefficient) in rise.as_mut().iter_mut().zip(coefficient.as_ref()) {
-                *rise = crate::scalar::Scalar::fma(*rise, h, *coefficient);
+        if length > self.length {
+            let measured = errors.largest(length);
+            if measured != guessed {
+                return within(measured);
             }
         }
-        rise.as_mut().iter_mut().for_each(|rise| *rise *= h);
+        length
+    }
+
+    /// `sum_(k > 0) y_k h^k = h (a(h^2) + h b(h^2))`: two polynomials of half the degree, neither of which waits for the
+    /// other.
+    #[inline(always)]
+    fn rise(&self, h: f64) -> S {
+        let square = h * h;
+        let pairs = self.coefficients[1..=self.order].chunks_exact(2);
+        let last = pairs.remainder().first();
+        let (mut rise, mut other) = (last.copied().unwrap_or_else(S::zeros), S::zeros());
+        for pair in pairs.rev() {
+            let [odd, even] = pair else { continue };
+            for (i, (rise, other)) in rise.as_mut().iter_mut().zip(other.as_mut()).enumerate() {
+                *rise = Scalar::fma(*rise, square, odd.as_ref()[i]);
+                *other = Scalar::fma(*other, square, even.as_ref()[i]);
+            }
+        }
+        for (rise, other) in rise.as_mut().iter_mut().zip(other.as_ref()) {
+            *rise = Scalar::fma(*other, h, *rise) * h;
+        }
         rise
     }
 
@@ -331,7 +346,7 @@ fn scaled_norm(components: &[f64]) -> f64 {
         return largest;
     }
     let squares: f64 = components.iter().map(|v| v / largest * (v / largest)).sum();
-    largest * crate::scalar::Scalar::sqrt(squares)
+    largest * Scalar::sqrt(squares)
 }
 
 fn is_finite<S: StateVector<f64>>(y: &S) -> bool {

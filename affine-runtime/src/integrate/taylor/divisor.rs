@@ -54,20 +54,23 @@ mod tests {
 
     #[test]
     fn both_parts_make_a_reciprocal() {
-        for n in 1..=1000_usize {
-            let [nearest, rest] = reciprocal(n);
-            // 1 - n (r + r') in whole multiples of 2^-160.
-            let scaled = |v: f64| {
-                let (mantissa, exponent) =
-                    ((v.abs().to_bits() & ((1 << 52) - 1)) | 1 << 52, v.abs().to_bits() >> 52);
-                let whole =
-                    if v == 0.0 { 0 } else { i128::from(mantissa) << (exponent as i32 - 1075 + 126).max(0) };
-                let whole = if v == 0.0 { 0 } else { whole >> (-(exponent as i32 - 1075 + 126)).max(0) };
-                if v < 0.0 { -whole } else { whole }
-            };
-            let _ = scaled;
-            assert_eq!(nearest, 1.0 / n as f64);
-            assert!(rest.abs() <= nearest * f64::EPSILON / 2.0);
+        for n in 1..=1000_u32 {
+            let [nearest, rest] = reciprocal(n as usize);
+            assert_eq!(nearest, 1.0 / f64::from(n));
+            // What `n` of the first part lack of 1, in one rounding.
+            let lacking = nearest.mul_add(-f64::from(n), 1.0);
+            assert!((rest * f64::from(n) - lacking).abs() <= lacking.abs() * f64::EPSILON, "1/{n}");
+        }
+    }
+
+    #[test]
+    fn quotients_are_rounded_once_or_twice() {
+        for n in 1..=HIGHEST_ORDER + 1 {
+            for k in 1..100_u32 {
+                let value = f64::from(k).sqrt();
+                let (quotient, divided) = (over(value, Divisor::of(n)), value / n as f64);
+                assert!((quotient - divided).abs() <= divided * f64::EPSILON, "{value}/{n}");
+            }
         }
     }
 }
