@@ -2,12 +2,14 @@
 
 mod divisor;
 mod lanes;
+mod vectors;
 
 pub use divisor::{Divisor, over};
 pub use lanes::{
-    Portable, Vectors, add_pair, add_products, between, divided, doubled, halved, halves, lanes, set_lanes,
-    subtract_pair, subtract_products,
+    add_pair, add_products, between, divided, doubled, halved, halves, lanes, set_lanes, subtract_pair,
+    subtract_products,
 };
+pub use vectors::{Portable, Vectors};
 
 use core::fmt;
 

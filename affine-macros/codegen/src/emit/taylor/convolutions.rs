@@ -7,7 +7,8 @@ use super::super::number;
 use super::Writer;
 use crate::ir::taylor::{Factor, Pass, Place, sums};
 
-/// Sums that are formed in one loop.
+/// Sums that are formed in one loop: with the factors from both rows they fill the registers of AVX-512, and with half as
+/// many registers two loops that load everything twice are no faster.
 const SUMS_PER_LOOP: usize = 9;
 
 impl Writer<'_> {

@@ -1,6 +1,6 @@
 //! Rows: what of an order later convolutions read.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::super::number;
@@ -13,48 +13,21 @@ impl Writer<'_> {
     /// vector at a time, and read from there.
     pub(super) fn ready(&mut self) -> TokenStream {
         let (rt, t) = (&self.context.names.rt, &self.context.names.scalar);
-        let lanes = self.recurrence.lanes;
         let slots =
             || self.slots().filter(|(slot, series)| self.is_ready(*series) && !self.is_in_column(*slot));
         let wanted: Vec<Value> = slots().map(|(_, series)| series.value).collect();
         let rules = self.ready_rules(&wanted);
         let states = self.states_among(&wanted, &rules);
-        let singles: Vec<(usize, Series)> =
-            slots().filter(|(slot, _)| !self.is_in_ready_vector(*slot)).collect();
-        let vectors: Vec<usize> = (0..self.recurrence.vectors)
-            .step_by(lanes)
-            .filter(|slot| self.is_in_ready_vector(*slot))
-            .collect();
-        let columns: Vec<TokenStream> = self
-            .recurrence
-            .columns
-            .iter()
-            .map(|column| {
-                let name = self.vector(column.slot);
-                quote!(#name)
-            })
-            .collect();
+        let columns = self.recurrence.columns.iter().map(|column| self.vector(column.slot));
+        let columns: Vec<Ident> = columns.collect();
         let (fixed, constants) = self.fix(&rules);
         let (bind, coefficient) =
             self.bind(&states.iter().map(String::as_str).collect::<Vec<_>>(), "coefficient");
         let statements = rules.iter().map(|(value, rule)| self.statement(*value, rule));
-        let vectors = vectors.into_iter().map(|slot| {
-            let vector = if self.is_in_column(slot) {
-                let name = self.vector(slot);
-                quote!(#name)
-            } else {
-                self.newest_vector(slot)
-            };
-            let slot = number(slot);
-            quote!(#rt::set_lanes(vectors, row, #slot, #vector);)
-        });
-        let singles = singles.into_iter().map(|(slot, series)| {
-            let (slot, entry) = (number(slot), self.current(series));
-            quote!(row[#slot] = #entry;)
-        });
-        let vectors: TokenStream = vectors.collect();
+        let vectors = self.filled_vectors(true);
         let vectors_read = if vectors.is_empty() { quote!(_vectors) } else { quote!(vectors) };
-        let stores: TokenStream = vectors.into_iter().chain(singles.flatten()).collect();
+        let singles = self.filled(slots().filter(|(slot, _)| !self.is_in_ready_vector(*slot)));
+        let stores = quote!(#vectors #singles);
         let row = if stores.is_empty() { quote!(_row) } else { quote!(row) };
         let columns = if columns.is_empty() { quote!(_) } else { quote!([#(#columns),*]) };
         quote! {
@@ -76,20 +49,30 @@ impl Writer<'_> {
 
     /// Fills the slots of order `k` that `ready` left.
     pub(super) fn stored(&self) -> TokenStream {
+        let singles = self.late_slots().filter(|(slot, _)| *slot >= self.recurrence.vectors);
+        let (vectors, singles) = (self.filled_vectors(false), self.filled(singles));
+        quote!(#vectors #singles)
+    }
+
+    /// Stores of the vectors all of which is ready, or of the others.
+    fn filled_vectors(&self, ready: bool) -> TokenStream {
         let rt = &self.context.names.rt;
-        let vectors = (0..self.recurrence.vectors)
-            .step_by(self.recurrence.lanes)
-            .filter(|slot| !self.is_in_ready_vector(*slot))
+        let all = (0..self.recurrence.vectors).step_by(self.recurrence.lanes);
+        all.filter(|slot| self.is_in_ready_vector(*slot) == ready)
             .map(|slot| {
                 let (vector, slot) = (self.newest_vector(slot), number(slot));
                 quote!(#rt::set_lanes(vectors, row, #slot, #vector);)
-            });
-        let singles = self.late_slots().filter(|(slot, _)| *slot >= self.recurrence.vectors);
-        let singles = singles.map(|(slot, series)| {
+            })
+            .collect()
+    }
+
+    /// Stores of single slots.
+    fn filled(&self, slots: impl Iterator<Item = (usize, Series)>) -> TokenStream {
+        let store = |(slot, series): (usize, Series)| {
             let (slot, entry) = (number(slot), self.current(series));
             quote!(row[#slot] = #entry;)
-        });
-        quote!(#(#vectors)* #(#singles)*)
+        };
+        slots.map(store).collect()
     }
 
     /// What `stored` writes: slots that are not ready, and all of a vector that has one of them.
