@@ -13,9 +13,7 @@ impl Writer<'_> {
     /// vector at a time, and read from there.
     pub(super) fn ready(&mut self) -> TokenStream {
         let (rt, t) = (&self.context.names.rt, &self.context.names.scalar);
-        let slots =
-            || self.slots().filter(|(slot, series)| self.is_ready(*series) && !self.is_in_column(*slot));
-        let wanted: Vec<Value> = slots().map(|(_, series)| series.value).collect();
+        let wanted: Vec<Value> = self.ready_slots().map(|(_, series)| series.value).collect();
         let rules = self.ready_rules(&wanted);
         let states = self.states_among(&wanted, &rules);
         let columns = self.recurrence.columns.iter().map(|column| self.vector(column.slot));
@@ -26,7 +24,7 @@ impl Writer<'_> {
         let statements = rules.iter().map(|(value, rule)| self.statement(*value, rule));
         let vectors = self.filled_vectors(true);
         let vectors_read = if vectors.is_empty() { quote!(_vectors) } else { quote!(vectors) };
-        let singles = self.filled(slots().filter(|(slot, _)| !self.is_in_ready_vector(*slot)));
+        let singles = self.filled(self.ready_slots().filter(|(slot, _)| !self.is_in_ready_vector(*slot)));
         let stores = quote!(#vectors #singles);
         let row = if stores.is_empty() { quote!(_row) } else { quote!(row) };
         let columns = if columns.is_empty() { quote!(_) } else { quote!([#(#columns),*]) };
@@ -84,6 +82,11 @@ impl Writer<'_> {
                 !self.is_ready(*series)
             }
         })
+    }
+
+    /// Slots that the coefficient alone fills, but for those of columns.
+    fn ready_slots(&self) -> impl Iterator<Item = (usize, Series)> {
+        self.slots().filter(|(slot, series)| self.is_ready(*series) && !self.is_in_column(*slot))
     }
 
     fn slots(&self) -> impl Iterator<Item = (usize, Series)> {
