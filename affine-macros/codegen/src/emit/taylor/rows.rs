@@ -105,8 +105,12 @@ impl Writer<'_> {
             && vector.iter().take(lanes).flatten().all(|series| self.is_ready(*series))
     }
 
-    /// The lanes that begin at a slot, from the values of order `k`.
+    /// The lanes that begin at a slot, from the values of order `k`; a column is a vector already.
     fn newest_vector(&self, slot: usize) -> TokenStream {
+        if self.is_in_column(slot) {
+            let column = self.vector(slot);
+            return quote!(#column);
+        }
         let t = &self.context.names.scalar;
         let entries =
             self.recurrence.row[slot..][..self.recurrence.lanes].iter().map(|series| match series {
