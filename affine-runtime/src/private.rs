@@ -24,7 +24,7 @@ pub use crate::integrate::taylor::{
     Divisor, Series, Vectors, add_pair, add_products, between, divided, doubled, halved, halves, lanes, over,
     set_lanes, subtract_pair, subtract_products,
 };
-pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
+pub use crate::kinematics::{dilatation, far_from_undeformed, isochoric_part, mean_log_stretch};
 pub use crate::lanes::{Lanes, gathered, in_lane};
 pub use crate::lattice::{
     Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, LatticePieces, MetricSide,

@@ -1,9 +1,12 @@
 //! Step sizes: the first one, and how they follow the error.
 
+#[cfg(feature = "std")]
+pub(crate) mod in_lanes;
+
 use core::ops::Range;
 
 use super::error_norm::{ErrorNorm, norm};
-use super::roughly::{exp, ln};
+use super::roughly::{exp, exp_of_moderate, ln, ln_of_normal};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use crate::model::StateVector;
@@ -31,14 +34,14 @@ pub(crate) struct Controller {
     /// `k`.
     order: f64,
     /// Logarithm of the previous error.
-    previous: f64,
-    rejected: bool,
+    pub(super) previous: f64,
+    pub(super) rejected: bool,
 }
 
 impl Controller {
     /// For an error of order `h^order`.
     pub(crate) fn of(order: f64) -> Self {
-        Self { order, previous: ln(SMALLEST_ERROR), rejected: false }
+        Self { order, previous: ln_of_normal(SMALLEST_ERROR), rejected: false }
     }
 
     /// What the next step sizes depend on.
@@ -49,40 +52,53 @@ impl Controller {
     }
 
     /// Factor of the step size after an accepted step with `error <= 1`.
+    #[inline]
     pub(crate) fn accept(&mut self, error: f64) -> f64 {
-        let error = ln(if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR });
-        let exponent = (PROPORTIONAL * self.previous - (INTEGRAL + PROPORTIONAL) * error) / self.order;
-        // After a rejection the longer step has just been seen to fail.
-        let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
-        *self = Self { previous: error, rejected: false, ..*self };
-        (SAFETY * exp(exponent)).clamp(LARGEST_CUT, growth)
+        self.factor(true, error)
     }
 
     /// Factor of the step size after a rejected step; NaN stands for numbers that are not finite.
+    #[inline]
     pub(crate) fn reject(&mut self, error: f64) -> f64 {
-        self.rejected = true;
-        if error.is_finite() {
-            (SAFETY * exp(-ln(error) / self.order)).clamp(LARGEST_CUT, SAFETY)
-        } else {
-            LARGEST_CUT
-        }
+        self.factor(false, error)
     }
+
+    /// Either. All that is called between two steps is without branches, for many bodies at once.
+    #[inline(always)]
+    fn factor(&mut self, accepted: bool, error: f64) -> f64 {
+        let seen = if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR };
+        // What is not finite cuts a step as the largest number does.
+        let failed = if error < f64::MAX { error } else { f64::MAX };
+        let logarithm = ln_of_normal(if accepted { seen } else { failed });
+        let trend = PROPORTIONAL * self.previous - (INTEGRAL + PROPORTIONAL) * logarithm;
+        let exponent = (if accepted { trend } else { -logarithm }) / self.order;
+        // After a rejection the longer step has just been seen to fail.
+        let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
+        let growth = if accepted { growth } else { SAFETY };
+        self.previous = if accepted { logarithm } else { self.previous };
+        self.rejected = !accepted;
+        within(LARGEST_CUT, growth, SAFETY * exp_of_moderate(exponent))
+    }
+}
+
+/// The nearest number between two others.
+#[inline(always)]
+fn within(least: f64, most: f64, x: f64) -> f64 {
+    let x = if x < least { least } else { x };
+    if x > most { most } else { x }
 }
 
 /// End of the step to try from `t`: `t_end` itself where the step reaches about there, and half the way where it
 /// reaches further than that, since a step and a short rest cost as much as two equal ones.
+#[inline(always)]
 pub(crate) fn next_time(t: f64, length: f64, t_end: f64) -> f64 {
     let rest = t_end - t;
-    if 1.01 * length >= rest.abs() {
-        t_end
-    } else if 2.0 * length > rest.abs() {
-        t + 0.5 * rest
-    } else {
-        t + length.copysign(rest)
-    }
+    let step = if 2.0 * length > rest.abs() { 0.5 * rest } else { length.copysign(rest) };
+    if 1.01 * length >= rest.abs() { t_end } else { t + step }
 }
 
 /// Steps from `t` at or below this length are lost in the rounding of times.
+#[inline(always)]
 pub(crate) fn shortest(t: f64, t_end: f64) -> f64 {
     let (size, span) = (t.abs(), (t_end - t).abs());
     16.0 * f64::EPSILON * if size > f64::EPSILON * span { size } else { f64::EPSILON * span }
@@ -109,12 +125,17 @@ pub(crate) fn first_step<S: StateVector<f64>>(
         *y += signed * slope;
     }
     let slope_after = f(t + signed, &end);
-    for (i, change) in change.as_mut().iter_mut().enumerate() {
-        *change = (slope_after.as_ref()[i] - slope.as_ref()[i]) / trial;
-    }
-    let of_change = |r: Range<usize>| norm(&change.as_ref()[r]);
-    let second = error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change);
-    let second = Scalar::sqrt(second);
+    let mut over = |time: f64| {
+        for (i, change) in change.as_mut().iter_mut().enumerate() {
+            *change = (slope_after.as_ref()[i] - slope.as_ref()[i]) / time;
+        }
+        let of_change = |r: Range<usize>| norm(&change.as_ref()[r]);
+        error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change)
+    };
+    let of_second = over(trial);
+    // Rates of rates leave the range of numbers first.
+    let of_second = if of_second.is_finite() { of_second } else { over(1.0) / trial };
+    let second = Scalar::sqrt(of_second);
     let fastest = if first.is_finite() && first > second { first } else { second };
     let length = exp(ln(0.01 * tolerance) / order) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.

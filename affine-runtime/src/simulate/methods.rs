@@ -1,9 +1,12 @@
 //! The integrators, each begun on the state that it steps.
 
 use super::halt::{Reason, Setting};
-use super::layout::{Layout, is_canonical, is_isochoric_in_pi, moves_on_group, placement_in};
+use super::layout::{
+    Layout, carries_dilatation, is_canonical, is_isochoric_in_pi, moves_on_group, placement_in,
+};
 use super::mechanics::Course;
 use super::motion::{Expanded, Expansion};
+use super::range::in_range;
 use super::recorder::Recorder;
 use super::stepper::{Explicit, Stepper};
 use super::{Method, TAYLOR_TOLERANCE};
@@ -26,6 +29,10 @@ pub(super) fn integrate<const N: usize, M: Model<N>>(
 ) -> Result<(), Reason> {
     let method = chosen(model, course, recorder);
     recorder.trajectory.computation.method = method;
+    recorder.needs_determinant = const { carries_dilatation(&M::DESCRIPTION) } && forms_determinant(method);
+    if recorder.needs_determinant {
+        in_range(course.t0, course.start.phi())?;
+    }
     match method {
         Method::Rattle { order, step } => by_rattle(model, (order, step), course, recorder),
         Method::Taylor { .. } | Method::RungeKuttaNystrom12 | Method::Splitting { .. } => {
@@ -37,6 +44,11 @@ pub(super) fn integrate<const N: usize, M: Model<N>>(
     }
 }
 
+/// Forces are computed from the placement alone, nothing being carried along.
+fn forms_determinant(method: Method) -> bool {
+    matches!(method, Method::RungeKuttaNystrom12 | Method::Splitting { .. })
+}
+
 /// The integrator to take, noted with what was missing for a better one.
 fn chosen<const N: usize, M: Model<N>>(
     model: &M,
@@ -44,7 +56,9 @@ fn chosen<const N: usize, M: Model<N>>(
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Method {
     // Within steps it costs a step for each time that is looked at.
-    let halves = model.second_order().is_some() && !recorder.has_events();
+    let in_reach =
+        const { !carries_dilatation(&M::DESCRIPTION) } || in_range(course.t0, course.start.phi()).is_ok();
+    let halves = model.second_order().is_some() && !recorder.has_events() && in_reach;
     match course.method {
         Method::Automatic if halves => Method::RungeKuttaNystrom12,
         Method::Automatic if course.tolerance <= TAYLOR_TOLERANCE && M::DESCRIPTION.constraint.is_none() => {

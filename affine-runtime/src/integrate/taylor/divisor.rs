@@ -21,6 +21,12 @@ impl<T: Scalar> Divisor<T> {
         let [nearest, rest] = RECIPROCALS.get(n).copied().unwrap_or_else(|| reciprocal(n));
         Self { nearest: T::constant(nearest, 0.0), rest: T::constant(rest, 0.0) }
     }
+
+    /// `n` over a unit, which is a power of two.
+    #[inline(always)]
+    pub(crate) fn over(self, unit: T) -> Self {
+        Self { nearest: self.nearest * unit, rest: self.rest * unit }
+    }
 }
 
 /// `value/n`.
