@@ -197,11 +197,11 @@ fn doubles<'s, T: Scalar, const W: usize, const V: usize>(
 /// The same of two products.
 #[inline(always)]
 #[allow(clippy::type_complexity, reason = "a name for two pairs of vectors would say less")]
-fn pairs<'s, T: Scalar, const W: usize, const V: usize>(
-    sum: &'s mut [T; W],
+fn pairs<T: Scalar, const W: usize, const V: usize>(
+    sum: &mut [T; W],
     one: [[T; W]; 2],
     other: [[T; W]; 2],
-) -> Option<(&'s mut [f64; V], [[f64; V]; 2], [[f64; V]; 2])> {
+) -> Option<(&mut [f64; V], [[f64; V]; 2], [[f64; V]; 2])> {
     let (sum, left, right) = doubles(sum, &one[0], &one[1])?;
     let (mut unread, with) = (other[0], &other[1]);
     let (_, other, with) = doubles(&mut unread, &other[0], with)?;
