@@ -9,7 +9,7 @@ use crate::integrate::lie::Sum;
 use crate::integrate::nystrom::SecondOrder;
 use crate::integrate::packed::Packing;
 use crate::integrate::splitting::Pieces;
-use crate::integrate::taylor::{Portable, Series, Vectors};
+use crate::integrate::taylor::{Divisor, Portable, Series, Vectors};
 use crate::lanes::{Lanes, in_lane};
 use crate::model::{Group, Model, StateVector};
 use crate::scalar::{Real, Scalar};
@@ -41,15 +41,23 @@ pub trait Taylor<const N: usize>: Model<N> {
     /// The columns of a coefficient.
     fn columns<T: Scalar>(coefficient: &Self::Reduced<T>) -> Self::Columns<T>;
 
+    /// Writes what of an order above 0 follows from its coefficient alone, given with its columns, to its row.
+    fn ready<T: Scalar>(
+        &self,
+        vectors: impl Vectors,
+        constants: &Self::Constants<T>,
+        coefficient: (&Self::Reduced<T>, Self::Columns<T>),
+        row: &mut Self::Row<T>,
+    );
+
     /// `y_(k+1)` from `y_k`, for `k > 0`, and its columns; `order` is `k` and `k + 1` over the unit of time, by which rates
-    /// are divided: a reciprocal would be rounded the same way in every step, and the energy drift. The rows are those of the orders 0 to
-    /// k; fills the last one.
+    /// are divided. The rows are those of the orders 0 to k; fills the slots of the last one that [`Taylor::ready`] left.
     fn next<T: Scalar>(
         &self,
         vectors: impl Vectors,
-        order: (T, T),
+        order: (T, Divisor<T>),
         constants: &Self::Constants<T>,
-        coefficient: (&Self::Reduced<T>, Self::Columns<T>),
+        coefficient: &Self::Reduced<T>,
         rows: &mut [Self::Row<T>],
     ) -> (Self::Reduced<T>, Self::Columns<T>);
 
@@ -77,15 +85,21 @@ pub trait Taylor<const N: usize>: Model<N> {
     ) {
         let highest = rows.len().min(coefficients.len().saturating_sub(1));
         let ([before, after, ..], [row, ..], 1..) = (&mut *coefficients, &mut *rows, highest) else { return };
-        *after = self.start(t, constants, before, row);
+        // A copy, which no row can be taken for: what follows from constants alone is computed once.
+        let constants = *constants;
+        *after = self.start(t, &constants, before, row);
         after.as_mut().iter_mut().for_each(|slope| *slope *= unit);
-        let per_unit = T::one() / unit;
-        let (mut columns, mut order, mut divisor) = (Self::columns(after), T::one(), per_unit);
+        if let Some(row) = rows.get_mut(1) {
+            self.ready(vectors, &constants, (after, Self::columns(after)), row);
+        }
+        let mut order = T::one();
         for k in 1..highest {
-            let coefficient = coefficients[k];
-            divisor += per_unit;
-            (coefficients[k + 1], columns) =
-                self.next(vectors, (order, divisor), constants, (&coefficient, columns), &mut rows[..=k]);
+            let by = (order, Divisor::of(k + 1).over(unit));
+            let (next, columns) = self.next(vectors, by, &constants, &coefficients[k], &mut rows[..=k]);
+            coefficients[k + 1] = next;
+            if let Some(row) = rows.get_mut(k + 1) {
+                self.ready(vectors, &constants, (&next, columns), row);
+            }
             order += T::one();
         }
     }

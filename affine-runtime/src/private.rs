@@ -24,8 +24,8 @@ pub use crate::integrate::nystrom::SecondOrder;
 pub use crate::integrate::packed::{Four, Packed, Packing};
 pub use crate::integrate::splitting::{Pieces, accumulate, conjugated, growth, left_product, right_product};
 pub use crate::integrate::taylor::{
-    Series, Vectors, add_multiple, add_products, divided, lanes, set_lanes, subtract_multiple,
-    subtract_products,
+    Divisor, Series, Vectors, add_pair, add_products, between, divided, doubled, halved, halves, lanes, over,
+    set_lanes, subtract_pair, subtract_products,
 };
 pub use crate::kinematics::{dilatation, far_from_undeformed, isochoric_part, mean_log_stretch};
 pub use crate::lanes::{Lanes, gathered, in_lane};

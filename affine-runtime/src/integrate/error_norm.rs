@@ -150,11 +150,6 @@ impl ErrorNorm {
         largest
     }
 
-    /// Errors of momenta are measured against more than their own size.
-    pub(crate) fn has_floors(&self) -> bool {
-        self.inertia.iter().any(|inertia| *inertia != 0.0)
-    }
-
     /// What an error of a momentum may be because of what it moves in a step of length `h`.
     #[inline(always)]
     fn floor(&self, k: usize, h: f64) -> f64 {

@@ -1,11 +1,15 @@
 //! Taylor series method with choice of order and step.
 
+mod divisor;
 mod lanes;
+mod vectors;
 
+pub use divisor::{Divisor, over};
 pub use lanes::{
-    Portable, Vectors, add_multiple, add_products, divided, lanes, set_lanes, subtract_multiple,
+    add_pair, add_products, between, divided, doubled, halved, halves, lanes, set_lanes, subtract_pair,
     subtract_products,
 };
+pub use vectors::{Portable, Vectors};
 
 use core::fmt;
 
@@ -14,9 +18,10 @@ use super::roughly::{exp, ln};
 use super::step_size::{first_step, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
-use super::widest::{Work, widest};
+use super::widest::{Work, roomiest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
+use crate::scalar::Scalar;
 
 /// The highest order.
 pub const HIGHEST_ORDER: usize = 32;
@@ -50,8 +55,8 @@ pub trait Series<S, C> {
 ///
 /// After Jorba and Zou, Experimental Mathematics 14 (2005) 99-117, sections 3.2 and 3.3: with the order
 /// `p = ceil(1 - ln(tolerance)/2)` a step of the radius of convergence over `e^2` just meets the tolerance, which is the
-/// least work where a set of coefficients costs `p^2`. Here it costs about `p`, since vectors make the convolutions
-/// cheap beside the rest, and [`order_for`] takes six orders more: on the benchmark problems a quarter to a half less
+/// least work where a set of coefficients costs `p^2`. Here a step costs some `80 + 9 p + p (p - 1)/2` in units of a pair of
+/// orders, and [`order_for`] takes six orders more: on the benchmark problems a quarter to a half less
 /// run time, the same within a few percent from four to ten more. The step is the longest for which the last two terms do, `|y_j| h^j <= tolerance` in the [`ErrorNorm`] for `j = p - 1` and
 /// `p`, times `exp(-0.7/(p - 1))`. No step is rejected. Two terms, since every other one vanishes for an even or odd
 /// solution.
@@ -78,13 +83,18 @@ pub struct Taylor<S, C, R: Series<S, C>> {
     t_end: f64,
     /// `y_k unit^k`
     coefficients: [S; HIGHEST_ORDER + 1],
-    rows: [R::Row; HIGHEST_ORDER],
+    rows: Rows<[R::Row; HIGHEST_ORDER]>,
     /// A power of two.
     unit: f64,
     length: f64,
     failure: Option<Failure>,
     statistics: Statistics,
 }
+
+/// Rows that begin with a line of a cache: vectors that lie across two take twice the time to load.
+#[derive(Clone)]
+#[repr(align(64))]
+struct Rows<R>(R);
 
 /// Last coefficients beyond these are taken in another unit of time.
 const IN_RANGE: core::ops::RangeInclusive<f64> = 1e-250..=1e250;
@@ -144,7 +154,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             carry: S::zeros(),
             t_end,
             coefficients,
-            rows: [R::Row::zeros(); HIGHEST_ORDER],
+            rows: Rows([R::Row::zeros(); HIGHEST_ORDER]),
             unit: 1.0,
             length: (t_end - t0).abs(),
             failure: None,
@@ -165,14 +175,18 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         if self.is_finished() {
             return Ok(());
         }
-        widest(Advance(self)).inspect_err(|failure| self.failure = Some(*failure))
+        roomiest(Advance(self)).inspect_err(|failure| self.failure = Some(*failure))
     }
 
     #[inline(always)]
     fn step(&mut self, vectors: impl Vectors) -> Result<(), Failure> {
-        self.expand(vectors);
-        if !self.is_in_range() && self.takes_a_unit() {
+        let mut again = false;
+        loop {
             self.expand(vectors);
+            if again || self.is_in_range() || !self.takes_a_unit() {
+                break;
+            }
+            again = true;
         }
         let length = self.longest();
         if length.is_nan() {
@@ -205,7 +219,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     fn expand(&mut self, vectors: impl Vectors) {
         self.coefficients[0] = self.y;
         let coefficients = &mut self.coefficients[..=self.order];
-        let rows = &mut self.rows[..self.order];
+        let rows = &mut self.rows.0[..self.order];
         self.series.coefficients_on(vectors, (self.t, self.unit), &self.constants, coefficients, rows);
         self.statistics.evaluations += 1;
     }
@@ -242,30 +256,44 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         let [last, before] = [self.order, self.order - 1].map(|j| self.coefficients[j].as_ref());
         let state = self.coefficients[0].as_ref();
         let errors = self.error_norm.at_a_state(state, |r| [size(&last[r.clone()]), size(&before[r])]);
-        let within = |h: f64| {
-            let errors = errors.largest(h);
+        let within = |errors: [f64; 2]| {
             // The logarithm of `(tolerance/|y_j|)^(1/j)`; no error is no bound, and NaN stays.
             let logarithm = |error: f64, j: usize| ln(self.tolerance / error) / j as f64;
             let (last, before) = (logarithm(errors[0], self.order), logarithm(errors[1], self.order - 1));
             let least = if last <= before || last.is_nan() { last } else { before };
             exp(least - 0.7 / (self.order - 1) as f64) * self.unit
         };
-        let length = within(self.length);
+        let guessed = errors.largest(self.length);
+        let length = within(guessed);
         // Momenta may err the less, the longer the step: one that is longer than guessed is measured again.
-        if length > self.length && self.error_norm.has_floors() { within(length) } else { length }
+        if length > self.length {
+            let measured = errors.largest(length);
+            if measured != guessed {
+                return within(measured);
+            }
+        }
+        length
     }
 
-    /// `sum_(k > 0) y_k h^k`.
+    /// `sum_(k > 0) y_k h^k = h (a(h^2) + h b(h^2))`: two polynomials of half the degree, neither of which waits for the
+    /// other.
     #[inline(always)]
     fn rise(&self, h: f64) -> S {
         let h = h / self.unit;
-        let mut rise = self.coefficients[self.order];
-        for coefficient in self.coefficients[1..self.order].iter().rev() {
-            for (rise, coefficient) in rise.as_mut().iter_mut().zip(coefficient.as_ref()) {
-                *rise = crate::scalar::Scalar::fma(*rise, h, *coefficient);
+        let square = h * h;
+        let pairs = self.coefficients[1..=self.order].chunks_exact(2);
+        let last = pairs.remainder().first();
+        let (mut rise, mut other) = (last.copied().unwrap_or_else(S::zeros), S::zeros());
+        for pair in pairs.rev() {
+            let [odd, even] = pair else { continue };
+            for (i, (rise, other)) in rise.as_mut().iter_mut().zip(other.as_mut()).enumerate() {
+                *rise = Scalar::fma(*rise, square, odd.as_ref()[i]);
+                *other = Scalar::fma(*other, square, even.as_ref()[i]);
             }
         }
-        rise.as_mut().iter_mut().for_each(|rise| *rise *= h);
+        for (rise, other) in rise.as_mut().iter_mut().zip(other.as_ref()) {
+            *rise = Scalar::fma(*other, h, *rise) * h;
+        }
         rise
     }
 
@@ -364,7 +392,7 @@ fn scaled_norm(components: &[f64]) -> f64 {
         return largest;
     }
     let squares: f64 = components.iter().map(|v| v / largest * (v / largest)).sum();
-    largest * crate::scalar::Scalar::sqrt(squares)
+    largest * Scalar::sqrt(squares)
 }
 
 /// `y'` at a state.

@@ -31,14 +31,32 @@ pub(crate) fn widest<W: Work>(work: W) -> W::Output {
     work.run(Portable)
 }
 
+/// The work done, with the most registers there are: a loop over more vectors than sixteen is worth a third time. With
+/// AVX-512 there are thirty-two of any width, and an operand that one number of memory fills needs none.
 #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
-struct Once<W> {
-    work: W,
-    vectors: pulp::x86::V3,
+#[inline(always)]
+pub(crate) fn roomiest<W: Work>(work: W) -> W::Output {
+    match pulp::x86::V4::try_new() {
+        Some(vectors) => vectors.vectorize(Once { work, vectors }),
+        None => widest(work),
+    }
+}
+
+/// The work done: the target says what registers there are.
+#[cfg(not(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2"))))]
+#[inline(always)]
+pub(crate) fn roomiest<W: Work>(work: W) -> W::Output {
+    widest(work)
 }
 
 #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
-impl<W: Work> pulp::NullaryFnOnce for Once<W> {
+struct Once<W, V> {
+    work: W,
+    vectors: V,
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+impl<W: Work, V: Vectors> pulp::NullaryFnOnce for Once<W, V> {
     type Output = W::Output;
     #[inline(always)]
     fn call(self) -> W::Output {
@@ -62,6 +80,8 @@ mod tests {
             for _ in 0..50 {
                 sum = vectors.plus_product(sum, sum, [0.37, -0.81, 1e-3, 0.1]);
                 sum = vectors.minus_product(self.0, sum, [0.29, 0.7, -0.3, 0.9]);
+                sum = vectors.minus_pair(sum, [self.0, sum], [sum, [0.21; 4]]);
+                sum = vectors.plus_pair(sum, [sum, sum], [self.0, vectors.whole(self.0)]);
                 for (sum, start) in sum.iter_mut().zip(&self.0) {
                     *sum = *sum * 0.3 + start * (1.0 - *sum);
                 }
@@ -76,5 +96,6 @@ mod tests {
         let plain = sums.run(Portable);
         assert!(plain.iter().all(|v| v.is_finite() && *v != 0.0), "{plain:?}");
         assert_eq!(widest(sums).map(f64::to_bits), plain.map(f64::to_bits));
+        assert_eq!(roomiest(sums).map(f64::to_bits), plain.map(f64::to_bits));
     }
 }

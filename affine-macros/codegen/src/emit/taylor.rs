@@ -2,13 +2,15 @@
 
 mod columns;
 mod convolutions;
+mod reads;
+mod rows;
 mod rules;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::algebra::Function;
-use crate::ir::taylor::{Recurrence, Rule, Series, Term};
+use crate::ir::taylor::{Recurrence, Rule, Series};
 use crate::ir::{Op, Program, Value};
 
 use super::body::{Body, inputs};
@@ -22,12 +24,13 @@ pub(super) fn taylor_impl(context: &Context) -> TokenStream {
     let t = &context.names.scalar;
     let slots = number(recurrence.row.len());
     let mut writer = Writer { context, recurrence, fixed: Vec::new() };
-    let (columns, start, next) = (writer.columns(), writer.start(), writer.next());
+    let (columns, start, ready, next) = (writer.columns(), writer.start(), writer.ready(), writer.next());
     quote! {
         impl #generics #rt::Taylor<#n> for #prepared #types #clause {
             type Row<#t: #rt::Scalar> = [#t; #slots];
             #columns
             #start
+            #ready
             #next
         }
     }
@@ -138,31 +141,38 @@ impl Writer<'_> {
         }
     }
 
+    /// The values that do not move and that rules read, as statements; the parameter that they read.
+    fn fix(&mut self, rules: &[&(Value, Rule)]) -> (TokenStream, TokenStream) {
+        let values = reads::fixed(rules);
+        let program = self.with_results(values.iter().copied());
+        let (read, constants) = self.constants(&program);
+        let Body { lets, results } = self.context.generic(&program);
+        self.fixed = values.into_iter().zip(results).collect();
+        (quote!(#read #lets), constants)
+    }
+
     /// `next`: one order more.
     fn next(&mut self) -> TokenStream {
+        let recurrence = self.recurrence;
         let (rt, t) = (&self.context.names.rt, &self.context.names.scalar);
-        let values = self.values_read_fixed();
-        let fixed = self.with_results(values.iter().copied());
-        let (read, constants) = self.constants(&fixed);
-        let Body { lets, results } = self.context.generic(&fixed);
-        self.fixed = values.into_iter().zip(results).collect();
-        let states = self.used_states();
-        let used: Vec<&str> = states.iter().map(String::as_str).collect();
-        let (bind, coefficient) = self.bind(&used, "coefficient");
-        let (ready, late): (Vec<_>, Vec<_>) =
-            self.recurrence.rules.iter().partition(|(value, _)| self.recurrence.ready[*value]);
-        let early = ready.iter().map(|(value, rule)| self.statement(*value, rule));
         let unread = self.read_by_columns_alone();
-        let late = late.iter().filter(|(value, _)| !unread.contains(value));
-        let late = late.map(|(value, rule)| self.statement(*value, rule));
-        let (early_vectors, late_vectors) = (self.vectors(true), self.vectors(false));
-        let stored = self.stored();
-        let middle = self.loops();
-        let ends = self.recurrence.full.iter().map(|pass| self.ends(pass));
-        let rates = self.recurrence.program.outputs.iter().map(|(_, v)| match self.recurrence.moving[*v] {
+        let late = recurrence.rules.iter().filter(|(v, _)| !recurrence.ready[*v] && !unread.contains(v));
+        let late: Vec<&(Value, Rule)> = late.collect();
+        let outputs = self.outputs_apart();
+        let mut wanted: Vec<Value> = late.iter().flat_map(|(_, rule)| reads::of(rule)).collect();
+        wanted.extend(self.late_slots().map(|(_, series)| series.value));
+        wanted.extend(outputs);
+        let rules: Vec<&(Value, Rule)> = self.ready_rules(&wanted).into_iter().chain(late).collect();
+        let (fixed, constants) = self.fix(&rules);
+        let states = self.states_among(&wanted, &rules);
+        let (bind, coefficient) =
+            self.bind(&states.iter().map(String::as_str).collect::<Vec<_>>(), "coefficient");
+        let statements = rules.iter().map(|(value, rule)| self.statement(*value, rule));
+        let (convolutions, stored) = (self.convolutions(), self.stored());
+        let rates = recurrence.program.outputs.iter().map(|(_, v)| match recurrence.moving[*v] {
             true => {
                 let rate = self.ident(*v);
-                quote!(#rate / divisor)
+                quote!(#rt::over(#rate, divisor))
             }
             false => quote!(#t::zero()),
         });
@@ -170,37 +180,37 @@ impl Writer<'_> {
         let coefficients =
             states.iter().zip(rates).map(|(state, rate)| self.column_entry(state).unwrap_or(rate));
         let none = self.no_columns();
-        let (columns, next_columns, advanced) = self.column_bindings();
+        let (next_columns, advanced) = self.advanced_columns();
         let zeros = number(self.states().len());
-        let open = (!self.recurrence.row.is_empty()).then(
-            || quote!(let [first, middle @ .., row] = rows else { return ([#t::zero(); #zeros], #none) };),
-        );
-        let rows = if self.recurrence.row.is_empty() { quote!(_rows) } else { quote!(rows) };
-        let passes = self.recurrence.full.len() + self.recurrence.inner.len();
+        let named = match self.row_names() {
+            (true, true) => Some(quote!([first, .., row])),
+            (true, false) => Some(quote!([first, ..])),
+            (false, true) => Some(quote!([.., row])),
+            (false, false) => None,
+        };
+        let open =
+            named.map(|named| quote!(let #named = rows else { return ([#t::zero(); #zeros], #none) };));
+        let passes = recurrence.passes();
+        let rows = if passes > 0 || open.is_some() { quote!(rows) } else { quote!(_rows) };
         let vectors = if passes > 0 { quote!(vectors) } else { quote!(_vectors) };
         let order = if self.reads_order() { quote!(order) } else { quote!(_) };
-        let moves = self.recurrence.program.outputs.iter().any(|(_, v)| self.recurrence.moving[*v]);
+        let moves = recurrence.program.outputs.iter().any(|(_, v)| recurrence.moving[*v]);
         let divisor = if moves { quote!(divisor) } else { quote!(_) };
         quote! {
             #[inline(always)]
             fn next<#t: #rt::Scalar>(
                 &self,
                 #vectors: impl #rt::Vectors,
-                (#order, #divisor): (#t, #t),
+                (#order, #divisor): (#t, #rt::Divisor<#t>),
                 #constants: &Self::Constants<#t>,
-                (#coefficient, #columns): (&Self::Reduced<#t>, Self::Columns<#t>),
+                #coefficient: &Self::Reduced<#t>,
                 #rows: &mut [Self::Row<#t>],
             ) -> (Self::Reduced<#t>, Self::Columns<#t>) {
-                #read
-                #lets
+                #fixed
+                #convolutions
                 #open
-                #middle
                 #bind
-                #(#early)*
-                #early_vectors
-                #(#ends)*
-                #(#late)*
-                #late_vectors
+                #(#statements)*
                 #stored
                 #advanced
                 ([#(#coefficients),*], #next_columns)
@@ -208,66 +218,22 @@ impl Writer<'_> {
         }
     }
 
-    /// Values that do not move and that rules read.
-    fn values_read_fixed(&self) -> Vec<Value> {
-        let mut fixed: Vec<Value> = Vec::new();
-        for (_, rule) in &self.recurrence.rules {
-            let Rule::Sum(terms) = rule else { continue };
-            for (_, term) in terms {
-                if let Term::Scaled(c, _) | Term::Divided(_, c) = term
-                    && !fixed.contains(c)
-                {
-                    fixed.push(*c);
-                }
-            }
-        }
-        fixed
-    }
-
-    /// States whose coefficients rules or rows read.
-    fn used_states(&self) -> Vec<String> {
-        let row = self.recurrence.row.iter().enumerate().filter(|(slot, _)| !self.is_in_column(*slot));
-        let mut read: Vec<Value> = row.filter_map(|(_, s)| Some((*s)?.value)).collect();
-        read.extend(self.recurrence.program.outputs.iter().map(|(_, v)| *v));
-        read.extend(self.read_by_rules());
-        let inputs = read.into_iter().filter(|v| self.recurrence.moving[*v]);
-        inputs
-            .filter(|v| matches!(self.recurrence.program.steps[*v], Op::Input(_)))
-            .map(|v| self.name(v))
-            .collect()
-    }
-
-    /// What rules read of the present order.
-    fn read_by_rules(&self) -> Vec<Value> {
-        let read = |(_, rule): &(Value, Rule)| match rule {
-            Rule::Sum(terms) => terms
-                .iter()
-                .flat_map(|(_, term)| match *term {
-                    Term::Value(v) | Term::Scaled(_, v) | Term::Divided(v, _) => vec![v],
-                    Term::Ends(a, b) => vec![a, b],
-                    Term::Lane(_) => Vec::new(),
-                })
-                .collect(),
-            Rule::Quotient { numerator, denominator, .. } => {
-                numerator.iter().chain([denominator]).copied().collect()
-            }
-            Rule::Function { argument, .. } => vec![*argument],
-        };
-        self.recurrence.rules.iter().flat_map(read).collect()
+    /// Rates that no column reads.
+    fn outputs_apart(&self) -> Vec<Value> {
+        let states = self.states();
+        let outputs = states.iter().zip(&self.recurrence.program.outputs);
+        let apart = outputs.filter(|(state, _)| self.column_entry(state).is_none());
+        apart.map(|(_, (_, value))| *value).filter(|v| self.recurrence.moving[*v]).collect()
     }
 
     /// Rates that only columns read, as the sums that they are the lanes of.
     fn read_by_columns_alone(&self) -> Vec<Value> {
-        let elsewhere = self.read_by_rules();
+        let elsewhere: Vec<Value> =
+            self.recurrence.rules.iter().flat_map(|(_, rule)| reads::of(rule)).collect();
         let in_row = |value: Value| self.recurrence.row.iter().flatten().any(|series| series.value == value);
-        let (in_columns, apart): (Vec<_>, Vec<_>) = self
-            .states()
-            .into_iter()
-            .zip(&self.recurrence.program.outputs)
-            .partition(|(state, _)| self.column_entry(state).is_some());
-        let is_output = |value: Value| apart.iter().any(|(_, (_, v))| *v == value);
-        let rates = in_columns.into_iter().map(|(_, (_, value))| *value);
-        rates.filter(|v| !elsewhere.contains(v) && !in_row(*v) && !is_output(*v)).collect()
+        let apart = self.outputs_apart();
+        let rates = self.recurrence.program.outputs.iter().map(|(_, value)| *value);
+        rates.filter(|v| !elsewhere.contains(v) && !in_row(*v) && !apart.contains(v)).collect()
     }
 
     fn reads_order(&self) -> bool {

@@ -72,7 +72,7 @@ pub struct Column {
     pub sum: usize,
 }
 
-/// One multiplication of vectors in a convolution: `sum += left_j right_(k-j)`.
+/// One multiplication of vectors in a convolution: `sum += left_j right_(k-j)`. Squares and others have sums apart.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pass {
     /// Which sum.
@@ -83,6 +83,14 @@ pub struct Pass {
     pub left: usize,
     /// The right factor.
     pub right: Factor,
+}
+
+impl Pass {
+    /// A vector with itself: the terms `j` and `k - j` are equal.
+    #[must_use]
+    pub fn is_square(&self) -> bool {
+        self.right == Factor::Vector(self.left)
+    }
 }
 
 /// The right factor of a [`Pass`].
@@ -153,9 +161,12 @@ impl Recurrence {
     pub fn of(program: &Program, states: &[String]) -> Self {
         let program = companions::completed(&quotients::divided(program));
         let draft = rules::Draft::of(&program, states);
-        let Packed { lanes, row, vectors, full, inner, places } = lanes::pack(&draft.products, draft.kept());
+        let Packed { lanes, mut row, vectors, full, inner, places } =
+            lanes::pack(&draft.products, draft.kept());
         let rules = draft.rules(&places);
         let columns = columns::find(&program, states, &rules, (&row[..vectors], lanes));
+        // Vectors of all rows then begin at multiples of their length, and none lies across two lines of a cache.
+        row.resize(row.len().next_multiple_of(lanes), None);
         Self {
             columns,
             moving: draft.moving,

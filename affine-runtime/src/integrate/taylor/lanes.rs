@@ -5,57 +5,11 @@
 
 use core::any::Any;
 
-use wide::{f64x2, f64x4};
+use wide::f64x2;
 
+use super::Vectors;
+use super::divisor::{Divisor, over};
 use crate::scalar::Scalar;
-
-/// Vectors of four doubles, as a processor has them; what it rounds is the same on all.
-pub trait Vectors: Copy {
-    /// `left/right`, lane by lane.
-    fn quotient(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4];
-    /// `sum + left right`, lane by lane.
-    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
-    /// `sum - left right`, lane by lane.
-    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
-}
-
-/// The vectors that every processor of the target has.
-#[derive(Clone, Copy, Debug)]
-pub struct Portable;
-
-impl Vectors for Portable {
-    #[inline(always)]
-    fn quotient(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        (f64x4::from(left) / f64x4::from(right)).into()
-    }
-    #[inline(always)]
-    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        f64x4::from(left).mul_add(f64x4::from(right), f64x4::from(sum)).into()
-    }
-    #[inline(always)]
-    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        f64x4::from(left).mul_neg_add(f64x4::from(right), f64x4::from(sum)).into()
-    }
-}
-
-/// AVX2: found at run time on targets that do not promise it, so nothing is fused there either.
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
-impl Vectors for pulp::x86::V3 {
-    #[inline(always)]
-    fn quotient(self, left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        pulp::cast(self.div_f64x4(pulp::cast(left), pulp::cast(right)))
-    }
-    #[inline(always)]
-    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        let product = self.mul_f64x4(pulp::cast(left), pulp::cast(right));
-        pulp::cast(self.add_f64x4(pulp::cast(sum), product))
-    }
-    #[inline(always)]
-    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        let product = self.mul_f64x4(pulp::cast(left), pulp::cast(right));
-        pulp::cast(self.sub_f64x4(pulp::cast(sum), product))
-    }
-}
 
 /// The lanes of a row that begin at a slot.
 #[inline(always)]
@@ -107,7 +61,7 @@ pub fn subtract_products<T: Scalar, const W: usize>(
 
 /// `sum += factor left`.
 #[inline(always)]
-pub fn add_multiple<T: Scalar, const W: usize>(
+pub(super) fn add_multiple<T: Scalar, const W: usize>(
     vectors: impl Vectors,
     sum: &mut [T; W],
     left: [T; W],
@@ -116,37 +70,115 @@ pub fn add_multiple<T: Scalar, const W: usize>(
     add_products(vectors, sum, left, [factor; W]);
 }
 
-/// `sum -= factor left`.
+/// `sum += left right + left' right'`, lane by lane: a product of two series has its terms in such pairs, `j` and `k - j`.
 #[inline(always)]
-pub fn subtract_multiple<T: Scalar, const W: usize>(
+pub fn add_pair<T: Scalar, const W: usize>(
     vectors: impl Vectors,
     sum: &mut [T; W],
-    left: [T; W],
-    factor: T,
+    one: [[T; W]; 2],
+    other: [[T; W]; 2],
 ) {
-    subtract_products(vectors, sum, left, [factor; W]);
+    if let Some((sum, one, other)) = pairs(sum, one, other) {
+        *sum = vectors.plus_pair(*sum, one, other);
+    } else if let Some((sum, one, other)) = pairs(sum, one, other) {
+        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x2::from));
+        *sum = (f64x2::from(*sum) + one.mul_add(by, other * with)).into();
+    } else {
+        for lane in 0..W {
+            sum[lane] += one[0][lane].fma(one[1][lane], other[0][lane] * other[1][lane]);
+        }
+    }
+}
+
+/// `sum -= left right + left' right'`, lane by lane.
+#[inline(always)]
+pub fn subtract_pair<T: Scalar, const W: usize>(
+    vectors: impl Vectors,
+    sum: &mut [T; W],
+    one: [[T; W]; 2],
+    other: [[T; W]; 2],
+) {
+    if let Some((sum, one, other)) = pairs(sum, one, other) {
+        *sum = vectors.minus_pair(*sum, one, other);
+    } else if let Some((sum, one, other)) = pairs(sum, one, other) {
+        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x2::from));
+        *sum = (f64x2::from(*sum) - one.mul_add(by, other * with)).into();
+    } else {
+        for lane in 0..W {
+            sum[lane] -= one[0][lane].fma(one[1][lane], other[0][lane] * other[1][lane]);
+        }
+    }
+}
+
+/// The rows before the middle, the one in the middle where their number is odd, those behind: a convolution pairs them
+/// off, from the middle on, so that what was computed last comes last.
+#[inline(always)]
+pub fn halves<R>(rows: &[R]) -> (&[R], Option<&R>, &[R]) {
+    let (low, rest) = rows.split_at(rows.len() / 2);
+    match rest {
+        [middle, high @ ..] if high.len() == low.len() => (low, Some(middle), high),
+        high => (low, None, high),
+    }
+}
+
+/// `vector/2`: the term in the middle of a square, whose other terms come in equal pairs and are formed once.
+#[inline(always)]
+pub fn halved<T: Scalar, const W: usize>(vectors: impl Vectors, vector: [T; W]) -> [T; W] {
+    let mut half = [T::zero(); W];
+    add_multiple(vectors, &mut half, vector, T::constant(0.5, 0.0));
+    half
+}
+
+/// `2 sum`: of a square, both terms of each pair.
+#[inline(always)]
+pub fn doubled<T: Scalar, const W: usize>(vectors: impl Vectors, sum: [T; W]) -> [T; W] {
+    let mut twice = sum;
+    add_multiple(vectors, &mut twice, sum, T::one());
+    twice
+}
+
+/// The rows but for the first and the last.
+#[inline(always)]
+pub fn between<R>(rows: &[R]) -> &[R] {
+    match rows {
+        [_, middle @ .., _] => middle,
+        _ => &[],
+    }
 }
 
 /// `left/divisor`, lane by lane.
 #[inline(always)]
-pub fn divided<T: Scalar, const W: usize>(vectors: impl Vectors, left: [T; W], divisor: T) -> [T; W] {
+pub fn divided<T: Scalar, const W: usize>(
+    vectors: impl Vectors,
+    left: [T; W],
+    divisor: Divisor<T>,
+) -> [T; W] {
+    let (one, other) = ([left, [divisor.nearest; W]], [left, [divisor.rest; W]]);
     let mut quotient = left;
-    let divisors = [divisor; W];
-    if let Some((quotient, left, right)) = doubles(&mut quotient, &left, &divisors) {
-        *quotient = vectors.quotient(left, right);
-    } else if let Some((quotient, left, right)) = doubles(&mut quotient, &left, &divisors) {
-        *quotient = (f64x2::from(left) / f64x2::from(right)).into();
+    if let Some((quotient, one, other)) = pairs(&mut quotient, one, other) {
+        *quotient = vectors.pair(one, other);
+    } else if let Some((quotient, one, other)) = pairs(&mut quotient, one, other) {
+        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x2::from));
+        *quotient = one.mul_add(by, other * with).into();
     } else {
-        quotient.iter_mut().for_each(|lane| *lane /= divisor);
+        quotient.iter_mut().for_each(|lane| *lane = over(*lane, divisor));
     }
     quotient
 }
 
 /// Writes the lanes of a row that begin at a slot.
 #[inline(always)]
-pub fn set_lanes<T: Scalar, const W: usize>(row: &mut [T], slot: usize, vector: [T; W]) {
+pub fn set_lanes<T: Scalar, const W: usize>(
+    vectors: impl Vectors,
+    row: &mut [T],
+    slot: usize,
+    vector: [T; W],
+) {
     if let Some(lanes) = row.get_mut(slot..).and_then(<[T]>::first_chunk_mut) {
         *lanes = vector;
+        if let Some((lanes, vector, _)) = doubles(lanes, &vector, &vector) {
+            *lanes = vectors.whole(vector);
+        }
     }
 }
 
@@ -160,4 +192,18 @@ fn doubles<'s, T: Scalar, const W: usize, const V: usize>(
     let left: &[f64; V] = (left as &dyn Any).downcast_ref()?;
     let right: &[f64; V] = (right as &dyn Any).downcast_ref()?;
     Some(((sum as &mut dyn Any).downcast_mut()?, *left, *right))
+}
+
+/// The same of two products.
+#[inline(always)]
+#[allow(clippy::type_complexity, reason = "a name for two pairs of vectors would say less")]
+fn pairs<T: Scalar, const W: usize, const V: usize>(
+    sum: &mut [T; W],
+    one: [[T; W]; 2],
+    other: [[T; W]; 2],
+) -> Option<(&mut [f64; V], [[f64; V]; 2], [[f64; V]; 2])> {
+    let (sum, left, right) = doubles(sum, &one[0], &one[1])?;
+    let (mut unread, with) = (other[0], &other[1]);
+    let (_, other, with) = doubles(&mut unread, &other[0], with)?;
+    Some((sum, [left, right], [other, with]))
 }

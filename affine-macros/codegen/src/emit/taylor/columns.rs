@@ -52,18 +52,14 @@ impl Writer<'_> {
         quote!([#(#zeros),*])
     }
 
-    /// The columns as a parameter and as a result, and their next coefficients.
-    pub(super) fn column_bindings(&self) -> (TokenStream, TokenStream, TokenStream) {
+    /// The next coefficients of the columns, as a result and as statements.
+    pub(super) fn advanced_columns(&self) -> (TokenStream, TokenStream) {
         let rt = &self.context.names.rt;
         let columns = &self.recurrence.columns;
-        if columns.is_empty() {
-            return (quote!(_), quote!([]), TokenStream::new());
-        }
-        let names = columns.iter().map(|column| self.vector(column.slot));
         let next: Vec<Ident> = (1..=columns.len()).map(next_column).collect();
         let sums = columns.iter().map(|column| self.sum("full", column.sum));
         let advanced = quote!(#(let #next = #rt::divided(vectors, #sums, divisor);)*);
-        (quote!([#(#names),*]), quote!([#(#next),*]), advanced)
+        (quote!([#(#next),*]), advanced)
     }
 
     /// The next coefficient of a state that stands in a column.

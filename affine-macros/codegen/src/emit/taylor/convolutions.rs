@@ -5,138 +5,122 @@ use quote::{format_ident, quote};
 
 use super::super::number;
 use super::Writer;
-use crate::ir::taylor::{Factor, Pass, Place, Recurrence, Series, sums};
+use crate::ir::taylor::{Factor, Pass, Place, sums};
 
-/// Sums that are formed in one loop: with four lanes each, twelve registers of the narrowest vector unit. Nine in one loop,
-/// several accumulators to a sum, and the newest row behind the loop were all measured, and no faster: some of these
-/// registers then live on the stack.
-const SUMS_PER_LOOP: usize = 6;
+/// Sums that are formed in one loop: with the factors from both rows they fill the registers of AVX-512, and with half as
+/// many registers two loops that load everything twice are no faster.
+const SUMS_PER_LOOP: usize = 9;
 
 impl Writer<'_> {
-    /// The vectors of ready series, or the others: all lanes of a row that begin at `slot`.
-    pub(super) fn vectors(&self, ready: bool) -> TokenStream {
-        let t = &self.context.names.scalar;
-        let is_ready =
-            |series: &Option<Series>| series.is_none_or(|s| self.recurrence.ready[s.value] && !s.rate);
-        let vectors =
-            self.recurrence.row[..self.recurrence.vectors].chunks(self.recurrence.lanes).enumerate();
-        vectors
-            .filter(|(index, vector)| {
-                !self.is_in_column(index * self.recurrence.lanes) && vector.iter().all(is_ready) == ready
-            })
-            .map(|(index, vector)| {
-                let name = self.vector(index * self.recurrence.lanes);
-                let entries = vector.iter().map(|series| match series {
-                    Some(series) => self.current(*series),
-                    None => quote!(#t::zero()),
-                });
-                quote!(let #name = [#(#entries),*];)
-            })
-            .collect()
-    }
-
     pub(super) fn vector(&self, slot: usize) -> Ident {
         format_ident!("lanes_{}", slot / self.recurrence.lanes + 1)
     }
 
-    /// Fills the row of order `k`.
-    pub(super) fn stored(&self) -> TokenStream {
-        let Recurrence { row, vectors, lanes, .. } = self.recurrence;
-        if row.is_empty() {
-            return TokenStream::new();
-        }
+    /// All convolutions: the full ones over the rows `0..=k`, the inner ones over those between. Their terms come in pairs,
+    /// `j` and `k - j`. The pair that has the newest row comes last: no other waits for it.
+    pub(super) fn convolutions(&self) -> TokenStream {
         let rt = &self.context.names.rt;
-        let columns = (0..*vectors).step_by(*lanes).map(|slot| {
-            let (name, slot) = (self.vector(slot), number(slot));
-            quote!(#rt::set_lanes(row, #slot, #name);)
-        });
-        let singles = row.iter().enumerate().skip(*vectors).filter_map(|(slot, series)| {
-            let (slot, entry) = (number(slot), self.current((*series)?));
-            Some(quote!(row[#slot] = #entry;))
-        });
-        quote!(#(#columns)* #(#singles)*)
+        let rows = [
+            ("full", &self.recurrence.full, quote!(let (low, centre, high) = #rt::halves(rows);)),
+            (
+                "inner",
+                &self.recurrence.inner,
+                quote!(let (low, centre, high) = #rt::halves(#rt::between(rows));),
+            ),
+        ];
+        let convolutions = rows.into_iter().filter(|(_, passes, _)| !passes.is_empty());
+        convolutions
+            .map(|(stem, passes, halves)| {
+                let loops = self.loops(stem, passes);
+                let doubled = self.doubled(stem, passes);
+                quote!(#halves #loops #doubled)
+            })
+            .collect()
     }
 
-    /// The terms `j = 1..k` of all convolutions.
-    pub(super) fn loops(&self) -> TokenStream {
+    fn loops(&self, stem: &str, passes: &[Pass]) -> TokenStream {
         let t = &self.context.names.scalar;
         let lanes = number(self.recurrence.lanes);
-        let all = [("full", &self.recurrence.full), ("inner", &self.recurrence.inner)];
-        let sums: Vec<(&str, usize)> =
-            all.iter().flat_map(|(stem, passes)| (0..sums(passes)).map(move |sum| (*stem, sum))).collect();
-        let passes: Vec<(&str, &Pass)> =
-            all.iter().flat_map(|(stem, passes)| passes.iter().map(move |pass| (*stem, pass))).collect();
-        let blocks = sums.chunks(SUMS_PER_LOOP).map(|block| {
-            let names = block.iter().map(|(stem, sum)| self.sum(stem, *sum));
-            let own = passes.iter().filter(|(stem, pass)| block.contains(&(*stem, pass.sum)));
-            let statements = own.map(|(stem, pass)| {
-                let (left, right) = self.factors(pass, &quote!(left), &quote!(right));
-                self.pass(stem, pass, &left, &right)
+        let all: Vec<usize> = (0..sums(passes)).collect();
+        let blocks = all.chunks(SUMS_PER_LOOP).map(|block| {
+            let names = block.iter().map(|sum| self.sum(stem, *sum));
+            let own = || passes.iter().filter(|pass| block.contains(&pass.sum));
+            let centres = own().map(|pass| self.centre(stem, pass));
+            let pairs = own().map(|pass| {
+                let [left, right] = [quote!(left), quote!(right)].map(|row| self.factors(pass, &row));
+                self.pair(stem, pass, left, right)
             });
             quote! {
                 #(let mut #names = [#t::zero(); #lanes];)*
-                for (left, right) in middle.iter().zip(middle.iter().rev()) {
-                    #(#statements)*
+                if let ::core::option::Option::Some(centre) = centre {
+                    #(#centres)*
+                }
+                for (left, right) in low.iter().rev().zip(high) {
+                    #(#pairs)*
                 }
             }
         });
         blocks.collect()
     }
 
-    /// The terms `j = 0` and `j = k` of a full convolution.
-    pub(super) fn ends(&self, pass: &Pass) -> TokenStream {
-        let (first_left, first_right) = self.factors(pass, &quote!(first), &quote!(first));
-        let left = self.vector(pass.left);
-        let right = match pass.right {
-            Factor::Vector(slot) => {
-                let right = self.vector(slot);
-                quote!(#right)
-            }
-            Factor::Slot(slot) if self.is_in_column(slot) => {
-                let (vector, lane) = (self.vector(slot), number(slot % self.recurrence.lanes));
-                quote!(#vector[#lane])
-            }
-            Factor::Slot(slot) => {
-                self.recurrence.row[slot].map(|series| self.current(series)).unwrap_or_default()
-            }
-        };
-        let one = self.pass("full", pass, &first_left, &right);
-        let other = self.pass("full", pass, &quote!(#left), &first_right);
-        quote!(#one #other)
-    }
-
-    /// The factors of a multiplication from two rows.
-    fn factors(&self, pass: &Pass, left: &TokenStream, right: &TokenStream) -> (TokenStream, TokenStream) {
+    /// The factors of a multiplication, both from one row.
+    fn factors(&self, pass: &Pass, row: &TokenStream) -> [TokenStream; 2] {
         let rt = &self.context.names.rt;
-        let vector = |row: &TokenStream, slot: usize| {
+        let vector = |slot: usize| {
             let slot = number(slot);
             quote!(#rt::lanes(#row, #slot))
         };
         let right = match pass.right {
-            Factor::Vector(slot) => vector(right, slot),
+            Factor::Vector(slot) => vector(slot),
             Factor::Slot(slot) => {
                 let slot = number(slot);
-                quote!(#right[#slot])
+                self.in_all_lanes(&quote!(#row[#slot]))
             }
         };
-        (vector(left, pass.left), right)
+        [vector(pass.left), right]
+    }
+
+    fn in_all_lanes(&self, entry: &TokenStream) -> TokenStream {
+        let lanes = number(self.recurrence.lanes);
+        quote!([#entry; #lanes])
+    }
+
+    /// The terms `j` and `k - j` from the factors of two rows; of a square, one of two that are equal.
+    fn pair(&self, stem: &str, pass: &Pass, one: [TokenStream; 2], other: [TokenStream; 2]) -> TokenStream {
+        let rt = &self.context.names.rt;
+        let (sum, [a, b], [c, d]) = (self.sum(stem, pass.sum), one, other);
+        if pass.is_square() {
+            return self.product(pass, &sum, &a, &c);
+        }
+        let function = if pass.negative { quote!(subtract_pair) } else { quote!(add_pair) };
+        quote!(#rt::#function(vectors, &mut #sum, [#a, #d], [#c, #b]);)
+    }
+
+    /// The term `j = k/2`; of a square, half of it.
+    fn centre(&self, stem: &str, pass: &Pass) -> TokenStream {
+        let rt = &self.context.names.rt;
+        let [left, right] = self.factors(pass, &quote!(centre));
+        let left = if pass.is_square() { quote!(#rt::halved(vectors, #left)) } else { left };
+        self.product(pass, &self.sum(stem, pass.sum), &left, &right)
+    }
+
+    fn product(&self, pass: &Pass, sum: &Ident, left: &TokenStream, right: &TokenStream) -> TokenStream {
+        let rt = &self.context.names.rt;
+        let function = if pass.negative { quote!(subtract_products) } else { quote!(add_products) };
+        quote!(#rt::#function(vectors, &mut #sum, #left, #right);)
+    }
+
+    /// Squares from their halves.
+    fn doubled(&self, stem: &str, passes: &[Pass]) -> TokenStream {
+        let rt = &self.context.names.rt;
+        let mut squares: Vec<usize> = passes.iter().filter(|p| p.is_square()).map(|p| p.sum).collect();
+        squares.dedup();
+        let squares = squares.into_iter().map(|sum| self.sum(stem, sum));
+        quote!(#(let #squares = #rt::doubled(vectors, #squares);)*)
     }
 
     pub(super) fn sum(&self, stem: &str, sum: usize) -> Ident {
         format_ident!("{stem}_{}", sum + 1)
-    }
-
-    fn pass(&self, stem: &str, pass: &Pass, left: &TokenStream, right: &TokenStream) -> TokenStream {
-        let rt = &self.context.names.rt;
-        let sum = self.sum(stem, pass.sum);
-        let name = match (pass.negative, pass.right) {
-            (false, Factor::Vector(_)) => "add_products",
-            (true, Factor::Vector(_)) => "subtract_products",
-            (false, Factor::Slot(_)) => "add_multiple",
-            (true, Factor::Slot(_)) => "subtract_multiple",
-        };
-        let function = format_ident!("{name}");
-        quote!(#rt::#function(vectors, &mut #sum, #left, #right);)
     }
 
     /// A convolution that has been formed.

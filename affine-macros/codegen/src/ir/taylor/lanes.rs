@@ -271,7 +271,7 @@ fn gather(products: &[Product], open: &[usize], row: &mut Row, chosen: &mut Vec<
     for chunk in open.chunks(row.lanes) {
         let left = row.vector(chunk.iter().map(|p| products[*p].factors[0]).collect());
         let right = match chunk {
-            [only] => Right::Series(products[*only].factors[1]),
+            [only] if !products[*only].is_square() => Right::Series(products[*only].factors[1]),
             several => Right::Vector(row.vector(several.iter().map(|p| products[*p].factors[1]).collect())),
         };
         chosen.push(Multiplication { left, right, products: chunk.iter().copied().map(Some).collect() });
@@ -279,7 +279,7 @@ fn gather(products: &[Product], open: &[usize], row: &mut Row, chosen: &mut Vec<
 }
 
 /// The sum that each multiplication is added to, and whether it is subtracted: multiplications whose products belong
-/// to the same sums, lane by lane, share one.
+/// to the same sums, lane by lane, share one. Not so squares with others, of which only half the terms are formed.
 fn merge(draft: &[Multiplication], products: &[Product]) -> Vec<(usize, bool)> {
     /// Lane by lane, the sum that is added to.
     type Home = Vec<Option<(usize, bool)>>;
@@ -292,14 +292,16 @@ fn merge(draft: &[Multiplication], products: &[Product]) -> Vec<(usize, bool)> {
             })
             .collect()
     };
-    let mut homes: Vec<Option<Home>> = Vec::new();
+    let mut homes: Vec<Option<(bool, Home)>> = Vec::new();
     let mut sums = Vec::with_capacity(draft.len());
     for multiplication in draft {
-        let own = home(multiplication);
-        let opposite = own.as_ref().map(|own| -> Home {
-            own.iter().map(|lane| lane.map(|(value, negative)| (value, !negative))).collect()
+        let is_square = multiplication.right == Right::Vector(multiplication.left);
+        let own = home(multiplication).map(|home| (is_square, home));
+        let opposite = own.as_ref().map(|(is_square, own)| -> (bool, Home) {
+            (*is_square, own.iter().map(|lane| lane.map(|(value, negative)| (value, !negative))).collect())
         });
-        let known = |wanted: &Option<Home>| homes.iter().position(|h| wanted.is_some() && h == wanted);
+        let known =
+            |wanted: &Option<(bool, Home)>| homes.iter().position(|h| wanted.is_some() && h == wanted);
         sums.push(match (known(&own), known(&opposite)) {
             (Some(sum), _) => (sum, false),
             (None, Some(sum)) => (sum, true),

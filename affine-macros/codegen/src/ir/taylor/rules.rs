@@ -17,6 +17,12 @@ pub(super) struct Product {
     pub sum: Option<(Value, bool)>,
 }
 
+impl Product {
+    pub(super) fn is_square(&self) -> bool {
+        self.factors[0] == self.factors[1]
+    }
+}
+
 /// A rule whose convolutions have no place yet.
 enum Outline {
     Sum(Vec<(bool, Part)>),
