@@ -64,10 +64,14 @@ pub enum Method {
         /// The order, 2 to 32; `None`: the one that suits the tolerance.
         order: Option<usize>,
     },
-    /// Runge-Kutta-Nystrom method of order 12, [`RungeKuttaNystrom12`](crate::integrate::RungeKuttaNystrom12), of a model
+    /// Runge-Kutta-Nystrom method of order 12, [`RungeKuttaNystrom`](crate::integrate::RungeKuttaNystrom), of a model
     /// with `emit(nystrom)`, whose equations are `q'' = f(t, q)`; an error for others. Output times between steps are
     /// reached by a shorter step from the one before.
     RungeKuttaNystrom12,
+    /// The same of order 8.
+    RungeKuttaNystrom8,
+    /// The same of order 6.
+    RungeKuttaNystrom6,
     /// Gauss collocation, [`Gauss`](crate::integrate::Gauss): implicit, symmetric, of order `2 stages`, in equal
     /// steps; the tolerance plays no part. Keeps every linear and quadratic first integral of the reduced equations
     /// up to rounding, and is symplectic where the reduced variables are canonical, `phi` and `Pi`. With affine spins
@@ -114,6 +118,8 @@ impl Method {
             | Method::RungeKutta8
             | Method::RungeKutta5
             | Method::RungeKuttaNystrom12
+            | Method::RungeKuttaNystrom8
+            | Method::RungeKuttaNystrom6
             | Method::Taylor { .. } => None,
         }
     }

@@ -8,11 +8,12 @@ use super::recorder::Recorder;
 use super::stepper::{Explicit, Stepper};
 use super::{Method, TAYLOR_TOLERANCE};
 use crate::capability::is_emitted;
-use crate::integrate::gauss::Tableau;
+use crate::integrate::gauss;
 use crate::integrate::lie::{Chart, Coordinates, Flat};
+use crate::integrate::nystrom::Tableau;
 use crate::integrate::rattle::{Composition, Reaction};
 use crate::integrate::{
-    Failure, Gauss, Rattle, RungeKutta5, RungeKutta8, RungeKuttaNystrom12, Splitting, Taylor,
+    Failure, Gauss, Rattle, RungeKutta5, RungeKutta8, RungeKuttaNystrom, Splitting, Taylor,
 };
 use crate::model::{Constraint, Group, Model, StateVector};
 use crate::state::Phase;
@@ -28,9 +29,11 @@ pub(super) fn integrate<const N: usize, M: Model<N>>(
     recorder.trajectory.computation.method = method;
     match method {
         Method::Rattle { order, step } => by_rattle(model, (order, step), course, recorder),
-        Method::Taylor { .. } | Method::RungeKuttaNystrom12 | Method::Splitting { .. } => {
-            by_capability(model, method, course, recorder)
-        }
+        Method::Taylor { order } => by_series(model, order, course, recorder),
+        Method::Splitting { order, step } => by_pieces(model, (order, step), course, recorder),
+        Method::RungeKuttaNystrom12 => by_halves(model, &Tableau::ORDER_12, course, recorder),
+        Method::RungeKuttaNystrom8 => by_halves(model, &Tableau::ORDER_8, course, recorder),
+        Method::RungeKuttaNystrom6 => by_halves(model, &Tableau::ORDER_6, course, recorder),
         _ if const { !moves_on_group(&M::DESCRIPTION, N) } => reduced(model, Flat, method, course, recorder),
         _ if const { is_canonical(&M::DESCRIPTION) } => with_reaction(model, method, course, recorder),
         _ => reduced(model, chart::<N, M>(M::DESCRIPTION.reduced)?, method, course, recorder),
@@ -60,36 +63,58 @@ fn chosen<const N: usize, M: Model<N>>(
     }
 }
 
-/// The reduced state by what `emit(...)` asked for: its Taylor series, the exact flows of pieces, or
-/// Runge-Kutta-Nystrom steps of its halves.
-fn by_capability<const N: usize, M: Model<N>>(
+/// The reduced state by its Taylor series.
+fn by_series<const N: usize, M: Model<N>>(
     model: &M,
-    method: Method,
+    order: Option<usize>,
     course: &Course<M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
     let Course { t0, start, t_end, tolerance, .. } = *course;
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
     let (reduced, constants) = model.reduce(t0, &start);
-    let begin = (t0, reduced);
     let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
-    match method {
-        Method::Taylor { order } => emitted::<N, M, _>(model.taylor(), "taylor", |series| {
-            let integration = Taylor::new((series, constants), groups, begin, t_end, tolerance, order);
-            follow(integration, (&expand, layout), recorder)
-        }),
-        Method::Splitting { order, step } => emitted::<N, M, _>(model.splitting(), "splitting", |pieces| {
-            let integration = Splitting::new((pieces, constants), order, begin, t_end, step);
-            follow(integration.ok_or(Setting::Order { given: order })?, (&expand, layout), recorder)
-        }),
-        _ => emitted::<N, M, _>(model.second_order(), "nystrom", |system| {
-            // What follows from the positions is computed where it is asked for, not at every step.
-            let expand =
-                |t: f64, halves: &M::Reduced<f64>| model.expand(t, &constants, &model.renewed(halves));
-            let integration = RungeKuttaNystrom12::new((system, constants), groups, begin, t_end, tolerance);
-            follow(integration, (&expand, layout), recorder)
-        }),
-    }
+    emitted::<N, M, _>(model.taylor(), "taylor", |series| {
+        let integration = Taylor::new((series, constants), groups, (t0, reduced), t_end, tolerance, order);
+        follow(integration, (&expand, layout), recorder)
+    })
+}
+
+/// The reduced state by the exact flows of pieces.
+fn by_pieces<const N: usize, M: Model<N>>(
+    model: &M,
+    (order, step): (usize, f64),
+    course: &Course<M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    let Course { t0, start, t_end, .. } = *course;
+    let layout = const { Layout::of(M::DESCRIPTION.reduced, N) };
+    let (reduced, constants) = model.reduce(t0, &start);
+    let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
+    emitted::<N, M, _>(model.splitting(), "splitting", |pieces| {
+        let integration = Splitting::new((pieces, constants), order, (t0, reduced), t_end, step);
+        follow(integration.ok_or(Setting::Order { given: order })?, (&expand, layout), recorder)
+    })
+}
+
+/// The halves of the reduced state by Runge-Kutta-Nystrom steps.
+fn by_halves<const N: usize, M: Model<N>>(
+    model: &M,
+    tableau: &'static Tableau,
+    course: &Course<M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    let Course { t0, start, t_end, tolerance, .. } = *course;
+    let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
+    let (reduced, constants) = model.reduce(t0, &start);
+    emitted::<N, M, _>(model.second_order(), "nystrom", |system| {
+        // What follows from the positions is computed where it is asked for, not at every step.
+        let expand = |t: f64, halves: &M::Reduced<f64>| model.expand(t, &constants, &model.renewed(halves));
+        let begin = (t0, reduced);
+        let integration =
+            RungeKuttaNystrom::new((system, constants), tableau, groups, begin, t_end, tolerance);
+        follow(integration, (&expand, layout), recorder)
+    })
 }
 
 /// What is done with a capability of a model that has it.
@@ -156,7 +181,7 @@ fn by_equations<const N: usize, S: StateVector<f64>, P: Phase<N>>(
     let begin = (t0, state);
     match method {
         Method::Gauss { stages, step } => {
-            let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
+            let tableau = gauss::Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
             let integration = Gauss::within(coordinates, closed, tableau, begin, t_end, step);
             follow(integration, (expand, layout), recorder)
         }

@@ -70,8 +70,13 @@ impl Why {
                     (_, false) => writeln!(f, "as asked for; there is no closed form"),
                 }
             }
-            Method::RungeKuttaNystrom12 => {
-                write!(f, "Runge-Kutta-Nystrom of order 12, relative error {tolerance:e} per step: ")?;
+            Method::RungeKuttaNystrom12 | Method::RungeKuttaNystrom8 | Method::RungeKuttaNystrom6 => {
+                let order = match method {
+                    Method::RungeKuttaNystrom12 => 12,
+                    Method::RungeKuttaNystrom8 => 8,
+                    _ => 6,
+                };
+                write!(f, "Runge-Kutta-Nystrom of order {order}, relative error {tolerance:e} per step: ")?;
                 match asked {
                     Method::Automatic => writeln!(
                         f,
