@@ -7,6 +7,7 @@ use crate::integrate::lie::Sum;
 use crate::integrate::taylor::Vectors;
 use crate::integrate::widest::{Work, widest};
 use crate::model::StateVector;
+use crate::scalar::Scalar;
 
 /// The step of the method from a state, and what its stages found. As `V` is linear, the positions of a stage are
 ///
@@ -44,11 +45,6 @@ impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
     /// The method.
     pub(super) fn tableau(&self) -> &'static Tableau {
         self.tableau
-    }
-
-    /// When the step begins.
-    pub(super) fn time(&self) -> f64 {
-        self.t
     }
 
     /// Where the step begins.
@@ -102,26 +98,23 @@ impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
         let (h, tableau) = (end - self.t, self.tableau);
         let square = h * h;
         let [positions, _]: [H; 2] = halves(&self.begin.value);
+        // By value: what was just stored in pieces is slow to load in others.
+        let [mut newest, ..] = self.accelerations;
         for stage in tableau.inner {
             let mut at = positions;
             plus_multiple(vectors, &mut at, &self.velocity, stage.node * h);
-            let sum = of_row(vectors, &self.accelerations, stage.earlier);
-            plus_multiple(vectors, &mut at, &sum, square);
-            let t = self.t + stage.node * h;
-            let (before, after) = self.accelerations.split_at_mut(stage.number - 1);
-            if let (Some(newest), Some(acceleration), Some(force)) = (before.last(), after.first_mut(), self.forces.get_mut(stage.number - 1)) {
-                evaluate((system, constants), t, (&at, newest, square * stage.newest), (force, acceleration));
+            let earlier = of_row(vectors, &self.accelerations, stage.earlier);
+            plus_multiple(vectors, &mut at, &earlier, square);
+            for (at, newest) in at.as_mut().iter_mut().zip(newest.as_ref()) {
+                *at = newest.fma(square * stage.newest, *at);
             }
+            newest = self.evaluate((system, constants), stage.number, self.t + stage.node * h, &at);
         }
         let mut rise = scaled(h, self.velocity);
         plus_multiple(vectors, &mut rise, &of_row(vectors, &self.accelerations, tableau.position), square);
         if tableau.closes {
             let [positions, _] = halves(&self.begin.plus(&joined(&rise, &H::zeros())).value);
-            let last = tableau.inner.len() + 1;
-            let (before, after) = self.accelerations.split_at_mut(last);
-            if let (Some(newest), Some(acceleration), Some(force)) = (before.last(), after.first_mut(), self.forces.get_mut(last)) {
-                evaluate((system, constants), end, (&positions, newest, 0.0), (force, acceleration));
-            }
+            self.evaluate((system, constants), tableau.inner.len() + 2, end, &positions);
         }
         let (forces, accelerations) = (&self.forces, &self.accelerations);
         let pull = scaled(h, of_row(vectors, forces, tableau.momentum));
@@ -129,8 +122,27 @@ impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
         let position_error = scaled(h, of_row(vectors, accelerations, tableau.position_error));
         self.error_slope = joined(&position_error, &of_row(vectors, forces, tableau.momentum_error));
     }
+
+    /// `F` and `V(F)` of a stage.
+    #[inline(always)]
+    fn evaluate<C>(
+        &mut self,
+        (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
+        stage: usize,
+        t: f64,
+        positions: &H,
+    ) -> H {
+        let force = system.force(t, constants, positions);
+        let acceleration = system.drift(constants, &force);
+        let place = (self.forces.get_mut(stage - 1), self.accelerations.get_mut(stage - 1));
+        if let (Some(kept_force), Some(kept_acceleration)) = place {
+            (*kept_force, *kept_acceleration) = (force, acceleration);
+        }
+        acceleration
+    }
 }
 
+/// A step from where one begins.
 struct Attempt<'a, S, H, C, R> {
     step: &'a mut Step<S, H>,
     motion: (&'a R, &'a C),
@@ -145,22 +157,6 @@ impl<S: StateVector<f64>, H: StateVector<f64>, C, R: SecondOrder<S, C, Half = H>
     fn run(self, vectors: impl Vectors) {
         self.step.attempt_in(vectors, self.motion, self.end);
     }
-}
-
-/// `F` and `V(F)` of a stage.
-#[inline(always)]
-fn evaluate<S, C, H: StateVector<f64>>(
-    (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
-    t: f64,
-    (partial, newest, weight): (&H, &H, f64),
-    (force, acceleration): (&mut H, &mut H),
-) {
-    let mut positions = *partial;
-    for (position, newest) in positions.as_mut().iter_mut().zip(newest.as_ref()) {
-        *position += weight * newest;
-    }
-    *force = system.force(t, constants, &positions);
-    *acceleration = system.drift(constants, force);
 }
 
 /// Positions and momenta of a state.

@@ -101,7 +101,8 @@ impl Tableau {
         Self {
             order: 8,
             error_order: 7.0,
-            margin: 1.0,
+            // P3 to an error of 1e-3: 329 evaluations where 1 takes 364; to 1e-6, 699 where it takes 741.
+            margin: 3.0,
             inner: &[
                 later(2, &NODES, &A2),
                 later(3, &NODES, &A3),
@@ -125,7 +126,8 @@ impl Tableau {
         Self {
             order: 6,
             error_order: 5.0,
-            margin: 1.0,
+            // P3 to an error of 1e-3: 314 evaluations where 1 takes 347; to 1e-6, 807 where it takes 957.
+            margin: 3.0,
             inner: &[
                 later(2, &NODES, &A2),
                 later(3, &NODES, &A3),
