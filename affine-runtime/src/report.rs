@@ -78,7 +78,6 @@ fn method_name(method: Method) -> &'static str {
         Method::RungeKutta5 => "Runge-Kutta 5",
         Method::RungeKuttaNystrom12 => "Runge-Kutta-Nystrom 12",
         Method::RungeKuttaNystrom8 => "Runge-Kutta-Nystrom 8",
-        Method::RungeKuttaNystrom6 => "Runge-Kutta-Nystrom 6",
         Method::Taylor { .. } => "Taylor",
         Method::Gauss { stages: 2, .. } => "Gauss 4",
         Method::Gauss { .. } => "Gauss 6",

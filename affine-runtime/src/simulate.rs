@@ -46,8 +46,9 @@ use settings::Settings;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
-    /// The closed form where model and start have one; else [`Method::RungeKuttaNystrom12`] where `emit(nystrom)` asked for
-    /// it, unless there are events, which look at times within steps; else [`Method::Taylor`] where `emit(taylor)` asked
+    /// The closed form where model and start have one; else, where `emit(nystrom)` asked for it and unless there
+    /// are events, which look at times within steps, [`Method::RungeKuttaNystrom12`], or at tolerances above
+    /// [`NYSTROM_TOLERANCE`] [`Method::RungeKuttaNystrom8`]; else [`Method::Taylor`] where `emit(taylor)` asked
     /// for it and the tolerance is at most [`TAYLOR_TOLERANCE`]; else [`Method::RungeKutta8`]. The motion of a body under a
     /// constraint is integrated in charts of its group, see [`Chart`](crate::integrate::lie::Chart), by Runge-Kutta
     /// steps and by Gauss collocation: the placement stays on the group up to rounding.
@@ -70,8 +71,6 @@ pub enum Method {
     RungeKuttaNystrom12,
     /// The same of order 8.
     RungeKuttaNystrom8,
-    /// The same of order 6.
-    RungeKuttaNystrom6,
     /// Gauss collocation, [`Gauss`](crate::integrate::Gauss): implicit, symmetric, of order `2 stages`, in equal
     /// steps; the tolerance plays no part. Keeps every linear and quadratic first integral of the reduced equations
     /// up to rounding, and is symplectic where the reduced variables are canonical, `phi` and `Pi`. With affine spins
@@ -119,7 +118,6 @@ impl Method {
             | Method::RungeKutta5
             | Method::RungeKuttaNystrom12
             | Method::RungeKuttaNystrom8
-            | Method::RungeKuttaNystrom6
             | Method::Taylor { .. } => None,
         }
     }
@@ -153,6 +151,10 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-10;
 /// cost less at equal errors on all benchmark problems but P3, which takes the Nystrom method; on P2 already from an
 /// error of 1e-5.
 pub const TAYLOR_TOLERANCE: f64 = 1e-8;
+/// [`Method::Automatic`] takes the Nystrom method of order 12 from this tolerance down, and that of order 8 above. On P3
+/// order 8 needs less time down to an error of 1e-4, where order 12 begins to, and at a given tolerance errs ten times
+/// less.
+pub const NYSTROM_TOLERANCE: f64 = 1e-3;
 /// Steps of a simulation that names no limit.
 pub const DEFAULT_MAX_STEPS: u64 = 1_000_000;
 

@@ -1,11 +1,7 @@
-//! Runge-Kutta-Nystrom methods of orders 12, 8 and 6 for equations of second order, with step size control.
+//! Runge-Kutta-Nystrom methods of orders 12 and 8 for equations of second order, with step size control.
 
 mod dormand_el_mikkawy_prince_1210;
-mod dormand_el_mikkawy_prince_64;
 mod dormand_el_mikkawy_prince_86;
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod order_conditions;
 mod step;
 mod sums;
 mod tableau;
@@ -43,7 +39,7 @@ pub trait SecondOrder<S, C> {
 }
 
 /// Adaptive integration of `q' = V(p)`, `p' = F(t, q)` from `t0` to `t_end`, in either direction of time, by a method
-/// of Dormand, El-Mikkawy and Prince (IMA J. Numer. Anal. 7 (1987) 235-250 and 423-430):
+/// of Dormand, El-Mikkawy and Prince (IMA J. Numer. Anal. 7 (1987) 423-430):
 ///
 /// ```text
 /// q_i = q + h V(c_i p + h sum_j a_ij F_j),   F_i = F(t + c_i h, q_i)
@@ -57,7 +53,6 @@ pub trait SecondOrder<S, C> {
 /// |---|---|---|---|
 /// | [`Tableau::ORDER_12`] | order 10 | 17 | 16 |
 /// | [`Tableau::ORDER_8`] | order 6 | 8 | 8 |
-/// | [`Tableau::ORDER_6`] | order 4 | 5 | 5 |
 ///
 /// and 2 at the start, the first of which is that of the first step.
 #[derive(Clone)]
@@ -67,10 +62,12 @@ pub struct RungeKuttaNystrom<S, C, R: SecondOrder<S, C>> {
     error_norm: ErrorNorm,
     tolerance: f64,
     controller: Controller,
-    step: Step<S, R::Half>,
+    step: Step<R::Half>,
     t: f64,
-    /// Positions and momenta reached. The rest, which no step reads, is that of the start.
-    state: Sum<S>,
+    /// Positions and momenta reached.
+    reached: [Sum<R::Half>; 2],
+    /// The state that holds them. The rest of it, which no step reads, is that of the start.
+    state: S,
     /// The force there, where it is known.
     force: Option<R::Half>,
     length: f64,
@@ -112,15 +109,19 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
             statistics.evaluations += 1;
         }
         let [_, force] = halves(&first);
+        let reached = halves(&y0).map(Sum::of);
+        // What steps do not change has no error.
+        error_norm = error_norm.of_the_first(2 * R::Half::LEN);
         Ok(Self {
             system,
             constants,
             error_norm,
             tolerance,
             controller: Controller::of(tableau.error_order),
-            step: Step::at(tableau, t0, y0),
+            step: Step::at(tableau, t0, reached),
             t: t0,
-            state: Sum::of(y0),
+            reached,
+            state: y0,
             force: Some(force),
             length,
             t_end,
@@ -141,16 +142,17 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
             return Ok(());
         }
         let force = self.force_reached();
-        self.step.begin((&self.system, &self.constants), self.t, &self.state, force);
+        self.step.begin((&self.system, &self.constants), (self.t, &self.reached), force);
         let tableau = self.step.tableau();
         loop {
             let end = next_time(self.t, self.length, self.t_end);
             self.statistics.evaluations += tableau.evaluations();
             let length = (end - self.t).abs();
-            let error = self.attempt(end);
+            let (state, error) = self.attempt(end);
             if error <= 1.0 {
                 self.length = length * self.controller.accept(tableau.margin * error);
-                (self.t, self.state, self.force) = (end, *self.step.end(), self.step.end_force());
+                (self.t, self.state) = (end, state);
+                (self.reached, self.force) = (*self.step.end(), self.step.end_force());
                 self.statistics.steps += 1;
                 return Ok(());
             }
@@ -175,7 +177,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
         }
         self.statistics.evaluations += self.step.tableau().evaluations();
         self.step.attempt((&self.system, &self.constants), t);
-        let between = self.system.renewed(&self.step.end().value);
+        let between = self.system.renewed(&self.with_end_of_step());
         if is_finite(&between) { Ok(between) } else { Err(Failure::NotFinite) }
     }
 
@@ -183,7 +185,8 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
     #[cfg(feature = "std")]
     pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
         tape.number(&mut self.t);
-        tape.sum(&mut self.state);
+        self.reached.iter_mut().for_each(|half| tape.sum(half));
+        tape.state(&mut self.state);
         let (mut is_known, mut force) = (self.force.is_some(), self.force.unwrap_or_else(R::Half::zeros));
         tape.flag(&mut is_known);
         tape.state(&mut force);
@@ -203,7 +206,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
     /// start; [`SecondOrder::renewed`] computes it.
     #[must_use]
     pub fn y(&self) -> &S {
-        &self.state.value
+        &self.state
     }
 
     /// `t_end` is reached.
@@ -223,19 +226,34 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
     fn force_reached(&mut self) -> R::Half {
         self.force.unwrap_or_else(|| {
             self.statistics.evaluations += 1;
-            let [positions, _] = halves(&self.state.value);
-            self.system.force(self.t, &self.constants, &positions)
+            self.system.force(self.t, &self.constants, &self.reached[0].value)
         })
     }
 
-    /// Takes a step from where it begins to the time `end`: its error relative to the tolerance; NaN where something is
-    /// not finite.
-    fn attempt(&mut self, end: f64) -> f64 {
+    /// Takes a step from where it begins to the time `end`: the state there, and its error relative to the tolerance; NaN
+    /// where something is not finite.
+    fn attempt(&mut self, end: f64) -> (S, f64) {
         let h = (end - self.t).abs();
         self.step.attempt((&self.system, &self.constants), end);
-        let (before, after) = (self.step.start().value.as_ref(), self.step.end().value.as_ref());
-        let slope = self.step.error_slope().as_ref();
-        h * self.error_norm.largest(h, before, after, |range| norm(&slope[range])) / self.tolerance
+        let after = self.with_end_of_step();
+        let [positions, momenta] = self.step.error_slopes();
+        let largest = self.error_norm.largest(h, self.state.as_ref(), after.as_ref(), |range| {
+            match range.start.checked_sub(R::Half::LEN) {
+                Some(start) => norm(&momenta.as_ref()[start..start + range.len()]),
+                None => norm(&positions.as_ref()[range]),
+            }
+        });
+        (after, h * largest / self.tolerance)
+    }
+
+    /// The state with positions and momenta at the end of the step.
+    fn with_end_of_step(&self) -> S {
+        let mut state = self.state;
+        let components = state.as_mut().chunks_exact_mut(R::Half::LEN);
+        for (components, half) in components.zip(self.step.end()) {
+            components.copy_from_slice(half.value.as_ref());
+        }
+        state
     }
 }
 
@@ -244,7 +262,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> fmt::Debug for RungeKuttaNyst
         f.debug_struct("RungeKuttaNystrom")
             .field("order", &self.step.tableau().order())
             .field("t", &self.t)
-            .field("y", &self.state.value)
+            .field("y", &self.state)
             .field("t_end", &self.t_end)
             .field("tolerance", &self.tolerance)
             .field("statistics", &self.statistics)

@@ -12,7 +12,7 @@ macro_rules! rows {
 
         /// Every row as published: name, and pairs (stage, number).
         #[cfg(test)]
-        pub(super) const PUBLISHED: &[(&str, &[(usize, &str)])] =
+        const PUBLISHED: &[(&str, &[(usize, &str)])] =
             &[$((stringify!($name), &[$(($stage, stringify!($value))),*])),*];
     };
 }

@@ -55,8 +55,8 @@ pub struct WorkPrecision<'a, const N: usize, M: Model<N>> {
 
 impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     /// A comparison on the motion of `model` from the phase point `start` at time 0 to `t_end`, of
-    /// [`Method::RungeKutta8`] at [`DEFAULT_TOLERANCES`], of [`Method::RungeKuttaNystrom6`], `8` and `12` and
-    /// [`Method::Taylor`] where they were emitted and, where there is one, of the closed form.
+    /// [`Method::RungeKutta8`] at [`DEFAULT_TOLERANCES`], of [`Method::RungeKuttaNystrom8`],
+    /// [`Method::RungeKuttaNystrom12`] and [`Method::Taylor`] where they were emitted and, where there is one, of the closed form.
     #[must_use]
     pub fn new(model: &'a M, start: M::Point<f64>, t_end: f64) -> Self {
         Self {
@@ -136,11 +136,7 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
         if methods.is_empty() {
             methods.push(Method::RungeKutta8);
             if self.model.second_order().is_some() {
-                methods.extend([
-                    Method::RungeKuttaNystrom6,
-                    Method::RungeKuttaNystrom8,
-                    Method::RungeKuttaNystrom12,
-                ]);
+                methods.extend([Method::RungeKuttaNystrom8, Method::RungeKuttaNystrom12]);
             }
             methods.extend(self.model.taylor().map(|_| Method::Taylor { order: None }));
             methods.extend(geodesic.map(|_| Method::ClosedForm));

@@ -6,7 +6,7 @@ use super::mechanics::Course;
 use super::motion::{Expanded, Expansion};
 use super::recorder::Recorder;
 use super::stepper::{Explicit, Stepper};
-use super::{Method, TAYLOR_TOLERANCE};
+use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 use crate::capability::is_emitted;
 use crate::integrate::gauss;
 use crate::integrate::lie::{Chart, Coordinates, Flat};
@@ -33,7 +33,6 @@ pub(super) fn integrate<const N: usize, M: Model<N>>(
         Method::Splitting { order, step } => by_pieces(model, (order, step), course, recorder),
         Method::RungeKuttaNystrom12 => by_halves(model, &Tableau::ORDER_12, course, recorder),
         Method::RungeKuttaNystrom8 => by_halves(model, &Tableau::ORDER_8, course, recorder),
-        Method::RungeKuttaNystrom6 => by_halves(model, &Tableau::ORDER_6, course, recorder),
         _ if const { !moves_on_group(&M::DESCRIPTION, N) } => reduced(model, Flat, method, course, recorder),
         _ if const { is_canonical(&M::DESCRIPTION) } => with_reaction(model, method, course, recorder),
         _ => reduced(model, chart::<N, M>(M::DESCRIPTION.reduced)?, method, course, recorder),
@@ -49,6 +48,7 @@ fn chosen<const N: usize, M: Model<N>>(
     // Within steps it costs a step for each time that is looked at.
     let halves = model.second_order().is_some() && !recorder.has_events();
     match course.method {
+        Method::Automatic if halves && course.tolerance > NYSTROM_TOLERANCE => Method::RungeKuttaNystrom8,
         Method::Automatic if halves => Method::RungeKuttaNystrom12,
         Method::Automatic if course.tolerance <= TAYLOR_TOLERANCE && M::DESCRIPTION.constraint.is_none() => {
             if model.taylor().is_some() {

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::trajectory::{Computation, Trajectory};
-use super::{Method, TAYLOR_TOLERANCE};
+use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 use crate::integrate::taylor::order_for;
 use crate::model::{Constraint, Description};
 use crate::state::Phase;
@@ -70,25 +70,28 @@ impl Why {
                     (_, false) => writeln!(f, "as asked for; there is no closed form"),
                 }
             }
-            Method::RungeKuttaNystrom12 | Method::RungeKuttaNystrom8 | Method::RungeKuttaNystrom6 => {
-                let order = match method {
-                    Method::RungeKuttaNystrom12 => 12,
-                    Method::RungeKuttaNystrom8 => 8,
-                    _ => 6,
-                };
-                write!(f, "Runge-Kutta-Nystrom of order {order}, relative error {tolerance:e} per step: ")?;
-                match asked {
-                    Method::Automatic => writeln!(
-                        f,
-                        "the model has no closed form from this start, and its equations are q'' = f(t, q), for which \
-                         this is cheaper than methods for equations of first order"
-                    ),
-                    _ => writeln!(f, "as asked for; there is no closed form"),
-                }
-            }
+            Method::RungeKuttaNystrom12 | Method::RungeKuttaNystrom8 => self.nystrom(f),
             Method::Gauss { stages, step } => self.gauss(f, stages, step),
             Method::Rattle { order, step } => self.rattle(f, order, step),
             Method::Splitting { order, step } => self.splitting(f, order, step),
+        }
+    }
+
+    fn nystrom(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Computation { asked, method, tolerance, .. } = self.computation;
+        let (order, range) = match method {
+            Method::RungeKuttaNystrom8 => (8, "above"),
+            _ => (12, "up to"),
+        };
+        write!(f, "Runge-Kutta-Nystrom of order {order}, relative error {tolerance:e} per step: ")?;
+        match asked {
+            Method::Automatic => writeln!(
+                f,
+                "the model has no closed form from this start, and its equations are q'' = f(t, q), for which this is \
+                 cheaper than methods for equations of first order; order {order} at tolerances {range} \
+                 {NYSTROM_TOLERANCE:e}"
+            ),
+            _ => writeln!(f, "as asked for; there is no closed form"),
         }
     }
 

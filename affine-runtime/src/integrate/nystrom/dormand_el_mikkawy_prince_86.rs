@@ -5,6 +5,10 @@
 //! Journal of Numerical Analysis 7 (1987) 423-430, table 1, with the corrections that D. F. Crouse gives in the Tracker
 //! Component Library. The tests check the order conditions on these fractions exactly.
 
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod order_conditions;
+
 use crate::integrate::published::rows;
 
 rows! {
@@ -68,16 +72,7 @@ rows! {
         (6, -705.0 / 14272.0),
         (7, 1645.0 / 57088.0),
     ];
-    /// Row 9 of the matrix `a_ij`.
-    A9: 6 = [
-        (1, 223.0 / 7938.0),
-        (3, 1175.0 / 8064.0),
-        (4, 925.0 / 6048.0),
-        (5, 41.0 / 448.0),
-        (6, 925.0 / 14112.0),
-        (7, 1175.0 / 72576.0),
-    ];
-    /// Weights `b_i` of the positions, order 8.
+    /// Weights `b_i` of the positions, order 8: row 9 of the matrix as well.
     POSITION: 6 = [
         (1, 223.0 / 7938.0),
         (3, 1175.0 / 8064.0),

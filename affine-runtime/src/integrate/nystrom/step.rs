@@ -1,5 +1,7 @@
 //! One step, whatever its size.
 
+use core::marker::PhantomData;
+
 use super::SecondOrder;
 use super::sums::{of_row, plus_multiple};
 use super::tableau::{MOST_STAGES, Tableau};
@@ -17,29 +19,29 @@ use crate::scalar::Scalar;
 ///
 /// where nothing but `A_(i-1)` waits for the stage before.
 #[derive(Clone, Debug)]
-pub(super) struct Step<S, H> {
+pub(super) struct Step<H> {
     tableau: &'static Tableau,
     t: f64,
-    begin: Sum<S>,
+    begin: [Sum<H>; 2],
     /// `V(p)` at the beginning.
     velocity: H,
     /// `F_i`, at `(t_n + c_i h, q_i)`.
     forces: [H; MOST_STAGES],
     /// `A_i`.
     accelerations: [H; MOST_STAGES],
-    /// The state in the end.
-    end: Sum<S>,
-    /// Difference, divided by `h`, of the state in the end to the embedded solution.
-    error_slope: S,
+    /// Positions and momenta in the end.
+    end: [Sum<H>; 2],
+    /// Their differences, divided by `h`, to the embedded solution.
+    error_slopes: [H; 2],
 }
 
-impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
-    /// Before any step.
-    pub(super) fn at(tableau: &'static Tableau, t: f64, state: S) -> Self {
-        let [velocity, none] = [H::zeros(); 2];
+impl<H: StateVector<f64>> Step<H> {
+    /// Before any step from positions and momenta.
+    pub(super) fn at(tableau: &'static Tableau, t: f64, begin: [Sum<H>; 2]) -> Self {
+        let none = H::zeros();
         let (forces, accelerations) = ([none; MOST_STAGES], [none; MOST_STAGES]);
-        let begin = Sum::of(state);
-        Self { tableau, t, begin, velocity, forces, accelerations, end: begin, error_slope: S::zeros() }
+        let (velocity, error_slopes) = (none, [none; 2]);
+        Self { tableau, t, begin, velocity, forces, accelerations, end: begin, error_slopes }
     }
 
     /// The method.
@@ -47,19 +49,14 @@ impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
         self.tableau
     }
 
-    /// Where the step begins.
-    pub(super) fn start(&self) -> &Sum<S> {
-        &self.begin
-    }
-
-    /// Where it ends.
-    pub(super) fn end(&self) -> &Sum<S> {
+    /// Positions and momenta in the end.
+    pub(super) fn end(&self) -> &[Sum<H>; 2] {
         &self.end
     }
 
-    /// Difference, divided by `h`, of the state in the end to the embedded solution.
-    pub(super) fn error_slope(&self) -> &S {
-        &self.error_slope
+    /// Differences, divided by `h`, of positions and momenta in the end to the embedded solution.
+    pub(super) fn error_slopes(&self) -> &[H; 2] {
+        &self.error_slopes
     }
 
     /// `F` in the end, where that is a stage.
@@ -67,29 +64,27 @@ impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
         self.tableau.closes.then(|| self.forces[self.tableau.inner.len() + 1])
     }
 
-    /// Turns to the step from a state where the force is known.
+    /// Turns to the step from positions and momenta where the force is known.
     #[inline(always)]
-    pub(super) fn begin<C>(
+    pub(super) fn begin<S, C>(
         &mut self,
         (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
-        t: f64,
-        state: &Sum<S>,
+        (t, begin): (f64, &[Sum<H>; 2]),
         force: H,
     ) {
-        (self.t, self.begin) = (t, *state);
-        let [_, momenta] = halves(&state.value);
-        self.velocity = system.drift(constants, &momenta);
+        (self.t, self.begin) = (t, *begin);
+        self.velocity = system.drift(constants, &begin[1].value);
         self.forces[0] = force;
         self.accelerations[0] = system.drift(constants, &force);
     }
 
     /// Steps to the time `end`: [`Tableau::evaluations`].
-    pub(super) fn attempt<C, R: SecondOrder<S, C, Half = H>>(&mut self, motion: (&R, &C), end: f64) {
-        widest(Attempt { step: self, motion, end });
+    pub(super) fn attempt<S, C, R: SecondOrder<S, C, Half = H>>(&mut self, motion: (&R, &C), end: f64) {
+        widest(Attempt { step: self, motion, end, of: PhantomData });
     }
 
     #[inline(always)]
-    fn attempt_in<C, R: SecondOrder<S, C, Half = H>>(
+    fn attempt_in<S, C, R: SecondOrder<S, C, Half = H>>(
         &mut self,
         vectors: impl Vectors,
         (system, constants): (&R, &C),
@@ -97,11 +92,11 @@ impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
     ) {
         let (h, tableau) = (end - self.t, self.tableau);
         let square = h * h;
-        let [positions, _]: [H; 2] = halves(&self.begin.value);
+        let [positions, momenta] = self.begin;
         // By value: what was just stored in pieces is slow to load in others.
         let [mut newest, ..] = self.accelerations;
         for stage in tableau.inner {
-            let mut at = positions;
+            let mut at = positions.value;
             plus_multiple(vectors, &mut at, &self.velocity, stage.node * h);
             let earlier = of_row(vectors, &self.accelerations, stage.earlier);
             plus_multiple(vectors, &mut at, &earlier, square);
@@ -112,20 +107,20 @@ impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
         }
         let mut rise = scaled(h, self.velocity);
         plus_multiple(vectors, &mut rise, &of_row(vectors, &self.accelerations, tableau.position), square);
+        self.end[0] = positions.plus(&rise);
         if tableau.closes {
-            let [positions, _] = halves(&self.begin.plus(&joined(&rise, &H::zeros())).value);
+            let positions = self.end[0].value;
             self.evaluate((system, constants), tableau.inner.len() + 2, end, &positions);
         }
         let (forces, accelerations) = (&self.forces, &self.accelerations);
-        let pull = scaled(h, of_row(vectors, forces, tableau.momentum));
-        self.end = self.begin.plus(&joined(&rise, &pull));
+        self.end[1] = momenta.plus(&scaled(h, of_row(vectors, forces, tableau.momentum)));
         let position_error = scaled(h, of_row(vectors, accelerations, tableau.position_error));
-        self.error_slope = joined(&position_error, &of_row(vectors, forces, tableau.momentum_error));
+        self.error_slopes = [position_error, of_row(vectors, forces, tableau.momentum_error)];
     }
 
     /// `F` and `V(F)` of a stage.
     #[inline(always)]
-    fn evaluate<C>(
+    fn evaluate<S, C>(
         &mut self,
         (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
         stage: usize,
@@ -142,16 +137,15 @@ impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
     }
 }
 
-/// A step from where one begins.
+/// A step to the time `end`.
 struct Attempt<'a, S, H, C, R> {
-    step: &'a mut Step<S, H>,
+    step: &'a mut Step<H>,
     motion: (&'a R, &'a C),
     end: f64,
+    of: PhantomData<S>,
 }
 
-impl<S: StateVector<f64>, H: StateVector<f64>, C, R: SecondOrder<S, C, Half = H>> Work
-    for Attempt<'_, S, H, C, R>
-{
+impl<S, H: StateVector<f64>, C, R: SecondOrder<S, C, Half = H>> Work for Attempt<'_, S, H, C, R> {
     type Output = ();
     #[inline(always)]
     fn run(self, vectors: impl Vectors) {

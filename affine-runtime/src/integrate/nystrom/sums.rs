@@ -21,12 +21,7 @@ pub(super) fn of_row<H: StateVector<f64>>(vectors: impl Vectors, stages: &[H; MO
 
 /// `sum += factor term`.
 #[inline(always)]
-pub(super) fn plus_multiple<H: StateVector<f64>>(
-    vectors: impl Vectors,
-    sum: &mut H,
-    term: &H,
-    factor: f64,
-) {
+pub(super) fn plus_multiple<H: StateVector<f64>>(vectors: impl Vectors, sum: &mut H, term: &H, factor: f64) {
     let (sums, single_sums) = sum.as_mut().as_chunks_mut();
     let (terms, single_terms) = term.as_ref().as_chunks();
     for (sum, term) in sums.iter_mut().zip(terms) {
