@@ -52,6 +52,15 @@ pub(super) const fn is_canonical(model: &Description) -> bool {
     components(model.reduced, "Pi").is_some()
 }
 
+/// The equations are `q'' = f(t, q)`, so that `emit(nystrom)` exists: over `phi`, `Pi` and their like alone, of a kinetic
+/// energy of `phi_dot` and `x_dot` without affine velocities.
+pub(super) fn is_second_order(model: &Description) -> bool {
+    let canonical = ["x", "phi", "p", "Pi", "1/D", "q"];
+    let of_these = model.reduced.iter().all(|group| canonical.contains(&group.name));
+    let flat = !["Omega", "phi^-1"].iter().any(|affine| model.kinetic_energy.text.contains(affine));
+    model.constraint.is_none() && is_canonical(model) && of_these && flat
+}
+
 /// The forces of a model contain `1/det phi`: with `q` or `D` in the potential the force on `Pi` is a multiple of
 /// `phi^-T`, cofactors times `1/det phi`.
 pub(super) const fn needs_determinant(model: &Description) -> bool {

@@ -1,7 +1,9 @@
 //! The integrators, each begun on the state that it steps.
 
 use super::halt::{Reason, Setting};
-use super::layout::{Layout, is_canonical, is_isochoric_in_pi, moves_on_group, placement_in};
+use super::layout::{
+    Layout, is_canonical, is_isochoric_in_pi, is_second_order, moves_on_group, placement_in,
+};
 use super::mechanics::Course;
 use super::motion::{Expanded, Expansion};
 use super::recorder::Recorder;
@@ -45,22 +47,31 @@ fn chosen<const N: usize, M: Model<N>>(
     course: &Course<M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Method {
-    // Within steps it costs a step for each time that is looked at.
-    let halves = model.second_order().is_some() && !recorder.has_events();
-    match course.method {
-        Method::Automatic if halves && course.tolerance > NYSTROM_TOLERANCE => Method::RungeKuttaNystrom8,
-        Method::Automatic if halves => Method::RungeKuttaNystrom12,
-        Method::Automatic if course.tolerance <= TAYLOR_TOLERANCE && M::DESCRIPTION.constraint.is_none() => {
-            if model.taylor().is_some() {
-                Method::Taylor { order: None }
+    // Within steps a Nystrom method costs a step for each time that is looked at.
+    let is_watched = recorder.has_events();
+    let method = match course.method {
+        Method::Automatic if model.second_order().is_some() && !is_watched => {
+            return if course.tolerance > NYSTROM_TOLERANCE {
+                Method::RungeKuttaNystrom8
             } else {
-                recorder.trajectory.computation.missing = Some("taylor");
-                Method::RungeKutta8
-            }
+                Method::RungeKuttaNystrom12
+            };
+        }
+        Method::Automatic if course.tolerance <= TAYLOR_TOLERANCE && model.taylor().is_some() => {
+            Method::Taylor { order: None }
         }
         Method::Automatic => Method::RungeKutta8,
-        asked => asked,
-    }
+        asked => return asked,
+    };
+    let has_series = M::DESCRIPTION.constraint.is_none() && course.tolerance <= TAYLOR_TOLERANCE;
+    recorder.trajectory.computation.missing = if !is_watched && is_second_order(&M::DESCRIPTION) {
+        Some("nystrom")
+    } else if has_series && method == Method::RungeKutta8 {
+        Some("taylor")
+    } else {
+        None
+    };
+    method
 }
 
 /// The reduced state by its Taylor series.

@@ -29,7 +29,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
 
 impl Why {
     fn method(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Computation { asked, method, tolerance, closed_form_exists, missing, .. } = self.computation;
+        let Computation { asked, method, tolerance, closed_form_exists, .. } = self.computation;
         match method {
             Method::ClosedForm if asked == Method::ClosedForm => {
                 writeln!(f, "closed form, as asked for: exact up to rounding, no steps")
@@ -48,13 +48,6 @@ impl Why {
                         writeln!(f, "as asked for; there is no closed form")
                     }
                     _ => writeln!(f, "the model has no closed form from this start"),
-                }?;
-                match missing {
-                    Some(key) => writeln!(
-                        f,
-                        "not emitted: `emit({key})` would give a method that is cheaper at this tolerance"
-                    ),
-                    None => Ok(()),
                 }
             }
             Method::Taylor { order } => {
@@ -217,6 +210,9 @@ impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.description.name)?;
         self.method(f)?;
+        if let Some(key) = self.computation.missing {
+            writeln!(f, "not emitted: `emit({key})` would give a method that is cheaper at this tolerance")?;
+        }
         self.group(f)?;
         self.condition(f)?;
         for left_out in self.description.left_out {
