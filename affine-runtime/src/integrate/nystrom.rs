@@ -117,7 +117,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
             constants,
             error_norm,
             tolerance,
-            controller: Controller::of(tableau.error_order),
+            controller: Controller::of(tableau.error_order, tableau.margin),
             step: Step::at(tableau, t0, reached),
             t: t0,
             reached,
@@ -150,14 +150,14 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
             let length = (end - self.t).abs();
             let (state, error) = self.attempt(end);
             if error <= 1.0 {
-                self.length = length * self.controller.accept(tableau.margin * error);
+                self.length = length * self.controller.accept(error);
                 (self.t, self.state) = (end, state);
                 (self.reached, self.force) = (*self.step.end(), self.step.end_force());
                 self.statistics.steps += 1;
                 return Ok(());
             }
             self.statistics.rejected += 1;
-            self.length = length * self.controller.reject(tableau.margin * error);
+            self.length = length * self.controller.reject(error);
             if self.length <= shortest(self.t, self.t_end) {
                 let failure = if error.is_finite() { Failure::StepUnderflow } else { Failure::NotFinite };
                 self.failure = Some(failure);

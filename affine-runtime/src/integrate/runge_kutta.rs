@@ -112,7 +112,7 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
             length = first_step(&f, &error_norm, (t0, &y0, &slope), t_end - t0, (tolerance, P::ERROR_ORDER));
             statistics.evaluations += 1;
         }
-        let controller = Controller::of(P::ERROR_ORDER);
+        let controller = Controller::of(P::ERROR_ORDER, P::MARGIN);
         let begin = Sum::of(y0);
         let origin = coordinates.origin(&begin).value;
         let step = OneStep::at(t0, origin, coordinates.velocity(&y0, &origin, &slope));

@@ -21,15 +21,25 @@ const LARGEST_CUT: f64 = 0.2;
 const INTEGRAL: f64 = 0.8;
 /// Its proportional part: `h ~ (previous error / error)^(P/k)`, which damps oscillations of the step size.
 const PROPORTIONAL: f64 = 0.3;
-/// Errors below this fraction of the tolerance carry no information on the trend.
-const SMALLEST_ERROR: f64 = 1e-4;
+/// Logarithm of the part of the tolerance below which errors carry no information on the trend, but that the step was
+/// too short.
+const TREND_FROM: f64 = -9.0;
+/// Smaller errors, zero among them, count as this: what is left of the largest growth a hundred times over.
+const LEAST_ERROR: f64 = 1e-30;
+/// The error of a first step, relative to the tolerance, by rates in place of derivatives. The coefficients of the
+/// error terms of methods of high order are so small that it errs far less.
+pub(crate) const FIRST_ERROR: f64 = 10.0;
 
 /// The proportional-integral controller (K. Gustafsson, ACM Trans. Math. Software 17 (1991) 533-554):
-/// `h_next = h S error^(-(I + P)/k) previous^(P/k)` for an error of order `h^k`, errors relative to the tolerance.
+/// `h_next = h S error^(-(I + P)/k) previous^(P/k)` for an error of order `h^k`, errors relative to the tolerance and
+/// times the margin; without the trend where the error is tiny, as after a first step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Controller {
     /// `k`.
     order: f64,
+    /// Steps aim at an error so many times below the tolerance, beside [`SAFETY`]. A rejected step costs as much as an
+    /// accepted one, and the margin shortens steps by little.
+    margin: f64,
     /// Logarithm of the previous error.
     previous: f64,
     rejected: bool,
@@ -37,8 +47,8 @@ pub(crate) struct Controller {
 
 impl Controller {
     /// For an error of order `h^order`.
-    pub(crate) fn of(order: f64) -> Self {
-        Self { order, previous: ln(SMALLEST_ERROR), rejected: false }
+    pub(crate) fn of(order: f64, margin: f64) -> Self {
+        Self { order, margin, previous: TREND_FROM, rejected: false }
     }
 
     /// What the next step sizes depend on.
@@ -50,19 +60,20 @@ impl Controller {
 
     /// Factor of the step size after an accepted step with `error <= 1`.
     pub(crate) fn accept(&mut self, error: f64) -> f64 {
-        let error = ln(if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR });
-        let exponent = (PROPORTIONAL * self.previous - (INTEGRAL + PROPORTIONAL) * error) / self.order;
+        let error = ln(self.margin * if error > LEAST_ERROR { error } else { LEAST_ERROR });
+        let has_trend = error > TREND_FROM;
+        let trend = if has_trend { PROPORTIONAL * (self.previous - error) } else { 0.0 };
         // After a rejection the longer step has just been seen to fail.
         let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
-        *self = Self { previous: error, rejected: false, ..*self };
-        (SAFETY * exp(exponent)).clamp(LARGEST_CUT, growth)
+        *self = Self { previous: if has_trend { error } else { TREND_FROM }, rejected: false, ..*self };
+        (SAFETY * exp((trend - INTEGRAL * error) / self.order)).clamp(LARGEST_CUT, growth)
     }
 
     /// Factor of the step size after a rejected step; NaN stands for numbers that are not finite.
     pub(crate) fn reject(&mut self, error: f64) -> f64 {
         self.rejected = true;
         if error.is_finite() {
-            (SAFETY * exp(-ln(error) / self.order)).clamp(LARGEST_CUT, SAFETY)
+            (SAFETY * exp(-ln(self.margin * error) / self.order)).clamp(LARGEST_CUT, SAFETY)
         } else {
             LARGEST_CUT
         }
@@ -90,7 +101,7 @@ pub(crate) fn shortest(t: f64, t_end: f64) -> f64 {
 
 /// Length of the first step, after Hairer, Norsett, Wanner, section II.4, with rates in place of their
 /// derivatives so that it scales with the unit of time: from `r = max(|y'|/|y|, sqrt(|y''|/|y|))` by groups,
-/// `h = (0.01 tolerance)^(1/k)/r` for an error of order `h^k`. Costs one evaluation of `f`, for `y''` as a difference.
+/// `h = (c tolerance)^(1/k)/r` for an error of order `h^k`, `c =` [`FIRST_ERROR`]. Costs one evaluation of `f`, for `y''` as a difference.
 pub(crate) fn first_step<S: StateVector<f64>>(
     f: &impl Fn(f64, &S) -> S,
     error_norm: &ErrorNorm,
@@ -116,7 +127,7 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     let second = error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change);
     let second = Scalar::sqrt(second);
     let fastest = if first.is_finite() && first > second { first } else { second };
-    let length = exp(ln(0.01 * tolerance) / order) / fastest;
+    let length = exp(ln(FIRST_ERROR * tolerance) / order) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.
     within(if length < 100.0 * trial { length } else { 100.0 * trial })
 }

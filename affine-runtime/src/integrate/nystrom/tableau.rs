@@ -19,7 +19,7 @@ pub struct Tableau {
     /// Order of the leading term of the error estimate in the step size: that of the local error of the embedded
     /// solution.
     pub(super) error_order: f64,
-    /// Steps aim at an error so many times below the tolerance beside the margin that any method keeps.
+    /// Steps aim at an error so many times below the tolerance.
     pub(super) margin: f64,
     /// The stages after the first, without the one at the end of the step.
     pub(super) inner: &'static [Later],
@@ -64,9 +64,8 @@ impl Tableau {
         Self {
             order: 12,
             error_order: 11.0,
-            // A rejected step costs as much as an accepted one, and the margin shortens steps by a tenth only: with it,
-            // one step in twelve is rejected where it was one in five, and the same errors cost 3 percent less (eleven
-            // motions in two and three dimensions, errors from 1e-3 to 1e-12).
+            // With it one step in twelve is rejected where it was one in five, and the same errors cost 3 percent less
+            // (eleven motions in two and three dimensions, errors from 1e-3 to 1e-12).
             margin: 5.0,
             inner: &[
                 later(2, &NODES, &A2),

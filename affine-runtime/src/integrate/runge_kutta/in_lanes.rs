@@ -4,7 +4,7 @@ use super::dormand_prince_853::*;
 use super::pair::{DormandPrince853, E3, Pair};
 use crate::integrate::error_norm::{NormInLanes, norm_in_lanes, squares_in_lanes};
 use crate::integrate::roughly::{exp, ln};
-use crate::integrate::step_size::{Controller, next_time, shortest};
+use crate::integrate::step_size::{Controller, FIRST_ERROR, next_time, shortest};
 use crate::integrate::taylor::Vectors;
 use crate::integrate::widest::{Work, widest};
 use crate::lanes::Lanes;
@@ -65,7 +65,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         let length = first_step(&value, &norm, (t0, &y0, &slope), t_end - t0, tolerance);
         let mut stages = [S::zeros(); STAGES];
         stages[0] = slope;
-        let controller = Controller::of(DormandPrince853::ERROR_ORDER);
+        let controller = Controller::of(DormandPrince853::ERROR_ORDER, DormandPrince853::MARGIN);
         Ok(Self { f, norm, tolerance, controller, t: t0, y: y0, trial: y0, stages, length, t_end, steps: 0 })
     }
 
@@ -226,7 +226,7 @@ fn first_step<T: Lanes, S: StateVector<T>>(
     let of_lane = |lane: usize| {
         let (first, second, trial) = (first.lane(lane), second.lane(lane), trial.lane(lane));
         let fastest = if first.is_finite() && first > second { first } else { second };
-        let length = exp(ln(0.01 * tolerance) / DormandPrince853::ERROR_ORDER) / fastest;
+        let length = exp(ln(FIRST_ERROR * tolerance) / DormandPrince853::ERROR_ORDER) / fastest;
         within(if length < 100.0 * trial { length } else { 100.0 * trial })
     };
     (0..T::LANES).map(of_lane).fold(span.abs(), f64::min)
