@@ -19,6 +19,7 @@ mod power_balance;
 mod range;
 mod recorder;
 mod root;
+mod round_trip;
 mod run;
 mod settings;
 mod signature;
@@ -35,6 +36,7 @@ pub use ensemble::{Ends, Ensemble};
 pub use event::{Direction, Event, Occurrence};
 pub use halt::{Callback, Halt, Outcome, Reason, Setting, Stop};
 pub use power_balance::PowerBalance;
+pub use round_trip::RoundTrip;
 pub use trajectory::{Computation, Trajectory};
 pub use why::Why;
 

@@ -1,6 +1,6 @@
 //! From derived systems to the shortest straight-line programs.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use crate::algebra::bind::Constants;
 use crate::algebra::factor::{complete_sums, factored, scale_atoms};
@@ -25,7 +25,7 @@ impl Batch {
     #[must_use]
     pub fn pruned(self, arena: &Arena) -> Self {
         let Self { shared, results, kernels } = self;
-        let mut needed: HashSet<Expr> = HashSet::new();
+        let mut needed: FxHashSet<Expr> = FxHashSet::default();
         let mut open: Vec<&Polynomial> = results.iter().map(|(_, p)| p).collect();
         open.extend(kernels.iter().flat_map(Kernel::inputs));
         while let Some(polynomial) = open.pop() {
@@ -48,7 +48,7 @@ pub fn straight_line(
     constants: &mut Constants,
     varies: &impl Fn(Expr) -> bool,
 ) -> Program {
-    let mut shared: Vec<Expr> = batch.shared.iter().map(|(s, _)| *s).collect();
+    let mut shared: FxHashSet<Expr> = batch.shared.iter().map(|(s, _)| *s).collect();
     shared.extend(batch.kernels.iter().flat_map(Kernel::outputs));
     let moving = |atom: Expr| varies(atom) || shared.contains(&atom);
     let mut polynomials: Vec<Polynomial> =
@@ -69,35 +69,18 @@ pub fn straight_line(
     let (shared_forms, other_forms) = polynomials.split_at(batch.shared.len());
     let (result_forms, argument_forms) = other_forms.split_at(batch.results.len());
     let mut arguments = argument_forms.iter().cloned();
-    let mut calls: Vec<Kernel> = batch
+    let calls: Vec<Kernel> = batch
         .kernels
         .iter()
         .map(|kernel| kernel.with_arguments(|p| arguments.next().unwrap_or_else(|| p.clone())))
         .collect();
-    let mut open: Vec<(Expr, Polynomial)> = sums
+    let open: Vec<(Expr, Polynomial)> = sums
         .into_iter()
         .chain(scaled)
         .chain(batch.shared.iter().map(|(symbol, _)| *symbol).zip(shared_forms.iter().cloned()))
         .collect();
     let mut builder = Builder::new();
-    // Definitions in an order in which each uses only what is there already.
-    loop {
-        let pending =
-            |s: Expr| open.iter().any(|(symbol, _)| *symbol == s) || calls.iter().any(|c| c.returns(s));
-        let known = |p: &Polynomial| !p.any_symbol(arena, &mut |s| pending(s));
-        if let Some(ready) = open.iter().position(|(_, p)| known(p)) {
-            let (symbol, polynomial) = open.remove(ready);
-            let value = factored(arena, &polynomial);
-            builder.define(arena, symbol, value);
-        } else if let Some(ready) = calls.iter().position(|call| call.inputs().all(known)) {
-            let call = calls.remove(ready);
-            let arguments: Vec<_> =
-                call.arguments.iter().map(|group| group.map(|p| factored(arena, p))).collect();
-            builder.call(arena, call.callee, &arguments, &call.results);
-        } else {
-            break;
-        }
-    }
+    define(arena, &mut builder, open, calls);
     for ((name, _), form) in batch.results.iter().zip(result_forms) {
         let value = factored(arena, form);
         builder.output(arena, name, value);
@@ -105,12 +88,42 @@ pub fn straight_line(
     with_inverse_roots(&builder.finish())
 }
 
+/// Definitions and calls in an order in which each uses only what is there already.
+fn define(
+    arena: &mut Arena,
+    builder: &mut Builder,
+    mut open: Vec<(Expr, Polynomial)>,
+    mut calls: Vec<Kernel>,
+) {
+    let mut pending: FxHashSet<Expr> = open.iter().map(|(symbol, _)| *symbol).collect();
+    pending.extend(calls.iter().flat_map(Kernel::outputs));
+    loop {
+        let known = |p: &Polynomial| !p.any_symbol(arena, &mut |s| pending.contains(&s));
+        if let Some(ready) = open.iter().position(|(_, p)| known(p)) {
+            let (symbol, polynomial) = open.remove(ready);
+            let value = factored(arena, &polynomial);
+            builder.define(arena, symbol, value);
+            pending.remove(&symbol);
+        } else if let Some(ready) = calls.iter().position(|call| call.inputs().all(known)) {
+            let call = calls.remove(ready);
+            let arguments: Vec<_> =
+                call.arguments.iter().map(|group| group.map(|p| factored(arena, p))).collect();
+            builder.call(arena, call.callee, &arguments, &call.results);
+            for symbol in call.outputs() {
+                pending.remove(&symbol);
+            }
+        } else {
+            break;
+        }
+    }
+}
+
 /// The functions and reciprocals of something that varies.
 fn composite_atoms(
     arena: &Arena,
     polynomials: &[Polynomial],
     varies: &impl Fn(Expr) -> bool,
-) -> HashSet<Expr> {
+) -> FxHashSet<Expr> {
     let atoms = polynomials.iter().flat_map(|p| p.terms().flat_map(|(monomial, _)| monomial.iter().copied()));
     atoms.filter(|atom| arena.name(*atom).is_none() && arena.any_symbol(*atom, &mut |s| varies(s))).collect()
 }

@@ -16,8 +16,8 @@ pub struct Halt<const N: usize, P> {
     pub trajectory: Box<Trajectory<N, P>>,
 }
 
-/// What a run gives.
-pub type Outcome<const N: usize, P> = core::result::Result<Trajectory<N, P>, Halt<N, P>>;
+/// What a run gives: its trajectory as a rule.
+pub type Outcome<const N: usize, P, R = Trajectory<N, P>> = core::result::Result<R, Halt<N, P>>;
 
 /// Why, when and at which step a run stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]

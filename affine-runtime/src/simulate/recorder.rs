@@ -57,7 +57,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         }
         if self.schedule == Schedule::Steps {
             self.record_step(t0, (start, 0.0))?;
-        } else if self.schedule.take_through(t0, false).is_some() {
+        } else if self.schedule.take_through(t0, self.backward).is_some() {
             self.record(t0, (start, 0.0))?;
         }
         Ok(())

@@ -15,6 +15,10 @@ pub(super) fn root<E>(
     (a, fa): (f64, f64),
     (b, fb): (f64, f64),
 ) -> Result<f64, E> {
+    // It has neither sign, and would not close a bracket.
+    if fb == 0.0 {
+        return Ok(b);
+    }
     let begins_negative = fa < 0.0;
     // The last time tried, and the other end of the bracket.
     let (mut near, mut far) = ((b, fb), (a, fa));
@@ -94,6 +98,9 @@ mod tests {
         assert!((t - 0.3).abs() < 1e-15 && t >= 0.3, "the far side of a jump");
         let (t, _) = located(|t| t - 1e-200, 0.0, 1.0);
         assert!((t - 1e-200).abs() < 1e-15, "{t}");
-        assert_eq!(located(|t| t - 2.0, 1.0, 2.0).0, 2.0, "a root at the end");
+        for (a, b) in [(1.0, 2.0), (3.0, 2.0)] {
+            assert_eq!(located(|t| t - 2.0, a, b).0, 2.0, "a root at the end");
+            assert_eq!(located(|t| 2.0 - t, a, b).0, 2.0, "a root at the end");
+        }
     }
 }

@@ -11,4 +11,5 @@ mod outputs;
 mod reference;
 mod reports;
 mod resuming;
+mod round_trips;
 mod small_motions;

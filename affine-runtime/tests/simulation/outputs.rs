@@ -4,10 +4,10 @@ use core::ops::ControlFlow;
 use std::cell::RefCell;
 
 use affine_runtime::Simulation;
-use affine_runtime::simulate::Method;
+use affine_runtime::simulate::{Event, Method};
 use affine_runtime::state::Phase;
 
-use crate::models::drunk_missile::{self, DrunkMissile};
+use crate::models::drunk_missile::{self, DrunkMissile, Missile};
 use crate::models::planar::{self, Planar};
 
 fn simulation() -> Simulation<'static, 3, DrunkMissile> {
@@ -66,6 +66,24 @@ fn only_the_times_asked_for() {
     let one = simulation().output([2.0]).run().unwrap();
     assert_eq!(one.statistics(), simulation().run().unwrap().statistics(), "the end needs no dense output");
     assert_eq!((one.times(), one.points()[0]), (&[2.0][..], *one.end().1));
+}
+
+/// Backward in time, the start is an output only where it was asked for, also where an event starts the motion again.
+#[test]
+fn only_the_times_asked_for_backward() {
+    let backward = || simulation().until(-2.0);
+    let run = backward().output([-0.5, -1.25]).run().unwrap();
+    assert_eq!(run.times(), [-0.5, -1.25]);
+    for (t, point) in run.iter() {
+        let direct = *simulation().until(t).run().unwrap().end().1;
+        assert!((point.phi() - direct.phi()).norm() < 2e-11, "t = {t}");
+    }
+    let run = backward().output([0.0, -2.0]).run().unwrap();
+    assert_eq!((run.times(), run.points()[0]), (&[0.0, -2.0][..], drunk_missile::start()));
+    let again = Event::new("again", |t, _: &Missile| t + 1.2).change(|_, point| Ok(*point));
+    let run = backward().every(0.5).event(again).run().unwrap();
+    assert_eq!(run.times(), [0.0, -0.5, -1.0, -1.5, -2.0]);
+    assert_eq!(run.events().len(), 1);
 }
 
 #[test]

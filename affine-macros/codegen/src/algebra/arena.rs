@@ -4,8 +4,9 @@
 //! integer exponents and no number in it; both are flat, sorted by node, without repetition. Nothing is expanded:
 //! `2*(a + b)` and `2*a + 2*b` are different nodes, and [`Polynomial`](super::Polynomial) decides equality.
 
-use std::collections::HashMap;
 use std::fmt::Write as _;
+
+use rustc_hash::FxHashMap;
 
 use super::function::Function;
 use super::rational::Rational;
@@ -33,7 +34,7 @@ pub enum Node {
 #[derive(Debug, Default)]
 pub struct Arena {
     nodes: Vec<Node>,
-    index: HashMap<Node, Expr>,
+    index: FxHashMap<Node, Expr>,
 }
 
 impl Arena {

@@ -61,6 +61,9 @@ impl Constants {
         polynomial: &Polynomial,
         varies: &impl Fn(Expr) -> bool,
     ) -> Polynomial {
+        if !polynomial.mentions(|atom| arena.name(atom).is_none()) {
+            return polynomial.clone();
+        }
         let mut bound = Polynomial::zero();
         for (monomial, c) in polynomial.terms() {
             let atoms: Vec<Expr> = monomial.iter().map(|atom| self.bind_atom(arena, *atom, varies)).collect();

@@ -69,12 +69,6 @@ impl<E> Group<E> {
 }
 
 impl Kernel {
-    /// Is the symbol one of its results?
-    #[must_use]
-    pub fn returns(&self, symbol: Expr) -> bool {
-        self.outputs().any(|result| result == symbol)
-    }
-
     /// Its results, one symbol after the other.
     pub fn outputs(&self) -> impl Iterator<Item = Expr> {
         self.results.iter().flat_map(Group::entries).copied()

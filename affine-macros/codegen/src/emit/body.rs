@@ -1,9 +1,8 @@
 //! Straight-line programs as Rust: one `let` for what has a name or is read twice, everything else in place.
 
-use std::collections::HashMap;
-
 use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
+use rustc_hash::FxHashMap;
 
 use crate::algebra::Rational;
 use crate::ir::call::Call;
@@ -89,7 +88,7 @@ pub(super) fn body(program: &Program, scope: &Scope) -> Body {
         uses: program.uses(),
         depth: vec![0; program.steps.len()],
         called: Vec::new(),
-        bound: HashMap::new(),
+        bound: FxHashMap::default(),
         lets: TokenStream::new(),
         temporaries: 0,
         roots: 0,
@@ -126,7 +125,7 @@ struct Writer<'a> {
     depth: Vec<usize>,
     /// The calls that are written down.
     called: Vec<&'a Call>,
-    bound: HashMap<Value, Ident>,
+    bound: FxHashMap<Value, Ident>,
     lets: TokenStream,
     temporaries: usize,
     /// Numbers that have no short name.

@@ -1,6 +1,6 @@
 //! Expressions to straight-line code, common subexpressions once.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use crate::algebra::arena::Node;
 use crate::algebra::kernel::{Callee, Group};
@@ -13,8 +13,8 @@ use super::{Op, Program, Value};
 #[derive(Debug, Default)]
 pub struct Builder {
     program: Program,
-    known: HashMap<Op, Value>,
-    lowered: HashMap<Expr, Value>,
+    known: FxHashMap<Op, Value>,
+    lowered: FxHashMap<Expr, Value>,
 }
 
 impl Builder {

@@ -4,7 +4,7 @@
 //! Derivatives, section 3.1); what does not depend on an input that changes has none. Values and changes share what they
 //! have in common.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use crate::algebra::{Function, Rational};
 
@@ -14,7 +14,7 @@ use super::{Op, Program, Value};
 /// [`change_of`]`(x)`. What runtime functions provide does not change: programs that call some have no derivative here.
 #[must_use]
 pub fn with_tangent(program: &Program, changing: &impl Fn(&str) -> bool) -> Program {
-    let mut builder = Builder { steps: program.steps.clone(), known: HashMap::new() };
+    let mut builder = Builder { steps: program.steps.clone(), known: FxHashMap::default() };
     for (value, op) in program.steps.iter().enumerate() {
         builder.known.entry(op.clone()).or_insert(value);
     }
@@ -41,7 +41,7 @@ pub fn change_of(name: &str) -> String {
 /// Steps, each one once.
 struct Builder {
     steps: Vec<Op>,
-    known: HashMap<Op, Value>,
+    known: FxHashMap<Op, Value>,
 }
 
 impl Builder {

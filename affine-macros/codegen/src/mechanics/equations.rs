@@ -1,5 +1,7 @@
 //! Hamilton's equations of a chart from its brackets.
 
+use rustc_hash::FxHashSet;
+
 use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 
@@ -197,16 +199,11 @@ impl System {
         self = self.substitute(&value);
         self.shared.retain(|(s, _)| !trivial.iter().any(|(t, _)| t == s));
         loop {
-            let used = |symbol: Expr| {
-                let shared = self.shared.iter().map(|(_, p)| p);
-                shared
-                    .chain(self.kernels.iter().flat_map(Kernel::inputs))
-                    .chain(self.rates.iter().map(|(_, _, p)| p))
-                    .chain(self.work.iter().map(|(_, p)| p))
-                    .any(|p| p.any_symbol(arena, &mut |a| a == symbol))
-            };
-            let idle: Vec<Expr> = self.shared.iter().map(|(s, _)| *s).filter(|s| !used(*s)).collect();
-            let called: Vec<bool> = self.kernels.iter().map(|kernel| kernel.outputs().any(used)).collect();
+            let used = self.symbols(arena);
+            let used = |symbol: &Expr| used.contains(symbol);
+            let idle: Vec<Expr> = self.shared.iter().map(|(s, _)| *s).filter(|s| !used(s)).collect();
+            let called: Vec<bool> =
+                self.kernels.iter().map(|kernel| kernel.outputs().any(|s| used(&s))).collect();
             if idle.is_empty() && called.iter().all(|called| *called) {
                 break;
             }
@@ -215,5 +212,22 @@ impl System {
             self.shared.retain(|(s, _)| !idle.contains(s));
         }
         self
+    }
+
+    /// Every symbol that a definition, a call or a rate uses.
+    fn symbols(&self, arena: &Arena) -> FxHashSet<Expr> {
+        let shared = self.shared.iter().map(|(_, p)| p);
+        let used = shared
+            .chain(self.kernels.iter().flat_map(Kernel::inputs))
+            .chain(self.rates.iter().map(|(_, _, p)| p))
+            .chain(self.work.iter().map(|(_, p)| p));
+        let mut found = FxHashSet::default();
+        for polynomial in used {
+            polynomial.any_symbol(arena, &mut |symbol| {
+                found.insert(symbol);
+                false
+            });
+        }
+        found
     }
 }

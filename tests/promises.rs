@@ -1,0 +1,319 @@
+//! What every run promises, whatever the method, the direction of time and the outputs: the times that were asked for,
+//! the points that lie there, events where they are, and the same bits after an interruption.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use core::ops::ControlFlow;
+
+use affine_runtime::prelude::*;
+use affine_runtime::simulate::Reason;
+
+/// Of a method of high order at this tolerance, or of equal steps as short as below.
+const CLOSE: f64 = 2e-6;
+const TOLERANCE: f64 = 1e-9;
+const STEP: f64 = 0.01;
+const SPAN: f64 = 1.9;
+
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = [[1, 0.25], [0.25, 2]], space_translation = 2),
+    potential = tr(G)/2 - ln(det) + x[1]^2/2 + x[2]^4/4 + x[1]*phi[1,2],
+    emit(nystrom),
+)]
+struct Anchored;
+
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 2),
+    potential = hyperbolic_dilatation(10) + neo_hookean(0.5) + x[1]^2/2,
+    emit(taylor),
+)]
+struct Vibrating;
+
+#[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = tr(G)/2 + norm(x)^2/2, emit(splitting))]
+struct Springs;
+
+#[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, space_translation = 2))]
+struct Free;
+
+/// Pushed by a potential that depends on time, and braked.
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1, space_translation = 1),
+    potential = (1 + sin(3*t)/2)*tr(G)/2 - ln(det) + x[1]^2*cos(t),
+    dissipation(dalembert = 0.1, space_translation = 0.2),
+)]
+struct Driven;
+
+#[affine_model(
+    dim = 3,
+    constraint = rigid,
+    kinetic(dalembert = diag(1, 1, 0.5), space_translation = 1),
+    potential = 0.7*phi[3,3] + norm(x)^2/2,
+)]
+struct Top;
+
+#[affine_model(
+    dim = 2,
+    constraint = isochoric,
+    kinetic(dalembert = 1, space_translation = 1),
+    potential = tr(G)/2 + norm(x)^2/2,
+)]
+struct Droplet;
+
+/// Outputs as asked for, and the times that they mean.
+#[derive(Clone, Debug)]
+enum Asked {
+    Steps,
+    Every(f64),
+    At(Vec<f64>),
+}
+
+impl Asked {
+    fn all(t0: f64, t_end: f64) -> [Self; 5] {
+        let along = |part: f64| t0 + part * (t_end - t0);
+        [
+            Asked::Steps,
+            Asked::Every(SPAN / 4.0),
+            Asked::Every(0.7),
+            Asked::At([0.13, 0.5, 0.501, 0.92].map(along).to_vec()),
+            Asked::At(vec![t0, along(0.77), t_end]),
+        ]
+    }
+
+    fn times(&self, t0: f64, t_end: f64) -> Option<Vec<f64>> {
+        match self {
+            Asked::Steps => None,
+            Asked::Every(dt) => {
+                let count = (SPAN / dt).ceil() as usize;
+                let inner = (0..count).map(|k| t0 + k as f64 * dt.copysign(t_end - t0));
+                Some(inner.chain([t_end]).collect())
+            }
+            Asked::At(times) => Some(times.clone()),
+        }
+    }
+}
+
+/// A run as asked for.
+struct Case<'a, M, P> {
+    model: &'a M,
+    start: P,
+    method: Method,
+    asked: Asked,
+    interval: (f64, f64),
+}
+
+impl<'a, M, P: Copy> Case<'a, M, P> {
+    fn simulation<const N: usize>(&self) -> Simulation<'a, N, M>
+    where
+        M: Model<N, Point<f64> = P>,
+    {
+        let simulation = Simulation::new(self.model, self.start)
+            .from(self.interval.0)
+            .until(self.interval.1)
+            .tolerance(TOLERANCE)
+            .method(self.method);
+        match &self.asked {
+            Asked::Steps => simulation,
+            Asked::Every(dt) => simulation.every(*dt),
+            Asked::At(times) => simulation.output(times.iter().copied()),
+        }
+    }
+}
+
+/// Runs a model by its methods in every way, and holds each run against one of order 8 that ends where it is looked at.
+fn keeps_its_promises<const N: usize, M>(model: &M, start: M::Point<f64>, methods: &[Method])
+where
+    M: Model<N>,
+{
+    for interval in [(0.0, SPAN), (0.3, 0.3 - SPAN)] {
+        let (t0, t_end) = interval;
+        let exact = |t: f64| {
+            let run =
+                Simulation::new(model, start).from(t0).until(t).tolerance(1e-13).method(Method::RungeKutta8);
+            *run.run().unwrap().end().1
+        };
+        let middle = t0 + 0.61 * (t_end - t0);
+        for &method in methods {
+            for asked in Asked::all(t0, t_end) {
+                let case = Case { model, start, method, asked, interval };
+                let label = format!("{} {method:?} {:?} {interval:?}", M::DESCRIPTION.name, case.asked);
+                let run = case.simulation().run().unwrap_or_else(|halt| panic!("{label}: {halt}"));
+                outputs(&run, &case.asked, interval, &label);
+                run.iter().for_each(|(t, point)| close(point, &exact(t), &format!("{label} t = {t}")));
+                assert_eq!(run.end().0.to_bits(), t_end.to_bits(), "{label}");
+                assert!(balanced(&run), "{label}: {:?}", run.power_balance());
+                events(&case, middle, &exact, &label);
+                interruptions(&case, &run, &label);
+            }
+        }
+    }
+}
+
+/// The work of forces is accounted for.
+fn balanced<const N: usize, P: Phase<N>>(run: &Trajectory<N, P>) -> bool {
+    run.power_balance().is_none_or(|balance| balance.relative() < CLOSE)
+}
+
+fn outputs<const N: usize, P: Phase<N>>(
+    run: &Trajectory<N, P>,
+    asked: &Asked,
+    (t0, t_end): (f64, f64),
+    label: &str,
+) {
+    match asked.times(t0, t_end) {
+        Some(times) => {
+            assert_eq!(run.len(), times.len(), "{label}: {:?}", run.times());
+            let off = run.times().iter().zip(&times).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-14, "{label}: {:?}", run.times());
+        }
+        None => {
+            assert_eq!((run.times()[0], run.times()[run.len() - 1]), (t0, t_end), "{label}");
+            assert!(run.times().windows(2).all(|w| (w[1] - w[0]) * (t_end - t0) > 0.0), "{label}");
+        }
+    }
+    assert_eq!(run.energies().len(), run.len(), "{label}");
+}
+
+/// One that records, one that puts the point where it is, and one that stops.
+fn events<const N: usize, M: Model<N>>(
+    case: &Case<'_, M, M::Point<f64>>,
+    middle: f64,
+    exact: &impl Fn(f64) -> M::Point<f64>,
+    label: &str,
+) {
+    let at = |t: f64| Event::new("at a time", move |now, _: &M::Point<f64>| now - t);
+    let changed = case.simulation().event(at(middle)).event(at(middle).named("again").change(|_, p| Ok(*p)));
+    let run = changed.run().unwrap_or_else(|halt| panic!("{label}: {halt}"));
+    let names: Vec<&str> = run.events().iter().map(|event| event.name).collect();
+    assert_eq!(names, ["at a time", "again"], "{label}");
+    for event in run.events() {
+        assert!((event.t - middle).abs() < 1e-9, "{label}: {} at {}", event.name, event.t);
+        close(&event.point, &exact(middle), &format!("{label}: {}", event.name));
+    }
+    run.iter().for_each(|(t, point)| close(point, &exact(t), &format!("{label}, changed, t = {t}")));
+    assert!(balanced(&run), "{label}, changed: {:?}", run.power_balance());
+    if !matches!(case.asked, Asked::Steps) {
+        outputs(&run, &case.asked, case.interval, label);
+    }
+    let run =
+        case.simulation().event(at(middle).stop()).run().unwrap_or_else(|halt| panic!("{label}: {halt}"));
+    assert_eq!(run.stopped_by(), Some("at a time"), "{label}");
+    assert!((run.end().0 - middle).abs() < 1e-9, "{label}");
+    close(run.end().1, &exact(middle), label);
+    let beyond = |t: &f64| (t - case.interval.0).abs() > (middle - case.interval.0).abs() + 1e-9;
+    assert!(!run.times().iter().any(beyond), "{label}: {:?}", run.times());
+}
+
+/// Interrupted after its third step and gone on with, a run gives what it gives uninterrupted.
+fn interruptions<const N: usize, M: Model<N>>(
+    case: &Case<'_, M, M::Point<f64>>,
+    whole: &Trajectory<N, M::Point<f64>>,
+    label: &str,
+) {
+    let third = |progress: &affine_runtime::simulate::Progress| match progress.steps {
+        3.. => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
+    let halt = case.simulation().progress(third).run().unwrap_err();
+    assert!(matches!(halt.stop.reason, Reason::Interrupted(_)), "{label}: {halt}");
+    let first = &halt.trajectory;
+    let Some(checkpoint) = first.checkpoint() else { panic!("{label}: no checkpoint") };
+    let rest = case.simulation().resume(checkpoint).run().unwrap_or_else(|halt| panic!("{label}: {halt}"));
+    let times: Vec<f64> = first.times().iter().chain(rest.times()).copied().collect();
+    assert_eq!(times, whole.times(), "{label}");
+    let points = first.points().iter().chain(rest.points());
+    assert!(points.zip(whole.points()).all(|(a, b)| a == b), "{label}: other points");
+    let work = |run: &Trajectory<N, _>| run.power_balance().map(|balance| balance.work);
+    assert_eq!((rest.end(), work(&rest)), (whole.end(), work(whole)), "{label}");
+    assert!(balanced(&rest), "{label}, resumed: {:?}", rest.power_balance());
+}
+
+fn close<const N: usize, P: Phase<N>>(point: &P, exact: &P, label: &str) {
+    let off = [
+        (point.phi() - exact.phi()).norm(),
+        (point.mixed_spin() - exact.mixed_spin()).norm(),
+        (point.x() - exact.x()).norm(),
+        (point.p() - exact.p()).norm(),
+    ];
+    assert!(off.iter().all(|off| *off < CLOSE), "{label}: {off:?}");
+}
+
+const EXPLICIT: [Method; 3] = [Method::Automatic, Method::RungeKutta8, Method::RungeKutta5];
+
+fn gauss(stages: usize) -> Method {
+    Method::Gauss { stages, step: 2.0 * STEP }
+}
+
+fn placement() -> Matrix<2> {
+    Matrix::<2>::new(1.1, 0.2, -0.1, 0.9)
+}
+
+fn momentum() -> Matrix<2> {
+    Matrix::<2>::new(0.3, -0.2, 0.5, 0.1)
+}
+
+fn centre() -> (Vector<2>, Vector<2>) {
+    (Vector::<2>::new(0.4, -0.3), Vector::<2>::new(0.2, 0.5))
+}
+
+#[test]
+fn by_nystrom_steps() {
+    let (x, p) = centre();
+    let start = Anchored.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
+    let methods = [EXPLICIT.to_vec(), vec![Method::RungeKuttaNystrom12, gauss(2), gauss(3)]].concat();
+    keeps_its_promises(&Anchored, start, &methods);
+}
+
+#[test]
+fn by_taylor_series() {
+    let (x, p) = centre();
+    let start = Vibrating.at_momentum(x, placement(), p, Comoving(momentum())).unwrap();
+    let orders = [None, Some(12)].map(|order| Method::Taylor { order });
+    keeps_its_promises(&Vibrating, start, &[EXPLICIT.to_vec(), orders.to_vec(), vec![gauss(3)]].concat());
+}
+
+#[test]
+fn by_exact_flows_of_pieces() {
+    let (x, p) = centre();
+    let start = Springs.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
+    let splittings = [4, 6, 8].map(|order| Method::Splitting { order, step: STEP });
+    keeps_its_promises(&Springs, start, &[EXPLICIT.to_vec(), splittings.to_vec()].concat());
+}
+
+#[test]
+fn under_forces_that_depend_on_time() {
+    let (x, p) = centre();
+    let start = Driven.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
+    let run = Simulation::new(&Driven, start).until(1.0).run().unwrap();
+    assert!(
+        run.power_balance().is_some_and(|balance| balance.work.abs() > 0.01),
+        "{:?}",
+        run.power_balance()
+    );
+    keeps_its_promises(&Driven, start, &[EXPLICIT.to_vec(), vec![gauss(2), gauss(3)]].concat());
+}
+
+#[test]
+fn in_closed_form() {
+    let (x, p) = centre();
+    let start = Free.at_momentum(x, placement(), p, Comoving(momentum())).unwrap();
+    keeps_its_promises(&Free, start, &[EXPLICIT.to_vec(), vec![Method::ClosedForm, gauss(2)]].concat());
+}
+
+#[test]
+fn on_groups() {
+    let omega = Matrix::<3>::new(0.0, -2.0, 0.1, 2.0, 0.0, -0.3, -0.1, 0.3, 0.0);
+    let (x, v) = (Vector::<3>::new(0.4, -0.3, 0.1), Vector::<3>::new(0.2, 0.5, -0.1));
+    let start = Top.at_velocity(x, Matrix::<3>::identity(), v, omega).unwrap();
+    keeps_its_promises(&Top, start, &[EXPLICIT.to_vec(), vec![gauss(2), gauss(3)]].concat());
+}
+
+#[test]
+fn by_rattle() {
+    let (x, v) = (Vector::<2>::new(0.4, -0.3), Vector::<2>::new(0.2, 0.5));
+    let start = Droplet
+        .at_velocity(x, Matrix::<2>::new(2.0, 0.0, 0.0, 0.5), v, Matrix::<2>::new(0.4, 0.0, 0.6, -0.1))
+        .unwrap();
+    let rattles = [4, 6].map(|order| Method::Rattle { order, step: STEP });
+    keeps_its_promises(&Droplet, start, &[vec![Method::Automatic], rattles.to_vec()].concat());
+}
