@@ -117,6 +117,11 @@ impl Why {
             "symplectic: a Poisson map; kept up to rounding: momenta that every piece conserves (p, spin, vorticity, \
              angular momenta, where the model conserves them) and Casimirs; the energy error stays bounded while steps \
              resolve the motion"
+        )?;
+        writeln!(
+            f,
+            "for what it keeps: at equal errors of the motion adaptive steps took less time on every benchmark problem, \
+             and Method::Automatic would take those"
         )
     }
 
