@@ -40,8 +40,8 @@ pub trait Taylor<const N: usize>: Model<N> {
     /// The columns of a coefficient.
     fn columns<T: Scalar>(coefficient: &Self::Reduced<T>) -> Self::Columns<T>;
 
-    /// `y_(k+1)` from `y_k`, for `k > 0`, and its columns; `order` is `k` and `k + 1`, by which rates are divided: a
-    /// reciprocal would be rounded the same way in every step, and the energy drift. The rows are those of the orders 0 to
+    /// `y_(k+1)` from `y_k`, for `k > 0`, and its columns; `order` is `k` and `k + 1` over the unit of time, by which rates
+    /// are divided: a reciprocal would be rounded the same way in every step, and the energy drift. The rows are those of the orders 0 to
     /// k; fills the last one.
     fn next<T: Scalar>(
         &self,
@@ -52,16 +52,16 @@ pub trait Taylor<const N: usize>: Model<N> {
         rows: &mut [Self::Row<T>],
     ) -> (Self::Reduced<T>, Self::Columns<T>);
 
-    /// Fills in all coefficients after the first, which is the reduced state at time `t`. The order is one less than
-    /// the shorter of the number of coefficients, and of rows and one.
+    /// Fills in all coefficients `y_k unit^k` after the first, which is the reduced state at a time; the unit of time is a
+    /// power of two. The order is one less than the shorter of the number of coefficients, and of rows and one.
     fn coefficients<T: Scalar>(
         &self,
-        t: T,
+        (t, unit): (T, T),
         constants: &Self::Constants<T>,
         coefficients: &mut [Self::Reduced<T>],
         rows: &mut [Self::Row<T>],
     ) {
-        self.coefficients_on(Portable, t, constants, coefficients, rows);
+        self.coefficients_on(Portable, (t, unit), constants, coefficients, rows);
     }
 
     /// The same coefficients, on the vectors of a processor.
@@ -69,7 +69,7 @@ pub trait Taylor<const N: usize>: Model<N> {
     fn coefficients_on<T: Scalar>(
         &self,
         vectors: impl Vectors,
-        t: T,
+        (t, unit): (T, T),
         constants: &Self::Constants<T>,
         coefficients: &mut [Self::Reduced<T>],
         rows: &mut [Self::Row<T>],
@@ -77,12 +77,15 @@ pub trait Taylor<const N: usize>: Model<N> {
         let highest = rows.len().min(coefficients.len().saturating_sub(1));
         let ([before, after, ..], [row, ..], 1..) = (&mut *coefficients, &mut *rows, highest) else { return };
         *after = self.start(t, constants, before, row);
-        let (mut columns, mut order) = (Self::columns(after), T::one());
+        after.as_mut().iter_mut().for_each(|slope| *slope *= unit);
+        let per_unit = T::one() / unit;
+        let (mut columns, mut order, mut divisor) = (Self::columns(after), T::one(), per_unit);
         for k in 1..highest {
-            let (coefficient, next) = (coefficients[k], order + T::one());
+            let coefficient = coefficients[k];
+            divisor += per_unit;
             (coefficients[k + 1], columns) =
-                self.next(vectors, (order, next), constants, (&coefficient, columns), &mut rows[..=k]);
-            order = next;
+                self.next(vectors, (order, divisor), constants, (&coefficient, columns), &mut rows[..=k]);
+            order += T::one();
         }
     }
 }
@@ -115,6 +118,8 @@ pub trait InLanes<const N: usize>: Model<N> {
         y: &Self::Reduced<T>,
         rates: &mut Self::Reduced<T>,
     ) {
+        // Their own, so that nothing that is read can be what is written: few lanes are not worth a check of that.
+        let mut of_lanes = Self::Reduced::<T>::zeros();
         for lane in 0..T::LANES {
             let mut state = Self::Reduced::<T::Lane>::zeros();
             for (component, lanes) in state.as_mut().iter_mut().zip(y.as_ref()) {
@@ -122,10 +127,11 @@ pub trait InLanes<const N: usize>: Model<N> {
             }
             let (t, constants) = (in_lane(&t, lane), Self::constants_of_lane(constants, lane));
             let of_lane = self.reduced_equations(t, &constants, &state);
-            for (lanes, component) in rates.as_mut().iter_mut().zip(of_lane.as_ref()) {
+            for (lanes, component) in of_lanes.as_mut().iter_mut().zip(of_lane.as_ref()) {
                 lanes.set_lane(lane, component.to_f64());
             }
         }
+        *rates = of_lanes;
     }
 }
 
@@ -221,31 +227,31 @@ impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> fo
 
     fn coefficients(
         &self,
-        t: f64,
+        at: (f64, f64),
         constants: &M::Constants<f64>,
         coefficients: &mut [M::Reduced<f64>],
         rows: &mut [Self::Row],
     ) {
-        self.0.coefficients(t, constants, coefficients, rows);
+        self.0.coefficients(at, constants, coefficients, rows);
     }
 
     #[inline(always)]
     fn coefficients_on(
         &self,
         vectors: impl Vectors,
-        t: f64,
+        at: (f64, f64),
         constants: &M::Constants<f64>,
         coefficients: &mut [M::Reduced<f64>],
         rows: &mut [Self::Row],
     ) {
-        self.0.coefficients_on(vectors, t, constants, coefficients, rows);
+        self.0.coefficients_on(vectors, at, constants, coefficients, rows);
     }
 }
 
 impl<S, C> Series<S, C> for NotEmitted {
     type Row = [f64; 0];
 
-    fn coefficients(&self, _: f64, _: &C, _: &mut [S], _: &mut [[f64; 0]]) {
+    fn coefficients(&self, _: (f64, f64), _: &C, _: &mut [S], _: &mut [[f64; 0]]) {
         match *self {}
     }
 }

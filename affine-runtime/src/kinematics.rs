@@ -89,7 +89,7 @@ pub use deformation::{
     characteristic_invariants,
 };
 pub(crate) use dilatation::{LogDeterminant, integer};
-pub use dilatation::{dilatation, isochoric_part, mean_log_stretch};
+pub use dilatation::{dilatation, far_from_undeformed, isochoric_part, mean_log_stretch};
 pub use momenta::{AffineMomentum, AngularMomentum, LinearMomentum, Vorticity};
 pub use velocities::LinearVelocity;
 

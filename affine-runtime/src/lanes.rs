@@ -1,10 +1,10 @@
 //! Several doubles side by side as one number: the bodies of an ensemble, each in a lane.
 //!
-//! Strict, [`F64x4`] and [`F64x16`]: every operation of a lane gives the bits that [`f64`] gives on the same target.
+//! Strict, [`F64x8`] and [`F64x16`]: every operation of a lane gives the bits that [`f64`] gives on the same target.
 //! Arithmetic and square roots are rounded correctly in either; a multiply-add is fused in either or in neither;
 //! elementary functions are computed lane by lane by those of `f64`.
 //!
-//! Fast, [`FastF64x16`]: the same but for roots of order 3 and exponential, logarithmic and hyperbolic functions, those
+//! Fast, [`FastF64x8`]: the same but for roots of order 3 and exponential, logarithmic and hyperbolic functions, those
 //! of [`Fast`], which become vector instructions, right to [`FAST_ULP`] units of the last place.
 //!
 //! Lanes are arrays, and operations loops over them, which the compiler turns into the vectors of the function that it
@@ -12,7 +12,10 @@
 
 mod elementary;
 mod fast;
+#[cfg(feature = "std")]
+pub(crate) mod parts;
 
+use core::marker::PhantomData;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use num_traits::{One, Zero};
@@ -37,27 +40,40 @@ pub trait Lanes: Scalar {
 
     /// Puts a number into a lane; does nothing beyond the last.
     fn set_lane(&mut self, index: usize, value: f64);
+
+    /// The numbers in the lanes.
+    fn as_slice(&self) -> &[f64];
+
+    /// The same, to be changed.
+    fn as_mut_slice(&mut self) -> &mut [f64];
 }
 
-/// `LANES` numbers.
+/// `LANES` doubles that are computed with as numbers `S`. A line of the cache, or several whole ones, so that no vector stands in two of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Several<S, const LANES: usize>([S; LANES]);
+#[repr(align(64))]
+pub struct Several<S, const LANES: usize>([f64; LANES], PhantomData<S>);
 
-/// Four doubles.
-pub type F64x4 = Several<f64, 4>;
+/// Eight doubles.
+pub type F64x8 = Several<f64, 8>;
 /// Sixteen doubles.
 pub type F64x16 = Several<f64, 16>;
-/// Sixteen doubles with fast elementary functions.
-pub type FastF64x16 = Several<Fast, 16>;
+/// Eight doubles with fast elementary functions.
+pub type FastF64x8 = Several<Fast, 8>;
 
-/// The lanes that an [`Ensemble`](crate::Ensemble) takes.
-pub type Widest = F64x16;
+/// The lanes that an [`Ensemble`](crate::Ensemble) takes: one vector of AVX-512, two of AVX2. Of sixteen lanes the stages of a
+/// step hardly fit into the nearest cache, and with AVX2 a right-hand side of the size of P2 no longer into the registers.
+pub type Widest = F64x8;
 
-impl<S: Copy, const LANES: usize> Several<S, LANES> {
+impl<S: Real, const LANES: usize> Several<S, LANES> {
+    #[inline(always)]
+    fn all(number: S) -> Self {
+        Self([number.to_f64(); LANES], PhantomData)
+    }
+
     #[inline(always)]
     fn each(mut self, function: impl Fn(S) -> S) -> Self {
         for lane in &mut self.0 {
-            *lane = function(*lane);
+            *lane = function(S::from_f64(*lane)).to_f64();
         }
         self
     }
@@ -66,7 +82,7 @@ impl<S: Copy, const LANES: usize> Several<S, LANES> {
     #[inline(always)]
     fn with(mut self, other: Self, operation: impl Fn(S, S) -> S) -> Self {
         for lane in 0..LANES {
-            self.0[lane] = operation(self.0[lane], other.0[lane]);
+            self.0[lane] = operation(S::from_f64(self.0[lane]), S::from_f64(other.0[lane])).to_f64();
         }
         self
     }
@@ -77,20 +93,30 @@ impl<S: Real, const LANES: usize> Lanes for Several<S, LANES> {
     const LANES: usize = LANES;
 
     #[inline(always)]
-    fn from_lanes(mut lane: impl FnMut(usize) -> f64) -> Self {
-        Self(core::array::from_fn(|index| S::from_f64(lane(index))))
+    fn from_lanes(lane: impl FnMut(usize) -> f64) -> Self {
+        Self(core::array::from_fn(lane), PhantomData).each(|lane| lane)
     }
 
     #[inline(always)]
     fn lane(&self, index: usize) -> f64 {
-        self.0.get(index).map_or(f64::NAN, |lane| lane.to_f64())
+        self.0.get(index).copied().unwrap_or(f64::NAN)
     }
 
     #[inline(always)]
     fn set_lane(&mut self, index: usize, value: f64) {
         if let Some(lane) = self.0.get_mut(index) {
-            *lane = S::from_f64(value);
+            *lane = S::from_f64(value).to_f64();
         }
+    }
+
+    #[inline(always)]
+    fn as_slice(&self) -> &[f64] {
+        &self.0
+    }
+
+    #[inline(always)]
+    fn as_mut_slice(&mut self) -> &mut [f64] {
+        &mut self.0
     }
 }
 
@@ -108,13 +134,14 @@ macro_rules! elementary {
 impl<S: Real, const LANES: usize> Scalar for Several<S, LANES> {
     #[inline(always)]
     fn constant(hi: f64, lo: f64) -> Self {
-        Self([S::constant(hi, lo); LANES])
+        Self::all(S::constant(hi, lo))
     }
 
     #[inline(always)]
     fn fma(mut self, factor: Self, term: Self) -> Self {
         for lane in 0..LANES {
-            self.0[lane] = self.0[lane].fma(factor.0[lane], term.0[lane]);
+            let [own, factor, term] = [self.0[lane], factor.0[lane], term.0[lane]].map(S::from_f64);
+            self.0[lane] = own.fma(factor, term).to_f64();
         }
         self
     }
@@ -130,7 +157,7 @@ impl<S: Real, const LANES: usize> Scalar for Several<S, LANES> {
 impl<S: Real, const LANES: usize> Zero for Several<S, LANES> {
     #[inline(always)]
     fn zero() -> Self {
-        Self([S::zero(); LANES])
+        Self::all(S::zero())
     }
     fn is_zero(&self) -> bool {
         *self == Self::zero()
@@ -140,7 +167,7 @@ impl<S: Real, const LANES: usize> Zero for Several<S, LANES> {
 impl<S: Real, const LANES: usize> One for Several<S, LANES> {
     #[inline(always)]
     fn one() -> Self {
-        Self([S::one(); LANES])
+        Self::all(S::one())
     }
 }
 

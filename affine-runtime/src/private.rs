@@ -24,7 +24,7 @@ pub use crate::integrate::taylor::{
     Series, Vectors, add_multiple, add_products, divided, lanes, set_lanes, subtract_multiple,
     subtract_products,
 };
-pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
+pub use crate::kinematics::{dilatation, far_from_undeformed, isochoric_part, mean_log_stretch};
 pub use crate::lanes::{Lanes, gathered, in_lane};
 pub use crate::lattice::{
     Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, LatticePieces, MetricSide,

@@ -115,6 +115,15 @@ pub trait Real: Scalar + PartialOrd {
     }
 }
 
+/// Rounded correctly by either: one instruction, also of vectors, where the standard library is.
+#[inline(always)]
+fn square_root(x: f64) -> f64 {
+    #[cfg(feature = "std")]
+    return x.sqrt();
+    #[cfg(not(feature = "std"))]
+    return libm::sqrt(x);
+}
+
 macro_rules! primitive {
     ($type:ty, $hypot:path, $($function:ident = $path:path),*) => {
         impl Scalar for $type {
@@ -165,7 +174,7 @@ macro_rules! primitive {
 primitive!(
     f64,
     libm::hypot,
-    sqrt = libm::sqrt,
+    sqrt = square_root,
     cbrt = libm::cbrt,
     inverse_cbrt = inverse_cbrt::inverse_cbrt,
     exp = libm::exp,

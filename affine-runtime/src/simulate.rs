@@ -13,6 +13,7 @@ mod layout;
 mod mechanics;
 mod methods;
 mod motion;
+mod orientation;
 mod output;
 mod point;
 mod power_balance;

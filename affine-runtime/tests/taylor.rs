@@ -32,7 +32,13 @@ impl Pair {
 impl Series<[f64; 2], ()> for Pair {
     type Row = [f64; 0];
 
-    fn coefficients(&self, t: f64, (): &(), coefficients: &mut [[f64; 2]], _rows: &mut [[f64; 0]]) {
+    fn coefficients(
+        &self,
+        (t, unit): (f64, f64),
+        (): &(),
+        coefficients: &mut [[f64; 2]],
+        _rows: &mut [[f64; 0]],
+    ) {
         let (t, order) = (t / self.second, coefficients.len() - 1);
         let factorial = |k: usize| (1..=k).map(|i| i as f64).product::<f64>();
         let (sin, cos) = t.sin_cos();
@@ -46,7 +52,7 @@ impl Series<[f64; 2], ()> for Pair {
             let rates =
                 [cosine(k) + product(k, excess, |j| y[j][1]), -2.0 * product(k, time, square) + excess(k)];
             y.push(rates.map(|rate| rate / (k as f64 + 1.0)));
-            coefficients[k + 1] = y[k + 1].map(|c| c * self.metre / self.second.powi(k as i32 + 1));
+            coefficients[k + 1] = y[k + 1].map(|c| c * self.metre * (unit / self.second).powi(k as i32 + 1));
         }
     }
 }
@@ -59,10 +65,16 @@ struct Pole {
 impl Series<[f64; 1], ()> for Pole {
     type Row = [f64; 0];
 
-    fn coefficients(&self, t: f64, (): &(), coefficients: &mut [[f64; 1]], _rows: &mut [[f64; 0]]) {
+    fn coefficients(
+        &self,
+        (t, unit): (f64, f64),
+        (): &(),
+        coefficients: &mut [[f64; 1]],
+        _rows: &mut [[f64; 0]],
+    ) {
         for k in 1..coefficients.len() {
             let square = product(k - 1, |j| coefficients[j][0], |j| coefficients[j][0]);
-            coefficients[k] = [if t > self.edge { f64::NAN } else { square / k as f64 }];
+            coefficients[k] = [if t > self.edge { f64::NAN } else { square * unit / k as f64 }];
         }
     }
 }
@@ -209,4 +221,24 @@ fn units_of_time_and_state_do_not_matter() {
         assert!(distance(&other.y().map(|y| y / 0.125), plain.y()) < 1e-13);
     }
     assert!(other.is_finished());
+}
+
+#[test]
+fn coefficients_beyond_the_range_of_numbers_are_taken_in_another_unit_of_time() {
+    let plain = pair(0.0, 2.0, 1e-12, None);
+    let finished = |mut integration: Taylor<[f64; 2], (), Pair>| {
+        while !integration.is_finished() {
+            integration.advance().unwrap();
+        }
+        integration
+    };
+    let plain = finished(plain);
+    for exponent in [-400, -60, 60, 400] {
+        let unit = 2.0_f64.powi(exponent);
+        let scaled = Pair { second: unit, metre: 1.0 };
+        let start = (0.0, scaled.exact(0.0));
+        let other = finished(Taylor::new((scaled, ()), PAIR, start, 2.0 * unit, 1e-12, None).unwrap());
+        assert!(distance(other.y(), plain.y()) < 1e-12, "2^{exponent}: {other:?} {plain:?}");
+        assert!(other.statistics().steps.abs_diff(plain.statistics().steps) <= 1, "2^{exponent}");
+    }
 }

@@ -1,7 +1,7 @@
 //! Fast lanes err by less than is said.
 
 use affine_oracle::Random;
-use affine_runtime::lanes::{FAST_ULP, FastF64x16, Lanes};
+use affine_runtime::lanes::{FAST_ULP, FastF64x8, Lanes};
 use affine_runtime::scalar::{Real, Scalar};
 use qd::Quad;
 
@@ -42,7 +42,7 @@ fn errors_are_bounded<T: Lanes>() {
     };
     let mut worst = [0.0_f64; 9];
     for k in 0..10_000 {
-        let numbers = [(); 16].map(|()| number(k));
+        let numbers = [(); 8].map(|()| number(k));
         let lanes = T::from_lanes(|lane| numbers[lane]);
         for ((worst, (name, in_lanes, defined)), (_, exact, _)) in
             worst.iter_mut().zip(functions::<T>()).zip(functions::<Quad>())
@@ -63,7 +63,7 @@ fn errors_are_bounded<T: Lanes>() {
 
 #[test]
 fn fast_functions_err_by_less_than_is_said() {
-    errors_are_bounded::<FastF64x16>();
+    errors_are_bounded::<FastF64x8>();
 }
 
 /// Zeros with their signs, infinities, what is not a number, subnormal numbers, and overflow where the value overflows.
@@ -88,8 +88,8 @@ fn fast_functions_at_the_ends_are_those_of_scalars() {
         -746.0,
     ];
     for x in ends {
-        let lanes = FastF64x16::from_lanes(|_| x);
-        for ((name, fast, _), (_, strict, _)) in functions::<FastF64x16>().iter().zip(functions::<f64>()) {
+        let lanes = FastF64x8::from_lanes(|_| x);
+        for ((name, fast, _), (_, strict, _)) in functions::<FastF64x8>().iter().zip(functions::<f64>()) {
             let (found, expected) = (fast(lanes).lane(3), strict(x));
             let same = found == expected && found.is_sign_positive() == expected.is_sign_positive();
             let close = (found - expected).abs() <= (4.0 * f64::EPSILON * expected.abs()).max(5e-324);

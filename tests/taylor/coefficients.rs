@@ -33,20 +33,26 @@ fn by_series<const N: usize, M: Model<N>>(model: &M) -> Vec<Vec<f64>> {
     (0..LENGTH).map(|k| series.as_ref().iter().map(|jet| jet.0[k]).collect()).collect()
 }
 
-fn by_recurrence<const N: usize, M: Taylor<N>, T: Real>(model: &M) -> Vec<Vec<f64>> {
+fn by_recurrence<const N: usize, M: Taylor<N>, T: Real>(model: &M, unit: f64) -> Vec<Vec<f64>> {
     let (state, constants) = model.reduce(T::zero(), &sample(model));
     let mut coefficients = vec![state; LENGTH];
     // Rows from another computation do no harm.
     let mut rows = vec![M::Row::<T>::zeros(); LENGTH - 1];
     rows.iter_mut().for_each(|row| row.as_mut().fill(T::from_f64(7.0)));
-    model.coefficients(T::zero(), &constants, &mut coefficients, &mut rows);
+    model.coefficients((T::zero(), T::from_f64(unit)), &constants, &mut coefficients, &mut rows);
     coefficients.iter().map(|c| c.as_ref().iter().map(|v| v.to_f64()).collect()).collect()
 }
 
 fn assert_agree<const N: usize, M: Taylor<N>>(model: &M) {
-    let (expected, found) = (by_series(model), by_recurrence::<N, M, f64>(model));
+    let (expected, found) = (by_series(model), by_recurrence::<N, M, f64>(model, 1.0));
     // Any scalar: this one does not go through vectors of doubles.
-    let counted = by_recurrence::<N, M, affine_runtime::counting::Counting>(model);
+    let counted = by_recurrence::<N, M, affine_runtime::counting::Counting>(model, 1.0);
+    // A power of two for a unit of time changes no digit.
+    let in_eighths = by_recurrence::<N, M, f64>(model, 0.125);
+    for (k, (eighths, found)) in in_eighths.iter().zip(&found).enumerate() {
+        let scaled: Vec<f64> = found.iter().map(|c| c * 0.125_f64.powi(k as i32)).collect();
+        assert_eq!(*eighths, scaled, "{}: order {k}", M::DESCRIPTION.name);
+    }
     for (k, expected) in expected.iter().enumerate() {
         let size = expected.iter().fold(0.0f64, |size, c| size.max(c.abs()));
         assert!(size > 0.0 || k > 1, "{}: nothing moves", M::DESCRIPTION.name);

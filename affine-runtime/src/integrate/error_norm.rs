@@ -5,7 +5,7 @@ mod at_a_state;
 mod in_lanes;
 
 #[cfg(feature = "std")]
-pub(crate) use in_lanes::{NormInLanes, norm as norm_in_lanes, sum_of_squares as squares_in_lanes};
+pub(crate) use in_lanes::NormInLanes;
 
 use core::ops::Range;
 
@@ -225,25 +225,25 @@ impl ErrorNorm {
 }
 
 /// Sums of squares within these bounds have neither overflowed nor lost digits to underflow.
-const IN_RANGE: core::ops::RangeInclusive<f64> = 1e-280..=1e300;
+pub(crate) const IN_RANGE: core::ops::RangeInclusive<f64> = 1e-280..=1e300;
 
 /// Euclidean norm.
 #[inline(always)]
 pub(crate) fn norm(components: &[f64]) -> f64 {
     let sum = sum_of_squares(components);
-    if IN_RANGE.contains(&sum) { Scalar::sqrt(sum) } else { scaled_norm(components) }
+    if IN_RANGE.contains(&sum) { Scalar::sqrt(sum) } else { scaled_norm(components.iter().copied()) }
 }
 
 /// The same of numbers whose squares leave the range; NaN where one is.
 #[cold]
-fn scaled_norm(components: &[f64]) -> f64 {
-    let largest = components
-        .iter()
-        .fold(0.0_f64, |largest, v| if v.abs() <= largest || largest.is_nan() { largest } else { v.abs() });
+fn scaled_norm(components: impl Iterator<Item = f64> + Clone) -> f64 {
+    let larger =
+        |largest: f64, v: f64| if v.abs() <= largest || largest.is_nan() { largest } else { v.abs() };
+    let largest = components.clone().fold(0.0, larger);
     if largest == 0.0 || !largest.is_finite() {
         return largest;
     }
-    let scaled = components.iter().map(|v| square(v / largest)).sum::<f64>();
+    let scaled = components.map(|v| square(v / largest)).sum::<f64>();
     largest * Scalar::sqrt(scaled)
 }
 

@@ -5,6 +5,7 @@ mod dormand_prince_853;
 #[cfg(feature = "std")]
 pub(crate) mod in_lanes;
 mod pair;
+pub(crate) mod start;
 mod step;
 #[cfg(test)]
 mod trees;
@@ -14,15 +15,16 @@ pub use step::{Dense, OneStep, Step};
 
 use core::fmt;
 
-use super::error_norm::{ErrorNorm, sum_of_squares};
+use super::error_norm::{ErrorNorm, IN_RANGE, sum_of_squares};
 use super::lie::{Coordinates, Flat, Sum};
-use super::step_size::{Controller, first_step, next_time, shortest};
+use super::step_size::{Controller, next_time, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::taylor::Vectors;
 use super::widest::{Work, widest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
+use start::{Start, is_finite};
 
 /// The method of Dormand and Prince of order 8.
 ///
@@ -99,19 +101,9 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
         t_end: f64,
         tolerance: f64,
     ) -> Result<Self, Failure> {
-        let slope = f(t0, &y0);
-        if !is_finite(&y0) || !is_finite(&slope) {
-            return Err(Failure::NotFinite);
-        }
-        let mut statistics = Statistics { evaluations: 1, ..Statistics::default() };
-        let (mut error_norm, mut length) = (ErrorNorm::new(groups), 0.0);
-        if t_end != t0 {
-            let probes;
-            (error_norm, probes) = ErrorNorm::probed(groups, &f, (t0, &y0, &slope));
-            statistics.evaluations += probes;
-            length = first_step(&f, &error_norm, (t0, &y0, &slope), t_end - t0, (tolerance, P::ERROR_ORDER));
-            statistics.evaluations += 1;
-        }
+        let (start, evaluations) = Start::of::<P>(&f, groups, (t0, &y0), t_end, tolerance)?;
+        let Start { slope, error_norm, length } = start;
+        let statistics = Statistics { evaluations, ..Statistics::default() };
         let controller = Controller::of(P::ERROR_ORDER, P::MARGIN);
         let begin = Sum::of(y0);
         let origin = coordinates.origin(&begin).value;
@@ -260,8 +252,9 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
         let before = self.begin.value.as_ref();
         let after = reached.as_ref();
         let relative = self.error_norm.largest(self.step.length().abs(), before, after, |range| {
-            let squares = |slopes: &S| sum_of_squares(&slopes.as_ref()[range.clone()]);
-            P::error((squares(&first), squares(&second)))
+            let slopes = [&first, &second].map(|slopes| &slopes.as_ref()[range.clone()]);
+            let [first, second] = slopes.map(sum_of_squares);
+            if IN_RANGE.contains(&first) { P::error((first, second)) } else { scaled_error::<P>(slopes) }
         });
         self.step.length().abs() * relative / self.tolerance
     }
@@ -277,6 +270,21 @@ impl<P: Pair, S: StateVector<f64>, F, C> fmt::Debug for RungeKutta<P, S, F, C> {
             .field("statistics", &self.statistics)
             .finish_non_exhaustive()
     }
+}
+
+/// The error estimate of a group whose squares leave the range of numbers; NaN where one of its components is.
+#[cold]
+fn scaled_error<P: Pair>(slopes: [&[f64]; 2]) -> f64 {
+    let all = slopes.into_iter().flatten();
+    let larger = |largest: f64, v: &f64| {
+        if v.abs() <= largest || largest.is_nan() { largest } else { v.abs() }
+    };
+    let largest = all.fold(0.0, larger);
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    let squares = slopes.map(|slopes| slopes.iter().map(|v| (v / largest) * (v / largest)).sum());
+    largest * P::error((squares[0], squares[1]))
 }
 
 /// A step of an integration to the time `end`.
@@ -304,8 +312,4 @@ fn in_coordinates<S: StateVector<f64>, C: Coordinates<S>>(
         let state = coordinates.state(base, z).value;
         coordinates.velocity(&state, z, &f(t, &state))
     }
-}
-
-fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
-    y.as_ref().iter().all(|v| v.is_finite())
 }

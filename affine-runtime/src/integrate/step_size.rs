@@ -1,9 +1,12 @@
 //! Step sizes: the first one, and how they follow the error.
 
+#[cfg(feature = "std")]
+pub(crate) mod in_lanes;
+
 use core::ops::Range;
 
 use super::error_norm::{ErrorNorm, norm};
-use super::roughly::{exp, ln};
+use super::roughly::{exp, exp_of_moderate, ln, ln_of_normal};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use crate::model::StateVector;
@@ -24,7 +27,7 @@ const PROPORTIONAL: f64 = 0.3;
 /// Logarithm of the part of the tolerance below which errors carry no information on the trend, but that the step was
 /// too short.
 const TREND_FROM: f64 = -9.0;
-/// Smaller errors, zero among them, count as this: what is left of the largest growth a hundred times over.
+/// Smaller errors, zero among them, count as this, which allows the largest growth.
 const LEAST_ERROR: f64 = 1e-30;
 /// The error of a first step, relative to the tolerance, by rates in place of derivatives. The coefficients of the
 /// error terms of methods of high order are so small that it errs far less.
@@ -37,18 +40,18 @@ pub(crate) const FIRST_ERROR: f64 = 10.0;
 pub(crate) struct Controller {
     /// `k`.
     order: f64,
-    /// Steps aim at an error so many times below the tolerance, beside [`SAFETY`]. A rejected step costs as much as an
-    /// accepted one, and the margin shortens steps by little.
+    /// Steps aim at an error so many times below the tolerance, beside [`SAFETY`], as a logarithm. A rejected step costs
+    /// as much as an accepted one, and the margin shortens steps by little.
     margin: f64,
     /// Logarithm of the previous error.
-    previous: f64,
-    rejected: bool,
+    pub(super) previous: f64,
+    pub(super) rejected: bool,
 }
 
 impl Controller {
     /// For an error of order `h^order`.
     pub(crate) fn of(order: f64, margin: f64) -> Self {
-        Self { order, margin, previous: TREND_FROM, rejected: false }
+        Self { order, margin: ln_of_normal(margin), previous: TREND_FROM, rejected: false }
     }
 
     /// What the next step sizes depend on.
@@ -59,41 +62,55 @@ impl Controller {
     }
 
     /// Factor of the step size after an accepted step with `error <= 1`.
+    #[inline]
     pub(crate) fn accept(&mut self, error: f64) -> f64 {
-        let error = ln(self.margin * if error > LEAST_ERROR { error } else { LEAST_ERROR });
-        let has_trend = error > TREND_FROM;
-        let trend = if has_trend { PROPORTIONAL * (self.previous - error) } else { 0.0 };
-        // After a rejection the longer step has just been seen to fail.
-        let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
-        *self = Self { previous: if has_trend { error } else { TREND_FROM }, rejected: false, ..*self };
-        (SAFETY * exp((trend - INTEGRAL * error) / self.order)).clamp(LARGEST_CUT, growth)
+        self.factor(true, error)
     }
 
     /// Factor of the step size after a rejected step; NaN stands for numbers that are not finite.
+    #[inline]
     pub(crate) fn reject(&mut self, error: f64) -> f64 {
-        self.rejected = true;
-        if error.is_finite() {
-            (SAFETY * exp(-ln(self.margin * error) / self.order)).clamp(LARGEST_CUT, SAFETY)
-        } else {
-            LARGEST_CUT
-        }
+        self.factor(false, error)
     }
+
+    /// Either. All that is called between two steps is without branches, for many bodies at once.
+    #[inline(always)]
+    fn factor(&mut self, accepted: bool, error: f64) -> f64 {
+        let seen = if error > LEAST_ERROR { error } else { LEAST_ERROR };
+        // What is not finite cuts a step as the largest number does.
+        let failed = if error < f64::MAX { error } else { f64::MAX };
+        let logarithm = self.margin + ln_of_normal(if accepted { seen } else { failed });
+        let has_trend = logarithm > TREND_FROM;
+        let trend = if has_trend { PROPORTIONAL * (self.previous - logarithm) } else { 0.0 };
+        let exponent = (if accepted { trend - INTEGRAL * logarithm } else { -logarithm }) / self.order;
+        // After a rejection the longer step has just been seen to fail.
+        let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
+        let growth = if accepted { growth } else { SAFETY };
+        let seen = if has_trend { logarithm } else { TREND_FROM };
+        self.previous = if accepted { seen } else { self.previous };
+        self.rejected = !accepted;
+        within(LARGEST_CUT, growth, SAFETY * exp_of_moderate(exponent))
+    }
+}
+
+/// The nearest number between two others.
+#[inline(always)]
+fn within(least: f64, most: f64, x: f64) -> f64 {
+    let x = if x < least { least } else { x };
+    if x > most { most } else { x }
 }
 
 /// End of the step to try from `t`: `t_end` itself where the step reaches about there, and half the way where it
 /// reaches further than that, since a step and a short rest cost as much as two equal ones.
+#[inline(always)]
 pub(crate) fn next_time(t: f64, length: f64, t_end: f64) -> f64 {
     let rest = t_end - t;
-    if 1.01 * length >= rest.abs() {
-        t_end
-    } else if 2.0 * length > rest.abs() {
-        t + 0.5 * rest
-    } else {
-        t + length.copysign(rest)
-    }
+    let step = if 2.0 * length > rest.abs() { 0.5 * rest } else { length.copysign(rest) };
+    if 1.01 * length >= rest.abs() { t_end } else { t + step }
 }
 
 /// Steps from `t` at or below this length are lost in the rounding of times.
+#[inline(always)]
 pub(crate) fn shortest(t: f64, t_end: f64) -> f64 {
     let (size, span) = (t.abs(), (t_end - t).abs());
     16.0 * f64::EPSILON * if size > f64::EPSILON * span { size } else { f64::EPSILON * span }
@@ -101,7 +118,8 @@ pub(crate) fn shortest(t: f64, t_end: f64) -> f64 {
 
 /// Length of the first step, after Hairer, Norsett, Wanner, section II.4, with rates in place of their
 /// derivatives so that it scales with the unit of time: from `r = max(|y'|/|y|, sqrt(|y''|/|y|))` by groups,
-/// `h = (c tolerance)^(1/k)/r` for an error of order `h^k`, `c =` [`FIRST_ERROR`]. Costs one evaluation of `f`, for `y''` as a difference.
+/// `h = (c tolerance)^(1/k)/r` for an error of order `h^k`, `c =` [`FIRST_ERROR`]. Costs one evaluation of `f`, for `y''` as
+/// a difference.
 pub(crate) fn first_step<S: StateVector<f64>>(
     f: &impl Fn(f64, &S) -> S,
     error_norm: &ErrorNorm,
@@ -120,12 +138,17 @@ pub(crate) fn first_step<S: StateVector<f64>>(
         *y += signed * slope;
     }
     let slope_after = f(t + signed, &end);
-    for (i, change) in change.as_mut().iter_mut().enumerate() {
-        *change = (slope_after.as_ref()[i] - slope.as_ref()[i]) / trial;
-    }
-    let of_change = |r: Range<usize>| norm(&change.as_ref()[r]);
-    let second = error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change);
-    let second = Scalar::sqrt(second);
+    let mut over = |time: f64| {
+        for (i, change) in change.as_mut().iter_mut().enumerate() {
+            *change = (slope_after.as_ref()[i] - slope.as_ref()[i]) / time;
+        }
+        let of_change = |r: Range<usize>| norm(&change.as_ref()[r]);
+        error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change)
+    };
+    let of_second = over(trial);
+    // Rates of rates leave the range of numbers first.
+    let of_second = if of_second.is_finite() { of_second } else { over(1.0) / trial };
+    let second = Scalar::sqrt(of_second);
     let fastest = if first.is_finite() && first > second { first } else { second };
     let length = exp(ln(FIRST_ERROR * tolerance) / order) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.

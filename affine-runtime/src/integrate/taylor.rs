@@ -11,7 +11,7 @@ use core::fmt;
 
 use super::error_norm::{ErrorNorm, norm};
 use super::roughly::{exp, ln};
-use super::step_size::shortest;
+use super::step_size::{first_step, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::widest::{Work, widest};
@@ -28,21 +28,21 @@ pub trait Series<S, C> {
     /// What is kept of each order.
     type Row: StateVector<f64>;
 
-    /// Fills in all coefficients after the first, which is the state at time `t`; as many rows as coefficients, less
-    /// one.
-    fn coefficients(&self, t: f64, constants: &C, coefficients: &mut [S], rows: &mut [Self::Row]);
+    /// Fills in all coefficients `y_k unit^k` after the first, which is the state, `at` a time and with a unit of time; as
+    /// many rows as coefficients, less one. The unit, a power of two, keeps them in the range of numbers.
+    fn coefficients(&self, at: (f64, f64), constants: &C, coefficients: &mut [S], rows: &mut [Self::Row]);
 
     /// The same coefficients, on the vectors of a processor where that is worth the while.
     #[inline(always)]
     fn coefficients_on(
         &self,
         _vectors: impl Vectors,
-        t: f64,
+        (t, unit): (f64, f64),
         constants: &C,
         coefficients: &mut [S],
         rows: &mut [Self::Row],
     ) {
-        self.coefficients(t, constants, coefficients, rows);
+        self.coefficients((t, unit), constants, coefficients, rows);
     }
 }
 
@@ -76,12 +76,18 @@ pub struct Taylor<S, C, R: Series<S, C>> {
     /// What rounding left out of `y`.
     carry: S,
     t_end: f64,
+    /// `y_k unit^k`
     coefficients: [S; HIGHEST_ORDER + 1],
     rows: [R::Row; HIGHEST_ORDER],
+    /// A power of two.
+    unit: f64,
     length: f64,
     failure: Option<Failure>,
     statistics: Statistics,
 }
+
+/// Last coefficients beyond these are taken in another unit of time.
+const IN_RANGE: core::ops::RangeInclusive<f64> = 1e-250..=1e250;
 
 /// Orders beyond those of Jorba and Zou, for the cost of coefficients that is linear in the order.
 const MORE_ORDERS: f64 = 6.0;
@@ -116,11 +122,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         tolerance: f64,
         order: Option<usize>,
     ) -> Result<Self, Failure> {
-        let slope = |t: f64, y: &S| {
-            let mut coefficients = [*y, S::zeros()];
-            series.coefficients(t, &constants, &mut coefficients, &mut [R::Row::zeros()]);
-            coefficients[1]
-        };
+        let slope = |t: f64, y: &S| slope(&series, &constants, t, y);
         let first = slope(t0, &y0);
         if !is_finite(&y0) || !is_finite(&first) {
             return Err(Failure::NotFinite);
@@ -143,6 +145,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             t_end,
             coefficients,
             rows: [R::Row::zeros(); HIGHEST_ORDER],
+            unit: 1.0,
             length: (t_end - t0).abs(),
             failure: None,
             statistics: Statistics { evaluations: probes + 1, ..Statistics::default() },
@@ -167,11 +170,10 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
 
     #[inline(always)]
     fn step(&mut self, vectors: impl Vectors) -> Result<(), Failure> {
-        self.coefficients[0] = self.y;
-        let coefficients = &mut self.coefficients[..=self.order];
-        let rows = &mut self.rows[..self.order];
-        self.series.coefficients_on(vectors, self.t, &self.constants, coefficients, rows);
-        self.statistics.evaluations += 1;
+        self.expand(vectors);
+        if !self.is_in_range() && self.takes_a_unit() {
+            self.expand(vectors);
+        }
         let length = self.longest();
         if length.is_nan() {
             return Err(Failure::NotFinite);
@@ -198,6 +200,42 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         Ok(())
     }
 
+    /// The coefficients at the state reached.
+    #[inline(always)]
+    fn expand(&mut self, vectors: impl Vectors) {
+        self.coefficients[0] = self.y;
+        let coefficients = &mut self.coefficients[..=self.order];
+        let rows = &mut self.rows[..self.order];
+        self.series.coefficients_on(vectors, (self.t, self.unit), &self.constants, coefficients, rows);
+        self.statistics.evaluations += 1;
+    }
+
+    /// The last coefficients are neither lost nor infinite; a motion that is a polynomial of low order has none.
+    #[inline(always)]
+    fn is_in_range(&self) -> bool {
+        let largest = |k: usize| {
+            let sizes = self.coefficients[k].as_ref().iter();
+            sizes.fold(0.0, |largest: f64, v| if v.abs() <= largest { largest } else { v.abs() })
+        };
+        let last = largest(self.order) + largest(self.order - 1);
+        IN_RANGE.contains(&last) || last < 1.0 && (2..=3).all(|k| largest(k) == 0.0)
+    }
+
+    /// Measures time in steps: is that another unit than before?
+    #[cold]
+    fn takes_a_unit(&mut self) -> bool {
+        let slope = |t: f64, y: &S| slope(&self.series, &self.constants, t, y);
+        let accuracy = (self.tolerance, self.order as f64);
+        let begin = (self.t, &self.y, &slope(self.t, &self.y));
+        let length = first_step(&slope, &self.error_norm, begin, self.t_end - self.t, accuracy);
+        self.statistics.evaluations += 2;
+        let before = self.unit;
+        if length > 0.0 && length.is_finite() {
+            self.unit = libm::ldexp(1.0, libm::frexp(length).1);
+        }
+        self.unit != before
+    }
+
     /// The longest step that the last two coefficients allow.
     #[inline(always)]
     fn longest(&self) -> f64 {
@@ -210,7 +248,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             let logarithm = |error: f64, j: usize| ln(self.tolerance / error) / j as f64;
             let (last, before) = (logarithm(errors[0], self.order), logarithm(errors[1], self.order - 1));
             let least = if last <= before || last.is_nan() { last } else { before };
-            exp(least - 0.7 / (self.order - 1) as f64)
+            exp(least - 0.7 / (self.order - 1) as f64) * self.unit
         };
         let length = within(self.length);
         // Momenta may err the less, the longer the step: one that is longer than guessed is measured again.
@@ -220,6 +258,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     /// `sum_(k > 0) y_k h^k`.
     #[inline(always)]
     fn rise(&self, h: f64) -> S {
+        let h = h / self.unit;
         let mut rise = self.coefficients[self.order];
         for coefficient in self.coefficients[1..self.order].iter().rev() {
             for (rise, coefficient) in rise.as_mut().iter_mut().zip(coefficient.as_ref()) {
@@ -249,6 +288,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         tape.number(&mut self.t);
         tape.state(&mut self.y);
         tape.state(&mut self.carry);
+        tape.number(&mut self.unit);
         tape.number(&mut self.length);
         tape.statistics(&mut self.statistics);
         self.begin = self.t;
@@ -325,6 +365,13 @@ fn scaled_norm(components: &[f64]) -> f64 {
     }
     let squares: f64 = components.iter().map(|v| v / largest * (v / largest)).sum();
     largest * crate::scalar::Scalar::sqrt(squares)
+}
+
+/// `y'` at a state.
+fn slope<S: StateVector<f64>, C, R: Series<S, C>>(series: &R, constants: &C, t: f64, y: &S) -> S {
+    let mut coefficients = [*y, S::zeros()];
+    series.coefficients((t, 1.0), constants, &mut coefficients, &mut [R::Row::zeros()]);
+    coefficients[1]
 }
 
 fn is_finite<S: StateVector<f64>>(y: &S) -> bool {

@@ -40,6 +40,13 @@ pub fn isochoric_part<const N: usize, T: Real>(phi: &Matrix<N, T>) -> Matrix<N, 
     phi.map(|entry| entry / dilatation)
 }
 
+/// Is an entry of `phi` above 2, or `D` below 1/2? Elsewhere the stretches are between 1/288 and 6, and numbers counted
+/// from their values at `phi = 1` are as good as any.
+pub fn far_from_undeformed<const N: usize, T: Real>(phi: &Matrix<N, T>) -> bool {
+    let two = T::one() + T::one();
+    phi.iter().any(|entry| entry.abs() > two) || dilatation(phi) * two < T::one()
+}
+
 /// `det phi = sign exp(mantissa) 2^(N exponent)`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LogDeterminant<const N: usize, T> {
@@ -201,15 +208,31 @@ fn determinant_by_elimination<const N: usize, T: Real>(mut matrix: Matrix<N, T>)
 }
 
 /// `e` with `2^(e-1) <= |value| < 2^e`; the value is neither zero nor infinite.
+#[inline]
 fn binary_exponent<T: Real>(value: T) -> i32 {
-    libm::frexp(value.to_f64()).1
+    let value = value.to_f64();
+    // The bits of a normal number say it.
+    if value.is_normal() { ((value.to_bits() >> 52) & 0x7ff) as i32 - 1022 } else { libm::frexp(value).1 }
 }
 
-/// `value 2^exponent`, exact where the result is a normal number. In quarters, because the power itself may lie
-/// outside the range of `T` where the result does not.
+/// `value 2^exponent`, exact where the result is a normal number. In quarters where the power itself may lie outside the
+/// range of `T` where the result does not.
 fn times_power_of_two<T: Real>(value: T, exponent: i32) -> T {
+    if (-64..=64).contains(&exponent) {
+        return value * T::from_f64(power_of_two(exponent));
+    }
     let quarter = exponent / 4;
     [quarter, quarter, quarter, exponent - 3 * quarter]
         .into_iter()
-        .fold(value, |product, part| product * T::from_f64(libm::ldexp(1.0, part)))
+        .fold(value, |product, part| product * T::from_f64(power_of_two(part)))
+}
+
+/// `2^exponent`: where that is a normal number, from its bits.
+#[inline]
+fn power_of_two(exponent: i32) -> f64 {
+    if (-1022..=1023).contains(&exponent) {
+        f64::from_bits(((exponent + 1023) as u64) << 52)
+    } else {
+        libm::ldexp(1.0, exponent)
+    }
 }

@@ -1,17 +1,18 @@
 //! Many bodies of one model over the same interval of time.
 
+mod bodies;
+
 use core::fmt;
 
 use super::halt::{Setting, Stop};
 use super::layout::placement_in;
-use super::point::{check, is_clearly_positive};
+use super::point::is_clearly_positive;
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
 use crate::capability::InLanes;
-use crate::frames::Matrix;
-use crate::integrate::in_lanes::{Equations, Failing, RungeKutta8InLanes};
 use crate::lanes::{Lanes, Widest};
-use crate::model::{Model, StateVector};
+use crate::model::Model;
 use crate::state::Phase;
+use bodies::{Bodies, Done, begun};
 
 /// Where each body of an ensemble is in the end, or why it did not get there.
 pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
@@ -22,14 +23,14 @@ pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
 /// let ends = Ensemble::new(&model, starts).until(10.0).tolerance(1e-9).run()?;
 /// ```
 ///
-/// Bodies are computed in lanes, [`Widest`] next to one another in the order of the starts, by the Runge-Kutta method of
-/// order 8. The bodies of a group share their steps: each has an error of its own in each step, and the worst decides. A
-/// body that cannot go on (numbers that are not finite, a collapse, a step that underflows) leaves its group, which starts
-/// again with another body in its lane, and is integrated alone: its outcome, an end or a [`Stop`], is that of a
-/// [`Simulation`], and the others come to what they would have come to without it. Bodies with a closed form take that,
-/// and bodies under a constraint, whose steps are taken on its group, are integrated one by one.
+/// Bodies are computed in lanes, [`Widest`] at once, by the Runge-Kutta method of order 8. Each is at its own time and takes
+/// its own steps, and where one has come to the end, the next takes its lane: every body comes to what
+/// [`Method::RungeKutta8`] gives for it alone, bit for bit in strict lanes, whatever its neighbours and their number. A body
+/// that cannot go on (numbers that are not finite, a collapse, a step that underflows) leaves its lane and is integrated
+/// alone: its outcome, an end or a [`Stop`], is that of a [`Simulation`]. Bodies with a closed form take that, and bodies
+/// under a constraint, whose steps are taken on its group, are integrated one by one.
 ///
-/// With the feature `parallel` groups are spread over the threads of the current `rayon` pool. Results are the same bits
+/// With the feature `parallel` bodies are spread over the threads of the current `rayon` pool. Results are the same bits
 /// for any number of threads.
 pub struct Ensemble<'a, const N: usize, M: Model<N>> {
     model: &'a M,
@@ -72,7 +73,7 @@ impl<'a, const N: usize, M: Model<N>> Ensemble<'a, N, M> {
         Self { tolerance: eps, ..self }
     }
 
-    /// Largest number of accepted steps of a group or a body.
+    /// Largest number of accepted steps of a body.
     #[must_use]
     pub fn max_steps(self, max_steps: u64) -> Self {
         Self { max_steps, ..self }
@@ -108,148 +109,85 @@ where
         self.run_in::<Widest>()
     }
 
-    /// The same in lanes of another number: results agree within the tolerance.
+    /// The same in lanes of another number, a multiple of eight, or of another kind: in strict lanes the same bits, in
+    /// [fast](crate::lanes::FastF64x8) ones results that agree within the tolerance.
     ///
     /// # Errors
     /// As [`run`](Self::run).
     pub fn run_in<T: Lanes>(self) -> core::result::Result<Ends<M::Point<f64>>, Setting> {
         let Some(first) = self.starts.first() else { return Ok(Vec::new()) };
         let (t_end, _) = self.simulation(*first).settings.checked(&M::DESCRIPTION)?;
-        let group = |starts: &[M::Point<f64>]| self.group::<T>(starts, t_end);
-        Ok(over_groups(&self.starts, T::LANES, group))
+        Ok(in_parts(&self.starts, T::LANES, |starts| self.ends::<T>(starts, t_end)))
     }
 
-    /// As many bodies as there are lanes, or fewer.
-    fn group<T: Lanes>(&self, starts: &[M::Point<f64>], t_end: f64) -> Ends<M::Point<f64>> {
-        let apart = |start: &M::Point<f64>| self.apart(start, t_end);
-        let mut methods: Vec<Option<Method>> = starts.iter().map(apart).collect();
-        loop {
-            let members: Vec<usize> = (0..starts.len()).filter(|k| methods[*k].is_none()).collect();
-            let together: Vec<M::Point<f64>> = members.iter().map(|k| starts[*k]).collect();
-            match self.together::<T>(&together, t_end) {
-                Ok(ends) => {
-                    let mut ends = ends.into_iter();
-                    let outcome = |(start, method): (&M::Point<f64>, &Option<Method>)| match method {
-                        // As many ends as there are members.
-                        None => ends.next().map_or_else(|| self.alone(*start, Method::RungeKutta8), Ok),
-                        Some(method) => self.alone(*start, *method),
-                    };
-                    return starts.iter().zip(&methods).map(outcome).collect();
-                }
-                Err(failing) => {
-                    // Lanes beyond the members repeat the last of them.
-                    for lane in failing {
-                        if let Some(member) = members.get(lane).or(members.last()) {
-                            methods[*member] = Some(Method::RungeKutta8);
-                        }
+    /// Bodies one after the other through the same lanes, but for those that are apart. Where a body that cannot go on in
+    /// lanes comes to, and why it stops, is found alone.
+    fn ends<T: Lanes>(&self, starts: &[M::Point<f64>], t_end: f64) -> Ends<M::Point<f64>> {
+        let apart: Vec<Option<Method>> = starts.iter().map(|start| self.apart(start, t_end)).collect();
+        let together = starts.iter().enumerate().filter(|(body, _)| apart[*body].is_none());
+        let together: Vec<_> = together.collect();
+        let mut begun = together.chunks(T::LANES).flat_map(|points| begun::<N, T, M>(self, points, t_end));
+        let mut ends = vec![None; starts.len()];
+        if let Some(first) = begun.next() {
+            let mut bodies = Bodies::<N, T, M>::filled(self, first, &mut begun, t_end);
+            while bodies.are_moving() {
+                for Done { lane, body, end } in bodies.advance() {
+                    ends[body] = end.filter(is_sound);
+                    match begun.next() {
+                        Some(next) => bodies.put(lane, &next),
+                        None => bodies.rest(lane),
                     }
                 }
             }
         }
+        let alone = |body: usize| self.alone(starts[body], apart[body].unwrap_or(Method::RungeKutta8));
+        ends.into_iter().enumerate().map(|(body, end)| end.map_or_else(|| alone(body), Ok)).collect()
     }
 
-    /// The method of a body that is better off alone.
+    /// The method of a body that is not taken into lanes: with a closed form, or with steps that have to be looked at.
     fn apart(&self, start: &M::Point<f64>, t_end: f64) -> Option<Method> {
         if self.model.geodesic(self.t0, start).is_some() {
             return Some(Method::ClosedForm);
         }
+        let is_placed = const { placement_in(M::DESCRIPTION.reduced, N).is_some() };
         // The signature of a mass matrix that depends on the placement is looked after step by step.
         let is_special = M::DESCRIPTION.constraint.is_some() || self.model.regularity(start.phi()).is_some();
-        let alone = is_special || t_end == self.t0 || check(self.t0, start).is_err();
+        let alone = !is_placed || is_special || t_end == self.t0 || !is_sound(start);
         alone.then_some(Method::RungeKutta8)
     }
-
-    /// Bodies with the same steps.
-    fn together<T: Lanes>(
-        &self,
-        starts: &[M::Point<f64>],
-        t_end: f64,
-    ) -> core::result::Result<Vec<M::Point<f64>>, Failing> {
-        if starts.is_empty() {
-            return Ok(Vec::new());
-        }
-        let (mut states, mut constants) = (Vec::new(), Vec::new());
-        for start in starts {
-            let (state, of_trajectory) = self.model.reduce(self.t0, start);
-            states.push(state);
-            constants.push(of_trajectory);
-        }
-        let in_lanes = M::constants_in_lanes::<T>(&constants);
-        let equations = Reduced { model: self.model, constants: in_lanes };
-        let mut state = M::Reduced::<T>::zeros();
-        for (k, component) in state.as_mut().iter_mut().enumerate() {
-            *component = crate::lanes::gathered(&states, |state| state.as_ref()[k]);
-        }
-        let groups = M::DESCRIPTION.reduced;
-        let mut integration =
-            RungeKutta8InLanes::new(equations, groups, (self.t0, state), t_end, self.tolerance)?;
-        let placement = placement_in(groups, N);
-        while integration.t() != t_end {
-            if integration.steps() == self.max_steps {
-                return Err((0..starts.len()).collect());
-            }
-            integration.advance()?;
-            if let Some(range) = &placement {
-                let entries = &integration.y().as_ref()[range.clone()];
-                failing(starts.len(), |lane| {
-                    is_clearly_positive(&Matrix::<N>::from_fn(|i, k| entries[N * i + k].lane(lane)))
-                })?;
-            }
-        }
-        let ends: Vec<M::Point<f64>> = constants
-            .iter()
-            .enumerate()
-            .map(|(lane, constants)| {
-                let mut state = M::Reduced::<f64>::zeros();
-                for (component, of_lanes) in state.as_mut().iter_mut().zip(integration.y().as_ref()) {
-                    *component = of_lanes.lane(lane);
-                }
-                self.model.expand(t_end, constants, &state)
-            })
-            .collect();
-        failing(ends.len(), |lane| check(t_end, &ends[lane]).is_ok())?;
-        Ok(ends)
-    }
 }
 
-/// The reduced equations of a group.
-struct Reduced<'a, const N: usize, M: InLanes<N>, T: Lanes> {
-    model: &'a M,
-    constants: M::Constants<T>,
+/// A phase point needs no second look.
+fn is_sound<const N: usize, P: Phase<N>>(point: &P) -> bool {
+    point.is_finite() && is_clearly_positive(point.phi())
 }
 
-impl<const N: usize, M: InLanes<N>, T: Lanes> Equations<T, M::Reduced<T>> for Reduced<'_, N, M, T> {
-    #[inline(always)]
-    fn slope(&self, t: T, y: &M::Reduced<T>, slope: &mut M::Reduced<T>) {
-        self.model.equations_in_lanes(t, &self.constants, y, slope);
-    }
-}
-
-/// The lanes that are not as they should be, as an error.
-fn failing(lanes: usize, is_good: impl Fn(usize) -> bool) -> core::result::Result<(), Failing> {
-    let failing: Failing = (0..lanes).filter(|lane| !is_good(*lane)).collect();
-    if failing.is_empty() { Ok(()) } else { Err(failing) }
-}
-
-/// Group after group.
+/// One part after the other: there is one.
 #[cfg(not(feature = "parallel"))]
-fn over_groups<P: Send + Sync>(
+fn in_parts<P: Send + Sync>(
     starts: &[P],
-    lanes: usize,
-    group: impl Fn(&[P]) -> Ends<P> + Send + Sync,
+    _lanes: usize,
+    ends: impl Fn(&[P]) -> Ends<P> + Send + Sync,
 ) -> Ends<P> {
-    starts.chunks(lanes).flat_map(group).collect()
+    ends(starts)
 }
 
-/// Groups on all threads of the pool.
+/// Parts of each thread of the pool, of which one may take longer than another.
 #[cfg(feature = "parallel")]
-fn over_groups<P: Send + Sync>(
+const PARTS: usize = 4;
+
+/// Parts on all threads of the pool, each of whole lanes.
+#[cfg(feature = "parallel")]
+fn in_parts<P: Send + Sync>(
     starts: &[P],
     lanes: usize,
-    group: impl Fn(&[P]) -> Ends<P> + Send + Sync,
+    ends: impl Fn(&[P]) -> Ends<P> + Send + Sync,
 ) -> Ends<P> {
     use rayon::prelude::*;
-    starts.par_chunks(lanes).flat_map_iter(group).collect()
+    let threads = rayon::current_num_threads();
+    let parts = if threads == 1 { 1 } else { PARTS * threads };
+    let size = starts.len().div_ceil(parts).next_multiple_of(lanes);
+    starts.par_chunks(size).flat_map_iter(ends).collect()
 }
 
 impl<const N: usize, M: Model<N>> fmt::Debug for Ensemble<'_, N, M> {

@@ -3,6 +3,7 @@
 use super::collapse::first_failure;
 use super::halt::Reason;
 use super::motion::Motion;
+use super::orientation::{Moment, keeps_orientation, passes_through_zero};
 use super::output::Schedule;
 use super::point::{check, is_clearly_positive};
 use super::recorder::Recorder;
@@ -47,6 +48,8 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let regularity = |motion: &dyn Motion<P>| model.regularity(motion.reached().0.phi());
         let cost = self.place.cost().steps;
         self.take_up(motion);
+        let mut moment = passes_through_zero(model.description())
+            .then(|| Moment::of(model, (motion.t(), &motion.reached().0)));
         let is_watched = self.progress.is_some() || self.is_watched();
         let parts = if self.trajectory.computation.asked.step().is_some() { 1 } else { WITHIN_A_STEP };
         while !motion.is_finished() {
@@ -63,9 +66,18 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             if signature.may_change() {
                 signature.kept(regularity(motion), t)?;
             }
-            if self.pass_through(motion, parts)? {
+            let oriented = match &mut moment {
+                Some(begin) => self.oriented(motion, begin),
+                None => Ok(()),
+            };
+            let until = match oriented {
+                Err(Reason::Placement { t, .. }) => t,
+                _ => t,
+            };
+            if self.pass_through(motion, until, parts)? {
                 return Ok(());
             }
+            oriented?;
             if self.schedule == Schedule::Steps {
                 self.record_step(t, motion.reached())?;
             } else if self.trajectory.end.0 != t {
@@ -83,18 +95,30 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         Ok(())
     }
 
-    /// The events and the outputs of a step that has been taken; whether the motion does not go straight on.
-    fn pass_through(&mut self, motion: &mut dyn Motion<P>, parts: u32) -> Result<bool, Reason> {
+    /// Refuses a step from a moment on in which the orientation is lost; the moment becomes that of its end.
+    fn oriented(&self, motion: &mut dyn Motion<P>, begin: &mut Moment<N>) -> Result<(), Reason> {
+        let (point, _) = motion.reached();
+        if !point.is_finite() {
+            return Err(Reason::NotFinite);
+        }
+        let end = Moment::of(self.model, (motion.t(), &point));
+        keeps_orientation(self.model, motion, (*begin, end), &|failure| self.reason(failure))?;
+        *begin = end;
+        Ok(())
+    }
+
+    /// The events and the outputs of a step that has been taken, up to a time; whether the motion does not go straight on.
+    fn pass_through(&mut self, motion: &mut dyn Motion<P>, until: f64, parts: u32) -> Result<bool, Reason> {
         let t = motion.t();
         let (computation, model) = (self.trajectory.computation, self.trajectory.description.name);
         let mut at = |due: f64| match due == t {
             true => Ok(motion.reached()),
             false => motion.between(due).map_err(|failure| computation.reason(failure, model)),
         };
-        if self.meet(t, parts, &mut at)? {
+        if self.meet(until, parts, &mut at)? {
             return Ok(true);
         }
-        self.record_through(t, &mut at)?;
+        self.record_through(until, &mut at)?;
         Ok(false)
     }
 }

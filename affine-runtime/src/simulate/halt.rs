@@ -55,7 +55,8 @@ pub enum Reason {
         /// The time of that placement.
         t: f64,
     },
-    /// The forces of a potential in `q` or `D` on a body in a flat metric need `1/det phi`, which is no normal number.
+    /// A method that forms `det phi`, Runge-Kutta-Nystrom or splitting under a potential in `q` or `D`, where it or its
+    /// inverse is no normal number.
     Range {
         /// The mean log-stretch of the first such placement.
         q: f64,
@@ -308,9 +309,9 @@ impl fmt::Display for Reason {
             ),
             Reason::Range { q, t } => write!(
                 f,
-                "q = {q} at t = {t}: the force of a potential in q or D on a body in a flat metric is a multiple of \
-                 phi^-T, which needs 1/det phi within the range of numbers, |q| below 354 for n = 2 and 236 for n = 3; \
-                 choose a unit of length in which the body is nearer to its size"
+                "q = {q} at t = {t}: Runge-Kutta-Nystrom steps and splitting compute det phi, which with its inverse is in \
+                 the range of numbers for |q| below 354, n = 2, and 236, n = 3; the other methods carry q or 1/D \
+                 along and hold beyond it, or choose a unit of length in which the body is nearer to its size"
             ),
             Reason::StepUnderflow { tolerance } => write!(
                 f,

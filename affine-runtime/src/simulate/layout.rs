@@ -61,11 +61,14 @@ pub(super) fn is_second_order(model: &Description) -> bool {
     model.constraint.is_none() && is_canonical(model) && of_these && flat
 }
 
-/// The forces of a model contain `1/det phi`: with `q` or `D` in the potential the force on `Pi` is a multiple of
-/// `phi^-T`, cofactors times `1/det phi`.
-pub(super) const fn needs_determinant(model: &Description) -> bool {
-    let carries = components(model.reduced, "1/D").is_some() || components(model.reduced, "q").is_some();
-    carries && is_canonical(model)
+/// `1/D` or `q` is integrated beside the placement, so that `det phi` is not formed.
+pub(super) const fn carries_dilatation(model: &Description) -> bool {
+    components(model.reduced, "1/D").is_some() || components(model.reduced, "q").is_some()
+}
+
+/// The momentum of the phase point is that of a flat metric, `Pi`, and the placement may be any.
+pub(super) const fn is_free_in_pi(model: &Description) -> bool {
+    model.constraint.is_none() && components(model.full, "Pi").is_some()
 }
 
 /// The phase point is that of an isochoric body, with `Pi` its momentum.

@@ -2,7 +2,6 @@
 
 use super::Method;
 use super::halt::Reason;
-use super::layout::needs_determinant;
 use super::methods;
 use super::recorder::Recorder;
 use crate::frames::Matrix;
@@ -16,8 +15,6 @@ use crate::model::{Description, Model, Regularity, Velocity};
 /// itself only once for each kind of phase point.
 pub(super) trait Mechanics<const N: usize, P> {
     fn description(&self) -> &'static Description;
-    /// Forces leave the range of numbers where `1/det phi` does.
-    fn needs_determinant(&self) -> bool;
     fn bases(&self) -> Option<Bases<N>>;
     /// Only where coefficients are fields: numbers were checked when the model was compiled.
     fn condition(&self, phi: &Matrix<N>) -> Option<f64>;
@@ -43,9 +40,6 @@ pub(super) struct Course<P> {
 impl<const N: usize, M: Model<N>> Mechanics<N, M::Point<f64>> for M {
     fn description(&self) -> &'static Description {
         const { &M::DESCRIPTION }
-    }
-    fn needs_determinant(&self) -> bool {
-        const { needs_determinant(&M::DESCRIPTION) }
     }
     fn bases(&self) -> Option<Bases<N>> {
         Model::bases(self)

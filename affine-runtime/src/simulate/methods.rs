@@ -2,10 +2,12 @@
 
 use super::halt::{Reason, Setting};
 use super::layout::{
-    Layout, is_canonical, is_isochoric_in_pi, is_second_order, moves_on_group, placement_in,
+    Layout, carries_dilatation, is_canonical, is_isochoric_in_pi, is_second_order, moves_on_group,
+    placement_in,
 };
 use super::mechanics::Course;
 use super::motion::{Expanded, Expansion};
+use super::range::in_range;
 use super::recorder::Recorder;
 use super::stepper::{Explicit, Stepper};
 use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
@@ -29,6 +31,10 @@ pub(super) fn integrate<const N: usize, M: Model<N>>(
 ) -> Result<(), Reason> {
     let method = chosen(model, course, recorder);
     recorder.trajectory.computation.method = method;
+    recorder.needs_determinant = const { carries_dilatation(&M::DESCRIPTION) } && forms_determinant(method);
+    if recorder.needs_determinant {
+        in_range(course.t0, course.start.phi())?;
+    }
     match method {
         Method::Rattle { order, step } => by_rattle(model, (order, step), course, recorder),
         Method::Taylor { order } => by_series(model, order, course, recorder),
@@ -41,6 +47,11 @@ pub(super) fn integrate<const N: usize, M: Model<N>>(
     }
 }
 
+/// Forces are computed from the placement alone, nothing being carried along.
+fn forms_determinant(method: Method) -> bool {
+    matches!(method, Method::RungeKuttaNystrom12 | Method::RungeKuttaNystrom8 | Method::Splitting { .. })
+}
+
 /// The integrator to take, noted with what was missing for a better one.
 fn chosen<const N: usize, M: Model<N>>(
     model: &M,
@@ -48,23 +59,29 @@ fn chosen<const N: usize, M: Model<N>>(
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Method {
     // Within steps a Nystrom method costs a step for each time that is looked at.
-    let is_watched = recorder.has_events();
+    let in_reach =
+        const { !carries_dilatation(&M::DESCRIPTION) } || in_range(course.t0, course.start.phi()).is_ok();
+    let by_halves = !recorder.has_events() && in_reach;
     let method = match course.method {
-        Method::Automatic if model.second_order().is_some() && !is_watched => {
+        Method::Automatic if model.second_order().is_some() && by_halves => {
             return if course.tolerance > NYSTROM_TOLERANCE {
                 Method::RungeKuttaNystrom8
             } else {
                 Method::RungeKuttaNystrom12
             };
         }
-        Method::Automatic if course.tolerance <= TAYLOR_TOLERANCE && model.taylor().is_some() => {
+        Method::Automatic
+            if course.tolerance <= TAYLOR_TOLERANCE
+                && M::DESCRIPTION.constraint.is_none()
+                && model.taylor().is_some() =>
+        {
             Method::Taylor { order: None }
         }
         Method::Automatic => Method::RungeKutta8,
         asked => return asked,
     };
     let has_series = M::DESCRIPTION.constraint.is_none() && course.tolerance <= TAYLOR_TOLERANCE;
-    recorder.trajectory.computation.missing = if !is_watched && is_second_order(&M::DESCRIPTION) {
+    recorder.trajectory.computation.missing = if by_halves && is_second_order(&M::DESCRIPTION) {
         Some("nystrom")
     } else if has_series && method == Method::RungeKutta8 {
         Some("taylor")

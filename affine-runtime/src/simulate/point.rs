@@ -36,13 +36,14 @@ pub(super) fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<()
 }
 
 /// A few products settle the sign of most determinants; what is close to zero, or out of the range of numbers,
-/// is left to the careful way.
+/// is left to the careful way. Without branches, for many placements at once.
+#[inline(always)]
 pub(super) fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
     let minor = |a: usize, b: usize| phi[(1, a)] * phi[(2, b)] - phi[(1, b)] * phi[(2, a)];
     let scale = sum_of_squares(phi.as_slice());
     // `det > c |phi|^n` without the root.
     let exceeds = |determinant: f64, power: f64| {
-        determinant > 0.0 && determinant * determinant > CLEARLY_POSITIVE * CLEARLY_POSITIVE * power
+        (determinant > 0.0) & (determinant * determinant > CLEARLY_POSITIVE * CLEARLY_POSITIVE * power)
     };
     match N {
         2 => exceeds(phi[(0, 0)] * phi[(1, 1)] - phi[(0, 1)] * phi[(1, 0)], scale * scale),

@@ -1,11 +1,11 @@
-//! Where forces of a flat body leave the range of numbers before its placement does.
+//! Where `det phi` leaves the range of numbers, and with it methods that form it.
 
 use super::halt::Reason;
 use super::point::is_clearly_positive;
 use crate::frames::Matrix;
 use crate::kinematics::LogDeterminant;
 
-/// Refuses a placement at which `1/det phi` is no normal number. A number that underflows would leave the force out
+/// Refuses a placement at which `det phi` or its inverse is no normal number: a force that underflows would be left out
 /// without a word.
 pub(super) fn in_range<const N: usize>(t: f64, phi: &Matrix<N>) -> Result<(), Reason> {
     // A determinant whose square is a number is one itself, and so is its inverse.

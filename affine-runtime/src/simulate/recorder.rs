@@ -19,7 +19,7 @@ use crate::state::Phase;
 /// What is recorded of a run, and how far it has come.
 pub(super) struct Recorder<'r, 'a, const N: usize, P> {
     pub(super) model: &'a dyn Mechanics<N, P>,
-    /// Forces leave the range of numbers where `1/det phi` does.
+    /// The method forms `det phi`.
     pub(super) needs_determinant: bool,
     pub(super) trajectory: &'r mut Trajectory<N, P>,
     pub(super) schedule: Schedule,

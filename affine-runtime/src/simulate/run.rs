@@ -5,7 +5,6 @@ use super::halt::{Halt, Outcome, Reason, Setting, Stop};
 use super::layout::total;
 use super::mechanics::{Course, Mechanics};
 use super::point::{check, energy_scale};
-use super::range::in_range;
 use super::recorder::{Recorder, Turn};
 use super::settings::{Plan, Settings};
 use super::trajectory::{Computation, Energies, Trajectory};
@@ -19,9 +18,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     /// Runs the simulation.
     ///
     /// Every step and every output is checked: finite, and `det phi > 0`; the time of a collapse is found within the step,
-    /// see [`Reason::Placement`]. What happens between two good steps is not seen: a body without a potential that
-    /// prevents it may collapse and turn inside out twice in between. On a straight line, the closed form of a free
-    /// body in a flat metric, every collapse is seen.
+    /// see [`Reason::Placement`], also where a body in a flat metric collapses and turns inside out twice within a step:
+    /// steps that change the placement by half of itself or more are looked into.
     ///
     /// # Errors
     /// [`Halt`] with the [`Reason`], the time, the step and the trajectory so far; the conversion to
@@ -103,14 +101,10 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let (t_end, schedule) = self.settings.checked(description)?;
         let Settings { start, plan: Plan { t0, max_steps, .. }, .. } = self.settings;
         check(t0, &start)?;
-        let needs_determinant = self.model.needs_determinant();
-        if needs_determinant {
-            in_range(t0, start.phi())?;
-        }
         let events = self.settings.events.len();
         let mut recorder = Recorder {
             model: self.model,
-            needs_determinant,
+            needs_determinant: false,
             trajectory,
             schedule,
             progress: self.settings.progress.take(),

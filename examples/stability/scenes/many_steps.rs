@@ -6,6 +6,7 @@ use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance}
 use affine_runtime::simulate::Method;
 
 use super::Extent;
+use super::growth::{Exponents, STARTS, exponent, mean_to_error, up_to};
 use super::shared::scene;
 
 #[affine_model(dim = 2, kinetic(dalembert = 1), potential = 0.5*tr(G), emit(splitting))]
@@ -53,33 +54,37 @@ fn run<const N: usize, M: Model<N>>(
     Ok(simulation.method(Method::Splitting { order, step }).max_steps(u64::MAX).run()?)
 }
 
-/// The largest of the values up to a part of the run.
-fn up_to(values: &[f64], part: usize) -> f64 {
-    values.iter().take(values.len() / part).fold(0.0, |most, &value| if value <= most { most } else { value })
-}
-
-/// Exponent of the growth of the largest value between a sixteenth of the run and all of it.
-fn exponent(values: &[f64]) -> f64 {
-    (up_to(values, 1) / up_to(values, 16)).log2() / 4.0
-}
-
-/// The rows of a quantity that errs: its error at the end against a bound, and the exponent of its growth.
-fn growth<const N: usize, M: Model<N>>(
+/// The row of a quantity that errs: its largest error on the way against a bound.
+fn size<const N: usize, M: Model<N>>(
     report: &mut StabilityReport,
     (model, steps): (&'static str, f64),
-    (quantity, of_exponent, oracle): (&'static str, &'static str, Oracle),
-    (bound, most): (f64, f64),
+    (quantity, oracle): (&'static str, Oracle),
+    bound: f64,
     run: &Run<N, M>,
     errors: impl Fn(&Trajectory<N, M::Point<f64>>) -> Vec<f64>,
 ) {
-    let named = |quantity, oracle| scene(model, N, format!("{steps:e} steps"), quantity, oracle);
-    report.case(named(quantity, oracle), Demand::Held(bound), || {
+    let named = scene(model, N, format!("{steps:e} steps"), quantity, oracle);
+    report.case(named, Demand::Held(bound), || {
         let run = run.as_ref().map_err(Clone::clone)?;
         Ok((up_to(&errors(run), 1), run.statistics().steps))
     });
-    report.case(named(of_exponent, oracle), Demand::Held(most), || {
-        let run = run.as_ref().map_err(Clone::clone)?;
-        Ok((exponent(&errors(run)), run.statistics().steps))
+}
+
+/// The row of the exponent of its growth, the median over runs.
+fn exponents<const N: usize, M: Model<N>>(
+    report: &mut StabilityReport,
+    (model, quantity): (&'static str, &'static str),
+    most: f64,
+    runs: &[Run<N, M>],
+    errors: impl Fn(&Trajectory<N, M::Point<f64>>) -> Vec<f64>,
+) {
+    let good: Vec<_> = runs.iter().filter_map(|run| run.as_ref().ok()).collect();
+    let steps = good.iter().map(|run| run.statistics().steps).sum();
+    let found = Exponents::of(&good.iter().map(|run| errors(run)).collect::<Vec<_>>());
+    let named = scene(model, N, found.scatter(), quantity, Oracle::Invariance);
+    report.case(named, Demand::Held(most), || {
+        runs.iter().try_for_each(|run| run.as_ref().map(|_| ()).map_err(Clone::clone))?;
+        Ok((found.median, steps))
     });
 }
 
@@ -98,14 +103,14 @@ fn springs(report: &mut StabilityReport, steps: f64) -> affine_runtime::Result<(
     let of = ("springs", steps);
     let stretch = 1.0 - STEP * STEP / 4.0;
     let kept = |phi: &Matrix<2>, velocity: &Matrix<2>| phi.norm_squared() + stretch * velocity.norm_squared();
-    let at_start = kept(&phi, &velocity);
     let root = 10.0 * f64::EPSILON * steps.sqrt();
     let energies = |run: &Trajectory<2, <Springs as Model<2>>::Point<f64>>| -> Vec<f64> {
         let of_point = |point| kept(Phase::phi(point), &Springs.velocity(point).phi_dot);
+        let at_start = run.points().first().map_or(f64::NAN, of_point);
         run.points().iter().map(|point| (of_point(point) / at_start - 1.0).abs()).collect()
     };
-    let names = ("energy of the steps, 10 eps sqrt(N)", "exponent of the energy", Oracle::Invariance);
-    growth::<2, Springs>(report, of, names, (root, 0.75), &run, energies);
+    let quantity = ("energy of the steps, 10 eps sqrt(N)", Oracle::Invariance);
+    size::<2, Springs>(report, of, quantity, root, &run, energies);
     let turn = 2.0 * (STEP / 2.0).asin();
     let phases = |run: &Trajectory<2, <Springs as Model<2>>::Point<f64>>| -> Vec<f64> {
         let exact = |t: f64| {
@@ -114,12 +119,55 @@ fn springs(report: &mut StabilityReport, steps: f64) -> affine_runtime::Result<(
         };
         run.iter().map(|(t, point)| relative_distance(point.phi(), &exact(t))).collect()
     };
-    let names = ("phi, 10 eps per radian", "exponent of the phase", Oracle::ClosedForm);
-    growth::<2, Springs>(report, of, names, (10.0 * f64::EPSILON * turn * steps, 1.25), &run, phases);
-    let names = ("spin, eps sqrt(N)", "exponent of the spin", Oracle::Invariance);
-    let spins = |run: &Trajectory<2, _>| drifts(run, Conserved::Spin);
-    growth::<2, Springs>(report, of, names, (f64::EPSILON * steps.sqrt(), 0.75), &run, spins);
+    let quantity = ("phi, 10 eps per radian", Oracle::ClosedForm);
+    size::<2, Springs>(report, of, quantity, 10.0 * f64::EPSILON * turn * steps, &run, phases);
+    let named = scene(of.0, 2, format!("{steps:e} steps"), "exponent of the phase", Oracle::ClosedForm);
+    report.case(named, Demand::Held(1.25), || {
+        let run = run.as_ref().map_err(Clone::clone)?;
+        Ok((exponent(&phases(run)), run.statistics().steps))
+    });
+    let quantity = ("spin, eps sqrt(N)", Oracle::Invariance);
+    size::<2, Springs>(report, of, quantity, f64::EPSILON * steps.sqrt(), &run, |run| {
+        drifts(run, Conserved::Spin)
+    });
+    let runs: Vec<_> = (0..STARTS)
+        .map(|k| {
+            let start = Springs.at_velocity(started(phi, k), velocity)?;
+            self::run((&Springs, start), (2, STEP), steps / f64::from(STARTS))
+        })
+        .collect();
+    exponents::<2, Springs>(report, (of.0, "exponent of the energy"), 0.75, &runs, energies);
+    exponents::<2, Springs>(report, (of.0, "exponent of the spin"), 0.75, &runs, |run| {
+        drifts(run, Conserved::Spin)
+    });
+    no_drift::<2, Springs>(report, of.0, &runs);
     Ok(())
+}
+
+/// The placement of a start of an ensemble.
+fn started(phi: Matrix<2>, k: u32) -> Matrix<2> {
+    let k = 0.03 * f64::from(k);
+    phi + Matrix::<2>::new(k, -0.7 * k, 0.4 * k, 0.9 * k)
+}
+
+/// The spin at the end of several runs drifts to neither side.
+fn no_drift<const N: usize, M: Model<N>>(
+    report: &mut StabilityReport,
+    model: &'static str,
+    runs: &[Run<N, M>],
+) {
+    let signed = |run: &Run<N, M>| {
+        let run = run.as_ref().ok()?;
+        let [first, last] = [run.points().first()?, &run.end().1].map(|point| point.spin().0.0[(0, 1)]);
+        Some((last - first) / first)
+    };
+    let ends: Vec<f64> = runs.iter().filter_map(signed).collect();
+    let quantity = "mean drift of the spin, in its errors";
+    let named = scene(model, N, format!("{STARTS} starts"), quantity, Oracle::Invariance);
+    report.case(named, Demand::Held(4.0), || {
+        runs.iter().try_for_each(|run| run.as_ref().map(|_| ()).map_err(Clone::clone))?;
+        Ok((mean_to_error(&ends), 0))
+    });
 }
 
 /// A vibrating body, every piece nonlinear.
@@ -128,13 +176,22 @@ fn body(report: &mut StabilityReport, steps: f64) -> affine_runtime::Result<()> 
     let start = Disc.at_momentum(phi, Comoving(Matrix::<2>::new(0.3, -0.4, 0.6, -0.1)))?;
     let run = run((&Disc, start), (4, 0.0625), steps);
     let of = ("body-metric", steps);
-    for (names, quantity) in [
-        (("spin, eps sqrt(N)", "exponent of the spin", Oracle::Invariance), Conserved::Spin),
-        (("vorticity, eps sqrt(N)", "exponent of the vorticity", Oracle::Invariance), Conserved::Vorticity),
+    let runs: Vec<_> = (0..STARTS)
+        .map(|k| {
+            let spin = Matrix::<2>::new(0.3, -0.4, 0.6, -0.1);
+            let start = Disc.at_momentum(started(phi, k), Comoving(spin))?;
+            self::run((&Disc, start), (4, 0.0625), steps / f64::from(STARTS))
+        })
+        .collect();
+    for (name, growing, quantity) in [
+        ("spin, eps sqrt(N)", "exponent of the spin", Conserved::Spin),
+        ("vorticity, eps sqrt(N)", "exponent of the vorticity", Conserved::Vorticity),
     ] {
-        let bounds = (f64::EPSILON * steps.sqrt(), 0.75);
-        growth::<2, Disc>(report, of, names, bounds, &run, |run| drifts(run, quantity));
+        let bound = f64::EPSILON * steps.sqrt();
+        size::<2, Disc>(report, of, (name, Oracle::Invariance), bound, &run, |run| drifts(run, quantity));
+        exponents::<2, Disc>(report, (of.0, growing), 0.75, &runs, |run| drifts(run, quantity));
     }
+    no_drift::<2, Disc>(report, of.0, &runs);
     // The error of order 4 vibrates; what grows would show in the second half.
     let named =
         scene(of.0, 2, format!("{steps:e} steps"), "energy, second half to first", Oracle::Invariance);
@@ -158,7 +215,12 @@ fn constant_exponential(report: &mut StabilityReport, steps: f64) -> affine_runt
     let t = steps * STEP;
     let bound = f64::EPSILON * Free.velocity(&start).phi_dot.norm() * t;
     let of = ("body-metric, free", steps);
-    let names = ("spin, eps |O| t", "exponent of the spin", Oracle::Invariance);
-    growth::<2, Free>(report, of, names, (bound, 1.25), &run, |run| drifts(run, Conserved::Spin));
+    let quantity = ("spin, eps |O| t", Oracle::Invariance);
+    size::<2, Free>(report, of, quantity, bound, &run, |run| drifts(run, Conserved::Spin));
+    let named = scene(of.0, 2, format!("{steps:e} steps"), "exponent of the spin", Oracle::Invariance);
+    report.case(named, Demand::Held(1.25), || {
+        let run = run.as_ref().map_err(Clone::clone)?;
+        Ok((exponent(&drifts(run, Conserved::Spin)), run.statistics().steps))
+    });
     Ok(())
 }

@@ -5,6 +5,9 @@ mod bad_settings;
 mod coincident;
 mod collapse;
 mod degenerate;
+mod energies;
+mod flat;
+mod growth;
 mod long_runs;
 mod many_steps;
 mod more_stretches;
@@ -43,6 +46,7 @@ pub(crate) fn report(extent: Extent) -> affine_runtime::Result<StabilityReport> 
     penalty::cases(&mut report, extent)?;
     degenerate::cases(&mut report)?;
     stretches::cases(&mut report)?;
+    energies::cases(&mut report)?;
     collapse::cases(&mut report)?;
     coincident::cases(&mut report)?;
     units::cases(&mut report, extent)?;

@@ -17,6 +17,17 @@ pub(super) fn run<const N: usize, M: Model<N>>(
     Ok(simulation.output([t_end]).max_steps(1_000_000_000).run()?)
 }
 
+/// The same by a method.
+pub(super) fn run_by<const N: usize, M: Model<N>>(
+    method: Method,
+    model: &M,
+    start: M::Point<f64>,
+    t_end: f64,
+) -> affine_runtime::Result<Trajectory<N, M::Point<f64>>> {
+    let simulation = Simulation::new(model, start).until(t_end).tolerance(TOLERANCE).method(method);
+    Ok(simulation.output([t_end]).max_steps(1_000_000_000).run()?)
+}
+
 /// `max(tolerance, 10 eps omega t)`: ten roundings of the phase of a vibration.
 pub(super) fn floor(omega: f64, t: f64) -> f64 {
     (10.0 * f64::EPSILON * omega * t).max(1e-12)

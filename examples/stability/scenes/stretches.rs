@@ -61,8 +61,16 @@ pub(crate) struct ShiftedDisc {
     pub(super) s: f64,
 }
 
-#[affine_model(dim = 3, kinetic(dalembert = diag(1, 1.5, 2)), potential = harmonic_dilatation(1))]
-pub(crate) struct FlatHooke;
+/// Under powers of `D`.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5, 2)),
+    potential = a*exp(q) + b*exp(-q) + neo_hookean(0.5),
+)]
+pub(crate) struct Gas {
+    pub(super) a: f64,
+    pub(super) b: f64,
+}
 
 #[affine_model(dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1))]
 pub(crate) struct Affine;
@@ -118,6 +126,7 @@ pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> 
     in_the_plane(report)?;
     potentials(report)?;
     super::more_stretches::cases(report)?;
+    super::flat::cases(report)?;
     translation(report)
 }
 

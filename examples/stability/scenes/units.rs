@@ -5,7 +5,7 @@ use affine_runtime::prelude::*;
 use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
 
 use super::Extent;
-use super::shared::{run, scene};
+use super::shared::{run, run_by, scene};
 
 #[affine_model(dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1))]
 pub(crate) struct Disc;
@@ -31,6 +31,7 @@ pub(crate) struct Spring {
     dim = 3,
     kinetic(dalembert = [[j, 0, 0], [0, 1.5*j, 0], [0, 0, 2*j]]),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(c),
+    emit(taylor),
 )]
 pub(crate) struct Elastic {
     j: f64,
@@ -134,11 +135,17 @@ fn units(report: &mut StabilityReport) -> affine_runtime::Result<()> {
         for (what, mass, stiffness, time) in energies {
             let named =
                 |model, n| scene(model, n, format!("unit of {what} {unit:e}"), "phi", Oracle::Invariance);
-            report.case(named("d'Alembert", 3), Demand::Held(SAME), || {
-                let model = Elastic { j: mass, kappa: 10.0 * stiffness, c: 0.5 * stiffness }.prepare()?;
-                let scaled = run(&model, model.at_velocity(phi, velocity / time)?, 2.0 * time)?;
-                Ok((relative_distance(scaled.end().1.phi(), plain.end().1.phi()), scaled.statistics().steps))
-            });
+            for (name, method) in
+                [("d'Alembert", Method::RungeKutta8), ("d'Alembert, Taylor", Method::Taylor { order: None })]
+            {
+                report.case(named(name, 3), Demand::Held(SAME), || {
+                    let model = Elastic { j: mass, kappa: 10.0 * stiffness, c: 0.5 * stiffness }.prepare()?;
+                    let start = model.at_velocity(phi, velocity / time)?;
+                    let scaled = run_by(method, &model, start, 2.0 * time)?;
+                    let error = relative_distance(scaled.end().1.phi(), plain.end().1.phi());
+                    Ok((error, scaled.statistics().steps))
+                });
+            }
             report.case(named("body J", 2), Demand::Held(SAME), || {
                 let model = UnevenDisc { i: mass, kappa: 10.0 * stiffness, c: 0.5 * stiffness }.prepare()?;
                 let scaled = run(&model, model.at_velocity(small, small * rate / time)?, 2.0 * time)?;

@@ -4,7 +4,7 @@
 //! which are what is integrated.
 
 use affine_runtime::capability::InLanes;
-use affine_runtime::lanes::{F64x16, FastF64x16, Lanes};
+use affine_runtime::lanes::{FastF64x8, Lanes, Widest};
 use affine_runtime::model::StateVector;
 
 use crate::by_hand;
@@ -34,7 +34,7 @@ impl Visitor for RightHandSides {
                 task / by_hand
             )
         };
-        let lanes = [in_lanes::<F64x16, M>(model, &start), in_lanes::<FastF64x16, M>(model, &start)];
+        let lanes = [in_lanes::<Widest, M>(model, &start), in_lanes::<FastF64x8, M>(model, &start)];
         println!(
             "{name:<9}{}   {}   {:>9.1}{:>9.1}",
             columns(|times| times.chain),

@@ -17,7 +17,7 @@ use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::loads::loads;
-use crate::mechanics::potential::{Base, Potential};
+use crate::mechanics::potential::{Base, DILATATION, Potential};
 use crate::mechanics::reduce;
 use crate::mechanics::weight::Weight;
 use crate::optimise::{Batch, straight_line};
@@ -112,10 +112,16 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         VelocitySide { legendre, kinetic_energy: inline(arena, energy, inputs) }
     });
     let internal = defined(result("energy", full_h.substitute(&projected)), h.weight.as_ref());
-    let (energy, points) = energy_at_a_point(arena, &full_chart, internal, potential, &forces);
+    let far_away = potential.and_then(|u| u.energy_far_away(arena, &full_chart));
+    let far_away =
+        far_away.map(|value| energy_of(arena, &full_chart, internal.clone(), Some(value), &forces));
+    let near = potential.map(|u| u.energy_at_a_point(arena, &full_chart));
+    let energy = energy_of(arena, &full_chart, internal, near, &forces);
+    let points = point_inputs(arena, &full_chart, potential, &forces);
     let power = power_batch(arena, &h, &full_chart, &full_h, potential, &forces);
     let power = power.map(|batch| inline(arena, batch, points.clone()));
-    let hamiltonian = inline(arena, energy, points);
+    let hamiltonian = inline(arena, energy, points.clone());
+    let hamiltonian_far_away = far_away.map(|energy| inline(arena, energy, points));
     let mass = mass(arena, &h, &kinetic, cubic.is_none()).map(|batch| inline(arena, batch, Vec::new()));
     let isotropic = isotropic(&h).map(|batch| inline(arena, batch, Vec::new()));
     let dilatation = reduction.separation.as_ref().map(|s| inline(arena, s.batch(), Vec::new()));
@@ -163,6 +169,7 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         acceleration,
         balance,
         hamiltonian,
+        hamiltonian_far_away,
         power,
         full,
         reduced,
@@ -231,22 +238,17 @@ fn kept(
     Kept { moving, at_rest, rotations }
 }
 
-/// `H` as a function of a phase point, from its kinetic part, and what it reads.
-fn energy_at_a_point(
+/// `H` as a function of a phase point, from its kinetic part and the potential with what it shares.
+fn energy_of(
     arena: &mut Arena,
     chart: &Chart,
     mut energy: Batch,
-    potential: Option<&Potential>,
+    potential: Option<(Polynomial, Vec<(Expr, Polynomial)>)>,
     forces: &Forces,
-) -> (Batch, Vec<Expr>) {
-    let mut points: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
-    if let Some(u) = potential {
-        let (value, shared) = u.energy_at_a_point(arena, chart);
+) -> Batch {
+    if let Some((value, shared)) = potential {
         energy.results[0].1.add_scaled(&value, &Rational::ONE);
         energy.shared.extend(shared);
-        points.push(Base::MeanLogStretch.symbol(arena));
-        points.extend((0..chart.dim).map(|a| Base::LogStretch(a).symbol(arena)));
-        points.extend(u.time());
     }
     for custom in &forces.customs {
         if let Some((value, kernel)) = custom.energy(arena, chart) {
@@ -254,8 +256,30 @@ fn energy_at_a_point(
             energy.kernels.push(kernel);
         }
     }
+    energy
+}
+
+/// What functions of a phase point read.
+fn point_inputs(
+    arena: &mut Arena,
+    chart: &Chart,
+    potential: Option<&Potential>,
+    forces: &Forces,
+) -> Vec<Expr> {
+    let mut points: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    if let Some(u) = potential {
+        points.extend(placement_inputs(arena, chart.dim));
+        points.extend(u.time());
+    }
     points.extend(forces.time(arena));
-    (energy, points)
+    points
+}
+
+/// Functions of the placement that potentials are evaluated with.
+pub(super) fn placement_inputs(arena: &mut Arena, n: usize) -> Vec<Expr> {
+    let mut inputs = vec![Base::MeanLogStretch.symbol(arena), arena.symbol(DILATATION)];
+    inputs.extend((0..n).map(|a| Base::LogStretch(a).symbol(arena)));
+    inputs
 }
 
 /// `1/m`, and `m` where momenta are determined by velocities.

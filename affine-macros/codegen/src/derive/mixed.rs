@@ -100,6 +100,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         acceleration,
         balance: None,
         hamiltonian: programs.hamiltonian,
+        hamiltonian_far_away: programs.hamiltonian_far_away,
         power: programs.power,
         full,
         reduced,

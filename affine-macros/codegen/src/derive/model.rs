@@ -53,6 +53,8 @@ pub struct Model {
     pub balance: Option<Balance>,
     /// Point -> `H`.
     pub hamiltonian: Program,
+    /// The same where stretches are far from 1, where that takes another form.
+    pub hamiltonian_far_away: Option<Program>,
     /// Point -> power of the forces that no potential has.
     pub power: Option<Program>,
     /// Hamilton's equations in the model's own frames.

@@ -7,7 +7,7 @@ use crate::derive::VelocitySide;
 use crate::ir::Program;
 use crate::mechanics::charts::Linear;
 use crate::mechanics::kinetic::Frame;
-use crate::mechanics::potential::TIME;
+use crate::mechanics::potential::{DILATATION, TIME};
 
 use super::body::Body;
 use super::points::{affine_velocity, components, wrapper};
@@ -189,27 +189,57 @@ fn bind_group(
 fn hamiltonian(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.hamiltonian;
+    let time = time(program);
+    let near = energy(context, program);
+    let inward = context.inward();
+    let Some(program) = &context.model.hamiltonian_far_away else {
+        return quote! {
+            fn hamiltonian<#t: #rt::Real>(&self, #time: #t, point: &Self::Point<#t>) -> #t {
+                #inward
+                #near
+            }
+        };
+    };
+    let far_away = energy(context, program);
+    quote! {
+        fn hamiltonian<#t: #rt::Real>(&self, #time: #t, point: &Self::Point<#t>) -> #t {
+            #inward
+            if #rt::far_from_undeformed(#rt::Phase::phi(point)) {
+                #far_away
+            } else {
+                #near
+            }
+        }
+    }
+}
+
+/// `H` of `point`, by a program.
+fn energy(context: &Context, program: &Program) -> TokenStream {
+    let rt = &context.names.rt;
     let bound = bind_point(context, program);
     let used = inputs(program);
-    let stretch = used.contains(&"q").then(|| quote!(let q = #rt::mean_log_stretch(#rt::Phase::phi(point));));
+    let of_placement = |name: &str| {
+        let (symbol, function) = match name {
+            "q" => (format_ident!("q"), format_ident!("mean_log_stretch")),
+            _ => (format_ident!("{name}"), format_ident!("{name}")),
+        };
+        used.contains(&name).then(|| quote!(let #symbol = #rt::#function(#rt::Phase::phi(point));))
+    };
+    let (mean, dilatation) = (of_placement("q"), of_placement(DILATATION));
     let names: Vec<String> = (1..=context.model.dim).map(|a| format!("q_{a}")).collect();
     let stretches = names.iter().any(|name| used.contains(&name.as_str())).then(|| {
         let bound = pattern(&names, &used);
         quote!(let #bound = #rt::log_stretches(#rt::Phase::phi(point));)
     });
-    let time = time(program);
     let body = context.generic(program);
     let (lets, energy) = (&body.lets, body.result());
-    let inward = context.inward();
     quote! {
-        fn hamiltonian<#t: #rt::Real>(&self, #time: #t, point: &Self::Point<#t>) -> #t {
-            #inward
-            #bound
-            #stretch
-            #stretches
-            #lets
-            #energy
-        }
+        #bound
+        #mean
+        #dilatation
+        #stretches
+        #lets
+        #energy
     }
 }
 

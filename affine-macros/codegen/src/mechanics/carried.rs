@@ -1,10 +1,13 @@
 //! Functions of `det phi` as variables of their own, `r = 1/D = (det phi)^(-1/n)` and `q = ln(det phi)/n`: their rates are
 //! polynomials, and with them the equations are. What overflows, `det phi`, is not formed.
 
+mod isochoric;
+
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Momentum};
 use super::equations::System;
+use isochoric::{inverts_the_placement, without_the_determinant};
 
 /// A function of `det phi` that is integrated beside `phi`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,36 +55,45 @@ impl Carried {
     }
 }
 
+/// A system with functions of `det phi` as state.
+pub(super) struct Carrying {
+    pub(super) system: System,
+    /// Do its forces take `phi^-1`?
+    pub(super) inverts: bool,
+}
+
 /// The system with `r' = -(r/n) tr(phi^-1 phi')` in place of the root, `q' = tr(phi^-1 phi')/n` in place of the
-/// logarithm; `None` where nothing takes either.
-pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) -> Option<System> {
+/// logarithm; `None` where nothing takes either. Where forces take `phi^-1`, `r` is carried in any case.
+pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) -> Option<Carrying> {
     let tidied = system.clone().tidied(arena);
-    let [r, q] = Carried::ALL.map(|carried| {
-        let symbol = carried.symbol(arena);
-        tidied.shared.iter().any(|(known, _)| *known == symbol).then_some(symbol)
-    });
-    let mut system = system.clone();
-    system.shared.retain(|(symbol, _)| Some(*symbol) != r && Some(*symbol) != q);
-    let expansion = match (chart.momentum, r) {
-        (Momentum::Body | Momentum::Space | Momentum::Total, _) => trace_of_velocity(arena, chart),
-        (Momentum::Canonical, Some(r)) => {
-            flat_expansion(arena, chart, &system, &Polynomial::term(vec![r; chart.dim], Rational::ONE))
-        }
-        (Momentum::Canonical, None) => {
-            let inverse_det = Polynomial::atom(arena.symbol("inverse_det"));
-            flat_expansion(arena, chart, &system, &inverse_det)
-        }
+    let symbols = Carried::ALL.map(|carried| carried.symbol(arena));
+    let [takes_r, takes_q] = symbols.map(|symbol| tidied.shared.iter().any(|(known, _)| *known == symbol));
+    let inverts = inverts_the_placement(arena, &tidied);
+    if !(takes_r || takes_q || inverts) {
+        return None;
+    }
+    let [r, q] = symbols;
+    // On a flat body the force of q is a multiple of phi^-T.
+    let carries_r = takes_r || inverts;
+    let mut system = match carries_r {
+        true => without_the_determinant(arena, (chart, inverts), system, r),
+        false => system.clone(),
+    };
+    system.shared.retain(|(symbol, _)| !(carries_r && *symbol == r) && !(takes_q && *symbol == q));
+    let expansion = match chart.momentum {
+        Momentum::Body | Momentum::Space | Momentum::Total => trace_of_velocity(arena, chart),
+        Momentum::Canonical => flat_expansion(arena, chart, &system, r),
     };
     let order = i64::try_from(chart.dim).ok()?;
-    if let Some(r) = r {
+    if carries_r {
         let rate = Polynomial::atom(r).mul(&expansion).scaled(&Rational::ratio(-1, order)?);
         system.rates.push((Coordinate::Carried(r), r, rate));
     }
-    if let Some(q) = q {
+    if takes_q {
         let rate = expansion.scaled(&Rational::ratio(1, order)?);
         system.rates.push((Coordinate::Carried(q), q, rate));
     }
-    (r.is_some() || q.is_some()).then_some(system)
+    Some(Carrying { system, inverts })
 }
 
 /// `tr(phi^-1 phi') = tr O`.
@@ -94,8 +106,8 @@ fn trace_of_velocity(arena: &mut Arena, chart: &Chart) -> Polynomial {
     trace
 }
 
-/// `tr(phi^-1 phi') = r^n sum_iA cof_iA phi'_iA`, `cof = d(det phi)/dphi`.
-fn flat_expansion(arena: &mut Arena, chart: &Chart, system: &System, inverse_det: &Polynomial) -> Polynomial {
+/// `tr(phi^-1 phi') = r sum_iA cof_iA phi'_iA` with the cofactors of `Psi = r phi`.
+fn flat_expansion(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> Polynomial {
     let cofactors = Matrix::symbols(arena, "cofactor", chart.dim);
     let mut sum = Polynomial::zero();
     for (z, _, rate) in &system.rates {
@@ -103,5 +115,5 @@ fn flat_expansion(arena: &mut Arena, chart: &Chart, system: &System, inverse_det
             sum.add_product(&Polynomial::atom(cofactors.0[i][a]), rate, &Rational::ONE);
         }
     }
-    sum.mul(inverse_det)
+    sum.mul(&Polynomial::atom(r))
 }

@@ -7,11 +7,13 @@ mod at_a_point;
 mod axes;
 mod base;
 mod dilatation;
+mod far_away;
 mod invariance;
 mod load;
 mod principal;
 mod restriction;
 mod rewriting;
+mod scaled;
 pub mod stretches;
 mod tensors;
 
@@ -35,6 +37,9 @@ pub struct Potential {
     time: Option<Expr>,
     invariance: Evidence,
 }
+
+/// Name of the symbol of `D = exp(q)`.
+pub const DILATATION: &str = "dilatation";
 
 /// Name of the symbol of the time.
 pub const TIME: &str = "t";

@@ -289,12 +289,13 @@ impl Plan {
         let mut reductions = Vec::new();
         for system in systems {
             let free = !self.multiplier && self.chart.confined.is_none();
-            if let Some(rootless) =
-                free.then(|| carrying_the_dilatation(arena, &self.chart, &system)).flatten()
-            {
-                reductions.push(self.state_only(arena, rootless, layout));
+            let rootless = free.then(|| carrying_the_dilatation(arena, &self.chart, &system)).flatten();
+            // Forces with phi^-1 must not form det phi, however short their equations were with it.
+            let alone = rootless.as_ref().is_some_and(|rootless| rootless.inverts);
+            reductions.extend(rootless.map(|rootless| self.state_only(arena, rootless.system, layout)));
+            if !alone {
+                reductions.push(self.state_only(arena, system, layout));
             }
-            reductions.push(self.state_only(arena, system, layout));
         }
         reductions
     }

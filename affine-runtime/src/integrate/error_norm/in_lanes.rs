@@ -2,11 +2,16 @@
 
 use core::ops::Range;
 
-use super::{ErrorNorm, GROUPS, Measure, PART_OF_DISPLACEMENT};
+use pulp::Simd;
+
+use super::{ErrorNorm, GROUPS, IN_RANGE, Measure, PART_OF_DISPLACEMENT, scaled_norm};
+use crate::integrate::in_lanes::Equations;
 use crate::lanes::Lanes;
+use crate::lanes::parts::{part, parts, set_part};
 use crate::model::{Group, StateVector};
 
 /// [`ErrorNorm`] with inertias for each lane.
+///
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NormInLanes<T> {
     layout: ErrorNorm,
@@ -14,115 +19,161 @@ pub(crate) struct NormInLanes<T> {
 }
 
 impl<T: Lanes> NormInLanes<T> {
-    /// The norm with the inertias at `(t, y)`, where `f(t, y) = slope`.
-    pub(crate) fn probed<S: StateVector<T>>(
-        groups: &'static [Group],
-        f: &impl Fn(T, &S) -> S,
+    /// The norm for states that consist of `groups`, without inertias.
+    pub(crate) fn new(groups: &'static [Group]) -> Self {
+        Self { layout: ErrorNorm::new(groups), inertia: [T::zero(); GROUPS] }
+    }
+
+    /// The norm with the inertias at `(t, y)`, where `f(t, y) = slope`: [`ErrorNorm::probed`].
+    #[inline(always)]
+    pub(crate) fn probed<V: Simd, S: StateVector<T>, F: Equations<T, S>>(
+        simd: V,
+        f: &F,
         (t, y, slope): (T, &S, &S),
     ) -> Self {
-        let layout = ErrorNorm::new(groups);
-        let mut probed = Self { layout, inertia: [T::zero(); GROUPS] };
-        for (k, group) in groups.iter().enumerate().take(GROUPS) {
-            let Some(moved) = layout.moved_by(group) else { continue };
-            let own = layout.range(k);
-            let size = norm(&y.as_ref()[own.clone()]);
-            let change = each::<T>(|lane| if size.lane(lane) > 0.0 { size.lane(lane) } else { 1.0 });
+        let mut probed = Self::new(F::GROUPS);
+        let (mut changed, mut rates) = (*y, S::zeros());
+        for (g, group) in F::GROUPS.iter().enumerate().take(GROUPS) {
+            let Some(moved) = probed.layout.moved_by(group) else { continue };
+            let own = probed.layout.range(g);
+            let mut change = norm(simd, y.as_ref(), own.clone());
+            for size in change.as_mut_slice() {
+                *size = if *size > 0.0 { *size } else { 1.0 };
+            }
             let mut response = T::zero();
             for component in own {
-                let mut changed = *y;
                 changed.as_mut()[component] += change;
-                let changed = f(t, &changed);
+                f.slope(t, &changed, &mut rates);
+                changed.as_mut()[component] = y.as_ref()[component];
                 let mut squares = T::zero();
                 for i in moved.clone() {
-                    let difference = changed.as_ref()[i] - slope.as_ref()[i];
+                    let difference = rates.as_ref()[i] - slope.as_ref()[i];
                     squares += difference * difference;
                 }
-                let of_component = squares.sqrt();
-                response = larger(of_component, response);
+                for (response, found) in response.as_mut_slice().iter_mut().zip(squares.sqrt().as_slice()) {
+                    *response = if *found <= *response { *response } else { *found };
+                }
             }
-            let inertia = change * probed.extent(moved, y.as_ref()) / response;
-            probed.inertia[k] =
-                each(|lane| if inertia.lane(lane).is_finite() { inertia.lane(lane) } else { 0.0 });
+            let mut inertia = change * probed.extent(simd, moved, y.as_ref()) / response;
+            for inertia in inertia.as_mut_slice() {
+                *inertia = if inertia.is_finite() { *inertia } else { 0.0 };
+            }
+            probed.inertia[g] = inertia;
         }
         probed
     }
 
-    /// [`ErrorNorm::largest`], lane by lane.
+    /// The norm of the body in a lane.
+    pub(crate) fn lane(&self, lane: usize) -> ErrorNorm {
+        ErrorNorm { inertia: self.inertia.each_ref().map(|inertia| inertia.lane(lane)), ..self.layout }
+    }
+
+    /// The largest size, over the scales of the groups, of what moves a state at the rates `change` to `end`.
     #[inline(always)]
-    pub(crate) fn largest(&self, h: T, before: &[T], after: &[T], value: impl Fn(Range<usize>) -> T) -> T {
-        let mut largest = T::zero();
-        let mut start = 0;
-        for (k, group) in self.layout.groups.iter().enumerate() {
+    pub(crate) fn rate<V: Simd, S: StateVector<T>>(&self, simd: V, change: &S, y: &S, end: &S) -> T {
+        let forever = T::constant(f64::INFINITY, 0.0);
+        let (mut largest, mut start) = (T::zero(), 0);
+        for (g, group) in self.layout.groups.iter().enumerate() {
             let range = start..start + group.len;
             start = range.end;
-            let measure = self.layout.measure(k, group);
-            if measure == Measure::Nothing {
-                continue;
-            }
-            let inertia = self.inertia.get(k).copied().unwrap_or(T::zero());
-            let floor = T::constant(PART_OF_DISPLACEMENT, 0.0) * inertia / h;
-            let scale = self.scale(measure, range.clone(), before, after);
-            let value = value(range);
-            largest = each(|lane| {
-                relative(value.lane(lane), scale.lane(lane), floor.lane(lane), largest.lane(lane))
-            });
+            let value = norm(simd, change.as_ref(), range.clone());
+            let states = (forever, y.as_ref(), end.as_ref());
+            largest = self.larger(simd, largest, (g, group, range), value, states);
+        }
+        largest
+    }
+
+    /// Puts the norm of another body into a lane.
+    pub(crate) fn set_lane(&mut self, lane: usize, norm: &ErrorNorm) {
+        for (lanes, inertia) in self.inertia.iter_mut().zip(norm.inertia) {
+            lanes.set_lane(lane, inertia);
+        }
+    }
+
+    /// The larger of `largest` and of `value` over the scale of group `g` for steps of lengths `h`: a turn of the loop of
+    /// [`ErrorNorm::largest`].
+    #[inline(always)]
+    pub(crate) fn larger<V: Simd>(
+        &self,
+        simd: V,
+        mut largest: T,
+        (g, group, range): (usize, &Group, Range<usize>),
+        value: T,
+        (h, before, after): (T, &[T], &[T]),
+    ) -> T {
+        let (a, b) = match self.layout.measure(g, group) {
+            Measure::Nothing => return largest,
+            Measure::One => (T::one(), T::one()),
+            Measure::Position => (self.extent(simd, range.clone(), before), self.extent(simd, range, after)),
+            Measure::Size => (norm(simd, before, range.clone()), norm(simd, after, range)),
+        };
+        let inertia = self.inertia.get(g).copied().unwrap_or(T::zero());
+        for k in 0..parts::<V, T>() {
+            let (a, b, inertia) = (part(simd, &a, k), part(simd, &b, k), part(simd, &inertia, k));
+            let floor = simd.mul_f64s(simd.splat_f64s(PART_OF_DISPLACEMENT), inertia);
+            let floor = simd.div_f64s(floor, part(simd, &h, k));
+            let zero = simd.splat_f64s(0.0);
+            let floor = simd.select_f64s(simd.equal_f64s(inertia, zero), zero, floor);
+            let size = simd.select_f64s(simd.greater_than_or_equal_f64s(a, b), a, b);
+            let larger = relative(simd, (part(simd, &value, k), size, floor), part(simd, &largest, k));
+            set_part(simd, &mut largest, k, larger);
         }
         largest
     }
 
     #[inline(always)]
-    fn scale(&self, measure: Measure, range: Range<usize>, before: &[T], after: &[T]) -> T {
-        let (a, b) = match measure {
-            Measure::One => return T::one(),
-            Measure::Position => (self.extent(range.clone(), before), self.extent(range, after)),
-            Measure::Size | Measure::Nothing => (norm(&before[range.clone()]), norm(&after[range])),
-        };
-        each(|lane| if a.lane(lane) >= b.lane(lane) { a.lane(lane) } else { b.lane(lane) })
-    }
-
-    #[inline(always)]
-    fn extent(&self, configuration: Range<usize>, y: &[T]) -> T {
-        let own = norm(&y[configuration.clone()]);
+    fn extent<V: Simd>(&self, simd: V, configuration: Range<usize>, y: &[T]) -> T {
+        let own = norm(simd, y, configuration.clone());
         match self.layout.phi {
-            Some((start, end)) if start != configuration.start => own + norm(&y[start..end]),
+            Some((start, end)) if start != configuration.start => own + norm(simd, y, start..end),
             _ => own,
         }
     }
 }
 
-/// The larger of what was found so far and of `value` over its scale; NaN where one is.
+/// The larger of what was found so far and of a value over its scale, a size or a floor; NaN where one is.
 #[inline(always)]
-fn relative(value: f64, scale: f64, floor: f64, largest: f64) -> f64 {
-    if (value == 0.0 && scale.is_finite()) || largest.is_nan() {
-        return largest;
+fn relative<V: Simd>(
+    simd: V,
+    (value, size, floor): (V::f64s, V::f64s, V::f64s),
+    largest: V::f64s,
+) -> V::f64s {
+    let is_finite = |number| simd.less_than_or_equal_f64s(simd.abs_f64s(number), simd.splat_f64s(f64::MAX));
+    let no_error = simd.and_m64s(simd.equal_f64s(value, simd.splat_f64s(0.0)), is_finite(size));
+    let scale = simd.select_f64s(simd.greater_than_f64s(floor, size), floor, size);
+    let relative = simd.div_f64s(value, scale);
+    let relative = simd.select_f64s(is_finite(scale), relative, simd.splat_f64s(f64::NAN));
+    let larger = simd.select_f64s(simd.less_than_or_equal_f64s(relative, largest), largest, relative);
+    let larger = simd.select_f64s(simd.equal_f64s(largest, largest), larger, largest);
+    simd.select_f64s(no_error, largest, larger)
+}
+
+/// Euclidean norms.
+#[inline(always)]
+fn norm<V: Simd, T: Lanes>(simd: V, y: &[T], range: Range<usize>) -> T {
+    let (mut squares, mut norms, mut doubt) = (T::zero(), T::zero(), simd.splat_f64s(0.0));
+    for k in 0..parts::<V, T>() {
+        let mut sum = simd.splat_f64s(0.0);
+        for component in &y[range.clone()] {
+            let component = part(simd, component, k);
+            sum = simd.add_f64s(sum, simd.mul_f64s(component, component));
+        }
+        let (least, most) = (simd.splat_f64s(*IN_RANGE.start()), simd.splat_f64s(*IN_RANGE.end()));
+        let above = simd.greater_than_or_equal_f64s(sum, least);
+        let in_range = simd.and_m64s(above, simd.less_than_or_equal_f64s(sum, most));
+        doubt = simd.select_f64s(in_range, doubt, simd.splat_f64s(1.0));
+        set_part(simd, &mut squares, k, sum);
+        set_part(simd, &mut norms, k, simd.sqrt_f64s(sum));
     }
-    let scale = if floor > scale { floor } else { scale };
-    let relative = if scale.is_finite() { value / scale } else { f64::NAN };
-    if relative <= largest { largest } else { relative }
+    if simd.reduce_max_f64s(doubt) == 0.0 { norms } else { scaled(&y[range], squares, norms) }
 }
 
-/// `a` unless `b` is at least as large.
-fn larger<T: Lanes>(a: T, b: T) -> T {
-    each(|lane| if a.lane(lane) <= b.lane(lane) { b.lane(lane) } else { a.lane(lane) })
-}
-
-#[inline(always)]
-fn each<T: Lanes>(lane: impl FnMut(usize) -> f64) -> T {
-    T::from_lanes(lane)
-}
-
-/// Euclidean norm.
-#[inline(always)]
-pub(crate) fn norm<T: Lanes>(components: &[T]) -> T {
-    sum_of_squares(components).sqrt()
-}
-
-/// Sum of squares.
-#[inline(always)]
-pub(crate) fn sum_of_squares<T: Lanes>(components: &[T]) -> T {
-    let mut sum = T::zero();
-    for component in components {
-        sum += *component * *component;
-    }
-    sum
+/// Norms whose squares leave the range in some lane.
+#[cold]
+#[inline(never)]
+fn scaled<T: Lanes>(components: &[T], squares: T, norms: T) -> T {
+    T::from_lanes(|lane| match IN_RANGE.contains(&squares.lane(lane)) {
+        true => norms.lane(lane),
+        false => scaled_norm(components.iter().map(|component| component.lane(lane))),
+    })
 }

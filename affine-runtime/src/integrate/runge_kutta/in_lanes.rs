@@ -1,13 +1,15 @@
-//! The method of order 8 for several bodies at once, with steps that they share.
+//! The method of order 8 for several bodies at once, each in a lane with steps of its own.
+
+use pulp::{Arch, Simd, WithSimd};
 
 use super::dormand_prince_853::*;
 use super::pair::{DormandPrince853, E3, Pair};
-use crate::integrate::error_norm::{NormInLanes, norm_in_lanes, squares_in_lanes};
-use crate::integrate::roughly::{exp, ln};
-use crate::integrate::step_size::{Controller, FIRST_ERROR, next_time, shortest};
-use crate::integrate::taylor::Vectors;
-use crate::integrate::widest::{Work, widest};
+use super::start::Start;
+use crate::integrate::error_norm::NormInLanes;
+use crate::integrate::step_size::Controller;
+use crate::integrate::step_size::in_lanes::{Clocks, fate};
 use crate::lanes::Lanes;
+use crate::lanes::parts::{part, parts, plus, set_part};
 use crate::model::{Group, StateVector};
 
 const STAGES: usize = 13;
@@ -17,88 +19,86 @@ const AT_END: usize = 12;
 /// `y' = f(t, y)` in lanes. A trait, since a closure cannot be made part of the function that is compiled for the
 /// processor's vectors: what is called from there is compiled for the vectors of every processor.
 pub(crate) trait Equations<T, S> {
+    /// What states consist of.
+    const GROUPS: &'static [Group];
+
     /// Writes `f(t, y)`; to be `#[inline(always)]`. In place, since states of many lanes are long.
     fn slope(&self, t: T, y: &S, slope: &mut S);
+
+    /// A step may end at the state in a lane; to be `#[inline(always)]`.
+    fn is_sound(&self, y: &S, lane: usize) -> bool;
 }
 
-/// Bodies in lanes from `t0` to `t_end`: [`RungeKutta8`](super::RungeKutta8) operation by operation, but for the step
-/// size, which is that of the lane with the largest error. Where all lanes hold the same body, each has the bits of that
-/// body alone.
+/// Bodies in lanes: [`RungeKutta8`](super::RungeKutta8) of each, operation by operation, at its own time and with its own
+/// steps. A lane that is done is given the next body, while the others are on their way.
 pub(crate) struct RungeKutta8InLanes<T, S, F> {
     f: F,
     norm: NormInLanes<T>,
     tolerance: f64,
-    controller: Controller,
-    t: f64,
+    clocks: Clocks<T>,
     y: S,
     trial: S,
     stages: [S; STAGES],
-    length: f64,
-    t_end: f64,
-    steps: u64,
 }
 
-/// Lanes that a step cannot be taken with.
-pub(crate) type Failing = Vec<usize>;
+/// What happens to the body in a lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fate {
+    /// It has come to the end.
+    Arrived,
+    /// It cannot go on, or not in lanes.
+    Stuck,
+}
 
 impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F> {
-    /// The integration at its start.
-    ///
-    /// # Errors
-    /// The lanes whose state or slope is not finite.
-    pub(crate) fn new(
-        f: F,
-        groups: &'static [Group],
-        (t0, y0): (f64, S),
-        t_end: f64,
-        tolerance: f64,
-    ) -> Result<Self, Failing> {
-        let t = T::constant(t0, 0.0);
-        let value = |t, y: &S| {
-            let mut slope = S::zeros();
-            f.slope(t, y, &mut slope);
-            slope
-        };
-        let slope = value(t, &y0);
-        none(T::LANES, |lane| !is_finite(&y0, lane) || !is_finite(&slope, lane))?;
-        let norm = NormInLanes::probed(groups, &value, (t, &y0, &slope));
-        let length = first_step(&value, &norm, (t0, &y0, &slope), t_end - t0, tolerance);
-        let mut stages = [S::zeros(); STAGES];
-        stages[0] = slope;
-        let controller = Controller::of(DormandPrince853::ERROR_ORDER, DormandPrince853::MARGIN);
-        Ok(Self { f, norm, tolerance, controller, t: t0, y: y0, trial: y0, stages, length, t_end, steps: 0 })
-    }
-
-    /// Takes one accepted step.
-    ///
-    /// # Errors
-    /// The lanes whose errors stay above the tolerance however short the step.
-    pub(crate) fn advance(&mut self) -> Result<(), Failing> {
-        loop {
-            let end = next_time(self.t, self.length, self.t_end);
-            let error = widest(Trial { integration: self, end });
-            let mut worst = worst(&error);
-            if worst <= 1.0 {
-                if none(T::LANES, |lane| !is_finite(&self.stages[AT_END], lane)).is_ok() {
-                    self.length = (end - self.t).abs() * self.controller.accept(worst);
-                    (self.t, self.y, self.stages[0]) = (end, self.trial, self.stages[AT_END]);
-                    self.steps += 1;
-                    return Ok(());
-                }
-                worst = f64::NAN;
-            }
-            self.length = (end - self.t).abs() * self.controller.reject(worst);
-            if self.length <= shortest(self.t, self.t_end) {
-                none(T::LANES, |lane| error.lane(lane) > 1.0 || error.lane(lane).is_nan())?;
-                // Slopes at the end alone are not finite.
-                return Err((0..T::LANES).collect());
-            }
+    /// Lanes without bodies, for motions to `t_end` of at most so many steps. All are to be given one before the first
+    /// step: there is no motion from a state of zeros.
+    pub(crate) fn new(f: F, t_end: f64, tolerance: f64, max_steps: u64) -> Self {
+        const { assert!(T::LANES.is_multiple_of(8), "lanes fill the vectors of every processor") }
+        Self {
+            f,
+            norm: NormInLanes::new(F::GROUPS),
+            tolerance,
+            clocks: Clocks::new(
+                Controller::of(DormandPrince853::ERROR_ORDER, DormandPrince853::MARGIN),
+                t_end,
+                max_steps,
+            ),
+            y: S::zeros(),
+            trial: S::zeros(),
+            stages: [S::zeros(); STAGES],
         }
     }
 
-    /// Time reached.
-    pub(crate) fn t(&self) -> f64 {
-        self.t
+    /// The equations.
+    pub(crate) fn equations(&mut self) -> &mut F {
+        &mut self.f
+    }
+
+    /// Puts a body into a lane.
+    pub(crate) fn start<R: StateVector<f64>>(&mut self, lane: usize, (t0, y0): (f64, &R), start: &Start<R>) {
+        let from = y0.as_ref().iter().zip(start.slope.as_ref());
+        for ((y, slope), (y0, slope0)) in self.y.as_mut().iter_mut().zip(self.stages[0].as_mut()).zip(from) {
+            y.set_lane(lane, *y0);
+            slope.set_lane(lane, *slope0);
+        }
+        self.norm.set_lane(lane, &start.error_norm);
+        self.clocks.start(lane, t0, start.length);
+    }
+
+    /// Stops what moves in a lane.
+    pub(crate) fn rest(&mut self, lane: usize) {
+        self.clocks.rest(lane);
+    }
+
+    /// Tries one step in every lane; what becomes of a body, where its way ends.
+    pub(crate) fn advance(&mut self) -> impl Iterator<Item = (usize, Fate)> + use<T, S, F> {
+        let fates = Arch::new().dispatch(Trial(self));
+        (0..T::LANES).filter_map(move |lane| match fates.lane(lane) {
+            fate::UNDER_WAY => None,
+            fate::ARRIVED => Some((lane, Fate::Arrived)),
+            _ => Some((lane, Fate::Stuck)),
+        })
     }
 
     /// States reached.
@@ -106,145 +106,262 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         &self.y
     }
 
-    /// Accepted steps.
-    pub(crate) fn steps(&self) -> u64 {
-        self.steps
+    #[inline(always)]
+    fn step<V: Simd>(&mut self, simd: V) -> T {
+        let h = self.clocks.end - self.clocks.t;
+        self.stage::<V, 2, 1>(simd, h, &A2);
+        self.stage::<V, 3, 2>(simd, h, &A3);
+        self.stage::<V, 4, 2>(simd, h, &A4);
+        self.stage::<V, 5, 3>(simd, h, &A5);
+        self.stage::<V, 6, 3>(simd, h, &A6);
+        self.stage::<V, 7, 4>(simd, h, &A7);
+        self.stage::<V, 8, 5>(simd, h, &A8);
+        self.stage::<V, 9, 6>(simd, h, &A9);
+        self.stage::<V, 10, 7>(simd, h, &A10);
+        self.stage::<V, 11, 8>(simd, h, &A11);
+        self.stage::<V, 12, 9>(simd, h, &A12);
+        self.moved(simd, h, &B);
+        self.f.slope(self.clocks.end, &self.trial, &mut self.stages[AT_END]);
+        let error = self.error(simd, h.abs());
+        self.turn(simd, error)
     }
 
     #[inline(always)]
-    fn attempt(&mut self, end: f64) {
-        self.stage::<2, 1>(end, &A2);
-        self.stage::<3, 2>(end, &A3);
-        self.stage::<4, 2>(end, &A4);
-        self.stage::<5, 3>(end, &A5);
-        self.stage::<6, 3>(end, &A6);
-        self.stage::<7, 4>(end, &A7);
-        self.stage::<8, 5>(end, &A8);
-        self.stage::<9, 6>(end, &A9);
-        self.stage::<10, 7>(end, &A10);
-        self.stage::<11, 8>(end, &A11);
-        self.stage::<12, 9>(end, &A12);
-        self.moved(end, &B);
-    }
-
-    #[inline(always)]
-    fn stage<const NUMBER: usize, const TERMS: usize>(&mut self, end: f64, row: &[(usize, f64); TERMS]) {
+    fn stage<V: Simd, const NUMBER: usize, const TERMS: usize>(
+        &mut self,
+        simd: V,
+        h: T,
+        row: &[(usize, f64); TERMS],
+    ) {
         let (_, node) = NODES[NUMBER - 2];
-        let time = if node == 1.0 { end } else { self.t + node * (end - self.t) };
-        self.moved(end, row);
-        self.f.slope(T::constant(time, 0.0), &self.trial, &mut self.stages[NUMBER - 1]);
+        let mut time = self.clocks.end;
+        if node != 1.0 {
+            time = self.clocks.t + T::constant(node, 0.0) * h;
+        }
+        self.moved(simd, h, row);
+        self.f.slope(time, &self.trial, &mut self.stages[NUMBER - 1]);
     }
 
-    /// The trial state at the stage of a row.
+    /// The trial states at the stage of a row.
     #[inline(always)]
-    fn moved<const TERMS: usize>(&mut self, end: f64, row: &[(usize, f64); TERMS]) {
-        let h = T::constant(end - self.t, 0.0);
-        for (i, trial) in self.trial.as_mut().iter_mut().enumerate() {
-            *trial = combination(&self.stages, i, row).fma(h, self.y.as_ref()[i]);
+    fn moved<V: Simd, const TERMS: usize>(&mut self, simd: V, h: T, row: &[(usize, f64); TERMS]) {
+        for k in 0..parts::<V, T>() {
+            let h = part(simd, &h, k);
+            for i in 0..S::LEN {
+                let sum = combination(simd, &self.stages, (i, k), row);
+                let y = part(simd, &self.y.as_ref()[i], k);
+                set_part(simd, &mut self.trial.as_mut()[i], k, plus(simd, sum, h, y));
+            }
         }
     }
 
-    /// Estimated errors relative to the tolerance.
+    /// Estimated errors relative to the tolerance, of steps of these lengths.
     #[inline(always)]
-    fn error(&self, end: f64) -> T {
-        let (mut fifth, mut third) = (S::zeros(), S::zeros());
-        for i in 0..S::LEN {
-            fifth.as_mut()[i] = combination(&self.stages, i, &E5);
-            third.as_mut()[i] = combination(&self.stages, i, &E3);
+    fn error<V: Simd>(&self, simd: V, h: T) -> T {
+        let (before, after) = (self.y.as_ref(), self.trial.as_ref());
+        let (mut largest, mut start) = (T::zero(), 0);
+        for (g, group) in F::GROUPS.iter().enumerate() {
+            let range = start..start + group.len;
+            start = range.end;
+            let mut value = T::zero();
+            for k in 0..parts::<V, T>() {
+                let zero = simd.splat_f64s(0.0);
+                let (mut fifth, mut third) = (zero, zero);
+                for i in range.clone() {
+                    let of_fifth = combination(simd, &self.stages, (i, k), &E5);
+                    let of_third = combination(simd, &self.stages, (i, k), &E3);
+                    fifth = simd.add_f64s(fifth, simd.mul_f64s(of_fifth, of_fifth));
+                    third = simd.add_f64s(third, simd.mul_f64s(of_third, of_third));
+                }
+                // As the pair has it.
+                let size = simd.add_f64s(fifth, simd.mul_f64s(simd.splat_f64s(0.01), third));
+                let error = simd.div_f64s(fifth, simd.sqrt_f64s(size));
+                let is_zero = simd.equal_f64s(fifth, zero);
+                set_part(simd, &mut value, k, simd.select_f64s(is_zero, zero, error));
+            }
+            largest = self.norm.larger(simd, largest, (g, group, range), value, (h, before, after));
         }
-        let h = T::constant((end - self.t).abs(), 0.0);
-        let relative = self.norm.largest(h, self.y.as_ref(), self.trial.as_ref(), |range| {
-            let fifth = squares_in_lanes(&fifth.as_ref()[range.clone()]);
-            let third = squares_in_lanes(&third.as_ref()[range]);
-            let value = fifth / (fifth + T::constant(0.01, 0.0) * third).sqrt();
-            T::from_lanes(|lane| if fifth.lane(lane) == 0.0 { 0.0 } else { value.lane(lane) })
-        });
-        h * relative / T::constant(self.tolerance, 0.0)
+        h * largest / T::constant(self.tolerance, 0.0)
+    }
+
+    /// Accepts the steps with errors of at most 1 whose slopes at the end are finite; what becomes of the lanes.
+    #[inline(always)]
+    fn turn<V: Simd>(&mut self, simd: V, error: T) -> T {
+        let (mut errors, mut unsound) = (T::zero(), T::zero());
+        for lane in 0..T::LANES {
+            unsound.set_lane(lane, if self.f.is_sound(&self.trial, lane) { 0.0 } else { 1.0 });
+        }
+        let (zero, one) = (simd.splat_f64s(0.0), simd.splat_f64s(1.0));
+        for k in 0..parts::<V, T>() {
+            let mut not_finite = zero;
+            for slope in self.stages[AT_END].as_ref() {
+                // 0, or NaN once one of them is not finite.
+                not_finite = simd.add_f64s(not_finite, simd.mul_f64s(zero, part(simd, slope, k)));
+            }
+            let error = simd.add_f64s(part(simd, &error, k), not_finite);
+            let is_accepted = simd.less_than_or_equal_f64s(error, one);
+            set_part(simd, &mut errors, k, error);
+            for i in 0..S::LEN {
+                let (slope, trial) = (self.stages[AT_END].as_ref()[i], self.trial.as_ref()[i]);
+                let (first, y) = (&mut self.stages[0].as_mut()[i], &mut self.y.as_mut()[i]);
+                for (kept, next) in [(first, slope), (y, trial)] {
+                    let (before, after) = (part(simd, kept, k), part(simd, &next, k));
+                    set_part(simd, kept, k, simd.select_f64s(is_accepted, after, before));
+                }
+            }
+        }
+        self.clocks.turn(errors, unsound)
     }
 }
 
-/// Component `i` of the slopes, each times the coefficient that a row has for it.
+/// Component `i` of the slopes in a vector of lanes, each times the coefficient that a row has for it.
 #[inline(always)]
-fn combination<T: Lanes, S: StateVector<T>, const TERMS: usize>(
+fn combination<V: Simd, T: Lanes, S: StateVector<T>, const TERMS: usize>(
+    simd: V,
     stages: &[S; STAGES],
-    i: usize,
+    (i, k): (usize, usize),
     row: &[(usize, f64); TERMS],
-) -> T {
-    let mut sum = T::zero();
-    for (stage, coefficient) in row {
-        sum = stages[stage - 1].as_ref()[i].fma(T::constant(*coefficient, 0.0), sum);
+) -> V::f64s {
+    let mut sum = simd.splat_f64s(0.0);
+    for (term, (stage, coefficient)) in row.iter().enumerate() {
+        let slope = part(simd, &stages[stage - 1].as_ref()[i], k);
+        let coefficient = simd.splat_f64s(*coefficient);
+        sum = if term == 0 { simd.mul_f64s(slope, coefficient) } else { plus(simd, slope, coefficient, sum) };
     }
     sum
 }
 
-/// A step of an integration to the time `end`, with the slope behind it, which most steps need; its errors.
-struct Trial<'a, T, S, F> {
-    integration: &'a mut RungeKutta8InLanes<T, S, F>,
-    end: f64,
-}
+/// A step in every lane.
+struct Trial<'a, T, S, F>(&'a mut RungeKutta8InLanes<T, S, F>);
 
-impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Work for Trial<'_, T, S, F> {
+impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> WithSimd for Trial<'_, T, S, F> {
     type Output = T;
     #[inline(always)]
-    fn run(self, _vectors: impl Vectors) -> T {
-        let integration = self.integration;
-        integration.attempt(self.end);
-        let slope = &mut integration.stages[AT_END];
-        integration.f.slope(T::constant(self.end, 0.0), &integration.trial, slope);
-        integration.error(self.end)
+    fn with_simd<V: Simd>(self, simd: V) -> T {
+        self.0.step(simd)
     }
 }
 
-/// The first step of the lane that has the shortest one; see the scalar `first_step`.
-fn first_step<T: Lanes, S: StateVector<T>>(
-    f: &impl Fn(T, &S) -> S,
-    error_norm: &NormInLanes<T>,
-    (t, y, slope): (f64, &S, &S),
-    span: f64,
-    tolerance: f64,
-) -> f64 {
-    let forever = T::constant(f64::INFINITY, 0.0);
-    let rate = |end: &S, change: &S| {
-        error_norm.largest(forever, y.as_ref(), end.as_ref(), |r| norm_in_lanes(&change.as_ref()[r]))
-    };
-    let first = rate(y, slope);
-    let within = |h: f64| if h < span.abs() { h } else { span.abs() };
-    let trial = T::from_lanes(|lane| {
-        let first = first.lane(lane);
-        if first > 0.0 && first.is_finite() { within(0.01 / first) } else { 1e-6 * span.abs() }
-    });
-    let signed = T::from_lanes(|lane| trial.lane(lane).copysign(span));
-    let (mut end, mut change) = (*y, S::zeros());
-    for (y, slope) in end.as_mut().iter_mut().zip(slope.as_ref()) {
-        *y += signed * *slope;
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integrate::{Failure, RungeKutta8};
+    use crate::lanes::F64x8;
+    use crate::scalar::Scalar;
+
+    const GROUPS: &[Group] = &[Group { name: "x", len: 1 }, Group { name: "v", len: 1 }];
+    const T_END: f64 = 20.0;
+    const TOLERANCE: f64 = 1e-10;
+
+    /// `x'' = -x^3`: the larger the amplitude, the faster.
+    fn slope<T: Scalar>([x, v]: &[T; 2]) -> [T; 2] {
+        [*v, -(*x * *x * *x)]
     }
-    let slope_after = f(T::constant(t, 0.0) + signed, &end);
-    for (i, change) in change.as_mut().iter_mut().enumerate() {
-        *change = (slope_after.as_ref()[i] - slope.as_ref()[i]) / trial;
+
+    struct Duffing;
+
+    impl Equations<F64x8, [F64x8; 2]> for Duffing {
+        const GROUPS: &'static [Group] = GROUPS;
+        #[inline(always)]
+        fn slope(&self, _t: F64x8, y: &[F64x8; 2], rates: &mut [F64x8; 2]) {
+            *rates = slope(y);
+        }
+        #[inline(always)]
+        fn is_sound(&self, _y: &[F64x8; 2], _lane: usize) -> bool {
+            true
+        }
     }
-    let second = rate(&end, &change).sqrt();
-    let of_lane = |lane: usize| {
-        let (first, second, trial) = (first.lane(lane), second.lane(lane), trial.lane(lane));
-        let fastest = if first.is_finite() && first > second { first } else { second };
-        let length = exp(ln(FIRST_ERROR * tolerance) / DormandPrince853::ERROR_ORDER) / fastest;
-        within(if length < 100.0 * trial { length } else { 100.0 * trial })
-    };
-    (0..T::LANES).map(of_lane).fold(span.abs(), f64::min)
-}
 
-/// The largest error; NaN where one is.
-fn worst<T: Lanes>(error: &T) -> f64 {
-    (0..T::LANES)
-        .map(|lane| error.lane(lane))
-        .fold(0.0, |worst, e| if e <= worst || f64::is_nan(worst) { worst } else { e })
-}
+    fn start(y: &[f64; 2]) -> Result<Start<[f64; 2]>, Failure> {
+        let start = Start::of::<DormandPrince853>(&|_, y| slope(y), GROUPS, (0.0, y), T_END, TOLERANCE);
+        start.map(|(start, _)| start)
+    }
 
-/// The lanes that something is wrong with, as an error.
-fn none(lanes: usize, is_wrong: impl Fn(usize) -> bool) -> Result<(), Failing> {
-    let wrong: Failing = (0..lanes).filter(|lane| is_wrong(*lane)).collect();
-    if wrong.is_empty() { Ok(()) } else { Err(wrong) }
-}
+    /// One body after the other through eight lanes: each is there as many attempts as it takes alone, and none waits.
+    #[test]
+    fn no_lane_waits_for_another() -> Result<(), Failure> {
+        let bodies: Vec<[f64; 2]> = (0..21).map(|k| [0.1 * 1.3_f64.powi(k), 0.0]).collect();
+        let mut alone = Vec::new();
+        for y in &bodies {
+            let mut integration = RungeKutta8::new(|_, y| slope(y), GROUPS, (0.0, *y), T_END, TOLERANCE)?;
+            while !integration.is_finished() {
+                integration.advance()?;
+            }
+            let cost = integration.statistics();
+            alone.push((*integration.y(), cost.steps + cost.rejected));
+        }
+        let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 1_000_000);
+        let (mut waiting, mut begun, mut found) = (8..bodies.len(), Vec::new(), vec![None; bodies.len()]);
+        for lane in 0..8 {
+            lanes.start(lane, (0.0, &bodies[lane]), &start(&bodies[lane])?);
+            begun.push((lane, 0));
+        }
+        for attempt in 1_u64.. {
+            for (lane, fate) in lanes.advance() {
+                let (body, begin) = begun[lane];
+                assert_eq!(fate, Fate::Arrived);
+                found[body] = Some((lanes.y().map(|component| component.lane(lane)), attempt - begin));
+                match waiting.next() {
+                    Some(next) => {
+                        lanes.start(lane, (0.0, &bodies[next]), &start(&bodies[next])?);
+                        begun[lane] = (next, attempt);
+                    }
+                    None => lanes.rest(lane),
+                }
+            }
+            if found.iter().all(Option::is_some) {
+                break;
+            }
+        }
+        let alone: Vec<_> = alone.into_iter().map(Some).collect();
+        assert_eq!(found, alone);
+        let attempts: Vec<u64> = alone.iter().flatten().map(|(_, attempts)| *attempts).collect();
+        assert_eq!((attempts[0], attempts[20]), (20, 2962), "slow and fast bodies");
+        Ok(())
+    }
 
-fn is_finite<T: Lanes, S: StateVector<T>>(y: &S, lane: usize) -> bool {
-    y.as_ref().iter().all(|v| v.lane(lane).is_finite())
+    /// States after some attempts on one kind of vectors, with the fates on the way, as bits.
+    fn course(attempt: impl Fn(Trial<'_, F64x8, [F64x8; 2], Duffing>) -> F64x8) -> Result<Vec<u64>, Failure> {
+        let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 1_000_000);
+        for lane in 0..8 {
+            let y = [1.5_f64.powi(lane as i32), 0.1];
+            lanes.start(lane, (0.0, &y), &start(&y)?);
+        }
+        let mut seen = Vec::new();
+        for _ in 0..60 {
+            let fates = attempt(Trial(&mut lanes));
+            let numbers = [fates, lanes.y[0], lanes.y[1], lanes.clocks.t];
+            seen.extend(numbers.iter().flat_map(|lanes| lanes.as_slice()).map(|number| number.to_bits()));
+        }
+        Ok(seen)
+    }
+
+    #[test]
+    fn vectors_of_any_width_round_the_same() -> Result<(), Failure> {
+        let widest = course(|trial| Arch::new().dispatch(trial))?;
+        assert_eq!(course(|trial| pulp::Scalar::vectorize(pulp::Scalar, trial))?, widest);
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = pulp::x86::V3::try_new() {
+            assert_eq!(course(|trial| Simd::vectorize(avx2, trial))?, widest);
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn a_lane_of_too_many_steps_is_stuck() -> Result<(), Failure> {
+        let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 3);
+        for lane in 0..8 {
+            let y = [if lane == 5 { 1.0 } else { 1e-6 }, 0.0];
+            lanes.start(lane, (0.0, &y), &start(&y)?);
+        }
+        let mut fates = Vec::new();
+        for _ in 0..3 {
+            for (lane, fate) in lanes.advance() {
+                fates.push((lane, fate));
+                lanes.rest(lane);
+            }
+        }
+        assert!(fates.contains(&(5, Fate::Stuck)), "{fates:?}");
+        Ok(())
+    }
 }

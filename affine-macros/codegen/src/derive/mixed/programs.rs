@@ -4,13 +4,12 @@ use crate::algebra::bind::Constants;
 use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::derive::MixedMasses;
-use crate::derive::constant::{legendre_batch, matrix_batch, result};
+use crate::derive::constant::{legendre_batch, matrix_batch, placement_inputs, result};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::metric::{Definitions, inverse_placement};
 use crate::mechanics::mixed::{Confined, Legendre};
-use crate::mechanics::potential::Base;
 use crate::optimise::{Batch, straight_line};
 
 use super::{Body, Inner};
@@ -23,6 +22,7 @@ pub(super) struct Programs {
     pub(super) mixed_masses: Option<MixedMasses>,
     pub(super) kinetic_energy: Program,
     pub(super) hamiltonian: Program,
+    pub(super) hamiltonian_far_away: Option<Program>,
     pub(super) power: Option<Program>,
     pub(super) isotropic: Option<Program>,
 }
@@ -55,7 +55,12 @@ impl Body<'_> {
             }
             false => None,
         };
-        let (hamiltonian, at_a_point) = self.hamiltonian(arena, chart)?;
+        let near = self.potential.map(|u| u.energy_at_a_point(arena, chart));
+        let (hamiltonian, at_a_point) = self.hamiltonian(arena, chart, near)?;
+        let far_away = match self.potential.and_then(|u| u.energy_far_away(arena, chart)) {
+            Some(value) => Some(self.hamiltonian(arena, chart, Some(value))?.0),
+            None => None,
+        };
         let power = self.power(arena, chart)?.map(|batch| inline(arena, &batch, &at_a_point));
         Some(Programs {
             legendre: inline(arena, &legendre, &inputs),
@@ -64,6 +69,7 @@ impl Body<'_> {
             mixed_masses,
             kinetic_energy: inline(arena, &energy, &inputs),
             hamiltonian: inline(arena, &hamiltonian, &at_a_point),
+            hamiltonian_far_away: far_away.map(|batch| inline(arena, &batch, &at_a_point)),
             power,
             isotropic: self.isotropic().map(|batch| inline(arena, &batch, &[])),
         })
@@ -164,8 +170,13 @@ impl Body<'_> {
         Batch { shared, results, ..Batch::default() }
     }
 
-    /// `H` at a point, with its inputs.
-    fn hamiltonian(&self, arena: &mut Arena, chart: &Chart) -> Option<(Batch, Vec<Expr>)> {
+    /// `H` at a point from the potential and what that shares, with its inputs.
+    fn hamiltonian(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        potential: Option<(Polynomial, Definitions)>,
+    ) -> Option<(Batch, Vec<Expr>)> {
         let mut batch = match &self.inner {
             Inner::Varying(internal) => {
                 Batch { shared: internal.shared.clone(), ..result("energy", internal.energy(chart)) }
@@ -188,11 +199,9 @@ impl Body<'_> {
             let (_, shared) = self.masses.velocity(arena)?;
             join(&mut batch, &self.masses.energy(arena, chart), shared);
         }
-        if let Some(u) = self.potential {
-            let (value, shared) = u.energy_at_a_point(arena, chart);
+        if let Some((value, shared)) = potential {
             join(&mut batch, &value, shared);
-            inputs.push(Base::MeanLogStretch.symbol(arena));
-            inputs.extend((0..chart.dim).map(|a| Base::LogStretch(a).symbol(arena)));
+            inputs.extend(placement_inputs(arena, chart.dim));
         }
         for custom in &self.forces.customs {
             if let Some((value, kernel)) = custom.energy(arena, chart) {

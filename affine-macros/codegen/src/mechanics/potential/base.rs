@@ -2,6 +2,8 @@
 
 use crate::algebra::{Arena, Expr, Rational};
 
+use super::tensors::Along;
+
 /// Functions of the placement and the position that potentials are written in, indices from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
@@ -60,6 +62,11 @@ impl Base {
             _ => Some(Rational::MINUS_ONE),
         };
         number.unwrap_or(Rational::MINUS_ONE)
+    }
+
+    /// Does its derivative along a direction lose one power of `D`, as along the placement itself?
+    pub(super) fn is_moved(self, along: Along) -> bool {
+        along == Along::Placement && self.degree() != 0
     }
 
     /// Name of the weighted slope.

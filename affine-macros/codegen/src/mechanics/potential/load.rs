@@ -8,6 +8,7 @@ use crate::mechanics::equations::Load;
 use super::base::Base;
 use super::principal::{self, Principal};
 use super::rewriting::through_dilatation;
+use super::scaled::{self, scaled_bases};
 use super::tensors::{Along, Tensors, cofactors, definitions, direction, placement};
 use super::{Potential, is_parameter};
 
@@ -20,14 +21,22 @@ impl Potential {
             load.kernels.push(kernel);
             load.shared.extend(shared);
         }
-        let tensors = self.tensors(arena, chart);
+        let mut tensors = self.tensors(arena, chart);
+        let steep = chart.confined.is_none() && self.is_steep(arena);
+        if steep {
+            tensors = self.unit_tensors(arena);
+        }
         let along = match chart.momentum {
             Momentum::Body => Along::Body,
             Momentum::Space | Momentum::Total => Along::Space,
             Momentum::Canonical => Along::Placement,
         };
-        let weighted = self.weighted(arena, chart, along, &mut load);
+        let weighted = self.weighted(arena, chart, (along, steep), &mut load);
         load.shared.extend(definitions(arena, self.dim, chart));
+        if steep {
+            let inverse = arena.symbol("inverse_dilatation");
+            load.shared.extend(scaled::definitions(arena, chart, inverse));
+        }
         load.shared.extend(cofactors(arena, chart));
         load.shared.extend(self.dilatation(arena, chart));
         let mut forces = table(self.dim, |a, b| {
@@ -63,13 +72,17 @@ impl Potential {
         &self,
         arena: &mut Arena,
         chart: &Chart,
-        along: Along,
+        (along, steep): (Along, bool),
         load: &mut Load,
     ) -> Vec<(Base, Polynomial)> {
         let mut weighted: Vec<(Base, Polynomial)> = Vec::new();
         for (base, slope) in &self.slopes {
             let form = through_dilatation(arena, *slope);
-            let form = Polynomial::normal_form(arena, form).scaled(&base.weight(self.dim));
+            let form = match steep {
+                true => self.of_unit(arena, form, base.degree() - i32::from(base.is_moved(along))),
+                false => Polynomial::normal_form(arena, form),
+            };
+            let form = form.scaled(&base.weight(self.dim));
             let form = match (base, along) {
                 (Base::LogStretch(_), Along::Body) => form,
                 (Base::LogStretch(k), _) => form.mul(&principal::inverse_square(arena, *k)),
@@ -91,6 +104,57 @@ impl Potential {
             weighted.push((*base, slope));
         }
         weighted
+    }
+
+    /// Do tensors in the forces have powers of `D` beyond the third beside them? The product may be of degree 0, and `D^4`
+    /// leaves the range of numbers where `phi` does not.
+    fn is_steep(&self, arena: &mut Arena) -> bool {
+        self.slopes.iter().any(|(base, slope)| {
+            let form = through_dilatation(arena, *slope);
+            let form = Polynomial::normal_form(arena, form);
+            // By name: a symbol that is not needed would come into being.
+            let named = |atom: Expr, name: &str| arena.name(atom) == Some(name);
+            let power =
+                |monomial: &[Expr], name: &str| monomial.iter().filter(|atom| named(**atom, name)).count();
+            let is_tensor = |name: &str| {
+                ["trace_", "green_", "finger_", "phi_"].iter().any(|stem| name.starts_with(stem))
+            };
+            let of_tensors = |monomial: &[Expr]| {
+                let mut found = |symbol: Expr| arena.name(symbol).is_some_and(is_tensor);
+                base.degree() > 0 || monomial.iter().any(|atom| arena.any_symbol(*atom, &mut found))
+            };
+            let is_steep = |monomial: &[Expr]| {
+                ["dilatation", "inverse_dilatation"].iter().any(|name| power(monomial, name) > 2)
+            };
+            form.terms().any(|(monomial, _)| is_steep(monomial) && of_tensors(monomial))
+        })
+    }
+
+    /// `D^degree` times an expression in `D`, `1/D` and base functions, through `Psi`.
+    fn of_unit(&self, arena: &mut Arena, form: Expr, degree: i32) -> Polynomial {
+        let [d, inverse_d] = ["dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
+        let reciprocal = arena.pow(d, -1).unwrap_or(d);
+        let mut values = scaled_bases(arena, self.dim, d);
+        values.push((inverse_d, reciprocal));
+        let value = |symbol: Expr| values.iter().find(|(known, _)| *known == symbol).map(|(_, value)| *value);
+        // Powers of D are not zero.
+        let form = arena.substitute(form, &value).unwrap_or(form);
+        let form = arena.product(&[(form, 1), (d, degree)]).unwrap_or(form);
+        let named = |atom: Expr| (atom == reciprocal).then(|| Polynomial::atom(inverse_d));
+        scaled::collected(arena, form, d).substitute(&named)
+    }
+
+    /// The tensors of `Psi`.
+    fn unit_tensors(&self, arena: &mut Arena) -> Tensors {
+        let n = self.dim;
+        let mut symbols = |base: fn(usize, usize) -> Base| -> Square<Polynomial> {
+            (0..n).map(|a| (0..n).map(|b| Polynomial::atom(base(a, b).unit(arena))).collect()).collect()
+        };
+        let (green, finger, phi) = (symbols(Base::Green), symbols(Base::Finger), symbols(Base::Placement));
+        let cofactors = Matrix::symbols(arena, "cofactor", n).0;
+        let cofactors =
+            cofactors.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
+        Tensors { phi, green, finger, cofactors, principal: Principal::new(arena, n) }
     }
 
     fn tensors(&self, arena: &mut Arena, chart: &Chart) -> Tensors {

@@ -3,6 +3,8 @@
 use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function, Rational};
 
+use super::DILATATION;
+
 /// A logarithm `q` or `q_a`, as the name of its exponential.
 fn exponential(arena: &Arena, symbol: Expr) -> Option<String> {
     match arena.name(symbol)? {
@@ -12,7 +14,7 @@ fn exponential(arena: &Arena, symbol: Expr) -> Option<String> {
 }
 
 /// The logarithm and the integer `k` of `k q` or `k q_a`.
-fn multiple_of_logarithm(arena: &Arena, argument: Expr) -> Option<(Expr, i32)> {
+pub(super) fn multiple_of_logarithm(arena: &Arena, argument: Expr) -> Option<(Expr, i32)> {
     let is_logarithm = |e: Expr| exponential(arena, e).is_some();
     if is_logarithm(argument) {
         return Some((argument, 1));
@@ -46,6 +48,19 @@ pub(super) fn through_dilatation(arena: &mut Arena, expr: Expr) -> Expr {
             }
             _ => None,
         }
+    })
+}
+
+/// `exp(k q)` as a power of `D`, negative ones too; functions of `q_a` as they stand.
+pub(super) fn exponential_of_dilatation(arena: &mut Arena, expr: Expr) -> Expr {
+    let mean = arena.symbol("q");
+    let d = arena.symbol(DILATATION);
+    rewritten(arena, expr, &|arena, function, argument, exponent| {
+        let (q, k) = multiple_of_logarithm(arena, argument)?;
+        if q != mean || function != Function::Exp {
+            return None;
+        }
+        arena.pow(d, k.checked_mul(exponent)?)
     })
 }
 

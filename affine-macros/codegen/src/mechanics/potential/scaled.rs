@@ -1,0 +1,142 @@
+//! Functions of `phi = D Psi`, `det Psi = 1`, through `D` and `Psi`: tensors are powers of `D` times those of `Psi`, and in
+//! what is of degree 0 the powers cancel before they leave the range of numbers.
+
+use crate::algebra::arena::Node;
+use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
+use crate::mechanics::charts::Chart;
+
+use super::base::Base;
+use super::tensors::{finger, green};
+
+impl Base {
+    /// The power of `D` in it.
+    pub(super) fn degree(self) -> i32 {
+        match self {
+            Self::MeanLogStretch | Self::LogStretch(_) | Self::Position(_) => 0,
+            Self::Placement(..) => 1,
+            Self::Trace | Self::Green(..) | Self::Finger(..) => 2,
+            Self::TraceOfSquare => 4,
+        }
+    }
+
+    /// The symbol of the same function of `Psi`.
+    pub(super) fn unit(self, arena: &mut Arena) -> Expr {
+        let symbol = self.symbol(arena);
+        let name = format!("unit_{}", arena.name(symbol).unwrap_or_default());
+        arena.symbol(&name)
+    }
+}
+
+/// Base functions that `D` is in, as its powers times those of `Psi`.
+pub(super) fn scaled_bases(arena: &mut Arena, n: usize, d: Expr) -> Vec<(Expr, Expr)> {
+    let mut list = Vec::new();
+    for base in Base::all(n).into_iter().filter(|base| base.degree() != 0) {
+        let (symbol, unit) = (base.symbol(arena), base.unit(arena));
+        // A symbol is not the number zero.
+        list.extend(arena.product(&[(d, base.degree()), (unit, 1)]).map(|value| (symbol, value)));
+    }
+    list
+}
+
+/// The normal form of an expression in powers of `D`, without products of `D` and `1/D`, which are atoms of their own.
+pub(super) fn collected(arena: &mut Arena, expr: Expr, d: Expr) -> Polynomial {
+    let expr = without_cancelling_powers(arena, expr, d);
+    let form = Polynomial::normal_form(arena, expr);
+    cancelled(arena, &form, d)
+}
+
+/// The expression with powers of `D` collected, in the arguments of functions too.
+fn without_cancelling_powers(arena: &mut Arena, expr: Expr, d: Expr) -> Expr {
+    let parts = |arena: &mut Arena, e: Expr| without_cancelling_powers(arena, e, d);
+    let rebuilt = match arena.node(expr).clone() {
+        Node::Constant(_) | Node::Symbol(_) => return expr,
+        Node::Function(function, argument) => {
+            let argument = parts(arena, argument);
+            return match function {
+                Function::Ln => logarithm(arena, argument, d),
+                _ => arena.apply(function, argument),
+            };
+        }
+        Node::Sum(constant, terms) => {
+            let mut summands = vec![(arena.constant(constant), Rational::ONE)];
+            for (term, c) in terms {
+                summands.push((parts(arena, term), c));
+            }
+            arena.linear(&summands)
+        }
+        Node::Product(factors) => {
+            let mut product = Vec::with_capacity(factors.len());
+            for (base, exponent) in factors {
+                product.push((parts(arena, base), exponent));
+            }
+            // The bases keep their values, and were not the number zero.
+            arena.product(&product).unwrap_or(expr)
+        }
+    };
+    let form = Polynomial::normal_form(arena, rebuilt);
+    cancelled(arena, &form, d).expression(arena)
+}
+
+/// `ln(D^k u) = k q + ln u`.
+fn logarithm(arena: &mut Arena, argument: Expr, d: Expr) -> Expr {
+    let power = match arena.node(argument) {
+        Node::Product(factors) => factors.iter().find(|(base, _)| *base == d).map_or(0, |(_, k)| *k),
+        _ => 0,
+    };
+    let rest = arena.product(&[(argument, 1), (d, -power)]).unwrap_or(argument);
+    let (q, rest) = (Base::MeanLogStretch.symbol(arena), arena.apply(Function::Ln, rest));
+    arena.linear(&[(q, Rational::from(i64::from(power))), (rest, Rational::ONE)])
+}
+
+/// The polynomial without products of `D` and `1/D`, which are atoms of their own.
+fn cancelled(arena: &mut Arena, form: &Polynomial, d: Expr) -> Polynomial {
+    let inverse = arena.pow(d, -1).unwrap_or(d);
+    let mut result = Polynomial::zero();
+    for (monomial, c) in form.terms() {
+        let count = |atom: Expr| monomial.iter().filter(|a| **a == atom).count();
+        let power = count(d).min(count(inverse));
+        let mut left = [power, power];
+        let kept = monomial.iter().copied().filter(|atom| {
+            let which = [d, inverse].iter().position(|known| known == atom);
+            let Some(left) = which.map(|k| &mut left[k]) else { return true };
+            let keep = *left == 0;
+            *left = left.saturating_sub(1);
+            keep
+        });
+        result.add_term(kept.collect(), c);
+    }
+    result
+}
+
+/// `Psi`, its tensors and traces, with `1/D` as an atom; what is not used goes later.
+pub(super) fn definitions(arena: &mut Arena, chart: &Chart, inverse: Expr) -> Vec<(Expr, Polynomial)> {
+    let n = chart.dim;
+    let psi = unit_placement(arena, n);
+    let mut list = Vec::new();
+    for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
+        list.push((psi.0[i][a], Polynomial::term(vec![inverse, chart.phi.0[i][a]], Rational::ONE)));
+    }
+    let psi: Vec<Vec<Polynomial>> =
+        psi.0.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
+    let (mut trace, mut of_square) = (Polynomial::zero(), Polynomial::zero());
+    for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+        let [of_green, of_finger] = [Base::Green(a, b), Base::Finger(a, b)].map(|base| base.unit(arena));
+        if a <= b {
+            list.push((of_green, green(&psi, a, b)));
+            list.push((of_finger, finger(&psi, a, b)));
+        }
+        of_square.add_term(vec![of_green, of_green], &Rational::ONE);
+        if a == b {
+            trace.add_term(vec![of_green], &Rational::ONE);
+        }
+    }
+    list.push((Base::Trace.unit(arena), trace));
+    list.push((Base::TraceOfSquare.unit(arena), of_square));
+    list
+}
+
+/// `Psi` as symbols.
+pub(super) fn unit_placement(arena: &mut Arena, n: usize) -> Matrix {
+    let mut entry = |i, a| Base::Placement(i, a).unit(arena);
+    Matrix((0..n).map(|i| (0..n).map(|a| entry(i, a)).collect()).collect())
+}

@@ -1,0 +1,54 @@
+//! What an integration begins with.
+
+#[cfg(feature = "std")]
+mod in_lanes;
+
+#[cfg(feature = "std")]
+pub(crate) use in_lanes::starts_in_lanes;
+
+use super::Pair;
+use crate::integrate::Failure;
+use crate::integrate::error_norm::ErrorNorm;
+use crate::integrate::step_size::first_step;
+use crate::model::{Group, StateVector};
+
+/// Slope, norm and first step at a state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start<S> {
+    /// `f(t0, y0)`.
+    pub(crate) slope: S,
+    /// With the inertias of that state.
+    pub(crate) error_norm: ErrorNorm,
+    /// Length of the first step, which has the sign of no direction.
+    pub(crate) length: f64,
+}
+
+impl<S: StateVector<f64>> Start<S> {
+    /// The start of `y' = f(t, y)` from `(t0, y0)` to `t_end`, and the evaluations that it took.
+    ///
+    /// # Errors
+    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite.
+    pub(crate) fn of<P: Pair>(
+        f: &impl Fn(f64, &S) -> S,
+        groups: &'static [Group],
+        (t0, y0): (f64, &S),
+        t_end: f64,
+        tolerance: f64,
+    ) -> Result<(Self, u64), Failure> {
+        let slope = f(t0, y0);
+        if !is_finite(y0) || !is_finite(&slope) {
+            return Err(Failure::NotFinite);
+        }
+        if t_end == t0 {
+            return Ok((Self { slope, error_norm: ErrorNorm::new(groups), length: 0.0 }, 1));
+        }
+        let at_start = (t0, y0, &slope);
+        let (error_norm, probes) = ErrorNorm::probed(groups, f, at_start);
+        let length = first_step(f, &error_norm, at_start, t_end - t0, (tolerance, P::ERROR_ORDER));
+        Ok((Self { slope, error_norm, length }, probes + 2))
+    }
+}
+
+pub(super) fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
+    y.as_ref().iter().all(|v| v.is_finite())
+}
