@@ -316,7 +316,7 @@ mod tests {
         let alone: Vec<_> = alone.into_iter().map(Some).collect();
         assert_eq!(found, alone);
         let attempts: Vec<u64> = alone.iter().flatten().map(|(_, attempts)| *attempts).collect();
-        assert_eq!((attempts[0], attempts[20]), (20, 2962), "slow and fast bodies");
+        assert_eq!((attempts[0], attempts[20]), (18, 2515), "slow and fast bodies");
         Ok(())
     }
 
