@@ -25,7 +25,7 @@ pub(crate) use error_norm::norm;
 #[cfg(feature = "std")]
 pub(crate) use error_norm::sum_of_squares;
 pub use gauss::Gauss;
-pub use nystrom::RungeKuttaNystrom12;
+pub use nystrom::RungeKuttaNystrom;
 pub use rattle::Rattle;
 #[cfg(feature = "std")]
 pub(crate) use runge_kutta::in_lanes;

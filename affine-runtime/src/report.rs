@@ -77,6 +77,7 @@ fn method_name(method: Method) -> &'static str {
         Method::RungeKutta8 => "Runge-Kutta 8",
         Method::RungeKutta5 => "Runge-Kutta 5",
         Method::RungeKuttaNystrom12 => "Runge-Kutta-Nystrom 12",
+        Method::RungeKuttaNystrom8 => "Runge-Kutta-Nystrom 8",
         Method::Taylor { .. } => "Taylor",
         Method::Gauss { stages: 2, .. } => "Gauss 4",
         Method::Gauss { .. } => "Gauss 6",

@@ -115,6 +115,16 @@ impl ErrorNorm {
         (probed, evaluations)
     }
 
+    /// The norm without the groups after so many components.
+    pub(crate) fn of_the_first(self, components: usize) -> Self {
+        let mut end = 0;
+        let within = self.groups.iter().take_while(|group| {
+            end += group.len;
+            end <= components
+        });
+        Self { groups: &self.groups[..within.count()], ..self }
+    }
+
     /// `max_g value(range of g) / s_g` for a step of length `h`; zero where `value` is, and NaN where a scale is
     /// not finite.
     #[inline(always)]

@@ -1,8 +1,14 @@
-//! Runge-Kutta-Nystrom method of order 12 for equations of second order, with step size control.
+//! Runge-Kutta-Nystrom methods of orders 12 and 8 for equations of second order, with step size control.
 
-mod dormand_el_mikkawy_prince;
+mod dormand_el_mikkawy_prince_1210;
+mod dormand_el_mikkawy_prince_86;
 mod step;
 mod sums;
+mod tableau;
+#[cfg(test)]
+mod trees;
+
+pub use tableau::Tableau;
 
 use core::fmt;
 
@@ -14,14 +20,6 @@ use super::tape::Tape;
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
 use step::{Step, halves, joined};
-
-/// Order of the leading term of the error estimate in the step size: that of the local error of the embedded solution.
-const ERROR_ORDER: f64 = 11.0;
-/// Steps aim at an error so many times below the tolerance beside the margin that any method keeps. A rejected step costs
-/// as much as an accepted one, and the margin shortens steps by a tenth only: with it, one step in twelve is
-/// rejected where it was one in five, and the same errors cost 3 percent less (eleven motions in two and three dimensions,
-/// errors from 1e-3 to 1e-12).
-const MARGIN: f64 = 5.0;
 
 /// A motion with `q' = V(p)`, linear in the momenta, and `p' = F(t, q)`, whose equations depend on constants `C`.
 ///
@@ -40,42 +38,52 @@ pub trait SecondOrder<S, C> {
     fn renewed(&self, state: &S) -> S;
 }
 
-/// Adaptive integration of `q' = V(p)`, `p' = F(t, q)` from `t0` to `t_end`, in either direction of time, by the method
-/// of Dormand, El-Mikkawy and Prince of order 12 with 17 stages (IMA J. Numer. Anal. 7 (1987) 423-430):
+/// Adaptive integration of `q' = V(p)`, `p' = F(t, q)` from `t0` to `t_end`, in either direction of time, by a method
+/// of Dormand, El-Mikkawy and Prince (IMA J. Numer. Anal. 7 (1987) 423-430):
 ///
 /// ```text
 /// q_i = q + h V(c_i p + h sum_j a_ij F_j),   F_i = F(t + c_i h, q_i)
 /// q_1 = q + h V(p + h sum_i b_i F_i),        p_1 = p + h sum_i b'_i F_i
 /// ```
 ///
-/// A step is accepted when the difference to the embedded solution of order 10, which is of order `h^11`, relative to the
-/// tolerance in the [`ErrorNorm`] is at most 1. States are summed with compensation.
+/// A step is accepted when the difference to the embedded solution, relative to the tolerance in the [`ErrorNorm`], is
+/// at most 1. States are summed with compensation.
 ///
-/// Cost: 17 evaluations of `F` per accepted step, 16 per rejected one; at the start 2.
+/// | | embedded | evaluations of `F` per accepted step | per rejected one |
+/// |---|---|---|---|
+/// | [`Tableau::ORDER_12`] | order 10 | 17 | 16 |
+/// | [`Tableau::ORDER_8`] | order 6 | 8 | 8 |
+///
+/// and 2 at the start, the first of which is that of the first step.
 #[derive(Clone)]
-pub struct RungeKuttaNystrom12<S, C, R: SecondOrder<S, C>> {
+pub struct RungeKuttaNystrom<S, C, R: SecondOrder<S, C>> {
     system: R,
     constants: C,
     error_norm: ErrorNorm,
     tolerance: f64,
     controller: Controller,
-    step: Step<S, R::Half>,
+    step: Step<R::Half>,
     t: f64,
-    /// Positions and momenta reached. The rest, which no step reads, is that of the start.
-    state: Sum<S>,
+    /// Positions and momenta reached.
+    reached: [Sum<R::Half>; 2],
+    /// The state that holds them. The rest of it, which no step reads, is that of the start.
+    state: S,
+    /// The force there, where it is known.
+    force: Option<R::Half>,
     length: f64,
     t_end: f64,
     failure: Option<Failure>,
     statistics: Statistics,
 }
 
-impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> {
+impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
     /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`].
     ///
     /// # Errors
     /// [`Failure::NotFinite`] where `y0` or the force there is not finite.
     pub fn new(
         (system, constants): (R, C),
+        tableau: &'static Tableau,
         groups: &'static [Group],
         (t0, y0): (f64, S),
         t_end: f64,
@@ -96,19 +104,25 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
             // Inertias are those of the velocities alone.
             let drift = |_: f64, y: &S| joined(&system.drift(&constants, &halves(y)[1]), &R::Half::zeros());
             error_norm = ErrorNorm::probed(groups, &drift, (t0, &y0, &first)).0;
-            let accuracy = (tolerance, ERROR_ORDER);
+            let accuracy = (tolerance, tableau.error_order);
             length = first_step(&slope, &error_norm, (t0, &y0, &first), t_end - t0, accuracy);
             statistics.evaluations += 1;
         }
+        let [_, force] = halves(&first);
+        let reached = halves(&y0).map(Sum::of);
+        // What steps do not change has no error.
+        error_norm = error_norm.of_the_first(2 * R::Half::LEN);
         Ok(Self {
             system,
             constants,
             error_norm,
             tolerance,
-            controller: Controller::of(ERROR_ORDER),
-            step: Step::at(t0, y0),
+            controller: Controller::of(tableau.error_order, tableau.margin),
+            step: Step::at(tableau, t0, reached),
             t: t0,
-            state: Sum::of(y0),
+            reached,
+            state: y0,
+            force: Some(force),
             length,
             t_end,
             failure: None,
@@ -127,21 +141,23 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
         if self.is_finished() {
             return Ok(());
         }
-        self.statistics.evaluations += 1;
-        self.step.begin((&self.system, &self.constants), self.t, &self.state);
+        let force = self.force_reached();
+        self.step.begin((&self.system, &self.constants), (self.t, &self.reached), force);
+        let tableau = self.step.tableau();
         loop {
             let end = next_time(self.t, self.length, self.t_end);
-            self.statistics.evaluations += 16;
-            let h = end - self.t;
-            let error = self.attempt(h);
+            self.statistics.evaluations += tableau.evaluations();
+            let length = (end - self.t).abs();
+            let (state, error) = self.attempt(end);
             if error <= 1.0 {
-                self.length = h.abs() * self.controller.accept(MARGIN * error);
-                (self.t, self.state) = (end, *self.step.end());
+                self.length = length * self.controller.accept(error);
+                (self.t, self.state) = (end, state);
+                (self.reached, self.force) = (*self.step.end(), self.step.end_force());
                 self.statistics.steps += 1;
                 return Ok(());
             }
             self.statistics.rejected += 1;
-            self.length = h.abs() * self.controller.reject(MARGIN * error);
+            self.length = length * self.controller.reject(error);
             if self.length <= shortest(self.t, self.t_end) {
                 let failure = if error.is_finite() { Failure::StepUnderflow } else { Failure::NotFinite };
                 self.failure = Some(failure);
@@ -150,8 +166,8 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
         }
     }
 
-    /// The state at a time within the last step, by a shorter step of the same method from its beginning: 16 evaluations.
-    /// The state reached where no step has been taken.
+    /// The state at a time within the last step, by a shorter step of the same method from its beginning, at the cost of a
+    /// rejected one. The state reached where no step has been taken.
     ///
     /// # Errors
     /// [`Failure::NotFinite`], but the integration can go on.
@@ -159,10 +175,9 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
         if t == self.t {
             return Ok(self.system.renewed(self.y()));
         }
-        self.statistics.evaluations += 16;
-        let h = t - self.step.time();
-        self.step.attempt((&self.system, &self.constants), h);
-        let between = self.system.renewed(&self.step.end().value);
+        self.statistics.evaluations += self.step.tableau().evaluations();
+        self.step.attempt((&self.system, &self.constants), t);
+        let between = self.system.renewed(&self.with_end_of_step());
         if is_finite(&between) { Ok(between) } else { Err(Failure::NotFinite) }
     }
 
@@ -170,7 +185,12 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
     #[cfg(feature = "std")]
     pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
         tape.number(&mut self.t);
-        tape.sum(&mut self.state);
+        self.reached.iter_mut().for_each(|half| tape.sum(half));
+        tape.state(&mut self.state);
+        let (mut is_known, mut force) = (self.force.is_some(), self.force.unwrap_or_else(R::Half::zeros));
+        tape.flag(&mut is_known);
+        tape.state(&mut force);
+        self.force = is_known.then_some(force);
         tape.number(&mut self.length);
         self.controller.exchange(tape);
         tape.statistics(&mut self.statistics);
@@ -186,7 +206,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
     /// start; [`SecondOrder::renewed`] computes it.
     #[must_use]
     pub fn y(&self) -> &S {
-        &self.state.value
+        &self.state
     }
 
     /// `t_end` is reached.
@@ -201,22 +221,48 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom12<S, C, R> 
         self.statistics
     }
 
-    /// Takes a step of length `h` from where it begins: its error relative to the tolerance; NaN where something is
-    /// not finite.
-    fn attempt(&mut self, h: f64) -> f64 {
-        self.step.attempt((&self.system, &self.constants), h);
-        let (before, after) = (self.step.start().value.as_ref(), self.step.end().value.as_ref());
-        let slope = self.step.error_slope().as_ref();
-        let relative = self.error_norm.largest(h.abs(), before, after, |range| norm(&slope[range]));
-        h.abs() * relative / self.tolerance
+    /// The force at the state reached, where the last step begins.
+    #[inline(always)]
+    fn force_reached(&mut self) -> R::Half {
+        self.force.unwrap_or_else(|| {
+            self.statistics.evaluations += 1;
+            self.system.force(self.t, &self.constants, &self.reached[0].value)
+        })
+    }
+
+    /// Takes a step from where it begins to the time `end`: the state there, and its error relative to the tolerance; NaN
+    /// where something is not finite.
+    fn attempt(&mut self, end: f64) -> (S, f64) {
+        let h = (end - self.t).abs();
+        self.step.attempt((&self.system, &self.constants), end);
+        let after = self.with_end_of_step();
+        let [positions, momenta] = self.step.error_slopes();
+        let largest = self.error_norm.largest(h, self.state.as_ref(), after.as_ref(), |range| {
+            match range.start.checked_sub(R::Half::LEN) {
+                Some(start) => norm(&momenta.as_ref()[start..start + range.len()]),
+                None => norm(&positions.as_ref()[range]),
+            }
+        });
+        (after, h * largest / self.tolerance)
+    }
+
+    /// The state with positions and momenta at the end of the step.
+    fn with_end_of_step(&self) -> S {
+        let mut state = self.state;
+        let components = state.as_mut().chunks_exact_mut(R::Half::LEN);
+        for (components, half) in components.zip(self.step.end()) {
+            components.copy_from_slice(half.value.as_ref());
+        }
+        state
     }
 }
 
-impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> fmt::Debug for RungeKuttaNystrom12<S, C, R> {
+impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> fmt::Debug for RungeKuttaNystrom<S, C, R> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("RungeKuttaNystrom12")
+        f.debug_struct("RungeKuttaNystrom")
+            .field("order", &self.step.tableau().order())
             .field("t", &self.t)
-            .field("y", &self.state.value)
+            .field("y", &self.state)
             .field("t_end", &self.t_end)
             .field("tolerance", &self.tolerance)
             .field("statistics", &self.statistics)

@@ -139,7 +139,7 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         let (start, evaluations) = Start::of::<P>(&f, groups, (t0, &y0), t_end, tolerance)?;
         let Start { slope, error_norm, length } = start;
         let statistics = Statistics { evaluations, ..Statistics::default() };
-        let controller = Controller::of(P::ERROR_ORDER);
+        let controller = Controller::of(P::ERROR_ORDER, P::MARGIN);
         let begin = Sum::of(y0);
         let origin = coordinates.origin(&begin).value;
         let velocity = coordinates.velocity(&y0, &origin, &slope);

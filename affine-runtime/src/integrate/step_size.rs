@@ -24,15 +24,25 @@ const LARGEST_CUT: f64 = 0.2;
 const INTEGRAL: f64 = 0.8;
 /// Its proportional part: `h ~ (previous error / error)^(P/k)`, which damps oscillations of the step size.
 const PROPORTIONAL: f64 = 0.3;
-/// Errors below this fraction of the tolerance carry no information on the trend.
-const SMALLEST_ERROR: f64 = 1e-4;
+/// Logarithm of the part of the tolerance below which errors carry no information on the trend, but that the step was
+/// too short.
+const TREND_FROM: f64 = -9.0;
+/// Smaller errors, zero among them, count as this, which allows the largest growth.
+const LEAST_ERROR: f64 = 1e-30;
+/// The error of a first step, relative to the tolerance, by rates in place of derivatives. The coefficients of the
+/// error terms of methods of high order are so small that it errs far less.
+pub(crate) const FIRST_ERROR: f64 = 10.0;
 
 /// The proportional-integral controller (K. Gustafsson, ACM Trans. Math. Software 17 (1991) 533-554):
-/// `h_next = h S error^(-(I + P)/k) previous^(P/k)` for an error of order `h^k`, errors relative to the tolerance.
+/// `h_next = h S error^(-(I + P)/k) previous^(P/k)` for an error of order `h^k`, errors relative to the tolerance and
+/// times the margin; without the trend where the error is tiny, as after a first step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Controller {
     /// `k`.
     order: f64,
+    /// Steps aim at an error so many times below the tolerance, beside [`SAFETY`], as a logarithm. A rejected step costs
+    /// as much as an accepted one, and the margin shortens steps by little.
+    margin: f64,
     /// Logarithm of the previous error.
     pub(super) previous: f64,
     pub(super) rejected: bool,
@@ -40,8 +50,8 @@ pub(crate) struct Controller {
 
 impl Controller {
     /// For an error of order `h^order`.
-    pub(crate) fn of(order: f64) -> Self {
-        Self { order, previous: ln_of_normal(SMALLEST_ERROR), rejected: false }
+    pub(crate) fn of(order: f64, margin: f64) -> Self {
+        Self { order, margin: ln_of_normal(margin), previous: TREND_FROM, rejected: false }
     }
 
     /// What the next step sizes depend on.
@@ -66,16 +76,18 @@ impl Controller {
     /// Either. All that is called between two steps is without branches, for many bodies at once.
     #[inline(always)]
     fn factor(&mut self, accepted: bool, error: f64) -> f64 {
-        let seen = if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR };
+        let seen = if error > LEAST_ERROR { error } else { LEAST_ERROR };
         // What is not finite cuts a step as the largest number does.
         let failed = if error < f64::MAX { error } else { f64::MAX };
-        let logarithm = ln_of_normal(if accepted { seen } else { failed });
-        let trend = PROPORTIONAL * self.previous - (INTEGRAL + PROPORTIONAL) * logarithm;
-        let exponent = (if accepted { trend } else { -logarithm }) / self.order;
+        let logarithm = self.margin + ln_of_normal(if accepted { seen } else { failed });
+        let has_trend = logarithm > TREND_FROM;
+        let trend = if has_trend { PROPORTIONAL * (self.previous - logarithm) } else { 0.0 };
+        let exponent = (if accepted { trend - INTEGRAL * logarithm } else { -logarithm }) / self.order;
         // After a rejection the longer step has just been seen to fail.
         let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
         let growth = if accepted { growth } else { SAFETY };
-        self.previous = if accepted { logarithm } else { self.previous };
+        let seen = if has_trend { logarithm } else { TREND_FROM };
+        self.previous = if accepted { seen } else { self.previous };
         self.rejected = !accepted;
         within(LARGEST_CUT, growth, SAFETY * exp_of_moderate(exponent))
     }
@@ -106,7 +118,8 @@ pub(crate) fn shortest(t: f64, t_end: f64) -> f64 {
 
 /// Length of the first step, after Hairer, Norsett, Wanner, section II.4, with rates in place of their
 /// derivatives so that it scales with the unit of time: from `r = max(|y'|/|y|, sqrt(|y''|/|y|))` by groups,
-/// `h = (0.01 tolerance)^(1/k)/r` for an error of order `h^k`. Costs one evaluation of `f`, for `y''` as a difference.
+/// `h = (c tolerance)^(1/k)/r` for an error of order `h^k`, `c =` [`FIRST_ERROR`]. Costs one evaluation of `f`, for `y''` as
+/// a difference.
 pub(crate) fn first_step<S: StateVector<f64>>(
     f: &impl Fn(f64, &S) -> S,
     error_norm: &ErrorNorm,
@@ -137,7 +150,7 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     let of_second = if of_second.is_finite() { of_second } else { over(1.0) / trial };
     let second = Scalar::sqrt(of_second);
     let fastest = if first.is_finite() && first > second { first } else { second };
-    let length = exp(ln(0.01 * tolerance) / order) / fastest;
+    let length = exp(ln(FIRST_ERROR * tolerance) / order) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.
     within(if length < 100.0 * trial { length } else { 100.0 * trial })
 }

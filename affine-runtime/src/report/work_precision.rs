@@ -55,8 +55,8 @@ pub struct WorkPrecision<'a, const N: usize, M: Model<N>> {
 
 impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     /// A comparison on the motion of `model` from the phase point `start` at time 0 to `t_end`, of
-    /// [`Method::RungeKutta8`] at [`DEFAULT_TOLERANCES`], of [`Method::RungeKuttaNystrom12`] and [`Method::Taylor`] where
-    /// they were emitted and, where there is one, of the closed form.
+    /// [`Method::RungeKutta8`] at [`DEFAULT_TOLERANCES`], of [`Method::RungeKuttaNystrom8`],
+    /// [`Method::RungeKuttaNystrom12`] and [`Method::Taylor`] where they were emitted and, where there is one, of the closed form.
     #[must_use]
     pub fn new(model: &'a M, start: M::Point<f64>, t_end: f64) -> Self {
         Self {
@@ -135,7 +135,9 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
         let mut methods = self.methods.clone();
         if methods.is_empty() {
             methods.push(Method::RungeKutta8);
-            methods.extend(self.model.second_order().map(|_| Method::RungeKuttaNystrom12));
+            if self.model.second_order().is_some() {
+                methods.extend([Method::RungeKuttaNystrom8, Method::RungeKuttaNystrom12]);
+            }
             methods.extend(self.model.taylor().map(|_| Method::Taylor { order: None }));
             methods.extend(geodesic.map(|_| Method::ClosedForm));
         }
@@ -287,6 +289,14 @@ pub struct Measurement {
     /// Share of the steps whose true local error exceeds the tolerance, between 0 and 1; `None` where steps follow no
     /// tolerance, or one below 1e-13.
     pub above_tolerance: Option<f64>,
+}
+
+impl Row {
+    /// What the method is called in tables and legends.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        method_name(self.method)
+    }
 }
 
 impl WorkPrecisionReport {

@@ -52,6 +52,15 @@ pub(super) const fn is_canonical(model: &Description) -> bool {
     components(model.reduced, "Pi").is_some()
 }
 
+/// The equations are `q'' = f(t, q)`, so that `emit(nystrom)` exists: over `phi`, `Pi` and their like alone, of a kinetic
+/// energy of `phi_dot` and `x_dot` without affine velocities.
+pub(super) fn is_second_order(model: &Description) -> bool {
+    let canonical = ["x", "phi", "p", "Pi", "1/D", "q"];
+    let of_these = model.reduced.iter().all(|group| canonical.contains(&group.name));
+    let flat = !["Omega", "phi^-1"].iter().any(|affine| model.kinetic_energy.text.contains(affine));
+    model.constraint.is_none() && is_canonical(model) && of_these && flat
+}
+
 /// `1/D` or `q` is integrated beside the placement, so that `det phi` is not formed.
 pub(super) const fn carries_dilatation(model: &Description) -> bool {
     components(model.reduced, "1/D").is_some() || components(model.reduced, "q").is_some()

@@ -2,22 +2,24 @@
 
 use super::halt::{Reason, Setting};
 use super::layout::{
-    Layout, carries_dilatation, is_canonical, is_isochoric_in_pi, moves_on_group, placement_in,
+    Layout, carries_dilatation, is_canonical, is_isochoric_in_pi, is_second_order, moves_on_group,
+    placement_in,
 };
 use super::mechanics::Course;
 use super::motion::{Expanded, Expansion};
 use super::range::in_range;
 use super::recorder::Recorder;
 use super::stepper::{Explicit, Stepper};
-use super::{Method, TAYLOR_TOLERANCE};
+use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 use crate::capability::is_emitted;
-use crate::integrate::gauss::Tableau;
+use crate::integrate::gauss::Tableau as Collocation;
 use crate::integrate::lie::{Chart, Coordinates, Flat};
+use crate::integrate::nystrom::Tableau;
 use crate::integrate::packed::Packing;
 use crate::integrate::rattle::{Composition, Reaction};
 use crate::integrate::runge_kutta::InVectors;
 use crate::integrate::{
-    Failure, Gauss, Rattle, RungeKutta5, RungeKutta8, RungeKuttaNystrom12, Splitting, Taylor,
+    Failure, Gauss, Rattle, RungeKutta5, RungeKutta8, RungeKuttaNystrom, Splitting, Taylor,
 };
 use crate::model::{Constraint, Group, Model, StateVector};
 use crate::state::Phase;
@@ -37,9 +39,10 @@ pub(super) fn integrate<const N: usize, M: Model<N>>(
     }
     match method {
         Method::Rattle { order, step } => by_rattle(model, (order, step), course, recorder),
-        Method::Taylor { .. } | Method::RungeKuttaNystrom12 | Method::Splitting { .. } => {
-            by_capability(model, method, course, recorder)
-        }
+        Method::Taylor { order } => by_series(model, order, course, recorder),
+        Method::Splitting { order, step } => by_pieces(model, (order, step), course, recorder),
+        Method::RungeKuttaNystrom12 => by_halves(model, &Tableau::ORDER_12, course, recorder),
+        Method::RungeKuttaNystrom8 => by_halves(model, &Tableau::ORDER_8, course, recorder),
         _ if const { !moves_on_group(&M::DESCRIPTION, N) } => {
             free(model, model.packing(), method, course, recorder)
         }
@@ -50,7 +53,7 @@ pub(super) fn integrate<const N: usize, M: Model<N>>(
 
 /// Forces are computed from the placement alone, nothing being carried along.
 fn forms_determinant(method: Method) -> bool {
-    matches!(method, Method::RungeKuttaNystrom12 | Method::Splitting { .. })
+    matches!(method, Method::RungeKuttaNystrom12 | Method::RungeKuttaNystrom8 | Method::Splitting { .. })
 }
 
 /// The integrator to take, noted with what was missing for a better one.
@@ -59,55 +62,91 @@ fn chosen<const N: usize, M: Model<N>>(
     course: &Course<M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Method {
-    // Within steps it costs a step for each time that is looked at.
+    // Within steps a Nystrom method costs a step for each time that is looked at.
     let in_reach =
         const { !carries_dilatation(&M::DESCRIPTION) } || in_range(course.t0, course.start.phi()).is_ok();
-    let halves = model.second_order().is_some() && !recorder.has_events() && in_reach;
-    match course.method {
-        Method::Automatic if halves => Method::RungeKuttaNystrom12,
-        Method::Automatic if course.tolerance <= TAYLOR_TOLERANCE && M::DESCRIPTION.constraint.is_none() => {
-            if model.taylor().is_some() {
-                Method::Taylor { order: None }
+    let by_halves = !recorder.has_events() && in_reach;
+    let method = match course.method {
+        Method::Automatic if model.second_order().is_some() && by_halves => {
+            return if course.tolerance > NYSTROM_TOLERANCE {
+                Method::RungeKuttaNystrom8
             } else {
-                recorder.trajectory.computation.missing = Some("taylor");
-                Method::RungeKutta8
-            }
+                Method::RungeKuttaNystrom12
+            };
+        }
+        Method::Automatic
+            if course.tolerance <= TAYLOR_TOLERANCE
+                && M::DESCRIPTION.constraint.is_none()
+                && model.taylor().is_some() =>
+        {
+            Method::Taylor { order: None }
         }
         Method::Automatic => Method::RungeKutta8,
-        asked => asked,
-    }
+        asked => return asked,
+    };
+    let has_series = M::DESCRIPTION.constraint.is_none() && course.tolerance <= TAYLOR_TOLERANCE;
+    recorder.trajectory.computation.missing = if by_halves && is_second_order(&M::DESCRIPTION) {
+        Some("nystrom")
+    } else if has_series && method == Method::RungeKutta8 {
+        Some("taylor")
+    } else {
+        None
+    };
+    method
 }
 
-/// The reduced state by what `emit(...)` asked for: its Taylor series, the exact flows of pieces, or
-/// Runge-Kutta-Nystrom steps of its halves.
-fn by_capability<const N: usize, M: Model<N>>(
+/// The reduced state by its Taylor series.
+fn by_series<const N: usize, M: Model<N>>(
     model: &M,
-    method: Method,
+    order: Option<usize>,
     course: &Course<M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
     let Course { t0, start, t_end, tolerance, .. } = *course;
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
     let (reduced, constants) = model.reduce(t0, &start);
-    let begin = (t0, reduced);
     let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
-    match method {
-        Method::Taylor { order } => emitted::<N, M, _>(model.taylor(), "taylor", |series| {
-            let integration = Taylor::new((series, constants), groups, begin, t_end, tolerance, order);
-            follow(integration, (&expand, layout), recorder)
-        }),
-        Method::Splitting { order, step } => emitted::<N, M, _>(model.splitting(), "splitting", |pieces| {
-            let integration = Splitting::new((pieces, constants), order, begin, t_end, step);
-            follow(integration.ok_or(Setting::Order { given: order })?, (&expand, layout), recorder)
-        }),
-        _ => emitted::<N, M, _>(model.second_order(), "nystrom", |system| {
-            // What follows from the positions is computed where it is asked for, not at every step.
-            let expand =
-                |t: f64, halves: &M::Reduced<f64>| model.expand(t, &constants, &model.renewed(halves));
-            let integration = RungeKuttaNystrom12::new((system, constants), groups, begin, t_end, tolerance);
-            follow(integration, (&expand, layout), recorder)
-        }),
-    }
+    emitted::<N, M, _>(model.taylor(), "taylor", |series| {
+        let integration = Taylor::new((series, constants), groups, (t0, reduced), t_end, tolerance, order);
+        follow(integration, (&expand, layout), recorder)
+    })
+}
+
+/// The reduced state by the exact flows of pieces.
+fn by_pieces<const N: usize, M: Model<N>>(
+    model: &M,
+    (order, step): (usize, f64),
+    course: &Course<M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    let Course { t0, start, t_end, .. } = *course;
+    let layout = const { Layout::of(M::DESCRIPTION.reduced, N) };
+    let (reduced, constants) = model.reduce(t0, &start);
+    let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
+    emitted::<N, M, _>(model.splitting(), "splitting", |pieces| {
+        let integration = Splitting::new((pieces, constants), order, (t0, reduced), t_end, step);
+        follow(integration.ok_or(Setting::Order { given: order })?, (&expand, layout), recorder)
+    })
+}
+
+/// The halves of the reduced state by Runge-Kutta-Nystrom steps.
+fn by_halves<const N: usize, M: Model<N>>(
+    model: &M,
+    tableau: &'static Tableau,
+    course: &Course<M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    let Course { t0, start, t_end, tolerance, .. } = *course;
+    let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
+    let (reduced, constants) = model.reduce(t0, &start);
+    emitted::<N, M, _>(model.second_order(), "nystrom", |system| {
+        // What follows from the positions is computed where it is asked for, not at every step.
+        let expand = |t: f64, halves: &M::Reduced<f64>| model.expand(t, &constants, &model.renewed(halves));
+        let begin = (t0, reduced);
+        let integration =
+            RungeKuttaNystrom::new((system, constants), tableau, groups, begin, t_end, tolerance);
+        follow(integration, (&expand, layout), recorder)
+    })
 }
 
 /// The reduced state of a body without constraints, in vectors of four where the model has its equations so; implicit
@@ -233,7 +272,7 @@ fn gauss<S: StateVector<f64>, C: Coordinates<S>, F: Fn(f64, &S) -> S>(
     begin: (f64, S),
     (stages, t_end, step): (usize, f64, f64),
 ) -> Result<Result<Gauss<S, F, C>, Failure>, Setting> {
-    let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
+    let tableau = Collocation::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
     Ok(Gauss::within(coordinates, equations, tableau, begin, t_end, step))
 }
 

@@ -6,7 +6,7 @@ use crate::integrate::nystrom::SecondOrder;
 use crate::integrate::runge_kutta::{Dense, Field, Pair, RungeKutta};
 use crate::integrate::splitting::{Pieces, Splitting};
 use crate::integrate::taylor::{Series, Taylor};
-use crate::integrate::{Failure, Gauss, Rattle, RungeKuttaNystrom12, Statistics};
+use crate::integrate::{Failure, Gauss, Rattle, RungeKuttaNystrom, Statistics};
 use crate::model::StateVector;
 
 /// An integration that goes step by step.
@@ -119,8 +119,8 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Stepper<S> for Taylor<S, C, R> {
     }
 }
 
-impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Stepper<S> for RungeKuttaNystrom12<S, C, R> {
-    by_the_same_names!(RungeKuttaNystrom12);
+impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Stepper<S> for RungeKuttaNystrom<S, C, R> {
+    by_the_same_names!(RungeKuttaNystrom);
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         self.at(t)
     }

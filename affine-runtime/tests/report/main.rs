@@ -253,8 +253,8 @@ fn diagrams_have_a_line_per_series() {
         "run time",
         "missile, Runge-Kutta 8",
         "another tool, <unknown> & \"quoted\"",
-        "1e-3",
-        "1e-15",
+        "1e-4",
+        "1e-14",
         "0",
         "10 ms",
     ] {

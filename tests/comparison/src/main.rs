@@ -106,7 +106,7 @@ impl Visitor for Comparison {
             let (Some(error), Ok(measured)) = (report.error(row, "phi"), &row.outcome) else { continue };
             ours.push((error, measured.run_time));
             self.record(
-                "affine",
+                &format!("affine {}", row.name()),
                 name,
                 row.tolerance,
                 error,

@@ -1,58 +1,15 @@
 //! One step, whatever its size.
 
+use core::marker::PhantomData;
+
 use super::SecondOrder;
-use super::dormand_el_mikkawy_prince::*;
-use super::sums::{plus_multiple, sum};
+use super::sums::{of_row, plus_multiple};
+use super::tableau::{MOST_STAGES, Tableau};
 use crate::integrate::lie::Sum;
-use crate::integrate::stages::difference;
+use crate::integrate::taylor::Vectors;
+use crate::integrate::widest::{Work, widest};
 use crate::model::StateVector;
-
-const STAGES: usize = 17;
-
-/// Solution less the embedded solution.
-const POSITION_ERROR: [(usize, f64); POSITION.len()] = difference(POSITION, &EMBEDDED_POSITION);
-/// The same of the momenta.
-const MOMENTUM_ERROR: [(usize, f64); MOMENTUM.len()] = difference(MOMENTUM, &EMBEDDED_MOMENTUM);
-
-/// A stage after the first.
-struct Later {
-    number: usize,
-    /// `c_i`
-    node: f64,
-    /// `a_ij` of the stages before the one just before.
-    earlier: &'static [(usize, f64)],
-    /// `a_i,i-1`; the last two stages do not wait for each other.
-    newest: Option<f64>,
-}
-
-static LATER: [Later; STAGES - 1] = [
-    later(2, &A2),
-    later(3, &A3),
-    later(4, &A4),
-    later(5, &A5),
-    later(6, &A6),
-    later(7, &A7),
-    later(8, &A8),
-    later(9, &A9),
-    later(10, &A10),
-    later(11, &A11),
-    later(12, &A12),
-    later(13, &A13),
-    later(14, &A14),
-    later(15, &A15),
-    later(16, &A16),
-    later(17, &A17),
-];
-
-const fn later(number: usize, row: &'static [(usize, f64)]) -> Later {
-    let (_, node) = NODES[number - 2];
-    match row {
-        [earlier @ .., (last, newest)] if *last == number - 1 => {
-            Later { number, node, earlier, newest: Some(*newest) }
-        }
-        earlier => Later { number, node, earlier, newest: None },
-    }
-}
+use crate::scalar::Scalar;
 
 /// The step of the method from a state, and what its stages found. As `V` is linear, the positions of a stage are
 ///
@@ -62,95 +19,108 @@ const fn later(number: usize, row: &'static [(usize, f64)]) -> Later {
 ///
 /// where nothing but `A_(i-1)` waits for the stage before.
 #[derive(Clone, Debug)]
-pub(super) struct Step<S, H> {
+pub(super) struct Step<H> {
+    tableau: &'static Tableau,
     t: f64,
-    begin: Sum<S>,
+    begin: [Sum<H>; 2],
     /// `V(p)` at the beginning.
     velocity: H,
     /// `F_i`, at `(t_n + c_i h, q_i)`.
-    forces: [H; STAGES],
+    forces: [H; MOST_STAGES],
     /// `A_i`.
-    accelerations: [H; STAGES],
-    /// The state in the end.
-    end: Sum<S>,
-    /// Difference, divided by `h`, of the state in the end to the embedded solution.
-    error_slope: S,
+    accelerations: [H; MOST_STAGES],
+    /// Positions and momenta in the end.
+    end: [Sum<H>; 2],
+    /// Their differences, divided by `h`, to the embedded solution.
+    error_slopes: [H; 2],
 }
 
-impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
-    /// Before any step.
-    pub(super) fn at(t: f64, state: S) -> Self {
-        let [velocity, none] = [H::zeros(); 2];
-        let (forces, accelerations) = ([none; STAGES], [none; STAGES]);
-        let begin = Sum::of(state);
-        Self { t, begin, velocity, forces, accelerations, end: begin, error_slope: S::zeros() }
+impl<H: StateVector<f64>> Step<H> {
+    /// Before any step from positions and momenta.
+    pub(super) fn at(tableau: &'static Tableau, t: f64, begin: [Sum<H>; 2]) -> Self {
+        let none = H::zeros();
+        let (forces, accelerations) = ([none; MOST_STAGES], [none; MOST_STAGES]);
+        let (velocity, error_slopes) = (none, [none; 2]);
+        Self { tableau, t, begin, velocity, forces, accelerations, end: begin, error_slopes }
     }
 
-    /// When the step begins.
-    pub(super) fn time(&self) -> f64 {
-        self.t
+    /// The method.
+    pub(super) fn tableau(&self) -> &'static Tableau {
+        self.tableau
     }
 
-    /// Where the step begins.
-    pub(super) fn start(&self) -> &Sum<S> {
-        &self.begin
-    }
-
-    /// Where it ends.
-    pub(super) fn end(&self) -> &Sum<S> {
+    /// Positions and momenta in the end.
+    pub(super) fn end(&self) -> &[Sum<H>; 2] {
         &self.end
     }
 
-    /// Difference, divided by `h`, of the state in the end to the embedded solution.
-    pub(super) fn error_slope(&self) -> &S {
-        &self.error_slope
+    /// Differences, divided by `h`, of positions and momenta in the end to the embedded solution.
+    pub(super) fn error_slopes(&self) -> &[H; 2] {
+        &self.error_slopes
     }
 
-    /// Turns to the step from a state. 1 evaluation.
-    #[inline(always)]
-    pub(super) fn begin<C>(
-        &mut self,
-        (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
-        t: f64,
-        state: &Sum<S>,
-    ) {
-        (self.t, self.begin) = (t, *state);
-        let [positions, momenta] = halves(&state.value);
-        self.velocity = system.drift(constants, &momenta);
-        self.evaluate((system, constants), 1, t, &positions);
+    /// `F` in the end, where that is a stage.
+    pub(super) fn end_force(&self) -> Option<H> {
+        self.tableau.closes.then(|| self.forces[self.tableau.inner.len() + 1])
     }
 
-    /// Steps for the time `h`. 16 evaluations.
+    /// Turns to the step from positions and momenta where the force is known.
     #[inline(always)]
-    pub(super) fn attempt<C>(
+    pub(super) fn begin<S, C>(
         &mut self,
         (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
-        h: f64,
+        (t, begin): (f64, &[Sum<H>; 2]),
+        force: H,
     ) {
-        let [positions, _]: [H; 2] = halves(&self.begin.value);
+        (self.t, self.begin) = (t, *begin);
+        self.velocity = system.drift(constants, &begin[1].value);
+        self.forces[0] = force;
+        self.accelerations[0] = system.drift(constants, &force);
+    }
+
+    /// Steps to the time `end`: [`Tableau::evaluations`].
+    pub(super) fn attempt<S, C, R: SecondOrder<S, C, Half = H>>(&mut self, motion: (&R, &C), end: f64) {
+        widest(Attempt { step: self, motion, end, of: PhantomData });
+    }
+
+    #[inline(always)]
+    fn attempt_in<S, C, R: SecondOrder<S, C, Half = H>>(
+        &mut self,
+        vectors: impl Vectors,
+        (system, constants): (&R, &C),
+        end: f64,
+    ) {
+        let (h, tableau) = (end - self.t, self.tableau);
+        let square = h * h;
+        let [positions, momenta] = self.begin;
         // By value: what was just stored in pieces is slow to load in others.
         let [mut newest, ..] = self.accelerations;
-        for stage in &LATER {
-            let mut at = positions;
-            plus_multiple(&mut at, &self.velocity, stage.node * h);
-            plus_multiple(&mut at, &sum(&self.accelerations, stage.earlier), h * h);
-            if let Some(weight) = stage.newest {
-                plus_multiple(&mut at, &newest, h * h * weight);
+        for stage in tableau.inner {
+            let mut at = positions.value;
+            plus_multiple(vectors, &mut at, &self.velocity, stage.node * h);
+            let earlier = of_row(vectors, &self.accelerations, stage.earlier);
+            plus_multiple(vectors, &mut at, &earlier, square);
+            for (at, newest) in at.as_mut().iter_mut().zip(newest.as_ref()) {
+                *at = newest.fma(square * stage.newest, *at);
             }
             newest = self.evaluate((system, constants), stage.number, self.t + stage.node * h, &at);
         }
-        let (forces, accelerations) = (&self.forces, &self.accelerations);
         let mut rise = scaled(h, self.velocity);
-        plus_multiple(&mut rise, &sum(accelerations, &POSITION), h * h);
-        let pull = scaled(h, sum(forces, &MOMENTUM));
-        self.end = self.begin.plus(&joined(&rise, &pull));
-        let position_error = scaled(h, sum(accelerations, &POSITION_ERROR));
-        self.error_slope = joined(&position_error, &sum(forces, &MOMENTUM_ERROR));
+        plus_multiple(vectors, &mut rise, &of_row(vectors, &self.accelerations, tableau.position), square);
+        self.end[0] = positions.plus(&rise);
+        if tableau.closes {
+            let positions = self.end[0].value;
+            self.evaluate((system, constants), tableau.inner.len() + 2, end, &positions);
+        }
+        let (forces, accelerations) = (&self.forces, &self.accelerations);
+        self.end[1] = momenta.plus(&scaled(h, of_row(vectors, forces, tableau.momentum)));
+        let position_error = scaled(h, of_row(vectors, accelerations, tableau.position_error));
+        self.error_slopes = [position_error, of_row(vectors, forces, tableau.momentum_error)];
     }
 
     /// `F` and `V(F)` of a stage.
     #[inline(always)]
-    fn evaluate<C>(
+    fn evaluate<S, C>(
         &mut self,
         (system, constants): (&impl SecondOrder<S, C, Half = H>, &C),
         stage: usize,
@@ -159,9 +129,27 @@ impl<S: StateVector<f64>, H: StateVector<f64>> Step<S, H> {
     ) -> H {
         let force = system.force(t, constants, positions);
         let acceleration = system.drift(constants, &force);
-        self.forces[stage - 1] = force;
-        self.accelerations[stage - 1] = acceleration;
+        let place = (self.forces.get_mut(stage - 1), self.accelerations.get_mut(stage - 1));
+        if let (Some(kept_force), Some(kept_acceleration)) = place {
+            (*kept_force, *kept_acceleration) = (force, acceleration);
+        }
         acceleration
+    }
+}
+
+/// A step to the time `end`.
+struct Attempt<'a, S, H, C, R> {
+    step: &'a mut Step<H>,
+    motion: (&'a R, &'a C),
+    end: f64,
+    of: PhantomData<S>,
+}
+
+impl<S, H: StateVector<f64>, C, R: SecondOrder<S, C, Half = H>> Work for Attempt<'_, S, H, C, R> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self, vectors: impl Vectors) {
+        self.step.attempt_in(vectors, self.motion, self.end);
     }
 }
 

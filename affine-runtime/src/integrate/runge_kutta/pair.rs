@@ -14,6 +14,8 @@ pub trait Pair: Sized {
     const NAME: &'static str;
     /// Order of the leading term of the error estimate in the step size.
     const ERROR_ORDER: f64;
+    /// Steps aim at an error so many times below the tolerance.
+    const MARGIN: f64;
     /// Evaluations of an attempted step.
     const EVALUATIONS: u64;
     /// Evaluations of the dense output.
@@ -44,6 +46,9 @@ pub(super) const E3: [(usize, f64); dp853::B.len()] = difference(dp853::B, &dp85
 impl Pair for DormandPrince853 {
     const NAME: &'static str = "RungeKutta8";
     const ERROR_ORDER: f64 = 8.0;
+    // Every fourth step was rejected on P2, P7 and P8. With the margin one in twenty is, and the same errors cost 6 percent
+    // less on P2, 8 on P5, 13 on P8, from 1e-3 to 1e-9; nothing more nor less at 1e-12, where no step was rejected.
+    const MARGIN: f64 = 3.0;
     const EVALUATIONS: u64 = 11;
     const DENSE_EVALUATIONS: u64 = 3;
     const NEEDS_END: bool = false;
@@ -96,6 +101,7 @@ pub struct DormandPrince54;
 impl Pair for DormandPrince54 {
     const NAME: &'static str = "RungeKutta5";
     const ERROR_ORDER: f64 = 5.0;
+    const MARGIN: f64 = 1.0;
     const EVALUATIONS: u64 = 5;
     const DENSE_EVALUATIONS: u64 = 0;
     const NEEDS_END: bool = true;

@@ -16,7 +16,8 @@ pub(crate) struct Clocks<T> {
     previous: T,
     /// 1 after a rejected step, or 0.
     rejected: T,
-    order: f64,
+    /// Before the first step.
+    fresh: Controller,
     t_end: f64,
     max_steps: f64,
 }
@@ -33,18 +34,17 @@ pub(crate) mod fate {
 
 impl<T: Lanes> Clocks<T> {
     /// Lanes at rest at the end.
-    pub(crate) fn new(order: f64, t_end: f64, max_steps: u64) -> Self {
+    pub(crate) fn new(fresh: Controller, t_end: f64, max_steps: u64) -> Self {
         let (zero, t) = (T::zero(), T::constant(t_end, 0.0));
         let max_steps = max_steps as f64;
-        Self { t, end: t, steps: zero, previous: zero, rejected: zero, order, t_end, max_steps }
+        Self { t, end: t, steps: zero, previous: zero, rejected: zero, fresh, t_end, max_steps }
     }
 
     /// Sets a lane to the start of a body.
     pub(crate) fn start(&mut self, lane: usize, t: f64, length: f64) {
-        let Controller { previous, .. } = Controller::of(self.order);
         self.t.set_lane(lane, t);
         self.end.set_lane(lane, next_time(t, length, self.t_end));
-        self.previous.set_lane(lane, previous);
+        self.previous.set_lane(lane, self.fresh.previous);
         self.rejected.set_lane(lane, 0.0);
         self.steps.set_lane(lane, 0.0);
     }
@@ -59,14 +59,14 @@ impl<T: Lanes> Clocks<T> {
     /// the end of an accepted step.
     #[inline(always)]
     pub(crate) fn turn(&mut self, error: T, unsound: T) -> T {
-        let Self { order, t_end, max_steps, .. } = *self;
+        let Self { fresh, t_end, max_steps, .. } = *self;
         let mut next = *self;
         let mut fates = T::zero();
         for lane in 0..T::LANES {
             let (t, end, error) = (self.t.lane(lane), self.end.lane(lane), error.lane(lane));
             let (previous, rejected) = (self.previous.lane(lane), self.rejected.lane(lane) != 0.0);
             let accepted = error <= 1.0;
-            let mut controller = Controller { order, previous, rejected };
+            let mut controller = Controller { previous, rejected, ..fresh };
             let length = (end - t).abs() * controller.factor(accepted, error);
             let steps = self.steps.lane(lane) + if accepted { 1.0 } else { 0.0 };
             let has_arrived = if end == t_end { fate::ARRIVED } else { fate::UNDER_WAY };

@@ -7,6 +7,7 @@ use crate::integrate::error_norm::NormInLanes;
 use crate::integrate::in_lanes::Equations;
 use crate::integrate::roughly::{exp, ln};
 use crate::integrate::runge_kutta::{DormandPrince853, Pair};
+use crate::integrate::step_size::FIRST_ERROR;
 use crate::lanes::Lanes;
 use crate::model::StateVector;
 
@@ -85,7 +86,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Beginning<'_, T, S, F> {
         }
         let of_second = norm.rate(simd, &after, y, &end);
         let second = of_second.sqrt();
-        let allowed = exp(ln(0.01 * self.tolerance) / DormandPrince853::ERROR_ORDER);
+        let allowed = exp(ln(FIRST_ERROR * self.tolerance) / DormandPrince853::ERROR_ORDER);
         let mut lengths = T::zero();
         for lane in 0..T::LANES {
             let (first, second, trial) = (first.lane(lane), second.lane(lane), trial.lane(lane));

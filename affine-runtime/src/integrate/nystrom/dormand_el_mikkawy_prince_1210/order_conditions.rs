@@ -1,18 +1,5 @@
 //! The order conditions of Nystrom methods, one per tree, with 60 digits on the published decimals.
-//!
-//! `q'' = f(q)` has a tree for each product of derivatives of `f` along `q'` and along values of `f`: a root with `k` bare
-//! leaves and branches `t_1 ... t_m` that are trees again, of order
-//!
-//! ```text
-//! rho(t)   = 1 + k + sum_j (rho(t_j) + 1)
-//! Phi_i(t) = c_i^k prod_j sum_l a_il Phi_l(t_j),        gamma(t) = rho(t) prod_j (rho(t_j) + 1) gamma(t_j)
-//! sum_i b'_i Phi_i(t) = 1/gamma(t)                      for rho(t) <= p
-//! sum_i b_i Phi_i(t)  = 1/((rho(t) + 1) gamma(t))       for rho(t) <= p - 1
-//! ```
-//!
-//! (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, section II.14, Theorem 14.13.)
 
-use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use num_bigint::BigInt;
@@ -20,6 +7,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero, pow};
 
 use super::PUBLISHED;
+use crate::integrate::nystrom::trees::{self, Condition, Method, Tree};
 
 const STAGES: usize = 17;
 /// Every published decimal is a multiple of `10^-PLACES`.
@@ -55,64 +43,30 @@ fn dot(a: &Numerators, b: &Numerators) -> BigInt {
     a.iter().zip(b).filter(|(a, _)| !a.is_zero()).map(|(a, b)| a * b).sum::<BigInt>() / ten_to(DIGITS)
 }
 
-/// A tree: bare leaves, and the sorted list of its branches.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
-struct Tree {
-    leaves: usize,
-    branches: Vec<Tree>,
+/// The method in these numbers.
+struct Published {
+    matrix: [Numerators; STAGES],
 }
 
-impl Tree {
-    fn order(&self) -> usize {
-        1 + self.leaves + self.branches.iter().map(|branch| branch.order() + 1).sum::<usize>()
+impl Method<Numerators> for Published {
+    fn ones(&self) -> Numerators {
+        std::array::from_fn(|_| ten_to(DIGITS))
     }
-
-    fn density(&self) -> usize {
-        self.order() * self.branches.iter().map(|t| (t.order() + 1) * t.density()).product::<usize>()
+    fn nodes(&self) -> Numerators {
+        row("NODES")
     }
-}
-
-/// A tree with its weights, and with `sum_l a_il Phi_l(t)` for trees that have it as a branch.
-struct Condition {
-    tree: Tree,
-    weights: Numerators,
-    as_branch: Numerators,
+    fn product(&self, a: &Numerators, b: &Numerators) -> Numerators {
+        std::array::from_fn(|i| times(&a[i], &b[i]))
+    }
+    fn through(&self, weights: &Numerators) -> Numerators {
+        std::array::from_fn(|i| dot(&self.matrix[i], weights))
+    }
 }
 
 /// All trees up to order 13, by order less one.
-fn conditions() -> &'static [Vec<Condition>] {
-    static CONDITIONS: OnceLock<Vec<Vec<Condition>>> = OnceLock::new();
-    CONDITIONS.get_or_init(|| {
-        let (matrix, nodes) = (matrix(), row("NODES"));
-        let condition = |tree: Tree, weights: Numerators| {
-            let as_branch = std::array::from_fn(|i| dot(&matrix[i], &weights));
-            Condition { tree, weights, as_branch }
-        };
-        let bare = Tree { leaves: 0, branches: Vec::new() };
-        let mut found = vec![vec![condition(bare, std::array::from_fn(|_| ten_to(DIGITS)))]];
-        for order in 2..=ORDER + 1 {
-            // A leaf or a branch more at the root of a smaller tree gives every tree, some several times.
-            let mut larger: BTreeMap<Tree, Numerators> = BTreeMap::new();
-            for stem in &found[order - 2] {
-                let tree = Tree { leaves: stem.tree.leaves + 1, ..stem.tree.clone() };
-                larger.insert(tree, std::array::from_fn(|i| times(&stem.weights[i], &nodes[i])));
-            }
-            for rest in 1..order.saturating_sub(1) {
-                for stem in &found[rest - 1] {
-                    for branch in &found[order - rest - 2] {
-                        let mut tree = stem.tree.clone();
-                        tree.branches.push(branch.tree.clone());
-                        tree.branches.sort();
-                        larger.entry(tree).or_insert_with(|| {
-                            std::array::from_fn(|i| times(&stem.weights[i], &branch.as_branch[i]))
-                        });
-                    }
-                }
-            }
-            found.push(larger.into_iter().map(|(tree, weights)| condition(tree, weights)).collect());
-        }
-        found
-    })
+fn conditions() -> &'static [Vec<Condition<Numerators>>] {
+    static CONDITIONS: OnceLock<Vec<Vec<Condition<Numerators>>>> = OnceLock::new();
+    CONDITIONS.get_or_init(|| trees::conditions(&Published { matrix: matrix() }, ORDER + 1))
 }
 
 /// `-1.25e-2` times `10^DIGITS`.
@@ -144,7 +98,7 @@ fn matrix() -> [Numerators; STAGES] {
 
 /// The largest of `|sum_i w_i Phi_i(t) - value(t)|` over the trees of an order.
 fn residual(order: usize, weights: &Numerators, value: impl Fn(&Tree) -> BigRational) -> BigRational {
-    let defect = |condition: &Condition| {
+    let defect = |condition: &Condition<Numerators>| {
         (BigRational::new(dot(weights, &condition.weights), ten_to(DIGITS)) - value(&condition.tree)).abs()
     };
     conditions()[order - 1].iter().map(defect).max().unwrap()
@@ -164,13 +118,6 @@ fn assert_order(order: usize, position: &str, momentum: &str) {
         }
         assert!(residual(last + 1, &weights, value) > clearly_violated(), "{what}: a higher order");
     }
-}
-
-#[test]
-fn numbers_of_trees() {
-    let counts: Vec<usize> = conditions().iter().map(Vec::len).collect();
-    // Hairer, Norsett, Wanner, Table II.14.3.
-    assert_eq!(counts[..8], [1, 1, 2, 3, 6, 10, 20, 36]);
 }
 
 #[test]
