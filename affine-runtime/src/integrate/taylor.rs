@@ -275,25 +275,18 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         length
     }
 
-    /// `sum_(k > 0) y_k h^k = h (a(h^2) + h b(h^2))`: two polynomials of half the degree, neither of which waits for the
-    /// other.
+    /// `sum_(k > 0) y_k h^k`, by powers of `h` alone: those of a rounded `h^2` would be off by the same in every step of one
+    /// length, and the phase drift.
     #[inline(always)]
     fn rise(&self, h: f64) -> S {
         let h = h / self.unit;
-        let square = h * h;
-        let pairs = self.coefficients[1..=self.order].chunks_exact(2);
-        let last = pairs.remainder().first();
-        let (mut rise, mut other) = (last.copied().unwrap_or_else(S::zeros), S::zeros());
-        for pair in pairs.rev() {
-            let [odd, even] = pair else { continue };
-            for (i, (rise, other)) in rise.as_mut().iter_mut().zip(other.as_mut()).enumerate() {
-                *rise = Scalar::fma(*rise, square, odd.as_ref()[i]);
-                *other = Scalar::fma(*other, square, even.as_ref()[i]);
+        let mut rise = self.coefficients[self.order];
+        for coefficient in self.coefficients[1..self.order].iter().rev() {
+            for (rise, coefficient) in rise.as_mut().iter_mut().zip(coefficient.as_ref()) {
+                *rise = Scalar::fma(*rise, h, *coefficient);
             }
         }
-        for (rise, other) in rise.as_mut().iter_mut().zip(other.as_ref()) {
-            *rise = Scalar::fma(*other, h, *rise) * h;
-        }
+        rise.as_mut().iter_mut().for_each(|rise| *rise *= h);
         rise
     }
 

@@ -153,7 +153,7 @@ pub fn divided<T: Scalar, const W: usize>(
     left: [T; W],
     divisor: Divisor<T>,
 ) -> [T; W] {
-    let (one, other) = ([left, [divisor.nearest; W]], [left, [divisor.rest; W]]);
+    let (one, other) = ([left, [divisor.half; W]], [left, [divisor.rest; W]]);
     let mut quotient = left;
     if let Some((quotient, one, other)) = pairs(&mut quotient, one, other) {
         *quotient = vectors.pair(one, other);
