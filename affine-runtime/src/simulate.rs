@@ -80,10 +80,7 @@ pub enum Method {
     /// the variables are Lie-Poisson: there the method is no Poisson map, and energy and cubic Casimir invariants
     /// are kept to its order, unless they are quadratic in the reduced variables. Output times between steps are
     /// reached by a shorter step from the one before, which leaves the sequence of steps as it is.
-    ///
-    /// [`Method::Automatic`] never takes it either: on P3, P6, P7 and P8 the best of 2 and 3 stages costs 14 times as much as
-    /// the best explicit method, or more, at an error of 1e-3. The third stage gains a tenth to two fifths there, and a
-    /// factor of 2.1 to 2.9 at 1e-6: a fourth would not change that.
+    /// [`Method::Automatic`] never takes it.
     Gauss {
         /// Number of stages, 2 or 3.
         stages: usize,
@@ -105,19 +102,8 @@ pub enum Method {
     /// is a symplectic (Poisson) map, and keeps momentum maps and Casimirs up to rounding. Output times between steps are
     /// reached by a shorter step from the one before, which leaves the sequence of steps as it is.
     ///
-    /// [`Method::Automatic`] never takes it. Run time of the best order and step over that of the best adaptive method
-    /// and tolerance, at equal errors of `phi` at the end:
-    ///
-    /// | | 1e-3 | 1e-6 | 1e-9 |
-    /// |---|---|---|---|
-    /// | P2 | 2.1 (order 4) | 2.4 (6) | 3.8 (6) |
-    /// | P3 | 1.3 (6) | 2.0 (6) | 2.4 (6) |
-    /// | P5, `kappa` = 1e4 and 1e6 | 1.4, 1.3 (4) | 1.9 (6) | 2.6, 2.7 (6) |
-    /// | P6 | 1.8 (4) | 1.7 (6) | 19 (6) |
-    /// | P8 | 1.7 (6) | 2.5 (6) | 3.5 (6) |
-    ///
-    /// The stiff dilatation of P5 is separated by the reduction, for every method alike. What splitting is for is what it
-    /// keeps, over runs that are longer than the motion can be followed.
+    /// [`Method::Automatic`] never takes it: what it is for is what it keeps, over runs that are longer than the motion can
+    /// be followed. The stiff dilatation that a reduction separates is separated for every method alike.
     Splitting {
         /// The order, 2, 4, 6 or 8.
         order: usize,

@@ -121,11 +121,7 @@ impl Why {
         if self.computation.closed_form_exists {
             return Ok(());
         }
-        writeln!(
-            f,
-            "for what it keeps: at equal errors of the motion adaptive steps took less time on every benchmark problem, \
-             and Method::Automatic would take those"
-        )
+        writeln!(f, "for what it keeps over long runs; Method::Automatic would take adaptive steps")
     }
 
     /// The group on which the steps were taken.
