@@ -134,6 +134,9 @@ pub struct Packed {
     pub rates: Vec<Index>,
 }
 
+/// Steps beyond which code that is there a dozen times, once in each stage, is not worth having twice: without optimisation
+/// a step of a method keeps all of its values on the stack.
+const MOST_STEPS: usize = 384;
 /// Instructions for each vector of the state in a stage of the method of order 8, of whose rows the average has five
 /// terms.
 const OF_A_SUM: usize = 13;
@@ -145,11 +148,11 @@ const FEWEST: usize = 12;
 
 impl Packed {
     /// The right-hand side whose results are the rates of the components of `groups`, in their order; `None` where
-    /// scalars do as well, or where it calls functions of the runtime.
+    /// scalars do as well, where it is long, or where it calls functions of the runtime.
     #[must_use]
     pub fn of(program: &Program, groups: &[(&'static str, Vec<String>)]) -> Option<Self> {
         let components: usize = groups.iter().map(|(_, names)| names.len()).sum();
-        if components < FEWEST {
+        if components < FEWEST || program.steps.len() > MOST_STEPS {
             return None;
         }
         let scalar = program.steps.iter().map(weight).sum::<usize>()
