@@ -72,9 +72,10 @@ use proc_macro::TokenStream;
 /// with `Reason::Degenerate`.
 ///
 /// `emit(metric)` adds the methods `metric(&phi)` and `inverse_metric(&phi)`, the configuration metric over
-/// `(x_dot, phi_dot)` with `phi_dot` row by row, and its inverse; `emit(acceleration)` adds `acceleration(&point)`, the
-/// acceleration of the centre of mass, `acceleration(t, &point)` where forces depend on the time. `emit(balance)` adds,
-/// for `dalembert` models, `balance(t, &point)` and `centre_balance(t, &point)`: the kinematical spin
+/// `(x_dot, phi_dot)` with `phi_dot` row by row, and its inverse, under a constraint that on the velocities left free;
+/// `emit(acceleration)` adds `acceleration(&point)`, the acceleration of the centre of mass, `acceleration(t, &point)` where
+/// it depends on the time. `emit(balance)` adds, for `dalembert` models, `balance(t, &point)` and
+/// `centre_balance(t, &point)`: the kinematical spin
 /// `K = phi J phi_dot^T` and both sides of its balance in space and body, (3.6), (3.8), (3.9).
 ///
 /// `emit(two_polar)` is the lattice form `(q, p, M, N)` of doubly isotropic models. Beside it, `splitting` adds the exact flows

@@ -20,4 +20,5 @@ mod confined;
 mod drawn;
 mod driven;
 mod group;
+mod metric;
 mod stated;

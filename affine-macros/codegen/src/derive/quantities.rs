@@ -24,16 +24,22 @@ pub(super) fn metric(
     coefficients: &mut Constants,
 ) -> Option<Metric> {
     let dim = parts.first()?.dim;
-    let metric::Metric { shared, internal, centre } = metric::Metric::new(arena, dim, parts);
+    let metric::Metric { mut shared, mut internal, centre } = metric::Metric::new(arena, dim, parts);
+    if let Some(weight) = hamiltonian.and_then(|h| h.weight.as_ref()) {
+        let square = Polynomial::atom(weight.square);
+        internal.iter_mut().flatten().for_each(|entry| *entry = entry.mul(&square));
+        shared.extend(weight.definitions.iter().cloned());
+    }
     let entries = joined(&centre, &internal);
     let inverse = match hamiltonian {
         Some(h) => inverse_of(arena, h),
         None => inverse(arena, &entries, shared.clone())?,
     };
+    let (size, results) = (entries.len(), numbered(&entries));
+    let entries = Batch { shared, results, ..Batch::default() }.pruned(arena);
     let phi = Matrix::symbols(arena, "phi", dim).0.concat();
     let mut program = |batch: &Batch| fuse(&straight_line(arena, batch, coefficients, &|a| phi.contains(&a)));
-    let size = entries.len();
-    let entries = program(&Batch { shared, results: numbered(&entries), ..Batch::default() });
+    let entries = program(&entries);
     Some(Metric { size, entries, inverse: program(&inverse) })
 }
 
@@ -86,7 +92,8 @@ fn inverse_of(arena: &mut Arena, h: &Hamiltonian) -> Batch {
             form.mul(inverse_mass)
         })
     });
-    Batch { results: numbered(&joined(&centre, &internal)), ..Batch::default() }
+    let shared = h.weight.as_ref().map_or_else(Definitions::new, |weight| weight.definitions.clone());
+    Batch { shared, results: numbered(&joined(&centre, &internal)), ..Batch::default() }.pruned(arena)
 }
 
 /// The columns of the inverse of a matrix that depends on the placement: the solutions for unit momenta.
