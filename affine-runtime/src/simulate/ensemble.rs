@@ -99,15 +99,17 @@ impl<'a, const N: usize, M: Model<N>> Ensemble<'a, N, M> {
     }
 }
 
-impl<const N: usize, M: InLanes<N> + Sync> Ensemble<'_, N, M>
-where
-    M::Point<f64>: Send + Sync,
-{
+// The bounds stand on the methods, where the message of a missing `emit(lanes)` is read.
+impl<const N: usize, M: Model<N>> Ensemble<'_, N, M> {
     /// Runs the ensemble: one outcome for each start, in their order.
     ///
     /// # Errors
     /// A [`Setting`] that makes no sense.
-    pub fn run(self) -> core::result::Result<Ends<M::Point<f64>>, Setting> {
+    pub fn run(self) -> core::result::Result<Ends<M::Point<f64>>, Setting>
+    where
+        M: InLanes<N> + Sync,
+        M::Point<f64>: Send + Sync,
+    {
         self.run_in::<Widest>()
     }
 
@@ -116,12 +118,18 @@ where
     ///
     /// # Errors
     /// As [`run`](Self::run).
-    pub fn run_in<T: Lanes>(self) -> core::result::Result<Ends<M::Point<f64>>, Setting> {
+    pub fn run_in<T: Lanes>(self) -> core::result::Result<Ends<M::Point<f64>>, Setting>
+    where
+        M: InLanes<N> + Sync,
+        M::Point<f64>: Send + Sync,
+    {
         let Some(first) = self.starts.first() else { return Ok(Vec::new()) };
         let (t_end, _) = self.simulation(*first).settings.checked(&M::DESCRIPTION)?;
         Ok(in_parts(&self.starts, T::LANES, |starts| self.ends::<T>(starts, t_end)))
     }
+}
 
+impl<const N: usize, M: InLanes<N>> Ensemble<'_, N, M> {
     /// Bodies one after the other through the same lanes, but for those that are apart. Where a body that cannot go on in
     /// lanes comes to, and why it stops, is found alone.
     fn ends<T: Lanes>(&self, starts: &[M::Point<f64>], t_end: f64) -> Ends<M::Point<f64>> {
