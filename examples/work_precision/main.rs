@@ -2,7 +2,9 @@
 //!
 //! Prints a table for each problem; tables and pictures go to `output/`.
 
+mod frontier;
 mod problems;
+mod symplectic;
 
 use std::fs;
 use std::path::Path;
@@ -12,10 +14,15 @@ use affine_runtime::prelude::*;
 use affine_runtime::report::{WorkPrecision, WorkPrecisionDiagram, reference_solution};
 
 use problems::Visitor;
+use symplectic::EqualSteps;
 
 fn main() -> affine_runtime::Result<()> {
     // A folder that cannot be made shows in the first file that cannot be written.
     let _ = fs::create_dir_all("output");
+    let mut arguments = std::env::args().skip(1);
+    if arguments.next().is_some_and(|first| first == "symplectic") {
+        return problems::visit(&mut EqualSteps { only: arguments.collect() });
+    }
     let mut reports = Reports { output: Path::new("output"), figure: figure() };
     problems::visit(&mut reports)?;
     reports.figure.save_svg(Path::new("output").join("work_precision.svg"))?;
