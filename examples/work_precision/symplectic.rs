@@ -12,7 +12,7 @@ use crate::problems::Visitor;
 /// Orders of splitting, all there are.
 const ORDERS: [usize; 4] = [2, 4, 6, 8];
 /// Numbers of stages of Gauss collocation, all there are.
-const STAGES: [usize; 5] = [2, 3, 4, 5, 6];
+const STAGES: [usize; 4] = [2, 3, 4, 6];
 /// A method that needs more evaluations than this many times those of the automatic choice at its finest is out.
 const HOPELESS: u64 = 16;
 /// The error from which on rounding ends what shorter steps gain.

@@ -8,6 +8,7 @@
 //! `cargo run --release -p affine-comparison rhs`: times of single evaluations instead, beside those written by hand.
 
 mod by_hand;
+#[path = "../../../examples/work_precision/frontier.rs"]
 mod frontier;
 mod peers;
 #[path = "../../../examples/work_precision/problems.rs"]
