@@ -82,7 +82,7 @@ fn orders_are_4_6_8_and_12() {
         (&Tableau::TWO, [100.0, 200.0], [100.0, 200.0]),
         (&Tableau::THREE, [60.0, 120.0], [60.0, 120.0]),
         (&Tableau::FOUR, [32.0, 64.0], [16.0, 32.0]),
-        (&Tableau::SIX, [16.0, 26.0], [8.0, 12.0]),
+        (&Tableau::SIX, [16.0, 26.0], [5.0, 9.0]),
     ] {
         let order = 2.0 * tableau.stages() as f64;
         for found in
@@ -289,10 +289,12 @@ fn evaluations_are_counted() {
     // Arithmetic alone, the same everywhere. Fixed-point: one at the start, then stages times iterations.
     let of = |tableau, step| run(rigid_body, tableau, (0.0, SPIN), 20.0, step).statistics();
     assert_eq!(of(&Tableau::TWO, 0.1), Statistics { steps: 200, rejected: 0, evaluations: 3389 });
-    assert_eq!(of(&Tableau::THREE, 0.1), Statistics { steps: 200, rejected: 0, evaluations: 4348 });
-    assert_eq!(of(&Tableau::THREE, 0.4), Statistics { steps: 50, rejected: 0, evaluations: 1648 });
+    assert_eq!(of(&Tableau::THREE, 0.1), Statistics { steps: 200, rejected: 0, evaluations: 4357 });
+    assert_eq!(of(&Tableau::THREE, 0.4), Statistics { steps: 50, rejected: 0, evaluations: 1624 });
+    assert_eq!(of(&Tableau::FOUR, 0.4), Statistics { steps: 50, rejected: 0, evaluations: 1877 });
+    assert_eq!(of(&Tableau::SIX, 0.4), Statistics { steps: 50, rejected: 0, evaluations: 2485 });
     // Newton: the three of a Jacobian now and then.
     let stiff = run(van_der_pol, &Tableau::THREE, (0.0, [2.0, -2.0 / 3.0]), 0.5, 0.01);
     assert!(stiff.is_stiff());
-    assert_eq!(stiff.statistics(), Statistics { steps: 50, rejected: 0, evaluations: 1828 });
+    assert_eq!(stiff.statistics(), Statistics { steps: 50, rejected: 0, evaluations: 1771 });
 }
