@@ -6,8 +6,6 @@ use affine_runtime::capability::InLanes;
 use affine_runtime::prelude::*;
 use affine_runtime::report::WorkPrecision;
 
-use crate::frontier::least_cost;
-
 /// Orders of splitting, all there are.
 const ORDERS: [usize; 4] = [2, 4, 6, 8];
 /// Numbers of stages of Gauss collocation, all there are.
@@ -43,9 +41,6 @@ pub(crate) struct Curve {
 pub(crate) struct Curves {
     /// [`Method::Automatic`].
     pub(crate) automatic: Curve,
-    /// [`Method::RungeKutta8`], whose evaluations are those of the equations as for Gauss collocation; those of a Taylor
-    /// series are of all its coefficients.
-    pub(crate) explicit: Curve,
     /// Every order.
     pub(crate) splitting: Vec<Curve>,
     /// Every number of stages.
@@ -59,7 +54,6 @@ impl<M: InLanes<3>> Motion<'_, M> {
     /// Those of settings. A run that stops on its way is left out.
     pub(crate) fn curves(&self) -> affine_runtime::Result<Curves> {
         let automatic = self.over_tolerances("automatic", Method::Automatic)?;
-        let explicit = self.over_tolerances("Runge-Kutta 8", Method::RungeKutta8)?;
         let most = HOPELESS * automatic.evaluations.iter().map(|(_, n)| *n as u64).max().unwrap_or(0);
         let mut splitting = Vec::new();
         for order in ORDERS {
@@ -71,10 +65,14 @@ impl<M: InLanes<3>> Motion<'_, M> {
             let name = format!("Gauss {}", 2 * stages);
             gauss.push(self.over_steps(name, most, |step| Method::Gauss { stages, step })?);
         }
-        Ok(Curves { automatic, explicit, splitting, gauss })
+        Ok(Curves { automatic, splitting, gauss })
     }
 
-    fn over_tolerances(&self, name: &str, method: Method) -> affine_runtime::Result<Curve> {
+    /// A method over tolerances, two for each power of ten.
+    ///
+    /// # Errors
+    /// Those of settings.
+    pub(crate) fn over_tolerances(&self, name: &str, method: Method) -> affine_runtime::Result<Curve> {
         let mut curve = Curve::new(name.to_owned());
         for k in 2..=29 {
             curve.add(self.measured(method, 10f64.powf(-0.5 * f64::from(k)))?);
@@ -134,9 +132,4 @@ impl Curve {
             self.seconds.push((error, seconds));
         }
     }
-}
-
-/// The least run time of some methods at an error.
-pub(crate) fn least_seconds(curves: &[Curve], error: f64) -> Option<f64> {
-    curves.iter().filter_map(|curve| least_cost(&curve.seconds, error)).min_by(f64::total_cmp)
 }

@@ -11,6 +11,9 @@
 mod by_hand;
 #[path = "../../../examples/work_precision/equal_steps.rs"]
 mod equal_steps;
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::expect_used)]
+mod evaluations;
 #[path = "../../../examples/work_precision/frontier.rs"]
 mod frontier;
 mod peers;
@@ -130,7 +133,7 @@ impl Visitor for Comparison {
         let pairs: Vec<(f64, f64)> = runs.map(|run| (run.error, run.time.as_secs_f64())).collect();
         self.rows.push(ratios(name, &ours, &pairs));
         let motion = Motion { model, ends: [start, end], t_end, repeats: (5, Duration::from_millis(20)) };
-        let Curves { automatic, splitting, gauss, .. } = motion.curves()?;
+        let Curves { automatic, splitting, gauss } = motion.curves()?;
         for (method, curves) in [("automatic", vec![automatic]), ("splitting", splitting), ("Gauss", gauss)] {
             let runs: Vec<(f64, f64)> = curves.iter().flat_map(|curve| curve.seconds.clone()).collect();
             self.rows.push(ratios(&format!("  {method}"), &runs, &pairs));
