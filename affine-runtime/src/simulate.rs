@@ -210,14 +210,15 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     }
 
     /// Output at exactly these times, in the direction of time. Without it and without [`every`](Self::every): at
-    /// every accepted step, start and end included; a closed form has no steps, and gives 101 equidistant times.
+    /// every accepted step, start and end included; a closed form has no steps, and gives 101 equidistant times, or start and
+    /// end where the interval is as short as the rounding of times.
     #[must_use]
     pub fn output(mut self, times: impl IntoIterator<Item = f64>) -> Self {
         self.settings.plan.output = Output::At(times.into_iter().collect());
         self
     }
 
-    /// Output at the start, then at every `dt > 0` of elapsed time, and at the end.
+    /// Output at the start, then at every `dt > 0` of elapsed time, and at the end; at most 1e8 times.
     #[must_use]
     pub fn every(mut self, dt: f64) -> Self {
         self.settings.plan.output = Output::Every(dt);

@@ -78,7 +78,8 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta<P, S, F> {
     /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`].
     ///
     /// # Errors
-    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite.
+    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite; [`Failure::Time`] for an interval and
+    /// [`Failure::Tolerance`] for a tolerance that make no sense.
     pub fn new(
         f: F,
         groups: &'static [Group],

@@ -80,6 +80,13 @@ pub enum Reason {
         /// That number.
         limit: u64,
     },
+    /// The function of an event is not a number, so that nothing is known of its sign.
+    Event {
+        /// Name of the event.
+        event: &'static str,
+        /// The time.
+        t: f64,
+    },
     /// The point that an event should have been changed to is none.
     Change {
         /// Name of the event.
@@ -328,6 +335,11 @@ impl fmt::Display for Reason {
                 f,
                 "the largest number of steps, {limit}, is used up: raise it with `.max_steps(n)`, loosen the \
                  tolerance, or, if the model is stiff, soften what makes it so"
+            ),
+            Reason::Event { event, t } => write!(
+                f,
+                "the function of the event `{event}` is NaN at t = {t}: it has a sign at every phase point of the run; \
+                 give it a number where it is undefined, a constant where the event cannot happen"
             ),
             Reason::Change { event } => {
                 write!(f, "the event `{event}` should change the phase point, and its function gave an error")

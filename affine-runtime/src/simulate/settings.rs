@@ -75,6 +75,9 @@ impl Plan {
                 return Err(Setting::Time { name, given });
             }
         }
+        if !(t_end - self.t0).is_finite() {
+            return Err(Setting::Time { name: "the length of the interval", given: t_end - self.t0 });
+        }
         if !(FINEST_TOLERANCE..1.0).contains(&self.tolerance) {
             return Err(Setting::Tolerance { given: self.tolerance });
         }
