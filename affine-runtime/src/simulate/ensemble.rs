@@ -8,6 +8,7 @@ use super::halt::{Setting, Stop};
 use super::layout::placement_in;
 use super::orientation::passes_through_zero;
 use super::point::is_clearly_positive;
+use super::settings::Plan;
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
 use crate::capability::InLanes;
 use crate::lanes::{Lanes, Widest};
@@ -106,7 +107,7 @@ where
     /// Runs the ensemble: one outcome for each start, in their order.
     ///
     /// # Errors
-    /// A [`Setting`] that makes no sense.
+    /// A [`Setting`] that makes no sense, also of an ensemble without bodies.
     pub fn run(self) -> core::result::Result<Ends<M::Point<f64>>, Setting> {
         self.run_in::<Widest>()
     }
@@ -117,8 +118,12 @@ where
     /// # Errors
     /// As [`run`](Self::run).
     pub fn run_in<T: Lanes>(self) -> core::result::Result<Ends<M::Point<f64>>, Setting> {
-        let Some(first) = self.starts.first() else { return Ok(Vec::new()) };
-        let (t_end, _) = self.simulation(*first).settings.checked(&M::DESCRIPTION)?;
+        let Self { t0, t_end, tolerance, max_steps, .. } = self;
+        let plan = Plan { t0, t_end, tolerance, max_steps, ..Plan::default() };
+        let (t_end, _) = plan.checked(&M::DESCRIPTION)?;
+        if self.starts.is_empty() {
+            return Ok(Vec::new());
+        }
         Ok(in_parts(&self.starts, T::LANES, |starts| self.ends::<T>(starts, t_end)))
     }
 

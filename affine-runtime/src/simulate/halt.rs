@@ -164,7 +164,8 @@ pub enum Setting {
         /// The index.
         index: usize,
     },
-    /// The checkpoint is of a run with another model, method, tolerance, interval or number of events.
+    /// The checkpoint is of a run with another model, other parameters, start, method, tolerance, interval, outputs or
+    /// events.
     Checkpoint {
         /// Name of the model.
         model: &'static str,
@@ -262,8 +263,8 @@ impl fmt::Display for Setting {
             }
             Setting::Checkpoint { model } => write!(
                 f,
-                "the checkpoint is not of this run of {model}: resume with the model, method, tolerance, times and events \
-                 of the run that was interrupted"
+                "the checkpoint is not of this run of {model}: resume with the model, its parameters, the start, method, \
+                 tolerance, times, outputs and events of the run that was interrupted"
             ),
             Setting::Step { given, t0, t_end } => write!(
                 f,
