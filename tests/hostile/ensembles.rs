@@ -87,7 +87,7 @@ where
                 assert_eq!(end, expected, "body {k} beside {place}, kind {kind}");
                 continue;
             }
-            let stop = end.as_ref().unwrap_err();
+            let Err(stop) = end else { panic!("kind {kind}: {end:?}") };
             match (stop.reason, determinant) {
                 (Reason::NotFinite, None) => {}
                 (Reason::Placement { determinant, t: 0.0 }, Some(expected)) => {

@@ -17,7 +17,8 @@ impl Sweep for NotANumber {
             // At the start alone: looked at from the next sample on.
             let late = Event::new("late", |t, _: &M::Point<f64>| if t == 0.0 { f64::NAN } else { t - 0.3 });
             let run = arrives(simulation().event(late), 0.5, &label("NaN at the start"));
-            assert!(run.events().is_empty(), "negative before and after a NaN, and positive from 0.3 on");
+            let times: Vec<f64> = run.events().iter().map(|event| event.t).collect();
+            assert!(times.len() == 1 && (times[0] - 0.3).abs() < 1e-9, "{method:?}: {times:?}");
             // From a time on, beside an event that is a number.
             let undefined = |t: f64, _: &M::Point<f64>| if t < 0.25 { -1.0 } else { f64::NAN };
             let sound = Event::new("sound", |t, _: &M::Point<f64>| t - 0.1);
@@ -99,7 +100,7 @@ impl Sweep for Changes {
                     is_named,
                     "{halt}"
                 );
-                assert!((halt.stop.t - 0.2).abs() < 0.2, "{halt}");
+                assert!(halt.stop.t <= 0.2, "{halt}");
             }
             // A function with a memory, which happens without end.
             let sign = Cell::new(1.0);

@@ -8,7 +8,7 @@ use affine_runtime::{Error, Result};
     dim = 2,
     kinetic(casimir2 = a, casimir1_squared = b, body_inertia = i, body_translation = m),
     potential = kappa/2*sinh(q)^2 + c1*(tr(G)*exp(-2*q) - n) + g*x[2],
-    dissipation(casimir2 = r),
+    dissipation(body_inertia = r),
 )]
 #[derive(Clone, Copy)]
 struct Disc {
@@ -57,7 +57,7 @@ fn that_are_numbers() {
         (|kappa| Disc { kappa, ..DISC }, "kappa is finite"),
         (|c1| Disc { c1, ..DISC }, "c1 is finite"),
         (|g| Disc { g, ..DISC }, "g is finite"),
-        (|r| Disc { r, ..DISC }, ">= 0"),
+        (|r| Disc { r, ..DISC }, "r"),
     ];
     assert!(DISC.prepare().is_ok());
     for (with, condition) in cases {

@@ -34,12 +34,13 @@ struct Inverted;
 
 impl Sweep for Inverted {
     fn over<const N: usize, M: Model<N>>(&self, model: &M, start: M::Point<f64>, methods: &[Method]) {
-        let names = M::DESCRIPTION.full.iter();
-        let place: usize = names.take_while(|group| group.name != "phi").map(|group| group.len).sum();
+        // As they stand, the momentum in the frame of the model: what is computed from them would not be finite.
         let placed = |phi: Matrix<N>| {
-            let mut full = model.flatten(&start);
-            (0..N * N).for_each(|k| full.as_mut()[place + k] = phi[(k / N, k % N)]);
-            model.unflatten(&full)
+            let mut entries = Vec::new();
+            start.entries(&mut |entry| entries.push(entry));
+            entries.splice(..N * N, phi.as_slice().iter().copied());
+            let mut entries = entries.into_iter();
+            start.with_entries(&mut || entries.next().unwrap())
         };
         let phi = *start.phi();
         let row = |scale: f64| {

@@ -148,6 +148,10 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
         let tableau = self.step.tableau();
         loop {
             let end = next_time(self.t, self.length, self.t_end);
+            if end == self.t {
+                self.failure = Some(Failure::StepUnderflow);
+                return Err(Failure::StepUnderflow);
+            }
             self.statistics.evaluations += tableau.evaluations();
             let length = (end - self.t).abs();
             let (state, error) = self.attempt(end);

@@ -177,6 +177,10 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         self.begin_next();
         loop {
             let end = next_time(self.step.time(), self.length, self.t_end);
+            if end == self.step.time() {
+                self.failure = Some(Failure::StepUnderflow);
+                return Err(Failure::StepUnderflow);
+            }
             self.statistics.evaluations += P::EVALUATIONS + u64::from(P::NEEDS_END);
             let (reached, mut error) = widest(Trial { integration: self, end });
             if error <= 1.0 {
