@@ -110,17 +110,19 @@ pub fn total_size<const K: usize>(summands: [f64; K]) -> f64 {
 pub fn well_posed(conditions: &[Condition]) -> Result<()> {
     let scale = conditions.iter().map(|c| c.size).fold(0.0, f64::max);
     let threshold = f64::EPSILON * scale;
+    let refused = |c: &Condition, threshold: f64| {
+        let Condition { condition, reason, value, .. } = *c;
+        Err(Error::IllPosed(IllPosed { condition, reason, value, threshold, velocity: None }))
+    };
+    // One that is not finite would be the threshold of the others.
+    if let Some(c) = conditions.iter().find(|c| !c.value.is_finite()) {
+        return refused(c, f64::MAX);
+    }
     for c in conditions {
         let held = if c.positive { c.value } else { c.value.abs() };
-        // NaN holds nothing.
-        if !(held > threshold && held.is_finite()) {
-            return Err(Error::IllPosed(IllPosed {
-                condition: c.condition,
-                reason: c.reason,
-                value: c.value,
-                threshold,
-                velocity: None,
-            }));
+        // A NaN is above nothing.
+        if !held.gt(&threshold) {
+            return refused(c, threshold);
         }
     }
     Ok(())

@@ -195,7 +195,8 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
         self
     }
 
-    /// Time of the end, before or after the start. The end is hit exactly.
+    /// Time of the end, before or after the start, at least 1e-300 away from it or at the same time. The end is hit
+    /// exactly.
     #[must_use]
     pub fn until(mut self, t_end: f64) -> Self {
         self.settings.plan.t_end = Some(t_end);

@@ -76,6 +76,8 @@ where
     bad.push((placed([0.0; 4]), Some(0.0)));
     bad.push((placed([1.0, 2.0, 2.0, 4.0]), Some(0.0)));
     bad.push((placed([-1.0, 0.0, 0.0, 1.0]), Some(-1.0)));
+    // A pinned body has neither x nor p to spoil.
+    bad.retain(|(bad, _)| *bad != good[0]);
     for (kind, (bad, determinant)) in bad.into_iter().enumerate() {
         let place = [0, 1, Widest::LANES - 1, Widest::LANES, BODIES - 1][kind % 5];
         let mut starts = good.to_vec();
@@ -126,7 +128,7 @@ fn with_bad_settings() {
                 assert!(matches!(ensemble().from(t).run().unwrap_err(), Setting::Time { .. }), "{t}");
             }
             let far = ensemble().from(-1e308).until(1e308).run().unwrap_err();
-            assert!(matches!(far, Setting::Time { name: "the length of the interval", .. }));
+            assert_eq!(far, Setting::Interval { t0: -1e308, t_end: 1e308 });
             assert_eq!(ensemble().max_steps(0).run().unwrap_err(), Setting::NoSteps);
             assert_eq!(Ensemble::new(&Disc, starts.clone()).run().unwrap_err(), Setting::NoEnd);
         }
@@ -147,7 +149,7 @@ fn over_extreme_intervals() {
             assert_eq!(end.as_ref().unwrap(), start);
         }
         for (from, until) in
-            [(1e6, 1e6_f64.next_up()), (1e6, 1e6_f64.next_down()), (0.0, 5e-324), (0.0, -1e-300)]
+            [(1e6, 1e6_f64.next_up()), (1e6, 1e6_f64.next_down()), (0.0, 1e-300), (0.0, -1e-300)]
         {
             for (end, start) in over(from, until).iter().zip(&starts) {
                 assert!((end.as_ref().unwrap().phi() - start.phi()).norm() < 1e-8, "{from} {until:e}");

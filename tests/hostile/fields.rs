@@ -57,7 +57,7 @@ fn that_are_numbers() {
         (|kappa| Disc { kappa, ..DISC }, "kappa is finite"),
         (|c1| Disc { c1, ..DISC }, "c1 is finite"),
         (|g| Disc { g, ..DISC }, "g is finite"),
-        (|r| Disc { r, ..DISC }, "r"),
+        (|r| Disc { r, ..DISC }, ">= 0"),
     ];
     assert!(DISC.prepare().is_ok());
     for (with, condition) in cases {

@@ -27,8 +27,13 @@ fn asks() -> Vec<(Ask, Vec<String>)> {
         add(Ask { from: t, ..sound() }, &[&format!("the time of the start is {t}"), "finite"]);
         add(Ask { outputs: Outputs::At(vec![0.1, t]), ..sound() }, &[&format!("an output time is {t}")]);
     }
-    add(Ask { from: -1e308, until: 1e308, ..sound() }, &["the length of the interval is inf"]);
-    add(Ask { from: 1e308, until: -1e308, ..sound() }, &["the length of the interval is -inf"]);
+    for (from, until) in [(-1e308, 1e308), (1e308, -1e308), (0.0, 5e-324), (0.0, -5e-324), (1e-300, 1.5e-300)]
+    {
+        add(
+            Ask { from, until, ..sound() },
+            &[&format!("the interval from {from:e} to {until:e}"), "at least 1e-300"],
+        );
+    }
     add(Ask { max_steps: 0, ..sound() }, &["max_steps(0)"]);
     // 1e-9: five hundred million outputs; all before any memory is taken.
     for dt in [0.0, -0.0, -0.1, 1e-9, 1e-300, 5e-324].into_iter().chain(NO_NUMBERS) {

@@ -144,7 +144,7 @@ pub(crate) fn arrives<const N: usize, M: Model<N>>(
     let label = format!("{} {label}", M::DESCRIPTION.name);
     let run = simulation.run().unwrap_or_else(|halt| panic!("{label}: {halt}"));
     assert_eq!(run.end().0.to_bits(), until.to_bits(), "{label}");
-    let direction = until - run.start().0;
+    let direction = (until - run.start().0).signum();
     assert!(run.times().windows(2).all(|w| (w[1] - w[0]) * direction > 0.0), "{label}: {:?}", run.times());
     run
 }

@@ -63,6 +63,14 @@ pub enum Reason {
         /// The time of that placement.
         t: f64,
     },
+    /// The closed form at a time so late that rounding alone turns the body by a radian, or stretches it by a factor of
+    /// `e`: `eps rate (t - t0) >= 1`.
+    Unresolved {
+        /// What angles and log-stretches grow by in a unit of time, at most: [`Geodesic::rate`](crate::geodesic::Geodesic::rate).
+        rate: f64,
+        /// The time.
+        t: f64,
+    },
     /// The error stays above the tolerance however short the step.
     StepUnderflow {
         /// The tolerance.
@@ -117,6 +125,13 @@ pub enum Setting {
         name: &'static str,
         /// Its value.
         given: f64,
+    },
+    /// The interval is so short, or so long, that numbers in it are not: its length is 0, or at least 1e-300 and a double.
+    Interval {
+        /// Start of the interval.
+        t0: f64,
+        /// End of the interval.
+        t_end: f64,
     },
     /// The tolerance is not in `1e-15 <= eps < 1`.
     Tolerance {
@@ -220,6 +235,11 @@ impl fmt::Display for Setting {
         match self {
             Setting::NoEnd => f.write_str("no end time: a run needs one; say `.until(t_end)`"),
             Setting::Time { name, given } => write!(f, "{name} is {given}: times are finite numbers"),
+            Setting::Interval { t0, t_end } => write!(
+                f,
+                "the interval from {t0:e} to {t_end:e}: its length is 0, or at least 1e-300 and at most 1.7e308; choose \
+                 another unit of time"
+            ),
             Setting::Tolerance { given } => write!(
                 f,
                 "tolerance {given:e}: it is a relative error per step, at least 1e-15 (what rounding leaves of \
@@ -320,6 +340,11 @@ impl fmt::Display for Reason {
                 "q = {q} at t = {t}: Runge-Kutta-Nystrom steps and splitting compute det phi, which with its inverse is in \
                  the range of numbers for |q| below 354, n = 2, and 236, n = 3; the other methods carry q or 1/D \
                  along and hold beyond it, or choose a unit of length in which the body is nearer to its size"
+            ),
+            Reason::Unresolved { rate, t } => write!(
+                f,
+                "at t = {t:e} angles of the closed form, which grow by {rate:e} in a unit of time, have no digit left: \
+                 a double has sixteen; end the run before, or start it anew from a later point"
             ),
             Reason::StepUnderflow { tolerance } => write!(
                 f,

@@ -15,6 +15,9 @@ use crate::model::{Constraint, Description};
 /// The finest tolerance: about four roundings.
 const FINEST_TOLERANCE: f64 = 1e-15;
 
+/// The shortest interval that is not empty: quotients by its steps are numbers.
+const SHORTEST_INTERVAL: f64 = 1e-300;
+
 /// What a simulation was told.
 pub(super) struct Settings<'a, const N: usize, P> {
     pub(super) start: P,
@@ -74,8 +77,9 @@ impl Plan {
                 return Err(Setting::Time { name, given });
             }
         }
-        if !(t_end - self.t0).is_finite() {
-            return Err(Setting::Time { name: "the length of the interval", given: t_end - self.t0 });
+        let length = (t_end - self.t0).abs();
+        if !length.is_finite() || length > 0.0 && length < SHORTEST_INTERVAL {
+            return Err(Setting::Interval { t0: self.t0, t_end });
         }
         if !(FINEST_TOLERANCE..1.0).contains(&self.tolerance) {
             return Err(Setting::Tolerance { given: self.tolerance });

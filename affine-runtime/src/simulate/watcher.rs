@@ -55,6 +55,9 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
     ) -> Result<Vec<Met<P>>, Reason> {
         let mut met = Vec::new();
         let begin = self.t;
+        if t_end == begin {
+            return Ok(met);
+        }
         let sign = if t_end < begin { -1.0 } else { 1.0 };
         for part in 1..=parts {
             let t = match part == parts {
