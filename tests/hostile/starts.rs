@@ -127,3 +127,31 @@ fn of_a_confined_body() {
     // A mirror is orthogonal and no rotation.
     assert_eq!(refused(Top.at_velocity(x, -Matrix::<3>::identity(), still, turn), "a mirror"), "det phi");
 }
+
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1, space_translation = 2),
+    potential = 3*x[2]*t + x[1]*sin(t)^3,
+    emit(nystrom),
+)]
+struct Pushed;
+
+/// A force that is zero at the start says nothing about the length of the first step: x_2 = -t^3/4 from rest.
+#[test]
+fn at_rest_and_pushed_later() {
+    let (zero, unit) = (Vector::<2>::zeros(), Matrix::<2>::identity());
+    let start = Pushed.at_momentum(zero, unit, zero, TwoPoint(Matrix::<2>::zeros())).unwrap();
+    for method in [
+        Method::Automatic,
+        Method::RungeKutta8,
+        Method::RungeKutta5,
+        Method::RungeKuttaNystrom8,
+        Method::RungeKuttaNystrom12,
+        Method::Gauss { stages: 3, step: 0.01 },
+    ] {
+        let run = Simulation::new(&Pushed, start).until(1.0).tolerance(1e-9).max_steps(200).method(method);
+        let run = run.run().unwrap_or_else(|halt| panic!("{method:?}: {halt}"));
+        assert!((run.end().1.x()[1] + 0.25).abs() < 1e-9, "{method:?}: {}", run.end().1.x());
+        assert!(run.times().windows(2).all(|w| w[1] > w[0]), "{method:?}");
+    }
+}
