@@ -5,7 +5,7 @@ use std::cell::Cell;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::{Reason, Setting};
 
-use crate::sweep::{Ask, Sweep, arrives, refused, sound, stops, sweep};
+use crate::sweep::{Ask, Outputs, Sweep, arrives, refused, sound, stops, sweep};
 
 struct NotANumber;
 
@@ -21,8 +21,8 @@ impl Sweep for NotANumber {
             assert!(times.len() == 1 && (times[0] - 0.3).abs() < 1e-9, "{method:?}: {times:?}");
             // From a time on, beside an event that is a number.
             let undefined = |t: f64, _: &M::Point<f64>| if t < 0.25 { -1.0 } else { f64::NAN };
-            let sound = Event::new("sound", |t, _: &M::Point<f64>| t - 0.1);
-            let run = simulation().event(sound).event(Event::new("undefined", undefined).stop());
+            let good = Event::new("good", |t, _: &M::Point<f64>| t - 0.1);
+            let run = simulation().event(good).event(Event::new("undefined", undefined).stop());
             let halt = stops(run, &label("NaN from 0.25 on"));
             let Reason::Event { event: "undefined", t } = halt.stop.reason else {
                 panic!("{method:?}: {halt}")
@@ -38,6 +38,10 @@ impl Sweep for NotANumber {
             assert!(matches!(halt.stop.reason, Reason::Event { .. }), "{halt}");
             let halt = stops(simulation().event(Event::determinant(f64::NAN)), &label("det phi = NaN"));
             assert!(matches!(halt.stop.reason, Reason::Event { event: "det phi", .. }), "{halt}");
+            // At an output, which is recorded once.
+            let ask = Ask { outputs: Outputs::Every(0.125), ..sound() };
+            let run = ask.of(model, start, method).event(Event::new("due", |t, _: &M::Point<f64>| t - 0.25));
+            assert_eq!(arrives(run, 0.5, &label("an event at an output")).len(), 5, "{method:?}");
             // Infinities have a sign.
             let jump = |t: f64, _: &M::Point<f64>| if t < 0.3 { f64::NEG_INFINITY } else { f64::INFINITY };
             let run =

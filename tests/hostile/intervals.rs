@@ -93,3 +93,46 @@ impl StepLength for Method {
 fn that_no_run_comes_to_the_end_of() {
     sweep(Endless);
 }
+
+/// An end between two steps, and more steps than are allowed.
+struct Unfinished;
+
+impl Sweep for Unfinished {
+    fn over<const N: usize, M: Model<N>>(&self, model: &M, start: M::Point<f64>, methods: &[Method]) {
+        let exact = |until: f64| {
+            let run = Simulation::new(model, start).until(until).tolerance(1e-13).method(Method::RungeKutta8);
+            *run.run().unwrap().end().1
+        };
+        for &method in methods.iter().filter(|method| method.step_length().is_some()) {
+            for until in [0.1, -0.1] {
+                // Fourteen steps of 0.007 and a rest: fifteen equal ones.
+                let method = with_step(method, 0.007);
+                let ask = Ask { until, outputs: Outputs::Every(0.03), ..sound() };
+                let run = arrives(ask.of(model, start, method), until, &format!("{method:?}"));
+                assert_eq!((run.statistics().steps, run.len()), (15, 5), "{method:?}");
+                let off = apart(model, run.end().1, &exact(until));
+                assert!(off < 1e-4, "{method:?}: {off:e}");
+            }
+            let method = with_step(method, 1e-7);
+            let ask = Ask { max_steps: 10, ..sound() };
+            let halt = stops(ask.of(model, start, method), &format!("{method:?}"));
+            assert_eq!(halt.stop.reason, Reason::StepLimit { limit: 10 }, "{method:?}");
+            assert!(halt.to_string().contains("10, is used up"), "{halt}");
+            assert!((halt.stop.t - 1e-6).abs() < 1e-15, "{method:?}: {halt}");
+        }
+    }
+}
+
+fn with_step(method: Method, step: f64) -> Method {
+    match method {
+        Method::Gauss { stages, .. } => Method::Gauss { stages, step },
+        Method::Rattle { order, .. } => Method::Rattle { order, step },
+        Method::Splitting { order, .. } => Method::Splitting { order, step },
+        other => other,
+    }
+}
+
+#[test]
+fn that_steps_do_not_divide_or_are_too_many_for() {
+    sweep(Unfinished);
+}
