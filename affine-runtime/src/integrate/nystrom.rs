@@ -17,7 +17,7 @@ use super::lie::Sum;
 use super::step_size::{Controller, first_step, next_time, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
-use super::{Failure, Statistics};
+use super::{Failure, Statistics, sound};
 use crate::model::{Group, StateVector};
 use step::{Step, halves, joined};
 
@@ -80,7 +80,8 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
     /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`].
     ///
     /// # Errors
-    /// [`Failure::NotFinite`] where `y0` or the force there is not finite.
+    /// [`Failure::NotFinite`] where `y0` or the force there is not finite; [`Failure::Time`] for an interval and
+    /// [`Failure::Tolerance`] for a tolerance that make no sense.
     pub fn new(
         (system, constants): (R, C),
         tableau: &'static Tableau,
@@ -89,6 +90,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
         t_end: f64,
         tolerance: f64,
     ) -> Result<Self, Failure> {
+        sound(t0, t_end, tolerance)?;
         let slope = |t: f64, y: &S| {
             let [positions, momenta] = halves(y);
             let velocity = system.drift(&constants, &momenta);
@@ -146,6 +148,10 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
         let tableau = self.step.tableau();
         loop {
             let end = next_time(self.t, self.length, self.t_end);
+            if end == self.t {
+                self.failure = Some(Failure::StepUnderflow);
+                return Err(Failure::StepUnderflow);
+            }
             self.statistics.evaluations += tableau.evaluations();
             let length = (end - self.t).abs();
             let (state, error) = self.attempt(end);
