@@ -178,32 +178,35 @@ momentum!(TwoPoint, Canonical);
 /// Inverse by Gauss-Jordan elimination with partial pivoting; not finite where the matrix is singular (phase
 /// points are checked for `det phi > 0` when they are made).
 pub fn inverse<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Matrix<N, T> {
-    let mut left = *matrix;
-    let mut right = Matrix::<N, T>::identity();
+    // In place: columns of the identity take the places of those that are done with. Rows, and places of rows.
+    let mut rows: [[T; N]; N] = core::array::from_fn(|i| core::array::from_fn(|j| matrix[(i, j)]));
+    let mut places: [usize; N] = core::array::from_fn(|i| i);
     for column in 0..N {
-        let mut pivot = column;
         for row in column + 1..N {
-            if left[(row, column)].abs() > left[(pivot, column)].abs() {
-                pivot = row;
+            if rows[row][column].abs() > rows[column][column].abs() {
+                rows.swap(row, column);
+                places.swap(row, column);
             }
         }
-        left.swap_rows(pivot, column);
-        right.swap_rows(pivot, column);
-        let scale = T::one() / left[(column, column)];
-        for k in 0..N {
-            left[(column, k)] *= scale;
-            right[(column, k)] *= scale;
-        }
+        let scale = T::one() / rows[column][column];
+        rows[column][column] = T::one();
+        let head = rows[column].map(|entry| entry * scale);
+        rows[column] = head;
         for row in 0..N {
             if row != column {
-                let factor = left[(row, column)];
-                for k in 0..N {
-                    let (a, b) = (left[(column, k)], right[(column, k)]);
-                    left[(row, k)] -= factor * a;
-                    right[(row, k)] -= factor * b;
+                let factor = rows[row][column];
+                rows[row][column] = T::zero();
+                for (entry, head) in rows[row].iter_mut().zip(head) {
+                    *entry -= factor * head;
                 }
             }
         }
     }
-    right
+    let mut inverse = Matrix::<N, T>::zeros();
+    for (row, entries) in rows.into_iter().enumerate() {
+        for (place, entry) in places.into_iter().zip(entries) {
+            inverse[(row, place)] = entry;
+        }
+    }
+    inverse
 }

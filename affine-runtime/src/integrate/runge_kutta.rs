@@ -18,6 +18,7 @@ pub use step::{Dense, OneStep, Step};
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, IN_RANGE, sum_of_squares};
+use super::finite::is_finite;
 use super::lie::{Coordinates, Flat, Sum};
 use super::packed::Packing;
 use super::step_size::{Controller, next_time, shortest};
@@ -27,7 +28,7 @@ use super::taylor::{Portable, Vectors};
 use super::widest::{Work, widest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
-use start::{Start, is_finite};
+use start::Start;
 
 /// The method of Dormand and Prince of order 8.
 ///
@@ -173,11 +174,18 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         if self.is_finished() {
             return Ok(());
         }
+        widest(Advance(self))
+    }
+
+    /// One accepted step, all of it on the vectors of a processor: what is done between two steps is as long as an
+    /// evaluation or two.
+    #[inline(always)]
+    fn accepted(&mut self, vectors: impl Vectors) -> Result<(), Failure> {
         self.begin_next();
         loop {
             let end = next_time(self.step.time(), self.length, self.t_end);
             self.statistics.evaluations += P::EVALUATIONS + u64::from(P::NEEDS_END);
-            let (reached, mut error) = widest(Trial { integration: self, end });
+            let (reached, mut error) = self.attempt(vectors, end);
             if error <= 1.0 {
                 if !P::NEEDS_END {
                     self.statistics.evaluations += 1;
@@ -275,6 +283,7 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
     }
 
     /// Turns to the next step, in coordinates around the state reached.
+    #[inline(always)]
     fn begin_next(&mut self) {
         let origin = self.coordinates.origin(&self.end).value;
         let velocity = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
@@ -327,18 +336,15 @@ fn scaled_error<P: Pair>(slopes: [&[f64]; 2]) -> f64 {
     largest * P::error((squares[0], squares[1]))
 }
 
-/// A step of an integration to the time `end`.
-struct Trial<'a, P, S, F, C, L> {
-    integration: &'a mut RungeKutta<P, S, F, C, L>,
-    end: f64,
-}
+/// An accepted step of an integration.
+struct Advance<'a, P, S, F, C, L>(&'a mut RungeKutta<P, S, F, C, L>);
 
 impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>> Work
-    for Trial<'_, P, S, F, C, L>
+    for Advance<'_, P, S, F, C, L>
 {
-    type Output = (Sum<S>, f64);
+    type Output = Result<(), Failure>;
     #[inline(always)]
-    fn run(self, vectors: impl Vectors) -> (Sum<S>, f64) {
-        self.integration.attempt(vectors, self.end)
+    fn run(self, vectors: impl Vectors) -> Result<(), Failure> {
+        self.0.accepted(vectors)
     }
 }

@@ -6,6 +6,7 @@ use crate::integrate::lie::{Coordinates, Flat, Sum};
 use crate::integrate::packed::{self, Packing};
 use crate::integrate::stages;
 use crate::integrate::taylor::Vectors;
+use crate::integrate::widest::{Work, widest};
 use crate::model::StateVector;
 use crate::scalar::Scalar;
 
@@ -92,8 +93,7 @@ pub struct InVectors<R, K>(pub R, pub K);
 impl<S: StateVector<f64>, K, R: Packing<S, K>> Field<S, Flat, R::Packed> for InVectors<R, K> {
     #[inline(always)]
     fn rate(&self, t: f64, y: &S) -> S {
-        let Self(packing, constants) = self;
-        packing.unpacked(&packing.slope(crate::integrate::taylor::Portable, t, constants, &packing.packed(y)))
+        widest(Evaluation { field: self, t, y })
     }
     #[inline(always)]
     fn stored(&self, z: &S) -> R::Packed {
@@ -112,6 +112,22 @@ impl<S: StateVector<f64>, K, R: Packing<S, K>> Field<S, Flat, R::Packed> for InV
         let Self(packing, constants) = self;
         let slope = packing.slope(vectors, t, constants, z);
         (packing.unpacked(&slope), slope)
+    }
+}
+
+/// `f(t, y)` by itself.
+struct Evaluation<'a, R, K, S> {
+    field: &'a InVectors<R, K>,
+    t: f64,
+    y: &'a S,
+}
+
+impl<S: StateVector<f64>, K, R: Packing<S, K>> Work for Evaluation<'_, R, K, S> {
+    type Output = S;
+    #[inline(always)]
+    fn run(self, vectors: impl Vectors) -> S {
+        let InVectors(packing, constants) = self.field;
+        packing.unpacked(&packing.slope(vectors, self.t, constants, &packing.packed(self.y)))
     }
 }
 
