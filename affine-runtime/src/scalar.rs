@@ -158,6 +158,11 @@ macro_rules! primitive {
             const EPSILON: Self = <$type>::EPSILON;
 
             fn hypot(self, other: Self) -> Self {
+                let squares = self * self + other * other;
+                // Neither overflow nor a square that has lost digits to underflow and counts.
+                if (squares < <$type>::MAX / 2.0) & (squares > <$type>::MIN_POSITIVE / <$type>::EPSILON) {
+                    return Scalar::sqrt(squares);
+                }
                 $hypot(self, other)
             }
             fn is_finite(self) -> bool {

@@ -296,14 +296,15 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
     fn error(&self, vectors: impl Vectors, reached: &S) -> f64 {
         let stages = self.field.stages(vectors, self.coordinates, &self.begin);
         let (first, second) = self.step.error_slopes(&stages);
-        let [first, second] =
-            [first, second].map(|slope| self.coordinates.change(&self.begin, &self.field.read(&slope)));
+        // One by one: what arrays are mapped by is not compiled for the vectors of the processor.
+        let first = self.coordinates.change(&self.begin, &self.field.read(&first));
+        let second = self.coordinates.change(&self.begin, &self.field.read(&second));
         let before = self.begin.value.as_ref();
         let after = reached.as_ref();
         let relative = self.error_norm.largest(self.step.length().abs(), before, after, |range| {
-            let slopes = [&first, &second].map(|slopes| &slopes.as_ref()[range.clone()]);
-            let [first, second] = slopes.map(sum_of_squares);
-            if IN_RANGE.contains(&first) { P::error((first, second)) } else { scaled_error::<P>(slopes) }
+            let slopes = [&first.as_ref()[range.clone()], &second.as_ref()[range]];
+            let squares = (sum_of_squares(slopes[0]), sum_of_squares(slopes[1]));
+            if IN_RANGE.contains(&squares.0) { P::error(squares) } else { scaled_error::<P>(slopes) }
         });
         self.step.length().abs() * relative / self.tolerance
     }

@@ -17,7 +17,7 @@ use crate::integrate::lie::{Chart, Coordinates, Flat};
 use crate::integrate::nystrom::Tableau;
 use crate::integrate::packed::Packing;
 use crate::integrate::rattle::{Composition, Reaction};
-use crate::integrate::runge_kutta::InVectors;
+use crate::integrate::runge_kutta::{Field, InVectors, Pair, RungeKutta};
 use crate::integrate::{
     Failure, Gauss, Rattle, RungeKutta5, RungeKutta8, RungeKuttaNystrom, Splitting, Taylor,
 };
@@ -177,12 +177,12 @@ fn free<const N: usize, M: Model<N>, R: Packing<M::Reduced<f64>, M::Constants<f6
         Method::RungeKutta5 => {
             let field = InVectors(packing, constants);
             let integration = RungeKutta5::in_vectors(field, groups, begin, t_end, tolerance);
-            follow(integration.map(Explicit::new), (&expand, layout), recorder)
+            follow_with_dense_output(integration, (&expand, layout), recorder)
         }
         _ => {
             let field = InVectors(packing, constants);
             let integration = RungeKutta8::in_vectors(field, groups, begin, t_end, tolerance);
-            follow(integration.map(Explicit::new), (&expand, layout), recorder)
+            follow_with_dense_output(integration, (&expand, layout), recorder)
         }
     })
 }
@@ -256,11 +256,11 @@ fn by_equations<const N: usize, S: StateVector<f64>, P: Phase<N>>(
         }
         Method::RungeKutta5 => {
             let integration = RungeKutta5::within(coordinates, equations, groups, begin, t_end, tolerance);
-            follow(integration.map(Explicit::new), (expand, layout), recorder)
+            follow_with_dense_output(integration, (expand, layout), recorder)
         }
         _ => {
             let integration = RungeKutta8::within(coordinates, equations, groups, begin, t_end, tolerance);
-            follow(integration.map(Explicit::new), (expand, layout), recorder)
+            follow_with_dense_output(integration, (expand, layout), recorder)
         }
     }
 }
@@ -297,12 +297,39 @@ fn by_rattle<const N: usize, M: Model<N>>(
 
 /// Follows an integration that has begun.
 fn follow<const N: usize, S: StateVector<f64>, P: Phase<N>>(
-    integration: Result<impl Stepper<S>, Failure>,
+    mut integration: Result<impl Stepper<S>, Failure>,
     (expand, layout): (Expansion<'_, S, P>, Layout),
     recorder: &mut Recorder<'_, '_, N, P>,
 ) -> Result<(), Reason> {
-    let integration = integration.map_err(|failure| recorder.reason(failure))?;
-    recorder.follow(&mut Expanded::new(integration, expand, layout))
+    // Where it is: an integration is some thousand bytes.
+    match &mut integration {
+        Ok(integration) => recorder.follow(&mut Expanded::new(integration, expand, layout)),
+        Err(failure) => Err(recorder.reason(*failure)),
+    }
+}
+
+/// Follows an explicit integration that has begun.
+fn follow_with_dense_output<const N: usize, Q, S, F, C, L, P>(
+    mut integration: Result<RungeKutta<Q, S, F, C, L>, Failure>,
+    (expand, layout): (Expansion<'_, S, P>, Layout),
+    recorder: &mut Recorder<'_, '_, N, P>,
+) -> Result<(), Reason>
+where
+    Q: Pair,
+    S: StateVector<f64>,
+    F: Field<S, C, L>,
+    C: Coordinates<S>,
+    L: StateVector<f64>,
+    P: Phase<N>,
+{
+    match &mut integration {
+        Ok(integration) => {
+            let mut dense = None;
+            let mut explicit = Explicit::new(integration, &mut dense);
+            recorder.follow(&mut Expanded::new(&mut explicit, expand, layout))
+        }
+        Err(failure) => Err(recorder.reason(*failure)),
+    }
 }
 
 /// The chart of the group to which the motion is confined, for states that hold the placement.

@@ -64,8 +64,8 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let Settings { start, plan: Plan { t0, .. }, .. } = self.settings;
         let energy = self.model.hamiltonian(t0, &start);
         Trajectory {
-            description: *self.model.description(),
-            bases: self.model.bases(),
+            description: self.model.description(),
+            bases: self.model.bases().map(Box::new),
             start: (t0, start),
             end: (t0, start),
             times: Vec::new(),

@@ -9,7 +9,7 @@ use crate::state::Phase;
 /// Phase points over time, with how they were computed and what they should conserve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory<const N: usize, P> {
-    pub(super) description: Description,
+    pub(super) description: &'static Description,
     pub(super) start: (f64, P),
     pub(super) end: (f64, P),
     pub(super) times: Vec<f64>,
@@ -23,7 +23,7 @@ pub struct Trajectory<const N: usize, P> {
     pub(super) stopped_by: Option<&'static str>,
     pub(super) checkpoint: Option<Checkpoint>,
     /// Bases in which the model's metrics are the identity.
-    pub(super) bases: Option<Bases<N>>,
+    pub(super) bases: Option<Box<Bases<N>>>,
 }
 
 /// How a trajectory was computed.
@@ -161,6 +161,6 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// What was derived about the model.
     #[must_use]
     pub fn description(&self) -> &Description {
-        &self.description
+        self.description
     }
 }
