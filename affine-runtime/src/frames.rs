@@ -191,13 +191,11 @@ pub fn inverse<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Matrix<N, T> {
 /// what it is at most, and in the range of numbers.
 fn by_cofactors<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Option<Matrix<N, T>> {
     let of = |i: usize, j: usize| matrix[(i % 3, j % 3)];
-    let cofactor = |i: usize, j: usize| {
-        of(i + 1, j + 1) * of(i + 2, j + 2) - of(i + 1, j + 2) * of(i + 2, j + 1)
-    };
+    let cofactor =
+        |i: usize, j: usize| of(i + 1, j + 1) * of(i + 2, j + 2) - of(i + 1, j + 2) * of(i + 2, j + 1);
     let squares = matrix.iter().fold(T::zero(), |sum, entry| sum + *entry * *entry);
     let cofactors: [[T; 3]; 3] = core::array::from_fn(|i| core::array::from_fn(|j| cofactor(i, j)));
-    let determinant =
-        of(0, 0) * cofactors[0][0] + of(0, 1) * cofactors[0][1] + of(0, 2) * cofactors[0][2];
+    let determinant = of(0, 0) * cofactors[0][0] + of(0, 1) * cofactors[0][1] + of(0, 2) * cofactors[0][2];
     let (size, least) = (squares * squares * squares, T::from_f64(WELL_CONDITIONED));
     let is_plain = determinant * determinant > least * size && size > T::from_f64(1e-200);
     is_plain.then(|| Matrix::from_fn(|i, j| cofactors[j][i] / determinant))

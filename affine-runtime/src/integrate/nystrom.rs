@@ -254,7 +254,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
                 None => norm(&positions.as_ref()[range]),
             }
         });
-        (after, h * largest / self.tolerance)
+        (after, h / self.tolerance * largest)
     }
 
     /// The state with positions and momenta at the end of the step.

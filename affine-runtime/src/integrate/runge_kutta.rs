@@ -25,7 +25,7 @@ use super::step_size::{Controller, next_time, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::taylor::{Portable, Vectors};
-use super::widest::{Work, widest};
+use super::widest::{Work, roomiest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
 use start::Start;
@@ -174,7 +174,7 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         if self.is_finished() {
             return Ok(());
         }
-        widest(Advance(self))
+        roomiest(Advance(self))
     }
 
     /// One accepted step, all of it on the vectors of a processor: what is done between two steps is as long as an
@@ -306,7 +306,7 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
             let squares = (sum_of_squares(slopes[0]), sum_of_squares(slopes[1]));
             if IN_RANGE.contains(&squares.0) { P::error(squares) } else { scaled_error::<P>(slopes) }
         });
-        self.step.length().abs() * relative / self.tolerance
+        self.step.length().abs() / self.tolerance * relative
     }
 }
 

@@ -21,6 +21,12 @@ pub trait Stages<L: StateVector<f64>> {
         stages::combination(stages, row)
     }
 
+    /// `z + h sum_j a_j k_j`, where nothing but the last stage of the row is waited for.
+    #[inline(always)]
+    fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
+        stages::moved(z, h, stages, row)
+    }
+
     /// `z + h rise`.
     #[inline(always)]
     fn plus_multiple(&self, z: &L, h: f64, rise: &L) -> L {
@@ -152,6 +158,16 @@ impl<S, K, R: Packing<S, K>, V: Vectors> Stages<R::Packed> for StagesInVectors<'
         row: &[(usize, f64); TERMS],
     ) -> R::Packed {
         packed::combination(self.vectors, stages, row)
+    }
+    #[inline(always)]
+    fn moved<const TERMS: usize>(
+        &self,
+        z: &R::Packed,
+        h: f64,
+        stages: &[R::Packed],
+        row: &[(usize, f64); TERMS],
+    ) -> R::Packed {
+        packed::moved(self.vectors, (z, h), stages, row)
     }
     #[inline(always)]
     fn plus_multiple(&self, z: &R::Packed, h: f64, rise: &R::Packed) -> R::Packed {

@@ -138,11 +138,29 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         if node != 1.0 {
             time = self.clocks.t + T::constant(node, 0.0) * h;
         }
-        self.moved(simd, h, row);
+        self.at_stage(simd, h, row);
         self.f.slope(time, &self.trial, &mut self.stages[NUMBER - 1]);
     }
 
-    /// The trial states at the stage of a row.
+    /// The trial states at the stage of a row: the last one enters last.
+    #[inline(always)]
+    fn at_stage<V: Simd, const TERMS: usize>(&mut self, simd: V, h: T, row: &[(usize, f64); TERMS]) {
+        let [ref earlier @ .., (last, newest)] = row[..] else { return };
+        for k in 0..parts::<V, T>() {
+            let h = part(simd, &h, k);
+            let of_newest = simd.mul_f64s(h, simd.splat_f64s(newest));
+            for i in 0..S::LEN {
+                let mut at = part(simd, &self.y.as_ref()[i], k);
+                if !earlier.is_empty() {
+                    at = plus(simd, combination(simd, &self.stages, (i, k), earlier), h, at);
+                }
+                let slope = part(simd, &self.stages[last - 1].as_ref()[i], k);
+                set_part(simd, &mut self.trial.as_mut()[i], k, plus(simd, slope, of_newest, at));
+            }
+        }
+    }
+
+    /// The trial states at the end of the step, rounded once.
     #[inline(always)]
     fn moved<V: Simd, const TERMS: usize>(&mut self, simd: V, h: T, row: &[(usize, f64); TERMS]) {
         for k in 0..parts::<V, T>() {
@@ -189,7 +207,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
             }
             largest = self.norm.larger(simd, largest, (g, group, range), value, (h, before, after));
         }
-        (h * largest / T::constant(self.tolerance, 0.0), doubt)
+        (h / T::constant(self.tolerance, 0.0) * largest, doubt)
     }
 
     /// Accepts the steps with errors of at most 1 whose slopes at the end are finite; what becomes of the lanes.
@@ -227,11 +245,11 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
 
 /// Component `i` of the slopes in a vector of lanes, each times the coefficient that a row has for it.
 #[inline(always)]
-fn combination<V: Simd, T: Lanes, S: StateVector<T>, const TERMS: usize>(
+fn combination<V: Simd, T: Lanes, S: StateVector<T>>(
     simd: V,
     stages: &[S; STAGES],
     (i, k): (usize, usize),
-    row: &[(usize, f64); TERMS],
+    row: &[(usize, f64)],
 ) -> V::f64s {
     let mut sum = simd.splat_f64s(0.0);
     for (term, (stage, coefficient)) in row.iter().enumerate() {
