@@ -245,14 +245,23 @@ fn scaled_norm(components: impl Iterator<Item = f64> + Clone) -> f64 {
 /// Sum of squares: of every fourth component first, so that none of four additions waits for another.
 #[inline(always)]
 pub(crate) fn sum_of_squares(components: &[f64]) -> f64 {
+    // Groups are short, and a loop over a few numbers takes longer to begin than they do.
+    let squares = |four: &[f64; 4]| [square(four[0]), square(four[1]), square(four[2]), square(four[3])];
     let (fours, rest) = components.as_chunks::<4>();
-    let mut sums = [0.0; 4];
-    for four in fours {
-        for (sum, v) in sums.iter_mut().zip(four) {
-            *sum += square(*v);
-        }
+    let plus = |a: [f64; 4], b: [f64; 4]| [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]];
+    let [a, b, c, d] = match fours {
+        [] => [0.0; 4],
+        [only] => squares(only),
+        [first, second] => plus(squares(first), squares(second)),
+        _ => fours.iter().fold([0.0; 4], |sums, four| plus(sums, squares(four))),
+    };
+    let sum = (a + c) + (b + d);
+    match *rest {
+        [] => sum,
+        [x] => sum + square(x),
+        [x, y] => (sum + square(x)) + square(y),
+        _ => rest.iter().fold(sum, |sum, v| sum + square(*v)),
     }
-    rest.iter().fold((sums[0] + sums[2]) + (sums[1] + sums[3]), |sum, v| sum + square(*v))
 }
 
 #[inline(always)]

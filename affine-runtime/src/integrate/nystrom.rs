@@ -19,7 +19,7 @@ use super::step_size::{Controller, first_step, next_time, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::taylor::Vectors;
-use super::widest::{Work, widest};
+use super::widest::{Work, roomiest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
 use step::{Step, halves, joined};
@@ -144,7 +144,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
         if self.is_finished() {
             return Ok(());
         }
-        widest(Advance(self))
+        roomiest(Advance(self))
     }
 
     /// One accepted step, all of it on the vectors of a processor: what is done between two steps is as long as an

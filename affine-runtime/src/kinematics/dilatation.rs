@@ -53,6 +53,18 @@ pub fn far_from_undeformed<const N: usize, T: Real>(phi: &Matrix<N, T>) -> bool 
     !is_clearly_near && dilatation(phi) * two < T::one()
 }
 
+/// The determinant where it is no difference of numbers that are much larger: above `|matrix|^3/16`, a third of what it is at
+/// most.
+fn well_conditioned_determinant<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Option<T> {
+    let determinant = determinant_by_products(matrix).filter(|_| N == 3)?;
+    let squares = matrix.iter().fold(T::zero(), |sum, entry| sum + *entry * *entry);
+    let size = squares * squares * squares;
+    let is_plain = determinant > T::zero()
+        && determinant * determinant * T::from_f64(256.0) > size
+        && size > T::from_f64(1e-200);
+    is_plain.then_some(determinant)
+}
+
 /// The determinant of two or three rows, where products stay in the range of numbers.
 fn determinant_by_products<const N: usize, T: Real>(phi: &Matrix<N, T>) -> Option<T> {
     let minor = |a: usize, b: usize| phi[(N - 2, a)] * phi[(N - 1, b)] - phi[(N - 2, b)] * phi[(N - 1, a)];
@@ -84,6 +96,9 @@ impl<const N: usize, T: Real> LogDeterminant<N, T> {
         let excess = matrix - Matrix::<N, T>::identity();
         if excess.iter().all(|entry| entry.abs() <= T::from_f64(NEARLY_UNDEFORMED)) {
             return Self { sign: T::one(), mantissa: log_determinant_near_identity(excess), exponent: 0 };
+        }
+        if let Some(determinant) = well_conditioned_determinant(matrix) {
+            return Self::from_product(determinant, 0);
         }
         let (scaled, exponent) = equilibrate(matrix);
         Self::from_product(determinant_by_elimination(scaled), exponent)

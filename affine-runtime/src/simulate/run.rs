@@ -128,7 +128,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
             let place = place.from(origin.0, &origin.1);
             let run = self.settings.plan.fingerprint(description.name, events);
-            recorder.trajectory.checkpoint = Some(Checkpoint { run, place });
+            recorder.trajectory.checkpoint = Some(Box::new(Checkpoint { run, place }));
         }
         outcome
     }

@@ -21,7 +21,7 @@ pub struct Trajectory<const N: usize, P> {
     pub(super) events: Vec<Occurrence<P>>,
     /// Name of the event that ended the run.
     pub(super) stopped_by: Option<&'static str>,
-    pub(super) checkpoint: Option<Checkpoint>,
+    pub(super) checkpoint: Option<Box<Checkpoint>>,
     /// Bases in which the model's metrics are the identity.
     pub(super) bases: Option<Box<Bases<N>>>,
 }
@@ -137,7 +137,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// the factors of a Jacobian.
     #[must_use]
     pub fn checkpoint(&self) -> Option<&Checkpoint> {
-        self.checkpoint.as_ref()
+        self.checkpoint.as_deref()
     }
 
     /// Energies `H` at the output times.
