@@ -50,15 +50,15 @@ pub(super) enum Turn<P> {
 
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Records the start of an integration where it is an output.
-    pub(super) fn begin(&mut self, (t0, start): (f64, P)) -> Result<(), Reason> {
-        self.watcher.begin(t0, &start, self.place.changed_by);
+    pub(super) fn begin(&mut self, t0: f64, start: &P) -> Result<(), Reason> {
+        self.watcher.begin(t0, start, self.place.changed_by);
         if !self.place.integrator.is_empty() {
             return Ok(());
         }
         if self.schedule == Schedule::Steps {
-            self.record_step(t0, (start, 0.0))?;
+            self.record_step(t0, (*start, 0.0))?;
         } else if self.schedule.take_through(t0, self.backward).is_some() {
-            self.record(t0, (start, 0.0))?;
+            self.record(t0, (*start, 0.0))?;
         }
         Ok(())
     }
