@@ -237,3 +237,57 @@ fn by_elimination<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Matrix<N, T
     }
     inverse
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Matrix, by_cofactors, by_elimination, inverse};
+
+    /// Rows about those of a multiple of the identity, with the digits of a few products for entries.
+    fn near_conformal(k: u32, size: f64, spread: f64) -> Matrix<3> {
+        let noise = |i: usize, j: usize| (f64::from(k) * 1.7 + (3 * i + j) as f64 * 2.3).sin() * spread;
+        Matrix::from_fn(|i, j| size * (if i == j { 1.0 + noise(i, j) } else { noise(i, j) }))
+    }
+
+    #[test]
+    fn both_ways_invert() {
+        let mut taken = 0;
+        for k in 0..200 {
+            for (size, spread) in [(1.0, 0.1), (1e-20, 0.5), (1e20, 1.0), (3.0, 2.0)] {
+                let matrix = near_conformal(k, size, spread);
+                let (whole, cofactors) = (inverse(&matrix), by_cofactors(&matrix));
+                let defect = |inverse: Matrix<3>| (inverse * matrix - Matrix::<3>::identity()).norm();
+                let condition = whole.norm() * matrix.norm();
+                taken += u32::from(cofactors.is_some());
+                for found in [Some(by_elimination(&matrix)), cofactors, Some(whole)].into_iter().flatten() {
+                    assert!(defect(found) < 4.0 * condition * f64::EPSILON, "{matrix} {}", defect(found));
+                }
+            }
+        }
+        assert!((200..700).contains(&taken), "each way is taken: {taken}");
+    }
+
+    #[test]
+    fn what_is_exact_stays_so() {
+        let turned = Matrix::<3>::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0);
+        assert_eq!(inverse(&turned), turned.transpose());
+        let swapped = Matrix::<2>::new(0.0, 2.0, 4.0, 0.0);
+        assert_eq!(inverse(&swapped), Matrix::<2>::new(0.0, 0.25, 0.5, 0.0));
+        for diagonal in [[3.0, 5.0, 7.0], [1e-200, 1.0, 1e200], [1e150, 1e-140, 49.0], [1e-90, 1e-90, 2e-90]]
+        {
+            let matrix = Matrix::<3>::from_diagonal(&diagonal.into());
+            let exact = Matrix::<3>::from_diagonal(&diagonal.map(|entry| 1.0 / entry).into());
+            let found = inverse(&matrix);
+            assert!(
+                (0..3).all(|i| (found[(i, i)] / exact[(i, i)] - 1.0).abs() <= f64::EPSILON)
+                    && (found - Matrix::<3>::from_diagonal(&found.diagonal())).norm() == 0.0,
+                "{found}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_singular_matrix_has_no_finite_inverse() {
+        let flat = Matrix::<3>::new(1.0, 2.0, 3.0, 2.0, 4.0, 6.0, 1.0, 0.0, 1.0);
+        assert!(inverse(&flat).iter().any(|entry| !entry.is_finite()));
+    }
+}

@@ -269,3 +269,37 @@ fn power_of_two(exponent: i32) -> f64 {
         libm::ldexp(1.0, exponent)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{LogDeterminant, determinant_by_elimination, equilibrate, well_conditioned_determinant};
+    use crate::frames::Matrix;
+
+    #[test]
+    fn products_are_as_good_as_an_elimination() {
+        let mut taken = 0;
+        for k in 0..400_u32 {
+            let noise = |i: usize, j: usize| (f64::from(k) * 1.3 + (3 * i + j) as f64 * 2.9).sin();
+            let size = [1.0, 1e-25, 1e25, 0.4][k as usize % 4];
+            let matrix = Matrix::<3>::from_fn(|i, j| {
+                size * (0.4 * noise(i, j) + if (i + k as usize) % 3 == j { 1.3 } else { 0.0 })
+            });
+            let Some(determinant) = well_conditioned_determinant(&matrix) else { continue };
+            taken += 1;
+            let (scaled, exponent) = equilibrate(&matrix);
+            let other = LogDeterminant::<3, f64>::from_product(determinant_by_elimination(scaled), exponent);
+            let found = LogDeterminant::<3, f64>::from_product(determinant, 0);
+            let apart = (found.mean() - other.mean()).abs();
+            assert!(apart <= 4.0 * f64::EPSILON * (1.0 + other.mean().abs()), "{matrix} {apart}");
+        }
+        assert!(taken > 100, "{taken}");
+    }
+
+    #[test]
+    fn flat_and_reflected_bodies_are_left_to_the_elimination() {
+        for diagonal in [[1.0, 1.0, 0.1], [1.0, 1.0, -1.0], [1e200, 1e200, 1e200], [1e-80, 1e-80, 1e-80]] {
+            let matrix = Matrix::<3>::from_diagonal(&diagonal.into());
+            assert_eq!(well_conditioned_determinant(&matrix), None, "{diagonal:?}");
+        }
+    }
+}
