@@ -8,6 +8,7 @@ use super::halt::{Setting, Stop};
 use super::layout::placement_in;
 use super::orientation::passes_through_zero;
 use super::point::is_clearly_positive;
+use super::settings::Plan;
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
 use crate::capability::InLanes;
 use crate::lanes::{Lanes, Widest};
@@ -104,7 +105,7 @@ impl<const N: usize, M: Model<N>> Ensemble<'_, N, M> {
     /// Runs the ensemble: one outcome for each start, in their order.
     ///
     /// # Errors
-    /// A [`Setting`] that makes no sense.
+    /// A [`Setting`] that makes no sense, also of an ensemble without bodies.
     pub fn run(self) -> core::result::Result<Ends<M::Point<f64>>, Setting>
     where
         M: InLanes<N> + Sync,
@@ -123,8 +124,12 @@ impl<const N: usize, M: Model<N>> Ensemble<'_, N, M> {
         M: InLanes<N> + Sync,
         M::Point<f64>: Send + Sync,
     {
-        let Some(first) = self.starts.first() else { return Ok(Vec::new()) };
-        let (t_end, _) = self.simulation(*first).settings.checked(&M::DESCRIPTION)?;
+        let Self { t0, t_end, tolerance, max_steps, .. } = self;
+        let plan = Plan { t0, t_end, tolerance, max_steps, ..Plan::default() };
+        let (t_end, _) = plan.checked(&M::DESCRIPTION)?;
+        if self.starts.is_empty() {
+            return Ok(Vec::new());
+        }
         Ok(in_parts(&self.starts, T::LANES, |starts| self.ends::<T>(starts, t_end)))
     }
 }

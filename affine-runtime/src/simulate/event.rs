@@ -41,7 +41,8 @@ type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
 /// them. An even number of roots between two samples is not seen. The time is then located on the dense output of the
 /// step to the rounding of times: it has the error of the dense output over the rate of the function. The event is at
 /// the first floating-point time found at which the sign has changed. A function that is zero or not a number at the
-/// start is looked at from the next sample on.
+/// start is looked at from the next sample on; one that is not a number later, at a phase point that is one, ends the
+/// run, [`Reason::Event`](super::Reason::Event).
 pub struct Event<'a, const N: usize, P> {
     pub(super) name: &'static str,
     pub(super) function: Function<'a, P>,
