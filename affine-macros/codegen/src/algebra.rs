@@ -2,6 +2,7 @@
 
 pub mod arena;
 pub mod bind;
+mod derivative;
 pub mod division;
 pub mod evaluate;
 pub mod factor;
@@ -15,6 +16,7 @@ pub mod residue;
 pub mod ring;
 pub mod root;
 pub mod substitute;
+mod text;
 
 pub use arena::{Arena, Expr};
 pub use function::Function;

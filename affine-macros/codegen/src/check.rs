@@ -8,6 +8,7 @@ mod capabilities;
 mod constant;
 mod constraint;
 mod custom;
+mod definite;
 mod dimension;
 mod dissipation;
 mod forces;
@@ -32,7 +33,8 @@ use crate::diagnostics::{Diagnostics, Reported};
 use crate::spec::Spec;
 
 pub use constant::constant;
-pub use form::{Form, Quantities, eigenvalues, form, signature};
+pub use definite::{eigenvalues, signature};
+pub use form::{Form, Quantities, form};
 pub use mixed::{MixedForm, Positive};
 
 /// The rules that need only what the user wrote.

@@ -4,8 +4,6 @@
 //! integer exponents and no number in it; both are flat, sorted by node, without repetition. Nothing is expanded:
 //! `2*(a + b)` and `2*a + 2*b` are different nodes, and [`Polynomial`](super::Polynomial) decides equality.
 
-use std::fmt::Write as _;
-
 use rustc_hash::FxHashMap;
 
 use super::function::Function;
@@ -310,74 +308,6 @@ impl Arena {
         Some(())
     }
 
-    /// Derivative with respect to a symbol.
-    pub fn derivative(&mut self, expr: Expr, symbol: Expr) -> Expr {
-        if expr == symbol {
-            return self.constant(Rational::ONE);
-        }
-        match self.node(expr).clone() {
-            Node::Constant(_) | Node::Symbol(_) => self.constant(Rational::ZERO),
-            Node::Sum(_, terms) => {
-                let parts: Vec<_> =
-                    terms.into_iter().map(|(term, c)| (self.derivative(term, symbol), c)).collect();
-                self.linear(&parts)
-            }
-            Node::Product(factors) => {
-                let mut parts = Vec::with_capacity(factors.len());
-                for (k, &(base, exponent)) in factors.iter().enumerate() {
-                    let inner = self.derivative(base, symbol);
-                    let mut rest = factors.clone();
-                    rest[k].1 -= 1;
-                    rest.push((inner, 1));
-                    if let Some(part) = self.product(&rest) {
-                        parts.push((part, Rational::from(i64::from(exponent))));
-                    }
-                }
-                self.linear(&parts)
-            }
-            Node::Function(function, argument) => {
-                let inner = self.derivative(argument, symbol);
-                let outer = self.slope(function, argument);
-                self.mul(outer, inner)
-            }
-        }
-    }
-
-    /// `function'` at an argument.
-    fn slope(&mut self, function: Function, argument: Expr) -> Expr {
-        let one = self.constant(Rational::ONE);
-        let value = self.apply(function, argument);
-        // The reciprocals below are of functions and arguments that are no constants.
-        let reciprocal = |arena: &mut Self, of: Expr, exponent: i32, number: (i64, i64)| {
-            let power = arena.pow(of, exponent).unwrap_or(of);
-            arena.scale(power, &Rational::ratio(number.0, number.1).unwrap_or(Rational::ONE))
-        };
-        match function {
-            Function::Exp => value,
-            Function::ExpM1 => self.apply(Function::Exp, argument),
-            Function::Ln => reciprocal(self, argument, -1, (1, 1)),
-            Function::Sqrt => reciprocal(self, value, -1, (1, 2)),
-            Function::Cbrt => reciprocal(self, value, -2, (1, 3)),
-            Function::InverseCbrt => reciprocal(self, value, 4, (-1, 3)),
-            Function::Abs => self.div(argument, value).unwrap_or(one),
-            Function::Sin => self.apply(Function::Cos, argument),
-            Function::Cos => {
-                let sine = self.apply(Function::Sin, argument);
-                self.neg(sine)
-            }
-            Function::Tan => {
-                let square = self.mul(value, value);
-                self.add(one, square)
-            }
-            Function::Sinh => self.apply(Function::Cosh, argument),
-            Function::Cosh => self.apply(Function::Sinh, argument),
-            Function::Tanh => {
-                let square = self.mul(value, value);
-                self.sub(one, square)
-            }
-        }
-    }
-
     /// Calls `visit` once for every symbol below `expr`.
     pub fn for_each_symbol(&self, expr: Expr, visit: &mut impl FnMut(&str)) {
         match self.node(expr) {
@@ -386,68 +316,6 @@ impl Arena {
             Node::Sum(_, terms) => terms.iter().for_each(|(term, _)| self.for_each_symbol(*term, visit)),
             Node::Product(factors) => factors.iter().for_each(|(b, _)| self.for_each_symbol(*b, visit)),
             Node::Function(_, argument) => self.for_each_symbol(*argument, visit),
-        }
-    }
-
-    /// The expression as text in the notation of specifications: `2*a + b^2/3`.
-    #[must_use]
-    pub fn text(&self, expr: Expr) -> String {
-        match self.node(expr) {
-            Node::Constant(value) => value.shown(),
-            Node::Symbol(name) => name.clone(),
-            Node::Sum(constant, terms) => self.sum_text(constant, terms),
-            Node::Product(factors) => self.product_text(factors),
-            Node::Function(function, argument) => format!("{}({})", function.name(), self.text(*argument)),
-        }
-    }
-
-    fn sum_text(&self, constant: &Rational, terms: &[(Expr, Rational)]) -> String {
-        let mut text = String::new();
-        for (term, c) in terms {
-            let sign = if c.is_negative() { "-" } else { "+" };
-            match (text.is_empty(), sign) {
-                (true, "-") => text.push('-'),
-                (true, _) => {}
-                (false, sign) => {
-                    let _ = write!(text, " {sign} ");
-                }
-            }
-            if !c.abs().is_one() {
-                let _ = write!(text, "{}*", c.abs().shown());
-            }
-            match self.node(*term) {
-                Node::Sum(..) => {
-                    let _ = write!(text, "({})", self.text(*term));
-                }
-                _ => text.push_str(&self.text(*term)),
-            }
-        }
-        if !constant.is_zero() {
-            let sign = if constant.is_negative() { "-" } else { "+" };
-            let _ = write!(text, " {sign} {}", constant.abs().shown());
-        }
-        text
-    }
-
-    fn product_text(&self, factors: &[(Expr, i32)]) -> String {
-        let mut above = Vec::new();
-        let mut below = Vec::new();
-        for &(base, exponent) in factors {
-            let body = match self.node(base) {
-                Node::Sum(..) => format!("({})", self.text(base)),
-                _ => self.text(base),
-            };
-            let list = if exponent > 0 { &mut above } else { &mut below };
-            list.push(match exponent.unsigned_abs() {
-                1 => body,
-                power => format!("{body}^{power}"),
-            });
-        }
-        let above = if above.is_empty() { "1".to_owned() } else { above.join("*") };
-        match below.len() {
-            0 => above,
-            1 => format!("{above}/{}", below[0]),
-            _ => format!("{above}/({})", below.join("*")),
         }
     }
 }

@@ -1,20 +1,19 @@
 //! Rules on the kinetic energy as a quadratic form, decided exactly.
 
-use super::written::{Written, eigenvalue_name, matrix_text};
-use super::{dissipation, momentum_side, two_polar};
-use crate::algebra::{Arena, Polynomial};
+use super::{definite, dissipation, momentum_side, two_polar};
+use crate::algebra::Arena;
 use crate::diagnostics::{ConstraintMistake, Diagnostics, FormMistake, Reported};
 use crate::lower;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
-use crate::mechanics::hessian::{Block, Direction, Hessian};
+use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::mixed::Mixed;
 use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
-use crate::spec::{self, Capability, Claim, Named, Requirement, Spec};
+use crate::spec::{Capability, Claim, Named, Spec};
 
 /// A kinetic energy that passed all rules that can be decided before its fields have values.
 pub struct Form {
@@ -101,8 +100,8 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     kinetic.congruent = metrics.as_ref().and_then(|metrics| metrics.congruent(&mut arena, &kinetic, &stated));
     let hessian = Hessian::new(&kinetic);
     nothing_vanishes(spec, std::slice::from_ref(&kinetic), &own_places, found);
-    invertible(spec, &hessian, found);
-    positive(spec, &kinetic, &hessian, found);
+    definite::invertible(spec, &hessian, found);
+    definite::positive(spec, &kinetic, &hessian, found);
     let free = free.map_or_else(|| vec![kinetic.clone()], |free| free.parts());
     for part in &free {
         claims(spec, part, |place| spec.kinetic[places[place]].kind.value.name(), found);
@@ -278,71 +277,6 @@ pub(super) fn potential(
     None
 }
 
-/// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic
-/// form is zero, and a tensor has no kernel. Blocks with fields are left to `prepare()`.
-pub(super) fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics) {
-    let mut reported = Vec::new();
-    for block in &hessian.blocks {
-        let kind = block.basis[0].kind;
-        let vanishes = block.eigenvalue().is_some_and(|e| e.is_zero());
-        if vanishes && kinetic_terms(spec).only_isotropic() && kind != Direction::Entry {
-            if !reported.contains(&kind) {
-                reported.push(kind);
-                found.report(spec.kinetic_key, degenerate(spec, kind));
-            }
-        } else if let Some(kernel) = block.inertia(spec.dim.value).and_then(|inertia| inertia.kernel) {
-            let kernel = matrix_text(spec.dim.value, &kernel);
-            let mistake = FormMistake::DegenerateTensor {
-                terms: internal_terms(spec).map(|t| t.kind.value.name()).collect::<Vec<_>>().join(" + "),
-                velocity: match internal_terms(spec).find_map(|t| frame_of(t.kind.value)) {
-                    Some(Frame::Space) => "Om",
-                    Some(Frame::Flat) => "phi_dot",
-                    _ => "Oh",
-                },
-                kernel,
-            };
-            found.report(spec.kinetic_key, mistake);
-            return;
-        }
-    }
-}
-
-/// `require(positive_definite)`: every square of the form, and the mass, is positive. Squares with fields are
-/// left to `prepare()`.
-fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagnostics) {
-    let Some(required) = spec.require.iter().find(|r| r.value == Requirement::PositiveDefinite) else {
-        return;
-    };
-    let mut reported = Vec::new();
-    for block in &hessian.blocks {
-        let kind = block.basis[0].kind;
-        let Some(inertia) = block.inertia(kinetic.dim).filter(|i| i.negative > 0) else { continue };
-        let defect = match block.eigenvalue().and_then(|e| e.as_constant()) {
-            Some(_) if kinetic_terms(spec).only_isotropic() && kind != Direction::Entry => {
-                if reported.contains(&kind) {
-                    continue;
-                }
-                reported.push(kind);
-                format!(
-                    "{} = {} is negative",
-                    eigenvalue_name(kind).0,
-                    kinetic_terms(spec).eigenvalue_in_numbers(kind)
-                )
-            }
-            _ if inertia.negative == 1 => "T has a negative square".to_owned(),
-            _ => format!("T has {} negative squares", inertia.negative),
-        };
-        found.report(required.span, FormMistake::NotPositiveDefinite { defect });
-    }
-    let mass = spec.kinetic.iter().find(|t| t.kind.value.is_translation());
-    if let Some((term, value)) = mass.and_then(|t| Some((t, kinetic_terms(spec).scalar(t)?)))
-        && value.is_negative()
-    {
-        let defect = format!("the mass `{} = {value}` is negative", term.kind.value.name());
-        found.report(required.span, FormMistake::NotPositiveDefinite { defect });
-    }
-}
-
 /// A claimed symmetry is a theorem about the form: its derivative along every generator of the group vanishes,
 /// and for O(n) one reflection leaves it unchanged as well.
 pub(super) fn claims(
@@ -375,68 +309,4 @@ pub(super) fn claims(
         };
         found.report(claim.span, mistake);
     }
-}
-
-fn internal_terms(spec: &Spec) -> impl Iterator<Item = &spec::Term> {
-    spec.kinetic.iter().filter(|t| !t.kind.value.is_translation())
-}
-
-fn kinetic_terms(spec: &Spec) -> Written<'_> {
-    Written { n: spec.dim.value, terms: internal_terms(spec).collect() }
-}
-
-fn frame_of(kind: spec::TermKind) -> Option<Frame> {
-    match kind {
-        spec::TermKind::BodyInertia | spec::TermKind::BodyTensor => Some(Frame::Body),
-        spec::TermKind::SpaceInertia | spec::TermKind::SpaceTensor => Some(Frame::Space),
-        spec::TermKind::Dalembert | spec::TermKind::FlatTensor => Some(Frame::Flat),
-        _ => None,
-    }
-}
-
-fn degenerate(spec: &Spec, kind: Direction) -> FormMistake {
-    let (eigenvalue, directions) = eigenvalue_name(kind);
-    FormMistake::Degenerate {
-        eigenvalue: eigenvalue.to_owned(),
-        numbers: kinetic_terms(spec).eigenvalue_in_numbers(kind),
-        directions,
-    }
-}
-
-/// The numbers of positive and negative squares of a numeric form.
-#[must_use]
-pub fn signature(form: &Form) -> Option<(usize, usize)> {
-    // With a cubic term the metric depends on the momentum.
-    if form.stated.as_ref().is_some_and(Stated::is_cubic) {
-        return None;
-    }
-    let mut count = (0, 0);
-    for inertia in form.hessian.blocks.iter().map(|b: &Block| b.inertia(form.kinetic.dim)) {
-        let inertia = inertia?;
-        count.0 += inertia.positive;
-        count.1 += inertia.negative;
-    }
-    if let Some(t) = form.kinetic.translation {
-        let mass = form.arena.as_constant(t.mass)?;
-        match mass.is_negative() {
-            true => count.1 += form.kinetic.dim,
-            false => count.0 += form.kinetic.dim,
-        }
-    }
-    Some(count)
-}
-
-/// The eigenvalues that decide whether a model with fields is well posed: condition, reason, value.
-#[must_use]
-pub fn eigenvalues(hessian: &Hessian) -> Vec<(Direction, Polynomial)> {
-    let mut list: Vec<(Direction, Polynomial)> = Vec::new();
-    for block in &hessian.blocks {
-        if let Some(value) = block.eigenvalue() {
-            let kind = block.basis[0].kind;
-            if value.as_constant().is_none() && !list.contains(&(kind, value.clone())) {
-                list.push((kind, value));
-            }
-        }
-    }
-    list
 }

@@ -11,6 +11,7 @@ use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Group, Side};
 use crate::spec::{Capability, Named, Requirement, Spec};
 
+use super::definite;
 use super::form::{self, Quantities};
 
 /// A sum of energies of different frames that passed all rules that can be decided before a placement is known.
@@ -77,7 +78,7 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
     let hessian = match sums[0].internal.as_slice() {
         [one] if group.is_none() => {
             let hessian = Hessian::new(one);
-            form::invertible(spec, &hessian, found);
+            definite::invertible(spec, &hessian, found);
             Some(hessian)
         }
         _ => {

@@ -1,0 +1,74 @@
+//! Derivatives of expressions.
+
+use super::arena::Node;
+use super::{Arena, Expr, Function, Rational};
+
+impl Arena {
+    /// Derivative with respect to a symbol.
+    pub fn derivative(&mut self, expr: Expr, symbol: Expr) -> Expr {
+        if expr == symbol {
+            return self.constant(Rational::ONE);
+        }
+        match self.node(expr).clone() {
+            Node::Constant(_) | Node::Symbol(_) => self.constant(Rational::ZERO),
+            Node::Sum(_, terms) => {
+                let parts: Vec<_> =
+                    terms.into_iter().map(|(term, c)| (self.derivative(term, symbol), c)).collect();
+                self.linear(&parts)
+            }
+            Node::Product(factors) => {
+                let mut parts = Vec::with_capacity(factors.len());
+                for (k, &(base, exponent)) in factors.iter().enumerate() {
+                    let inner = self.derivative(base, symbol);
+                    let mut rest = factors.clone();
+                    rest[k].1 -= 1;
+                    rest.push((inner, 1));
+                    if let Some(part) = self.product(&rest) {
+                        parts.push((part, Rational::from(i64::from(exponent))));
+                    }
+                }
+                self.linear(&parts)
+            }
+            Node::Function(function, argument) => {
+                let inner = self.derivative(argument, symbol);
+                let outer = self.slope(function, argument);
+                self.mul(outer, inner)
+            }
+        }
+    }
+
+    /// `function'` at an argument.
+    fn slope(&mut self, function: Function, argument: Expr) -> Expr {
+        let one = self.constant(Rational::ONE);
+        let value = self.apply(function, argument);
+        // The reciprocals below are of functions and arguments that are no constants.
+        let reciprocal = |arena: &mut Self, of: Expr, exponent: i32, number: (i64, i64)| {
+            let power = arena.pow(of, exponent).unwrap_or(of);
+            arena.scale(power, &Rational::ratio(number.0, number.1).unwrap_or(Rational::ONE))
+        };
+        match function {
+            Function::Exp => value,
+            Function::ExpM1 => self.apply(Function::Exp, argument),
+            Function::Ln => reciprocal(self, argument, -1, (1, 1)),
+            Function::Sqrt => reciprocal(self, value, -1, (1, 2)),
+            Function::Cbrt => reciprocal(self, value, -2, (1, 3)),
+            Function::InverseCbrt => reciprocal(self, value, 4, (-1, 3)),
+            Function::Abs => self.div(argument, value).unwrap_or(one),
+            Function::Sin => self.apply(Function::Cos, argument),
+            Function::Cos => {
+                let sine = self.apply(Function::Sin, argument);
+                self.neg(sine)
+            }
+            Function::Tan => {
+                let square = self.mul(value, value);
+                self.add(one, square)
+            }
+            Function::Sinh => self.apply(Function::Cosh, argument),
+            Function::Cosh => self.apply(Function::Sinh, argument),
+            Function::Tanh => {
+                let square = self.mul(value, value);
+                self.sub(one, square)
+            }
+        }
+    }
+}
