@@ -82,8 +82,8 @@ use proc_macro::TokenStream;
 /// of the lattice's pieces (`lattice::LatticeSplitting`; with `group = unitary` it stands alone), and `ratios`, for affine
 /// velocities without a potential, the same equations in `exp(q_b - q_a)`, `M + N` and `M - N`, where they are rational.
 /// `emit(nystrom)` states the equations of `dalembert` and `flat_tensor` under a potential as `q'' = f(t, q)`, for
-/// Runge-Kutta-Nystrom steps of order 12; `emit(tangent)` adds the variational equations, which
-/// `affine_runtime::variation::Variation` integrates.
+/// Runge-Kutta-Nystrom steps of orders 8 and 12; `emit(tangent)` adds the variational equations of motions without a
+/// constraint, which `affine_runtime::variation::Variation` integrates.
 ///
 /// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
 /// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)`, their entries `G[1,2]`, with
