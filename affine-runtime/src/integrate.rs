@@ -2,6 +2,7 @@
 
 mod equal_steps;
 mod error_norm;
+mod finite;
 pub mod gauss;
 pub mod lie;
 pub mod nystrom;

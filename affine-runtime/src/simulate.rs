@@ -83,7 +83,7 @@ pub enum Method {
     /// reached by a shorter step from the one before, which leaves the sequence of steps as it is.
     /// [`Method::Automatic`] never takes it.
     Gauss {
-        /// Number of stages, 2 or 3.
+        /// Number of stages, 2, 3, 4 or 6.
         stages: usize,
         /// Length of a step, positive; the interval is divided into equal steps that are not longer.
         step: f64,

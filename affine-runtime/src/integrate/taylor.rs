@@ -14,6 +14,7 @@ pub use vectors::{Portable, Vectors};
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, norm};
+use super::finite::is_finite;
 use super::roughly::{exp, ln};
 use super::step_size::{first_step, shortest};
 #[cfg(feature = "std")]
@@ -395,8 +396,4 @@ fn slope<S: StateVector<f64>, C, R: Series<S, C>>(series: &R, constants: &C, t: 
     let mut coefficients = [*y, S::zeros()];
     series.coefficients((t, 1.0), constants, &mut coefficients, &mut [R::Row::zeros()]);
     coefficients[1]
-}
-
-fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
-    y.as_ref().iter().all(|v| v.is_finite())
 }

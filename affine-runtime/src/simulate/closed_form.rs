@@ -15,8 +15,9 @@ const PAST_A_COLLAPSE: f64 = 1e-8;
 
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// The closed form at the output times.
-    pub(super) fn evaluate(&mut self, geodesic: &Geodesic<N>, course: &Course<P>) -> Result<(), Reason> {
+    pub(super) fn evaluate(&mut self, geodesic: &Geodesic<N>, course: &Course<'_, P>) -> Result<(), Reason> {
         let Course { t0, start, t_end, .. } = *course;
+        let start = *start;
         let computation = &mut self.trajectory.computation;
         computation.method = Method::ClosedForm;
         computation.no_whirl =

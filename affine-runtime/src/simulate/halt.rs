@@ -140,7 +140,7 @@ pub enum Setting {
     },
     /// No step is allowed.
     NoSteps,
-    /// Gauss collocation is available with 2 and 3 stages.
+    /// Gauss collocation is available with 2, 3, 4 and 6 stages.
     Stages {
         /// The number of stages asked for.
         given: usize,
@@ -248,7 +248,7 @@ impl fmt::Display for Setting {
             Setting::NoSteps => f.write_str("max_steps(0) allows no step: give a positive number"),
             Setting::Stages { given } => write!(
                 f,
-                "Gauss collocation with {given} stages: give 2 stages, of order 4, or 3, of order 6"
+                "Gauss collocation with {given} stages: give 2, 3, 4 or 6 stages, of orders 4, 6, 8 and 12"
             ),
             Setting::Order { given } => write!(
                 f,

@@ -26,14 +26,14 @@ pub(super) trait Mechanics<const N: usize, P> {
     /// Energy and equations of motion at a point, number by number.
     fn witness(&self, t: f64, point: &P, each: &mut dyn FnMut(f64));
     /// Follows the motion from a point by the steps of a method.
-    fn integrate(&self, course: &Course<P>, recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason>;
+    fn integrate(&self, course: &Course<'_, P>, recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason>;
 }
 
 /// What is to be integrated.
 #[derive(Clone, Copy)]
-pub(super) struct Course<P> {
+pub(super) struct Course<'p, P> {
     pub(super) t0: f64,
-    pub(super) start: P,
+    pub(super) start: &'p P,
     pub(super) t_end: f64,
     pub(super) method: Method,
     pub(super) tolerance: f64,
@@ -72,7 +72,7 @@ impl<const N: usize, M: Model<N>> Mechanics<N, M::Point<f64>> for M {
     }
     fn integrate(
         &self,
-        course: &Course<M::Point<f64>>,
+        course: &Course<'_, M::Point<f64>>,
         recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
     ) -> Result<(), Reason> {
         methods::integrate(self, course, recorder)

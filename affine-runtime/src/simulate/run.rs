@@ -79,13 +79,13 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     }
 
     fn empty_trajectory(&self) -> Trajectory<N, P> {
-        let Settings { start, plan: Plan { t0, .. }, .. } = self.settings;
-        let energy = self.model.hamiltonian(t0, &start);
+        let (t0, start) = (self.settings.plan.t0, &self.settings.start);
+        let energy = self.model.hamiltonian(t0, start);
         Trajectory {
-            description: *self.model.description(),
-            bases: self.model.bases(),
-            start: (t0, start),
-            end: (t0, start),
+            description: self.model.description(),
+            bases: self.model.bases().map(Box::new),
+            start: (t0, *start),
+            end: (t0, *start),
             times: Vec::new(),
             points: Vec::new(),
             energies: Energies {
@@ -94,7 +94,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                 outputs: Vec::new(),
                 work: Vec::new(),
                 work_at_end: 0.0,
-                scale: energy_scale(self.model, &start, energy),
+                scale: energy_scale(self.model, start, energy),
             },
             statistics: Statistics::default(),
             events: Vec::new(),
@@ -117,8 +117,8 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     fn drive(&mut self, trajectory: &mut Trajectory<N, P>) -> Result<(), Reason> {
         let description = self.model.description();
         let (t_end, schedule) = self.settings.checked(description)?;
-        let Settings { start, plan: Plan { t0, max_steps, .. }, .. } = self.settings;
-        check(t0, &start)?;
+        let Plan { t0, max_steps, .. } = self.settings.plan;
+        check(t0, &self.settings.start)?;
         let events: Vec<&'static str> = self.settings.events.iter().map(|event| event.name).collect();
         let mut recorder = Recorder {
             model: self.model,
@@ -136,7 +136,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             is_lost: false,
             turn: None,
         };
-        let mut origin = (t0, start);
+        let mut origin = (t0, self.settings.start);
         if let Some(checkpoint) = self.settings.checkpoint.take() {
             origin = self.take_up(checkpoint, &events, &mut recorder)?;
         }
@@ -146,7 +146,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
             let place = place.from(origin.0, &origin.1);
             let run = fingerprint(self.model, &self.settings, &events);
-            recorder.trajectory.checkpoint = Some(Checkpoint { run, place });
+            recorder.trajectory.checkpoint = Some(Box::new(Checkpoint { run, place }));
         }
         outcome
     }
@@ -174,7 +174,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     fn legs(&self, from: &mut (f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
         let mut changes = 0;
         loop {
-            self.leg(*from, recorder)?;
+            self.leg(from, recorder)?;
             let Some(Turn::Changed { t, point, event, work }) = recorder.turn.take() else { return Ok(()) };
             check(t, &point)?;
             changes += 1;
@@ -191,10 +191,11 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     }
 
     /// The motion from a point to the end, or to an event that changes it.
-    fn leg(&self, (t0, start): (f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
+    fn leg(&self, from: &(f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
+        let (t0, start) = (from.0, &from.1);
         let Plan { method, tolerance, .. } = self.settings.plan;
         let course = Course { t0, start, t_end: recorder.t_end, method, tolerance };
-        let geodesic = self.model.geodesic(t0, &start);
+        let geodesic = self.model.geodesic(t0, start);
         recorder.trajectory.computation.closed_form_exists = geodesic.is_some();
         match (method, geodesic) {
             (Method::ClosedForm, None) => {
@@ -202,7 +203,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             }
             (Method::Automatic | Method::ClosedForm, Some(geodesic)) => recorder.evaluate(&geodesic, &course),
             _ => {
-                recorder.begin((t0, start))?;
+                recorder.begin(t0, start)?;
                 self.model.integrate(&course, recorder)
             }
         }

@@ -8,6 +8,7 @@ pub(crate) use in_lanes::starts_in_lanes;
 
 use super::Pair;
 use crate::integrate::error_norm::ErrorNorm;
+use crate::integrate::finite::is_finite;
 use crate::integrate::step_size::first_step;
 use crate::integrate::{Failure, sound};
 use crate::model::{Group, StateVector};
@@ -48,8 +49,4 @@ impl<S: StateVector<f64>> Start<S> {
         let length = first_step(f, &error_norm, at_start, t_end - t0, (tolerance, P::ERROR_ORDER));
         Ok((Self { slope, error_norm, length }, probes + 2))
     }
-}
-
-pub(super) fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
-    y.as_ref().iter().all(|v| v.is_finite())
 }
