@@ -38,13 +38,13 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
     };
     quote! {
         impl #generics #rt::Splitting<#n> for #prepared #types #clause {
-            const PIECES: &'static [&'static str] = &[#(#names),*];
-            const NYSTROM: bool = #nystrom;
+            const PIECES: &'static [&'static ::core::primitive::str] = &[#(#names),*];
+            const NYSTROM: ::core::primitive::bool = #nystrom;
 
             #[inline]
             fn flow<#t: #rt::Real>(
                 &self,
-                #piece: usize,
+                #piece: #rt::usize,
                 #time: #t,
                 h: #t,
                 #constants: &Self::Constants<#t>,

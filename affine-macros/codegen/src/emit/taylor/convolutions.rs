@@ -55,7 +55,7 @@ impl Writer<'_> {
                 if let ::core::option::Option::Some(centre) = centre {
                     #(#centres)*
                 }
-                for (left, right) in low.iter().rev().zip(high) {
+                for (left, right) in ::core::iter::Iterator::zip(::core::iter::Iterator::rev(low.iter()), high) {
                     #(#pairs)*
                 }
             }

@@ -30,14 +30,14 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[Strin
     let turning = turning(context);
     quote! {
         impl #generics #rt::LatticePieces<#n> for #prepared #types #clause {
-            const PIECES: &'static [&'static str] = &[#(#names),*];
-            const NYSTROM: bool = #nystrom;
+            const PIECES: &'static [&'static ::core::primitive::str] = &[#(#names),*];
+            const NYSTROM: ::core::primitive::bool = #nystrom;
             #turning
 
             #[inline]
             fn lattice_flow<#t: #rt::Real>(
                 &self,
-                piece: usize,
+                piece: #rt::usize,
                 h: #t,
                 #couplings: &Self::Couplings<#t>,
                 state: &mut Self::Framed<#t>,
