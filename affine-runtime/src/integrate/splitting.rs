@@ -1,9 +1,11 @@
 //! Splitting: exact flows of pieces of the Hamiltonian in turn, explicit and symplectic, with a fixed step.
 
 mod coefficients;
+mod dilated;
 mod growth;
 
 pub use coefficients::Sweeps;
+pub use dilated::dilated;
 pub use growth::{accumulate, conjugated, growth, left_product, right_product};
 
 use core::fmt;
