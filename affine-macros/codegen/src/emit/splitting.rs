@@ -32,6 +32,13 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         _ => (quote!(match piece { #(#arms)* }), quote!(piece)),
     };
     let programs = || pieces.iter().flat_map(|(_, flows)| flows).map(program);
+    let dilates =
+        pieces.iter().flat_map(|(_, flows)| flows).any(|flow| matches!(flow, FlowProgram::Dilatation { .. }));
+    let near_integrable = (*nystrom && dilates).then(|| {
+        quote!(
+            const NEAR_INTEGRABLE: bool = true;
+        )
+    });
     let reads = |name: &str| programs().any(|program| inputs(program).contains(&name));
     let time = if reads(TIME) { quote!(t) } else { quote!(_t) };
     let constants = match coefficient_names(context).iter().any(|name| reads(name)) {
@@ -42,6 +49,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         impl #generics #rt::Splitting<#n> for #prepared #types #clause {
             const PIECES: &'static [&'static str] = &[#(#names),*];
             const NYSTROM: bool = #nystrom;
+            #near_integrable
 
             #[inline]
             fn flow<#t: #rt::Real>(
