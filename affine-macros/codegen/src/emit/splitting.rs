@@ -201,8 +201,8 @@ fn dilated(
     quote!({
         #bind
         #lets
-        let (growth, rise) = #rt::dilated(#matrix, [#(#entries),*], h, |t0, q, p| {
-            #rt::Breathing::#path(t0, q, p, #(#results),*)
+        let (growth, rise) = #rt::dilated(#matrix, [#(#entries),*], h, |t_start, q_start, p_start| {
+            #rt::Breathing::#path(t_start, q_start, p_start, #(#results),*)
         });
         #(#grown)*
         #(#risen)*
