@@ -107,8 +107,8 @@ pub enum Method {
     /// [`Method::Automatic`] never takes it: what it is for is what it keeps, over runs that are longer than the motion can
     /// be followed, and its steps know no tolerance. The stiff dilatation that a reduction separates is separated for every
     /// method alike. Where translation keeps it in the state and the potential is `U_dil(q)` and a part that no dilatation
-    /// changes, it moves along its closed form here, in one piece with the Casimirs: steps need not resolve it, as those of
-    /// every other method do, at about four times the cost of a piece without it.
+    /// changes, it moves along its closed form here, in one piece with the Casimirs, by elliptic functions: steps need not
+    /// resolve it, as those of every other method do.
     Splitting {
         /// The order, 2, 4, 6 or 8.
         order: usize,
