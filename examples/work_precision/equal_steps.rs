@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use affine_runtime::capability::InLanes;
 use affine_runtime::prelude::*;
+use affine_runtime::simulate::Reason;
 
 /// Orders of splitting, all there are.
 const ORDERS: [usize; 4] = [2, 4, 6, 8];
