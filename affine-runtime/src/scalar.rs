@@ -158,6 +158,11 @@ macro_rules! primitive {
             const EPSILON: Self = <$type>::EPSILON;
 
             fn hypot(self, other: Self) -> Self {
+                let squares = self * self + other * other;
+                // Neither overflow nor a square that has lost digits to underflow and counts.
+                if (squares < <$type>::MAX / 2.0) & (squares > <$type>::MIN_POSITIVE / <$type>::EPSILON) {
+                    return Scalar::sqrt(squares);
+                }
                 $hypot(self, other)
             }
             fn is_finite(self) -> bool {
@@ -206,3 +211,27 @@ primitive!(
     tanh = libm::tanhf,
     abs = f32::abs
 );
+
+#[cfg(test)]
+mod tests {
+    use super::Real;
+
+    #[test]
+    fn hypotenuses_of_any_size() {
+        for (a, b, c) in [(3.0, 4.0, 5.0), (5.0, -12.0, 13.0), (0.0, -7.3, 7.3), (0.0, 0.0, 0.0)] {
+            for unit in [1.0, 2.0_f64.powi(1000), 2.0_f64.powi(-1000), 2.0_f64.powi(-1060)] {
+                let size = c * unit;
+                assert_eq!(Real::hypot(a * unit, b * unit), size.abs(), "{a} {b} {unit}");
+            }
+        }
+        for k in 0..1000 {
+            let (a, b) = (f64::from(k).sin(), 10.0_f64.powi(k % 300 - 150) * f64::from(k).cos());
+            let (found, exact) = (Real::hypot(a, b), libm::hypot(a, b));
+            assert!((found - exact).abs() <= f64::EPSILON * exact, "{a} {b}");
+        }
+        assert!(Real::hypot(f64::NAN, 1.0).is_nan());
+        assert_eq!(Real::hypot(f64::INFINITY, 1.0), f64::INFINITY);
+        let unit = 2.0_f32.powi(100);
+        assert_eq!(Real::hypot(3.0 * unit, 4.0 * unit), 5.0 * unit);
+    }
+}

@@ -9,6 +9,7 @@ pub use coefficients::Tableau;
 use core::fmt;
 
 use super::equal_steps::{EqualSteps, Times};
+use super::finite::is_finite;
 use super::lie::{Coordinates, Flat, Sum};
 #[cfg(feature = "std")]
 use super::tape::Tape;
@@ -237,8 +238,4 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> fmt::Debug for
             .field("statistics", &self.statistics())
             .finish_non_exhaustive()
     }
-}
-
-fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
-    y.as_ref().iter().all(|v| v.is_finite())
 }

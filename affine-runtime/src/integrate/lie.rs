@@ -26,6 +26,7 @@ impl<S: StateVector<f64>> Sum<S> {
 
     /// The sum with `rise` added, rounded once.
     #[must_use]
+    #[inline(always)]
     pub fn plus(&self, rise: &S) -> Self {
         let mut sum = *self;
         for (c, (value, carry)) in sum.value.as_mut().iter_mut().zip(sum.carry.as_mut()).enumerate() {

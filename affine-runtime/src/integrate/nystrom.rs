@@ -13,11 +13,14 @@ pub use tableau::Tableau;
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, norm};
+use super::finite::is_finite;
 use super::lie::Sum;
 use super::step_size::{Controller, first_step, next_time, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
-use super::{Failure, Statistics};
+use super::taylor::Vectors;
+use super::widest::{Work, roomiest};
+use super::{Failure, Statistics, sound};
 use crate::model::{Group, StateVector};
 use step::{Step, halves, joined};
 
@@ -80,7 +83,8 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
     /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`].
     ///
     /// # Errors
-    /// [`Failure::NotFinite`] where `y0` or the force there is not finite.
+    /// [`Failure::NotFinite`] where `y0` or the force there is not finite; [`Failure::Time`] for an interval and
+    /// [`Failure::Tolerance`] for a tolerance that make no sense.
     pub fn new(
         (system, constants): (R, C),
         tableau: &'static Tableau,
@@ -89,6 +93,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
         t_end: f64,
         tolerance: f64,
     ) -> Result<Self, Failure> {
+        sound(t0, t_end, tolerance)?;
         let slope = |t: f64, y: &S| {
             let [positions, momenta] = halves(y);
             let velocity = system.drift(&constants, &momenta);
@@ -141,14 +146,25 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
         if self.is_finished() {
             return Ok(());
         }
+        roomiest(Advance(self))
+    }
+
+    /// One accepted step, all of it on the vectors of a processor: what is done between two steps is as long as an
+    /// evaluation or two.
+    #[inline(always)]
+    fn accepted(&mut self, vectors: impl Vectors) -> Result<(), Failure> {
         let force = self.force_reached();
         self.step.begin((&self.system, &self.constants), (self.t, &self.reached), force);
         let tableau = self.step.tableau();
         loop {
             let end = next_time(self.t, self.length, self.t_end);
+            if end == self.t {
+                self.failure = Some(Failure::StepUnderflow);
+                return Err(Failure::StepUnderflow);
+            }
             self.statistics.evaluations += tableau.evaluations();
             let length = (end - self.t).abs();
-            let (state, error) = self.attempt(end);
+            let (state, error) = self.attempt(vectors, end);
             if error <= 1.0 {
                 self.length = length * self.controller.accept(error);
                 (self.t, self.state) = (end, state);
@@ -232,9 +248,10 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
 
     /// Takes a step from where it begins to the time `end`: the state there, and its error relative to the tolerance; NaN
     /// where something is not finite.
-    fn attempt(&mut self, end: f64) -> (S, f64) {
+    #[inline(always)]
+    fn attempt(&mut self, vectors: impl Vectors, end: f64) -> (S, f64) {
         let h = (end - self.t).abs();
-        self.step.attempt((&self.system, &self.constants), end);
+        self.step.attempt_in(vectors, (&self.system, &self.constants), end);
         let after = self.with_end_of_step();
         let [positions, momenta] = self.step.error_slopes();
         let largest = self.error_norm.largest(h, self.state.as_ref(), after.as_ref(), |range| {
@@ -243,10 +260,11 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
                 None => norm(&positions.as_ref()[range]),
             }
         });
-        (after, h * largest / self.tolerance)
+        (after, h / self.tolerance * largest)
     }
 
     /// The state with positions and momenta at the end of the step.
+    #[inline(always)]
     fn with_end_of_step(&self) -> S {
         let mut state = self.state;
         let components = state.as_mut().chunks_exact_mut(R::Half::LEN);
@@ -254,6 +272,17 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
             components.copy_from_slice(half.value.as_ref());
         }
         state
+    }
+}
+
+/// An accepted step of an integration.
+struct Advance<'a, S, C, R: SecondOrder<S, C>>(&'a mut RungeKuttaNystrom<S, C, R>);
+
+impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Work for Advance<'_, S, C, R> {
+    type Output = Result<(), Failure>;
+    #[inline(always)]
+    fn run(self, vectors: impl Vectors) -> Result<(), Failure> {
+        self.0.accepted(vectors)
     }
 }
 
@@ -268,8 +297,4 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> fmt::Debug for RungeKuttaNyst
             .field("statistics", &self.statistics)
             .finish_non_exhaustive()
     }
-}
-
-fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
-    y.as_ref().iter().all(|v| v.is_finite())
 }

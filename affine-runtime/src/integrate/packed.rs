@@ -159,6 +159,30 @@ pub(super) fn combination<S: StateVector<f64>, const TERMS: usize>(
     sum
 }
 
+/// `y + h sum_j a_j k_j`, with the bits of [`moved`](super::stages::moved).
+#[inline(always)]
+pub(super) fn moved<S: StateVector<f64>, const TERMS: usize>(
+    vectors: impl Vectors,
+    (y, h): (&S, f64),
+    stages: &[S],
+    row: &[(usize, f64); TERMS],
+) -> S {
+    let mut moved = *y;
+    let [ref earlier @ .., (last, newest)] = row[..] else { return moved };
+    let of = |stage: usize, k: usize| stages[stage - 1].as_ref().as_chunks().0[k];
+    for (k, moved) in moved.as_mut().as_chunks_mut().0.iter_mut().enumerate() {
+        if let [(first, leading), rest @ ..] = earlier {
+            let mut sum = vectors.plus_product(NOTHING, of(*first, k), [*leading; 4]);
+            for (stage, coefficient) in rest {
+                sum = vectors.plus_product(sum, of(*stage, k), [*coefficient; 4]);
+            }
+            *moved = vectors.plus_product(*moved, sum, [h; 4]);
+        }
+        *moved = vectors.plus_product(*moved, of(last, k), [h * newest; 4]);
+    }
+    moved
+}
+
 /// `y + h rise`.
 #[inline(always)]
 pub(super) fn plus_multiple<S: StateVector<f64>>(vectors: impl Vectors, y: &S, h: f64, rise: &S) -> S {

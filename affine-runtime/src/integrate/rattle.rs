@@ -11,6 +11,7 @@ pub use reaction::Reaction;
 use core::fmt;
 
 use super::equal_steps::{EqualSteps, Times};
+use super::finite::is_finite;
 use super::lie::{Sum, adjugate};
 #[cfg(feature = "std")]
 use super::tape::Tape;
@@ -237,8 +238,4 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> fmt::Debug for Ra
 /// The placement matrix of a group of components.
 fn matrix<const N: usize>(components: &[f64]) -> Matrix<N> {
     Matrix::<N>::from_row_slice(components)
-}
-
-fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
-    y.as_ref().iter().all(|v| v.is_finite())
 }

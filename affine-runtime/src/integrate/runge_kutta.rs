@@ -18,16 +18,17 @@ pub use step::{Dense, OneStep, Step};
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, IN_RANGE, sum_of_squares};
+use super::finite::is_finite;
 use super::lie::{Coordinates, Flat, Sum};
 use super::packed::Packing;
 use super::step_size::{Controller, next_time, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::taylor::{Portable, Vectors};
-use super::widest::{Work, widest};
+use super::widest::{Work, roomiest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
-use start::{Start, is_finite};
+use start::Start;
 
 /// The method of Dormand and Prince of order 8.
 ///
@@ -78,7 +79,8 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta<P, S, F> {
     /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`].
     ///
     /// # Errors
-    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite.
+    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite; [`Failure::Time`] for an interval and
+    /// [`Failure::Tolerance`] for a tolerance that make no sense.
     pub fn new(
         f: F,
         groups: &'static [Group],
@@ -173,11 +175,22 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         if self.is_finished() {
             return Ok(());
         }
+        roomiest(Advance(self))
+    }
+
+    /// One accepted step, all of it on the vectors of a processor: what is done between two steps is as long as an
+    /// evaluation or two.
+    #[inline(always)]
+    fn accepted(&mut self, vectors: impl Vectors) -> Result<(), Failure> {
         self.begin_next();
         loop {
             let end = next_time(self.step.time(), self.length, self.t_end);
+            if end == self.step.time() {
+                self.failure = Some(Failure::StepUnderflow);
+                return Err(Failure::StepUnderflow);
+            }
             self.statistics.evaluations += P::EVALUATIONS + u64::from(P::NEEDS_END);
-            let (reached, mut error) = widest(Trial { integration: self, end });
+            let (reached, mut error) = self.attempt(vectors, end);
             if error <= 1.0 {
                 if !P::NEEDS_END {
                     self.statistics.evaluations += 1;
@@ -275,6 +288,7 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
     }
 
     /// Turns to the next step, in coordinates around the state reached.
+    #[inline(always)]
     fn begin_next(&mut self) {
         let origin = self.coordinates.origin(&self.end).value;
         let velocity = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
@@ -287,16 +301,17 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
     fn error(&self, vectors: impl Vectors, reached: &S) -> f64 {
         let stages = self.field.stages(vectors, self.coordinates, &self.begin);
         let (first, second) = self.step.error_slopes(&stages);
-        let [first, second] =
-            [first, second].map(|slope| self.coordinates.change(&self.begin, &self.field.read(&slope)));
+        // One by one: what arrays are mapped by is not compiled for the vectors of the processor.
+        let first = self.coordinates.change(&self.begin, &self.field.read(&first));
+        let second = self.coordinates.change(&self.begin, &self.field.read(&second));
         let before = self.begin.value.as_ref();
         let after = reached.as_ref();
         let relative = self.error_norm.largest(self.step.length().abs(), before, after, |range| {
-            let slopes = [&first, &second].map(|slopes| &slopes.as_ref()[range.clone()]);
-            let [first, second] = slopes.map(sum_of_squares);
-            if IN_RANGE.contains(&first) { P::error((first, second)) } else { scaled_error::<P>(slopes) }
+            let slopes = [&first.as_ref()[range.clone()], &second.as_ref()[range]];
+            let squares = (sum_of_squares(slopes[0]), sum_of_squares(slopes[1]));
+            if IN_RANGE.contains(&squares.0) { P::error(squares) } else { scaled_error::<P>(slopes) }
         });
-        self.step.length().abs() * relative / self.tolerance
+        self.step.length().abs() / self.tolerance * relative
     }
 }
 
@@ -327,18 +342,15 @@ fn scaled_error<P: Pair>(slopes: [&[f64]; 2]) -> f64 {
     largest * P::error((squares[0], squares[1]))
 }
 
-/// A step of an integration to the time `end`.
-struct Trial<'a, P, S, F, C, L> {
-    integration: &'a mut RungeKutta<P, S, F, C, L>,
-    end: f64,
-}
+/// An accepted step of an integration.
+struct Advance<'a, P, S, F, C, L>(&'a mut RungeKutta<P, S, F, C, L>);
 
 impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>> Work
-    for Trial<'_, P, S, F, C, L>
+    for Advance<'_, P, S, F, C, L>
 {
-    type Output = (Sum<S>, f64);
+    type Output = Result<(), Failure>;
     #[inline(always)]
-    fn run(self, vectors: impl Vectors) -> (Sum<S>, f64) {
-        self.integration.attempt(vectors, self.end)
+    fn run(self, vectors: impl Vectors) -> Result<(), Failure> {
+        self.0.accepted(vectors)
     }
 }

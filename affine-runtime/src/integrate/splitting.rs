@@ -11,6 +11,7 @@ pub use growth::{accumulate, conjugated, growth, left_product, right_product};
 use core::fmt;
 
 use super::equal_steps::{EqualSteps, Times};
+use super::finite::is_finite;
 use super::lie::Sum;
 #[cfg(feature = "std")]
 use super::tape::Tape;
@@ -162,8 +163,4 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> fmt::Debug for Splitting<S, C, P> 
             .field("statistics", &self.statistics())
             .finish_non_exhaustive()
     }
-}
-
-fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
-    y.as_ref().iter().all(|v| v.is_finite())
 }

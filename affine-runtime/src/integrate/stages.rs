@@ -20,6 +20,30 @@ pub(super) fn combination<S: StateVector<f64>, const TERMS: usize>(
     sum
 }
 
+/// `y + h sum_j a_j k_j` of pairs (stage, coefficient), stages counted from 1, the last of which is the newest as a rule: it
+/// enters last, so that what depends on it waits for two operations and not for four.
+#[inline(always)]
+pub(super) fn moved<S: StateVector<f64>, const TERMS: usize>(
+    y: &S,
+    h: f64,
+    stages: &[S],
+    row: &[(usize, f64); TERMS],
+) -> S {
+    let mut moved = *y;
+    let [ref earlier @ .., (last, newest)] = row[..] else { return moved };
+    for (i, moved) in moved.as_mut().iter_mut().enumerate() {
+        if let [(first, leading), rest @ ..] = earlier {
+            let mut sum = stages[first - 1].as_ref()[i] * leading;
+            for (stage, coefficient) in rest {
+                sum = stages[stage - 1].as_ref()[i].fma(*coefficient, sum);
+            }
+            *moved = sum.fma(h, *moved);
+        }
+        *moved = stages[last - 1].as_ref()[i].fma(h * newest, *moved);
+    }
+    moved
+}
+
 /// The coefficients of one row less those of another that stands in the same stages.
 pub(super) const fn difference<const TERMS: usize>(
     row: [(usize, f64); TERMS],

@@ -38,8 +38,8 @@ pub(crate) const FIRST_ERROR: f64 = 10.0;
 /// times the margin; without the trend where the error is tiny, as after a first step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Controller {
-    /// `k`.
-    order: f64,
+    /// `1/k`.
+    inverse_order: f64,
     /// Steps aim at an error so many times below the tolerance, beside [`SAFETY`], as a logarithm. A rejected step costs
     /// as much as an accepted one, and the margin shortens steps by little.
     margin: f64,
@@ -51,7 +51,12 @@ pub(crate) struct Controller {
 impl Controller {
     /// For an error of order `h^order`.
     pub(crate) fn of(order: f64, margin: f64) -> Self {
-        Self { order, margin: ln_of_normal(margin), previous: TREND_FROM, rejected: false }
+        Self {
+            inverse_order: 1.0 / order,
+            margin: ln_of_normal(margin),
+            previous: TREND_FROM,
+            rejected: false,
+        }
     }
 
     /// What the next step sizes depend on.
@@ -82,7 +87,8 @@ impl Controller {
         let logarithm = self.margin + ln_of_normal(if accepted { seen } else { failed });
         let has_trend = logarithm > TREND_FROM;
         let trend = if has_trend { PROPORTIONAL * (self.previous - logarithm) } else { 0.0 };
-        let exponent = (if accepted { trend - INTEGRAL * logarithm } else { -logarithm }) / self.order;
+        let exponent =
+            (if accepted { trend - INTEGRAL * logarithm } else { -logarithm }) * self.inverse_order;
         // After a rejection the longer step has just been seen to fail.
         let growth = if self.rejected { 1.0 } else { LARGEST_GROWTH };
         let growth = if accepted { growth } else { SAFETY };
@@ -138,17 +144,14 @@ pub(crate) fn first_step<S: StateVector<f64>>(
         *y += signed * slope;
     }
     let slope_after = f(t + signed, &end);
-    let mut over = |time: f64| {
-        for (i, change) in change.as_mut().iter_mut().enumerate() {
-            *change = (slope_after.as_ref()[i] - slope.as_ref()[i]) / time;
-        }
-        let of_change = |r: Range<usize>| norm(&change.as_ref()[r]);
-        error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change)
-    };
-    let of_second = over(trial);
-    // Rates of rates leave the range of numbers first.
-    let of_second = if of_second.is_finite() { of_second } else { over(1.0) / trial };
-    let second = Scalar::sqrt(of_second);
+    for (i, change) in change.as_mut().iter_mut().enumerate() {
+        *change = slope_after.as_ref()[i] - slope.as_ref()[i];
+    }
+    let of_change = |r: Range<usize>| norm(&change.as_ref()[r]);
+    // Over time in the end: rates of rates leave the range of numbers first.
+    let of_second = error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change) / trial;
+    // Something that is zero begins to move, under a force that was zero: no rate to go by either.
+    let second = if of_second == f64::INFINITY { 0.0 } else { Scalar::sqrt(of_second) };
     let fastest = if first.is_finite() && first > second { first } else { second };
     let length = exp(ln(FIRST_ERROR * tolerance) / order) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.

@@ -14,12 +14,13 @@ pub use vectors::{Portable, Vectors};
 use core::fmt;
 
 use super::error_norm::{ErrorNorm, norm};
+use super::finite::is_finite;
 use super::roughly::{exp, ln};
 use super::step_size::{first_step, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::widest::{Work, roomiest};
-use super::{Failure, Statistics};
+use super::{Failure, Statistics, sound};
 use crate::model::{Group, StateVector};
 use crate::scalar::Scalar;
 
@@ -123,7 +124,8 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     /// [`order_for`] unless given, and within [`LOWEST_ORDER`] and [`HIGHEST_ORDER`].
     ///
     /// # Errors
-    /// [`Failure::NotFinite`] where `y0` or its slope is not finite.
+    /// [`Failure::NotFinite`] where `y0` or its slope is not finite; [`Failure::Time`] for an interval and
+    /// [`Failure::Tolerance`] for a tolerance that make no sense.
     pub fn new(
         (series, constants): (R, C),
         groups: &'static [Group],
@@ -132,6 +134,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         tolerance: f64,
         order: Option<usize>,
     ) -> Result<Self, Failure> {
+        sound(t0, t_end, tolerance)?;
         let slope = |t: f64, y: &S| slope(&series, &constants, t, y);
         let first = slope(t0, &y0);
         if !is_finite(&y0) || !is_finite(&first) {
@@ -393,8 +396,4 @@ fn slope<S: StateVector<f64>, C, R: Series<S, C>>(series: &R, constants: &C, t: 
     let mut coefficients = [*y, S::zeros()];
     series.coefficients((t, 1.0), constants, &mut coefficients, &mut [R::Row::zeros()]);
     coefficients[1]
-}
-
-fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
-    y.as_ref().iter().all(|v| v.is_finite())
 }

@@ -23,15 +23,17 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn velocity(&self, point: &P) -> Velocity<N>;
     fn geodesic(&self, t0: f64, point: &P) -> Option<Geodesic<N>>;
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &P) -> P;
+    /// Energy and equations of motion at a point, number by number.
+    fn witness(&self, t: f64, point: &P, each: &mut dyn FnMut(f64));
     /// Follows the motion from a point by the steps of a method.
-    fn integrate(&self, course: &Course<P>, recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason>;
+    fn integrate(&self, course: &Course<'_, P>, recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason>;
 }
 
 /// What is to be integrated.
 #[derive(Clone, Copy)]
-pub(super) struct Course<P> {
+pub(super) struct Course<'p, P> {
     pub(super) t0: f64,
-    pub(super) start: P,
+    pub(super) start: &'p P,
     pub(super) t_end: f64,
     pub(super) method: Method,
     pub(super) tolerance: f64,
@@ -62,9 +64,15 @@ impl<const N: usize, M: Model<N>> Mechanics<N, M::Point<f64>> for M {
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &M::Point<f64>) -> M::Point<f64> {
         Model::on_geodesic(self, geodesic, t, start)
     }
+    fn witness(&self, t: f64, point: &M::Point<f64>, each: &mut dyn FnMut(f64)) {
+        each(Model::hamiltonian(self, t, point));
+        let (reduced, constants) = self.reduce(t, point);
+        let rates = self.reduced_equations(t, &constants, &reduced);
+        rates.as_ref().iter().for_each(|rate| each(*rate));
+    }
     fn integrate(
         &self,
-        course: &Course<M::Point<f64>>,
+        course: &Course<'_, M::Point<f64>>,
         recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
     ) -> Result<(), Reason> {
         methods::integrate(self, course, recorder)

@@ -17,7 +17,7 @@ use crate::integrate::lie::{Chart, Coordinates, Flat};
 use crate::integrate::nystrom::Tableau;
 use crate::integrate::packed::Packing;
 use crate::integrate::rattle::{Composition, Reaction};
-use crate::integrate::runge_kutta::InVectors;
+use crate::integrate::runge_kutta::{Field, InVectors, Pair, RungeKutta};
 use crate::integrate::{
     Failure, Gauss, Rattle, RungeKutta5, RungeKutta8, RungeKuttaNystrom, Splitting, Taylor,
 };
@@ -28,7 +28,7 @@ use crate::state::Phase;
 /// is decided by constants: only the integrators that serve it are compiled for it.
 pub(super) fn integrate<const N: usize, M: Model<N>>(
     model: &M,
-    course: &Course<M::Point<f64>>,
+    course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
     let method = chosen(model, course, recorder);
@@ -59,7 +59,7 @@ fn forms_determinant(method: Method) -> bool {
 /// The integrator to take, noted with what was missing for a better one.
 fn chosen<const N: usize, M: Model<N>>(
     model: &M,
-    course: &Course<M::Point<f64>>,
+    course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Method {
     // Within steps a Nystrom method costs a step for each time that is looked at.
@@ -99,12 +99,12 @@ fn chosen<const N: usize, M: Model<N>>(
 fn by_series<const N: usize, M: Model<N>>(
     model: &M,
     order: Option<usize>,
-    course: &Course<M::Point<f64>>,
+    course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
     let Course { t0, start, t_end, tolerance, .. } = *course;
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
-    let (reduced, constants) = model.reduce(t0, &start);
+    let (reduced, constants) = model.reduce(t0, start);
     let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
     emitted::<N, M, _>(model.taylor(), "taylor", |series| {
         let integration = Taylor::new((series, constants), groups, (t0, reduced), t_end, tolerance, order);
@@ -116,12 +116,12 @@ fn by_series<const N: usize, M: Model<N>>(
 fn by_pieces<const N: usize, M: Model<N>>(
     model: &M,
     (order, step): (usize, f64),
-    course: &Course<M::Point<f64>>,
+    course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
     let Course { t0, start, t_end, .. } = *course;
     let layout = const { Layout::of(M::DESCRIPTION.reduced, N) };
-    let (reduced, constants) = model.reduce(t0, &start);
+    let (reduced, constants) = model.reduce(t0, start);
     let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
     emitted::<N, M, _>(model.splitting(), "splitting", |pieces| {
         let integration = Splitting::new((pieces, constants), order, (t0, reduced), t_end, step);
@@ -133,12 +133,12 @@ fn by_pieces<const N: usize, M: Model<N>>(
 fn by_halves<const N: usize, M: Model<N>>(
     model: &M,
     tableau: &'static Tableau,
-    course: &Course<M::Point<f64>>,
+    course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
     let Course { t0, start, t_end, tolerance, .. } = *course;
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
-    let (reduced, constants) = model.reduce(t0, &start);
+    let (reduced, constants) = model.reduce(t0, start);
     emitted::<N, M, _>(model.second_order(), "nystrom", |system| {
         // What follows from the positions is computed where it is asked for, not at every step.
         let expand = |t: f64, halves: &M::Reduced<f64>| model.expand(t, &constants, &model.renewed(halves));
@@ -155,7 +155,7 @@ fn free<const N: usize, M: Model<N>, R: Packing<M::Reduced<f64>, M::Constants<f6
     model: &M,
     packing: Option<R>,
     method: Method,
-    course: &Course<M::Point<f64>>,
+    course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
     if const { !is_emitted::<R>() } {
@@ -163,7 +163,7 @@ fn free<const N: usize, M: Model<N>, R: Packing<M::Reduced<f64>, M::Constants<f6
     }
     let Course { t0, start, t_end, tolerance, .. } = *course;
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
-    let (reduced, constants) = model.reduce(t0, &start);
+    let (reduced, constants) = model.reduce(t0, start);
     let begin = (t0, reduced);
     let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
     emitted::<N, M, _>(packing, "packing", |packing| match method {
@@ -177,12 +177,12 @@ fn free<const N: usize, M: Model<N>, R: Packing<M::Reduced<f64>, M::Constants<f6
         Method::RungeKutta5 => {
             let field = InVectors(packing, constants);
             let integration = RungeKutta5::in_vectors(field, groups, begin, t_end, tolerance);
-            follow(integration.map(Explicit::new), (&expand, layout), recorder)
+            follow_with_dense_output(integration, (&expand, layout), recorder)
         }
         _ => {
             let field = InVectors(packing, constants);
             let integration = RungeKutta8::in_vectors(field, groups, begin, t_end, tolerance);
-            follow(integration.map(Explicit::new), (&expand, layout), recorder)
+            follow_with_dense_output(integration, (&expand, layout), recorder)
         }
     })
 }
@@ -206,10 +206,10 @@ fn reduced<const N: usize, M: Model<N>>(
     model: &M,
     coordinates: impl Coordinates<M::Reduced<f64>>,
     method: Method,
-    course: &Course<M::Point<f64>>,
+    course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
-    let (reduced, constants) = model.reduce(course.t0, &course.start);
+    let (reduced, constants) = model.reduce(course.t0, course.start);
     let equations = |t: f64, reduced: &M::Reduced<f64>| model.reduced_equations(t, &constants, reduced);
     // What is carried along would spoil the geometry of Gauss collocation: it is computed from the rest.
     let closed = |t: f64, reduced: &M::Reduced<f64>| equations(t, &model.renewed(reduced));
@@ -223,12 +223,12 @@ fn reduced<const N: usize, M: Model<N>>(
 fn with_reaction<const N: usize, M: Model<N>>(
     model: &M,
     method: Method,
-    course: &Course<M::Point<f64>>,
+    course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
     let groups = M::DESCRIPTION.full;
     let free = |t: f64, full: &M::Full<f64>| model.hamilton_equations(t, full);
-    let start = model.flatten(&course.start);
+    let start = model.flatten(course.start);
     let reaction = Reaction::<N>::of(groups, &free, (course.t0, &start));
     let reaction = reaction.map_err(|failure| recorder.reason(failure))?;
     let equations = |t: f64, full: &M::Full<f64>| reaction.rates(&free, t, full);
@@ -244,7 +244,7 @@ fn by_equations<const N: usize, S: StateVector<f64>, P: Phase<N>>(
     (equations, closed): (impl Fn(f64, &S) -> S, impl Fn(f64, &S) -> S),
     (groups, layout, state): (&'static [Group], Layout, S),
     expand: Expansion<'_, S, P>,
-    (method, course): (Method, &Course<P>),
+    (method, course): (Method, &Course<'_, P>),
     recorder: &mut Recorder<'_, '_, N, P>,
 ) -> Result<(), Reason> {
     let Course { t0, t_end, tolerance, .. } = *course;
@@ -256,11 +256,11 @@ fn by_equations<const N: usize, S: StateVector<f64>, P: Phase<N>>(
         }
         Method::RungeKutta5 => {
             let integration = RungeKutta5::within(coordinates, equations, groups, begin, t_end, tolerance);
-            follow(integration.map(Explicit::new), (expand, layout), recorder)
+            follow_with_dense_output(integration, (expand, layout), recorder)
         }
         _ => {
             let integration = RungeKutta8::within(coordinates, equations, groups, begin, t_end, tolerance);
-            follow(integration.map(Explicit::new), (expand, layout), recorder)
+            follow_with_dense_output(integration, (expand, layout), recorder)
         }
     }
 }
@@ -280,7 +280,7 @@ fn gauss<S: StateVector<f64>, C: Coordinates<S>, F: Fn(f64, &S) -> S>(
 fn by_rattle<const N: usize, M: Model<N>>(
     model: &M,
     (order, step): (usize, f64),
-    course: &Course<M::Point<f64>>,
+    course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
     if const { !is_isochoric_in_pi(&M::DESCRIPTION) } {
@@ -290,19 +290,46 @@ fn by_rattle<const N: usize, M: Model<N>>(
     let equations = |t: f64, full: &M::Full<f64>| model.hamilton_equations(t, full);
     let expand = |_: f64, full: &M::Full<f64>| model.unflatten(full);
     let (groups, layout) = (M::DESCRIPTION.full, const { Layout::of(M::DESCRIPTION.full, N) });
-    let begin = (course.t0, model.flatten(&course.start));
+    let begin = (course.t0, model.flatten(course.start));
     let integration = Rattle::<N, _, _>::new(equations, groups, composition, begin, course.t_end, step);
     follow(integration, (&expand, layout), recorder)
 }
 
 /// Follows an integration that has begun.
 fn follow<const N: usize, S: StateVector<f64>, P: Phase<N>>(
-    integration: Result<impl Stepper<S>, Failure>,
+    mut integration: Result<impl Stepper<S>, Failure>,
     (expand, layout): (Expansion<'_, S, P>, Layout),
     recorder: &mut Recorder<'_, '_, N, P>,
 ) -> Result<(), Reason> {
-    let integration = integration.map_err(|failure| recorder.reason(failure))?;
-    recorder.follow(&mut Expanded::new(integration, expand, layout))
+    // Where it is: an integration is some thousand bytes.
+    match &mut integration {
+        Ok(integration) => recorder.follow(&mut Expanded::new(integration, expand, layout)),
+        Err(failure) => Err(recorder.reason(*failure)),
+    }
+}
+
+/// Follows an explicit integration that has begun.
+fn follow_with_dense_output<const N: usize, Q, S, F, C, L, P>(
+    mut integration: Result<RungeKutta<Q, S, F, C, L>, Failure>,
+    (expand, layout): (Expansion<'_, S, P>, Layout),
+    recorder: &mut Recorder<'_, '_, N, P>,
+) -> Result<(), Reason>
+where
+    Q: Pair,
+    S: StateVector<f64>,
+    F: Field<S, C, L>,
+    C: Coordinates<S>,
+    L: StateVector<f64>,
+    P: Phase<N>,
+{
+    match &mut integration {
+        Ok(integration) => {
+            let mut dense = None;
+            let mut explicit = Explicit::new(integration, &mut dense);
+            recorder.follow(&mut Expanded::new(&mut explicit, expand, layout))
+        }
+        Err(failure) => Err(recorder.reason(*failure)),
+    }
 }
 
 /// The chart of the group to which the motion is confined, for states that hold the placement.

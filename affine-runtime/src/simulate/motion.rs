@@ -46,14 +46,14 @@ pub(super) trait Motion<P> {
 
 /// An integration of states whose phase points are those of an expansion.
 pub(super) struct Expanded<'e, I, S, P> {
-    integration: I,
+    integration: &'e mut I,
     expand: Expansion<'e, S, P>,
     layout: Layout,
     kept: Option<(f64, S)>,
 }
 
 impl<'e, I: Stepper<S>, S: StateVector<f64>, P> Expanded<'e, I, S, P> {
-    pub(super) fn new(integration: I, expand: Expansion<'e, S, P>, layout: Layout) -> Self {
+    pub(super) fn new(integration: &'e mut I, expand: Expansion<'e, S, P>, layout: Layout) -> Self {
         Self { integration, expand, layout, kept: None }
     }
 

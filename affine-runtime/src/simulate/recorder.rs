@@ -50,15 +50,15 @@ pub(super) enum Turn<P> {
 
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Records the start of an integration where it is an output.
-    pub(super) fn begin(&mut self, (t0, start): (f64, P)) -> Result<(), Reason> {
-        self.watcher.begin(t0, &start, self.place.changed_by);
+    pub(super) fn begin(&mut self, t0: f64, start: &P) -> Result<(), Reason> {
+        self.watcher.begin(t0, start, self.place.changed_by);
         if !self.place.integrator.is_empty() {
             return Ok(());
         }
         if self.schedule == Schedule::Steps {
-            self.record_step(t0, (start, 0.0))?;
+            self.record_step(t0, (*start, 0.0))?;
         } else if self.schedule.take_through(t0, self.backward).is_some() {
-            self.record(t0, (start, 0.0))?;
+            self.record(t0, (*start, 0.0))?;
         }
         Ok(())
     }
@@ -173,7 +173,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 // A collapse is a placement without inverse, and may be the event.
                 self.trajectory.end = (t, point);
                 self.trajectory.energies.work_at_end = self.place.work() + work;
-                if self.schedule.ends_with_output() { self.push(t, point) } else { Ok(()) }
+                if self.schedule.ends_with_output() { self.push() } else { Ok(()) }
             }
             Action::Change(change) => {
                 let changed = change(t, &point).map_err(|error| match error {
@@ -230,20 +230,20 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Checks a phase point, records it as an output and shows it to the observer.
     pub(super) fn record(&mut self, t: f64, point: WithWork<P>) -> Result<(), Reason> {
         self.reach(t, point)?;
-        self.push(t, point.0)
+        self.push()
     }
 
-    /// The point is the end so far, and the work that of the end.
-    fn push(&mut self, t: f64, point: P) -> Result<(), Reason> {
-        self.trajectory.times.push(t);
-        self.trajectory.points.push(point);
-        let energy = self.model.hamiltonian(t, &point);
-        let energies = &mut self.trajectory.energies;
+    /// Records the end so far, with the work there.
+    fn push(&mut self) -> Result<(), Reason> {
+        let Trajectory { end: (t, point), times, points, energies, .. } = &mut *self.trajectory;
+        times.push(*t);
+        points.push(*point);
+        let energy = self.model.hamiltonian(*t, point);
         energies.outputs.push(energy);
         energies.work.push(energies.work_at_end);
-        energies.scale = larger(energies.scale, energy_scale(self.model, &point, energy));
+        energies.scale = larger(energies.scale, energy_scale(self.model, point, energy));
         match &mut self.observe {
-            Some(observe) => go_on(observe(t, &point), Callback::Observer),
+            Some(observe) => go_on(observe(*t, point), Callback::Observer),
             None => Ok(()),
         }
     }

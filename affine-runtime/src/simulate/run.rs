@@ -1,6 +1,7 @@
 //! Running a simulation: from its settings to the outcome, leg by leg.
 
 use super::checkpoint::{Checkpoint, Place};
+use super::fingerprint::fingerprint;
 use super::halt::{Halt, Outcome, Reason, Setting, Stop};
 use super::layout::total;
 use super::mechanics::{Course, Mechanics};
@@ -35,6 +36,23 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     }
 }
 
+#[cfg(feature = "report")]
+impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
+    /// Looks at the settings alone.
+    ///
+    /// # Errors
+    /// What [`run`](Self::run) would say of them, with the start as it is.
+    pub(crate) fn checked(self) -> Result<(), Halt<N, M::Point<f64>>> {
+        let run = Run { model: self.model, settings: self.settings };
+        let checked = run.settings.checked(&M::DESCRIPTION).map_err(Reason::from);
+        let checked = checked.and_then(|_| check(run.settings.plan.t0, &run.settings.start));
+        checked.map_err(|reason| {
+            let trajectory = Box::new(run.empty_trajectory());
+            Halt { stop: Stop { reason, t: trajectory.end.0, steps: 0 }, trajectory }
+        })
+    }
+}
+
 /// A run of a model that is only known by its phase points.
 struct Run<'a, const N: usize, P> {
     model: &'a dyn Mechanics<N, P>,
@@ -61,13 +79,13 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     }
 
     fn empty_trajectory(&self) -> Trajectory<N, P> {
-        let Settings { start, plan: Plan { t0, .. }, .. } = self.settings;
-        let energy = self.model.hamiltonian(t0, &start);
+        let (t0, start) = (self.settings.plan.t0, &self.settings.start);
+        let energy = self.model.hamiltonian(t0, start);
         Trajectory {
-            description: *self.model.description(),
-            bases: self.model.bases(),
-            start: (t0, start),
-            end: (t0, start),
+            description: self.model.description(),
+            bases: self.model.bases().map(Box::new),
+            start: (t0, *start),
+            end: (t0, *start),
             times: Vec::new(),
             points: Vec::new(),
             energies: Energies {
@@ -76,7 +94,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                 outputs: Vec::new(),
                 work: Vec::new(),
                 work_at_end: 0.0,
-                scale: energy_scale(self.model, &start, energy),
+                scale: energy_scale(self.model, start, energy),
             },
             statistics: Statistics::default(),
             events: Vec::new(),
@@ -99,9 +117,9 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     fn drive(&mut self, trajectory: &mut Trajectory<N, P>) -> Result<(), Reason> {
         let description = self.model.description();
         let (t_end, schedule) = self.settings.checked(description)?;
-        let Settings { start, plan: Plan { t0, max_steps, .. }, .. } = self.settings;
-        check(t0, &start)?;
-        let events = self.settings.events.len();
+        let Plan { t0, max_steps, .. } = self.settings.plan;
+        check(t0, &self.settings.start)?;
+        let events: Vec<&'static str> = self.settings.events.iter().map(|event| event.name).collect();
         let mut recorder = Recorder {
             model: self.model,
             needs_determinant: false,
@@ -118,17 +136,17 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             is_lost: false,
             turn: None,
         };
-        let mut origin = (t0, start);
+        let mut origin = (t0, self.settings.start);
         if let Some(checkpoint) = self.settings.checkpoint.take() {
-            origin = self.take_up(checkpoint, events, &mut recorder)?;
+            origin = self.take_up(checkpoint, &events, &mut recorder)?;
         }
         let outcome = self.legs(&mut origin, &mut recorder);
         let interrupted = matches!(outcome, Err(Reason::Interrupted(_) | Reason::StepLimit { .. }));
         if (interrupted || recorder.trajectory.stopped_by.is_some()) && !recorder.is_lost {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
             let place = place.from(origin.0, &origin.1);
-            let run = self.settings.plan.fingerprint(description.name, events);
-            recorder.trajectory.checkpoint = Some(Checkpoint { run, place });
+            let run = fingerprint(self.model, &self.settings, &events);
+            recorder.trajectory.checkpoint = Some(Box::new(Checkpoint { run, place }));
         }
         outcome
     }
@@ -137,11 +155,11 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     fn take_up(
         &self,
         checkpoint: Checkpoint,
-        events: usize,
+        events: &[&'static str],
         recorder: &mut Recorder<'_, '_, N, P>,
     ) -> Result<(f64, P), Setting> {
         let model = self.model.description().name;
-        if checkpoint.run != self.settings.plan.fingerprint(model, events) {
+        if checkpoint.run != fingerprint(self.model, &self.settings, events) {
             return Err(Setting::Checkpoint { model });
         }
         let origin = checkpoint.place.origin(&self.settings.start);
@@ -156,7 +174,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     fn legs(&self, from: &mut (f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
         let mut changes = 0;
         loop {
-            self.leg(*from, recorder)?;
+            self.leg(from, recorder)?;
             let Some(Turn::Changed { t, point, event, work }) = recorder.turn.take() else { return Ok(()) };
             check(t, &point)?;
             changes += 1;
@@ -173,10 +191,11 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     }
 
     /// The motion from a point to the end, or to an event that changes it.
-    fn leg(&self, (t0, start): (f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
+    fn leg(&self, from: &(f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
+        let (t0, start) = (from.0, &from.1);
         let Plan { method, tolerance, .. } = self.settings.plan;
         let course = Course { t0, start, t_end: recorder.t_end, method, tolerance };
-        let geodesic = self.model.geodesic(t0, &start);
+        let geodesic = self.model.geodesic(t0, start);
         recorder.trajectory.computation.closed_form_exists = geodesic.is_some();
         match (method, geodesic) {
             (Method::ClosedForm, None) => {
@@ -184,7 +203,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             }
             (Method::Automatic | Method::ClosedForm, Some(geodesic)) => recorder.evaluate(&geodesic, &course),
             _ => {
-                recorder.begin((t0, start))?;
+                recorder.begin(t0, start)?;
                 self.model.integrate(&course, recorder)
             }
         }

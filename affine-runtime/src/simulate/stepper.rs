@@ -60,22 +60,25 @@ macro_rules! by_the_same_names {
 }
 
 /// The explicit method with the dense output of its last step, which is formed once for all times in it.
-pub(super) struct Explicit<P, S, F, C, L> {
-    integration: RungeKutta<P, S, F, C, L>,
-    dense: Option<Dense<S, C>>,
+pub(super) struct Explicit<'i, P, S, F, C, L> {
+    integration: &'i mut RungeKutta<P, S, F, C, L>,
+    dense: &'i mut Option<Dense<S, C>>,
 }
 
-impl<P, S, F, C, L> Explicit<P, S, F, C, L> {
-    pub(super) fn new(integration: RungeKutta<P, S, F, C, L>) -> Self {
-        Self { integration, dense: None }
+impl<'i, P, S, F, C, L> Explicit<'i, P, S, F, C, L> {
+    pub(super) fn new(
+        integration: &'i mut RungeKutta<P, S, F, C, L>,
+        dense: &'i mut Option<Dense<S, C>>,
+    ) -> Self {
+        Self { integration, dense }
     }
 }
 
 impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>> Stepper<S>
-    for Explicit<P, S, F, C, L>
+    for Explicit<'_, P, S, F, C, L>
 {
     fn advance(&mut self) -> Result<(), Failure> {
-        self.dense = None;
+        *self.dense = None;
         self.integration.advance()
     }
     fn between(&mut self, t: f64) -> Result<S, Failure> {
@@ -94,7 +97,7 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         self.integration.statistics()
     }
     fn exchange(&mut self, tape: &mut Bits<'_>) {
-        self.dense = None;
+        *self.dense = None;
         self.integration.exchange(tape);
     }
 }

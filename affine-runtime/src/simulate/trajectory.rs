@@ -9,7 +9,7 @@ use crate::state::Phase;
 /// Phase points over time, with how they were computed and what they should conserve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory<const N: usize, P> {
-    pub(super) description: Description,
+    pub(super) description: &'static Description,
     pub(super) start: (f64, P),
     pub(super) end: (f64, P),
     pub(super) times: Vec<f64>,
@@ -21,9 +21,9 @@ pub struct Trajectory<const N: usize, P> {
     pub(super) events: Vec<Occurrence<P>>,
     /// Name of the event that ended the run.
     pub(super) stopped_by: Option<&'static str>,
-    pub(super) checkpoint: Option<Checkpoint>,
+    pub(super) checkpoint: Option<Box<Checkpoint>>,
     /// Bases in which the model's metrics are the identity.
-    pub(super) bases: Option<Bases<N>>,
+    pub(super) bases: Option<Box<Bases<N>>>,
 }
 
 /// How a trajectory was computed.
@@ -62,6 +62,8 @@ impl Computation {
             }
             Failure::NotSeparable => Setting::NotSeparable { model }.into(),
             Failure::OffConstraint { defect } => Setting::OffConstraint { defect }.into(),
+            Failure::Time { given } => Setting::Time { name: "an end of the interval", given }.into(),
+            Failure::Tolerance { given } => Setting::Tolerance { given }.into(),
         }
     }
 }
@@ -137,7 +139,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// the factors of a Jacobian.
     #[must_use]
     pub fn checkpoint(&self) -> Option<&Checkpoint> {
-        self.checkpoint.as_ref()
+        self.checkpoint.as_deref()
     }
 
     /// Energies `H` at the output times.
@@ -161,6 +163,6 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// What was derived about the model.
     #[must_use]
     pub fn description(&self) -> &Description {
-        &self.description
+        self.description
     }
 }

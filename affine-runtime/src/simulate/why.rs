@@ -14,7 +14,7 @@ const WORTH_SAYING: f64 = 1e8;
 /// Why a trajectory was computed the way it was; displays as text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Why {
-    description: Description,
+    description: &'static Description,
     computation: Computation,
 }
 

@@ -148,16 +148,40 @@ fn relative<V: Simd>(
     simd.select_f64s(no_error, largest, larger)
 }
 
+/// Sums of squares of so many components of several states, in the order of [`sum_of_squares`](super::sum_of_squares).
+#[inline(always)]
+pub(crate) fn sums_of_squares<V: Simd, const K: usize>(
+    simd: V,
+    len: usize,
+    mut components: impl FnMut(usize) -> [V::f64s; K],
+) -> [V::f64s; K] {
+    let whole = len - len % 4;
+    let mut sums = [[simd.splat_f64s(0.0); K]; 4];
+    let mut add = |sums: &mut [V::f64s; K], i: usize| {
+        for (sum, v) in sums.iter_mut().zip(components(i)) {
+            *sum = simd.add_f64s(*sum, simd.mul_f64s(v, v));
+        }
+    };
+    for first in (0..whole).step_by(4) {
+        for (i, sums) in sums.iter_mut().enumerate() {
+            add(sums, first + i);
+        }
+    }
+    let both = |a: usize, b: usize, k: usize| simd.add_f64s(sums[a][k], sums[b][k]);
+    let mut sum = core::array::from_fn(|k| simd.add_f64s(both(0, 2, k), both(1, 3, k)));
+    for i in whole..len {
+        add(&mut sum, i);
+    }
+    sum
+}
+
 /// Euclidean norms.
 #[inline(always)]
 fn norm<V: Simd, T: Lanes>(simd: V, y: &[T], range: Range<usize>) -> T {
     let (mut squares, mut norms, mut doubt) = (T::zero(), T::zero(), simd.splat_f64s(0.0));
     for k in 0..parts::<V, T>() {
-        let mut sum = simd.splat_f64s(0.0);
-        for component in &y[range.clone()] {
-            let component = part(simd, component, k);
-            sum = simd.add_f64s(sum, simd.mul_f64s(component, component));
-        }
+        let components = &y[range.clone()];
+        let [sum] = sums_of_squares(simd, components.len(), |i| [part(simd, &components[i], k)]);
         let (least, most) = (simd.splat_f64s(*IN_RANGE.start()), simd.splat_f64s(*IN_RANGE.end()));
         let above = simd.greater_than_or_equal_f64s(sum, least);
         let in_range = simd.and_m64s(above, simd.less_than_or_equal_f64s(sum, most));

@@ -83,8 +83,9 @@ impl<H: StateVector<f64>> Step<H> {
         widest(Attempt { step: self, motion, end, of: PhantomData });
     }
 
+    /// The same, on the vectors of a processor.
     #[inline(always)]
-    fn attempt_in<S, C, R: SecondOrder<S, C, Half = H>>(
+    pub(super) fn attempt_in<S, C, R: SecondOrder<S, C, Half = H>>(
         &mut self,
         vectors: impl Vectors,
         (system, constants): (&R, &C),

@@ -6,6 +6,7 @@ use crate::integrate::lie::{Coordinates, Flat, Sum};
 use crate::integrate::packed::{self, Packing};
 use crate::integrate::stages;
 use crate::integrate::taylor::Vectors;
+use crate::integrate::widest::{Work, widest};
 use crate::model::StateVector;
 use crate::scalar::Scalar;
 
@@ -18,6 +19,12 @@ pub trait Stages<L: StateVector<f64>> {
     #[inline(always)]
     fn combination<const TERMS: usize>(&self, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
         stages::combination(stages, row)
+    }
+
+    /// `z + h sum_j a_j k_j`, where nothing but the last stage of the row is waited for.
+    #[inline(always)]
+    fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
+        stages::moved(z, h, stages, row)
     }
 
     /// `z + h rise`.
@@ -92,8 +99,7 @@ pub struct InVectors<R, K>(pub R, pub K);
 impl<S: StateVector<f64>, K, R: Packing<S, K>> Field<S, Flat, R::Packed> for InVectors<R, K> {
     #[inline(always)]
     fn rate(&self, t: f64, y: &S) -> S {
-        let Self(packing, constants) = self;
-        packing.unpacked(&packing.slope(crate::integrate::taylor::Portable, t, constants, &packing.packed(y)))
+        widest(Evaluation { field: self, t, y })
     }
     #[inline(always)]
     fn stored(&self, z: &S) -> R::Packed {
@@ -112,6 +118,22 @@ impl<S: StateVector<f64>, K, R: Packing<S, K>> Field<S, Flat, R::Packed> for InV
         let Self(packing, constants) = self;
         let slope = packing.slope(vectors, t, constants, z);
         (packing.unpacked(&slope), slope)
+    }
+}
+
+/// `f(t, y)` by itself.
+struct Evaluation<'a, R, K, S> {
+    field: &'a InVectors<R, K>,
+    t: f64,
+    y: &'a S,
+}
+
+impl<S: StateVector<f64>, K, R: Packing<S, K>> Work for Evaluation<'_, R, K, S> {
+    type Output = S;
+    #[inline(always)]
+    fn run(self, vectors: impl Vectors) -> S {
+        let InVectors(packing, constants) = self.field;
+        packing.unpacked(&packing.slope(vectors, self.t, constants, &packing.packed(self.y)))
     }
 }
 
@@ -136,6 +158,16 @@ impl<S, K, R: Packing<S, K>, V: Vectors> Stages<R::Packed> for StagesInVectors<'
         row: &[(usize, f64); TERMS],
     ) -> R::Packed {
         packed::combination(self.vectors, stages, row)
+    }
+    #[inline(always)]
+    fn moved<const TERMS: usize>(
+        &self,
+        z: &R::Packed,
+        h: f64,
+        stages: &[R::Packed],
+        row: &[(usize, f64); TERMS],
+    ) -> R::Packed {
+        packed::moved(self.vectors, (z, h), stages, row)
     }
     #[inline(always)]
     fn plus_multiple(&self, z: &R::Packed, h: f64, rise: &R::Packed) -> R::Packed {

@@ -5,7 +5,7 @@ use pulp::{Arch, Simd, WithSimd};
 use super::dormand_prince_853::*;
 use super::pair::{DormandPrince853, E3, Pair};
 use super::start::Start;
-use crate::integrate::error_norm::{IN_RANGE, NormInLanes};
+use crate::integrate::error_norm::{IN_RANGE, NormInLanes, sums_of_squares};
 use crate::integrate::step_size::Controller;
 use crate::integrate::step_size::in_lanes::{Clocks, fate};
 use crate::lanes::Lanes;
@@ -138,11 +138,29 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         if node != 1.0 {
             time = self.clocks.t + T::constant(node, 0.0) * h;
         }
-        self.moved(simd, h, row);
+        self.at_stage(simd, h, row);
         self.f.slope(time, &self.trial, &mut self.stages[NUMBER - 1]);
     }
 
-    /// The trial states at the stage of a row.
+    /// The trial states at the stage of a row: the last one enters last.
+    #[inline(always)]
+    fn at_stage<V: Simd, const TERMS: usize>(&mut self, simd: V, h: T, row: &[(usize, f64); TERMS]) {
+        let [ref earlier @ .., (last, newest)] = row[..] else { return };
+        for k in 0..parts::<V, T>() {
+            let h = part(simd, &h, k);
+            let of_newest = simd.mul_f64s(h, simd.splat_f64s(newest));
+            for i in 0..S::LEN {
+                let mut at = part(simd, &self.y.as_ref()[i], k);
+                if !earlier.is_empty() {
+                    at = plus(simd, combination(simd, &self.stages, (i, k), earlier), h, at);
+                }
+                let slope = part(simd, &self.stages[last - 1].as_ref()[i], k);
+                set_part(simd, &mut self.trial.as_mut()[i], k, plus(simd, slope, of_newest, at));
+            }
+        }
+    }
+
+    /// The trial states at the end of the step, rounded once.
     #[inline(always)]
     fn moved<V: Simd, const TERMS: usize>(&mut self, simd: V, h: T, row: &[(usize, f64); TERMS]) {
         for k in 0..parts::<V, T>() {
@@ -167,14 +185,13 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
             let mut value = T::zero();
             for k in 0..parts::<V, T>() {
                 let zero = simd.splat_f64s(0.0);
-                let (mut fifth, mut third, mut sizes) = (zero, zero, zero);
-                for i in range.clone() {
-                    let of_fifth = combination(simd, &self.stages, (i, k), &E5);
-                    let of_third = combination(simd, &self.stages, (i, k), &E3);
+                let mut sizes = zero;
+                let [fifth, third] = sums_of_squares(simd, range.len(), |i| {
+                    let of_fifth = combination(simd, &self.stages, (range.start + i, k), &E5);
+                    let of_third = combination(simd, &self.stages, (range.start + i, k), &E3);
                     sizes = simd.add_f64s(sizes, simd.abs_f64s(of_fifth));
-                    fifth = simd.add_f64s(fifth, simd.mul_f64s(of_fifth, of_fifth));
-                    third = simd.add_f64s(third, simd.mul_f64s(of_third, of_third));
-                }
+                    [of_fifth, of_third]
+                });
                 // As the pair has it.
                 let size = simd.add_f64s(fifth, simd.mul_f64s(simd.splat_f64s(0.01), third));
                 let error = simd.div_f64s(fifth, simd.sqrt_f64s(size));
@@ -190,7 +207,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
             }
             largest = self.norm.larger(simd, largest, (g, group, range), value, (h, before, after));
         }
-        (h * largest / T::constant(self.tolerance, 0.0), doubt)
+        (h / T::constant(self.tolerance, 0.0) * largest, doubt)
     }
 
     /// Accepts the steps with errors of at most 1 whose slopes at the end are finite; what becomes of the lanes.
@@ -228,11 +245,11 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
 
 /// Component `i` of the slopes in a vector of lanes, each times the coefficient that a row has for it.
 #[inline(always)]
-fn combination<V: Simd, T: Lanes, S: StateVector<T>, const TERMS: usize>(
+fn combination<V: Simd, T: Lanes, S: StateVector<T>>(
     simd: V,
     stages: &[S; STAGES],
     (i, k): (usize, usize),
-    row: &[(usize, f64); TERMS],
+    row: &[(usize, f64)],
 ) -> V::f64s {
     let mut sum = simd.splat_f64s(0.0);
     for (term, (stage, coefficient)) in row.iter().enumerate() {

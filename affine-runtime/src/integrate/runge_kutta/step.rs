@@ -178,19 +178,13 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
         row: &[(usize, f64); TERMS],
     ) {
         let time = if node == 1.0 { self.t_trial } else { self.t + node * self.length() };
-        self.stages[number - 1] = f.slope(time, &self.moved(f, row));
+        self.stages[number - 1] = f.slope(time, &f.moved(&self.y, self.length(), &self.stages, row));
     }
 
-    /// The end of the step by its weights.
+    /// The end of the step by its weights, rounded once.
     #[inline(always)]
     pub(super) fn end_at<const TERMS: usize>(&mut self, f: &impl Stages<S>, weights: &[(usize, f64); TERMS]) {
-        self.y_trial = self.moved(f, weights);
-    }
-
-    /// `y + h sum_j a_j k_j`.
-    #[inline(always)]
-    fn moved<const TERMS: usize>(&self, f: &impl Stages<S>, row: &[(usize, f64); TERMS]) -> S {
-        f.plus_multiple(&self.y, self.length(), &self.combination(f, row))
+        self.y_trial = f.plus_multiple(&self.y, self.length(), &self.combination(f, weights));
     }
 
     /// `sum_j a_j k_j`.

@@ -82,9 +82,9 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Beginning<'_, T, S, F> {
         }
         self.f.slope(self.at_start + signed, &end, &mut after);
         for (after, before) in after.as_mut().iter_mut().zip(slope.as_ref()) {
-            *after = (*after - *before) / trial;
+            *after = *after - *before;
         }
-        let of_second = norm.rate(simd, &after, y, &end);
+        let of_second = norm.rate(simd, &after, y, &end) / trial;
         let second = of_second.sqrt();
         let allowed = exp(ln(FIRST_ERROR * self.tolerance) / DormandPrince853::ERROR_ORDER);
         let mut lengths = T::zero();
