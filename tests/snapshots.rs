@@ -184,6 +184,8 @@ families! {
     isochoric_sum_2: "dim = 2, constraint = isochoric, kinetic(dalembert = diag(1, 2), casimir2 = 0.2)";
     conformal_sum_2: "dim = 2, constraint = conformal, kinetic(dalembert = diag(1, 2), body_inertia = diag(2, 1), \
         body_translation = 2)";
+    splitting_missile_2: "dim = 2, emit(splitting), kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), \
+        potential = hyperbolic_dilatation(10) + neo_hookean(0.5)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.

@@ -22,7 +22,9 @@ pub use crate::frames::{
 pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::integrate::nystrom::SecondOrder;
 pub use crate::integrate::packed::{Four, Packed, Packing};
-pub use crate::integrate::splitting::{Pieces, accumulate, conjugated, growth, left_product, right_product};
+pub use crate::integrate::splitting::{
+    Pieces, accumulate, conjugated, dilated, growth, left_product, right_product,
+};
 pub use crate::integrate::taylor::{
     Divisor, Series, Vectors, add_pair, add_products, between, divided, doubled, halved, halves, lanes, over,
     set_lanes, subtract_pair, subtract_products,

@@ -43,7 +43,7 @@ impl Visitor for Symplectic {
         if !self.only.is_empty() && !self.only.iter().any(|asked| asked == name) {
             return Ok(());
         }
-        let motion = Motion { model, ends, t_end, repeats: (5, Duration::from_millis(20)) };
+        let motion = Motion { model, ends, t_end, repeats: (7, Duration::from_millis(20)) };
         let Curves { automatic, splitting, gauss } = motion.curves()?;
         // Its evaluations are those of the equations, as for Gauss collocation; a Taylor series counts as one.
         let explicit = motion.over_tolerances("Runge-Kutta 8", Method::RungeKutta8)?;

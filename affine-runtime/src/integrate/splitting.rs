@@ -1,9 +1,11 @@
 //! Splitting: exact flows of pieces of the Hamiltonian in turn, explicit and symplectic, with a fixed step.
 
 mod coefficients;
+mod dilated;
 mod growth;
 
 pub use coefficients::Sweeps;
+pub use dilated::dilated;
 pub use growth::{accumulate, conjugated, growth, left_product, right_product};
 
 use core::fmt;
@@ -22,6 +24,8 @@ pub trait Pieces<S, C> {
     const COUNT: usize;
     /// There are two pieces, `A` and `B`, with `[B, [B, [B, A]]] = 0`.
     const NYSTROM: bool;
+    /// And `A` is much larger than `B`, as it may be where a stiff motion is part of it.
+    const NEAR_INTEGRABLE: bool;
 
     /// Moves the state along a piece for the time `h`; `t` is the time that a potential reads.
     fn flow(&self, piece: usize, t: f64, h: f64, constants: &C, state: &mut Sum<S>);
@@ -59,7 +63,10 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
         t_end: f64,
         step: f64,
     ) -> Option<Result<Self, Failure>> {
-        let sweeps = Sweeps::of_order(order, P::NYSTROM)?;
+        let sweeps = match P::NEAR_INTEGRABLE {
+            true => Sweeps::near_integrable(order),
+            false => Sweeps::of_order(order, P::NYSTROM),
+        }?;
         Some(Self::with(pieces, constants, sweeps, (t0, y0), t_end, step))
     }
 

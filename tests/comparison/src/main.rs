@@ -132,7 +132,7 @@ impl Visitor for Comparison {
         let runs = theirs.iter().flat_map(|(_, runs)| runs);
         let pairs: Vec<(f64, f64)> = runs.map(|run| (run.error, run.time.as_secs_f64())).collect();
         self.rows.push(ratios(name, &ours, &pairs));
-        let motion = Motion { model, ends: [start, end], t_end, repeats: (5, Duration::from_millis(20)) };
+        let motion = Motion { model, ends: [start, end], t_end, repeats: (7, Duration::from_millis(20)) };
         let Curves { automatic, splitting, gauss } = motion.curves()?;
         for (method, curves) in [("automatic", vec![automatic]), ("splitting", splitting), ("Gauss", gauss)] {
             let runs: Vec<(f64, f64)> = curves.iter().flat_map(|curve| curve.seconds.clone()).collect();

@@ -7,6 +7,7 @@ use crate::ir::fuse::fuse;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::Reduction;
+use crate::mechanics::separation::Slope;
 use crate::mechanics::splitting::{Flow, splitting};
 use crate::optimise::{Batch, straight_line};
 
@@ -38,6 +39,17 @@ pub enum FlowProgram {
         /// Does the exponential stand on the right?
         right: bool,
         /// The generator, row after row.
+        program: Program,
+    },
+    /// The dilatation along its closed form.
+    Dilatation {
+        /// Components of the placement.
+        placement: Vec<Vec<String>>,
+        /// Components of the affine momentum.
+        momentum: Vec<Vec<String>>,
+        /// What the potential is.
+        slope: Slope,
+        /// What the closed form reads.
         program: Program,
     },
 }
@@ -76,6 +88,15 @@ fn written(
     let mut program = |arena: &mut Arena, batch: &Batch| {
         fuse(&straight_line(arena, batch, constants, &|atom| varying.contains(&atom)))
     };
+    let table = |arena: &Arena, symbols: &[Expr]| -> Vec<Vec<String>> {
+        let rows = symbols.chunks(reduction.chart.dim);
+        rows.map(|row| row.iter().map(|s| name(arena, *s)).collect()).collect()
+    };
+    let placement = |arena: &Arena| {
+        let placement = reduction.states.iter().find(|(group, _)| matches!(*group, "phi" | "Psi"));
+        placement.map_or_else(Vec::new, |(_, symbols)| table(arena, symbols))
+    };
+    let momentum = |arena: &Arena| table(arena, &reduction.chart.m.0.concat());
     match flow {
         Flow::Shift(system) => {
             let moved = system.rates.iter().map(|(_, symbol, _)| name(arena, *symbol)).collect();
@@ -87,17 +108,14 @@ fn written(
                 row.iter().enumerate().map(move |(b, y)| (format!("generator_{}{}", a + 1, b + 1), y.clone()))
             });
             let results: Vec<(String, Polynomial)> = results.collect();
-            let table = |symbols: &[Expr]| -> Vec<Vec<String>> {
-                symbols
-                    .chunks(reduction.chart.dim)
-                    .map(|row| row.iter().map(|s| name(arena, *s)).collect())
-                    .collect()
-            };
-            let placement = reduction.states.iter().find(|(group, _)| matches!(*group, "phi" | "Psi"));
-            let placement = placement.map_or_else(Vec::new, |(_, symbols)| table(symbols));
-            let momentum = turns_momentum.then(|| table(&reduction.chart.m.0.concat()));
+            let (placement, momentum) = (placement(arena), turns_momentum.then(|| momentum(arena)));
             let program = program(arena, &Batch { results, ..Batch::default() });
             FlowProgram::Exponential { placement, momentum, right: *right, program }
+        }
+        Flow::Dilatation(separation) => {
+            let program = program(arena, &separation.batch());
+            let (placement, momentum) = (placement(arena), momentum(arena));
+            FlowProgram::Dilatation { placement, momentum, slope: separation.slope.clone(), program }
         }
     }
 }

@@ -95,13 +95,18 @@ fn dilatation(context: &Context) -> TokenStream {
     };
     let body = context.generic(program);
     let (lets, values) = (&body.lets, &body.results);
-    let path = match separation.slope {
-        Slope::Zero => quote!(free),
-        Slope::Linear(_) => quote!(harmonic),
-        Slope::Hyperbolic { .. } => quote!(hyperbolic),
-    };
+    let path = closed_form(&separation.slope);
     quote! {
         #lets
         let dilatation = #rt::Breathing::#path(t0, q, momentum.trace(), #(#values),*);
+    }
+}
+
+/// The constructor of the closed form.
+pub(super) fn closed_form(slope: &Slope) -> TokenStream {
+    match slope {
+        Slope::Zero => quote!(free),
+        Slope::Linear(_) => quote!(harmonic),
+        Slope::Hyperbolic { .. } => quote!(hyperbolic),
     }
 }

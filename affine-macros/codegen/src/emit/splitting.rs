@@ -6,8 +6,10 @@ use quote::quote;
 use crate::derive::splitting::{FlowProgram, Programs};
 use crate::ir::Program;
 use crate::mechanics::potential::TIME;
+use crate::mechanics::separation::Slope;
 
 use super::body::{Body, inner, inputs};
+use super::separated::closed_form;
 use super::{Context, identifiers, number, pattern};
 
 /// The implementation of the capability.
@@ -30,6 +32,13 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         _ => (quote!(match piece { #(#arms)* }), quote!(piece)),
     };
     let programs = || pieces.iter().flat_map(|(_, flows)| flows).map(program);
+    let dilates =
+        pieces.iter().flat_map(|(_, flows)| flows).any(|flow| matches!(flow, FlowProgram::Dilatation { .. }));
+    let near_integrable = (*nystrom && dilates).then(|| {
+        quote!(
+            const NEAR_INTEGRABLE: ::core::primitive::bool = true;
+        )
+    });
     let reads = |name: &str| programs().any(|program| inputs(program).contains(&name));
     let time = if reads(TIME) { quote!(t) } else { quote!(_t) };
     let constants = match coefficient_names(context).iter().any(|name| reads(name)) {
@@ -40,6 +49,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         impl #generics #rt::Splitting<#n> for #prepared #types #clause {
             const PIECES: &'static [&'static ::core::primitive::str] = &[#(#names),*];
             const NYSTROM: ::core::primitive::bool = #nystrom;
+            #near_integrable
 
             #[inline]
             fn flow<#t: #rt::Real>(
@@ -74,7 +84,9 @@ pub(super) fn capability(context: &Context) -> TokenStream {
 
 fn program(flow: &FlowProgram) -> &Program {
     match flow {
-        FlowProgram::Shift { program, .. } | FlowProgram::Exponential { program, .. } => program,
+        FlowProgram::Shift { program, .. }
+        | FlowProgram::Exponential { program, .. }
+        | FlowProgram::Dilatation { program, .. } => program,
     }
 }
 
@@ -124,6 +136,9 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
                 moved.iter().zip(&results).map(|(name, rate)| accumulated(context, name, quote!(h * #rate)));
             quote!({ #bind #lets #only #(#rises)* })
         }
+        FlowProgram::Dilatation { placement, momentum, slope, program } => {
+            dilated(context, [placement, momentum], slope, program)
+        }
         FlowProgram::Exponential { placement, momentum, right, program } => {
             let rt = &context.names.rt;
             let moved: Vec<String> =
@@ -163,6 +178,35 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
             })
         }
     }
+}
+
+/// `phi` grows by a factor, the trace of the momentum by what all entries of the diagonal share.
+fn dilated(
+    context: &Context,
+    [placement, momentum]: [&[Vec<String>]; 2],
+    slope: &Slope,
+    program: &Program,
+) -> TokenStream {
+    let rt = &context.names.rt;
+    let moved: Vec<String> = placement.iter().chain(momentum).flatten().cloned().collect();
+    let bind = bound(context, program, &moved);
+    let Body { lets, results } = context.generic(program);
+    let path = closed_form(slope);
+    let diagonal: Vec<&String> = momentum.iter().enumerate().filter_map(|(a, row)| row.get(a)).collect();
+    let entries = identifiers(&diagonal.iter().map(|name| (*name).clone()).collect::<Vec<_>>());
+    let matrix = table(placement);
+    let grown = placement.iter().flatten().zip(identifiers(&placement.concat()));
+    let grown = grown.map(|(name, entry)| accumulated(context, name, quote!(#entry * growth)));
+    let risen = diagonal.iter().map(|name| accumulated(context, name, quote!(rise)));
+    quote!({
+        #bind
+        #lets
+        let (growth, rise) = #rt::dilated(#matrix, [#(#entries),*], h, |t_start, q_start, p_start| {
+            #rt::Breathing::#path(t_start, q_start, p_start, #(#results),*)
+        });
+        #(#grown)*
+        #(#risen)*
+    })
 }
 
 fn table(names: &[Vec<String>]) -> TokenStream {

@@ -43,6 +43,27 @@ pub enum Slope {
 }
 
 impl Slope {
+    /// `U_dil'` as an expression in `q`, `D` and `1/D`.
+    pub(super) fn derivative(&self, arena: &mut Arena) -> Option<Expr> {
+        let [q, up, down] = ["q", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
+        match self {
+            Self::Zero => Some(arena.constant(Rational::ZERO)),
+            Self::Linear(stiffness) => {
+                let stiffness = stiffness.expression(arena);
+                arena.product(&[(stiffness, 1), (q, 1)])
+            }
+            Self::Hyperbolic { stiffness, scale } => {
+                // stiffness (D^j - D^-j)/(2 j), j = 2 scale.
+                let j = i32::try_from((scale * &Rational::from(2)).to_i64()?).ok()?;
+                let weight = Rational::ratio(1, 2 * i64::from(j))?;
+                let (up, down) = (arena.pow(up, j)?, arena.pow(down, j)?);
+                let difference = arena.linear(&[(up, weight.clone()), (down, -&weight)]);
+                let stiffness = stiffness.expression(arena);
+                arena.product(&[(stiffness, 1), (difference, 1)])
+            }
+        }
+    }
+
     /// Reads `U_dil'` off a polynomial in `q`, `D` and `1/D` with coefficients in parameters.
     pub(super) fn of(arena: &mut Arena, slope: &Polynomial) -> Option<Self> {
         let [q, up, down] = ["q", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));

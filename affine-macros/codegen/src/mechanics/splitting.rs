@@ -9,7 +9,15 @@
 //! ```
 //!
 //! The second one holds for the Casimirs of an isotropic energy, which leave `M` alone, and for the norm of the
-//! vorticity or the spin, which turns it. Pieces that commute follow one another in one; translation and potential
+//! vorticity or the spin, which turns it. A third form is known beforehand: where the potential splits into `U_dil(q)` and
+//! what no dilatation changes, the dilatation with its own kinetic energy is a motion of one degree of freedom,
+//!
+//! ```text
+//! q' = p/m, p' = -U_dil'(q)          phi -> exp(q(t) - q) phi, M -> M + (p(t) - p)/n 1,    p = tr M
+//! ```
+//!
+//! which commutes with the Casimirs of the traceless momentum and with their rotation: steps need not resolve a
+//! stiff dilatation, even one that translation couples to the rest. Pieces that commute follow one another in one; translation and potential
 //! are one piece where their sum has the first form.
 
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
@@ -21,6 +29,7 @@ use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetic::Frame;
 use super::potential::Potential;
 use super::reduce::{Commuting, Reduction, gauge};
+use super::separation::{Separation, Slope};
 
 /// Pieces whose flows make up the motion, those of the kinetic energy first.
 #[derive(Clone, Debug)]
@@ -54,6 +63,8 @@ pub enum Flow {
         /// Does the affine momentum turn along?
         turns_momentum: bool,
     },
+    /// `q` and `tr M` along the closed form of their motion.
+    Dilatation(Separation),
 }
 
 /// A summand of `H` with its equations over the reduced state.
@@ -71,9 +82,11 @@ pub fn splitting(
     potential: Option<&Potential>,
     reduction: &Reduction,
 ) -> Option<Splitting> {
-    let summands = match reduction.separation {
-        Some(_) => separated(arena, reduction),
-        None => summands(arena, h, potential, reduction)?,
+    let own = own_dilatation(arena, h, potential, reduction);
+    let summands = match (&reduction.separation, &own) {
+        (Some(_), _) => separated(arena, reduction),
+        (None, Some(own)) => summands(arena, &own.h, Some(&own.rest), reduction)?,
+        (None, None) => summands(arena, h, potential, reduction)?,
     };
     let summands: Vec<Summand> =
         summands.into_iter().filter(|summand| !summand.system.rates.is_empty()).collect();
@@ -100,10 +113,58 @@ pub fn splitting(
         let own = flow(arena, &summand)?;
         groups.push((vec![summand], vec![own]));
     }
+    if let (Some(own), Some((first, flows))) = (own, groups.first_mut()) {
+        flows.push(Flow::Dilatation(own.separation));
+        first.push(Summand { name: "dilatation", energy: Some(own.energy), system: System::default() });
+    }
     let nystrom = is_nystrom(reduction, &groups);
     let name = |list: &[Summand]| list.iter().map(|s| s.name).collect::<Vec<_>>().join(" + ");
     let pieces = groups.into_iter().map(|(list, flows)| Piece { name: name(&list), flows }).collect();
     Some(Splitting { pieces, nystrom })
+}
+
+/// A dilatation with a closed form that stays in the state, for translation couples it to the rest.
+struct OwnDilatation {
+    separation: Separation,
+    /// `p^2/(2 m)`.
+    energy: Polynomial,
+    /// The kinetic energy without it.
+    h: Hamiltonian,
+    /// The potential without `U_dil`, for its forces.
+    rest: Potential,
+}
+
+/// `None` where there is nothing stiff to gain: the dilatation is out of the state, or moves freely, or has no closed form.
+fn own_dilatation(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    potential: Option<&Potential>,
+    reduction: &Reduction,
+) -> Option<OwnDilatation> {
+    let chart = &reduction.chart;
+    let iso = h.isotropic.as_ref()?;
+    let moves_itself = matches!(chart.momentum, Momentum::Body | Momentum::Space) && iso.casimir3.is_zero();
+    if reduction.separation.is_some() || h.constraint.is_some() || !moves_itself || iso.casimir2.is_zero() {
+        return None;
+    }
+    let states: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
+    let diagonal = |a: usize| chart.m.0[a][a];
+    if !(0..chart.dim).all(|a| states.contains(&diagonal(a))) {
+        return None;
+    }
+    let potential = potential?;
+    let slope = potential.dilatational_slope(arena).filter(|slope| *slope != Slope::Zero)?;
+    let rest = potential.beside_dilatation(arena, &slope)?;
+    let inverse_mass = iso.inverse_dilatational_mass(chart.dim);
+    let mut trace = Polynomial::zero();
+    (0..chart.dim).for_each(|a| trace.add_scaled(&Polynomial::atom(diagonal(a)), &Rational::ONE));
+    let mut energy = Polynomial::zero();
+    energy.add_product(&trace.mul(&trace), &inverse_mass, &Rational::ratio(1, 2)?);
+    let mut h = h.clone();
+    let nth = Rational::ratio(-1, i64::try_from(chart.dim).ok()?)?;
+    // tr M^2 - (tr M)^2/n, of the traceless momentum.
+    h.isotropic.as_mut()?.casimir1_squared = iso.casimir2.scaled(&nth);
+    Some(OwnDilatation { separation: Separation { slope, inverse_mass }, energy, h, rest })
 }
 
 /// Kinetic energy, translation and potential in the chart of the reduction.

@@ -13,6 +13,9 @@
 //!
 //! * Orders 4 and 6: S. Blanes, P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313-330, methods S6 and S10; where
 //!   `[B, [B, [B, A]]] = 0`, the Runge-Kutta-Nystrom methods SRKN6b and SRKN14a of the same article.
+//! * Order 4 where the first piece is much larger than the second: S. Blanes, F. Casas, A. Farres, J. Laskar, J. Makazaga,
+//!   A. Murua, Appl. Numer. Math. 68 (2013) 58-72, method ABA(10,4): errors of the first power of the small piece are of
+//!   order 10, those of higher powers of order 4. Digits are those that its conditions leave.
 //! * Order 2: G. Strang, SIAM J. Numer. Anal. 5 (1968) 506-517.
 //! * Order 8: composition s17odr8a of W. Kahan, R.-C. Li, Math. Comp. 66 (1997) 1089-1099, of Strang's steps.
 
@@ -71,6 +74,15 @@ const SRKN14A: [f64; 13] = [
     -0.008_794_243_128_510_58,
 ];
 
+const ABA104: [f64; 6] = [
+    0.047_067_100_645_972_506,
+    0.118_881_917_368_197_02,
+    0.184_756_935_417_088_1,
+    0.241_050_460_551_501_57,
+    0.282_706_005_679_836_2,
+    -0.273_286_666_705_323_8,
+];
+
 /// A composition of flows: [`Sweeps::of_order`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sweeps {
@@ -93,6 +105,15 @@ impl Sweeps {
             (6, true) => Some(Self::published(6, false, &SRKN14A)),
             (8, _) => Some(Self::of_steps(8, Composition::of_order(8)?)),
             _ => None,
+        }
+    }
+
+    /// The same for two pieces with `[B, [B, [B, A]]] = 0`, the first of them much larger than the second.
+    #[must_use]
+    pub fn near_integrable(order: usize) -> Option<Self> {
+        match order {
+            4 => Some(Self::published(4, false, &ABA104)),
+            _ => Self::of_order(order, true),
         }
     }
 

@@ -36,4 +36,12 @@ impl Potential {
         }
         Slope::of(arena, &slope)
     }
+    /// `U - U_dil(q)`, of which the forces alone are meant: what moves the rest beside a dilatation of its own.
+    pub(in crate::mechanics) fn beside_dilatation(&self, arena: &mut Arena, slope: &Slope) -> Option<Self> {
+        let own = slope.derivative(arena)?;
+        let mut rest = self.clone();
+        let (_, partial) = rest.slopes.iter_mut().find(|(base, _)| *base == Base::MeanLogStretch)?;
+        *partial = arena.linear(&[(*partial, Rational::ONE), (own, Rational::MINUS_ONE)]);
+        Some(rest)
+    }
 }

@@ -131,6 +131,25 @@ fn nystrom() {
 }
 
 #[test]
+fn near_integrable() {
+    let sweeps = Sweeps::near_integrable(4).unwrap();
+    assert_order(&sweeps, 2);
+    // Words with a single letter of the small piece: of order 10, and no more.
+    let series = Series::of(&sweeps, 2, 11);
+    let single = |d: usize| {
+        let defect = series.defect(d);
+        let words = defect.iter().enumerate().filter(|(word, _)| word.count_ones() == 1);
+        words.fold(0.0, |largest: f64, (_, defect)| largest.max(defect.abs()))
+    };
+    assert!((1..=10).all(|d| single(d) <= DEFECT));
+    assert!(single(11) > 1e-11, "order 10 is higher than that");
+    for order in [2, 6, 8] {
+        assert_eq!(Sweeps::near_integrable(order), Sweeps::of_order(order, true));
+    }
+    assert_eq!(Sweeps::near_integrable(3), None);
+}
+
+#[test]
 fn flows_of_a_step() {
     let flows = |sweeps: Sweeps, pieces: usize| {
         let (mut list, mut sums) = (Vec::new(), vec![0.0; pieces]);
