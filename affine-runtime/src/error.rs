@@ -115,7 +115,11 @@ impl fmt::Display for Error {
                  configuration space is GL+(n); start from a placement that keeps orientation"
             ),
             Error::NotFinite { quantity } => {
-                write!(f, "{quantity} is not finite; give finite numbers")
+                write!(
+                    f,
+                    "{quantity} is not finite, as given or as computed from what was given: give finite numbers, \
+                     momenta and velocities that doubles can hold"
+                )
             }
             Error::CoincidentStretches => f.write_str(
                 "two stretches are equal, where (q, p, M, N) do not determine the momentum: M vanishes with their \

@@ -147,6 +147,12 @@ impl Frame for Canonical {
 ///
 /// `Spatial(sigma)`, `Comoving(sigma_hat)` and `TwoPoint(pi)`, of a bare matrix or of an [`AffineSpin`]; an
 /// [`AffineVelocity`] is no momentum and does not compile here.
+#[diagnostic::on_unimplemented(
+    message = "this is no affine spin in a frame, of a body in dimension {N}",
+    label = "no frame, or no momentum",
+    note = "write `Spatial(sigma)` for Sigma = phi Pi, `Comoving(sigma_hat)` for Sigma_hat = Pi phi, `TwoPoint(pi)` for Pi, \
+            of matrices of that dimension; velocities go to `at_velocity`"
+)]
 pub trait Momentum<const N: usize, T: Real> {
     /// The frame the matrix is written in.
     type Frame: Frame;

@@ -7,6 +7,7 @@ mod collapse;
 
 use crate::decompose::{exponential, skew_exponential};
 use crate::frames::{Matrix, Vector};
+use crate::integrate::norm;
 use crate::state::Phase;
 
 /// A trajectory in closed form.
@@ -53,6 +54,19 @@ impl<const N: usize> Geodesic<N> {
     pub fn point<P: Phase<N>>(&self, t: f64, start: &P) -> P {
         let (x, phi) = (self.position(t, &start.x()), self.placement(t, start.phi()));
         start.moved(x, phi, |spin| self.spin(t, spin))
+    }
+
+    /// `|stretch| + |whirl|` in Frobenius norms: angles and log-stretches of the motion grow at most so fast. From an
+    /// elapsed time of `1/(eps rate)` on, the rounding of time and generators alone may turn the body by a radian. Zero
+    /// for straight motions, which have neither.
+    #[must_use]
+    pub fn rate(&self) -> f64 {
+        match &self.motion {
+            Motion::Body { stretch, whirl } | Motion::Space { stretch, whirl } => {
+                norm(stretch.as_slice()) + whirl.as_ref().map_or(0.0, |whirl| norm(whirl.as_slice()))
+            }
+            Motion::Straight { .. } => 0.0,
+        }
     }
 
     /// `phi(t)` of the trajectory with `phi(t0) = start`.

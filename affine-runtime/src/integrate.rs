@@ -59,6 +59,25 @@ pub enum Failure {
         /// The larger of the two relative defects.
         defect: f64,
     },
+    /// A time of the interval is not finite.
+    Time {
+        /// Its value.
+        given: f64,
+    },
+    /// The tolerance is not a positive number.
+    Tolerance {
+        /// Its value.
+        given: f64,
+    },
+}
+
+/// An interval that steps come to the end of, and a tolerance that they can be held against.
+pub(crate) fn sound(t0: f64, t_end: f64, tolerance: f64) -> Result<(), Failure> {
+    if let Some(given) = [t0, t_end].into_iter().find(|t| !t.is_finite()) {
+        return Err(Failure::Time { given });
+    }
+    let is_positive = tolerance > 0.0 && tolerance.is_finite();
+    if is_positive { Ok(()) } else { Err(Failure::Tolerance { given: tolerance }) }
 }
 
 impl fmt::Display for Failure {
@@ -79,6 +98,13 @@ impl fmt::Display for Failure {
             Failure::OffConstraint { defect } => write!(
                 f,
                 "the start is off det phi = 1, or its velocity off tr(phi^-1 phi_dot) = 0, by {defect:e}"
+            ),
+            Failure::Time { given } => {
+                write!(f, "an end of the interval is {given}: times are finite numbers")
+            }
+            Failure::Tolerance { given } => write!(
+                f,
+                "tolerance {given:e}: it is a relative error per step, a positive number; 1e-6 to 1e-13 are common"
             ),
         }
     }

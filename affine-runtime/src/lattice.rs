@@ -134,6 +134,12 @@ pub trait LatticeForm<const N: usize> {
 }
 
 /// A model with a two-polar form: conversions between phase points and the lattice.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no conversions between phase points and a lattice",
+    label = "no lattice of phase points here",
+    note = "add `emit(two_polar)` to the `#[affine_model(...)]` of a doubly isotropic model; the lattice on the circle of \
+            `group = unitary` has no phase points"
+)]
 pub trait TwoPolarForm<const N: usize>: Model<N> + LatticeForm<N> {
     /// The lattice of a phase point, stretches in descending order.
     ///

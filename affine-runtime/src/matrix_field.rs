@@ -21,7 +21,7 @@ pub fn symmetric_part<const K: usize>(
     let value = largest(&mut pairs().map(|(a, b)| (rows[a][b] - rows[b][a]).abs()));
     let threshold =
         4.0 * K as f64 * f64::EPSILON * largest(&mut rows.iter().flatten().map(|entry| entry.abs()));
-    if value.is_nan() || value > threshold {
+    if !value.is_finite() || value > threshold {
         return Err(Error::IllPosed(IllPosed { condition, reason, value, threshold, velocity: None }));
     }
     Ok(core::array::from_fn(|a| core::array::from_fn(|b| 0.5 * rows[a][b] + 0.5 * rows[b][a])))

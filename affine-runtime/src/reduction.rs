@@ -110,38 +110,47 @@ pub fn total_size<const K: usize>(summands: [f64; K]) -> f64 {
 pub fn well_posed(conditions: &[Condition]) -> Result<()> {
     let scale = conditions.iter().map(|c| c.size).fold(0.0, f64::max);
     let threshold = f64::EPSILON * scale;
+    let refused = |c: &Condition, threshold: f64| {
+        let Condition { condition, reason, value, .. } = *c;
+        Err(Error::IllPosed(IllPosed { condition, reason, value, threshold, velocity: None }))
+    };
+    // One that is not finite would be the threshold of the others.
+    if let Some(c) = conditions.iter().find(|c| !c.value.is_finite()) {
+        return refused(c, f64::MAX);
+    }
     for c in conditions {
         let held = if c.positive { c.value } else { c.value.abs() };
-        // NaN holds nothing.
-        if !(held > threshold && held.is_finite()) {
-            return Err(Error::IllPosed(IllPosed {
-                condition: c.condition,
-                reason: c.reason,
-                value: c.value,
-                threshold,
-                velocity: None,
-            }));
+        // A NaN is above nothing.
+        if !held.gt(&threshold) {
+            return refused(c, threshold);
         }
     }
     Ok(())
 }
 
-/// The coefficients, if all are finite: a value can pass its threshold and still have no reciprocal.
+/// The coefficients, if all are finite: a value can pass its threshold and still have no reciprocal. The fields that they
+/// are computed from go with what is asked of each: `kappa is finite`.
 ///
 /// # Errors
-/// [`Error::IllPosed`] with the first coefficient that is not finite.
-pub fn finite<const K: usize>(coefficients: [f64; K]) -> Result<[f64; K]> {
-    match coefficients.iter().find(|c| !c.is_finite()) {
-        None => Ok(coefficients),
-        Some(&value) => Err(Error::IllPosed(IllPosed {
-            condition: "every coefficient is finite",
-            reason: "a coefficient of the inverse Legendre transformation overflows; choose fields nearer to 1, in \
-                     other units",
+/// [`Error::IllPosed`] with the first field that is not finite, else with the first coefficient.
+pub fn finite<const K: usize, const F: usize>(
+    coefficients: [f64; K],
+    fields: [(&'static str, f64); F],
+) -> Result<[f64; K]> {
+    let Some(&value) = coefficients.iter().find(|c| !c.is_finite()) else { return Ok(coefficients) };
+    let (condition, reason, value) = match fields.into_iter().find(|(_, value)| !value.is_finite()) {
+        Some((condition, value)) => (
+            condition,
+            "a coefficient of the equations is computed from this field; give a finite number",
             value,
-            threshold: f64::MAX,
-            velocity: None,
-        })),
-    }
+        ),
+        None => (
+            "every coefficient is finite",
+            "a coefficient of the equations overflows; choose fields nearer to 1, in other units",
+            value,
+        ),
+    };
+    Err(Error::IllPosed(IllPosed { condition, reason, value, threshold: f64::MAX, velocity: None }))
 }
 
 /// Inverse of a symmetric form on affine velocities of dimension `N`, given by its upper triangle in a basis, as an

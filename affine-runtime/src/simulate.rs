@@ -7,6 +7,7 @@ mod conservation;
 mod csv;
 mod ensemble;
 mod event;
+mod fingerprint;
 mod follow;
 mod halt;
 mod layout;
@@ -82,7 +83,7 @@ pub enum Method {
     /// reached by a shorter step from the one before, which leaves the sequence of steps as it is.
     /// [`Method::Automatic`] never takes it.
     Gauss {
-        /// Number of stages, 2 or 3.
+        /// Number of stages, 2, 3, 4 or 6.
         stages: usize,
         /// Length of a step, positive; the interval is divided into equal steps that are not longer.
         step: f64,
@@ -194,7 +195,8 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
         self
     }
 
-    /// Time of the end, before or after the start. The end is hit exactly.
+    /// Time of the end, before or after the start, at least 1e-300 away from it or at the same time. The end is hit
+    /// exactly.
     #[must_use]
     pub fn until(mut self, t_end: f64) -> Self {
         self.settings.plan.t_end = Some(t_end);
@@ -210,14 +212,15 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     }
 
     /// Output at exactly these times, in the direction of time. Without it and without [`every`](Self::every): at
-    /// every accepted step, start and end included; a closed form has no steps, and gives 101 equidistant times.
+    /// every accepted step, start and end included; a closed form has no steps, and gives 101 equidistant times, or start and
+    /// end where the interval is as short as the rounding of times.
     #[must_use]
     pub fn output(mut self, times: impl IntoIterator<Item = f64>) -> Self {
         self.settings.plan.output = Output::At(times.into_iter().collect());
         self
     }
 
-    /// Output at the start, then at every `dt > 0` of elapsed time, and at the end.
+    /// Output at the start, then at every `dt > 0` of elapsed time, and at the end; at most 1e8 times.
     #[must_use]
     pub fn every(mut self, dt: f64) -> Self {
         self.settings.plan.output = Output::Every(dt);
@@ -261,7 +264,8 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     }
 
     /// Goes on where a run of the same settings was interrupted, [`Trajectory::checkpoint`]: with the same bits, on the
-    /// same machine, as if it had not been. Outputs and events are those from there on; the end that was asked for is
+    /// same machine, as if it had not been. A checkpoint of another model, parameters, start, method, tolerance, interval,
+    /// outputs or events is refused, [`Setting::Checkpoint`]; the largest number of steps may be another. Outputs and events are those from there on; the end that was asked for is
     /// that of both runs. Functions of events have no memory. An event that stopped the run is not met again.
     #[must_use]
     pub fn resume(mut self, checkpoint: &Checkpoint) -> Self {

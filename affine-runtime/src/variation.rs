@@ -2,7 +2,7 @@
 
 use crate::capability::Tangent;
 use crate::dual::Dual;
-use crate::integrate::{Failure, RungeKutta8, norm};
+use crate::integrate::{Failure, RungeKutta8, norm, sound};
 use crate::model::StateVector;
 
 /// A motion and its derivative with respect to the start, along one direction.
@@ -49,17 +49,15 @@ impl<'a, const N: usize, M: Tangent<N>> Variation<'a, N, M> {
     ///
     /// # Errors
     /// [`Failure::NotFinite`] where the reduced state has no derivative along the direction: where it depends on the
-    /// direction of a linear momentum that vanishes. [`Failure::StepUnderflow`] for a tolerance that is not positive,
-    /// which no step meets.
+    /// direction of a linear momentum that vanishes. [`Failure::Time`] for a time that is not finite and
+    /// [`Failure::Tolerance`] for a tolerance that is no positive number.
     pub fn new(
         model: &'a M,
         (t0, point): (f64, &M::Point<f64>),
         direction: &M::Full<f64>,
         tolerance: f64,
     ) -> Result<Self, Failure> {
-        if tolerance.is_nan() || tolerance <= 0.0 {
-            return Err(Failure::StepUnderflow);
-        }
+        sound(t0, t0, tolerance)?;
         let mut full = M::Full::<Dual<f64>>::zeros();
         let parts = model.flatten(point);
         for (both, (value, slope)) in
@@ -84,9 +82,7 @@ impl<'a, const N: usize, M: Tangent<N>> Variation<'a, N, M> {
     /// # Errors
     /// [`Failure`]; the variation stays where it was.
     pub fn advance_to(&mut self, t: f64) -> Result<(), Failure> {
-        if !t.is_finite() {
-            return Err(Failure::NotFinite);
-        }
+        sound(self.t, t, self.tolerance)?;
         let rates =
             |t: f64, state: &M::Varied<f64>| self.model.variational_equations(t, &self.constants, state);
         let mut steps = RungeKutta8::new(rates, M::VARIED, (self.t, self.state), t, self.tolerance)?;

@@ -1,8 +1,14 @@
 //! Error against run time of every method on the benchmark problems, against reference solutions of 36 to 45 digits.
 //!
 //! Prints a table for each problem; tables and pictures go to `output/`.
+//!
+//! `cargo run --release --example work_precision -- symplectic [P1 P2 ...]`: splitting of every order and Gauss collocation
+//! of every number of stages instead, beside the automatic choice at equal errors.
 
+mod equal_steps;
+mod frontier;
 mod problems;
+mod symplectic;
 
 use std::fs;
 use std::path::Path;
@@ -12,10 +18,18 @@ use affine_runtime::prelude::*;
 use affine_runtime::report::{WorkPrecision, WorkPrecisionDiagram, reference_solution};
 
 use problems::Visitor;
+use symplectic::Symplectic;
 
 fn main() -> affine_runtime::Result<()> {
     // A folder that cannot be made shows in the first file that cannot be written.
     let _ = fs::create_dir_all("output");
+    let mut arguments = std::env::args().skip(1);
+    if arguments.next().is_some_and(|first| first == "symplectic") {
+        let mut symplectic = Symplectic::of(arguments.collect());
+        problems::visit(&mut symplectic)?;
+        symplectic.summary();
+        return Ok(());
+    }
     let mut reports = Reports { output: Path::new("output"), figure: figure() };
     problems::visit(&mut reports)?;
     reports.figure.save_svg(Path::new("output").join("work_precision.svg"))?;

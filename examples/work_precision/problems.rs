@@ -8,7 +8,7 @@ use affine_runtime::prelude::*;
     dim = 3,
     symmetry(space = affine, body = metric),
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
-    emit(taylor, lanes),
+    emit(taylor, splitting, lanes),
 )]
 pub(crate) struct DrunkMissile;
 
@@ -18,7 +18,7 @@ pub(crate) struct DrunkMissile;
     symmetry(space = affine, body = metric),
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(c1),
-    emit(taylor, lanes),
+    emit(taylor, splitting, lanes),
 )]
 pub(crate) struct Vibrating {
     /// Stiffness of the dilatation.
@@ -33,7 +33,7 @@ pub(crate) struct Vibrating {
     symmetry(space = metric, body = affine),
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1),
     potential = hyperbolic_dilatation(10) + neo_hookean(0.5),
-    emit(taylor, lanes),
+    emit(taylor, splitting, lanes),
 )]
 pub(crate) struct Mirrored;
 
@@ -42,7 +42,7 @@ pub(crate) struct Mirrored;
     dim = 3,
     kinetic(dalembert = diag(1, 1.5, 2)),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
-    emit(taylor, nystrom, lanes),
+    emit(taylor, nystrom, splitting, lanes),
 )]
 pub(crate) struct Elastic {
     /// Stiffness of the dilatation.
@@ -55,7 +55,7 @@ pub(crate) struct Elastic {
     symmetry(space = affine, body = metric),
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
-    emit(taylor, lanes),
+    emit(taylor, splitting, lanes),
 )]
 pub(crate) struct StiffMissile {
     /// Stiffness of the dilatation.

@@ -320,3 +320,19 @@ fn of_single_stretches() {
         assert!((found - expected).norm() <= 1e-12 * expected.norm(), "{found} {expected}");
     }
 }
+
+/// A potential in `D`, whose inverse is a root of `det phi`: `N = -2 c D^-2 (phi phi^T - tr(G)/n 1)`.
+#[test]
+fn of_an_isochoric_potential() {
+    #[affine_model(dim = 3, kinetic(dalembert = 1.5), potential = neo_hookean(0.5), emit(balance))]
+    struct Elastic;
+    for seed in 0..4 {
+        let scene = Scene::<3>::random(390 + seed);
+        let point = Elastic.at_velocity(scene.phi, scene.velocity.phi_dot).unwrap();
+        let ct = scene.phi * scene.phi.transpose();
+        let deviator = ct - Matrix::<3>::identity() * (ct.trace() / 3.0);
+        let expected = -deviator / scene.phi.determinant().cbrt().powi(2);
+        let found = Elastic.balance(T0, &point).moment.0;
+        assert!((found - expected).norm() <= 1e-13 * expected.norm(), "{found} {expected}");
+    }
+}

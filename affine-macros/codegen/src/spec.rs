@@ -18,6 +18,7 @@ use proc_macro2::TokenStream;
 
 use crate::diagnostics::{Diagnostics, Region, Reported};
 use expression_parser::Language;
+pub(crate) use expression_parser::application;
 
 pub use custom::{Custom, Role};
 pub use expression::{Expression, ExpressionKind, MatrixName, Operator};

@@ -16,10 +16,10 @@ use super::tape::Tape;
 use super::{Failure, Statistics};
 use crate::model::StateVector;
 use coefficients::MOST_STAGES;
-use equations::{Equations, Field, Increments, Start, total};
+use equations::{Equations, Field, Increments, Start};
 
-/// Integration of `y' = f(t, y)` from `t0` to `t_end`, in either direction of time, by Gauss collocation of 2 or 3
-/// stages (order 4 or 6) in `n = ceil(|t_end - t0|/step)` equal steps.
+/// Integration of `y' = f(t, y)` from `t0` to `t_end`, in either direction of time, by Gauss collocation of 2, 3, 4 or 6
+/// stages (order 4, 6, 8 or 12) in `n = ceil(|t_end - t0|/step)` equal steps.
 ///
 /// The flow of a step is symmetric, symplectic where the components of `y` are canonical variables, and keeps every
 /// linear and quadratic first integral of `f` (Hairer, Lubich, Wanner, Geometric Numerical Integration, Theorems
@@ -30,7 +30,7 @@ use equations::{Equations, Field, Increments, Start, total};
 /// before: by fixed-point iteration, one evaluation for each stage and iteration; from the first step on where that
 /// does not contract, by Newton's iteration with a Jacobian by differences (`1 + dim y` evaluations) that is kept as
 /// long as corrections shrink by ten. That takes states of at most 32 components; larger ones that are stiff are
-/// refused. Solutions are summed with compensation. Nothing allocates; the factors take 32 KiB.
+/// refused. Solutions are summed with compensation. Nothing allocates; the factors take 48 KiB.
 ///
 /// A solution of the stage equations need not be unique where the step is far too long: the one found is the one
 /// the iteration leads to.
@@ -197,7 +197,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
         let field = Field { f: &self.f, coordinates: self.coordinates, base: &begin };
         match self.equations.solve(&field, start, guess) {
             Ok(solution) => {
-                let end = self.coordinates.end(&begin, &total(&solution.increments));
+                let end = self.coordinates.end(&begin, &self.equations.total(&solution.increments));
                 if is_finite(&end.value) {
                     Ok((end, solution.increments, solution.residual))
                 } else {

@@ -20,7 +20,7 @@ use super::step_size::{Controller, first_step, next_time, shortest};
 use super::tape::Tape;
 use super::taylor::Vectors;
 use super::widest::{Work, roomiest};
-use super::{Failure, Statistics};
+use super::{Failure, Statistics, sound};
 use crate::model::{Group, StateVector};
 use step::{Step, halves, joined};
 
@@ -83,7 +83,8 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
     /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`].
     ///
     /// # Errors
-    /// [`Failure::NotFinite`] where `y0` or the force there is not finite.
+    /// [`Failure::NotFinite`] where `y0` or the force there is not finite; [`Failure::Time`] for an interval and
+    /// [`Failure::Tolerance`] for a tolerance that make no sense.
     pub fn new(
         (system, constants): (R, C),
         tableau: &'static Tableau,
@@ -92,6 +93,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
         t_end: f64,
         tolerance: f64,
     ) -> Result<Self, Failure> {
+        sound(t0, t_end, tolerance)?;
         let slope = |t: f64, y: &S| {
             let [positions, momenta] = halves(y);
             let velocity = system.drift(&constants, &momenta);
@@ -156,6 +158,10 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
         let tableau = self.step.tableau();
         loop {
             let end = next_time(self.t, self.length, self.t_end);
+            if end == self.t {
+                self.failure = Some(Failure::StepUnderflow);
+                return Err(Failure::StepUnderflow);
+            }
             self.statistics.evaluations += tableau.evaluations();
             let length = (end - self.t).abs();
             let (state, error) = self.attempt(vectors, end);

@@ -79,7 +79,8 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta<P, S, F> {
     /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`].
     ///
     /// # Errors
-    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite.
+    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite; [`Failure::Time`] for an interval and
+    /// [`Failure::Tolerance`] for a tolerance that make no sense.
     pub fn new(
         f: F,
         groups: &'static [Group],
@@ -184,6 +185,10 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         self.begin_next();
         loop {
             let end = next_time(self.step.time(), self.length, self.t_end);
+            if end == self.step.time() {
+                self.failure = Some(Failure::StepUnderflow);
+                return Err(Failure::StepUnderflow);
+            }
             self.statistics.evaluations += P::EVALUATIONS + u64::from(P::NEEDS_END);
             let (reached, mut error) = self.attempt(vectors, end);
             if error <= 1.0 {

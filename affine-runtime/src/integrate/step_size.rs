@@ -150,7 +150,8 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     let of_change = |r: Range<usize>| norm(&change.as_ref()[r]);
     // Over time in the end: rates of rates leave the range of numbers first.
     let of_second = error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change) / trial;
-    let second = Scalar::sqrt(of_second);
+    // Something that is zero begins to move, under a force that was zero: no rate to go by either.
+    let second = if of_second == f64::INFINITY { 0.0 } else { Scalar::sqrt(of_second) };
     let fastest = if first.is_finite() && first > second { first } else { second };
     let length = exp(ln(FIRST_ERROR * tolerance) / order) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.

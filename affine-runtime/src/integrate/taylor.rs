@@ -20,7 +20,7 @@ use super::step_size::{first_step, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::widest::{Work, roomiest};
-use super::{Failure, Statistics};
+use super::{Failure, Statistics, sound};
 use crate::model::{Group, StateVector};
 use crate::scalar::Scalar;
 
@@ -124,7 +124,8 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     /// [`order_for`] unless given, and within [`LOWEST_ORDER`] and [`HIGHEST_ORDER`].
     ///
     /// # Errors
-    /// [`Failure::NotFinite`] where `y0` or its slope is not finite.
+    /// [`Failure::NotFinite`] where `y0` or its slope is not finite; [`Failure::Time`] for an interval and
+    /// [`Failure::Tolerance`] for a tolerance that make no sense.
     pub fn new(
         (series, constants): (R, C),
         groups: &'static [Group],
@@ -133,6 +134,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         tolerance: f64,
         order: Option<usize>,
     ) -> Result<Self, Failure> {
+        sound(t0, t_end, tolerance)?;
         let slope = |t: f64, y: &S| slope(&series, &constants, t, y);
         let first = slope(t0, &y0);
         if !is_finite(&y0) || !is_finite(&first) {

@@ -28,12 +28,16 @@ const MOST_STEPS: usize = 100_000;
 /// matters.
 ///
 /// # Errors
-/// [`Error::NoReference`] for a motion that ends on the way, or needs more than 100000 steps.
+/// [`Error::NoReference`] for a motion that ends on the way, or needs more than 100000 steps, and for times that are not
+/// finite.
 pub fn reference_solution<const N: usize, M: Model<N>>(
     model: &M,
     start: &M::Point<f64>,
     (t0, t_end): (f64, f64),
 ) -> Result<M::Point<f64>> {
+    if !(t_end - t0).is_finite() {
+        return Err(Error::NoReference { model: M::DESCRIPTION.name });
+    }
     let mut y = doubled::<N, M>(&model.flatten(start));
     let slope = |t: Quad, y: &M::Full<Quad>| model.hamilton_equations(t, y);
     let mut t = Quad::from(t0);

@@ -126,6 +126,13 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     /// [`Error::Stopped`](crate::Error::Stopped) with [`Reason::Setting`] where a setting makes no sense: a tolerance out of range, times
     /// that are not finite, a method that does not apply.
     pub fn run(&self) -> Result<WorkPrecisionReport> {
+        // A reference to a time that is none takes for ever.
+        let named = if self.methods.is_empty() { &[Method::RungeKutta8] } else { &self.methods[..] };
+        for method in named {
+            for tolerance in &self.tolerances {
+                self.simulation(*method, *tolerance).checked()?;
+            }
+        }
         let geodesic = self.model.geodesic(self.t0, &self.start);
         let reference = match (&self.reference, &geodesic) {
             (Some(point), _) => *point,

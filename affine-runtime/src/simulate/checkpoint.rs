@@ -11,7 +11,7 @@ use crate::state::Phase;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Checkpoint {
-    /// Model, method, tolerance, interval and number of events of the run.
+    /// What the run is known by: [`fingerprint`](super::fingerprint::fingerprint).
     pub(super) run: String,
     pub(super) place: Place,
 }

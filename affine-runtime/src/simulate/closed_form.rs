@@ -26,6 +26,11 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let at = |t| if t == t0 { start } else { model.on_geodesic(geodesic, t, &start) };
         let collapse = geodesic.collapse(t_end, start.phi());
         let is_behind = |t: f64, end: f64| (t - end) * (t_end - t0) >= 0.0;
+        let rate = geodesic.rate();
+        let resolved = |t: f64| match f64::EPSILON * rate * (t - t0).abs() >= 1.0 {
+            true => Err(Reason::Unresolved { rate, t }),
+            false => Ok(()),
+        };
         let stands = |t: f64| match collapse {
             Some(end) if is_behind(t, end) => {
                 Err(Reason::Placement { determinant: LogDeterminant::of(at(t).phi()).to_f64(), t: end })
@@ -41,13 +46,16 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             let due = self.schedule.peek();
             let until = due.unwrap_or(t_end);
             let until = last_event.filter(|last| is_behind(until, *last)).unwrap_or(until);
+            resolved(until)?;
             if self.meet(until, WITHIN_A_STEP, &mut |t| Ok((at(t), 0.0)))? {
                 return Ok(());
             }
             let Some(t) = due else { break };
             stands(t)?;
-            self.schedule.take_through(t, self.backward);
-            self.record(t, (at(t), 0.0))?;
+            // An event at that very time has it recorded already.
+            if self.schedule.take_through(t, self.backward).is_some() {
+                self.record(t, (at(t), 0.0))?;
+            }
             outputs += 1;
             self.place.passed(vec![t.to_bits()]);
             self.report(t, outputs)?;

@@ -8,6 +8,7 @@ use super::halt::{Setting, Stop};
 use super::layout::placement_in;
 use super::orientation::passes_through_zero;
 use super::point::is_clearly_positive;
+use super::settings::Plan;
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
 use crate::capability::InLanes;
 use crate::lanes::{Lanes, Widest};
@@ -99,15 +100,17 @@ impl<'a, const N: usize, M: Model<N>> Ensemble<'a, N, M> {
     }
 }
 
-impl<const N: usize, M: InLanes<N> + Sync> Ensemble<'_, N, M>
-where
-    M::Point<f64>: Send + Sync,
-{
+// The bounds stand on the methods, where the message of a missing `emit(lanes)` is read.
+impl<const N: usize, M: Model<N>> Ensemble<'_, N, M> {
     /// Runs the ensemble: one outcome for each start, in their order.
     ///
     /// # Errors
-    /// A [`Setting`] that makes no sense.
-    pub fn run(self) -> core::result::Result<Ends<M::Point<f64>>, Setting> {
+    /// A [`Setting`] that makes no sense, also of an ensemble without bodies.
+    pub fn run(self) -> core::result::Result<Ends<M::Point<f64>>, Setting>
+    where
+        M: InLanes<N> + Sync,
+        M::Point<f64>: Send + Sync,
+    {
         self.run_in::<Widest>()
     }
 
@@ -116,12 +119,22 @@ where
     ///
     /// # Errors
     /// As [`run`](Self::run).
-    pub fn run_in<T: Lanes>(self) -> core::result::Result<Ends<M::Point<f64>>, Setting> {
-        let Some(first) = self.starts.first() else { return Ok(Vec::new()) };
-        let (t_end, _) = self.simulation(*first).settings.checked(&M::DESCRIPTION)?;
+    pub fn run_in<T: Lanes>(self) -> core::result::Result<Ends<M::Point<f64>>, Setting>
+    where
+        M: InLanes<N> + Sync,
+        M::Point<f64>: Send + Sync,
+    {
+        let Self { t0, t_end, tolerance, max_steps, .. } = self;
+        let plan = Plan { t0, t_end, tolerance, max_steps, ..Plan::default() };
+        let (t_end, _) = plan.checked(&M::DESCRIPTION)?;
+        if self.starts.is_empty() {
+            return Ok(Vec::new());
+        }
         Ok(in_parts(&self.starts, T::LANES, |starts| self.ends::<T>(starts, t_end)))
     }
+}
 
+impl<const N: usize, M: InLanes<N>> Ensemble<'_, N, M> {
     /// Bodies one after the other through the same lanes, but for those that are apart. Where a body that cannot go on in
     /// lanes comes to, and why it stops, is found alone.
     fn ends<T: Lanes>(&self, starts: &[M::Point<f64>], t_end: f64) -> Ends<M::Point<f64>> {

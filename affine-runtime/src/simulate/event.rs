@@ -12,9 +12,28 @@ type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
 
 /// Something that happens where a function of time and phase point, continuous along the motion, changes its sign.
 ///
-/// ```text
-/// Event::new("at rest", |_, point| point.sigma_hat().0.0.trace()).falling().stop()
-/// Event::position(1, 0.0).falling().change(|_, point| model.at_momentum(..))
+/// ```
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = x[2] + (tr(G) - 2)^2)]
+/// struct Ball;
+/// // Closures are read before the simulation tells them what a point is.
+/// type Point = <Ball as Model<2>>::Point<f64>;
+///
+/// let (up, rest) = (Vector::<2>::new(0.0, 1.0), Vector::<2>::zeros());
+/// let start = Ball.at_velocity(up, Matrix::<2>::identity(), rest, Matrix::<2>::zeros())?;
+/// let bounced = |_: f64, point: &Point| {
+///     let p = Vector::<2>::new(point.p()[0], -point.p()[1]);
+///     Ball.at_momentum(point.x(), *point.phi(), p, point.pi())
+/// };
+/// let run = Simulation::new(&Ball, start)
+///     .until(5.0)
+///     .event(Event::position(2, 0.0).falling().change(bounced))
+///     .event(Event::new("top", |_, point: &Point| point.p()[1]).falling())
+///     .run()?;
+/// let events: Vec<_> = run.events().iter().map(|event| (event.name, (event.t / 2.0f64.sqrt()).round())).collect();
+/// assert_eq!(events, [("x", 1.0), ("top", 2.0), ("x", 3.0)]);
+/// # Ok::<(), affine_runtime::Error>(())
 /// ```
 ///
 /// Found are changes of sign between samples of the function: at both ends of every step and at three times within it,
@@ -22,7 +41,8 @@ type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
 /// them. An even number of roots between two samples is not seen. The time is then located on the dense output of the
 /// step to the rounding of times: it has the error of the dense output over the rate of the function. The event is at
 /// the first floating-point time found at which the sign has changed. A function that is zero or not a number at the
-/// start is looked at from the next sample on.
+/// start is looked at from the next sample on; one that is not a number later, at a phase point that is one, ends the
+/// run, [`Reason::Event`](super::Reason::Event).
 pub struct Event<'a, const N: usize, P> {
     pub(super) name: &'static str,
     pub(super) function: Function<'a, P>,

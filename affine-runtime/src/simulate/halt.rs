@@ -63,6 +63,14 @@ pub enum Reason {
         /// The time of that placement.
         t: f64,
     },
+    /// The closed form at a time so late that rounding alone turns the body by a radian, or stretches it by a factor of
+    /// `e`: `eps rate (t - t0) >= 1`.
+    Unresolved {
+        /// What angles and log-stretches grow by in a unit of time, at most: [`Geodesic::rate`](crate::geodesic::Geodesic::rate).
+        rate: f64,
+        /// The time.
+        t: f64,
+    },
     /// The error stays above the tolerance however short the step.
     StepUnderflow {
         /// The tolerance.
@@ -79,6 +87,13 @@ pub enum Reason {
     StepLimit {
         /// That number.
         limit: u64,
+    },
+    /// The function of an event is not a number, so that nothing is known of its sign.
+    Event {
+        /// Name of the event.
+        event: &'static str,
+        /// The time.
+        t: f64,
     },
     /// The point that an event should have been changed to is none.
     Change {
@@ -111,6 +126,13 @@ pub enum Setting {
         /// Its value.
         given: f64,
     },
+    /// The interval is so short, or so long, that numbers in it are not: its length is 0, or at least 1e-300 and a double.
+    Interval {
+        /// Start of the interval.
+        t0: f64,
+        /// End of the interval.
+        t_end: f64,
+    },
     /// The tolerance is not in `1e-15 <= eps < 1`.
     Tolerance {
         /// Its value.
@@ -118,7 +140,7 @@ pub enum Setting {
     },
     /// No step is allowed.
     NoSteps,
-    /// Gauss collocation is available with 2 and 3 stages.
+    /// Gauss collocation is available with 2, 3, 4 and 6 stages.
     Stages {
         /// The number of stages asked for.
         given: usize,
@@ -157,7 +179,8 @@ pub enum Setting {
         /// The index.
         index: usize,
     },
-    /// The checkpoint is of a run with another model, method, tolerance, interval or number of events.
+    /// The checkpoint is of a run with another model, other parameters, start, method, tolerance, interval, outputs or
+    /// events.
     Checkpoint {
         /// Name of the model.
         model: &'static str,
@@ -212,6 +235,11 @@ impl fmt::Display for Setting {
         match self {
             Setting::NoEnd => f.write_str("no end time: a run needs one; say `.until(t_end)`"),
             Setting::Time { name, given } => write!(f, "{name} is {given}: times are finite numbers"),
+            Setting::Interval { t0, t_end } => write!(
+                f,
+                "the interval from {t0:e} to {t_end:e}: its length is 0, or at least 1e-300 and at most 1.7e308; choose \
+                 another unit of time"
+            ),
             Setting::Tolerance { given } => write!(
                 f,
                 "tolerance {given:e}: it is a relative error per step, at least 1e-15 (what rounding leaves of \
@@ -220,7 +248,7 @@ impl fmt::Display for Setting {
             Setting::NoSteps => f.write_str("max_steps(0) allows no step: give a positive number"),
             Setting::Stages { given } => write!(
                 f,
-                "Gauss collocation with {given} stages: give 2 stages, of order 4, or 3, of order 6"
+                "Gauss collocation with {given} stages: give 2, 3, 4 or 6 stages, of orders 4, 6, 8 and 12"
             ),
             Setting::Order { given } => write!(
                 f,
@@ -255,8 +283,8 @@ impl fmt::Display for Setting {
             }
             Setting::Checkpoint { model } => write!(
                 f,
-                "the checkpoint is not of this run of {model}: resume with the model, method, tolerance, times and events \
-                 of the run that was interrupted"
+                "the checkpoint is not of this run of {model}: resume with the model, its parameters, the start, method, \
+                 tolerance, times, outputs and events of the run that was interrupted"
             ),
             Setting::Step { given, t0, t_end } => write!(
                 f,
@@ -313,10 +341,16 @@ impl fmt::Display for Reason {
                  the range of numbers for |q| below 354, n = 2, and 236, n = 3; the other methods carry q or 1/D \
                  along and hold beyond it, or choose a unit of length in which the body is nearer to its size"
             ),
+            Reason::Unresolved { rate, t } => write!(
+                f,
+                "at t = {t:e} angles of the closed form, which grow by {rate:e} in a unit of time, have no digit left: \
+                 a double has sixteen; end the run before, or start it anew from a later point"
+            ),
             Reason::StepUnderflow { tolerance } => write!(
                 f,
                 "the error stays above the tolerance {tolerance:e} however short the step: the motion runs into a \
-                 singularity, or the tolerance is finer than rounding allows; end the run before, or loosen it"
+                 singularity, the tolerance is finer than rounding allows, or the interval is longer than 1e30 steps; \
+                 end the run before, or loosen the tolerance"
             ),
             Reason::NoSolution { residual, step } => write!(
                 f,
@@ -328,6 +362,11 @@ impl fmt::Display for Reason {
                 f,
                 "the largest number of steps, {limit}, is used up: raise it with `.max_steps(n)`, loosen the \
                  tolerance, or, if the model is stiff, soften what makes it so"
+            ),
+            Reason::Event { event, t } => write!(
+                f,
+                "the function of the event `{event}` is NaN at t = {t}: it has a sign at every phase point of the run; \
+                 give it a number where it is undefined, a constant where the event cannot happen"
             ),
             Reason::Change { event } => {
                 write!(f, "the event `{event}` should change the phase point, and its function gave an error")

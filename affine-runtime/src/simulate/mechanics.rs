@@ -23,6 +23,8 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn velocity(&self, point: &P) -> Velocity<N>;
     fn geodesic(&self, t0: f64, point: &P) -> Option<Geodesic<N>>;
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &P) -> P;
+    /// Energy and equations of motion at a point, number by number.
+    fn witness(&self, t: f64, point: &P, each: &mut dyn FnMut(f64));
     /// Follows the motion from a point by the steps of a method.
     fn integrate(&self, course: &Course<'_, P>, recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason>;
 }
@@ -61,6 +63,12 @@ impl<const N: usize, M: Model<N>> Mechanics<N, M::Point<f64>> for M {
     }
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &M::Point<f64>) -> M::Point<f64> {
         Model::on_geodesic(self, geodesic, t, start)
+    }
+    fn witness(&self, t: f64, point: &M::Point<f64>, each: &mut dyn FnMut(f64)) {
+        each(Model::hamiltonian(self, t, point));
+        let (reduced, constants) = self.reduce(t, point);
+        let rates = self.reduced_equations(t, &constants, &reduced);
+        rates.as_ref().iter().for_each(|rate| each(*rate));
     }
     fn integrate(
         &self,

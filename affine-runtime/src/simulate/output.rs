@@ -40,16 +40,30 @@ impl Output {
     }
 }
 
-/// Equal intervals for a closed form, which has no steps.
+/// Equal intervals for a closed form, which has no steps; the interval alone where the rounding of times does not tell
+/// its parts apart.
 pub(super) fn without_steps(t0: f64, t_end: f64) -> Schedule {
     let dt = (t_end - t0) / CLOSED_FORM_INTERVALS;
-    let count = if t0 == t_end { 0 } else { CLOSED_FORM_INTERVALS as u64 };
+    let is_resolved = dt.abs() > 4.0 * resolution(t0, t_end);
+    let count = if t0 == t_end {
+        0
+    } else if is_resolved {
+        CLOSED_FORM_INTERVALS as u64
+    } else {
+        1
+    };
+    let dt = if is_resolved { dt } else { t_end - t0 };
     Schedule::Equidistant { t0, dt, t_end, next: 0, count }
+}
+
+/// The rounding of times in an interval, or of the least times there are.
+fn resolution(t0: f64, t_end: f64) -> f64 {
+    f64::EPSILON * t0.abs().max(t_end.abs()).max(f64::MIN_POSITIVE)
 }
 
 fn equidistant(t0: f64, t_end: f64, dt: f64) -> Result<Schedule, Setting> {
     let span = (t_end - t0).abs();
-    let resolution = f64::EPSILON * t0.abs().max(t_end.abs());
+    let resolution = resolution(t0, t_end);
     if !(dt.is_finite() && dt > 0.0) || (dt <= 4.0 * resolution && span > 0.0) || span / dt > MOST_OUTPUTS {
         return Err(Setting::OutputSpacing { dt, t0, t_end });
     }
@@ -144,6 +158,19 @@ mod tests {
         assert_eq!(times(&Output::Every(3.0), 0.0, 1.0), [0.0, 1.0], "longer than the interval");
         assert_eq!(times(&Output::Every(0.5), 2.0, 0.8), [2.0, 1.5, 1.0, 0.8], "backward");
         assert_eq!(times(&Output::Every(0.5), 2.0, 2.0), [2.0], "empty interval");
+    }
+
+    /// Between neighbouring numbers there is no other.
+    #[test]
+    fn closed_forms_have_each_time_once() {
+        for (t0, t_end) in
+            [(1e6_f64, 1e6_f64.next_up()), (1.0, 1.0 - 1e-15), (0.0, 5e-324), (0.0, 1e-300), (0.0, 1.0)]
+        {
+            let mut schedule = without_steps(t0, t_end);
+            let times: Vec<f64> = core::iter::from_fn(|| schedule.take_through(t_end, t_end < t0)).collect();
+            assert!(times.windows(2).all(|w| (w[1] - w[0]) * (t_end - t0).signum() > 0.0), "{times:?}");
+            assert_eq!((times[0], times[times.len() - 1]), (t0, t_end));
+        }
     }
 
     #[test]

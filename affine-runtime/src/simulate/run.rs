@@ -1,6 +1,7 @@
 //! Running a simulation: from its settings to the outcome, leg by leg.
 
 use super::checkpoint::{Checkpoint, Place};
+use super::fingerprint::fingerprint;
 use super::halt::{Halt, Outcome, Reason, Setting, Stop};
 use super::layout::total;
 use super::mechanics::{Course, Mechanics};
@@ -32,6 +33,23 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
             );
         }
         Run { model: self.model, settings: self.settings }.outcome()
+    }
+}
+
+#[cfg(feature = "report")]
+impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
+    /// Looks at the settings alone.
+    ///
+    /// # Errors
+    /// What [`run`](Self::run) would say of them, with the start as it is.
+    pub(crate) fn checked(self) -> Result<(), Halt<N, M::Point<f64>>> {
+        let run = Run { model: self.model, settings: self.settings };
+        let checked = run.settings.checked(&M::DESCRIPTION).map_err(Reason::from);
+        let checked = checked.and_then(|_| check(run.settings.plan.t0, &run.settings.start));
+        checked.map_err(|reason| {
+            let trajectory = Box::new(run.empty_trajectory());
+            Halt { stop: Stop { reason, t: trajectory.end.0, steps: 0 }, trajectory }
+        })
     }
 }
 
@@ -101,7 +119,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let (t_end, schedule) = self.settings.checked(description)?;
         let Plan { t0, max_steps, .. } = self.settings.plan;
         check(t0, &self.settings.start)?;
-        let events = self.settings.events.len();
+        let events: Vec<&'static str> = self.settings.events.iter().map(|event| event.name).collect();
         let mut recorder = Recorder {
             model: self.model,
             needs_determinant: false,
@@ -120,14 +138,14 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         };
         let mut origin = (t0, self.settings.start);
         if let Some(checkpoint) = self.settings.checkpoint.take() {
-            origin = self.take_up(checkpoint, events, &mut recorder)?;
+            origin = self.take_up(checkpoint, &events, &mut recorder)?;
         }
         let outcome = self.legs(&mut origin, &mut recorder);
         let interrupted = matches!(outcome, Err(Reason::Interrupted(_) | Reason::StepLimit { .. }));
         if (interrupted || recorder.trajectory.stopped_by.is_some()) && !recorder.is_lost {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
             let place = place.from(origin.0, &origin.1);
-            let run = self.settings.plan.fingerprint(description.name, events);
+            let run = fingerprint(self.model, &self.settings, &events);
             recorder.trajectory.checkpoint = Some(Box::new(Checkpoint { run, place }));
         }
         outcome
@@ -137,11 +155,11 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     fn take_up(
         &self,
         checkpoint: Checkpoint,
-        events: usize,
+        events: &[&'static str],
         recorder: &mut Recorder<'_, '_, N, P>,
     ) -> Result<(f64, P), Setting> {
         let model = self.model.description().name;
-        if checkpoint.run != self.settings.plan.fingerprint(model, events) {
+        if checkpoint.run != fingerprint(self.model, &self.settings, events) {
             return Err(Setting::Checkpoint { model });
         }
         let origin = checkpoint.place.origin(&self.settings.start);

@@ -15,6 +15,9 @@ use crate::model::{Constraint, Description};
 /// The finest tolerance: about four roundings.
 const FINEST_TOLERANCE: f64 = 1e-15;
 
+/// The shortest interval that is not empty: quotients by its steps are numbers.
+const SHORTEST_INTERVAL: f64 = 1e-300;
+
 /// What a simulation was told.
 pub(super) struct Settings<'a, const N: usize, P> {
     pub(super) start: P,
@@ -36,16 +39,22 @@ pub(super) struct Plan {
     pub(super) max_steps: u64,
 }
 
-impl<const N: usize, P> Settings<'_, N, P> {
-    pub(super) fn new(start: P) -> Self {
-        let plan = Plan {
+impl Default for Plan {
+    fn default() -> Self {
+        Self {
             t0: 0.0,
             t_end: None,
             tolerance: DEFAULT_TOLERANCE,
             output: Output::Steps,
             method: Method::Automatic,
             max_steps: DEFAULT_MAX_STEPS,
-        };
+        }
+    }
+}
+
+impl<const N: usize, P> Settings<'_, N, P> {
+    pub(super) fn new(start: P) -> Self {
+        let plan = Plan::default();
         Self { start, plan, progress: None, observe: None, events: Vec::new(), checkpoint: None }
     }
 
@@ -61,19 +70,16 @@ impl<const N: usize, P> Settings<'_, N, P> {
 }
 
 impl Plan {
-    /// What a checkpoint fits: runs that take the same steps from the same place.
-    pub(super) fn fingerprint(&self, model: &str, events: usize) -> String {
-        let [t0, t_end, tolerance] =
-            [self.t0, self.t_end.unwrap_or(f64::NAN), self.tolerance].map(f64::to_bits);
-        format!("{model} {:?} {tolerance:x} {t0:x} {t_end:x} {events}", self.method)
-    }
-
-    fn checked(&self, model: &Description) -> Result<(f64, Schedule), Setting> {
+    pub(super) fn checked(&self, model: &Description) -> Result<(f64, Schedule), Setting> {
         let t_end = self.t_end.ok_or(Setting::NoEnd)?;
         for (name, given) in [("the time of the start", self.t0), ("the time of the end", t_end)] {
             if !given.is_finite() {
                 return Err(Setting::Time { name, given });
             }
+        }
+        let length = (t_end - self.t0).abs();
+        if !length.is_finite() || length > 0.0 && length < SHORTEST_INTERVAL {
+            return Err(Setting::Interval { t0: self.t0, t_end });
         }
         if !(FINEST_TOLERANCE..1.0).contains(&self.tolerance) {
             return Err(Setting::Tolerance { given: self.tolerance });

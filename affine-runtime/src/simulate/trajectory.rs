@@ -62,6 +62,8 @@ impl Computation {
             }
             Failure::NotSeparable => Setting::NotSeparable { model }.into(),
             Failure::OffConstraint { defect } => Setting::OffConstraint { defect }.into(),
+            Failure::Time { given } => Setting::Time { name: "an end of the interval", given }.into(),
+            Failure::Tolerance { given } => Setting::Tolerance { given }.into(),
         }
     }
 }

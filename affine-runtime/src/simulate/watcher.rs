@@ -3,7 +3,9 @@
 use super::event::{Direction, Event};
 use super::halt::Reason;
 use super::motion::WithWork;
+use super::point::check;
 use super::root::root;
+use crate::state::Phase;
 
 /// A change of sign that counts.
 pub(super) struct Met<P> {
@@ -22,7 +24,7 @@ pub(super) struct Watcher<'a, const N: usize, P> {
     values: Vec<f64>,
 }
 
-impl<'a, const N: usize, P: Copy> Watcher<'a, N, P> {
+impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
     pub(super) fn new(events: Vec<Event<'a, N, P>>) -> Self {
         Self { values: vec![f64::NAN; events.len()], t: f64::NAN, events }
     }
@@ -53,6 +55,9 @@ impl<'a, const N: usize, P: Copy> Watcher<'a, N, P> {
     ) -> Result<Vec<Met<P>>, Reason> {
         let mut met = Vec::new();
         let begin = self.t;
+        if t_end == begin {
+            return Ok(met);
+        }
         let sign = if t_end < begin { -1.0 } else { 1.0 };
         for part in 1..=parts {
             let t = match part == parts {
@@ -62,12 +67,12 @@ impl<'a, const N: usize, P: Copy> Watcher<'a, N, P> {
             let (point, _) = at(t)?;
             let first = met.len();
             for (index, event) in self.events.iter().enumerate() {
-                let (before, value) = (self.values[index], (event.function)(t, &point));
+                let (before, value) = (self.values[index], event.value(t, &point)?);
                 self.values[index] = value;
                 let Some(rising) = crossing(before, value).filter(|rising| event.counts(*rising)) else {
                     continue;
                 };
-                let function = |t: f64| at(t).map(|(point, _)| (event.function)(t, &point));
+                let function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point));
                 let time = root(function, (self.t, before), (t, value))?;
                 let (point, work) = at(time)?;
                 // One of few: put in its place, after those of the same time.
@@ -81,7 +86,16 @@ impl<'a, const N: usize, P: Copy> Watcher<'a, N, P> {
     }
 }
 
-impl<const N: usize, P> Event<'_, N, P> {
+impl<const N: usize, P: Phase<N>> Event<'_, N, P> {
+    /// What it is at a point, unless that is none: the run finds out for itself.
+    fn value(&self, t: f64, point: &P) -> Result<f64, Reason> {
+        let value = (self.function)(t, point);
+        if value.is_nan() && check(t, point).is_ok() {
+            return Err(Reason::Event { event: self.name, t });
+        }
+        Ok(value)
+    }
+
     fn counts(&self, rising: bool) -> bool {
         match self.direction {
             Direction::Rising => rising,

@@ -1,7 +1,6 @@
 //! Stiff and extreme cases, one file for each kind, shared by the example and the test.
 
 mod bad_input;
-mod bad_settings;
 mod coincident;
 mod collapse;
 mod degenerate;
@@ -53,6 +52,5 @@ pub(crate) fn report(extent: Extent) -> affine_runtime::Result<StabilityReport> 
     long_runs::cases(&mut report, extent)?;
     many_steps::cases(&mut report, extent)?;
     bad_input::cases(&mut report)?;
-    bad_settings::cases(&mut report)?;
     Ok(report)
 }

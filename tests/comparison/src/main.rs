@@ -1,6 +1,7 @@
 //! Error against run time of this project beside ode_solvers' DOP853 and the Verner pair of orders 9 and 8 of
 //! differential-equations, with right-hand sides written by hand over nalgebra, problem by problem in one run; and the
-//! ratio of the run time to the least of theirs at equal errors.
+//! ratio of the run time to the least of theirs at equal errors, of the best method, of the automatic choice, of splitting
+//! and of Gauss collocation.
 //!
 //! `cargo run --release -p affine-comparison [P1 P2 ...] [--peers FILE]`. A file has results of other tools, measured
 //! elsewhere: they go into the pictures, not into the ratios.
@@ -8,6 +9,12 @@
 //! `cargo run --release -p affine-comparison rhs`: times of single evaluations instead, beside those written by hand.
 
 mod by_hand;
+#[path = "../../../examples/work_precision/equal_steps.rs"]
+mod equal_steps;
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::expect_used)]
+mod evaluations;
+#[path = "../../../examples/work_precision/frontier.rs"]
 mod frontier;
 mod peers;
 #[path = "../../../examples/work_precision/problems.rs"]
@@ -23,7 +30,8 @@ use affine_runtime::capability::InLanes;
 use affine_runtime::prelude::*;
 use affine_runtime::report::{Series, WorkPrecision, WorkPrecisionDiagram, WorkPrecisionPoint};
 
-use frontier::{ERRORS, front, least_time};
+use equal_steps::{Curve, Curves, Motion};
+use frontier::{ERRORS, front, least_cost};
 use peers::Peer;
 use problems::Visitor;
 use right_hand_sides::RightHandSides;
@@ -47,9 +55,10 @@ fn main() -> affine_runtime::Result<()> {
     let mut comparison = Comparison { only, peers, rows: Vec::new(), csv: CSV_HEAD.to_owned() };
     problems::visit(&mut comparison)?;
     println!(
-        "run time over the least of DOP853 and RKV 9(8) at equal errors of phi, the best method and tolerance for each:\n"
+        "run time over the least of DOP853 and RKV 9(8) at equal errors of phi, the best method and tolerance for each; below it \
+         Method::Automatic, and the best of splitting and of Gauss collocation:\n"
     );
-    print!("{:10}", "problem");
+    print!("{:14}", "problem");
     ERRORS.iter().for_each(|error| print!("{error:>10.0e}"));
     println!();
     for row in &comparison.rows {
@@ -104,7 +113,7 @@ impl Visitor for Comparison {
         let mut ours = Vec::new();
         for row in report.rows() {
             let (Some(error), Ok(measured)) = (report.error(row, "phi"), &row.outcome) else { continue };
-            ours.push((error, measured.run_time));
+            ours.push((error, measured.run_time.as_secs_f64()));
             self.record(
                 &format!("affine {}", row.name()),
                 name,
@@ -121,8 +130,15 @@ impl Visitor for Comparison {
             }
         }
         let runs = theirs.iter().flat_map(|(_, runs)| runs);
-        let pairs: Vec<(f64, Duration)> = runs.map(|run| (run.error, run.time)).collect();
+        let pairs: Vec<(f64, f64)> = runs.map(|run| (run.error, run.time.as_secs_f64())).collect();
         self.rows.push(ratios(name, &ours, &pairs));
+        let motion = Motion { model, ends: [start, end], t_end, repeats: (5, Duration::from_millis(20)) };
+        let Curves { automatic, splitting, gauss } = motion.curves()?;
+        for (method, curves) in [("automatic", vec![automatic]), ("splitting", splitting), ("Gauss", gauss)] {
+            let runs: Vec<(f64, f64)> = curves.iter().flat_map(|curve| curve.seconds.clone()).collect();
+            self.rows.push(ratios(&format!("  {method}"), &runs, &pairs));
+            curves.iter().for_each(|curve| self.record_curve(name, curve));
+        }
         let diagram = WorkPrecisionDiagram::new(
             format!("{name}: error against run time"),
             format!("relative error of phi at t = {t_end}"),
@@ -139,11 +155,11 @@ impl Comparison {
     /// What other tools reached on a problem, one series each: repeats and settings that others of the tool beat left
     /// out.
     fn elsewhere(&self, problem: &str) -> Vec<Series> {
-        let mut tools: Vec<(&str, Vec<(f64, Duration)>)> = Vec::new();
+        let mut tools: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
         for peer in self.peers.iter().filter(|peer| peer.problem.replace('_', " ") == problem) {
             match tools.iter_mut().find(|(tool, _)| *tool == peer.tool) {
-                Some((_, runs)) => runs.push((peer.error, peer.time)),
-                None => tools.push((&peer.tool, vec![(peer.error, peer.time)])),
+                Some((_, runs)) => runs.push((peer.error, peer.time.as_secs_f64())),
+                None => tools.push((&peer.tool, vec![(peer.error, peer.time.as_secs_f64())])),
             }
         }
         let series = |(tool, runs): (&str, Vec<_>)| {
@@ -152,6 +168,13 @@ impl Comparison {
             Series { name: tool.to_owned(), points: points.collect() }
         };
         tools.into_iter().map(series).collect()
+    }
+
+    fn record_curve(&mut self, problem: &str, curve: &Curve) {
+        for ((error, evaluations), (_, seconds)) in curve.evaluations.iter().zip(&curve.seconds) {
+            let (tool, time) = (format!("affine {}", curve.name), Duration::from_secs_f64(*seconds));
+            self.record(&tool, problem, None, *error, *evaluations as u64, time);
+        }
     }
 
     fn record(
@@ -174,10 +197,10 @@ fn series(tool: &str, runs: &[Measured]) -> Series {
     Series { name: format!("{tool}, by hand"), points: runs.iter().map(point).collect() }
 }
 
-fn ratios(name: &str, ours: &[(f64, Duration)], theirs: &[(f64, Duration)]) -> String {
-    let mut row = format!("{name:10}");
+fn ratios(name: &str, ours: &[(f64, f64)], theirs: &[(f64, f64)]) -> String {
+    let mut row = format!("{name:14}");
     for error in ERRORS {
-        row += &match (least_time(ours, error), least_time(theirs, error)) {
+        row += &match (least_cost(ours, error), least_cost(theirs, error)) {
             (Some(ours), Some(theirs)) => format!("{:>10.4}", ours / theirs),
             (Some(_), None) => format!("{:>10}", "only us"),
             _ => format!("{:>10}", "-"),

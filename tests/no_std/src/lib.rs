@@ -24,6 +24,15 @@ pub struct HeavyMissile {
     pub m: f64,
 }
 
+/// A body that is drawn to the origin of space: its acceleration and its balance laws take roots of doubles.
+#[affine_model(
+    dim = 3,
+    kinetic(dalembert = 1, space_translation = 1),
+    potential = norm(x) + neo_hookean(0.5),
+    emit(acceleration, balance)
+)]
+pub struct Drawn;
+
 /// The placement after `steps` Euler steps of the reduced equations, and the energies before and after.
 pub fn follow<M: Model<3>>(
     model: &M,

@@ -3,7 +3,7 @@
 //! Indeterminates are atoms of the arena: symbols and reciprocals of what is not a product. Two polynomials are
 //! equal as functions of independent atoms exactly when they are equal as values.
 
-use std::collections::BTreeMap;
+use std::cmp::Ordering;
 
 use super::arena::{Arena, Expr, Node};
 use super::function::Function;
@@ -15,7 +15,9 @@ pub type Monomial = Vec<Expr>;
 /// A polynomial in atoms with rational coefficients; no zero coefficient is stored.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Polynomial {
-    terms: BTreeMap<Monomial, Rational>,
+    /// In canonical order. A list and no tree, since the macro runs unoptimised in its users' builds, where a tree of few
+    /// terms costs several times as much.
+    terms: Vec<(Monomial, Rational)>,
 }
 
 impl Polynomial {
@@ -105,7 +107,7 @@ impl Polynomial {
 
     /// Monomials with their coefficients, in canonical order.
     pub fn terms(&self) -> impl ExactSizeIterator<Item = (&Monomial, &Rational)> + Clone {
-        self.terms.iter()
+        self.terms.iter().map(|(monomial, c)| (monomial, c))
     }
 
     /// No terms?
@@ -117,9 +119,9 @@ impl Polynomial {
     /// The number it is, if it is one.
     #[must_use]
     pub fn as_constant(&self) -> Option<Rational> {
-        match self.terms.len() {
-            0 => Some(Rational::ZERO),
-            1 => self.terms.get(&[] as &[Expr]).cloned(),
+        match self.terms.as_slice() {
+            [] => Some(Rational::ZERO),
+            [(monomial, c)] if monomial.is_empty() => Some(c.clone()),
             _ => None,
         }
     }
@@ -138,17 +140,31 @@ impl Polynomial {
             }
             k += 1;
         }
-        match self.terms.get_mut(&monomial) {
-            None => {
-                self.terms.insert(monomial, coefficient.clone());
-            }
-            Some(held) => {
+        match self.place(&monomial) {
+            Err(place) => self.terms.insert(place, (monomial, coefficient.clone())),
+            Ok(place) => {
+                let held = &mut self.terms[place].1;
                 *held = &*held + coefficient;
                 if held.is_zero() {
-                    self.terms.remove(&monomial);
+                    self.terms.remove(place);
                 }
             }
         }
+    }
+
+    /// Where a monomial stands, or where it is to be put. Most arrive in order, behind all others.
+    fn place(&self, monomial: &[Expr]) -> Result<usize, usize> {
+        let (mut low, mut high) = (0, self.terms.len());
+        let mut middle = high.saturating_sub(1);
+        while low < high {
+            match compared(&self.terms[middle].0, monomial) {
+                Ordering::Less => low = middle + 1,
+                Ordering::Equal => return Ok(middle),
+                Ordering::Greater => high = middle,
+            }
+            middle = usize::midpoint(low, high);
+        }
+        Err(low)
     }
 
     /// Adds `weight * other`.
@@ -232,15 +248,31 @@ impl Polynomial {
         result
     }
 
+    fn atoms(&self) -> impl Iterator<Item = &Expr> {
+        self.terms.iter().flat_map(|(monomial, _)| monomial)
+    }
+
     /// Does any symbol in its atoms, inside functions and reciprocals too, satisfy `wanted`?
     pub fn any_symbol(&self, arena: &Arena, wanted: &mut impl FnMut(Expr) -> bool) -> bool {
-        self.terms.keys().flatten().any(|atom| arena.any_symbol(*atom, wanted))
+        self.atoms().any(|atom| arena.any_symbol(*atom, wanted))
     }
 
     /// Does any term contain an atom for which `wanted` holds?
     pub fn mentions(&self, mut wanted: impl FnMut(Expr) -> bool) -> bool {
-        self.terms.keys().flatten().any(|atom| wanted(*atom))
+        self.atoms().any(|atom| wanted(*atom))
     }
+}
+
+/// The order of slices, written out for builds without optimisation.
+fn compared(a: &[Expr], b: &[Expr]) -> Ordering {
+    let mut k = 0;
+    while k < a.len() && k < b.len() {
+        if a[k] != b[k] {
+            return a[k].cmp(&b[k]);
+        }
+        k += 1;
+    }
+    a.len().cmp(&b.len())
 }
 
 /// The product of two monomials.

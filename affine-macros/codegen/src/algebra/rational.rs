@@ -19,7 +19,8 @@ pub struct Rational(Repr);
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Repr {
     Small(i64, i64),
-    Big(BigRational),
+    /// Boxed, so that it takes no room where there is none.
+    Big(Box<BigRational>),
 }
 
 impl Rational {
@@ -193,14 +194,14 @@ impl Rational {
     fn to_big(&self) -> BigRational {
         match &self.0 {
             Repr::Small(n, d) => BigRational::new_raw((*n).into(), (*d).into()),
-            Repr::Big(b) => b.clone(),
+            Repr::Big(b) => (**b).clone(),
         }
     }
 
     fn shrink(big: BigRational) -> Self {
         match (big.numer().to_i64(), big.denom().to_i64()) {
             (Some(n), Some(d)) => Self(Repr::Small(n, d)),
-            _ => Self(Repr::Big(big)),
+            _ => Self(Repr::Big(Box::new(big))),
         }
     }
 
@@ -210,7 +211,7 @@ impl Rational {
         let (n, d) = (sign * numerator / common, sign * denominator / common);
         match (i64::try_from(n), i64::try_from(d)) {
             (Ok(n), Ok(d)) => Self(Repr::Small(n, d)),
-            _ => Self(Repr::Big(BigRational::new(n.into(), d.into()))),
+            _ => Self(Repr::Big(Box::new(BigRational::new(n.into(), d.into())))),
         }
     }
 }
@@ -246,7 +247,7 @@ impl Neg for &Rational {
     fn neg(self) -> Rational {
         match &self.0 {
             Repr::Small(n, d) => Rational::lowest(-i128::from(*n), i128::from(*d)),
-            Repr::Big(b) => Rational::shrink(-b),
+            Repr::Big(b) => Rational::shrink(-&**b),
         }
     }
 }

@@ -6,7 +6,9 @@ use proc_macro2::Ident;
 use quote::ToTokens;
 
 use crate::diagnostics::{Diagnostics, ExpressionMistake};
-use crate::spec::{Expression, ExpressionKind, POTENTIAL_SYMBOLS, SYMBOLS, Spec, Symbol, nearest};
+use crate::spec::{
+    Expression, ExpressionKind, POTENTIAL_SYMBOLS, SYMBOLS, Spec, Symbol, application, nearest,
+};
 
 /// A field named as a symbol would make every expression with that name ambiguous to its reader, whichever of
 /// the two it meant. This holds for fields of all types; the symbols of potentials count where there is one.
@@ -57,8 +59,8 @@ fn unresolved(
 ) -> Option<ExpressionMistake> {
     match meaning {
         Some(Symbol::Field(field)) if !field.is_real() => {
-            let ty = field.ty.to_token_stream().to_string();
-            Some(ExpressionMistake::FieldType { field: name.to_string(), ty })
+            let (ty, is_matrix) = (as_written(&field.ty), field.matrix().is_some());
+            Some(ExpressionMistake::FieldType { field: name.to_string(), ty, is_matrix })
         }
         Some(_) => None,
         None => {
@@ -69,7 +71,10 @@ fn unresolved(
                 .chain(more.iter().map(|name| (*name).to_owned()))
                 .collect();
             let name = name.to_string();
-            let nearest = nearest(&name, scope.iter().map(String::as_str)).map(str::to_owned);
+            let in_potential = !more.is_empty();
+            let nearest = application(&name)
+                .filter(|_| in_potential)
+                .or_else(|| nearest(&name, scope.iter().map(String::as_str)).map(str::to_owned));
             Some(ExpressionMistake::UnknownSymbol { name, nearest, scope })
         }
     }
@@ -81,4 +86,12 @@ pub(super) fn names(expression: &Expression) -> Vec<&Ident> {
         ExpressionKind::Symbol(name) => vec![name],
         _ => expression.operands().into_iter().flat_map(names).collect(),
     }
+}
+
+/// A type without the spaces that tokens are printed with.
+fn as_written(ty: &syn::Type) -> String {
+    let spaced = ty.to_token_stream().to_string();
+    [(" :: ", "::"), (":: ", "::"), (" < ", "<"), (" >", ">"), (" ;", ";"), (" ,", ",")]
+        .into_iter()
+        .fold(spaced, |text, (spaced, tight)| text.replace(spaced, tight))
 }

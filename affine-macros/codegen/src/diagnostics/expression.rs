@@ -61,6 +61,8 @@ pub enum ExpressionMistake {
         field: String,
         /// Its type.
         ty: String,
+        /// It is a square matrix of doubles.
+        is_matrix: bool,
     },
     /// A field named as a symbol of the specification language.
     HiddenSymbol {
@@ -165,7 +167,15 @@ impl ExpressionMistake {
                 format!("an expression can use {}", listed(scope)),
                 suggestion(nearest.as_deref(), &format!("add a field `{name}: f64`")),
             ),
-            Self::FieldType { field, ty } => text(
+            Self::FieldType { field, ty, is_matrix: true } => text(
+                format!("the field `{field}` has type `{ty}` and cannot stand in an expression"),
+                "an expression is a real number, and a field of matrix type stands alone, as in `body_inertia = j`",
+                format!(
+                    "write `{field}` alone where a matrix belongs, with factors and summands in its entries; \
+                     `{field}: f64` where a number belongs"
+                ),
+            ),
+            Self::FieldType { field, ty, is_matrix: false } => text(
                 format!("the field `{field}` has type `{ty}` and cannot stand in an expression"),
                 "an expression is a real number; a field of matrix type stands alone, as in `body_inertia = j`, and fields \
                  of other types are left alone",

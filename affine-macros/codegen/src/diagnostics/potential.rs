@@ -12,6 +12,8 @@ pub enum PotentialMistake {
         name: String,
         /// The function probably meant.
         nearest: Option<&'static str>,
+        /// How a function with this name elsewhere is written here.
+        familiar: Option<&'static str>,
         /// Everything that can be applied.
         known: Vec<&'static str>,
     },
@@ -137,10 +139,13 @@ names! { PotentialMistake
 impl PotentialMistake {
     pub(super) fn text(&self) -> Text {
         match self {
-            Self::UnknownFunction { name, nearest, known } => text(
+            Self::UnknownFunction { name, nearest, familiar, known } => text(
                 format!("there is no function `{name}`"),
                 format!("a potential can use {}", listed(known)),
-                suggestion(*nearest, "use one of these; a product has its sign, as in `a*(b + c)`"),
+                familiar.map_or_else(
+                    || suggestion(*nearest, "use one of these; a product has its sign, as in `a*(b + c)`"),
+                    str::to_owned,
+                ),
             ),
             Self::ArgumentCount { name, parameters, found } => text(
                 format!("`{name}` has {}", arguments(*found)),

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
-use crate::algebra::Rational;
+use crate::algebra::{Function, Rational};
 use crate::ir::call::Call;
 use crate::ir::{Op, Program, Value};
 
@@ -208,10 +208,7 @@ impl Writer<'_> {
                 let a = self.at_least(*a, Strength::Sign);
                 (quote!(-#a), Strength::Sign)
             }
-            Op::Call(function, a) => {
-                let (a, name) = (self.at_least(*a, Strength::Atom), format_ident!("{}", function.name()));
-                (quote!(#a.#name()), Strength::Atom)
-            }
+            Op::Call(function, a) => (self.applied(*function, *a), Strength::Atom),
             Op::Add(a, b) => self.infix(*a, *b, quote!(+), Strength::Sum, Strength::Sum),
             Op::Sub(a, b) => self.infix(*a, *b, inner(quote!(-)), Strength::Sum, Strength::Product),
             Op::Mul(a, b) => self.infix(*a, *b, inner(quote!(*)), Strength::Product, Strength::Product),
@@ -225,6 +222,21 @@ impl Writer<'_> {
                 let a = self.at_least(*a, Strength::Atom);
                 let (b, c) = (self.expression(*b).0, self.expression(*c).0);
                 (quote!(#a.fma(#b, #c)), Strength::Atom)
+            }
+        }
+    }
+
+    /// A function of a value. Doubles have methods of their own, not all of them, and none without the standard library.
+    fn applied(&self, function: Function, a: Value) -> TokenStream {
+        let name = format_ident!("{}", function.name());
+        match self.scope.number {
+            Number::Generic(_) => {
+                let a = self.at_least(a, Strength::Atom);
+                quote!(#a.#name())
+            }
+            Number::Double => {
+                let (a, rt) = (self.expression(a).0, self.scope.rt);
+                quote!(#rt::Scalar::#name(#a))
             }
         }
     }

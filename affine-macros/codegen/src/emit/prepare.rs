@@ -9,7 +9,7 @@ use crate::spec::{Field, Storage};
 
 use super::body::{Body, Number, Scope, body};
 use super::{Context, metrics, number};
-use crate::ir::Program;
+use crate::ir::{Op, Program};
 
 /// What `prepare()` returns; nothing for a model without fields in its coefficients.
 pub(super) fn prepared_type(context: &Context) -> TokenStream {
@@ -93,13 +93,14 @@ pub(super) fn method(context: &Context) -> TokenStream {
     // What is carried to orthonormal bases is looked at in them.
     let (first, last) = if rebased.is_empty() { (None, Some(&bases)) } else { (Some(&bases), None) };
     let Body { lets, results } = over_fields(rt, &context.model.coefficients);
+    let numbers = numbers(&context.model.coefficients);
     quote! {
         impl #generics #model #types #clause {
             /// Checks the values of the fields and computes the coefficients of the equations.
             ///
             /// # Errors
             /// `IllPosed` with the condition, its value and its threshold, where the Legendre transformation
-            /// is degenerate to rounding, a required sign is missing, or a coefficient overflows.
+            /// is degenerate to rounding, a required sign is missing, or a field or a coefficient is not finite.
             #visibility fn prepare(&self) -> #rt::Result<#prepared #of> {
                 #matrices
                 #first
@@ -109,11 +110,30 @@ pub(super) fn method(context: &Context) -> TokenStream {
                 #damping
                 #last
                 #lets
-                let coefficients = #rt::finite([#(#results),*])?;
+                let coefficients = #rt::finite([#(#results),*], [#(#numbers),*])?;
                 ::core::result::Result::Ok(#prepared { coefficients #(#fields)* })
             }
         }
     }
+}
+
+/// The fields that are numbers and that a program reads, each with what is asked of it.
+fn numbers(program: &Program) -> Vec<TokenStream> {
+    let mut names: Vec<&str> = program
+        .steps
+        .iter()
+        .filter_map(|step| match step {
+            Op::Input(name) => name.strip_prefix(FIELD).filter(|field| !field.ends_with(']')),
+            _ => None,
+        })
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    let named = names.into_iter().map(|name| {
+        let (condition, value) = (format!("{} is finite", name.trim_start_matches("r#")), read_field(name));
+        quote!((#condition, #value))
+    });
+    named.collect()
 }
 
 /// The symmetric parts of the fields of matrix type.

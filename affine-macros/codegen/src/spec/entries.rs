@@ -101,7 +101,11 @@ pub(super) fn entries<K: Named + PartialEq>(
     found: &mut Diagnostics,
 ) -> Vec<Entry<K>> {
     let mut entries: Vec<Entry<K>> = Vec::new();
-    for piece in pieces(tokens, end) {
+    for piece in pieces(tokens, end)
+        .into_iter()
+        .flat_map(|piece| separated::<K>(list, piece, found))
+        .collect::<Vec<_>>()
+    {
         let Some(entry) = entry(list, piece, elsewhere, found) else { continue };
         match entries.iter_mut().find(|earlier: &&mut Entry<K>| earlier.key == entry.key) {
             None => entries.push(entry),
@@ -113,6 +117,35 @@ pub(super) fn entries<K: Named + PartialEq>(
         }
     }
     entries
+}
+
+/// The items of a piece in which a comma is missing: the next known key, with `=` or a list after it, stands where an
+/// operator or the end should.
+fn separated<K: Named>(list: &'static str, piece: Piece, found: &mut Diagnostics) -> Vec<Piece> {
+    let tokens = unwrapped(piece.tokens);
+    let begins = |i: usize| {
+        let follows = !matches!(tokens[i - 1], TokenTree::Punct(_));
+        let named = matches!(&tokens[i], TokenTree::Ident(name) if K::named(&name.to_string()).is_some());
+        let stated = match tokens.get(i + 1) {
+            Some(TokenTree::Punct(punct)) => punct.as_char() == '=',
+            Some(TokenTree::Group(group)) => group.delimiter() == Delimiter::Parenthesis,
+            _ => false,
+        };
+        follows && named && stated
+    };
+    let starts: Vec<usize> = (1..tokens.len()).filter(|i| begins(*i)).collect();
+    for start in &starts {
+        malformed(list, &tokens[*start], found);
+    }
+    let ends = starts.iter().copied().chain([tokens.len()]);
+    let parts = [0].into_iter().chain(starts.iter().copied()).zip(ends);
+    parts
+        .map(|(start, end)| {
+            let tokens = tokens[start..end].to_vec();
+            let at = region(&tokens).unwrap_or(piece.at);
+            Piece { tokens, at }
+        })
+        .collect()
 }
 
 fn entry<K: Named>(

@@ -15,6 +15,8 @@
 
 mod applied;
 
+pub(crate) use applied::application;
+
 use proc_macro2::{Delimiter, Group, Ident, Literal, TokenTree};
 
 use super::entries::describe;

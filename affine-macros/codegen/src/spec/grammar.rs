@@ -313,11 +313,20 @@ fn members<T: Named + PartialEq>(
 ) -> Vec<Spanned<T>> {
     let Ok(list) = list else { return Vec::new() };
     let mut members: Vec<Spanned<T>> = Vec::new();
+    let name = if role == "capability" { Key::Emit.name() } else { Key::Require.name() };
     for Piece { tokens, at } in pieces(list.stream(), list.span_close()) {
+        if let [TokenTree::Ident(first), second @ TokenTree::Ident(_), ..] = tokens.as_slice()
+            && T::named(&first.to_string()).is_some()
+        {
+            found.report(
+                second.span(),
+                NotationMistake::MalformedItem { list: name, found: describe(second) },
+            );
+            continue;
+        }
         let Some(member) = member::<T>(role, tokens, at, found) else { continue };
         if members.iter().any(|earlier| earlier.value == member.value) {
-            let list = if role == "capability" { Key::Emit.name() } else { Key::Require.name() };
-            found.report(at, NotationMistake::RepeatedKey { list, key: member.value.name() });
+            found.report(at, NotationMistake::RepeatedKey { list: name, key: member.value.name() });
         } else {
             members.push(member);
         }

@@ -251,10 +251,17 @@ impl TermKind {
     }
 }
 
-/// The candidate nearest to `name`, if it is near enough to be meant: an edit distance of at most a third of
-/// the longer name's length.
+/// The candidate that is probably meant by `name`: the only one whose first words it is, as `vorticity` of
+/// `vorticity_squared`; else the nearest, if it is near enough: an edit distance of at most a third of the longer name's
+/// length.
 #[must_use]
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let candidates: Vec<&str> = candidates.into_iter().collect();
+    let begins = |candidate: &&str| candidate.strip_prefix(name).is_some_and(|rest| rest.starts_with('_'));
+    let mut longer = candidates.iter().copied().filter(begins);
+    if let (Some(only), None) = (longer.next(), longer.next()) {
+        return Some(only);
+    }
     let near = |candidate: &'a str| {
         let distance = edit_distance(&name.to_lowercase(), &candidate.to_lowercase());
         let longest = name.chars().count().max(candidate.chars().count());

@@ -20,6 +20,9 @@ const FIRST_RATE: u32 = 4;
 const MOST_CORRECTIONS: u32 = 30;
 /// Corrections that shrink less than that ask for the Jacobian at the increments reached.
 const SLOW: f64 = 0.1;
+/// A correction that is this part of the one before is no gain: below a rounding of the increments, corrections of
+/// many stages may go on shrinking by a thousandth at a time.
+const NO_GAIN: f64 = 0.9;
 
 /// Where a step begins and how long it is.
 #[derive(Clone, Copy)]
@@ -127,14 +130,14 @@ impl<S: StateVector<f64>> Equations<S> {
         let (mut last, mut last_but_one) = (f64::INFINITY, f64::INFINITY);
         for iteration in 1.. {
             let images = self.images(f, start, &increments);
-            let change = largest_by_component(&difference(&images, &increments));
+            let change = self.largest(&self.difference(&images, &increments));
             increments = images;
-            let residual = relative(&change, start.y, &increments);
+            let residual = self.relative(&change, start.y, &increments);
             if residual.is_nan() || residual == f64::INFINITY {
                 break;
             }
             least = if residual < least { residual } else { least };
-            if !descent.goes_on(&change) && residual <= SOLVED {
+            if !descent.goes_on(&change, 1.0) && residual <= SOLVED {
                 return Ok(Solution { increments, residual });
             }
             let rate = Scalar::sqrt(residual / last_but_one);
@@ -167,19 +170,19 @@ impl<S: StateVector<f64>> Equations<S> {
                 break;
             }
             let images = self.images(f, start, &increments);
-            let defects = difference(&images, &increments);
+            let defects = self.difference(&images, &increments);
             let correction = self.newton.correction(&defects);
             for (increment, correction) in increments.iter_mut().zip(&correction) {
                 add(increment, correction);
             }
-            let residual = relative(&largest_by_component(&defects), start.y, &increments);
-            let change = largest_by_component(&correction);
-            let size = relative(&change, start.y, &increments);
+            let residual = self.relative(&self.largest(&defects), start.y, &increments);
+            let change = self.largest(&correction);
+            let size = self.relative(&change, start.y, &increments);
             if !size.is_finite() || !residual.is_finite() {
                 break;
             }
             least = if residual < least { residual } else { least };
-            if !descent.goes_on(&change) && size <= SOLVED {
+            if !descent.goes_on(&change, NO_GAIN) && size <= SOLVED {
                 return Ok(Solution { increments, residual });
             }
             if size > SLOW * last && size > SOLVED {
@@ -197,7 +200,7 @@ impl<S: StateVector<f64>> Equations<S> {
         start: Start<'_, S>,
         increments: &Increments<S>,
     ) {
-        let extent = total(increments);
+        let extent = self.total(increments);
         let mut middle = *start.y;
         for (y, rise) in middle.as_mut().iter_mut().zip(extent.as_ref()) {
             *y += 0.5 * rise;
@@ -215,7 +218,7 @@ impl<S: StateVector<f64>> Equations<S> {
         increments: &Increments<S>,
     ) -> Increments<S> {
         let stages = self.tableau.stages();
-        let f = f.over(total(increments));
+        let f = f.over(self.total(increments));
         let mut images = [S::zeros(); MOST_STAGES];
         for (i, image) in images.iter_mut().enumerate().take(stages) {
             let mut stage = *start.y;
@@ -246,8 +249,8 @@ fn expected(iteration: u32, residual: f64, rate: f64) -> f64 {
     }
 }
 
-/// Whether an iteration still gains: the changes of some component are not zero and smaller than ever before. What
-/// does not is at rounding, or does not converge (Hairer, Lubich, Wanner, section VIII.6; by components as in
+/// Whether an iteration still gains: the changes of some component are not zero and smaller than a part of the least
+/// before. What does not is at rounding, or does not converge (Hairer, Lubich, Wanner, section VIII.6; by components as in
 /// Antonana, Makazaga, Murua, since components may differ in scale).
 struct Descent<S> {
     least: S,
@@ -260,10 +263,10 @@ impl<S: StateVector<f64>> Descent<S> {
         Self { least }
     }
 
-    fn goes_on(&mut self, change: &S) -> bool {
+    fn goes_on(&mut self, change: &S, part: f64) -> bool {
         let mut goes_on = false;
         for (least, change) in self.least.as_mut().iter_mut().zip(change.as_ref()) {
-            if *change < *least {
+            if *change < part * *least {
                 goes_on |= *change > 0.0;
                 *least = *change;
             }
@@ -272,52 +275,55 @@ impl<S: StateVector<f64>> Descent<S> {
     }
 }
 
-/// `sum_i L_i`.
-pub(super) fn total<S: StateVector<f64>>(increments: &Increments<S>) -> S {
-    let mut total = S::zeros();
-    for increment in increments {
-        add(&mut total, increment);
-    }
-    total
-}
-
 fn add<S: StateVector<f64>>(sum: &mut S, term: &S) {
     for (sum, term) in sum.as_mut().iter_mut().zip(term.as_ref()) {
         *sum += term;
     }
 }
 
-fn difference<S: StateVector<f64>>(images: &Increments<S>, increments: &Increments<S>) -> Increments<S> {
-    let mut difference = *images;
-    for (difference, increment) in difference.iter_mut().zip(increments) {
-        for (value, increment) in difference.as_mut().iter_mut().zip(increment.as_ref()) {
-            *value -= increment;
+/// Sums and sizes over the stages that the method has.
+impl<S: StateVector<f64>> Equations<S> {
+    /// `sum_i L_i`.
+    pub(super) fn total(&self, increments: &Increments<S>) -> S {
+        let mut total = S::zeros();
+        for increment in increments.iter().take(self.tableau.stages()) {
+            add(&mut total, increment);
         }
+        total
     }
-    difference
-}
 
-/// Largest magnitude of each component over the stages; NaN where one is.
-fn largest_by_component<S: StateVector<f64>>(changes: &Increments<S>) -> S {
-    let mut largest = S::zeros();
-    for change in changes {
-        for (largest, value) in largest.as_mut().iter_mut().zip(change.as_ref()) {
-            let value = Scalar::abs(*value);
-            *largest = if value <= *largest { *largest } else { value };
+    fn difference(&self, images: &Increments<S>, increments: &Increments<S>) -> Increments<S> {
+        let mut difference = *images;
+        for (difference, increment) in difference.iter_mut().zip(increments).take(self.tableau.stages()) {
+            for (value, increment) in difference.as_mut().iter_mut().zip(increment.as_ref()) {
+                *value -= increment;
+            }
         }
+        difference
     }
-    largest
-}
 
-/// Largest component of `change` over the largest of state and increments; zero where nothing changes.
-fn relative<S: StateVector<f64>>(change: &S, y: &S, increments: &Increments<S>) -> f64 {
-    let largest = |v: &S| {
-        v.as_ref().iter().fold(0.0, |largest: f64, value| {
-            let value = Scalar::abs(*value);
-            if value <= largest { largest } else { value }
-        })
-    };
-    let change = largest(change);
-    let scale = largest(y) + largest(&largest_by_component(increments));
-    if change == 0.0 { 0.0 } else { change / scale }
+    /// Largest magnitude of each component; NaN where one is.
+    fn largest(&self, changes: &Increments<S>) -> S {
+        let mut largest = S::zeros();
+        for change in changes.iter().take(self.tableau.stages()) {
+            for (largest, value) in largest.as_mut().iter_mut().zip(change.as_ref()) {
+                let value = Scalar::abs(*value);
+                *largest = if value <= *largest { *largest } else { value };
+            }
+        }
+        largest
+    }
+
+    /// Largest component of `change` over the largest of state and increments; zero where nothing changes.
+    fn relative(&self, change: &S, y: &S, increments: &Increments<S>) -> f64 {
+        let largest = |v: &S| {
+            v.as_ref().iter().fold(0.0, |largest: f64, value| {
+                let value = Scalar::abs(*value);
+                if value <= largest { largest } else { value }
+            })
+        };
+        let change = largest(change);
+        let scale = largest(y) + largest(&self.largest(increments));
+        if change == 0.0 { 0.0 } else { change / scale }
+    }
 }

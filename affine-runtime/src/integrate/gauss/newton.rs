@@ -15,7 +15,7 @@ use crate::scalar::Scalar;
 /// placement, its momentum and the centre of mass of a body in space have 24.
 pub(super) const CAPACITY: usize = 32;
 /// Modes of the largest method.
-const MODES: usize = 2;
+const MODES: usize = 3;
 /// Relative change for the differences: balances rounding, `eps/change`, and curvature, `change`.
 const CHANGE: f64 = 1.5e-8;
 

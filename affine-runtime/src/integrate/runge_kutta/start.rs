@@ -7,10 +7,10 @@ mod in_lanes;
 pub(crate) use in_lanes::starts_in_lanes;
 
 use super::Pair;
-use crate::integrate::Failure;
 use crate::integrate::error_norm::ErrorNorm;
 use crate::integrate::finite::is_finite;
 use crate::integrate::step_size::first_step;
+use crate::integrate::{Failure, sound};
 use crate::model::{Group, StateVector};
 
 /// Slope, norm and first step at a state.
@@ -28,7 +28,7 @@ impl<S: StateVector<f64>> Start<S> {
     /// The start of `y' = f(t, y)` from `(t0, y0)` to `t_end`, and the evaluations that it took.
     ///
     /// # Errors
-    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite.
+    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite; [`Failure::Time`], [`Failure::Tolerance`].
     pub(crate) fn of<P: Pair>(
         f: &impl Fn(f64, &S) -> S,
         groups: &'static [Group],
@@ -36,6 +36,7 @@ impl<S: StateVector<f64>> Start<S> {
         t_end: f64,
         tolerance: f64,
     ) -> Result<(Self, u64), Failure> {
+        sound(t0, t_end, tolerance)?;
         let slope = f(t0, y0);
         if !is_finite(y0) || !is_finite(&slope) {
             return Err(Failure::NotFinite);

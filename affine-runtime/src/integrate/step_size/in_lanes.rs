@@ -74,6 +74,8 @@ impl<T: Lanes> Clocks<T> {
             let after = if unsound.lane(lane) == 0.0 { goes_on } else { fate::STUCK };
             let again = if length <= shortest(t, t_end) { fate::STUCK } else { fate::UNDER_WAY };
             let fate = if accepted { after } else { again };
+            // What is lost in the rounding of times is no step.
+            let fate = if end == t { fate::STUCK } else { fate };
             // A lane at rest has no fate.
             fates.set_lane(lane, if t == t_end { fate::UNDER_WAY } else { fate });
             let t = if accepted { end } else { t };

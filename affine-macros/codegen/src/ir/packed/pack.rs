@@ -193,11 +193,16 @@ impl Packer<'_> {
         let mut wanted: Vec<Lanes> = self.vectors.iter().map(|vector| vector.lanes).collect();
         let entries = a.iter().chain(&b).filter(|lane| lane.value().is_some());
         wanted.extend(entries.map(|lane| [*lane; 4]));
-        let exchanged = wanted.into_iter().filter_map(|wanted| exchanged([a, b], wanted));
         let mut best = [a, b];
-        for other in exchanged {
-            if self.difficulty(other) < self.difficulty(best) {
-                best = other;
+        let mut least = self.difficulty(best);
+        for wanted in wanted {
+            if least == 0 {
+                break;
+            }
+            let Some(other) = exchanged([a, b], wanted) else { continue };
+            let difficulty = self.difficulty(other);
+            if difficulty < least {
+                (best, least) = (other, difficulty);
             }
         }
         best

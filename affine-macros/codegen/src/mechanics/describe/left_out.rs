@@ -2,6 +2,7 @@
 
 use super::momentum_names;
 use crate::mechanics::carried::Carried;
+use crate::mechanics::charts::Momentum;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::reduce::{ClosedForm, Commuting, Layout, Reduction};
 use crate::mechanics::separation::Slope;
@@ -49,6 +50,8 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
         .to_owned()
     }));
     match reduction.layout {
+        // The flow that is applied exactly turns the momentum of its own frame.
+        Layout::Constant if turns(reduction) => list.push(format!("{name}: conserved by the rest of H")),
         Layout::Constant => list.push(format!("{name}: conserved")),
         Layout::Entries => {}
     }
@@ -61,4 +64,14 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
         None => {}
     }
     list
+}
+
+/// Does a piece that is applied exactly move the momentum of the reduced chart?
+fn turns(reduction: &Reduction) -> bool {
+    reduction.commuting.iter().any(|piece| {
+        matches!(
+            (piece, reduction.chart.momentum),
+            (Commuting::Vorticity(_), Momentum::Body) | (Commuting::Spin(_), Momentum::Space)
+        )
+    })
 }

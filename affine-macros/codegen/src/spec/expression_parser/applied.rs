@@ -172,6 +172,24 @@ fn index(piece: Piece) -> Option<usize> {
     }
 }
 
+/// How a name is applied, if it is that of a function or of a potential: `neo_hookean(c)`, `sinh(a)`.
+pub(crate) fn application(name: &str) -> Option<String> {
+    let potential = NAMED_POTENTIALS.iter().find(|potential| potential.name == name);
+    let function = FUNCTIONS.into_iter().find(|function| function.name() == name);
+    potential
+        .map(|potential| format!("{name}({})", potential.parameters.join(", ")))
+        .or_else(|| function.map(|_| format!("{name}(a)")))
+}
+
+/// What functions of other languages are here.
+const FAMILIAR: [(&[&str], &str); 5] = [
+    (&["log"], "write `ln(..)`, the natural logarithm"),
+    (&["trace", "Tr"], "write `tr(..)`"),
+    (&["pow", "powi", "powf"], "write `a^b`, with `^` for powers"),
+    (&["det"], "write `det` alone for det phi; det G = det Ct is `det^2`"),
+    (&["cbrt"], "write `exp(ln(a)/3)`, of what is positive; the cube root of det phi is `D` for n = 3"),
+];
+
 fn unknown(name: &str) -> PotentialMistake {
     let known: Vec<&'static str> = FUNCTIONS
         .into_iter()
@@ -180,7 +198,8 @@ fn unknown(name: &str) -> PotentialMistake {
         .chain(NAMED_POTENTIALS.iter().map(|potential| potential.name))
         .collect();
     let nearest = nearest(name, known.iter().copied());
-    PotentialMistake::UnknownFunction { name: shortened(name), nearest, known }
+    let familiar = FAMILIAR.iter().find(|(names, _)| names.contains(&name)).map(|(_, instead)| *instead);
+    PotentialMistake::UnknownFunction { name: shortened(name), nearest, familiar, known }
 }
 
 /// The tokens at another place.

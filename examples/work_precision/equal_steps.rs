@@ -1,0 +1,135 @@
+//! What methods in equal steps, splitting and Gauss collocation, cost at the errors of the automatic choice.
+
+use std::time::Duration;
+
+use affine_runtime::capability::InLanes;
+use affine_runtime::prelude::*;
+use affine_runtime::report::WorkPrecision;
+
+/// Orders of splitting, all there are.
+const ORDERS: [usize; 4] = [2, 4, 6, 8];
+/// Numbers of stages of Gauss collocation, all there are.
+const STAGES: [usize; 4] = [2, 3, 4, 6];
+/// Steps are no longer shortened once they take this many times the evaluations of any automatic run.
+const HOPELESS: u64 = 8;
+/// The error below which two lengths in turn that gain nothing tell that rounding is reached.
+const NEAR_ROUNDING: f64 = 1e-11;
+
+/// A benchmark problem.
+pub(crate) struct Motion<'a, M: InLanes<3>> {
+    /// The model.
+    pub(crate) model: &'a M,
+    /// Start, and end by the reference.
+    pub(crate) ends: [M::Point<f64>; 2],
+    /// Time of the end.
+    pub(crate) t_end: f64,
+    /// Timed repeats of a run, and the time after which no further one begins.
+    pub(crate) repeats: (usize, Duration),
+}
+
+/// A method over its tolerances or lengths of steps.
+pub(crate) struct Curve {
+    /// What it is called.
+    pub(crate) name: String,
+    /// Error of `phi`, and evaluations.
+    pub(crate) evaluations: Vec<(f64, f64)>,
+    /// Error of `phi`, and seconds.
+    pub(crate) seconds: Vec<(f64, f64)>,
+}
+
+/// The methods on one problem.
+pub(crate) struct Curves {
+    /// [`Method::Automatic`].
+    pub(crate) automatic: Curve,
+    /// Every order.
+    pub(crate) splitting: Vec<Curve>,
+    /// Every number of stages.
+    pub(crate) gauss: Vec<Curve>,
+}
+
+impl<M: InLanes<3>> Motion<'_, M> {
+    /// Every method.
+    ///
+    /// # Errors
+    /// Those of settings. A run that stops on its way is left out.
+    pub(crate) fn curves(&self) -> affine_runtime::Result<Curves> {
+        let automatic = self.over_tolerances("automatic", Method::Automatic)?;
+        let most = HOPELESS * automatic.evaluations.iter().map(|(_, n)| *n as u64).max().unwrap_or(0);
+        let mut splitting = Vec::new();
+        for order in ORDERS {
+            let name = format!("splitting {order}");
+            splitting.push(self.over_steps(name, most, |step| Method::Splitting { order, step })?);
+        }
+        let mut gauss = Vec::new();
+        for stages in STAGES {
+            let name = format!("Gauss {}", 2 * stages);
+            gauss.push(self.over_steps(name, most, |step| Method::Gauss { stages, step })?);
+        }
+        Ok(Curves { automatic, splitting, gauss })
+    }
+
+    /// A method over tolerances, two for each power of ten.
+    ///
+    /// # Errors
+    /// Those of settings.
+    pub(crate) fn over_tolerances(&self, name: &str, method: Method) -> affine_runtime::Result<Curve> {
+        let mut curve = Curve::new(name.to_owned());
+        for k in 2..=29 {
+            curve.add(self.measured(method, 10f64.powf(-0.5 * f64::from(k)))?);
+        }
+        Ok(curve)
+    }
+
+    /// From four steps on, each time the square root of 2 as many.
+    fn over_steps(
+        &self,
+        name: String,
+        most: u64,
+        method: impl Fn(f64) -> Method,
+    ) -> affine_runtime::Result<Curve> {
+        let mut curve = Curve::new(name);
+        let (mut least, mut idle) = (f64::INFINITY, 0);
+        for k in 4.. {
+            let steps = 2f64.powf(0.5 * f64::from(k)).round();
+            let measured = self.measured(method(self.t_end / steps), 1e-9)?;
+            curve.add(measured);
+            let (error, evaluations) = measured.map_or((f64::INFINITY, steps as u64), |(e, n, _)| (e, n));
+            idle = if error < least { 0 } else { idle + 1 };
+            least = least.min(error);
+            if evaluations > most || (least < NEAR_ROUNDING && idle == 2) {
+                break;
+            }
+        }
+        Ok(curve)
+    }
+
+    /// Error, evaluations and seconds; `None` for a run that stops.
+    fn measured(&self, method: Method, tolerance: f64) -> affine_runtime::Result<Option<(f64, u64, f64)>> {
+        let ([start, end], (repeats, cap)) = (self.ends, self.repeats);
+        let report = WorkPrecision::new(self.model, start, self.t_end)
+            .against(end)
+            .methods([method])
+            .tolerances([tolerance])
+            .repeats(repeats)
+            .time_cap(cap)
+            .run()?;
+        Ok(report.rows().first().and_then(|row| {
+            let measured = row.outcome.as_ref().ok()?;
+            let error = report.error(row, "phi")?;
+            Some((error, measured.statistics.evaluations, measured.run_time.as_secs_f64()))
+        }))
+    }
+}
+
+impl Curve {
+    fn new(name: String) -> Self {
+        Self { name, evaluations: Vec::new(), seconds: Vec::new() }
+    }
+
+    fn add(&mut self, measured: Option<(f64, u64, f64)>) {
+        if let Some((error, evaluations, seconds)) = measured {
+            self.evaluations.push((error, evaluations as f64));
+            self.seconds.push((error, seconds));
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! A model for every method, with the start of a motion: what each method serves, and what it is held to.
+
+use affine_runtime::prelude::*;
+
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = [[1, 0.25], [0.25, 2]], space_translation = 2),
+    potential = tr(G)/2 - ln(det) + x[1]^2/2 + x[2]^4/4 + x[1]*phi[1,2],
+    emit(nystrom),
+)]
+pub(crate) struct Anchored;
+
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 2),
+    potential = hyperbolic_dilatation(10) + neo_hookean(0.5) + x[1]^2/2,
+    emit(taylor),
+)]
+pub(crate) struct Vibrating;
+
+#[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = tr(G)/2 + norm(x)^2/2, emit(splitting))]
+pub(crate) struct Springs;
+
+#[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, space_translation = 2))]
+pub(crate) struct Free;
+
+/// Pushed by a potential that depends on time, and braked.
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1, space_translation = 1),
+    potential = (1 + sin(3*t)/2)*tr(G)/2 - ln(det) + x[1]^2*cos(t),
+    dissipation(dalembert = 0.1, space_translation = 0.2),
+)]
+pub(crate) struct Driven;
+
+#[affine_model(
+    dim = 3,
+    constraint = rigid,
+    kinetic(dalembert = diag(1, 1, 0.5), space_translation = 1),
+    potential = 0.7*phi[3,3] + norm(x)^2/2,
+)]
+pub(crate) struct Top;
+
+#[affine_model(
+    dim = 2,
+    constraint = isochoric,
+    kinetic(dalembert = 1, space_translation = 1),
+    potential = tr(G)/2 + norm(x)^2/2,
+)]
+pub(crate) struct Droplet;
+
+/// A model, a start, and all methods that serve it.
+pub(crate) struct Served<M, P> {
+    pub(crate) model: M,
+    pub(crate) start: P,
+    pub(crate) methods: Vec<Method>,
+}
+
+type Point<M, const N: usize> = <M as Model<N>>::Point<f64>;
+
+const EXPLICIT: [Method; 3] = [Method::Automatic, Method::RungeKutta8, Method::RungeKutta5];
+
+/// The explicit methods, and others.
+fn explicit_and(others: impl IntoIterator<Item = Method>) -> Vec<Method> {
+    EXPLICIT.into_iter().chain(others).collect()
+}
+
+/// Collocation takes two evaluations and more for a stage: steps twice as long.
+fn gauss(stages: usize, step: f64) -> Method {
+    Method::Gauss { stages, step: 2.0 * step }
+}
+
+fn placement() -> Matrix<2> {
+    Matrix::<2>::new(1.1, 0.2, -0.1, 0.9)
+}
+
+fn momentum() -> Matrix<2> {
+    Matrix::<2>::new(0.3, -0.2, 0.5, 0.1)
+}
+
+fn centre() -> (Vector<2>, Vector<2>) {
+    (Vector::<2>::new(0.4, -0.3), Vector::<2>::new(0.2, 0.5))
+}
+
+pub(crate) fn anchored(step: f64) -> Served<Anchored, Point<Anchored, 2>> {
+    let (x, p) = centre();
+    let start = Anchored.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
+    let nystrom = [Method::RungeKuttaNystrom8, Method::RungeKuttaNystrom12];
+    let methods = explicit_and(nystrom.into_iter().chain([gauss(2, step), gauss(3, step)]));
+    Served { model: Anchored, start, methods }
+}
+
+pub(crate) fn vibrating(step: f64) -> Served<Vibrating, Point<Vibrating, 2>> {
+    let (x, p) = centre();
+    let start = Vibrating.at_momentum(x, placement(), p, Comoving(momentum())).unwrap();
+    let orders = [None, Some(12)].map(|order| Method::Taylor { order });
+    Served { model: Vibrating, start, methods: explicit_and(orders.into_iter().chain([gauss(3, step)])) }
+}
+
+pub(crate) fn springs(step: f64) -> Served<Springs, Point<Springs, 2>> {
+    let (x, p) = centre();
+    let start = Springs.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
+    let methods = explicit_and([2, 4, 6, 8].map(|order| Method::Splitting { order, step }));
+    Served { model: Springs, start, methods }
+}
+
+pub(crate) fn driven(step: f64) -> Served<Driven, Point<Driven, 2>> {
+    let (x, p) = centre();
+    let start = Driven.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
+    Served { model: Driven, start, methods: explicit_and([gauss(2, step), gauss(3, step)]) }
+}
+
+pub(crate) fn free(step: f64) -> Served<Free, Point<Free, 2>> {
+    let (x, p) = centre();
+    let start = Free.at_momentum(x, placement(), p, Comoving(momentum())).unwrap();
+    Served { model: Free, start, methods: explicit_and([Method::ClosedForm, gauss(2, step)]) }
+}
+
+pub(crate) fn top(step: f64) -> Served<Top, Point<Top, 3>> {
+    let omega = Matrix::<3>::new(0.0, -2.0, 0.1, 2.0, 0.0, -0.3, -0.1, 0.3, 0.0);
+    let (x, v) = (Vector::<3>::new(0.4, -0.3, 0.1), Vector::<3>::new(0.2, 0.5, -0.1));
+    let start = Top.at_velocity(x, Matrix::<3>::identity(), v, omega).unwrap();
+    Served { model: Top, start, methods: explicit_and([gauss(2, step), gauss(3, step)]) }
+}
+
+pub(crate) fn droplet(step: f64) -> Served<Droplet, Point<Droplet, 2>> {
+    let (x, v) = (Vector::<2>::new(0.4, -0.3), Vector::<2>::new(0.2, 0.5));
+    let phi = Matrix::<2>::new(2.0, 0.0, 0.0, 0.5);
+    let start = Droplet.at_velocity(x, phi, v, Matrix::<2>::new(0.4, 0.0, 0.6, -0.1)).unwrap();
+    let rattles = [2, 4, 6, 8].map(|order| Method::Rattle { order, step });
+    let methods = explicit_and(rattles.into_iter().chain([gauss(2, step), gauss(3, step)]));
+    Served { model: Droplet, start, methods }
+}

@@ -1,0 +1,112 @@
+//! What README and audit show: programs that can be copied, commands that exist.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn text(path: &str) -> String {
+    fs::read_to_string(root().join(path)).unwrap()
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Lines that rustdoc hides are shown everywhere else, and statements without a function compile nowhere else.
+#[test]
+fn examples_are_programs() {
+    let readme = text("README.md");
+    let examples: Vec<&str> =
+        readme.split("```rust\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
+    assert!(!examples.is_empty());
+    for example in examples {
+        assert!(example.contains("fn main()"), "{example}");
+        assert!(!example.lines().any(|line| line == "#" || line.starts_with("# ")), "{example}");
+    }
+}
+
+/// Commands in code, `cargo test ..` and `cargo run ..`, on one line or two.
+fn commands() -> BTreeSet<String> {
+    let mut commands = BTreeSet::new();
+    for page in ["README.md", "tests/AUDIT.md"] {
+        let text = text(page).replace('\n', " ");
+        let code =
+            text.split('`').filter(|code| code.starts_with("cargo test ") || code.starts_with("cargo run "));
+        commands.extend(code.map(str::to_owned));
+    }
+    commands
+}
+
+/// The word after a flag.
+fn after<'a>(words: &[&'a str], flag: &str) -> Option<&'a str> {
+    words.iter().position(|word| *word == flag).and_then(|at| words.get(at + 1)).copied()
+}
+
+/// The folder of a package of the workspace.
+fn folder(package: Option<&str>) -> PathBuf {
+    let folder = match package {
+        None => "",
+        Some("affine-runtime") => "affine-runtime",
+        Some("affine-codegen") => "affine-macros/codegen",
+        Some("affine-comparison") => "tests/comparison",
+        Some(other) => panic!("no package {other}"),
+    };
+    root().join(folder)
+}
+
+/// `name.rs` or `name/main.rs` in a folder.
+fn program(folder: &Path, name: &str) -> PathBuf {
+    let candidates = [folder.join(format!("{name}.rs")), folder.join(name).join("main.rs")];
+    candidates
+        .into_iter()
+        .find(|path| path.exists())
+        .unwrap_or_else(|| panic!("no {name} in {}", folder.display()))
+}
+
+/// All sources below a folder, or a file alone.
+fn sources(at: &Path) -> String {
+    if at.is_file() {
+        return fs::read_to_string(at).unwrap();
+    }
+    let entries = fs::read_dir(at).unwrap().map(|entry| entry.unwrap().path());
+    let below =
+        entries.filter(|path| path.is_dir() || path.extension().is_some_and(|extension| extension == "rs"));
+    below.map(|path| sources(&path)).collect()
+}
+
+#[test]
+fn commands_name_what_exists() {
+    let commands = commands();
+    assert!(commands.len() > 20, "{commands:?}");
+    for command in commands {
+        // What stands behind ` -- ` is for the program.
+        let words: Vec<&str> = command.split_whitespace().take_while(|word| *word != "--").collect();
+        let folder = folder(after(&words, "-p"));
+        let searched = match (after(&words, "--test"), after(&words, "--example")) {
+            (Some(test), _) => {
+                let main = program(&folder.join("tests"), test);
+                if main.ends_with("main.rs") { main.parent().unwrap().to_owned() } else { main }
+            }
+            (None, Some(example)) => program(&folder.join("examples"), example),
+            (None, None) => folder.join("src"),
+        };
+        let flags: Vec<&str> =
+            ["-p", "--test", "--example"].iter().filter_map(|flag| after(&words, flag)).collect();
+        let filter = words[2..].iter().find(|word| !word.starts_with('-') && !flags.contains(*word));
+        let Some(filter) = filter.filter(|_| words[1] == "test") else { continue };
+        let found = sources(&searched);
+        let named = |path: &str| {
+            // The last part of a path may be the beginning of a name.
+            path.split("::").all(|part| {
+                found.lines().map(str::trim_start).any(|line| {
+                    let item = line.trim_start_matches("pub ").trim_start_matches("pub(crate) ");
+                    ["fn ", "mod "]
+                        .iter()
+                        .any(|word| item.strip_prefix(word).is_some_and(|name| name.contains(part)))
+                })
+            })
+        };
+        assert!(named(filter), "`{command}` runs nothing: no `{filter}` below {}", searched.display());
+    }
+}
