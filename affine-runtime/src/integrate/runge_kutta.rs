@@ -25,7 +25,7 @@ use super::step_size::{Controller, next_time, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::taylor::{Portable, Vectors};
-use super::widest::{Work, roomiest};
+use super::widest::{Work, roomiest, widest};
 use super::{Failure, Statistics};
 use crate::model::{Group, StateVector};
 use start::Start;
@@ -175,7 +175,7 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         if self.is_finished() {
             return Ok(());
         }
-        roomiest(Advance(self))
+        if const { P::SUMS_ARE_LONG } { roomiest(Advance(self)) } else { widest(Advance(self)) }
     }
 
     /// One accepted step, all of it on the vectors of a processor: what is done between two steps is as long as an

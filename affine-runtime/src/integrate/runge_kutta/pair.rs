@@ -22,6 +22,9 @@ pub trait Pair: Sized {
     const DENSE_EVALUATIONS: u64;
     /// Does the error estimate need the slope at the end of the step?
     const NEEDS_END: bool;
+    /// Are sums over stages long enough to be compiled for the most registers too? With AVX-512 the steps of order 8 take 5
+    /// percent less time, those of the baseline need not.
+    const SUMS_ARE_LONG: bool;
 
     /// Fills in the stages of a step and where it ends.
     fn attempt<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>);
@@ -52,6 +55,7 @@ impl Pair for DormandPrince853 {
     const EVALUATIONS: u64 = 11;
     const DENSE_EVALUATIONS: u64 = 3;
     const NEEDS_END: bool = false;
+    const SUMS_ARE_LONG: bool = true;
 
     #[inline(always)]
     fn attempt<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>) {
@@ -105,6 +109,7 @@ impl Pair for DormandPrince54 {
     const EVALUATIONS: u64 = 5;
     const DENSE_EVALUATIONS: u64 = 0;
     const NEEDS_END: bool = true;
+    const SUMS_ARE_LONG: bool = false;
 
     #[inline(always)]
     fn attempt<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>) {
