@@ -82,7 +82,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Beginning<'_, T, S, F> {
         }
         self.f.slope(self.at_start + signed, &end, &mut after);
         for (after, before) in after.as_mut().iter_mut().zip(slope.as_ref()) {
-            *after = *after - *before;
+            *after -= *before;
         }
         let of_second = norm.rate(simd, &after, y, &end) / trial;
         let second = of_second.sqrt();
