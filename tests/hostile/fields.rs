@@ -49,7 +49,8 @@ const DISC: Disc = Disc { i: 1.0, a: 0.2, b: 0.1, m: 2.0, kappa: 10.0, c1: 0.5, 
 /// Each by what is asked of it, with its value.
 #[test]
 fn that_are_numbers() {
-    let cases: [(fn(f64) -> Disc, &str); 8] = [
+    type With = fn(f64) -> Disc;
+    let cases: [(With, &str); 8] = [
         (|i| Disc { i, ..DISC }, "I "),
         (|a| Disc { a, ..DISC }, "I "),
         (|b| Disc { b, ..DISC }, "n B"),

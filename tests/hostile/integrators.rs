@@ -25,7 +25,8 @@ fn integrators_by_hand() {
     within_patience(|| {
         let eight = |t0, y, t_end, eps| RungeKutta8::new(spring, GROUPS, (t0, y), t_end, eps).map(|_| ());
         let five = |t0, y, t_end, eps| RungeKutta5::new(spring, GROUPS, (t0, y), t_end, eps).map(|_| ());
-        let begun: [&dyn Fn(f64, [f64; 2], f64, f64) -> Result<(), Failure>; 2] = [&eight, &five];
+        type New<'n> = &'n dyn Fn(f64, [f64; 2], f64, f64) -> Result<(), Failure>;
+        let begun: [New<'_>; 2] = [&eight, &five];
         for new in begun {
             assert_eq!(new(0.0, [1.0, 0.0], 1.0, 1e-9), Ok(()));
             for tolerance in [0.0, -1e-9].into_iter().chain(NO_NUMBERS) {

@@ -1,6 +1,7 @@
 //! Bad and extreme input, for every method: a typed refusal that names the quantity and its value, a documented clamp, or the
 //! right answer. Never a panic, and never a hang: every run has a limit of steps, and every sweep a watch.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::result_large_err, reason = "a stop carries the last good state")]
 
 #[path = "../promises/models.rs"]
 mod models;
