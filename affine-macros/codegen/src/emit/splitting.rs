@@ -188,12 +188,13 @@ fn dilated(
     program: &Program,
 ) -> TokenStream {
     let rt = &context.names.rt;
-    let moved: Vec<String> = placement.iter().chain(momentum).flatten().cloned().collect();
-    let bind = bound(context, program, &moved);
+    let diagonal: Vec<String> =
+        momentum.iter().enumerate().filter_map(|(a, row)| row.get(a).cloned()).collect();
+    let read: Vec<String> = placement.iter().flatten().chain(&diagonal).cloned().collect();
+    let bind = bound(context, program, &read);
     let Body { lets, results } = context.generic(program);
     let path = closed_form(slope);
-    let diagonal: Vec<&String> = momentum.iter().enumerate().filter_map(|(a, row)| row.get(a)).collect();
-    let entries = identifiers(&diagonal.iter().map(|name| (*name).clone()).collect::<Vec<_>>());
+    let entries = identifiers(&diagonal);
     let matrix = table(placement);
     let grown = placement.iter().flatten().zip(identifiers(&placement.concat()));
     let grown = grown.map(|(name, entry)| accumulated(context, name, quote!(#entry * growth)));
