@@ -189,8 +189,8 @@ fn dilated(
 ) -> TokenStream {
     let rt = &context.names.rt;
     let diagonal: Vec<String> =
-        momentum.iter().enumerate().filter_map(|(a, row)| row.get(a)).cloned().collect();
-    let read = [placement.concat(), diagonal.clone()].concat();
+        momentum.iter().enumerate().filter_map(|(a, row)| row.get(a).cloned()).collect();
+    let read: Vec<String> = placement.iter().flatten().chain(&diagonal).cloned().collect();
     let bind = bound(context, program, &read);
     let Body { lets, results } = context.generic(program);
     let path = closed_form(slope);
