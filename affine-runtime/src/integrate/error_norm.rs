@@ -5,7 +5,7 @@ mod at_a_state;
 mod in_lanes;
 
 #[cfg(feature = "std")]
-pub(crate) use in_lanes::{NormInLanes, sums_of_squares};
+pub(crate) use in_lanes::{NormInLanes, Squares};
 
 use core::ops::Range;
 

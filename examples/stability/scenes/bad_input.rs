@@ -93,7 +93,9 @@ fn settings(report: &mut StabilityReport) -> affine_runtime::Result<()> {
         ("output outside", "outside the run", |s| s.until(1.0).output([2.0])),
         ("step 0", "positive number", |s| s.until(1.0).method(Method::Gauss { stages: 3, step: 0.0 })),
         ("step NaN", "positive number", |s| s.until(1.0).method(Method::Gauss { stages: 3, step: f64::NAN })),
-        ("7 stages", "give 2, 3, 4 or 6 stages", |s| s.until(1.0).method(Method::Gauss { stages: 7, step: 0.1 })),
+        ("7 stages", "give 2, 3, 4 or 6 stages", |s| {
+            s.until(1.0).method(Method::Gauss { stages: 7, step: 0.1 })
+        }),
         ("no steps", "allows no step", |s| s.until(1.0).max_steps(0)),
     ];
     let start = start()?;

@@ -148,31 +148,45 @@ fn relative<V: Simd>(
     simd.select_f64s(no_error, largest, larger)
 }
 
-/// Sums of squares of so many components of several states, in the order of [`sum_of_squares`](super::sum_of_squares).
-#[inline(always)]
-pub(crate) fn sums_of_squares<V: Simd, const K: usize>(
-    simd: V,
-    len: usize,
-    mut components: impl FnMut(usize) -> [V::f64s; K],
-) -> [V::f64s; K] {
-    let whole = len - len % 4;
-    let mut sums = [[simd.splat_f64s(0.0); K]; 4];
-    let mut add = |sums: &mut [V::f64s; K], i: usize| {
-        for (sum, v) in sums.iter_mut().zip(components(i)) {
-            *sum = simd.add_f64s(*sum, simd.mul_f64s(v, v));
-        }
-    };
-    for first in (0..whole).step_by(4) {
-        for (i, sums) in sums.iter_mut().enumerate() {
-            add(sums, first + i);
+/// Sums of squares of the components of several states, in the order of [`sum_of_squares`](super::sum_of_squares). No
+/// closures: those are not made part of the function that is compiled for the processor's vectors.
+pub(crate) struct Squares<V: Simd, const K: usize> {
+    /// Components that are summed by fours.
+    whole: usize,
+    fours: [[V::f64s; K]; 4],
+    rest: [[V::f64s; K]; 3],
+}
+
+impl<V: Simd, const K: usize> Squares<V, K> {
+    /// Of so many components.
+    #[inline(always)]
+    pub(crate) fn new(simd: V, len: usize) -> Self {
+        let zero = [simd.splat_f64s(0.0); K];
+        Self { whole: len - len % 4, fours: [zero; 4], rest: [zero; 3] }
+    }
+
+    /// Adds component `i` of each state.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, simd: V, i: usize, components: [V::f64s; K]) {
+        let sums = if i < self.whole { &mut self.fours[i % 4] } else { &mut self.rest[i - self.whole] };
+        for k in 0..K {
+            sums[k] = simd.add_f64s(sums[k], simd.mul_f64s(components[k], components[k]));
         }
     }
-    let both = |a: usize, b: usize, k: usize| simd.add_f64s(sums[a][k], sums[b][k]);
-    let mut sum = core::array::from_fn(|k| simd.add_f64s(both(0, 2, k), both(1, 3, k)));
-    for i in whole..len {
-        add(&mut sum, i);
+
+    /// The sums.
+    #[inline(always)]
+    pub(crate) fn sums(self, simd: V) -> [V::f64s; K] {
+        let [a, b, c, d] = self.fours;
+        let mut sums = a;
+        for k in 0..K {
+            sums[k] = simd.add_f64s(simd.add_f64s(a[k], c[k]), simd.add_f64s(b[k], d[k]));
+            for rest in &self.rest {
+                sums[k] = simd.add_f64s(sums[k], rest[k]);
+            }
+        }
+        sums
     }
-    sum
 }
 
 /// Euclidean norms.
@@ -181,7 +195,11 @@ fn norm<V: Simd, T: Lanes>(simd: V, y: &[T], range: Range<usize>) -> T {
     let (mut squares, mut norms, mut doubt) = (T::zero(), T::zero(), simd.splat_f64s(0.0));
     for k in 0..parts::<V, T>() {
         let components = &y[range.clone()];
-        let [sum] = sums_of_squares(simd, components.len(), |i| [part(simd, &components[i], k)]);
+        let mut squared = Squares::<V, 1>::new(simd, components.len());
+        for (i, component) in components.iter().enumerate() {
+            squared.add(simd, i, [part(simd, component, k)]);
+        }
+        let [sum] = squared.sums(simd);
         let (least, most) = (simd.splat_f64s(*IN_RANGE.start()), simd.splat_f64s(*IN_RANGE.end()));
         let above = simd.greater_than_or_equal_f64s(sum, least);
         let in_range = simd.and_m64s(above, simd.less_than_or_equal_f64s(sum, most));

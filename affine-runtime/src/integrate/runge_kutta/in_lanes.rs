@@ -5,7 +5,7 @@ use pulp::{Arch, Simd, WithSimd};
 use super::dormand_prince_853::*;
 use super::pair::{DormandPrince853, E3, Pair};
 use super::start::Start;
-use crate::integrate::error_norm::{IN_RANGE, NormInLanes, sums_of_squares};
+use crate::integrate::error_norm::{IN_RANGE, NormInLanes, Squares};
 use crate::integrate::step_size::Controller;
 use crate::integrate::step_size::in_lanes::{Clocks, fate};
 use crate::lanes::Lanes;
@@ -186,12 +186,14 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
             for k in 0..parts::<V, T>() {
                 let zero = simd.splat_f64s(0.0);
                 let mut sizes = zero;
-                let [fifth, third] = sums_of_squares(simd, range.len(), |i| {
-                    let of_fifth = combination(simd, &self.stages, (range.start + i, k), &E5);
-                    let of_third = combination(simd, &self.stages, (range.start + i, k), &E3);
+                let mut squares = Squares::<V, 2>::new(simd, range.len());
+                for (i, component) in range.clone().enumerate() {
+                    let of_fifth = combination(simd, &self.stages, (component, k), &E5);
+                    let of_third = combination(simd, &self.stages, (component, k), &E3);
                     sizes = simd.add_f64s(sizes, simd.abs_f64s(of_fifth));
-                    [of_fifth, of_third]
-                });
+                    squares.add(simd, i, [of_fifth, of_third]);
+                }
+                let [fifth, third] = squares.sums(simd);
                 // As the pair has it.
                 let size = simd.add_f64s(fifth, simd.mul_f64s(simd.splat_f64s(0.01), third));
                 let error = simd.div_f64s(fifth, simd.sqrt_f64s(size));
