@@ -145,14 +145,14 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
     /// The trial states at the stage of a row: the last one enters last.
     #[inline(always)]
     fn at_stage<V: Simd, const TERMS: usize>(&mut self, simd: V, h: T, row: &[(usize, f64); TERMS]) {
-        let [ref earlier @ .., (last, newest)] = row[..] else { return };
+        let (last, newest) = row[TERMS - 1];
         for k in 0..parts::<V, T>() {
             let h = part(simd, &h, k);
             let of_newest = simd.mul_f64s(h, simd.splat_f64s(newest));
             for i in 0..S::LEN {
                 let mut at = part(simd, &self.y.as_ref()[i], k);
-                if !earlier.is_empty() {
-                    at = plus(simd, combination(simd, &self.stages, (i, k), earlier), h, at);
+                if TERMS > 1 {
+                    at = plus(simd, combination(simd, &self.stages, (i, k), row, TERMS - 1), h, at);
                 }
                 let slope = part(simd, &self.stages[last - 1].as_ref()[i], k);
                 set_part(simd, &mut self.trial.as_mut()[i], k, plus(simd, slope, of_newest, at));
@@ -166,7 +166,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         for k in 0..parts::<V, T>() {
             let h = part(simd, &h, k);
             for i in 0..S::LEN {
-                let sum = combination(simd, &self.stages, (i, k), row);
+                let sum = combination(simd, &self.stages, (i, k), row, TERMS);
                 let y = part(simd, &self.y.as_ref()[i], k);
                 set_part(simd, &mut self.trial.as_mut()[i], k, plus(simd, sum, h, y));
             }
@@ -188,8 +188,8 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
                 let mut sizes = zero;
                 let mut squares = Squares::<V, 2>::new(simd, range.len());
                 for (i, component) in range.clone().enumerate() {
-                    let of_fifth = combination(simd, &self.stages, (component, k), &E5);
-                    let of_third = combination(simd, &self.stages, (component, k), &E3);
+                    let of_fifth = combination(simd, &self.stages, (component, k), &E5, E5.len());
+                    let of_third = combination(simd, &self.stages, (component, k), &E3, E3.len());
                     sizes = simd.add_f64s(sizes, simd.abs_f64s(of_fifth));
                     squares.add(simd, i, [of_fifth, of_third]);
                 }
@@ -245,16 +245,18 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
     }
 }
 
-/// Component `i` of the slopes in a vector of lanes, each times the coefficient that a row has for it.
+/// Component `i` of the slopes in a vector of lanes, each times the coefficient that a row has for it: of its first terms,
+/// whose number is known where this is compiled.
 #[inline(always)]
-fn combination<V: Simd, T: Lanes, S: StateVector<T>>(
+fn combination<V: Simd, T: Lanes, S: StateVector<T>, const TERMS: usize>(
     simd: V,
     stages: &[S; STAGES],
     (i, k): (usize, usize),
-    row: &[(usize, f64)],
+    row: &[(usize, f64); TERMS],
+    terms: usize,
 ) -> V::f64s {
     let mut sum = simd.splat_f64s(0.0);
-    for (term, (stage, coefficient)) in row.iter().enumerate() {
+    for (term, (stage, coefficient)) in row.iter().enumerate().take(terms) {
         let slope = part(simd, &stages[stage - 1].as_ref()[i], k);
         let coefficient = simd.splat_f64s(*coefficient);
         sum = if term == 0 { simd.mul_f64s(slope, coefficient) } else { plus(simd, slope, coefficient, sum) };
