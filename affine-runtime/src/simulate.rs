@@ -271,8 +271,9 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
 
     /// Goes on where a run of the same settings was interrupted, [`Trajectory::checkpoint`]: with the same bits, on the
     /// same machine, as if it had not been. A checkpoint of another model, parameters, start, method, tolerance, interval,
-    /// outputs or events is refused, [`Setting::Checkpoint`]; the largest number of steps may be another. Outputs and events are those from there on; the end that was asked for is
-    /// that of both runs. Functions of events have no memory. An event that stopped the run is not met again.
+    /// outputs or events is refused, [`Setting::Checkpoint`]; the largest number of steps may be another. Outputs and events
+    /// are those from there on; the end that was asked for is that of both runs. Functions of events have no memory. An event
+    /// that stopped the run is not met again.
     #[must_use]
     pub fn resume(mut self, checkpoint: &Checkpoint) -> Self {
         self.settings.checkpoint = Some(checkpoint.clone());

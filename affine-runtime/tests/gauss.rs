@@ -115,7 +115,7 @@ fn output_between_steps_is_of_the_order_of_the_steps_and_leaves_them_alone() {
             largest
         };
         let observed = (error(step) / error(step / 2.0)).log2();
-        assert!((observed - order).abs() < 0.1 * order, "{order}: {observed}");
+        assert!((observed - order).abs() < 0.05 * order, "{order}: {observed}");
     }
 }
 

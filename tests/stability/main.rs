@@ -34,7 +34,7 @@ fn steps_do_not_grow_with_the_stiffness() {
             .collect()
     };
     for (model, n, pinned, count) in
-        [("body-metric", 3, 642, 22), ("space-metric", 3, 632, 11), ("body-metric", 2, 125, 11)]
+        [("body-metric", 3, 642, 22), ("space-metric", 3, 632, 11), ("body-metric", 2, 123, 11)]
     {
         let steps = steps(model, n);
         assert_eq!(steps.len(), count, "{model}, n = {n}");

@@ -56,7 +56,8 @@ fn elsewhere<const N: usize, P: Phase<N>>(start: &P) -> P {
 /// In parts of the largest entry, too small to turn a placement inside out that is not thin.
 const SHIFTS: [f64; 7] = [0.031, -0.013, 0.021, 0.017, 0.043, -0.011, 0.027];
 
-/// The hash of Fowler, Noll and Vo (FNV-1a), word by word.
+/// After the hash of Fowler, Noll and Vo (FNV-1a), by words in place of bytes, and turned, so that high bits of a number
+/// reach all bits of the sum. The hashes of the standard library may differ from version to version.
 struct Digest(u64);
 
 impl Digest {
