@@ -20,6 +20,8 @@ pub struct Kernel {
 pub enum Callee {
     /// Placement -> stretches and principal axes.
     Stretches,
+    /// Time and rate of a stretch along one direction -> what `exp(t s) - 1` and `exp(-t s) - 1` are to `s`.
+    Elongation,
     /// The field `custom_k` of the model, `k` from 1, asked for a force or a potential.
     Custom(usize, Asked),
 }

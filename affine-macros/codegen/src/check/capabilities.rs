@@ -1,10 +1,6 @@
 //! Capabilities.
 
-use crate::algebra::Arena;
 use crate::diagnostics::{CapabilityMistake, Diagnostics, PotentialMistake};
-use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::hessian::Hessian;
-use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::mechanics::potential::Potential;
 use crate::spec::{Capability, Named, Spanned, Spec, TermKind};
 
@@ -93,29 +89,13 @@ pub(super) fn asked(spec: &Spec, capability: Capability) -> bool {
     spec.emit.iter().any(|c| c.value == capability)
 }
 
-/// Pieces with exact flows: the Casimirs of an isotropic energy and the rotation beside them, or `T(Pi)`, and what is
-/// added to them. A tensor is a sum of up to n^2 squares of momenta that do not commute; a constrained motion is
-/// integrated in charts of its group, or with its multiplier.
-pub(super) fn pieces(
-    arena: &mut Arena,
-    spec: &Spec,
-    (kinetic, hessian): (&Kinetic, &Hessian),
-    found: &mut Diagnostics,
-) {
-    if !asked(spec, Capability::Splitting) {
-        return;
-    }
-    if let Some(constraint) = &spec.constraint {
+/// Pieces with exact flows: the Casimirs of an isotropic energy and the rotation beside them, the squares of any other,
+/// or `T(Pi)`, and what is added to them. A constrained motion is integrated in charts of its group, or with its
+/// multiplier.
+pub(super) fn pieces(spec: &Spec, found: &mut Diagnostics) {
+    if let (true, Some(constraint)) = (asked(spec, Capability::Splitting), &spec.constraint) {
         let why = format!("steps on {} are taken in charts, or with a multiplier", constraint.value.group());
-        return not_split(spec, format!("`constraint = {}`", constraint.value.name()), why, found);
-    }
-    let isotropic = Hamiltonian::new(arena, kinetic, hessian).is_none_or(|h| h.isotropic.is_some());
-    if kinetic.frame != Frame::Flat && !isotropic {
-        let beside = "an anisotropic kinetic energy of affine velocities".to_owned();
-        let why = "the energy is no sum of C(2), C(1)^2 and |W|^2, whose flows are exponentials (4.24), but of up to n^2 \
-                   squares of momenta that do not commute"
-            .to_owned();
-        not_split(spec, beside, why, found);
+        not_split(spec, format!("`constraint = {}`", constraint.value.name()), why, found);
     }
 }
 

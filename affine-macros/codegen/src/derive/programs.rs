@@ -205,7 +205,9 @@ pub(super) fn best_reduction(
     (rotations, asked): (bool, Asked),
     coefficients: &mut Constants,
 ) -> Option<Reduced> {
-    let candidates = reduce::candidates(arena, h, potential, forces, (rotations, asked.nystrom));
+    // The squares of a tensor move each momentum, also one that their sum conserves.
+    let halves = asked.nystrom || (asked.split && h.is_tensor());
+    let candidates = reduce::candidates(arena, h, potential, forces, (rotations, halves));
     let time = time(arena, potential, forces);
     let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
         let split = asked.split.then(|| Programs::of(arena, h, potential, reduction, constants));

@@ -14,7 +14,7 @@ use super::{Context, identifiers, number, pattern};
 
 /// The implementation of the capability.
 pub(super) fn splitting_impl(context: &Context) -> TokenStream {
-    let Some(Programs { pieces, nystrom }) = &context.model.splitting else { return TokenStream::new() };
+    let Some(Programs { pieces, nystrom, .. }) = &context.model.splitting else { return TokenStream::new() };
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
     let t = &context.names.scalar;
@@ -85,6 +85,7 @@ pub(super) fn capability(context: &Context) -> TokenStream {
 fn program(flow: &FlowProgram) -> &Program {
     match flow {
         FlowProgram::Shift { program, .. }
+        | FlowProgram::Rise { program, .. }
         | FlowProgram::Exponential { program, .. }
         | FlowProgram::Dilatation { program, .. } => program,
     }
@@ -124,7 +125,8 @@ fn accumulated(context: &Context, component: &str, rise: TokenStream) -> TokenSt
 
 fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
     match flow {
-        FlowProgram::Shift { moved, program } => {
+        FlowProgram::Shift { moved, program } | FlowProgram::Rise { moved, program } => {
+            let over_time = matches!(flow, FlowProgram::Shift { .. }).then(|| quote!(h *));
             let bind = bound(context, program, &[]);
             let Body { lets, results } = context.generic(program);
             // Several results are names or numbers; a single one may be a sum.
@@ -133,7 +135,7 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
                 _ => (TokenStream::new(), results),
             };
             let rises =
-                moved.iter().zip(&results).map(|(name, rate)| accumulated(context, name, quote!(h * #rate)));
+                moved.iter().zip(&results).map(|(name, rate)| accumulated(context, name, quote!(#over_time #rate)));
             quote!({ #bind #lets #only #(#rises)* })
         }
         FlowProgram::Dilatation { placement, momentum, slope, program } => {

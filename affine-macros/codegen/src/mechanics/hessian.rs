@@ -265,7 +265,7 @@ impl Inverse {
 }
 
 /// The entries themselves.
-fn entries(n: usize) -> Vec<BasisVector> {
+pub(super) fn entries(n: usize) -> Vec<BasisVector> {
     (0..n * n).map(|k| BasisVector { kind: Direction::Entry, entries: vec![(k, Rational::ONE)] }).collect()
 }
 
@@ -298,7 +298,7 @@ pub(super) fn invariant(n: usize) -> Vec<BasisVector> {
 }
 
 /// The form in a basis, cut into its connected components.
-fn blocks(matrix: &[Vec<Polynomial>], basis: Vec<BasisVector>) -> Vec<Block> {
+pub(super) fn blocks(matrix: &[Vec<Polynomial>], basis: Vec<BasisVector>) -> Vec<Block> {
     let form: Vec<Vec<Polynomial>> =
         basis.iter().map(|a| basis.iter().map(|b| pairing(matrix, a, b)).collect()).collect();
     let mut component: Vec<usize> = (0..basis.len()).collect();

@@ -144,6 +144,20 @@ pub fn conjugated<const N: usize, T: Real>(
     core::array::from_fn(|i| core::array::from_fn(|j| first[i][j] + second[i][j]))
 }
 
+/// `(exp(t s) - 1)/s` and `(exp(-t s) - 1)/s`, that is `t` and `-t` where `s = 0`: with `E^2 = tr(E) E` and `s = r tr E`
+/// they are the `g` of `exp(t r E) = 1 + g r E` and of its inverse.
+#[inline]
+#[must_use]
+pub fn elongation<T: Real>(t: T, s: T) -> (T, T) {
+    let exponent = t * s;
+    if exponent == T::zero() {
+        return (t, T::zero() - t);
+    }
+    let rise = exponent.exp_m1();
+    let growth = t * (rise / exponent);
+    (growth, T::zero() - growth / (T::one() + rise))
+}
+
 /// Adds to a component and to what rounding left out of it.
 #[inline(always)]
 pub fn accumulate<T: Real>(value: &mut T, carry: &mut T, rise: T) {
@@ -155,7 +169,7 @@ pub fn accumulate<T: Real>(value: &mut T, carry: &mut T, rise: T) {
 
 #[cfg(test)]
 mod tests {
-    use super::growth;
+    use super::{elongation, growth};
     use crate::decompose::exponential;
     use crate::frames::Matrix;
 
@@ -182,6 +196,22 @@ mod tests {
         agree([[0.0, 0.5, 0.2], [0.0, 0.0, 0.4], [0.0, 0.0, 0.0]], 4.0);
         agree([[0.0, -0.5], [0.5, 0.0]], 4.0);
         agree([[0.4, 0.0], [0.0, 0.4]], 4.0);
+    }
+
+    #[test]
+    fn along_one_direction_it_is_a_number() {
+        // E = u v^T, E^2 = (v u) E.
+        let (u, v) = ([0.5, -0.25, 1.0], [0.75, 1.5, -0.5]);
+        for (rate, t) in [(0.5_f64, 0.3), (-2.0, 1.5), (1e-9, 1e-3), (3.0, -0.7), (0.0, 2.0)] {
+            let e = |i: usize, j: usize| rate * u[i] * v[j];
+            let trace = e(0, 0) + e(1, 1) + e(2, 2);
+            let (growth, decay) = elongation(t, trace);
+            for (factor, time) in [(growth, t), (decay, -t)] {
+                let expected = exponential(&Matrix::<3>::from_fn(|i, j| time * e(i, j))) - Matrix::<3>::identity();
+                let found = Matrix::<3>::from_fn(|i, j| factor * e(i, j));
+                assert!((found - expected).norm() <= 8.0 * f64::EPSILON * (1.0 + expected.norm()), "{rate} {t}");
+            }
+        }
     }
 
     #[test]
