@@ -45,8 +45,8 @@ pub use crate::model::{
     VelocityDeterminesMomentum,
 };
 pub use crate::reduction::{
-    Condition, finite, from_shear_and_turn, inverse_form, principal_axes, shear_and_turn, total_affine_momentum, total_size,
-    turn, well_posed,
+    Condition, finite, from_shear_and_turn, inverse_form, principal_axes, shear_and_turn,
+    total_affine_momentum, total_size, turn, well_posed,
 };
 pub use crate::regularity::regular;
 pub use crate::scalar::{Real, Scalar};

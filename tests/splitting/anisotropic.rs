@@ -106,7 +106,7 @@ macro_rules! each {
         let model = Spatial3 { j: oblique() }.prepare().unwrap();
         let start = model.at_momentum(x3(), phi3(), p3(), Spatial(spin3())).unwrap();
         $visit!("spatial", 3, &model, start);
-        let start = Tensor2.at_momentum(phi2(), Comoving(4.0 * spin2())).unwrap();
+        let start = Tensor2.at_momentum(phi2(), Comoving(1.5 * spin2())).unwrap();
         $visit!("tensor", 2, &Tensor2, start);
         let model = TensorOfFields { a: 0.2, k: tensor() }.prepare().unwrap();
         let start = model.at_momentum(phi2(), Spatial(spin2())).unwrap();
@@ -147,4 +147,22 @@ fn orders_on_nonlinear_problems() {
     }
     each!(visit);
     assert_eq!(count, 9);
+}
+
+#[test]
+fn a_hundred_thousand_steps() {
+    // Angular momentum in space; none of the affine spin in the body.
+    let start = Principal.at_momentum(phi3(), Comoving(spin3())).unwrap();
+    assert_kept("principal", &Principal, start, (2, 0.02), 2e-4);
+    let model = TensorOfFields { a: 0.2, k: tensor() }.prepare().unwrap();
+    let start = model.at_momentum(phi2(), Spatial(spin2())).unwrap();
+    assert_kept("tensor of fields", &model, start, (4, 0.05), 1e-5);
+}
+
+#[test]
+fn squares_that_commute_are_one_piece() {
+    // Stretches along the axes, and the shears of each row of phi.
+    assert_eq!(Principal::PIECES.len(), 5, "{:?}", Principal::PIECES);
+    assert_eq!(Principal::PIECES[1], "sigma_hat_12^2 + sigma_hat_13^2");
+    assert_eq!(Tensor2::PIECES.len(), 4, "{:?}", Tensor2::PIECES);
 }

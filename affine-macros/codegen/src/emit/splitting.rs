@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::derive::splitting::{FlowProgram, Programs};
-use crate::ir::Program;
+use crate::ir::{Op, Program, Value};
 use crate::mechanics::potential::TIME;
 use crate::mechanics::separation::Slope;
 
@@ -134,8 +134,10 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
                 [one] => (quote!(let rate = #one;), vec![quote!(rate)]),
                 _ => (TokenStream::new(), results),
             };
-            let rises =
-                moved.iter().zip(&results).map(|(name, rate)| accumulated(context, name, quote!(#over_time #rate)));
+            let rises = moved
+                .iter()
+                .zip(&results)
+                .map(|(name, rate)| accumulated(context, name, quote!(#over_time #rate)));
             quote!({ #bind #lets #only #(#rises)* })
         }
         FlowProgram::Dilatation { placement, momentum, slope, program } => {
@@ -147,10 +149,18 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
                 placement.iter().chain(momentum.iter().flatten()).flatten().cloned().collect();
             let bind = bound(context, program, &moved);
             let Body { lets, results } = context.generic(program);
-            let rows = results.chunks(context.model.dim);
+            let zero = |v: Value| matches!(&program.steps[v], Op::Constant(c) if c.is_zero());
+            let entries: Vec<_> = results.iter().zip(program.outputs.iter().map(|(_, v)| zero(*v))).collect();
             let times = |sign: TokenStream| {
                 let by = inner(quote!(*));
-                let rows = rows.clone().map(|row| quote!([#(#sign h #by #row),*]));
+                let entry = |(entry, zero): &(&TokenStream, bool)| match zero {
+                    true => (*entry).clone(),
+                    false => quote!(#sign h #by #entry),
+                };
+                let rows = entries.chunks(context.model.dim).map(|row| {
+                    let row = row.iter().map(entry);
+                    quote!([#(#row),*])
+                });
                 quote!(#rt::growth([#(#rows),*]))
             };
             let growth = times(quote!());

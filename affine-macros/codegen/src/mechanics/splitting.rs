@@ -34,8 +34,8 @@ use super::potential::Potential;
 use super::reduce::{Commuting, Reduction, gauge};
 use super::separation::{Separation, Slope};
 use flows::{exact_flow, expanded};
-pub use squares::{Principal, TIME_OF_FLOW};
 use squares::Squares;
+pub use squares::{Principal, TIME_OF_FLOW};
 
 /// Pieces whose flows make up the motion, those of the kinetic energy first.
 #[derive(Clone, Debug)]
@@ -133,7 +133,11 @@ pub fn splitting(
     }
     if let (Some(own), Some((first, flows))) = (own, groups.first_mut()) {
         flows.push(Flow::Dilatation(own.separation));
-        first.push(Summand { name: "dilatation".into(), energy: Some(own.energy), system: System::default() });
+        first.push(Summand {
+            name: "dilatation".into(),
+            energy: Some(own.energy),
+            system: System::default(),
+        });
     }
     let nystrom = is_nystrom(reduction, &groups);
     let name = |list: &[Summand]| list.iter().map(|s| s.name.as_str()).collect::<Vec<_>>().join(" + ");

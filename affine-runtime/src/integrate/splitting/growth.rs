@@ -207,9 +207,13 @@ mod tests {
             let trace = e(0, 0) + e(1, 1) + e(2, 2);
             let (growth, decay) = elongation(t, trace);
             for (factor, time) in [(growth, t), (decay, -t)] {
-                let expected = exponential(&Matrix::<3>::from_fn(|i, j| time * e(i, j))) - Matrix::<3>::identity();
+                let expected =
+                    exponential(&Matrix::<3>::from_fn(|i, j| time * e(i, j))) - Matrix::<3>::identity();
                 let found = Matrix::<3>::from_fn(|i, j| factor * e(i, j));
-                assert!((found - expected).norm() <= 8.0 * f64::EPSILON * (1.0 + expected.norm()), "{rate} {t}");
+                assert!(
+                    (found - expected).norm() <= 8.0 * f64::EPSILON * (1.0 + expected.norm()),
+                    "{rate} {t}"
+                );
             }
         }
     }

@@ -83,7 +83,12 @@ pub(super) fn generator(chart: &Chart, system: &System) -> Option<(Vec<Vec<Polyn
 }
 
 /// `M' = [M, Y]`, or `[Y, M]` on the left.
-pub(super) fn turns_along(chart: &Chart, system: &System, generator: &[Vec<Polynomial>], right: bool) -> bool {
+pub(super) fn turns_along(
+    chart: &Chart,
+    system: &System,
+    generator: &[Vec<Polynomial>],
+    right: bool,
+) -> bool {
     let n = chart.dim;
     pairs(n).all(|(a, b)| {
         let Some((.., rate)) = system.rates.iter().find(|(z, ..)| *z == Coordinate::M(a, b)) else {

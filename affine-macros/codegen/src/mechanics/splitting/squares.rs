@@ -12,8 +12,8 @@
 //! `1 + g E` with `g = (exp(t s tr E) - 1)/tr E`, and `g = t s` for a shear. Squares whose momenta commute make one piece,
 //! and shears whose products vanish one shear.
 
-use crate::algebra::ring::{self, table};
 use crate::algebra::kernel::{Callee, Group};
+use crate::algebra::ring::{self, table};
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use crate::mechanics::brackets::poisson;
 use crate::mechanics::charts::{Chart, Coordinate};
@@ -43,6 +43,8 @@ pub(super) struct Square {
     weight: Polynomial,
     /// `l`, linear in the entries of the affine spin.
     form: Polynomial,
+    /// As text.
+    name: String,
 }
 
 /// A symmetric form whose eigenvalues and eigenvectors are computed from the values of the fields.
@@ -67,12 +69,13 @@ impl Squares {
             let of_block = squares.of_block(arena, &block)?;
             let places = block.basis.iter().filter_map(|vector| vector.entries.first());
             let atoms: Vec<Expr> = places.map(|(k, _)| momenta[*k]).collect();
-            for (weight, row) in of_block {
+            for (k, (weight, row)) in of_block.into_iter().enumerate() {
                 let mut form = Polynomial::zero();
                 for (c, atom) in row.iter().zip(&atoms) {
                     form.add_product(c, &Polynomial::atom(*atom), &Rational::ONE);
                 }
-                squares.place(chart, Square { weight, form });
+                let name = name(arena, &form, k + 1, &atoms);
+                squares.place(chart, Square { weight, form, name });
             }
         }
         Some(squares)
@@ -84,14 +87,12 @@ impl Squares {
         if block.form.len() == 1 || block.form.iter().flatten().all(fixed) {
             return completed(arena, block.form.clone());
         }
-        let (b, size) = (self.principal.len() + 1, block.form.len());
-        let values: Vec<Expr> = (1..=size).map(|k| arena.symbol(&format!("square_{b}_{k}"))).collect();
-        let mut vector = |k: usize| (1..=size).map(|i| arena.symbol(&format!("axis_{b}_{k}_{i}"))).collect();
-        let vectors: Vec<Vec<Expr>> = (1..=size).map(&mut vector).collect();
-        let atoms = |list: &[Expr]| list.iter().map(|s| Polynomial::atom(*s)).collect::<Vec<_>>();
-        let squares = atoms(&values).into_iter().zip(vectors.iter().map(|vector| atoms(vector))).collect();
-        self.principal.push(Principal { form: block.form.clone(), values, vectors });
-        Some(squares)
+        let known = self.principal.iter().position(|known| known.form == block.form);
+        let known = known.unwrap_or_else(|| {
+            self.principal.push(Principal::symbols(arena, self.principal.len() + 1, block.form.clone()));
+            self.principal.len() - 1
+        });
+        self.principal.get(known).map(Principal::squares)
     }
 
     /// Puts a square beside others that it commutes with.
@@ -104,10 +105,29 @@ impl Squares {
     }
 }
 
+impl Principal {
+    fn symbols(arena: &mut Arena, b: usize, form: Vec<Vec<Polynomial>>) -> Self {
+        let size = form.len();
+        let values = (1..=size).map(|k| arena.symbol(&format!("square_{b}_{k}"))).collect();
+        let mut vector = |k: usize| (1..=size).map(|i| arena.symbol(&format!("axis_{b}_{k}_{i}"))).collect();
+        let vectors = (1..=size).map(&mut vector).collect();
+        Self { form, values, vectors }
+    }
+
+    fn squares(&self) -> Vec<(Polynomial, Vec<Polynomial>)> {
+        let atoms = |list: &Vec<Expr>| list.iter().map(|s| Polynomial::atom(*s)).collect();
+        self.values.iter().map(|s| Polynomial::atom(*s)).zip(self.vectors.iter().map(atoms)).collect()
+    }
+}
+
 /// Lagrange's reduction of a symmetric form: weights `d_k` and rows of `l_k` with `F = sum of d_k l_k^T l_k`.
-fn completed(arena: &mut Arena, mut form: Vec<Vec<Polynomial>>) -> Option<Vec<(Polynomial, Vec<Polynomial>)>> {
+fn completed(
+    arena: &mut Arena,
+    mut form: Vec<Vec<Polynomial>>,
+) -> Option<Vec<(Polynomial, Vec<Polynomial>)>> {
     let size = form.len();
-    let unit = |i: usize| (0..size).map(|j| Polynomial::constant(Rational::from(i64::from(i == j)))).collect();
+    let unit =
+        |i: usize| (0..size).map(|j| Polynomial::constant(Rational::from(i64::from(i == j)))).collect();
     let mut rows: Vec<Vec<Polynomial>> = (0..size).map(unit).collect();
     let mut open: Vec<usize> = (0..size).collect();
     let mut squares = Vec::new();
@@ -164,12 +184,26 @@ fn square_of_a_product(
             sum
         });
     }
-    let (a, b): (Vec<_>, Vec<_>) =
-        (form[i].iter().map(|c| c.scaled(&half)).collect(), form[j].iter().map(|c| c.scaled(&half)).collect());
+    let (a, b): (Vec<_>, Vec<_>) = (
+        form[i].iter().map(|c| c.scaled(&half)).collect(),
+        form[j].iter().map(|c| c.scaled(&half)).collect(),
+    );
     (form[i], form[j]) = (combined(&a, &b, &Rational::ONE), combined(&a, &b, &Rational::MINUS_ONE));
     let (a, b) = (rows[i].clone(), rows[j].clone());
     (rows[i], rows[j]) = (combined(&a, &b, &Rational::ONE), combined(&a, &b, &Rational::MINUS_ONE));
     Some(i)
+}
+
+/// The square as text: the `k`-th of a block of momenta where only the fields' values tell which.
+fn name(arena: &mut Arena, form: &Polynomial, k: usize, block: &[Expr]) -> String {
+    let known = |atom: Expr| block.contains(&atom);
+    if form.mentions(|atom| !known(atom)) {
+        let names: Vec<&str> = block.iter().filter_map(|atom| arena.name(*atom)).collect();
+        return format!("square {k} of {}", names.join(", "));
+    }
+    let form = form.expression(arena);
+    let text = arena.text(form);
+    if arena.name(form).is_some() { format!("{text}^2") } else { format!("({text})^2") }
 }
 
 /// The flow of one momentum `l` at a rate `s`: `phi' = s phi E` or `s E phi`.
@@ -195,18 +229,15 @@ pub(super) fn piece(
         true => vec![sheared(arena, reduction, &turns)?],
         false => turns.iter().map(|turn| turn.flow(arena, reduction)).collect::<Option<_>>()?,
     };
-    let summands = group.iter().map(|square| square.summand(arena)).collect::<Option<_>>()?;
+    let summands = group.iter().map(Square::summand).collect::<Option<_>>()?;
     Some((summands, flows))
 }
 
 impl Square {
-    fn summand(&self, arena: &mut Arena) -> Option<Summand> {
+    fn summand(&self) -> Option<Summand> {
         let half = Rational::ratio(1, 2)?;
         let energy = self.weight.mul(&self.form.mul(&self.form)).scaled(&half);
-        let form = self.form.expression(arena);
-        let text = arena.text(form);
-        let name = if arena.name(form).is_some() { format!("{text}^2") } else { format!("({text})^2") };
-        Some(Summand { name, energy: Some(energy), system: System::default() })
+        Some(Summand { name: self.name.clone(), energy: Some(energy), system: System::default() })
     }
 }
 
@@ -223,6 +254,11 @@ impl Turn {
 
     fn vanishes_times(&self, other: &Self) -> bool {
         ring::product(&self.direction, &other.direction).iter().flatten().all(Polynomial::is_zero)
+    }
+
+    /// Has `E` one entry alone?
+    fn is_along_an_axis(&self) -> bool {
+        self.direction.iter().flatten().filter(|entry| !entry.is_zero()).count() == 1
     }
 
     /// `s E`.
@@ -249,8 +285,19 @@ impl Turn {
             arguments: [h, trace.mul(&Polynomial::atom(self.rate.0))].map(Group::Scalar).to_vec(),
             results: [growth, decay].map(Group::Scalar).to_vec(),
         };
-        let factors = [growth, decay].map(Polynomial::atom);
-        let rates = rises(&reduction.chart, &generator, self.right, &factors);
+        let s = Polynomial::atom(self.rate.0);
+        let [growth, decay] = [growth, decay].map(|factor| s.mul(&Polynomial::atom(factor)));
+        let product = match self.is_along_an_axis().then(|| trace.as_constant()?.recip()).flatten() {
+            // 1 + g tr E and 1 + d tr E are reciprocals: rounded, their product would move the momentum that is
+            // conserved. Beside a small trace the sum would lose digits.
+            Some(reciprocal) => {
+                let mut product = growth.scaled(&-&reciprocal);
+                product.add_scaled(&decay, &-&reciprocal);
+                product
+            }
+            None => growth.mul(&decay),
+        };
+        let rates = rises(&reduction.chart, &self.direction, self.right, &[growth, decay, product]);
         let system = System { shared, kernels: vec![kernel], rates, work: None };
         over_the_state(arena, reduction, system).map(Flow::Rise)
     }
@@ -260,31 +307,31 @@ impl Turn {
 fn sheared(arena: &mut Arena, reduction: &Reduction, turns: &[Turn]) -> Option<Flow> {
     let generator = turns.iter().map(Turn::generator).reduce(|sum, y| ring::sum(&sum, &y))?;
     let h = Polynomial::atom(arena.symbol(TIME_OF_FLOW));
-    let back = h.scaled(&Rational::MINUS_ONE);
-    let rates = rises(&reduction.chart, &generator, turns.first()?.right, &[h, back]);
+    let (back, square) = (h.scaled(&Rational::MINUS_ONE), h.mul(&h).scaled(&Rational::MINUS_ONE));
+    let rates = rises(&reduction.chart, &generator, turns.first()?.right, &[h, back, square]);
     let shared = turns.iter().map(|turn| turn.rate.clone()).collect();
     let system = System { shared, rates, ..System::default() };
     over_the_state(arena, reduction, system).map(Flow::Rise)
 }
 
-/// The increments of `phi` and `M` by `1 + g Y` and its inverse `1 + d Y`.
+/// The increments of `phi` and `M` by `1 + g E` and its inverse `1 + d E`, given `g`, `d` and `g d`.
 fn rises(
     chart: &Chart,
-    y: &ring::Square<Polynomial>,
+    e: &ring::Square<Polynomial>,
     right: bool,
-    [growth, decay]: &[Polynomial; 2],
+    [growth, decay, product]: &[Polynomial; 3],
 ) -> Vec<(Coordinate, Expr, Polynomial)> {
     let matrix = |entries: &[Vec<Expr>]| table(chart.dim, |a, b| Polynomial::atom(entries[a][b]));
     let (phi, m) = (matrix(&chart.phi.0), matrix(&chart.m.0));
     let (after, before) = if right { (growth, decay) } else { (decay, growth) };
-    let placed = if right { ring::product(&phi, y) } else { ring::product(y, &phi) };
-    let (m_y, y_m) = (ring::product(&m, y), ring::product(y, &m));
-    let both = ring::product(y, &m_y);
+    let placed = if right { ring::product(&phi, e) } else { ring::product(e, &phi) };
+    let (m_e, e_m) = (ring::product(&m, e), ring::product(e, &m));
+    let both = ring::product(e, &m_e);
     let mut rates = Vec::new();
     for (a, b) in (0..chart.dim).flat_map(|a| (0..chart.dim).map(move |b| (a, b))) {
-        let mut turned = m_y[a][b].mul(after);
-        turned.add_product(&y_m[a][b], before, &Rational::ONE);
-        turned.add_product(&both[a][b], &growth.mul(decay), &Rational::ONE);
+        let mut turned = m_e[a][b].mul(after);
+        turned.add_product(&e_m[a][b], before, &Rational::ONE);
+        turned.add_product(&both[a][b], product, &Rational::ONE);
         for (z, rise) in [(Coordinate::Phi(a, b), placed[a][b].mul(growth)), (Coordinate::M(a, b), turned)] {
             if !rise.is_zero() {
                 rates.push((z, chart.symbol(z), rise));
