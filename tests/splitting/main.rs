@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod anisotropic;
+mod confined;
 mod models;
 mod motions;
 mod pieces;

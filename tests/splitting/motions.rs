@@ -127,7 +127,7 @@ pub(crate) fn assert_kept<const N: usize, M: Model<N>>(
     start: M::Point<f64>,
     (order, step): (usize, f64),
     energy: f64,
-) {
+) -> M::Point<f64> {
     let t_end = step * f64::from(STEPS);
     let run = Simulation::new(model, start).until(t_end).every(t_end / 400.0).max_steps(1_000_000);
     let run = run.method(Method::Splitting { order, step }).run().unwrap();
@@ -147,6 +147,7 @@ pub(crate) fn assert_kept<const N: usize, M: Model<N>>(
     let worst = |part: &[f64]| part.iter().fold(0.0, |worst: f64, e| worst.max(e.abs()));
     let (first, second) = (worst(&errors[..half]), worst(&errors[half..]));
     assert!(second < 1.5 * first, "{name}: energy errors grow from {first:e} to {second:e}");
+    *run.end().1
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Capabilities.
 
 use crate::diagnostics::{CapabilityMistake, Diagnostics, PotentialMistake};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::potential::Potential;
 use crate::spec::{Capability, Named, Spanned, Spec, TermKind};
 
@@ -90,13 +91,25 @@ pub(super) fn asked(spec: &Spec, capability: Capability) -> bool {
 }
 
 /// Pieces with exact flows: the Casimirs of an isotropic energy and the rotation beside them, the squares of any other,
-/// or `T(Pi)`, and what is added to them. A constrained motion is integrated in charts of its group, or with its
-/// multiplier.
-pub(super) fn pieces(spec: &Spec, found: &mut Diagnostics) {
-    if let (true, Some(constraint)) = (asked(spec, Capability::Splitting), &spec.constraint) {
-        let why = format!("steps on {} are taken in charts, or with a multiplier", constraint.value.group());
-        not_split(spec, format!("`constraint = {}`", constraint.value.name()), why, found);
-    }
+/// or `T(Pi)`, and what is added to them; on a group as well, but where a multiplier keeps the motion on it, or a weight
+/// `D^2` stands before the energy.
+pub(super) fn pieces(spec: &Spec, kinetic: &Kinetic, found: &mut Diagnostics) {
+    let Some(constraint) = spec.constraint.as_ref().filter(|_| asked(spec, Capability::Splitting)) else {
+        return;
+    };
+    let why = match kinetic.confined() {
+        None => "the force of the multiplier depends on all momenta and positions",
+        Some(_) if kinetic.is_weighted() => {
+            "the energy has the weight D^2, and no piece of it is quadratic in momenta with constant coefficients"
+        }
+        Some(_) => return,
+    };
+    not_split(
+        spec,
+        format!("`constraint = {}` and `phi_dot`", constraint.value.name()),
+        why.to_owned(),
+        found,
+    );
 }
 
 /// Nystrom methods are for `q'' = f(t, q)`: a kinetic energy of `phi_dot` and `x_dot` with constant coefficients, and a

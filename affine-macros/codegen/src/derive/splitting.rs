@@ -54,11 +54,11 @@ pub enum FlowProgram {
     Exponential {
         /// Components of the placement.
         placement: Vec<Vec<String>>,
-        /// Components of the affine momentum, where it turns along.
+        /// Names of the entries of the affine momentum, where it turns along; under a constraint some are not in the state.
         momentum: Option<Vec<Vec<String>>>,
         /// Does the exponential stand on the right?
         right: bool,
-        /// The generator, row after row.
+        /// The generator, row after row, and the entries of the momentum that turns.
         program: Program,
     },
     /// The dilatation along its closed form.
@@ -133,7 +133,17 @@ fn written(
             let results = generator.iter().enumerate().flat_map(|(a, row)| {
                 row.iter().enumerate().map(move |(b, y)| (format!("generator_{}{}", a + 1, b + 1), y.clone()))
             });
-            let results: Vec<(String, Polynomial)> = results.collect();
+            let mut results: Vec<(String, Polynomial)> = results.collect();
+            if *turns_momentum {
+                let dependent = reduction.chart.dependent();
+                let value = |s: Expr| {
+                    dependent.iter().find(|(symbol, _)| *symbol == s).map(|(_, value)| value.clone())
+                };
+                let entries = reduction.chart.m.0.concat().into_iter();
+                results.extend(entries.map(|s| {
+                    (format!("turned_{}", name(arena, s)), value(s).unwrap_or_else(|| Polynomial::atom(s)))
+                }));
+            }
             let (placement, momentum) = (placement(arena), turns_momentum.then(|| momentum(arena)));
             let program = program(arena, &Batch { shared: shared.clone(), results, ..Batch::default() });
             FlowProgram::Exponential { placement, momentum, right: *right, program }

@@ -145,12 +145,12 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
         }
         FlowProgram::Exponential { placement, momentum, right, program } => {
             let rt = &context.names.rt;
-            let moved: Vec<String> =
-                placement.iter().chain(momentum.iter().flatten()).flatten().cloned().collect();
-            let bind = bound(context, program, &moved);
+            let bind = bound(context, program, &placement.concat());
             let Body { lets, results } = context.generic(program);
+            let (generator, turning) = results.split_at(context.model.dim.pow(2).min(results.len()));
             let zero = |v: Value| matches!(&program.steps[v], Op::Constant(c) if c.is_zero());
-            let entries: Vec<_> = results.iter().zip(program.outputs.iter().map(|(_, v)| zero(*v))).collect();
+            let entries: Vec<_> =
+                generator.iter().zip(program.outputs.iter().map(|(_, v)| zero(*v))).collect();
             let times = |sign: TokenStream| {
                 let by = inner(quote!(*));
                 let entry = |(entry, zero): &(&TokenStream, bool)| match zero {
@@ -168,7 +168,9 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
             let matrix = table(placement);
             let placed = added(context, placement, "rise");
             let turned = momentum.as_ref().map(|momentum| {
-                let (inverse, matrix) = (times(quote!(-)), table(momentum));
+                let inverse = times(quote!(-));
+                let rows = turning.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
+                let matrix = quote!([#(#rows),*]);
                 let sides = match right {
                     true => quote!(&inverse, &growth),
                     false => quote!(&growth, &inverse),
@@ -230,12 +232,14 @@ fn table(names: &[Vec<String>]) -> TokenStream {
     quote!([#(#rows),*])
 }
 
-/// Adds the entries of a matrix to components of the state.
+/// Adds the entries of a matrix to those components that the state has.
 fn added(context: &Context, names: &[Vec<String>], rise: &str) -> TokenStream {
     let rise = quote::format_ident!("{rise}");
     let entries =
         names.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, n)| (i, j, n)));
+    let states = states(context);
     entries
+        .filter(|(.., name)| states.contains(name))
         .map(|(i, j, name)| {
             let [i, j]: [Literal; 2] = [i, j].map(number);
             accumulated(context, name, quote!(#rise[#i][#j]))

@@ -228,7 +228,7 @@ fn summands(
         let load = u.load(arena, chart);
         let force =
             |z: &Coordinate| load.forces.iter().find(|(at, _)| at == z).map(|(_, force)| force.clone());
-        let rates = chart.coordinates().into_iter().filter_map(|z| Some((z, chart.symbol(z), force(&z)?)));
+        let rates = chart.independent().into_iter().filter_map(|z| Some((z, chart.symbol(z), force(&z)?)));
         let system = System {
             rates: rates.collect(),
             shared: load.shared.clone(),

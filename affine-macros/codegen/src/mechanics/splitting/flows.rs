@@ -9,7 +9,7 @@ use super::Flow;
 /// A system with its velocities written out.
 pub(super) fn expanded(mut system: System) -> System {
     let defined = std::mem::take(&mut system.shared);
-    system.substitute(&|atom| defined.iter().find(|(s, _)| *s == atom).map(|(_, p)| p.clone()))
+    system.substitute(&|atom| value_of(&defined, atom))
 }
 
 /// The flow of a system, where it has one of the two forms.
@@ -89,14 +89,26 @@ pub(super) fn turns_along(
     generator: &[Vec<Polynomial>],
     right: bool,
 ) -> bool {
-    let n = chart.dim;
-    pairs(n).all(|(a, b)| {
-        let Some((.., rate)) = system.rates.iter().find(|(z, ..)| *z == Coordinate::M(a, b)) else {
-            // A component that keeps still must keep still in the commutator as well.
-            return commutator(chart, generator, right, a, b).is_zero();
-        };
-        commutator(chart, generator, right, a, b) == *rate
+    let dependent = chart.dependent();
+    chart.independent().into_iter().all(|z| {
+        let Coordinate::M(a, b) = z else { return true };
+        let found = system.rates.iter().find(|(at, ..)| *at == z);
+        // A component that keeps still must keep still in the commutator as well.
+        let rate = found.map_or_else(Polynomial::zero, |(.., rate)| rate.clone());
+        commutator(chart, generator, right, a, b).substitute(&|atom| value_of(&dependent, atom)) == rate
     })
+}
+
+/// Increments of the affine momentum under a constraint: of the entries that determine the others, in these.
+pub(super) fn confined(chart: &Chart, mut system: System) -> System {
+    let dependent = chart.dependent();
+    system.rates.retain(|(_, symbol, _)| value_of(&dependent, *symbol).is_none());
+    system.substitute(&|atom| value_of(&dependent, atom))
+}
+
+/// The value of a symbol that has one.
+pub(super) fn value_of(values: &[(Expr, Polynomial)], symbol: Expr) -> Option<Polynomial> {
+    values.iter().find(|(s, _)| *s == symbol).map(|(_, value)| value.clone())
 }
 
 fn commutator(chart: &Chart, y: &[Vec<Polynomial>], right: bool, a: usize, b: usize) -> Polynomial {

@@ -21,7 +21,7 @@ use crate::mechanics::equations::{Form, System, hamilton};
 use crate::mechanics::hessian::{Block, blocks, entries};
 use crate::mechanics::reduce::Reduction;
 
-use super::flows::{expanded, generator, turns_along};
+use super::flows::{confined, expanded, generator, turns_along, value_of};
 use super::{Flow, Summand, over_the_state};
 
 /// The time that a flow lasts.
@@ -41,8 +41,10 @@ pub(super) struct Squares {
 pub(super) struct Square {
     /// `d`.
     weight: Polynomial,
-    /// `l`, linear in the entries of the affine spin.
+    /// `l`, linear in the entries of the affine spin that determine the others.
     form: Polynomial,
+    /// `l` of the projection of any affine spin.
+    on_all: Polynomial,
     /// As text.
     name: String,
 }
@@ -61,21 +63,26 @@ pub struct Principal {
 impl Squares {
     /// The squares of a quadratic energy of a chart's affine spin; `None` where it is degenerate.
     pub(super) fn of(arena: &mut Arena, chart: &Chart, energy: &Polynomial) -> Option<Self> {
-        let momenta = chart.m.0.concat();
+        let energy = energy.substitute(&|atom| value_of(&chart.dependent(), atom));
+        let momenta: Vec<Coordinate> =
+            chart.independent().into_iter().filter(|z| matches!(z, Coordinate::M(..))).collect();
+        let symbols: Vec<Expr> = momenta.iter().map(|z| chart.symbol(*z)).collect();
         let form: Vec<Vec<Polynomial>> =
-            energy.gradient(&momenta).iter().map(|slope| slope.gradient(&momenta)).collect();
+            energy.gradient(&symbols).iter().map(|slope| slope.gradient(&symbols)).collect();
         let mut squares = Self::default();
-        for block in blocks(&form, entries(chart.dim)) {
+        for block in blocks(&form, entries(symbols.len())) {
             let of_block = squares.of_block(arena, &block)?;
             let places = block.basis.iter().filter_map(|vector| vector.entries.first());
-            let atoms: Vec<Expr> = places.map(|(k, _)| momenta[*k]).collect();
+            let places: Vec<usize> = places.map(|(k, _)| *k).collect();
+            let atoms: Vec<Expr> = places.iter().map(|k| symbols[*k]).collect();
             for (k, (weight, row)) in of_block.into_iter().enumerate() {
-                let mut form = Polynomial::zero();
-                for (c, atom) in row.iter().zip(&atoms) {
-                    form.add_product(c, &Polynomial::atom(*atom), &Rational::ONE);
+                let (mut form, mut on_all) = (Polynomial::zero(), Polynomial::zero());
+                for (c, place) in row.iter().zip(&places) {
+                    form.add_product(c, &Polynomial::atom(symbols[*place]), &Rational::ONE);
+                    on_all.add_product(c, &on_all_momenta(chart, momenta[*place]), &Rational::ONE);
                 }
                 let name = name(arena, &form, k + 1, &atoms);
-                squares.place(chart, Square { weight, form, name });
+                squares.place(chart, Square { weight, form, on_all, name });
             }
         }
         Some(squares)
@@ -97,7 +104,7 @@ impl Squares {
 
     /// Puts a square beside others that it commutes with.
     fn place(&mut self, chart: &Chart, square: Square) {
-        let commutes = |other: &Square| poisson(chart, &other.form, &square.form).is_zero();
+        let commutes = |other: &Square| poisson(chart, &other.on_all, &square.on_all).is_zero();
         match self.groups.iter_mut().find(|group| group.iter().all(commutes)) {
             Some(group) => group.push(square),
             None => self.groups.push(vec![square]),
@@ -117,6 +124,16 @@ impl Principal {
     fn squares(&self) -> Vec<(Polynomial, Vec<Polynomial>)> {
         let atoms = |list: &Vec<Expr>| list.iter().map(|s| Polynomial::atom(*s)).collect();
         self.values.iter().map(|s| Polynomial::atom(*s)).zip(self.vectors.iter().map(atoms)).collect()
+    }
+}
+
+/// An entry of the affine spin, under a constraint that of its projection.
+fn on_all_momenta(chart: &Chart, entry: Coordinate) -> Polynomial {
+    match (chart.confined, entry) {
+        (Some(group), Coordinate::M(a, b)) => {
+            group.projected(&table(chart.dim, |c, d| Polynomial::atom(chart.m.0[c][d])))[a][b].clone()
+        }
+        _ => Polynomial::atom(chart.symbol(entry)),
     }
 }
 
@@ -236,7 +253,7 @@ pub(super) fn piece(
 impl Square {
     fn summand(&self) -> Option<Summand> {
         let half = Rational::ratio(1, 2)?;
-        let energy = self.weight.mul(&self.form.mul(&self.form)).scaled(&half);
+        let energy = self.weight.mul(&self.on_all.mul(&self.on_all)).scaled(&half);
         Some(Summand { name: self.name.clone(), energy: Some(energy), system: System::default() })
     }
 }
@@ -245,7 +262,7 @@ impl Turn {
     /// Of the `k`-th square of a piece; `None` where its equations are no exponential.
     fn of(arena: &mut Arena, reduction: &Reduction, square: &Square, k: usize) -> Option<Self> {
         let chart = &reduction.chart;
-        let system = expanded(hamilton(arena, chart, &square.form, Form::Expanded));
+        let system = expanded(hamilton(arena, chart, &square.on_all, Form::Expanded));
         let system = over_the_state(arena, reduction, system)?;
         let (direction, right) = generator(chart, &system)?;
         let rate = (arena.symbol(&format!("rate_{k}")), square.weight.mul(&square.form));
@@ -299,7 +316,7 @@ impl Turn {
         };
         let rates = rises(&reduction.chart, &self.direction, self.right, &[growth, decay, product]);
         let system = System { shared, kernels: vec![kernel], rates, work: None };
-        over_the_state(arena, reduction, system).map(Flow::Rise)
+        over_the_state(arena, reduction, confined(&reduction.chart, system)).map(Flow::Rise)
     }
 }
 
@@ -311,7 +328,7 @@ fn sheared(arena: &mut Arena, reduction: &Reduction, turns: &[Turn]) -> Option<F
     let rates = rises(&reduction.chart, &generator, turns.first()?.right, &[h, back, square]);
     let shared = turns.iter().map(|turn| turn.rate.clone()).collect();
     let system = System { shared, rates, ..System::default() };
-    over_the_state(arena, reduction, system).map(Flow::Rise)
+    over_the_state(arena, reduction, confined(&reduction.chart, system)).map(Flow::Rise)
 }
 
 /// The increments of `phi` and `M` by `1 + g E` and its inverse `1 + d E`, given `g`, `d` and `g d`.
