@@ -23,7 +23,7 @@ pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::integrate::nystrom::SecondOrder;
 pub use crate::integrate::packed::{Four, Packed, Packing};
 pub use crate::integrate::splitting::{
-    Pieces, accumulate, conjugated, dilated, elongation, growth, left_product, right_product,
+    Pieces, accumulate, conjugated, dilated, elongation, growth, left_product, right_product, turning,
 };
 pub use crate::integrate::taylor::{
     Divisor, Series, Vectors, add_pair, add_products, between, divided, doubled, halved, halves, lanes, over,

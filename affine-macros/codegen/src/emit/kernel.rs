@@ -17,6 +17,7 @@ pub(super) fn statement(
     let function = match callee {
         Callee::Stretches => quote!(#rt::principal_stretches),
         Callee::Elongation => quote!(#rt::elongation),
+        Callee::Turn => quote!(#rt::turning),
         Callee::Custom(k, asked) => {
             let field = format_ident!("custom_{k}");
             arguments.insert(0, quote!(#field));

@@ -22,6 +22,7 @@
 
 mod flows;
 mod squares;
+mod turns;
 
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
@@ -34,8 +35,9 @@ use super::potential::Potential;
 use super::reduce::{Commuting, Reduction, gauge};
 use super::separation::{Separation, Slope};
 use flows::{exact_flow, expanded};
+pub use squares::Principal;
 use squares::Squares;
-pub use squares::{Principal, TIME_OF_FLOW};
+pub use turns::TIME_OF_FLOW;
 
 /// Pieces whose flows make up the motion, those of the kinetic energy first.
 #[derive(Clone, Debug)]

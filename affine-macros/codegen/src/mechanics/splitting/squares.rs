@@ -8,24 +8,19 @@
 //! phi -> phi exp(t s E), M -> exp(-t s E) M exp(t s E)          or, in space, phi -> exp(t s E) phi, M -> exp(t s E) M exp(-t s E)
 //! ```
 //!
-//! Where `E^2 = tr(E) E`, as for every square of `1/2 tr(X^T J^-1 X)`, whose `E` have rank one, the exponential is
-//! `1 + g E` with `g = (exp(t s tr E) - 1)/tr E`, and `g = t s` for a shear. Squares whose momenta commute make one piece,
-//! and shears whose products vanish one shear.
+//! in the closed form of [`turns`](super::turns). Squares whose momenta commute make one piece.
 
-use crate::algebra::kernel::{Callee, Group};
-use crate::algebra::ring::{self, table};
-use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
+use crate::algebra::ring::table;
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::brackets::poisson;
 use crate::mechanics::charts::{Chart, Coordinate};
-use crate::mechanics::equations::{Form, System, hamilton};
+use crate::mechanics::equations::System;
 use crate::mechanics::hessian::{Block, blocks, entries};
 use crate::mechanics::reduce::Reduction;
 
-use super::flows::{confined, expanded, generator, turns_along, value_of};
-use super::{Flow, Summand, over_the_state};
-
-/// The time that a flow lasts.
-pub const TIME_OF_FLOW: &str = "h";
+use super::flows::value_of;
+use super::turns::{self, Turn};
+use super::{Flow, Summand};
 
 /// The squares of an energy.
 #[derive(Default)]
@@ -211,6 +206,14 @@ fn square_of_a_product(
     Some(i)
 }
 
+impl Square {
+    fn summand(&self) -> Option<Summand> {
+        let half = Rational::ratio(1, 2)?;
+        let energy = self.weight.mul(&self.on_all.mul(&self.on_all)).scaled(&half);
+        Some(Summand { name: self.name.clone(), energy: Some(energy), system: System::default() })
+    }
+}
+
 /// The square as text: the `k`-th of a block of momenta where only the fields' values tell which.
 fn name(arena: &mut Arena, form: &Polynomial, k: usize, block: &[Expr]) -> String {
     let known = |atom: Expr| block.contains(&atom);
@@ -223,16 +226,6 @@ fn name(arena: &mut Arena, form: &Polynomial, k: usize, block: &[Expr]) -> Strin
     if arena.name(form).is_some() { format!("{text}^2") } else { format!("({text})^2") }
 }
 
-/// The flow of one momentum `l` at a rate `s`: `phi' = s phi E` or `s E phi`.
-struct Turn {
-    /// The symbol of `s`, and its value.
-    rate: (Expr, Polynomial),
-    /// `E`, with the sign of its flow.
-    direction: ring::Square<Polynomial>,
-    /// Does it stand on the right?
-    right: bool,
-}
-
 /// The piece of squares that commute.
 pub(super) fn piece(
     arena: &mut Arena,
@@ -240,124 +233,12 @@ pub(super) fn piece(
     group: &[Square],
 ) -> Option<(Vec<Summand>, Vec<Flow>)> {
     let turns = group.iter().enumerate();
-    let turns = turns.map(|(k, square)| Turn::of(arena, reduction, square, k + 1));
+    let turns = turns.map(|(k, square)| {
+        let rate = (arena.symbol(&format!("rate_{}", k + 1)), square.weight.mul(&square.form));
+        Turn::of(arena, reduction, &square.on_all, rate)
+    });
     let turns: Vec<Turn> = turns.collect::<Option<_>>()?;
-    let flows = match turns.iter().all(|one| turns.iter().all(|other| one.vanishes_times(other))) {
-        true => vec![sheared(arena, reduction, &turns)?],
-        false => turns.iter().map(|turn| turn.flow(arena, reduction)).collect::<Option<_>>()?,
-    };
+    let flows = turns::flows(arena, reduction, &turns)?;
     let summands = group.iter().map(Square::summand).collect::<Option<_>>()?;
     Some((summands, flows))
-}
-
-impl Square {
-    fn summand(&self) -> Option<Summand> {
-        let half = Rational::ratio(1, 2)?;
-        let energy = self.weight.mul(&self.on_all.mul(&self.on_all)).scaled(&half);
-        Some(Summand { name: self.name.clone(), energy: Some(energy), system: System::default() })
-    }
-}
-
-impl Turn {
-    /// Of the `k`-th square of a piece; `None` where its equations are no exponential.
-    fn of(arena: &mut Arena, reduction: &Reduction, square: &Square, k: usize) -> Option<Self> {
-        let chart = &reduction.chart;
-        let system = expanded(hamilton(arena, chart, &square.on_all, Form::Expanded));
-        let system = over_the_state(arena, reduction, system)?;
-        let (direction, right) = generator(chart, &system)?;
-        let rate = (arena.symbol(&format!("rate_{k}")), square.weight.mul(&square.form));
-        turns_along(chart, &system, &direction, right).then_some(Self { rate, direction, right })
-    }
-
-    fn vanishes_times(&self, other: &Self) -> bool {
-        ring::product(&self.direction, &other.direction).iter().flatten().all(Polynomial::is_zero)
-    }
-
-    /// Has `E` one entry alone?
-    fn is_along_an_axis(&self) -> bool {
-        self.direction.iter().flatten().filter(|entry| !entry.is_zero()).count() == 1
-    }
-
-    /// `s E`.
-    fn generator(&self) -> ring::Square<Polynomial> {
-        times(&self.direction, &Polynomial::atom(self.rate.0))
-    }
-
-    /// `tr E`, where `E^2 = tr(E) E`.
-    fn trace(&self) -> Option<Polynomial> {
-        let mut trace = Polynomial::zero();
-        (0..self.direction.len()).for_each(|a| trace.add_scaled(&self.direction[a][a], &Rational::ONE));
-        (ring::product(&self.direction, &self.direction) == times(&self.direction, &trace)).then_some(trace)
-    }
-
-    fn flow(&self, arena: &mut Arena, reduction: &Reduction) -> Option<Flow> {
-        let (shared, generator) = (vec![self.rate.clone()], self.generator());
-        let Some(trace) = self.trace() else {
-            return Some(Flow::Exponential { shared, generator, right: self.right, turns_momentum: true });
-        };
-        let [growth, decay] = ["growth", "decay"].map(|name| arena.symbol(name));
-        let h = Polynomial::atom(arena.symbol(TIME_OF_FLOW));
-        let kernel = Kernel {
-            callee: Callee::Elongation,
-            arguments: [h, trace.mul(&Polynomial::atom(self.rate.0))].map(Group::Scalar).to_vec(),
-            results: [growth, decay].map(Group::Scalar).to_vec(),
-        };
-        let s = Polynomial::atom(self.rate.0);
-        let [growth, decay] = [growth, decay].map(|factor| s.mul(&Polynomial::atom(factor)));
-        let product = match self.is_along_an_axis().then(|| trace.as_constant()?.recip()).flatten() {
-            // 1 + g tr E and 1 + d tr E are reciprocals: rounded, their product would move the momentum that is
-            // conserved. Beside a small trace the sum would lose digits.
-            Some(reciprocal) => {
-                let mut product = growth.scaled(&-&reciprocal);
-                product.add_scaled(&decay, &-&reciprocal);
-                product
-            }
-            None => growth.mul(&decay),
-        };
-        let rates = rises(&reduction.chart, &self.direction, self.right, &[growth, decay, product]);
-        let system = System { shared, kernels: vec![kernel], rates, work: None };
-        over_the_state(arena, reduction, confined(&reduction.chart, system)).map(Flow::Rise)
-    }
-}
-
-/// The flow of momenta whose `E` have no products: `exp(Y) = 1 + Y`.
-fn sheared(arena: &mut Arena, reduction: &Reduction, turns: &[Turn]) -> Option<Flow> {
-    let generator = turns.iter().map(Turn::generator).reduce(|sum, y| ring::sum(&sum, &y))?;
-    let h = Polynomial::atom(arena.symbol(TIME_OF_FLOW));
-    let (back, square) = (h.scaled(&Rational::MINUS_ONE), h.mul(&h).scaled(&Rational::MINUS_ONE));
-    let rates = rises(&reduction.chart, &generator, turns.first()?.right, &[h, back, square]);
-    let shared = turns.iter().map(|turn| turn.rate.clone()).collect();
-    let system = System { shared, rates, ..System::default() };
-    over_the_state(arena, reduction, confined(&reduction.chart, system)).map(Flow::Rise)
-}
-
-/// The increments of `phi` and `M` by `1 + g E` and its inverse `1 + d E`, given `g`, `d` and `g d`.
-fn rises(
-    chart: &Chart,
-    e: &ring::Square<Polynomial>,
-    right: bool,
-    [growth, decay, product]: &[Polynomial; 3],
-) -> Vec<(Coordinate, Expr, Polynomial)> {
-    let matrix = |entries: &[Vec<Expr>]| table(chart.dim, |a, b| Polynomial::atom(entries[a][b]));
-    let (phi, m) = (matrix(&chart.phi.0), matrix(&chart.m.0));
-    let (after, before) = if right { (growth, decay) } else { (decay, growth) };
-    let placed = if right { ring::product(&phi, e) } else { ring::product(e, &phi) };
-    let (m_e, e_m) = (ring::product(&m, e), ring::product(e, &m));
-    let both = ring::product(e, &m_e);
-    let mut rates = Vec::new();
-    for (a, b) in (0..chart.dim).flat_map(|a| (0..chart.dim).map(move |b| (a, b))) {
-        let mut turned = m_e[a][b].mul(after);
-        turned.add_product(&e_m[a][b], before, &Rational::ONE);
-        turned.add_product(&both[a][b], product, &Rational::ONE);
-        for (z, rise) in [(Coordinate::Phi(a, b), placed[a][b].mul(growth)), (Coordinate::M(a, b), turned)] {
-            if !rise.is_zero() {
-                rates.push((z, chart.symbol(z), rise));
-            }
-        }
-    }
-    rates
-}
-
-fn times(matrix: &ring::Square<Polynomial>, factor: &Polynomial) -> ring::Square<Polynomial> {
-    table(matrix.len(), |a, b| matrix[a][b].mul(factor))
 }
