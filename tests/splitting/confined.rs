@@ -149,6 +149,9 @@ fn orders_on_nonlinear_problems() {
 #[test]
 fn a_hundred_thousand_steps_on_groups() {
     let start = Top.at_momentum(rotation(), Comoving(skew())).unwrap();
+    let run = Simulation::new(&Top, start).until(1.0).method(Method::Splitting { order: 4, step: 0.1 });
+    let why = run.run().unwrap().why().to_string();
+    assert!(why.contains("the flows that move phi are exponentials"), "{why}");
     let end = assert_kept("top", &Top, start, (2, 0.02), 2e-4);
     let off = (end.phi().transpose() * end.phi() - Matrix::<3>::identity()).norm();
     assert!(off < 1e-13, "off SO(3) by {off:e}");
