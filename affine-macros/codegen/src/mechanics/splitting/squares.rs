@@ -242,3 +242,45 @@ pub(super) fn piece(
     let summands = group.iter().map(Square::summand).collect::<Option<_>>()?;
     Some((summands, flows))
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::completed;
+    use crate::algebra::{Arena, Polynomial, Rational};
+
+    /// Small integers, a third of them zero, from a linear congruence.
+    fn next(state: &mut u64) -> Rational {
+        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let value = i64::try_from((*state >> 33) % 9).unwrap() - 4;
+        if value.rem_euclid(3) == 0 { Rational::ZERO } else { Rational::from(value) }
+    }
+
+    #[test]
+    fn squares_add_up_to_the_form() {
+        let (mut arena, mut state, mut indefinite) = (Arena::new(), 1, 0);
+        for trial in 0..300 {
+            let size = 1 + trial % 6;
+            let mut form = vec![vec![Polynomial::zero(); size]; size];
+            for i in 0..size {
+                // Every third form has nothing but products.
+                for j in 0..i + usize::from(trial % 3 != 0) {
+                    let entry = Polynomial::constant(next(&mut state));
+                    (form[i][j], form[j][i]) = (entry.clone(), entry);
+                }
+            }
+            let Some(squares) = completed(&mut arena, form.clone()) else { continue };
+            indefinite += usize::from(form[0][0].is_zero());
+            for i in 0..size {
+                for j in 0..size {
+                    let mut sum = Polynomial::zero();
+                    for (weight, row) in &squares {
+                        sum.add_product(&row[i].mul(&row[j]), weight, &Rational::ONE);
+                    }
+                    assert_eq!(sum, form[i][j], "{form:?}");
+                }
+            }
+        }
+        assert!(indefinite > 20, "{indefinite}");
+    }
+}
