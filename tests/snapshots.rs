@@ -358,7 +358,7 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "fields_splitting_squares_2",
         "dim = 2, kinetic(body_inertia = j), potential = tr(G)/2 - ln(det), emit(splitting)",
         "/// A body whose principal axes are not known.
-        pub struct Body { pub j: affine_runtime::frames::Matrix<2> }",
+        pub struct Body { j: affine_runtime::frames::Matrix<2> }",
     ),
     (
         "unitary_pieces_2",
