@@ -1,15 +1,17 @@
 //! An anisotropic energy as a sum of squares, each with an exact flow.
 //!
-//! A quadratic form in the affine spin is `H = sum over k of d_k/2 <E_k, M>^2`: by completing squares (Lagrange; `L D L^T`) where
-//! its coefficients are numbers, by its principal axes where the fields' values give them. `<E_k, M>` is conserved along the flow of its own square, which
-//! is that of `<E_k, M>` at the rate `s = d_k <E_k, M>`,
+//! A quadratic form in the affine spin is `H = sum over k of d_k/2 <E_k, M>^2`: by completing squares where its
+//! coefficients are numbers, by its principal axes where the fields' values give them. `<E_k, M>` is conserved along
+//! the flow of its own square, which is that of `<E_k, M>` at the rate `s = d_k <E_k, M>`,
 //!
 //! ```text
-//! phi -> phi exp(t s E), M -> exp(-t s E) M exp(t s E)          or, in space, phi -> exp(t s E) phi, M -> exp(t s E) M exp(-t s E)
+//! phi -> phi exp(t s E), M -> exp(-t s E) M exp(t s E)          in the body
+//! phi -> exp(t s E) phi, M -> exp(t s E) M exp(-t s E)          in space
 //! ```
 //!
 //! in the closed form of [`turns`](super::turns). Squares whose momenta commute make one piece.
 
+use crate::algebra::lagrange::completed;
 use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::brackets::poisson;
@@ -132,80 +134,6 @@ fn on_all_momenta(chart: &Chart, entry: Coordinate) -> Polynomial {
     }
 }
 
-/// Lagrange's reduction of a symmetric form: weights `d_k` and rows of `l_k` with `F = sum of d_k l_k^T l_k`.
-fn completed(
-    arena: &mut Arena,
-    mut form: Vec<Vec<Polynomial>>,
-) -> Option<Vec<(Polynomial, Vec<Polynomial>)>> {
-    let size = form.len();
-    let unit =
-        |i: usize| (0..size).map(|j| Polynomial::constant(Rational::from(i64::from(i == j)))).collect();
-    let mut rows: Vec<Vec<Polynomial>> = (0..size).map(unit).collect();
-    let mut open: Vec<usize> = (0..size).collect();
-    let mut squares = Vec::new();
-    while !open.is_empty() {
-        let k = match open.iter().find(|k| !form[**k][**k].is_zero()) {
-            Some(k) => *k,
-            None => square_of_a_product(&mut form, &mut rows, &open)?,
-        };
-        open.retain(|other| *other != k);
-        let pivot = form[k][k].clone();
-        let reciprocal = pivot.expression(arena);
-        let reciprocal = arena.pow(reciprocal, -1)?;
-        let reciprocal = Polynomial::normal_form(arena, reciprocal);
-        let factors: Vec<(usize, Polynomial)> =
-            open.iter().map(|j| (*j, form[k][*j].mul(&reciprocal))).filter(|(_, f)| !f.is_zero()).collect();
-        for (j, factor) in &factors {
-            for l in &open {
-                let less = factor.mul(&form[k][*l]);
-                form[*j][*l].add_scaled(&less, &Rational::MINUS_ONE);
-            }
-            let more: Vec<Polynomial> = rows[*j].iter().map(|c| c.mul(factor)).collect();
-            rows[k].iter_mut().zip(&more).for_each(|(c, more)| c.add_scaled(more, &Rational::ONE));
-        }
-        squares.push((pivot, rows[k].clone()));
-    }
-    Some(squares)
-}
-
-/// Only products are left: `y_i y_j = ((y_i + y_j)^2 - (y_i - y_j)^2)/4`. The place of the sum.
-fn square_of_a_product(
-    form: &mut [Vec<Polynomial>],
-    rows: &mut [Vec<Polynomial>],
-    open: &[usize],
-) -> Option<usize> {
-    let pairs = open.iter().flat_map(|i| open.iter().map(move |j| (*i, *j)));
-    let (i, j) = pairs.into_iter().find(|(i, j)| i != j && !form[*i][*j].is_zero())?;
-    let half = Rational::ratio(1, 2)?;
-    let combined = |one: &[Polynomial], other: &[Polynomial], sign: &Rational| -> Vec<Polynomial> {
-        let pairs = one.iter().zip(other);
-        pairs
-            .map(|(a, b)| {
-                let mut sum = a.clone();
-                sum.add_scaled(b, sign);
-                sum
-            })
-            .collect()
-    };
-    // y_i = (u + v)/2 and y_j = (u - v)/2, in the columns and then in the rows of the form.
-    for row in form.iter_mut() {
-        let (a, b) = (row[i].scaled(&half), row[j].scaled(&half));
-        [row[i], row[j]] = [&Rational::ONE, &Rational::MINUS_ONE].map(|sign| {
-            let mut sum = a.clone();
-            sum.add_scaled(&b, sign);
-            sum
-        });
-    }
-    let (a, b): (Vec<_>, Vec<_>) = (
-        form[i].iter().map(|c| c.scaled(&half)).collect(),
-        form[j].iter().map(|c| c.scaled(&half)).collect(),
-    );
-    (form[i], form[j]) = (combined(&a, &b, &Rational::ONE), combined(&a, &b, &Rational::MINUS_ONE));
-    let (a, b) = (rows[i].clone(), rows[j].clone());
-    (rows[i], rows[j]) = (combined(&a, &b, &Rational::ONE), combined(&a, &b, &Rational::MINUS_ONE));
-    Some(i)
-}
-
 impl Square {
     fn summand(&self) -> Option<Summand> {
         let half = Rational::ratio(1, 2)?;
@@ -241,46 +169,4 @@ pub(super) fn piece(
     let flows = turns::flows(arena, reduction, &turns)?;
     let summands = group.iter().map(Square::summand).collect::<Option<_>>()?;
     Some((summands, flows))
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use super::completed;
-    use crate::algebra::{Arena, Polynomial, Rational};
-
-    /// Small integers, a third of them zero, from a linear congruence.
-    fn next(state: &mut u64) -> Rational {
-        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        let value = i64::try_from((*state >> 33) % 9).unwrap() - 4;
-        if value.rem_euclid(3) == 0 { Rational::ZERO } else { Rational::from(value) }
-    }
-
-    #[test]
-    fn squares_add_up_to_the_form() {
-        let (mut arena, mut state, mut indefinite) = (Arena::new(), 1, 0);
-        for trial in 0..300 {
-            let size = 1 + trial % 6;
-            let mut form = vec![vec![Polynomial::zero(); size]; size];
-            for i in 0..size {
-                // Every third form has nothing but products.
-                for j in 0..i + usize::from(trial % 3 != 0) {
-                    let entry = Polynomial::constant(next(&mut state));
-                    (form[i][j], form[j][i]) = (entry.clone(), entry);
-                }
-            }
-            let Some(squares) = completed(&mut arena, form.clone()) else { continue };
-            indefinite += usize::from(form[0][0].is_zero());
-            for i in 0..size {
-                for j in 0..size {
-                    let mut sum = Polynomial::zero();
-                    for (weight, row) in &squares {
-                        sum.add_product(&row[i].mul(&row[j]), weight, &Rational::ONE);
-                    }
-                    assert_eq!(sum, form[i][j], "{form:?}");
-                }
-            }
-        }
-        assert!(indefinite > 20, "{indefinite}");
-    }
 }
