@@ -3,6 +3,7 @@
 mod at_a_state;
 #[cfg(feature = "std")]
 mod in_lanes;
+mod longest;
 
 #[cfg(feature = "std")]
 pub(crate) use in_lanes::{NormInLanes, Squares};

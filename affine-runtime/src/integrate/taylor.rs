@@ -13,9 +13,9 @@ pub use vectors::{Portable, Vectors};
 
 use core::fmt;
 
-use super::error_norm::{ErrorNorm, norm};
+use super::error_norm::{ErrorNorm, IN_RANGE as USUAL_SQUARES, sum_of_squares};
 use super::finite::is_finite;
-use super::roughly::{exp, ln};
+use super::roughly::exp;
 use super::step_size::{first_step, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
@@ -230,6 +230,10 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     /// The last coefficients are neither lost nor infinite; a motion that is a polynomial of low order has none.
     #[inline(always)]
     fn is_in_range(&self) -> bool {
+        let [last, before] = [self.order, self.order - 1].map(|k| sum_of_squares(self.coefficients[k].as_ref()));
+        if USUAL_SQUARES.contains(&(last + before)) {
+            return true;
+        }
         let largest = |k: usize| {
             let sizes = self.coefficients[k].as_ref().iter();
             sizes.fold(0.0, |largest: f64, v| if v.abs() <= largest { largest } else { v.abs() })
@@ -256,26 +260,9 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     /// The longest step that the last two coefficients allow.
     #[inline(always)]
     fn longest(&self) -> f64 {
-        let [last, before] = [self.order, self.order - 1].map(|j| self.coefficients[j].as_ref());
-        let state = self.coefficients[0].as_ref();
-        let errors = self.error_norm.at_a_state(state, |r| [size(&last[r.clone()]), size(&before[r])]);
-        let within = |errors: [f64; 2]| {
-            // The logarithm of `(tolerance/|y_j|)^(1/j)`; no error is no bound, and NaN stays.
-            let logarithm = |error: f64, j: usize| ln(self.tolerance / error) / j as f64;
-            let (last, before) = (logarithm(errors[0], self.order), logarithm(errors[1], self.order - 1));
-            let least = if last <= before || last.is_nan() { last } else { before };
-            exp(least - 0.7 / (self.order - 1) as f64) * self.unit
-        };
-        let guessed = errors.largest(self.length);
-        let length = within(guessed);
-        // Momenta may err the less, the longer the step: one that is longer than guessed is measured again.
-        if length > self.length {
-            let measured = errors.largest(length);
-            if measured != guessed {
-                return within(measured);
-            }
-        }
-        length
+        let terms = [self.order, self.order - 1].map(|j| (self.coefficients[j].as_ref(), j));
+        let longest = self.error_norm.longest(self.coefficients[0].as_ref(), terms, (self.tolerance, self.unit));
+        exp(longest - 0.7 / (self.order - 1) as f64) * self.unit
     }
 
     /// `sum_(k > 0) y_k h^k`, by powers of `h` alone: those of a rounded `h^2` would be off by the same in every step of one
@@ -371,24 +358,6 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> fmt::Debug for Taylor<S, C, R> {
             .field("statistics", &self.statistics)
             .finish_non_exhaustive()
     }
-}
-
-/// The Euclidean norm, also where squares leave the range of numbers: a coefficient of order 30 may be large.
-#[inline(always)]
-fn size(components: &[f64]) -> f64 {
-    let plain = norm(components);
-    if plain > 0.0 && plain < f64::INFINITY { plain } else { scaled_norm(components) }
-}
-
-fn scaled_norm(components: &[f64]) -> f64 {
-    // A NaN is kept.
-    let largest =
-        components.iter().fold(0.0, |largest: f64, v| if v.abs() <= largest { largest } else { v.abs() });
-    if largest == 0.0 || !largest.is_finite() {
-        return largest;
-    }
-    let squares: f64 = components.iter().map(|v| v / largest * (v / largest)).sum();
-    largest * Scalar::sqrt(squares)
 }
 
 /// `y'` at a state.
