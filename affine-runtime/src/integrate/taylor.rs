@@ -87,7 +87,6 @@ pub struct Taylor<S, C, R: Series<S, C>> {
     rows: Rows<[R::Row; HIGHEST_ORDER]>,
     /// A power of two.
     unit: f64,
-    length: f64,
     failure: Option<Failure>,
     statistics: Statistics,
 }
@@ -159,7 +158,6 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             coefficients,
             rows: Rows([R::Row::zeros(); HIGHEST_ORDER]),
             unit: 1.0,
-            length: (t_end - t0).abs(),
             failure: None,
             statistics: Statistics { evaluations: probes + 1, ..Statistics::default() },
             series,
@@ -212,7 +210,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         if !is_finite(&y) {
             return Err(Failure::NotFinite);
         }
-        (self.begin, self.t, self.y, self.carry, self.length) = (self.t, end, y, carry, length);
+        (self.begin, self.t, self.y, self.carry) = (self.t, end, y, carry);
         self.statistics.steps += 1;
         Ok(())
     }
@@ -230,7 +228,8 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     /// The last coefficients are neither lost nor infinite; a motion that is a polynomial of low order has none.
     #[inline(always)]
     fn is_in_range(&self) -> bool {
-        let [last, before] = [self.order, self.order - 1].map(|k| sum_of_squares(self.coefficients[k].as_ref()));
+        let [last, before] =
+            [self.order, self.order - 1].map(|k| sum_of_squares(self.coefficients[k].as_ref()));
         if USUAL_SQUARES.contains(&(last + before)) {
             return true;
         }
@@ -261,7 +260,8 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     #[inline(always)]
     fn longest(&self) -> f64 {
         let terms = [self.order, self.order - 1].map(|j| (self.coefficients[j].as_ref(), j));
-        let longest = self.error_norm.longest(self.coefficients[0].as_ref(), terms, (self.tolerance, self.unit));
+        let longest =
+            self.error_norm.longest(self.coefficients[0].as_ref(), terms, (self.tolerance, self.unit));
         exp(longest - 0.7 / (self.order - 1) as f64) * self.unit
     }
 
@@ -300,7 +300,6 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         tape.state(&mut self.y);
         tape.state(&mut self.carry);
         tape.number(&mut self.unit);
-        tape.number(&mut self.length);
         tape.statistics(&mut self.statistics);
         self.begin = self.t;
     }
