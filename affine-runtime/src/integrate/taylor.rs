@@ -56,11 +56,11 @@ pub trait Series<S, C> {
 ///
 /// After Jorba and Zou, Experimental Mathematics 14 (2005) 99-117, sections 3.2 and 3.3: with the order
 /// `p = ceil(1 - ln(tolerance)/2)` a step of the radius of convergence over `e^2` just meets the tolerance, which is the
-/// least work where a set of coefficients costs `p^2`. Here a step costs some `80 + 9 p + p (p - 1)/2` in units of a pair of
-/// orders, and [`order_for`] takes six orders more: on the benchmark problems a quarter to a half less
-/// run time, the same within a few percent from four to ten more. The step is the longest for which the last two terms do, `|y_j| h^j <= tolerance` in the [`ErrorNorm`] for `j = p - 1` and
-/// `p`, times `exp(-0.7/(p - 1))`. No step is rejected. Two terms, since every other one vanishes for an even or odd
-/// solution.
+/// least work where a set of coefficients costs `p^2`. Here a step costs some `70 + 6 p + p (p - 1)/2` in units of a pair of
+/// orders, and [`order_for`] takes six orders more: on the benchmark problems a quarter to a half less run time, the same
+/// within a few percent from four to ten more. The step is the longest for which the last two terms do, `|y_j| h^j <=
+/// tolerance` in the [`ErrorNorm`] for `j = p - 1` and `p`, times `exp(-0.7/(p - 1))`: it follows from the coefficients
+/// alone, and no step is rejected. Two terms, since every other one vanishes for an even or odd solution.
 ///
 /// What a polynomial leaves out has the same sign in every step of a motion, rounding has not: a tolerance next to the
 /// rounding of a double is met a hundred times over.
