@@ -1,8 +1,8 @@
 //! The norm in which integrators measure errors.
 
-mod at_a_state;
 #[cfg(feature = "std")]
 mod in_lanes;
+mod longest;
 
 #[cfg(feature = "std")]
 pub(crate) use in_lanes::{NormInLanes, Squares};
@@ -287,20 +287,6 @@ mod tests {
         assert_eq!(error(before, after, [0.0, 0.0, 0.0, 1.0, 0.0]), 0.2, "against |phi| = 5 before the step");
         assert_eq!(error(before, after, [0.0, 0.0, 0.0, 0.0, 0.25]), 0.25, "against 1");
         assert_eq!(error(before, after, [3.0, 4.0, 0.0, 1.0, 0.25]), 0.5, "the largest");
-    }
-
-    #[test]
-    fn several_values_at_one_state() {
-        for y in [[3.0, 4.0, 0.0, 5.0, 7.0], [0.0; 5], [1.0, 0.0, f64::NAN, 0.0, 2.0]] {
-            let values = [[0.0; 5], [0.0, 1.0, 2.0, 0.0, 3.0], [1e-3, 0.0, 0.0, f64::NAN, 0.0]];
-            let norm_of = ErrorNorm::new(LAYOUT);
-            let together = norm_of.at_a_state(&y, |r| values.map(|value| norm(&value[r.clone()])));
-            let together = together.largest(0.5);
-            let one_by_one = values.map(|value| norm_of.largest(0.5, &y, &y, |r| norm(&value[r])));
-            for (a, b) in together.into_iter().zip(one_by_one) {
-                assert!(a == b || (a.is_nan() && b.is_nan()), "{a} is not {b}");
-            }
-        }
     }
 
     #[test]

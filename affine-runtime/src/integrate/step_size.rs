@@ -133,8 +133,8 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     span: f64,
     (tolerance, order): (f64, f64),
 ) -> f64 {
-    let sizes = error_norm.at_a_state(y.as_ref(), |r| [norm(&slope.as_ref()[r])]);
-    let [first] = sizes.largest(f64::INFINITY);
+    let of_slope = |r: Range<usize>| norm(&slope.as_ref()[r]);
+    let first = error_norm.largest(f64::INFINITY, y.as_ref(), y.as_ref(), of_slope);
     let within = |h: f64| if h < span.abs() { h } else { span.abs() };
     // Nothing moves, or something that is zero moves: no rate to go by.
     let trial = if first > 0.0 && first.is_finite() { within(0.01 / first) } else { 1e-6 * span.abs() };

@@ -13,9 +13,9 @@ pub use vectors::{Portable, Vectors};
 
 use core::fmt;
 
-use super::error_norm::{ErrorNorm, norm};
+use super::error_norm::{ErrorNorm, IN_RANGE as USUAL_SQUARES, sum_of_squares};
 use super::finite::is_finite;
-use super::roughly::{exp, ln};
+use super::roughly::exp;
 use super::step_size::{first_step, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
@@ -56,11 +56,11 @@ pub trait Series<S, C> {
 ///
 /// After Jorba and Zou, Experimental Mathematics 14 (2005) 99-117, sections 3.2 and 3.3: with the order
 /// `p = ceil(1 - ln(tolerance)/2)` a step of the radius of convergence over `e^2` just meets the tolerance, which is the
-/// least work where a set of coefficients costs `p^2`. Here a step costs some `80 + 9 p + p (p - 1)/2` in units of a pair of
-/// orders, and [`order_for`] takes six orders more: on the benchmark problems a quarter to a half less
-/// run time, the same within a few percent from four to ten more. The step is the longest for which the last two terms do, `|y_j| h^j <= tolerance` in the [`ErrorNorm`] for `j = p - 1` and
-/// `p`, times `exp(-0.7/(p - 1))`. No step is rejected. Two terms, since every other one vanishes for an even or odd
-/// solution.
+/// least work where a set of coefficients costs `p^2`. Here a step costs some `70 + 6 p + p (p - 1)/2` in units of a pair of
+/// orders, and [`order_for`] takes six orders more: on the benchmark problems a quarter to a half less run time, the same
+/// within a few percent from four to ten more. The step is the longest for which the last two terms do, `|y_j| h^j <=
+/// tolerance` in the [`ErrorNorm`] for `j = p - 1` and `p`, times `exp(-0.7/(p - 1))`: it follows from the coefficients
+/// alone, and no step is rejected. Two terms, since every other one vanishes for an even or odd solution.
 ///
 /// What a polynomial leaves out has the same sign in every step of a motion, rounding has not: a tolerance next to the
 /// rounding of a double is met a hundred times over.
@@ -87,7 +87,6 @@ pub struct Taylor<S, C, R: Series<S, C>> {
     rows: Rows<[R::Row; HIGHEST_ORDER]>,
     /// A power of two.
     unit: f64,
-    length: f64,
     failure: Option<Failure>,
     statistics: Statistics,
 }
@@ -159,7 +158,6 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             coefficients,
             rows: Rows([R::Row::zeros(); HIGHEST_ORDER]),
             unit: 1.0,
-            length: (t_end - t0).abs(),
             failure: None,
             statistics: Statistics { evaluations: probes + 1, ..Statistics::default() },
             series,
@@ -212,7 +210,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         if !is_finite(&y) {
             return Err(Failure::NotFinite);
         }
-        (self.begin, self.t, self.y, self.carry, self.length) = (self.t, end, y, carry, length);
+        (self.begin, self.t, self.y, self.carry) = (self.t, end, y, carry);
         self.statistics.steps += 1;
         Ok(())
     }
@@ -230,6 +228,11 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     /// The last coefficients are neither lost nor infinite; a motion that is a polynomial of low order has none.
     #[inline(always)]
     fn is_in_range(&self) -> bool {
+        let [last, before] =
+            [self.order, self.order - 1].map(|k| sum_of_squares(self.coefficients[k].as_ref()));
+        if USUAL_SQUARES.contains(&(last + before)) {
+            return true;
+        }
         let largest = |k: usize| {
             let sizes = self.coefficients[k].as_ref().iter();
             sizes.fold(0.0, |largest: f64, v| if v.abs() <= largest { largest } else { v.abs() })
@@ -256,26 +259,10 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     /// The longest step that the last two coefficients allow.
     #[inline(always)]
     fn longest(&self) -> f64 {
-        let [last, before] = [self.order, self.order - 1].map(|j| self.coefficients[j].as_ref());
-        let state = self.coefficients[0].as_ref();
-        let errors = self.error_norm.at_a_state(state, |r| [size(&last[r.clone()]), size(&before[r])]);
-        let within = |errors: [f64; 2]| {
-            // The logarithm of `(tolerance/|y_j|)^(1/j)`; no error is no bound, and NaN stays.
-            let logarithm = |error: f64, j: usize| ln(self.tolerance / error) / j as f64;
-            let (last, before) = (logarithm(errors[0], self.order), logarithm(errors[1], self.order - 1));
-            let least = if last <= before || last.is_nan() { last } else { before };
-            exp(least - 0.7 / (self.order - 1) as f64) * self.unit
-        };
-        let guessed = errors.largest(self.length);
-        let length = within(guessed);
-        // Momenta may err the less, the longer the step: one that is longer than guessed is measured again.
-        if length > self.length {
-            let measured = errors.largest(length);
-            if measured != guessed {
-                return within(measured);
-            }
-        }
-        length
+        let terms = [self.order, self.order - 1].map(|j| (self.coefficients[j].as_ref(), j));
+        let longest =
+            self.error_norm.longest(self.coefficients[0].as_ref(), terms, (self.tolerance, self.unit));
+        exp(longest - 0.7 / (self.order - 1) as f64) * self.unit
     }
 
     /// `sum_(k > 0) y_k h^k`, by powers of `h` alone: those of a rounded `h^2` would be off by the same in every step of one
@@ -313,7 +300,6 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         tape.state(&mut self.y);
         tape.state(&mut self.carry);
         tape.number(&mut self.unit);
-        tape.number(&mut self.length);
         tape.statistics(&mut self.statistics);
         self.begin = self.t;
     }
@@ -371,24 +357,6 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> fmt::Debug for Taylor<S, C, R> {
             .field("statistics", &self.statistics)
             .finish_non_exhaustive()
     }
-}
-
-/// The Euclidean norm, also where squares leave the range of numbers: a coefficient of order 30 may be large.
-#[inline(always)]
-fn size(components: &[f64]) -> f64 {
-    let plain = norm(components);
-    if plain > 0.0 && plain < f64::INFINITY { plain } else { scaled_norm(components) }
-}
-
-fn scaled_norm(components: &[f64]) -> f64 {
-    // A NaN is kept.
-    let largest =
-        components.iter().fold(0.0, |largest: f64, v| if v.abs() <= largest { largest } else { v.abs() });
-    if largest == 0.0 || !largest.is_finite() {
-        return largest;
-    }
-    let squares: f64 = components.iter().map(|v| v / largest * (v / largest)).sum();
-    largest * Scalar::sqrt(squares)
 }
 
 /// `y'` at a state.

@@ -56,9 +56,9 @@ pub(super) const fn is_canonical(model: &Description) -> bool {
 /// energy of `phi_dot` and `x_dot` without affine velocities.
 pub(super) fn is_second_order(model: &Description) -> bool {
     let canonical = ["x", "phi", "p", "Pi", "1/D", "q"];
-    let of_these = model.reduced.iter().all(|group| canonical.contains(&group.name));
-    let flat = !["Omega", "phi^-1"].iter().any(|affine| model.kinetic_energy.text.contains(affine));
-    model.constraint.is_none() && is_canonical(model) && of_these && flat
+    let of_these = || model.reduced.iter().all(|group| canonical.contains(&group.name));
+    let flat = || !["Omega", "phi^-1"].iter().any(|affine| model.kinetic_energy.text.contains(affine));
+    model.constraint.is_none() && is_canonical(model) && of_these() && flat()
 }
 
 /// `1/D` or `q` is integrated beside the placement, so that `det phi` is not formed.
