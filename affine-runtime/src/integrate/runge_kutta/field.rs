@@ -154,7 +154,7 @@ fn slope<S, K, R: Packing<S, K>, V: Vectors>(
 
 /// What is done, by a call.
 #[inline(never)]
-fn called<T>(act: impl FnOnce() -> T) -> T {
+pub(super) fn called<T>(act: impl FnOnce() -> T) -> T {
     act()
 }
 
