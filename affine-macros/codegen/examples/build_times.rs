@@ -6,9 +6,9 @@
 //! ```
 //!
 //! A package of its own, which depends on this checkout by path, is built with `cargo build --release` again and again:
-//! its program holds two other models, or these and the one in question. The difference is what that model adds, since
-//! what all models share is compiled for the first ones. Models are evaluated (Legendre transformation, right-hand side,
-//! energy) or simulated too (`Simulation` with a tolerance, by the automatic method).
+//! its program holds four other models, or these and the one in question. The difference is what that model adds, since what
+//! models share is compiled for the first ones. Models are evaluated alone (Legendre transformation, right-hand side,
+//! energy), or simulated (`Simulation` with a tolerance, by the automatic method).
 //!
 //! A model may add a second on two processors at the most; the exit code says so. Processor time (user time of all
 //! compilers, Linux alone) depends less on what else the machine does.
@@ -30,12 +30,15 @@ struct Case {
     has_translation: bool,
 }
 
-const FIRST: [Case; 2] = [
-    plain("FirstPinned", "dim = 3, kinetic(casimir2 = 0.3, space_inertia = 2), potential = 0.3*tr(G)"),
+/// One of each kind of phase point that the others have.
+const FIRST: [Case; 4] = [
+    plain("co-moving spin", "dim = 3, kinetic(casimir2 = 0.3, body_inertia = 2)"),
     moving(
-        "FirstMoving",
-        "dim = 3, kinetic(casimir2 = 0.3, space_inertia = 2, space_translation = 1), potential = 0.3*tr(G)",
+        "co-moving spin, centre",
+        "dim = 3, kinetic(casimir2 = 0.3, body_inertia = 2, body_translation = 1)",
     ),
+    plain("spatial spin", "dim = 3, kinetic(casimir2 = 0.3, space_inertia = 2)"),
+    plain("conjugate momentum", "dim = 3, kinetic(dalembert = 2)"),
 ];
 
 const CASES: [Case; 9] = [
@@ -159,13 +162,14 @@ fn table(builds: usize, wanted: &str) -> io::Result<f64> {
     println!("seconds by wall clock (of processors), the median of {builds}");
     println!("{:<46} {:>16} {:>16}", "", "evaluated", "simulated");
     let empty = package.median(builds, &[], Use::Evaluated)?;
-    let first = FIRST.each_ref();
+    let first = FIRST.iter().collect::<Vec<_>>();
     let without = |with: Use| package.median(builds, &first, with);
     let begin = [without(Use::Evaluated)?, without(Use::Simulated)?];
-    print_row("the first two", begin.map(|cost| cost.minus(empty)));
+    print_row("the first four together", begin.map(|cost| cost.minus(empty)));
     let mut largest = 0.0;
     for case in CASES.iter().filter(|case| case.name.contains(wanted)) {
-        let with = |with: Use| package.median(builds, &[first[0], first[1], case], with);
+        let models = [first.as_slice(), &[case]].concat();
+        let with = |with: Use| package.median(builds, &models, with);
         let added = [with(Use::Evaluated)?.minus(begin[0]), with(Use::Simulated)?.minus(begin[1])];
         print_row(case.name, added);
         largest = added.iter().fold(largest, |largest, cost| cost.wall.max(largest));
