@@ -86,7 +86,7 @@ const CASES: [Case; 9] = [
         "P2 with every capability",
         "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1), \
          potential = hyperbolic_dilatation(kappa) + neo_hookean(c), \
-         emit(taylor, splitting, two_polar, ratios, tangent, lanes, metric)",
+         emit(taylor, splitting, two_polar, tangent, lanes, metric)",
     ),
 ];
 
