@@ -186,6 +186,8 @@ families! {
         body_translation = 2)";
     splitting_missile_2: "dim = 2, emit(splitting), kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), \
         potential = hyperbolic_dilatation(10) + neo_hookean(0.5)";
+    splitting_squares_2: "dim = 2, emit(splitting), kinetic(casimir2 = 0.2, body_inertia = diag(1, 2)), \
+        potential = tr(G)/2 - ln(det)";
 }
 
 /// Coefficients from fields, for each way in which the equations and `prepare()` use them, and what surrounds them.
@@ -351,6 +353,12 @@ const SPECIAL: &[(&str, &str, &str)] = &[
         "dim = 3, kinetic(casimir2 = 1.2, casimir1_squared = 0.1), emit(two_polar, ratios)",
         "/// A lattice of three stretches.
         pub struct Lattice;",
+    ),
+    (
+        "fields_splitting_squares_2",
+        "dim = 2, kinetic(body_inertia = j), potential = tr(G)/2 - ln(det), emit(splitting)",
+        "/// A body whose principal axes are not known.
+        pub struct Body { j: affine_runtime::frames::Matrix<2> }",
     ),
     (
         "unitary_pieces_2",

@@ -78,6 +78,10 @@ use proc_macro::TokenStream;
 /// `centre_balance(t, &point)`: the kinematical spin
 /// `K = phi J phi_dot^T` and both sides of its balance in space and body, (3.6), (3.8), (3.9).
 ///
+/// `emit(splitting)` adds the exact flows of pieces of `H`, for `Method::Splitting`: the Casimirs and the norm of vorticity or
+/// spin of an isotropic energy, the squares `d/2 <E, X>^2` that any other energy of affine velocities is a sum of
+/// (`phi -> phi exp(t d <E, X> E)`), `T(Pi)`, translation and potential, a separable dilatation.
+///
 /// `emit(two_polar)` is the lattice form `(q, p, M, N)` of doubly isotropic models. Beside it, `splitting` adds the exact flows
 /// of the lattice's pieces (`lattice::LatticeSplitting`; with `group = unitary` it stands alone), and `ratios`, for affine
 /// velocities without a potential, the same equations in `exp(q_b - q_a)`, `M + N` and `M - N`, where they are rational.

@@ -23,7 +23,7 @@ pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::integrate::nystrom::SecondOrder;
 pub use crate::integrate::packed::{Four, Packed, Packing};
 pub use crate::integrate::splitting::{
-    Pieces, accumulate, conjugated, dilated, growth, left_product, right_product,
+    Pieces, accumulate, conjugated, dilated, elongation, growth, left_product, right_product, turning,
 };
 pub use crate::integrate::taylor::{
     Divisor, Series, Vectors, add_pair, add_products, between, divided, doubled, halved, halves, lanes, over,
@@ -45,8 +45,8 @@ pub use crate::model::{
     VelocityDeterminesMomentum,
 };
 pub use crate::reduction::{
-    Condition, finite, from_shear_and_turn, inverse_form, shear_and_turn, total_affine_momentum, total_size,
-    turn, well_posed,
+    Condition, finite, from_shear_and_turn, inverse_form, principal_axes, shear_and_turn,
+    total_affine_momentum, total_size, turn, well_posed,
 };
 pub use crate::regularity::regular;
 pub use crate::scalar::{Real, Scalar};

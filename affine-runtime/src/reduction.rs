@@ -196,6 +196,14 @@ pub fn inverse_form<const N: usize, const K: usize, const M: usize>(
     Ok(inverse)
 }
 
+/// Eigenvalues and orthonormal eigenvectors, one after the other, of a symmetric form given by its upper triangle:
+/// `F = sum over k of values[k] vectors[k]^T vectors[k]`. `M = K (K + 1)/2`.
+#[must_use]
+pub fn principal_axes<const K: usize, const M: usize>(upper: [f64; M]) -> ([f64; K], [[f64; K]; K]) {
+    let Eigen { values, vectors } = jacobi::<K>(symmetric(&upper));
+    (values, core::array::from_fn(|k| core::array::from_fn(|i| vectors[(i, k)])))
+}
+
 /// The eigenvector of place `k` as an affine velocity of unit size.
 fn direction<const N: usize, const K: usize>(
     eigen: &Eigen<K>,

@@ -38,6 +38,7 @@ pub(crate) struct Driven;
     constraint = rigid,
     kinetic(dalembert = diag(1, 1, 0.5), space_translation = 1),
     potential = 0.7*phi[3,3] + norm(x)^2/2,
+    emit(splitting),
 )]
 pub(crate) struct Top;
 
@@ -120,7 +121,9 @@ pub(crate) fn top(step: f64) -> Served<Top, Point<Top, 3>> {
     let omega = Matrix::<3>::new(0.0, -2.0, 0.1, 2.0, 0.0, -0.3, -0.1, 0.3, 0.0);
     let (x, v) = (Vector::<3>::new(0.4, -0.3, 0.1), Vector::<3>::new(0.2, 0.5, -0.1));
     let start = Top.at_velocity(x, Matrix::<3>::identity(), v, omega).unwrap();
-    Served { model: Top, start, methods: explicit_and([gauss(2, step), gauss(3, step)]) }
+    let pieces = [2, 4, 6, 8].map(|order| Method::Splitting { order, step });
+    let methods = explicit_and(pieces.into_iter().chain([gauss(2, step), gauss(3, step)]));
+    Served { model: Top, start, methods }
 }
 
 pub(crate) fn droplet(step: f64) -> Served<Droplet, Point<Droplet, 2>> {

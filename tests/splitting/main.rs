@@ -1,6 +1,8 @@
 //! `emit(splitting)`: flows of pieces against the equations of motion, motions against reference solutions.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod anisotropic;
+mod confined;
 mod models;
 mod motions;
 mod pieces;

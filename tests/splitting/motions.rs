@@ -27,7 +27,7 @@ fn difference<const N: usize, P: Phase<N>>(one: &P, other: &P) -> f64 {
 /// found, of SRKN14a. Shorter steps of order 8 meet the rounding of the missile.
 const ORDER: f64 = 0.45;
 
-fn assert_orders<const N: usize, M: Model<N>>(name: &str, model: &M, start: M::Point<f64>) {
+pub(crate) fn assert_orders<const N: usize, M: Model<N>>(name: &str, model: &M, start: M::Point<f64>) {
     let exact = *run(model, start, 2.0, Method::RungeKutta8).end().1;
     for (order, step) in [(2, 0.02), (4, 0.1), (6, 0.2), (8, 2.0 / 9.0)] {
         let error = |step: f64| {
@@ -121,13 +121,13 @@ const STEPS: u32 = 100_000;
 /// compensation.
 const MOMENTA: f64 = 0.1;
 
-fn assert_kept<const N: usize, M: Model<N>>(
+pub(crate) fn assert_kept<const N: usize, M: Model<N>>(
     name: &str,
     model: &M,
     start: M::Point<f64>,
     (order, step): (usize, f64),
     energy: f64,
-) {
+) -> M::Point<f64> {
     let t_end = step * f64::from(STEPS);
     let run = Simulation::new(model, start).until(t_end).every(t_end / 400.0).max_steps(1_000_000);
     let run = run.method(Method::Splitting { order, step }).run().unwrap();
@@ -147,6 +147,7 @@ fn assert_kept<const N: usize, M: Model<N>>(
     let worst = |part: &[f64]| part.iter().fold(0.0, |worst: f64, e| worst.max(e.abs()));
     let (first, second) = (worst(&errors[..half]), worst(&errors[half..]));
     assert!(second < 1.5 * first, "{name}: energy errors grow from {first:e} to {second:e}");
+    *run.end().1
 }
 
 #[test]

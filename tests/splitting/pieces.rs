@@ -29,7 +29,7 @@ fn after<const N: usize, M: Splitting<N>>(
     state
 }
 
-fn check<const N: usize, M: Splitting<N>>(name: &str, model: &M, start: M::Point<f64>) {
+pub(crate) fn assert_pieces<const N: usize, M: Splitting<N>>(name: &str, model: &M, start: M::Point<f64>) {
     let (state, constants) = model.reduce(0.0, &start);
     let exact = model.reduced_equations(0.3, &constants, &state);
     let h = 1e-4;
@@ -66,7 +66,7 @@ fn slopes_add_up_and_times_add() {
     let mut count = 0;
     macro_rules! visit {
         ($name:literal, $n:literal, $model:expr, $start:expr) => {
-            check::<$n, _>($name, $model, $start);
+            assert_pieces::<$n, _>($name, $model, $start);
             count += 1;
         };
     }

@@ -84,6 +84,7 @@ fn cases() -> Vec<Case> {
         plain("single stretches, n = 3", &format!("dim = 3, {isotropic}, potential = q1^2 + q2^2 + q3^2")),
         plain("sum of frames, n = 3", "dim = 3, kinetic(body_inertia = 1, space_inertia = diag(1, 1.5, 2))"),
         tensor("tensor, n = 3", ""),
+        tensor("tensor, n = 3, splitting", ", emit(splitting)"),
         tensor("tensor, n = 3, vibrating", ", potential = hyperbolic_dilatation(kappa) + neo_hookean(c)"),
         tensor(
             "tensor, n = 3, single stretches, lanes",
@@ -92,7 +93,7 @@ fn cases() -> Vec<Case> {
         tensor(
             "tensor, n = 3, all capabilities",
             ", potential = hyperbolic_dilatation(kappa) + neo_hookean(c) + c*x[1]^2, \
-             emit(taylor, lanes, metric, acceleration)",
+             emit(taylor, splitting, lanes, metric, acceleration)",
         ),
         everything(),
     ]

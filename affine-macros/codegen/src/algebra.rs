@@ -8,6 +8,7 @@ pub mod evaluate;
 pub mod factor;
 pub mod function;
 pub mod kernel;
+pub mod lagrange;
 pub mod linear;
 pub mod matrix;
 pub mod polynomial;

@@ -6,7 +6,7 @@ mod growth;
 
 pub use coefficients::Sweeps;
 pub use dilated::dilated;
-pub use growth::{accumulate, conjugated, growth, left_product, right_product};
+pub use growth::{accumulate, conjugated, elongation, growth, left_product, right_product, turning};
 
 use core::fmt;
 

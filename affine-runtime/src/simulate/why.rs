@@ -136,6 +136,9 @@ impl Why {
         };
         match self.computation.method {
             Method::ClosedForm | Method::Rattle { .. } => Ok(()),
+            Method::Splitting { .. } => {
+                writeln!(f, "the flows that move phi are exponentials: it stays on the group up to rounding")
+            }
             _ => writeln!(f, "steps on {chart} around the placement: phi stays on the group up to rounding"),
         }
     }

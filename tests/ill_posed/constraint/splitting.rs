@@ -1,6 +1,9 @@
 use affine_runtime::affine_model;
 
 #[affine_model(dim = 2, constraint = isochoric, kinetic(dalembert = 1), potential = tr(G)/2, emit(splitting))]
-struct Model;
+struct Multiplier;
+
+#[affine_model(dim = 2, constraint = conformal, kinetic(dalembert = 1), potential = q^2, emit(splitting))]
+struct Weighted;
 
 fn main() {}

@@ -20,6 +20,10 @@ pub struct Kernel {
 pub enum Callee {
     /// Placement -> stretches and principal axes.
     Stretches,
+    /// `x, s -> (exp(x s) - 1)/s, (exp(-x s) - 1)/s`.
+    Elongation,
+    /// `x, k -> sinh(x sqrt k)/sqrt k, (cosh(x sqrt k) - 1)/k`.
+    Turn,
     /// The field `custom_k` of the model, `k` from 1, asked for a force or a potential.
     Custom(usize, Asked),
 }

@@ -1,10 +1,7 @@
 //! Capabilities.
 
-use crate::algebra::Arena;
 use crate::diagnostics::{CapabilityMistake, Diagnostics, PotentialMistake};
-use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::hessian::Hessian;
-use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::potential::Potential;
 use crate::spec::{Capability, Named, Spanned, Spec, TermKind};
 
@@ -93,30 +90,26 @@ pub(super) fn asked(spec: &Spec, capability: Capability) -> bool {
     spec.emit.iter().any(|c| c.value == capability)
 }
 
-/// Pieces with exact flows: the Casimirs of an isotropic energy and the rotation beside them, or `T(Pi)`, and what is
-/// added to them. A tensor is a sum of up to n^2 squares of momenta that do not commute; a constrained motion is
-/// integrated in charts of its group, or with its multiplier.
-pub(super) fn pieces(
-    arena: &mut Arena,
-    spec: &Spec,
-    (kinetic, hessian): (&Kinetic, &Hessian),
-    found: &mut Diagnostics,
-) {
-    if !asked(spec, Capability::Splitting) {
+/// Pieces with exact flows: the Casimirs of an isotropic energy and the rotation beside them, the squares of any other,
+/// or `T(Pi)`, and what is added to them; on a group as well, but where a multiplier keeps the motion on it, or a weight
+/// `D^2` stands before the energy.
+pub(super) fn pieces(spec: &Spec, kinetic: &Kinetic, found: &mut Diagnostics) {
+    let Some(constraint) = spec.constraint.as_ref().filter(|_| asked(spec, Capability::Splitting)) else {
         return;
-    }
-    if let Some(constraint) = &spec.constraint {
-        let why = format!("steps on {} are taken in charts, or with a multiplier", constraint.value.group());
-        return not_split(spec, format!("`constraint = {}`", constraint.value.name()), why, found);
-    }
-    let isotropic = Hamiltonian::new(arena, kinetic, hessian).is_none_or(|h| h.isotropic.is_some());
-    if kinetic.frame != Frame::Flat && !isotropic {
-        let beside = "an anisotropic kinetic energy of affine velocities".to_owned();
-        let why = "the energy is no sum of C(2), C(1)^2 and |W|^2, whose flows are exponentials (4.24), but of up to n^2 \
-                   squares of momenta that do not commute"
-            .to_owned();
-        not_split(spec, beside, why, found);
-    }
+    };
+    let why = match kinetic.confined() {
+        None => "the force of the multiplier depends on all momenta and positions",
+        Some(_) if kinetic.is_weighted() => {
+            "the energy has the weight D^2, and no piece of it is quadratic in momenta with constant coefficients"
+        }
+        Some(_) => return,
+    };
+    not_split(
+        spec,
+        format!("`constraint = {}` and `phi_dot`", constraint.value.name()),
+        why.to_owned(),
+        found,
+    );
 }
 
 /// Nystrom methods are for `q'' = f(t, q)`: a kinetic energy of `phi_dot` and `x_dot` with constant coefficients, and a

@@ -114,7 +114,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     forces.driven = driven(spec, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
-    super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
+    super::capabilities::pieces(spec, &kinetic, found);
     super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
     let group = |side: Side| free.iter().map(|part| largest_group(part, side)).min().unwrap_or(Group::Affine);
@@ -172,7 +172,7 @@ fn momentum_form(
     forces.driven = driven(spec, potential.as_ref());
     super::capabilities::series(spec, potential.as_ref(), found);
     super::capabilities::tangent(spec, potential.as_ref(), found);
-    super::capabilities::pieces(&mut arena, spec, (&kinetic, &hessian), found);
+    super::capabilities::pieces(spec, &kinetic, found);
     super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
     let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;

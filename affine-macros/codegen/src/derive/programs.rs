@@ -205,7 +205,10 @@ pub(super) fn best_reduction(
     (rotations, asked): (bool, Asked),
     coefficients: &mut Constants,
 ) -> Option<Reduced> {
-    let candidates = reduce::candidates(arena, h, potential, forces, (rotations, asked.nystrom));
+    // The squares of an anisotropic energy move each momentum, also one that their sum conserves.
+    let in_squares = h.isotropic.is_none() && h.frame != Frame::Flat;
+    let halves = asked.nystrom || (asked.split && in_squares);
+    let candidates = reduce::candidates(arena, h, potential, forces, (rotations, halves));
     let time = time(arena, potential, forces);
     let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
         let split = asked.split.then(|| Programs::of(arena, h, potential, reduction, constants));

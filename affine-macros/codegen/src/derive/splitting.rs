@@ -8,17 +8,30 @@ use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::Reduction;
 use crate::mechanics::separation::Slope;
-use crate::mechanics::splitting::{Flow, splitting};
+use crate::mechanics::splitting::{Flow, Principal, TIME_OF_FLOW, splitting};
 use crate::optimise::{Batch, straight_line};
 
+use super::prepared::unbound;
 use super::programs::batch;
 
 /// The pieces of a reduced motion.
 pub struct Programs {
     /// Name and flows of each.
     pub pieces: Vec<(String, Vec<FlowProgram>)>,
+    /// Forms whose principal axes the fields' values give.
+    pub principal: Vec<PrincipalProgram>,
     /// See [`Splitting`](crate::mechanics::splitting::Splitting).
     pub nystrom: bool,
+}
+
+/// A symmetric form to be brought to its principal axes in numbers.
+pub struct PrincipalProgram {
+    /// Its upper triangle.
+    pub program: Program,
+    /// Names of the eigenvalues.
+    pub values: Vec<String>,
+    /// Names of the eigenvectors' components.
+    pub vectors: Vec<Vec<String>>,
 }
 
 /// The program of a flow.
@@ -30,15 +43,22 @@ pub enum FlowProgram {
         /// The rates.
         program: Program,
     },
+    /// State components and their rises over the time `h`.
+    Rise {
+        /// What moves.
+        moved: Vec<String>,
+        /// The rises.
+        program: Program,
+    },
     /// An exponential on one side of the placement.
     Exponential {
         /// Components of the placement.
         placement: Vec<Vec<String>>,
-        /// Components of the affine momentum, where it turns along.
+        /// Names of the entries of the affine momentum, where it turns along; under a constraint some are not in the state.
         momentum: Option<Vec<Vec<String>>>,
         /// Does the exponential stand on the right?
         right: bool,
-        /// The generator, row after row.
+        /// The generator, row after row, and the entries of the momentum that turns.
         program: Program,
     },
     /// The dilatation along its closed form.
@@ -67,13 +87,15 @@ impl Programs {
         let mut varying: Vec<Expr> =
             reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
         varying.extend(potential.and_then(Potential::time));
+        varying.push(arena.symbol(TIME_OF_FLOW));
         let mut pieces = Vec::new();
         for piece in split.pieces {
             let flows = piece.flows.iter();
             let flows = flows.map(|flow| written(arena, flow, reduction, &varying, constants)).collect();
             pieces.push((piece.name, flows));
         }
-        Some(Self { pieces, nystrom: split.nystrom })
+        let principal = split.principal.iter().map(|form| principal(arena, form)).collect();
+        Some(Self { pieces, principal, nystrom: split.nystrom })
     }
 }
 
@@ -98,18 +120,32 @@ fn written(
     };
     let momentum = |arena: &Arena| table(arena, &reduction.chart.m.0.concat());
     match flow {
-        Flow::Shift(system) => {
+        Flow::Shift(system) | Flow::Rise(system) => {
             let moved = system.rates.iter().map(|(_, symbol, _)| name(arena, *symbol)).collect();
             let rates = batch(arena, system);
-            FlowProgram::Shift { moved, program: program(arena, &rates) }
+            let program = program(arena, &rates);
+            match flow {
+                Flow::Shift(_) => FlowProgram::Shift { moved, program },
+                _ => FlowProgram::Rise { moved, program },
+            }
         }
-        Flow::Exponential { generator, right, turns_momentum } => {
+        Flow::Exponential { shared, generator, right, turns_momentum } => {
             let results = generator.iter().enumerate().flat_map(|(a, row)| {
                 row.iter().enumerate().map(move |(b, y)| (format!("generator_{}{}", a + 1, b + 1), y.clone()))
             });
-            let results: Vec<(String, Polynomial)> = results.collect();
+            let mut results: Vec<(String, Polynomial)> = results.collect();
+            if *turns_momentum {
+                let dependent = reduction.chart.dependent();
+                let value = |s: Expr| {
+                    dependent.iter().find(|(symbol, _)| *symbol == s).map(|(_, value)| value.clone())
+                };
+                let entries = reduction.chart.m.0.concat().into_iter();
+                results.extend(entries.map(|s| {
+                    (format!("turned_{}", name(arena, s)), value(s).unwrap_or_else(|| Polynomial::atom(s)))
+                }));
+            }
             let (placement, momentum) = (placement(arena), turns_momentum.then(|| momentum(arena)));
-            let program = program(arena, &Batch { results, ..Batch::default() });
+            let program = program(arena, &Batch { shared: shared.clone(), results, ..Batch::default() });
             FlowProgram::Exponential { placement, momentum, right: *right, program }
         }
         Flow::Dilatation(separation) => {
@@ -118,4 +154,13 @@ fn written(
             FlowProgram::Dilatation { placement, momentum, slope: separation.slope.clone(), program }
         }
     }
+}
+
+fn principal(arena: &mut Arena, form: &Principal) -> PrincipalProgram {
+    let size = form.values.len();
+    let upper = (0..size).flat_map(|i| (i..size).map(move |j| form.form[i][j].clone()));
+    let program = unbound(arena, upper);
+    let names = |list: &[Expr]| list.iter().map(|s| arena.name(*s).unwrap_or("axis").to_owned()).collect();
+    let vectors = form.vectors.iter().map(|vector| names(vector)).collect();
+    PrincipalProgram { program, values: names(&form.values), vectors }
 }

@@ -22,7 +22,7 @@ pub enum ForceMistake {
         /// What it takes besides the field.
         takes: &'static str,
         /// How it may look.
-        example: &'static str,
+        example: String,
     },
     /// `custom(...)` of something that is no field.
     UnknownField {

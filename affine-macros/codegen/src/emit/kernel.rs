@@ -16,6 +16,8 @@ pub(super) fn statement(
 ) -> TokenStream {
     let function = match callee {
         Callee::Stretches => quote!(#rt::principal_stretches),
+        Callee::Elongation => quote!(#rt::elongation),
+        Callee::Turn => quote!(#rt::turning),
         Callee::Custom(k, asked) => {
             let field = format_ident!("custom_{k}");
             arguments.insert(0, quote!(#field));

@@ -3,12 +3,13 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::derive::splitting::PrincipalProgram;
 use crate::derive::{Condition, Damping, NumericBlock, Relation};
 use crate::lower::FIELD;
 use crate::spec::{Field, Storage};
 
 use super::body::{Body, Number, Scope, body};
-use super::{Context, metrics, number};
+use super::{Context, identifiers, metrics, number};
 use crate::ir::{Op, Program};
 
 /// What `prepare()` returns; nothing for a model without fields in its coefficients.
@@ -89,6 +90,8 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let of = (!context.spec.customs.is_empty()).then(|| quote!(#types));
     let blocks: TokenStream =
         context.model.numeric_blocks.iter().map(|block| numeric_block(context, block, rt)).collect();
+    let axes = context.model.splitting.iter().flat_map(|split| &split.principal);
+    let axes: TokenStream = axes.map(|form| principal(rt, form)).collect();
     let damping = damping(&context.model.damping, rt);
     // What is carried to orthonormal bases is looked at in them.
     let (first, last) = if rebased.is_empty() { (None, Some(&bases)) } else { (Some(&bases), None) };
@@ -107,6 +110,7 @@ pub(super) fn method(context: &Context) -> TokenStream {
                 #rebased
                 #conditions
                 #blocks
+                #axes
                 #damping
                 #last
                 #lets
@@ -299,6 +303,23 @@ fn numeric_block(context: &Context, block: &NumericBlock, rt: &Ident) -> TokenSt
         let [#(#names),*]: [::core::primitive::f64; #count] = {
             #lets
             #inverse?
+        };
+    }
+}
+
+/// Eigenvalues and eigenvectors of a form.
+fn principal(rt: &Ident, form: &PrincipalProgram) -> TokenStream {
+    let Body { lets, results } = over_fields(rt, &form.program);
+    let (size, count) = (number(form.values.len()), number(results.len()));
+    let values = identifiers(&form.values);
+    let vectors = form.vectors.iter().map(|vector| {
+        let vector = identifiers(vector);
+        quote!([#(#vector),*])
+    });
+    quote! {
+        let ([#(#values),*], [#(#vectors),*]) = {
+            #lets
+            #rt::principal_axes::<#size, #count>([#(#results),*])
         };
     }
 }

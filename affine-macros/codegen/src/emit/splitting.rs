@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::derive::splitting::{FlowProgram, Programs};
-use crate::ir::Program;
+use crate::ir::{Op, Program, Value};
 use crate::mechanics::potential::TIME;
 use crate::mechanics::separation::Slope;
 
@@ -14,7 +14,7 @@ use super::{Context, identifiers, number, pattern};
 
 /// The implementation of the capability.
 pub(super) fn splitting_impl(context: &Context) -> TokenStream {
-    let Some(Programs { pieces, nystrom }) = &context.model.splitting else { return TokenStream::new() };
+    let Some(Programs { pieces, nystrom, .. }) = &context.model.splitting else { return TokenStream::new() };
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
     let t = &context.names.scalar;
@@ -85,6 +85,7 @@ pub(super) fn capability(context: &Context) -> TokenStream {
 fn program(flow: &FlowProgram) -> &Program {
     match flow {
         FlowProgram::Shift { program, .. }
+        | FlowProgram::Rise { program, .. }
         | FlowProgram::Exponential { program, .. }
         | FlowProgram::Dilatation { program, .. } => program,
     }
@@ -124,7 +125,8 @@ fn accumulated(context: &Context, component: &str, rise: TokenStream) -> TokenSt
 
 fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
     match flow {
-        FlowProgram::Shift { moved, program } => {
+        FlowProgram::Shift { moved, program } | FlowProgram::Rise { moved, program } => {
+            let over_time = matches!(flow, FlowProgram::Shift { .. }).then(|| quote!(h *));
             let bind = bound(context, program, &[]);
             let Body { lets, results } = context.generic(program);
             // Several results are names or numbers; a single one may be a sum.
@@ -132,8 +134,10 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
                 [one] => (quote!(let rate = #one;), vec![quote!(rate)]),
                 _ => (TokenStream::new(), results),
             };
-            let rises =
-                moved.iter().zip(&results).map(|(name, rate)| accumulated(context, name, quote!(h * #rate)));
+            let rises = moved
+                .iter()
+                .zip(&results)
+                .map(|(name, rate)| accumulated(context, name, quote!(#over_time #rate)));
             quote!({ #bind #lets #only #(#rises)* })
         }
         FlowProgram::Dilatation { placement, momentum, slope, program } => {
@@ -141,14 +145,22 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
         }
         FlowProgram::Exponential { placement, momentum, right, program } => {
             let rt = &context.names.rt;
-            let moved: Vec<String> =
-                placement.iter().chain(momentum.iter().flatten()).flatten().cloned().collect();
-            let bind = bound(context, program, &moved);
+            let bind = bound(context, program, &placement.concat());
             let Body { lets, results } = context.generic(program);
-            let rows = results.chunks(context.model.dim);
+            let (generator, turning) = results.split_at(context.model.dim.pow(2).min(results.len()));
+            let zero = |v: Value| matches!(&program.steps[v], Op::Constant(c) if c.is_zero());
+            let entries: Vec<_> =
+                generator.iter().zip(program.outputs.iter().map(|(_, v)| zero(*v))).collect();
             let times = |sign: TokenStream| {
                 let by = inner(quote!(*));
-                let rows = rows.clone().map(|row| quote!([#(#sign h #by #row),*]));
+                let entry = |(entry, zero): &(&TokenStream, bool)| match zero {
+                    true => (*entry).clone(),
+                    false => quote!(#sign h #by #entry),
+                };
+                let rows = entries.chunks(context.model.dim).map(|row| {
+                    let row = row.iter().map(entry);
+                    quote!([#(#row),*])
+                });
                 quote!(#rt::growth([#(#rows),*]))
             };
             let growth = times(quote!());
@@ -156,7 +168,9 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
             let matrix = table(placement);
             let placed = added(context, placement, "rise");
             let turned = momentum.as_ref().map(|momentum| {
-                let (inverse, matrix) = (times(quote!(-)), table(momentum));
+                let inverse = times(quote!(-));
+                let rows = turning.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
+                let matrix = quote!([#(#rows),*]);
                 let sides = match right {
                     true => quote!(&inverse, &growth),
                     false => quote!(&growth, &inverse),
@@ -218,12 +232,14 @@ fn table(names: &[Vec<String>]) -> TokenStream {
     quote!([#(#rows),*])
 }
 
-/// Adds the entries of a matrix to components of the state.
+/// Adds the entries of a matrix to those components that the state has.
 fn added(context: &Context, names: &[Vec<String>], rise: &str) -> TokenStream {
     let rise = quote::format_ident!("{rise}");
     let entries =
         names.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, n)| (i, j, n)));
+    let states = states(context);
     entries
+        .filter(|(.., name)| states.contains(name))
         .map(|(i, j, name)| {
             let [i, j]: [Literal; 2] = [i, j].map(number);
             accumulated(context, name, quote!(#rise[#i][#j]))

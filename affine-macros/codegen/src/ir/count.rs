@@ -85,6 +85,10 @@ fn kernel_operations(call: &Call) -> Operations {
     match call.callee {
         // What a field of the model computes is not known here.
         Callee::Custom(..) => Operations::default(),
+        // exp(x) - 1, and exp(-x) - 1 from it.
+        Callee::Elongation => Operations { exp: 1, mul: 3, add: 1, div: 2, ..Operations::default() },
+        // Of a half of the argument.
+        Callee::Turn => Operations { exp: 2, mul: 7, div: 1, sqrt: 1, ..Operations::default() },
         // One-sided Jacobi: scaling, so many rotations of two columns of two matrices, lengths.
         Callee::Stretches => {
             let rotations = if n == 2 { 2 } else { 12 };

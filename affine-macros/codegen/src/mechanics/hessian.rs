@@ -137,7 +137,7 @@ impl Hessian {
         let gradient = energy.gradient(&velocities);
         let matrix: Vec<Vec<Polynomial>> = gradient.iter().map(|slope| slope.gradient(&velocities)).collect();
         let bases = match kinetic.confined() {
-            None => vec![entries(kinetic.dim), invariant(kinetic.dim)],
+            None => vec![entries(kinetic.dim.pow(2)), invariant(kinetic.dim)],
             Some(group) => group.bases(kinetic.dim, invariant(kinetic.dim)),
         };
         let blocks = bases
@@ -173,7 +173,7 @@ impl Hessian {
         }
         let slopes = congruent.energy.gradient(&velocities);
         let form: Vec<Vec<Polynomial>> = slopes.iter().map(|slope| slope.gradient(&velocities)).collect();
-        let mut blocks = blocks(&form, entries(kinetic.dim));
+        let mut blocks = blocks(&form, entries(form.len()));
         for block in &mut blocks {
             let places = block.basis.iter().filter_map(|vector| vector.entries.first()).map(|(k, _)| *k);
             let places: Vec<usize> = places.collect();
@@ -265,8 +265,8 @@ impl Inverse {
 }
 
 /// The entries themselves.
-fn entries(n: usize) -> Vec<BasisVector> {
-    (0..n * n).map(|k| BasisVector { kind: Direction::Entry, entries: vec![(k, Rational::ONE)] }).collect()
+pub(super) fn entries(count: usize) -> Vec<BasisVector> {
+    (0..count).map(|k| BasisVector { kind: Direction::Entry, entries: vec![(k, Rational::ONE)] }).collect()
 }
 
 /// Symmetric traceless, skew and trace directions, orthogonal and rational.
@@ -298,7 +298,7 @@ pub(super) fn invariant(n: usize) -> Vec<BasisVector> {
 }
 
 /// The form in a basis, cut into its connected components.
-fn blocks(matrix: &[Vec<Polynomial>], basis: Vec<BasisVector>) -> Vec<Block> {
+pub(super) fn blocks(matrix: &[Vec<Polynomial>], basis: Vec<BasisVector>) -> Vec<Block> {
     let form: Vec<Vec<Polynomial>> =
         basis.iter().map(|a| basis.iter().map(|b| pairing(matrix, a, b)).collect()).collect();
     let mut component: Vec<usize> = (0..basis.len()).collect();

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! The second one holds for the Casimirs of an isotropic energy, which leave `M` alone, and for the norm of the
-//! vorticity or the spin, which turns it. A third form is known beforehand: where the potential splits into `U_dil(q)` and
-//! what no dilatation changes, the dilatation with its own kinetic energy is a motion of one degree of freedom,
+//! vorticity or the spin, which turns it; and for the [squares](squares) that an anisotropic energy is a sum of. A third form
+//! is known beforehand: where the potential splits into `U_dil(q)` and what no dilatation changes, the dilatation with its own kinetic energy is a motion of one degree of freedom,
 //!
 //! ```text
 //! q' = p/m, p' = -U_dil'(q)          phi -> exp(q(t) - q) phi, M -> M + (p(t) - p)/n 1,    p = tr M
@@ -20,22 +20,32 @@
 //! stiff dilatation, even one that translation couples to the rest. Pieces that commute follow one another in one; translation and potential
 //! are one piece where their sum has the first form.
 
-use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
+mod flows;
+mod squares;
+mod turns;
+
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::brackets::poisson;
-use super::charts::{Chart, Coordinate, Momentum};
+use super::charts::{Coordinate, Momentum};
 use super::equations::{Form, System, hamilton};
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetic::Frame;
 use super::potential::Potential;
 use super::reduce::{Commuting, Reduction, gauge};
 use super::separation::{Separation, Slope};
+use flows::{exact_flow, expanded};
+pub use squares::Principal;
+use squares::Squares;
+pub use turns::TIME_OF_FLOW;
 
 /// Pieces whose flows make up the motion, those of the kinetic energy first.
 #[derive(Clone, Debug)]
 pub struct Splitting {
-    /// One to three of them.
+    /// One to three of an isotropic energy; up to `n^2 + 1` of any other.
     pub pieces: Vec<Piece>,
+    /// Squares that only the fields' values give.
+    pub principal: Vec<Principal>,
     /// Are there two, `A` and `B`, with `[B, [B, [B, A]]] = 0`, as for `A` quadratic in the momenta that `B` moves?
     pub nystrom: bool,
 }
@@ -54,8 +64,12 @@ pub struct Piece {
 pub enum Flow {
     /// `z -> z + t z'`, the rates being constants of the flow.
     Shift(System),
+    /// `z -> z + r(h)`, the rises being polynomials in the state and functions of the time `h`.
+    Rise(System),
     /// `phi -> phi exp(tY)` or `exp(tY) phi`.
     Exponential {
+        /// What `Y` is written in.
+        shared: Vec<(Expr, Polynomial)>,
         /// `Y`.
         generator: Vec<Vec<Polynomial>>,
         /// Does it stand on the right?
@@ -69,7 +83,7 @@ pub enum Flow {
 
 /// A summand of `H` with its equations over the reduced state.
 struct Summand {
-    name: &'static str,
+    name: String,
     /// The summand, where it is a polynomial.
     energy: Option<Polynomial>,
     system: System,
@@ -90,8 +104,13 @@ pub fn splitting(
     };
     let summands: Vec<Summand> =
         summands.into_iter().filter(|summand| !summand.system.rates.is_empty()).collect();
-    let flow = |arena: &Arena, summand: &Summand| exact_flow(arena, &reduction.chart, &summand.system);
-    let mut groups: Vec<(Vec<Summand>, Vec<Flow>)> = Vec::new();
+    let flow = |arena: &Arena, system: &System| exact_flow(arena, &reduction.chart, system);
+    let Squares { groups: squares, principal } = match (&h.isotropic, h.frame) {
+        (None, Frame::Body | Frame::Space) => Squares::of(arena, &reduction.chart, &h.internal())?,
+        _ => Squares::default(),
+    };
+    let squares = squares.iter().map(|group| squares::piece(arena, reduction, group));
+    let mut groups: Vec<(Vec<Summand>, Vec<Flow>)> = squares.collect::<Option<_>>()?;
     for summand in summands {
         let commutes = |other: &Summand| match (&other.energy, &summand.energy) {
             (Some(f), Some(g)) => poisson(&reduction.chart, f, g).is_zero(),
@@ -99,28 +118,33 @@ pub fn splitting(
         };
         if let Some((first, flows)) = groups.last_mut() {
             if first.iter().all(commutes) {
-                flows.push(flow(arena, &summand)?);
+                flows.push(flow(arena, &summand.system)?);
                 first.push(summand);
                 continue;
             }
-            let merged = joined(first, &summand);
-            if let Some(one @ Flow::Shift(_)) = exact_flow(arena, &reduction.chart, &merged) {
+            if let [Flow::Shift(_)] = flows.as_slice()
+                && let Some(one @ Flow::Shift(_)) = flow(arena, &joined(first, &summand))
+            {
                 *flows = vec![one];
                 first.push(summand);
                 continue;
             }
         }
-        let own = flow(arena, &summand)?;
+        let own = flow(arena, &summand.system)?;
         groups.push((vec![summand], vec![own]));
     }
     if let (Some(own), Some((first, flows))) = (own, groups.first_mut()) {
         flows.push(Flow::Dilatation(own.separation));
-        first.push(Summand { name: "dilatation", energy: Some(own.energy), system: System::default() });
+        first.push(Summand {
+            name: "dilatation".into(),
+            energy: Some(own.energy),
+            system: System::default(),
+        });
     }
     let nystrom = is_nystrom(reduction, &groups);
-    let name = |list: &[Summand]| list.iter().map(|s| s.name).collect::<Vec<_>>().join(" + ");
+    let name = |list: &[Summand]| list.iter().map(|s| s.name.as_str()).collect::<Vec<_>>().join(" + ");
     let pieces = groups.into_iter().map(|(list, flows)| Piece { name: name(&list), flows }).collect();
-    Some(Splitting { pieces, nystrom })
+    Some(Splitting { pieces, principal, nystrom })
 }
 
 /// A dilatation with a closed form that stays in the state, for translation couples it to the rest.
@@ -187,20 +211,17 @@ fn summands(
             }
         }
         None if h.frame == Frame::Flat => energies.push(("T(Pi)", h.internal())),
-        None => return None,
+        // Its squares are pieces of their own.
+        None => {}
     }
     if chart.linear.is_some() {
         energies.push(("translation", h.translation_in(chart)));
     }
     let mut summands = Vec::new();
     for (name, energy) in energies {
-        let system = hamilton(arena, chart, &energy, Form::Expanded);
-        let defined = system.shared.clone();
-        let value = |atom: Expr| defined.iter().find(|(s, _)| *s == atom).map(|(_, p)| p.clone());
-        let mut system = system.substitute(&value);
-        system.shared.clear();
+        let system = expanded(hamilton(arena, chart, &energy, Form::Expanded));
         summands.push(Summand {
-            name,
+            name: name.to_owned(),
             energy: Some(energy),
             system: over_the_state(arena, reduction, system)?,
         });
@@ -209,7 +230,7 @@ fn summands(
         let load = u.load(arena, chart);
         let force =
             |z: &Coordinate| load.forces.iter().find(|(at, _)| at == z).map(|(_, force)| force.clone());
-        let rates = chart.coordinates().into_iter().filter_map(|z| Some((z, chart.symbol(z), force(&z)?)));
+        let rates = chart.independent().into_iter().filter_map(|z| Some((z, chart.symbol(z), force(&z)?)));
         let system = System {
             rates: rates.collect(),
             shared: load.shared.clone(),
@@ -217,7 +238,7 @@ fn summands(
             work: None,
         };
         let system = over_the_state(arena, reduction, system)?;
-        summands.push(Summand { name: "potential", energy: None, system });
+        summands.push(Summand { name: "potential".into(), energy: None, system });
     }
     Some(summands)
 }
@@ -225,16 +246,13 @@ fn summands(
 /// `Psi' = Psi O` and `O' = ` the forces, where the dilatation is out of the state.
 fn separated(arena: &Arena, reduction: &Reduction) -> Vec<Summand> {
     let system = &reduction.system;
-    let part = |name, placement: bool| {
+    let part = |name: &str, placement: bool| {
         let mut part = system.clone();
         part.rates.retain(|(z, _, rate)| matches!(z, Coordinate::Phi(..)) == placement && !rate.is_zero());
-        Summand { name, energy: None, system: part.tidied(arena) }
+        Summand { name: name.to_owned(), energy: None, system: part.tidied(arena) }
     };
     let mut kinetic = part("Casimirs", true);
-    let defined = kinetic.system.shared.clone();
-    let value = |atom: Expr| defined.iter().find(|(s, _)| *s == atom).map(|(_, p)| p.clone());
-    kinetic.system = kinetic.system.substitute(&value);
-    kinetic.system.shared.clear();
+    kinetic.system = expanded(kinetic.system);
     vec![kinetic, part("potential", false)]
 }
 
@@ -266,98 +284,6 @@ fn joined(list: &[Summand], last: &Summand) -> System {
     sum
 }
 
-/// The flow of a system, where it has one of the two forms.
-fn exact_flow(arena: &Arena, chart: &Chart, system: &System) -> Option<Flow> {
-    let moved = |s: Expr| system.rates.iter().any(|(_, symbol, _)| *symbol == s);
-    let shared = system.shared.iter().map(|(_, p)| p).chain(system.kernels.iter().flat_map(Kernel::inputs));
-    let read = shared.chain(system.rates.iter().map(|(_, _, rate)| rate));
-    if !read.into_iter().any(|p| p.any_symbol(arena, &mut |s| moved(s))) {
-        return Some(Flow::Shift(system.clone()));
-    }
-    if !(system.shared.is_empty() && system.kernels.is_empty()) {
-        return None;
-    }
-    let (generator, right) = generator(chart, system)?;
-    let turns_momentum = system.rates.iter().any(|(z, ..)| matches!(z, Coordinate::M(..)));
-    (!turns_momentum || turns_along(chart, system, &generator, right)).then_some(Flow::Exponential {
-        generator,
-        right,
-        turns_momentum,
-    })
-}
-
-/// `Y` with `phi' = phi Y` or `phi' = Y phi` and `Y' = 0`, and whether it stands on the right. Nothing else moves but
-/// an affine momentum.
-fn generator(chart: &Chart, system: &System) -> Option<(Vec<Vec<Polynomial>>, bool)> {
-    let n = chart.dim;
-    if system.rates.iter().any(|(z, ..)| !matches!(z, Coordinate::Phi(..) | Coordinate::M(..))) {
-        return None;
-    }
-    let placement = |i: usize, a: usize| {
-        let found = system.rates.iter().find(|(z, ..)| *z == Coordinate::Phi(i, a))?;
-        Some((found.1, found.2.clone()))
-    };
-    let right = match chart.momentum {
-        Momentum::Body => true,
-        Momentum::Space | Momentum::Total => false,
-        Momentum::Canonical => return None,
-    };
-    // Row and column of phi that meet in d phi'/d phi.
-    let place = |k: usize, l: usize| if right { (k, l) } else { (l, k) };
-    let entry = |to: usize, from: usize, k: usize| {
-        let ((i, a), (j, b)) = (place(k, to), place(k, from));
-        Some(placement(i, a)?.1.derivative(placement(j, b)?.0))
-    };
-    let mut rows = vec![vec![Polynomial::zero(); n]; n];
-    for (r, c) in pairs(n) {
-        // (phi Y)_kc = phi_kr Y_rc, and (Y phi)_rk = Y_rc phi_ck.
-        rows[r][c] = if right { entry(c, r, 0)? } else { entry(r, c, 0)? };
-    }
-    for (i, a) in pairs(n) {
-        let mut product = Polynomial::zero();
-        for k in 0..n {
-            let ((j, b), y) = if right { ((i, k), &rows[k][a]) } else { ((k, a), &rows[i][k]) };
-            product.add_product(&Polynomial::atom(placement(j, b)?.0), y, &Rational::ONE);
-        }
-        if product != placement(i, a)?.1 {
-            return None;
-        }
-    }
-    let still = |y: &Polynomial| {
-        let mut rate = Polynomial::zero();
-        for (_, symbol, slope) in &system.rates {
-            rate.add_product(&y.derivative(*symbol), slope, &Rational::ONE);
-        }
-        rate.is_zero()
-    };
-    rows.iter().flatten().all(still).then_some((rows, right))
-}
-
-/// `M' = [M, Y]`, or `[Y, M]` on the left.
-fn turns_along(chart: &Chart, system: &System, generator: &[Vec<Polynomial>], right: bool) -> bool {
-    let n = chart.dim;
-    pairs(n).all(|(a, b)| {
-        let Some((.., rate)) = system.rates.iter().find(|(z, ..)| *z == Coordinate::M(a, b)) else {
-            // A component that keeps still must keep still in the commutator as well.
-            return commutator(chart, generator, right, a, b).is_zero();
-        };
-        commutator(chart, generator, right, a, b) == *rate
-    })
-}
-
-fn commutator(chart: &Chart, y: &[Vec<Polynomial>], right: bool, a: usize, b: usize) -> Polynomial {
-    let (plus, minus) = match right {
-        true => (Rational::ONE, Rational::MINUS_ONE),
-        false => (Rational::MINUS_ONE, Rational::ONE),
-    };
-    let mut sum = Polynomial::zero();
-    for k in 0..chart.dim {
-        sum.add_product(&Polynomial::atom(chart.m.0[a][k]), &y[k][b], &plus);
-        sum.add_product(&Polynomial::atom(chart.m.0[k][b]), &y[a][k], &minus);
-    }
-    sum
-}
-
 /// `ad_B` lowers the degree in what `B` moves by one, for it gives that rates which it does not change: of a first
 /// piece of degree two nothing is left after three times. (The Runge-Kutta-Nystrom case.)
 fn is_nystrom(reduction: &Reduction, groups: &[(Vec<Summand>, Vec<Flow>)]) -> bool {
@@ -371,8 +297,4 @@ fn is_nystrom(reduction: &Reduction, groups: &[(Vec<Summand>, Vec<Flow>)]) -> bo
     let quadratic =
         |energy: &Polynomial| energy.terms().all(|(monomial, _)| monomial.iter().filter(moved).count() <= 2);
     first.iter().all(|summand| summand.energy.as_ref().is_some_and(quadratic))
-}
-
-fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
 }

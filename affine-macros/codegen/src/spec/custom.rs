@@ -79,11 +79,13 @@ pub(super) enum Place {
 }
 
 impl Place {
-    fn example(self) -> &'static str {
-        match self {
-            Self::Potential => "custom(gravity, isotropic)",
-            Self::Forces => "custom(wind, spatial)",
-        }
+    /// How it may look, of a field.
+    fn example(self, field: Option<&Ident>) -> String {
+        let (name, role) = match self {
+            Self::Potential => ("gravity", "isotropic"),
+            Self::Forces => ("wind", "spatial"),
+        };
+        format!("custom({}, {role})", field.map_or_else(|| name.to_owned(), Ident::to_string))
     }
 
     fn takes(self) -> &'static str {
@@ -155,14 +157,14 @@ fn custom(list: Vec<Piece>, at: Region, place: Place, found: &mut Diagnostics) -
             [TokenTree::Ident(name)] => names.push((name.clone(), at)),
             other => {
                 let text = other.iter().cloned().collect::<proc_macro2::TokenStream>().to_string();
-                found.report(at, malformed(place, format!("`{}`", shortened(&text))));
+                found.report(at, malformed(place, format!("`{}`", shortened(&text)), None));
                 return None;
             }
         }
     }
     let mut names = names.into_iter();
     let (field, _) = names.next().or_else(|| {
-        found.report(at, malformed(place, "no field".to_owned()));
+        found.report(at, malformed(place, "no field".to_owned(), None));
         None
     })?;
     let (mut role, mut marked) = (None, false);
@@ -173,13 +175,13 @@ fn custom(list: Vec<Piece>, at: Region, place: Place, found: &mut Diagnostics) -
             Some(value) if role.is_none() => role = Some(Spanned { value, span: at }),
             None if text == place.mark() && !marked => marked = true,
             _ => {
-                found.report(at, malformed(place, format!("`{text}`")));
+                found.report(at, malformed(place, format!("`{text}`"), Some(&field)));
                 return None;
             }
         }
     }
     let Some(role) = role else {
-        found.report(at, malformed(place, "the field alone".to_owned()));
+        found.report(at, malformed(place, "the field alone".to_owned(), Some(&field)));
         return None;
     };
     Some(Custom { field, role, marked, span: at })
@@ -189,20 +191,20 @@ fn custom(list: Vec<Piece>, at: Region, place: Place, found: &mut Diagnostics) -
 pub(super) fn only(rest: Option<Piece>, place: Place, found: &mut Diagnostics) {
     if let Some(Piece { tokens, at }) = rest {
         let text = tokens.into_iter().collect::<proc_macro2::TokenStream>().to_string();
-        found.report(at, malformed(place, format!("`{}`", shortened(&text))));
+        found.report(at, malformed(place, format!("`{}`", shortened(&text)), None));
     }
 }
 
 /// `2*custom(..)`.
 pub(super) fn within_an_expression() -> ForceMistake {
-    malformed(Place::Potential, "`custom(..)` within an expression".to_owned())
+    malformed(Place::Potential, "`custom(..)` within an expression".to_owned(), None)
 }
 
-fn malformed(place: Place, found: String) -> ForceMistake {
+fn malformed(place: Place, found: String, field: Option<&Ident>) -> ForceMistake {
     ForceMistake::MalformedCustom {
         key: if place == Place::Potential { "potential" } else { "forces" },
         found,
         takes: place.takes(),
-        example: place.example(),
+        example: place.example(field),
     }
 }

@@ -62,7 +62,8 @@ pub(super) struct Solution<S> {
     pub(super) residual: f64,
 }
 
-/// The equations have no solution that could be found; the least residual met, infinite where nothing was finite.
+/// The equations have no solution that could be found; the least residual or correction met, infinite where nothing was
+/// finite.
 pub(super) struct Unsolved {
     pub(super) residual: f64,
 }
@@ -181,7 +182,9 @@ impl<S: StateVector<f64>> Equations<S> {
             if !size.is_finite() || !residual.is_finite() {
                 break;
             }
-            least = if residual < least { residual } else { least };
+            // Beside increments that grow without bounds any defect is small.
+            let open = if size > residual { size } else { residual };
+            least = if open < least { open } else { least };
             if !descent.goes_on(&change, NO_GAIN) && size <= SOLVED {
                 return Ok(Solution { increments, residual });
             }

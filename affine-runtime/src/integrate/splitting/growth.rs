@@ -144,6 +144,41 @@ pub fn conjugated<const N: usize, T: Real>(
     core::array::from_fn(|i| core::array::from_fn(|j| first[i][j] + second[i][j]))
 }
 
+/// `(exp(x s) - 1)/s` and `(exp(-x s) - 1)/s`, that is `x` and `-x` where `s = 0`: the `g` of `exp(x E) = 1 + g E` and of
+/// its inverse, where `E^2 = s E`.
+#[inline]
+#[must_use]
+pub fn elongation<T: Real>(x: T, s: T) -> (T, T) {
+    let exponent = x * s;
+    if exponent == T::zero() {
+        return (x, T::zero() - x);
+    }
+    let rise = exponent.exp_m1();
+    let growth = x * (rise / exponent);
+    (growth, T::zero() - growth / (T::one() + rise))
+}
+
+/// `u = sinh(x r)/r` and `v = (cosh(x r) - 1)/k` with `r = sqrt k`, for `k < 0` by sine and cosine, `x` and `x^2/2` for
+/// `k = 0`: where `E^3 = k E`, `exp(x E) = 1 + u E + v E^2`. By halves of the argument nothing cancels.
+#[inline]
+#[must_use]
+pub fn turning<T: Real>(x: T, k: T) -> (T, T) {
+    let root = k.abs().sqrt();
+    let half = T::from_f64(0.5) * x * root;
+    if half == T::zero() {
+        return (x, T::from_f64(0.5) * x * x);
+    }
+    let (sine, cosine) = if k > T::zero() {
+        let rise = half.exp_m1();
+        let fall = rise / (T::one() + rise);
+        (T::from_f64(0.5) * (rise + fall), T::one() + T::from_f64(0.5) * (rise - fall))
+    } else {
+        (half.sin(), half.cos())
+    };
+    let unit = (sine + sine) / root;
+    (unit * cosine, T::from_f64(0.5) * unit * unit)
+}
+
 /// Adds to a component and to what rounding left out of it.
 #[inline(always)]
 pub fn accumulate<T: Real>(value: &mut T, carry: &mut T, rise: T) {
@@ -155,7 +190,7 @@ pub fn accumulate<T: Real>(value: &mut T, carry: &mut T, rise: T) {
 
 #[cfg(test)]
 mod tests {
-    use super::growth;
+    use super::{elongation, growth, turning};
     use crate::decompose::exponential;
     use crate::frames::Matrix;
 
@@ -182,6 +217,41 @@ mod tests {
         agree([[0.0, 0.5, 0.2], [0.0, 0.0, 0.4], [0.0, 0.0, 0.0]], 4.0);
         agree([[0.0, -0.5], [0.5, 0.0]], 4.0);
         agree([[0.4, 0.0], [0.0, 0.4]], 4.0);
+    }
+
+    fn matrix(e: impl Fn(usize, usize) -> f64) -> Matrix<3> {
+        Matrix::<3>::from_fn(e)
+    }
+
+    fn same(found: &Matrix<3>, exponent: &Matrix<3>) {
+        let expected = exponential(exponent) - Matrix::<3>::identity();
+        let error = (found - expected).norm();
+        assert!(error <= 8.0 * f64::EPSILON * (1.0 + expected.norm()), "{exponent}: {error:e}");
+    }
+
+    #[test]
+    fn along_one_direction_it_is_a_number() {
+        // E = r u v^T, E^2 = r (v u) E.
+        let (u, v) = ([0.5, -0.25, 1.0], [0.75, 1.5, -0.5]);
+        for (r, x) in [(0.5_f64, 0.3), (-2.0, 1.5), (1e-9, 1e-3), (3.0, -0.7), (0.0, 2.0)] {
+            let e = matrix(|i, j| r * u[i] * v[j]);
+            let (growth, decay) = elongation(x, e.trace());
+            same(&(growth * e), &(x * e));
+            same(&(decay * e), &(-x * e));
+        }
+    }
+
+    #[test]
+    fn of_a_turn_it_has_two_numbers() {
+        let skew = matrix(|i, j| [[0.0, -0.3, 0.4], [0.3, 0.0, 1.2], [-0.4, -1.2, 0.0]][i][j]);
+        let pair = matrix(|i, j| [[0.0, 1.0, 0.0], [0.25, 0.0, 0.0], [0.0, 0.0, 0.0]][i][j]);
+        let shear = matrix(|i, j| [[0.0, 1.0, 0.5], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]][i][j]);
+        for e in [skew, pair, shear] {
+            for x in [0.3, -1.5, 1e-9, 4.0, 0.0] {
+                let (u, v) = turning(x, 0.5 * (e * e).trace());
+                same(&(u * e + v * e * e), &(x * e));
+            }
+        }
     }
 
     #[test]

@@ -1,0 +1,129 @@
+//! Which flow a system of equations has.
+
+use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
+use crate::mechanics::charts::{Chart, Coordinate, Momentum};
+use crate::mechanics::equations::System;
+
+use super::Flow;
+
+/// A system with its velocities written out.
+pub(super) fn expanded(mut system: System) -> System {
+    let defined = std::mem::take(&mut system.shared);
+    system.substitute(&|atom| value_of(&defined, atom))
+}
+
+/// The flow of a system, where it has one of the two forms.
+pub(super) fn exact_flow(arena: &Arena, chart: &Chart, system: &System) -> Option<Flow> {
+    let moved = |s: Expr| system.rates.iter().any(|(_, symbol, _)| *symbol == s);
+    let shared = system.shared.iter().map(|(_, p)| p).chain(system.kernels.iter().flat_map(Kernel::inputs));
+    let read = shared.chain(system.rates.iter().map(|(_, _, rate)| rate));
+    if !read.into_iter().any(|p| p.any_symbol(arena, &mut |s| moved(s))) {
+        return Some(Flow::Shift(system.clone()));
+    }
+    if !(system.shared.is_empty() && system.kernels.is_empty()) {
+        return None;
+    }
+    let (generator, right) = generator(chart, system)?;
+    let turns_momentum = system.rates.iter().any(|(z, ..)| matches!(z, Coordinate::M(..)));
+    (!turns_momentum || turns_along(chart, system, &generator, right)).then_some(Flow::Exponential {
+        shared: Vec::new(),
+        generator,
+        right,
+        turns_momentum,
+    })
+}
+
+/// `Y` with `phi' = phi Y` or `phi' = Y phi` and `Y' = 0`, and whether it stands on the right. Nothing else moves but
+/// an affine momentum.
+pub(super) fn generator(chart: &Chart, system: &System) -> Option<(Vec<Vec<Polynomial>>, bool)> {
+    let n = chart.dim;
+    if system.rates.iter().any(|(z, ..)| !matches!(z, Coordinate::Phi(..) | Coordinate::M(..))) {
+        return None;
+    }
+    // The columns or rows that an exponential leaves alone are not among the rates.
+    let placement = |i: usize, a: usize| {
+        let found = system.rates.iter().find(|(z, ..)| *z == Coordinate::Phi(i, a));
+        let still = || (chart.symbol(Coordinate::Phi(i, a)), Polynomial::zero());
+        found.map_or_else(still, |(_, symbol, rate)| (*symbol, rate.clone()))
+    };
+    let right = match chart.momentum {
+        Momentum::Body => true,
+        Momentum::Space | Momentum::Total => false,
+        Momentum::Canonical => return None,
+    };
+    // Row and column of phi that meet in d phi'/d phi.
+    let place = |k: usize, l: usize| if right { (k, l) } else { (l, k) };
+    let entry = |to: usize, from: usize, k: usize| {
+        let ((i, a), (j, b)) = (place(k, to), place(k, from));
+        placement(i, a).1.derivative(placement(j, b).0)
+    };
+    let mut rows = vec![vec![Polynomial::zero(); n]; n];
+    for (r, c) in pairs(n) {
+        // (phi Y)_kc = phi_kr Y_rc, and (Y phi)_rk = Y_rc phi_ck.
+        rows[r][c] = if right { entry(c, r, 0) } else { entry(r, c, 0) };
+    }
+    for (i, a) in pairs(n) {
+        let mut product = Polynomial::zero();
+        for k in 0..n {
+            let ((j, b), y) = if right { ((i, k), &rows[k][a]) } else { ((k, a), &rows[i][k]) };
+            product.add_product(&Polynomial::atom(placement(j, b).0), y, &Rational::ONE);
+        }
+        if product != placement(i, a).1 {
+            return None;
+        }
+    }
+    let still = |y: &Polynomial| {
+        let mut rate = Polynomial::zero();
+        for (_, symbol, slope) in &system.rates {
+            rate.add_product(&y.derivative(*symbol), slope, &Rational::ONE);
+        }
+        rate.is_zero()
+    };
+    rows.iter().flatten().all(still).then_some((rows, right))
+}
+
+/// `M' = [M, Y]`, or `[Y, M]` on the left.
+pub(super) fn turns_along(
+    chart: &Chart,
+    system: &System,
+    generator: &[Vec<Polynomial>],
+    right: bool,
+) -> bool {
+    let dependent = chart.dependent();
+    chart.independent().into_iter().all(|z| {
+        let Coordinate::M(a, b) = z else { return true };
+        let found = system.rates.iter().find(|(at, ..)| *at == z);
+        // A component that keeps still must keep still in the commutator as well.
+        let rate = found.map_or_else(Polynomial::zero, |(.., rate)| rate.clone());
+        commutator(chart, generator, right, a, b).substitute(&|atom| value_of(&dependent, atom)) == rate
+    })
+}
+
+/// Increments of the affine momentum under a constraint: of the entries that determine the others, in these.
+pub(super) fn confined(chart: &Chart, mut system: System) -> System {
+    let dependent = chart.dependent();
+    system.rates.retain(|(_, symbol, _)| value_of(&dependent, *symbol).is_none());
+    system.substitute(&|atom| value_of(&dependent, atom))
+}
+
+/// The value of a symbol that has one.
+pub(super) fn value_of(values: &[(Expr, Polynomial)], symbol: Expr) -> Option<Polynomial> {
+    values.iter().find(|(s, _)| *s == symbol).map(|(_, value)| value.clone())
+}
+
+fn commutator(chart: &Chart, y: &[Vec<Polynomial>], right: bool, a: usize, b: usize) -> Polynomial {
+    let (plus, minus) = match right {
+        true => (Rational::ONE, Rational::MINUS_ONE),
+        false => (Rational::MINUS_ONE, Rational::ONE),
+    };
+    let mut sum = Polynomial::zero();
+    for k in 0..chart.dim {
+        sum.add_product(&Polynomial::atom(chart.m.0[a][k]), &y[k][b], &plus);
+        sum.add_product(&Polynomial::atom(chart.m.0[k][b]), &y[a][k], &minus);
+    }
+    sum
+}
+
+fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
+}
