@@ -43,6 +43,7 @@ pub use trajectory::{Computation, Trajectory};
 pub use why::Why;
 
 use crate::model::Model;
+use mechanics::{Integrate, Moving};
 use output::Output;
 use settings::Settings;
 
@@ -185,13 +186,14 @@ type Observe<'a, P> = Box<dyn FnMut(f64, &P) -> ControlFlow<()> + 'a>;
 pub struct Simulation<'a, const N: usize, M: Model<N>> {
     model: &'a M,
     settings: Settings<'a, N, M::Point<f64>>,
+    integrate: Integrate<N, M>,
 }
 
 impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     /// A simulation of `model` from the phase point `start` at time 0.
     #[must_use]
     pub fn new(model: &'a M, start: M::Point<f64>) -> Self {
-        Self { model, settings: Settings::new(start) }
+        Self { model, settings: Settings::new(start), integrate: methods::automatic }
     }
 
     /// Time of the start; 0 if not set.
@@ -233,11 +235,22 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
         self
     }
 
-    /// The method; [`Method::Automatic`] if not set.
+    /// The method; [`Method::Automatic`] if not set. Only programs that name one, whichever, have the integrators compiled for
+    /// their models that the automatic choice never takes.
     #[must_use]
     pub fn method(mut self, method: Method) -> Self {
+        self.integrate = methods::named;
+        self.by_default(method)
+    }
+
+    /// One of the methods that the automatic choice has.
+    fn by_default(mut self, method: Method) -> Self {
         self.settings.plan.method = method;
         self
+    }
+
+    fn moving(&self) -> Moving<'a, N, M> {
+        Moving { model: self.model, integrate: self.integrate }
     }
 
     /// Largest number of accepted steps; [`DEFAULT_MAX_STEPS`] if not set.

@@ -5,8 +5,13 @@
 #[path = "../../examples/stability/scenes/mod.rs"]
 mod scenes;
 
+use std::sync::LazyLock;
+
 use affine_runtime::report::{Finding, StabilityReport};
 use scenes::Extent;
+
+/// One of several hundred runs, for all tests.
+static REPORT: LazyLock<StabilityReport> = LazyLock::new(report);
 
 fn report() -> StabilityReport {
     scenes::report(Extent::Fast).unwrap()
@@ -14,17 +19,15 @@ fn report() -> StabilityReport {
 
 #[test]
 fn promises_are_kept() {
-    let report = report();
-    let short: Vec<_> = report.fell_short().collect();
+    let short: Vec<_> = REPORT.fell_short().collect();
     assert!(short.is_empty(), "{short:#?}");
 }
 
 /// Where the dilatation separates, steps do not know its stiffness; and how many they are.
 #[test]
 fn steps_do_not_grow_with_the_stiffness() {
-    let report = report();
     let steps = |model: &str, n: usize| -> Vec<u64> {
-        let separable = report.cases().iter().filter(|case| case.heading == "stiff dilatation, separable");
+        let separable = REPORT.cases().iter().filter(|case| case.heading == "stiff dilatation, separable");
         let of_model = separable.filter(|case| case.model == model && case.n == n);
         of_model
             .map(|case| match case.finding {
@@ -47,7 +50,7 @@ fn steps_do_not_grow_with_the_stiffness() {
 
 #[test]
 fn two_runs_give_the_same_bytes() {
-    let (a, b) = (report(), report());
-    assert_eq!(a.to_csv(), b.to_csv());
-    assert_eq!(a.to_svg().unwrap(), b.to_svg().unwrap());
+    let again = report();
+    assert_eq!(REPORT.to_csv(), again.to_csv());
+    assert_eq!(REPORT.to_svg().unwrap(), again.to_svg().unwrap());
 }

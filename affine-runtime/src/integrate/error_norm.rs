@@ -95,7 +95,7 @@ impl ErrorNorm {
         for (k, group) in groups.iter().enumerate().take(GROUPS) {
             let Some(moved) = probed.moved_by(group) else { continue };
             let own = probed.range(k);
-            let size = norm(&y.as_ref()[own.clone()]);
+            let size = size(&y.as_ref()[own.clone()]);
             // Any change will do where the group is zero: the equations are linear in momenta, or nearly so.
             let change = if size > 0.0 { size } else { 1.0 };
             let mut response = 0.0;
@@ -104,15 +104,32 @@ impl ErrorNorm {
                 changed.as_mut()[component] += change;
                 let changed = f(t, &changed);
                 evaluations += 1;
-                let difference = |i: usize| square(changed.as_ref()[i] - slope.as_ref()[i]);
-                let of_component = Scalar::sqrt(moved.clone().map(difference).sum::<f64>());
+                let of_component = distance(&changed.as_ref()[moved.clone()], &slope.as_ref()[moved.clone()]);
                 response = if of_component <= response { response } else { of_component };
             }
-            let extent = probed.extent(moved, y.as_ref());
-            let inertia = change * extent / response;
+            let inertia = change * probed.reach(moved, y.as_ref()) / response;
             probed.inertia[k] = if inertia.is_finite() { inertia } else { 0.0 };
         }
         (probed, evaluations)
+    }
+
+    /// The largest size of a value in a group over that of the state there. As all that is asked once a run, a function of
+    /// components of any number, compiled for none of them again.
+    #[inline(never)]
+    pub(crate) fn over_size(&self, state: &[f64], value: &[f64]) -> f64 {
+        self.largest(f64::INFINITY, state, state, |range| norm(&value[range]))
+    }
+
+    /// The same over the larger sizes of two states.
+    #[inline(never)]
+    pub(crate) fn over_sizes(&self, [before, after]: [&[f64]; 2], value: &[f64]) -> f64 {
+        self.largest(f64::INFINITY, before, after, |range| norm(&value[range]))
+    }
+
+    /// [`ErrorNorm::extent`].
+    #[inline(never)]
+    fn reach(&self, configuration: Range<usize>, y: &[f64]) -> f64 {
+        self.extent(configuration, y)
     }
 
     /// The norm without the groups after so many components.
@@ -221,6 +238,18 @@ impl ErrorNorm {
 
 /// Sums of squares within these bounds have neither overflowed nor lost digits to underflow.
 pub(crate) const IN_RANGE: core::ops::RangeInclusive<f64> = 1e-280..=1e300;
+
+/// [`norm`].
+#[inline(never)]
+fn size(components: &[f64]) -> f64 {
+    norm(components)
+}
+
+/// Euclidean norm of a difference.
+#[inline(never)]
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    Scalar::sqrt(a.iter().zip(b).map(|(a, b)| square(a - b)).sum::<f64>())
+}
 
 /// Euclidean norm.
 #[inline(always)]

@@ -11,6 +11,7 @@ mod step;
 #[cfg(test)]
 mod trees;
 
+use field::called;
 pub use field::{Field, InVectors, Stages};
 pub use pair::{DormandPrince54, DormandPrince853, Pair};
 pub use step::{Dense, OneStep, Step};
@@ -137,7 +138,7 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         t_end: f64,
         tolerance: f64,
     ) -> Result<Self, Failure> {
-        let f = |t: f64, y: &S| field.rate(t, y);
+        let f = |t: f64, y: &S| called(|| field.rate(t, y));
         let (start, evaluations) = Start::of::<P>(&f, groups, (t0, &y0), t_end, tolerance)?;
         let Start { slope, error_norm, length } = start;
         let statistics = Statistics { evaluations, ..Statistics::default() };

@@ -3,9 +3,7 @@
 #[cfg(feature = "std")]
 pub(crate) mod in_lanes;
 
-use core::ops::Range;
-
-use super::error_norm::{ErrorNorm, norm};
+use super::error_norm::ErrorNorm;
 use super::roughly::{exp, exp_of_moderate, ln, ln_of_normal};
 #[cfg(feature = "std")]
 use super::tape::Tape;
@@ -133,8 +131,7 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     span: f64,
     (tolerance, order): (f64, f64),
 ) -> f64 {
-    let of_slope = |r: Range<usize>| norm(&slope.as_ref()[r]);
-    let first = error_norm.largest(f64::INFINITY, y.as_ref(), y.as_ref(), of_slope);
+    let first = error_norm.over_size(y.as_ref(), slope.as_ref());
     let within = |h: f64| if h < span.abs() { h } else { span.abs() };
     // Nothing moves, or something that is zero moves: no rate to go by.
     let trial = if first > 0.0 && first.is_finite() { within(0.01 / first) } else { 1e-6 * span.abs() };
@@ -147,9 +144,8 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     for (i, change) in change.as_mut().iter_mut().enumerate() {
         *change = slope_after.as_ref()[i] - slope.as_ref()[i];
     }
-    let of_change = |r: Range<usize>| norm(&change.as_ref()[r]);
     // Over time in the end: rates of rates leave the range of numbers first.
-    let of_second = error_norm.largest(f64::INFINITY, y.as_ref(), end.as_ref(), of_change) / trial;
+    let of_second = error_norm.over_sizes([y.as_ref(), end.as_ref()], change.as_ref()) / trial;
     // Something that is zero begins to move, under a force that was zero: no rate to go by either.
     let second = if of_second == f64::INFINITY { 0.0 } else { Scalar::sqrt(of_second) };
     let fastest = if first.is_finite() && first > second { first } else { second };

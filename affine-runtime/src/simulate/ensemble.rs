@@ -93,7 +93,7 @@ impl<'a, const N: usize, M: Model<N>> Ensemble<'a, N, M> {
 
     /// One body by itself.
     fn alone(&self, start: M::Point<f64>, method: Method) -> core::result::Result<M::Point<f64>, Stop> {
-        match self.simulation(start).method(method).run() {
+        match self.simulation(start).by_default(method).run() {
             Ok(run) => Ok(*run.end().1),
             Err(halt) => Err(halt.stop),
         }

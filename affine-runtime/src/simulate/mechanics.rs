@@ -2,7 +2,6 @@
 
 use super::Method;
 use super::halt::Reason;
-use super::methods;
 use super::recorder::Recorder;
 use crate::frames::Matrix;
 use crate::geodesic::Geodesic;
@@ -39,35 +38,48 @@ pub(super) struct Course<'p, P> {
     pub(super) tolerance: f64,
 }
 
-impl<const N: usize, M: Model<N>> Mechanics<N, M::Point<f64>> for M {
+/// Follows the motion of a model by integrators that are compiled for it.
+pub(super) type Integrate<const N: usize, M> = fn(
+    &M,
+    &Course<'_, <M as Model<N>>::Point<f64>>,
+    &mut Recorder<'_, '_, N, <M as Model<N>>::Point<f64>>,
+) -> Result<(), Reason>;
+
+/// A model with what integrates it.
+pub(super) struct Moving<'a, const N: usize, M: Model<N>> {
+    pub(super) model: &'a M,
+    pub(super) integrate: Integrate<N, M>,
+}
+
+impl<const N: usize, M: Model<N>> Mechanics<N, M::Point<f64>> for Moving<'_, N, M> {
     fn description(&self) -> &'static Description {
         const { &M::DESCRIPTION }
     }
     fn bases(&self) -> Option<Bases<N>> {
-        Model::bases(self)
+        self.model.bases()
     }
     fn condition(&self, phi: &Matrix<N>) -> Option<f64> {
-        if const { M::DESCRIPTION.signature.is_none() } { Model::condition(self, phi) } else { None }
+        if const { M::DESCRIPTION.signature.is_none() } { self.model.condition(phi) } else { None }
     }
     fn regularity(&self, phi: &Matrix<N>) -> Option<Regularity> {
-        Model::regularity(self, phi)
+        self.model.regularity(phi)
     }
     fn hamiltonian(&self, t: f64, point: &M::Point<f64>) -> f64 {
-        Model::hamiltonian(self, t, point)
+        self.model.hamiltonian(t, point)
     }
     fn velocity(&self, point: &M::Point<f64>) -> Velocity<N> {
-        Model::velocity(self, point)
+        self.model.velocity(point)
     }
     fn geodesic(&self, t0: f64, point: &M::Point<f64>) -> Option<Geodesic<N>> {
-        Model::geodesic(self, t0, point)
+        self.model.geodesic(t0, point)
     }
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &M::Point<f64>) -> M::Point<f64> {
-        Model::on_geodesic(self, geodesic, t, start)
+        self.model.on_geodesic(geodesic, t, start)
     }
     fn witness(&self, t: f64, point: &M::Point<f64>, each: &mut dyn FnMut(f64)) {
-        each(Model::hamiltonian(self, t, point));
-        let (reduced, constants) = self.reduce(t, point);
-        let rates = self.reduced_equations(t, &constants, &reduced);
+        each(self.model.hamiltonian(t, point));
+        let (reduced, constants) = self.model.reduce(t, point);
+        let rates = self.model.reduced_equations(t, &constants, &reduced);
         rates.as_ref().iter().for_each(|rate| each(*rate));
     }
     fn integrate(
@@ -75,6 +87,6 @@ impl<const N: usize, M: Model<N>> Mechanics<N, M::Point<f64>> for M {
         course: &Course<'_, M::Point<f64>>,
         recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
     ) -> Result<(), Reason> {
-        methods::integrate(self, course, recorder)
+        (self.integrate)(self.model, course, recorder)
     }
 }

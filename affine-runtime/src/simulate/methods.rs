@@ -24,9 +24,27 @@ use crate::integrate::{
 use crate::model::{Constraint, Group, Model, StateVector};
 use crate::state::Phase;
 
-/// Follows the motion of `model` by the method that was asked for, or the best there is. What depends on the model alone
-/// is decided by constants: only the integrators that serve it are compiled for it.
-pub(super) fn integrate<const N: usize, M: Model<N>>(
+/// Follows the motion of `model` by the best method there is, or one that the automatic choice has.
+pub(super) fn automatic<const N: usize, M: Model<N>>(
+    model: &M,
+    course: &Course<'_, M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    integrate::<N, M, false>(model, course, recorder)
+}
+
+/// Follows the motion of `model` by the method that was asked for.
+pub(super) fn named<const N: usize, M: Model<N>>(
+    model: &M,
+    course: &Course<'_, M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    integrate::<N, M, true>(model, course, recorder)
+}
+
+/// Follows the motion of `model`. What depends on the model alone, and on whether the program names methods, is decided by
+/// constants: only the integrators that can be taken are compiled.
+fn integrate<const N: usize, M: Model<N>, const NAMED: bool>(
     model: &M,
     course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
@@ -38,16 +56,24 @@ pub(super) fn integrate<const N: usize, M: Model<N>>(
         in_range(course.t0, course.start.phi())?;
     }
     match method {
-        Method::Rattle { order, step } => by_rattle(model, (order, step), course, recorder),
+        Method::Rattle { order, step } if const { NAMED } => {
+            by_rattle(model, (order, step), course, recorder)
+        }
         Method::Taylor { order } => by_series(model, order, course, recorder),
-        Method::Splitting { order, step } => by_pieces(model, (order, step), course, recorder),
+        Method::Splitting { order, step } if const { NAMED } => {
+            by_pieces(model, (order, step), course, recorder)
+        }
         Method::RungeKuttaNystrom12 => by_halves(model, &Tableau::ORDER_12, course, recorder),
         Method::RungeKuttaNystrom8 => by_halves(model, &Tableau::ORDER_8, course, recorder),
         _ if const { !moves_on_group(&M::DESCRIPTION, N) } => {
-            free(model, model.packing(), method, course, recorder)
+            free::<N, M, _, NAMED>(model, model.packing(), method, course, recorder)
         }
-        _ if const { is_canonical(&M::DESCRIPTION) } => with_reaction(model, method, course, recorder),
-        _ => reduced(model, chart::<N, M>(M::DESCRIPTION.reduced)?, method, course, recorder),
+        _ if const { is_canonical(&M::DESCRIPTION) } => {
+            with_reaction::<N, M, NAMED>(model, method, course, recorder)
+        }
+        _ => {
+            reduced::<N, M, _, NAMED>(model, chart::<N, M>(M::DESCRIPTION.reduced)?, method, course, recorder)
+        }
     }
 }
 
@@ -151,7 +177,7 @@ fn by_halves<const N: usize, M: Model<N>>(
 
 /// The reduced state of a body without constraints, in vectors of four where the model has its equations so; implicit
 /// methods take single components.
-fn free<const N: usize, M: Model<N>, R: Packing<M::Reduced<f64>, M::Constants<f64>>>(
+fn free<const N: usize, M: Model<N>, R: Packing<M::Reduced<f64>, M::Constants<f64>>, const NAMED: bool>(
     model: &M,
     packing: Option<R>,
     method: Method,
@@ -159,7 +185,7 @@ fn free<const N: usize, M: Model<N>, R: Packing<M::Reduced<f64>, M::Constants<f6
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
     if const { !is_emitted::<R>() } {
-        return reduced(model, Flat, method, course, recorder);
+        return reduced::<N, M, _, NAMED>(model, Flat, method, course, recorder);
     }
     let Course { t0, start, t_end, tolerance, .. } = *course;
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
@@ -167,14 +193,14 @@ fn free<const N: usize, M: Model<N>, R: Packing<M::Reduced<f64>, M::Constants<f6
     let begin = (t0, reduced);
     let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
     emitted::<N, M, _>(packing, "packing", |packing| match method {
-        Method::Gauss { stages, step } => {
+        Method::Gauss { stages, step } if const { NAMED } => {
             let closed = |t: f64, reduced: &M::Reduced<f64>| {
                 model.reduced_equations(t, &constants, &model.renewed(reduced))
             };
             let integration = gauss(Flat, closed, begin, (stages, t_end, step))?;
             follow(integration, (&expand, layout), recorder)
         }
-        Method::RungeKutta5 => {
+        Method::RungeKutta5 if const { NAMED } => {
             let field = InVectors(packing, constants);
             let integration = RungeKutta5::in_vectors(field, groups, begin, t_end, tolerance);
             follow_with_dense_output(integration, (&expand, layout), recorder)
@@ -202,9 +228,9 @@ fn emitted<const N: usize, M: Model<N>, R>(
 }
 
 /// The reduced state by a method for any equations.
-fn reduced<const N: usize, M: Model<N>>(
+fn reduced<const N: usize, M: Model<N>, C: Coordinates<M::Reduced<f64>>, const NAMED: bool>(
     model: &M,
-    coordinates: impl Coordinates<M::Reduced<f64>>,
+    coordinates: C,
     method: Method,
     course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
@@ -215,12 +241,20 @@ fn reduced<const N: usize, M: Model<N>>(
     let closed = |t: f64, reduced: &M::Reduced<f64>| equations(t, &model.renewed(reduced));
     let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
     let state = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) }, reduced);
-    by_equations(coordinates, (equations, closed), state, &expand, (method, course), recorder)
+    let equations = (equations, closed);
+    by_equations::<N, _, _, _, _, _, NAMED>(
+        coordinates,
+        equations,
+        state,
+        &expand,
+        (method, course),
+        recorder,
+    )
 }
 
 /// The phase point of a separable isochoric body on SL(n): its equations are the free ones, to which the multiplier is
 /// added.
-fn with_reaction<const N: usize, M: Model<N>>(
+fn with_reaction<const N: usize, M: Model<N>, const NAMED: bool>(
     model: &M,
     method: Method,
     course: &Course<'_, M::Point<f64>>,
@@ -235,26 +269,34 @@ fn with_reaction<const N: usize, M: Model<N>>(
     let expand = |_: f64, full: &M::Full<f64>| model.unflatten(&reaction.with_momentum(full));
     let state = (groups, const { Layout::of(M::DESCRIPTION.full, N) }, reaction.with_velocity(&start));
     let chart = chart::<N, M>(groups)?;
-    by_equations(chart, (equations, equations), state, &expand, (method, course), recorder)
+    let equations = (equations, equations);
+    by_equations::<N, _, _, _, _, _, NAMED>(chart, equations, state, &expand, (method, course), recorder)
 }
 
 /// A state by a method for any equations; the second ones are for implicit methods.
-fn by_equations<const N: usize, S: StateVector<f64>, P: Phase<N>>(
-    coordinates: impl Coordinates<S>,
-    (equations, closed): (impl Fn(f64, &S) -> S, impl Fn(f64, &S) -> S),
+fn by_equations<const N: usize, S, P, C, F, G, const NAMED: bool>(
+    coordinates: C,
+    (equations, closed): (F, G),
     (groups, layout, state): (&'static [Group], Layout, S),
     expand: Expansion<'_, S, P>,
     (method, course): (Method, &Course<'_, P>),
     recorder: &mut Recorder<'_, '_, N, P>,
-) -> Result<(), Reason> {
+) -> Result<(), Reason>
+where
+    S: StateVector<f64>,
+    P: Phase<N>,
+    C: Coordinates<S>,
+    F: Fn(f64, &S) -> S,
+    G: Fn(f64, &S) -> S,
+{
     let Course { t0, t_end, tolerance, .. } = *course;
     let begin = (t0, state);
     match method {
-        Method::Gauss { stages, step } => {
+        Method::Gauss { stages, step } if const { NAMED } => {
             let integration = gauss(coordinates, closed, begin, (stages, t_end, step))?;
             follow(integration, (expand, layout), recorder)
         }
-        Method::RungeKutta5 => {
+        Method::RungeKutta5 if const { NAMED } => {
             let integration = RungeKutta5::within(coordinates, equations, groups, begin, t_end, tolerance);
             follow_with_dense_output(integration, (expand, layout), recorder)
         }

@@ -33,12 +33,13 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     /// # Errors
     /// [`Halt`](super::Halt) of whichever run stopped.
     pub fn forward_and_back(self) -> Outcome<N, M::Point<f64>, RoundTrip<N, M::Point<f64>>> {
-        let (model, mut plan) = (self.model, self.settings.plan.clone());
+        let (model, integrate, mut plan) = (self.model, self.integrate, self.settings.plan.clone());
         let forward = self.run()?;
         let (reached, end) = forward.end();
         plan.output = plan.output.reversed_from(plan.t0, reached);
         (plan.t0, plan.t_end) = (reached, Some(plan.t0));
-        let back = Simulation { model, settings: Settings { plan, ..Settings::new(*end) } }.run()?;
+        let settings = Settings { plan, ..Settings::new(*end) };
+        let back = Simulation { model, settings, integrate }.run()?;
         Ok(RoundTrip { forward, back })
     }
 }

@@ -32,7 +32,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
                 "the groups of DESCRIPTION.reduced do not make up the reduced state"
             );
         }
-        Run { model: self.model, settings: self.settings }.outcome()
+        Run { model: &self.moving(), settings: self.settings }.outcome()
     }
 }
 
@@ -43,7 +43,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     /// # Errors
     /// What [`run`](Self::run) would say of them, with the start as it is.
     pub(crate) fn checked(self) -> Result<(), Halt<N, M::Point<f64>>> {
-        let run = Run { model: self.model, settings: self.settings };
+        let run = Run { model: &self.moving(), settings: self.settings };
         let checked = run.settings.checked(&M::DESCRIPTION).map_err(Reason::from);
         let checked = checked.and_then(|_| check(run.settings.plan.t0, &run.settings.start));
         checked.map_err(|reason| {

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The second one holds for the Casimirs of an isotropic energy, which leave `M` alone, and for the norm of the
-//! vorticity or the spin, which turns it; and for the [squares](squares) that an anisotropic energy is a sum of. A third form
+//! vorticity or the spin, which turns it; and for the squares that an anisotropic energy is a sum of. A third form
 //! is known beforehand: where the potential splits into `U_dil(q)` and what no dilatation changes, the dilatation with its own kinetic energy is a motion of one degree of freedom,
 //!
 //! ```text

@@ -59,7 +59,7 @@ pub trait Field<S, C, L: StateVector<f64>> {
     fn read(&self, stored: &L) -> S;
 
     /// `z'` as a function of time and of coordinates around `base`.
-    fn stages(&self, vectors: impl Vectors, coordinates: C, base: &Sum<S>) -> impl Stages<L>;
+    fn stages<V: Vectors>(&self, vectors: V, coordinates: C, base: &Sum<S>) -> impl Stages<L>;
 
     /// `f` at the state `y` with the coordinates `z`, and `z'` there.
     fn at(&self, vectors: impl Vectors, coordinates: C, t: f64, place: (&S, &L)) -> (S, L);
@@ -79,11 +79,12 @@ impl<S: StateVector<f64>, C: Coordinates<S>, F: Fn(f64, &S) -> S> Field<S, C, S>
         *stored
     }
     #[inline(always)]
-    fn stages(&self, _vectors: impl Vectors, coordinates: C, base: &Sum<S>) -> impl Stages<S> {
-        move |t: f64, z: &S| {
+    fn stages<V: Vectors>(&self, _vectors: V, coordinates: C, base: &Sum<S>) -> impl Stages<S> {
+        let slope = move |t: f64, z: &S| {
             let state = coordinates.state(base, z).value;
             coordinates.velocity(&state, z, &self(t, &state))
-        }
+        };
+        StagesInNumbers { slope, vectors: PhantomData::<V> }
     }
     #[inline(always)]
     fn at(&self, _vectors: impl Vectors, coordinates: C, t: f64, (y, z): (&S, &S)) -> (S, S) {
@@ -110,14 +111,13 @@ impl<S: StateVector<f64>, K, R: Packing<S, K>> Field<S, Flat, R::Packed> for InV
         self.0.unpacked(stored)
     }
     #[inline(always)]
-    fn stages(&self, vectors: impl Vectors, _: Flat, _: &Sum<S>) -> impl Stages<R::Packed> {
+    fn stages<V: Vectors>(&self, vectors: V, _: Flat, _: &Sum<S>) -> impl Stages<R::Packed> {
         StagesInVectors { field: self, vectors, state: PhantomData }
     }
     #[inline(always)]
     fn at(&self, vectors: impl Vectors, _: Flat, t: f64, (_, z): (&S, &R::Packed)) -> (S, R::Packed) {
-        let Self(packing, constants) = self;
-        let slope = packing.slope(vectors, t, constants, z);
-        (packing.unpacked(&slope), slope)
+        let slope = slope(self, vectors, t, z);
+        (self.0.unpacked(&slope), slope)
     }
 }
 
@@ -132,8 +132,61 @@ impl<S: StateVector<f64>, K, R: Packing<S, K>> Work for Evaluation<'_, R, K, S> 
     type Output = S;
     #[inline(always)]
     fn run(self, vectors: impl Vectors) -> S {
-        let InVectors(packing, constants) = self.field;
-        packing.unpacked(&packing.slope(vectors, self.t, constants, &packing.packed(self.y)))
+        let packing = &self.field.0;
+        packing.unpacked(&slope(self.field, vectors, self.t, &packing.packed(self.y)))
+    }
+}
+
+/// `f(t, z)` in vectors.
+#[inline(always)]
+fn slope<S, K, R: Packing<S, K>, V: Vectors>(
+    InVectors(packing, constants): &InVectors<R, K>,
+    vectors: V,
+    t: f64,
+    z: &R::Packed,
+) -> R::Packed {
+    if const { V::IS_LAST_RESORT } {
+        called(|| packing.slope(vectors, t, constants, z))
+    } else {
+        packing.slope(vectors, t, constants, z)
+    }
+}
+
+/// What is done, by a call.
+#[inline(never)]
+pub(super) fn called<T>(act: impl FnOnce() -> T) -> T {
+    act()
+}
+
+/// The sum over stages for all models whose states are stored alike.
+#[inline(never)]
+fn moved_by_a_call<L: StateVector<f64>, const TERMS: usize>(
+    z: &L,
+    h: f64,
+    stages: &[L],
+    row: &[(usize, f64); TERMS],
+) -> L {
+    stages::moved(z, h, stages, row)
+}
+
+/// Slopes of numbers, and the sums over stages.
+struct StagesInNumbers<F, V> {
+    slope: F,
+    vectors: PhantomData<V>,
+}
+
+impl<L: StateVector<f64>, F: Fn(f64, &L) -> L, V: Vectors> Stages<L> for StagesInNumbers<F, V> {
+    #[inline(always)]
+    fn slope(&self, t: f64, z: &L) -> L {
+        if const { V::IS_LAST_RESORT } { called(|| (self.slope)(t, z)) } else { (self.slope)(t, z) }
+    }
+    #[inline(always)]
+    fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
+        if const { V::IS_LAST_RESORT } {
+            moved_by_a_call(z, h, stages, row)
+        } else {
+            stages::moved(z, h, stages, row)
+        }
     }
 }
 
@@ -148,8 +201,7 @@ struct StagesInVectors<'f, S, R, K, V> {
 impl<S, K, R: Packing<S, K>, V: Vectors> Stages<R::Packed> for StagesInVectors<'_, S, R, K, V> {
     #[inline(always)]
     fn slope(&self, t: f64, z: &R::Packed) -> R::Packed {
-        let InVectors(packing, constants) = self.field;
-        packing.slope(self.vectors, t, constants, z)
+        slope(self.field, self.vectors, t, z)
     }
     #[inline(always)]
     fn combination<const TERMS: usize>(
@@ -167,7 +219,11 @@ impl<S, K, R: Packing<S, K>, V: Vectors> Stages<R::Packed> for StagesInVectors<'
         stages: &[R::Packed],
         row: &[(usize, f64); TERMS],
     ) -> R::Packed {
-        packed::moved(self.vectors, (z, h), stages, row)
+        if const { V::IS_LAST_RESORT } {
+            moved_by_a_call(z, h, stages, row)
+        } else {
+            packed::moved(self.vectors, (z, h), stages, row)
+        }
     }
     #[inline(always)]
     fn plus_multiple(&self, z: &R::Packed, h: f64, rise: &R::Packed) -> R::Packed {
