@@ -3,9 +3,8 @@
 use affine_runtime::capability::Splitting;
 use affine_runtime::prelude::*;
 
-use crate::models::{p3, phi2, phi3, spin2, spin3, x3};
-use crate::motions::{assert_kept, assert_orders};
-use crate::pieces::assert_pieces;
+use crate::models::{phi2, phi3, spin2, spin3};
+use crate::motions::assert_kept;
 
 /// Principal axes of inertia: shears and stretches along them.
 #[affine_model(
@@ -14,7 +13,7 @@ use crate::pieces::assert_pieces;
     potential = hyperbolic_dilatation(10) + neo_hookean(0.5),
     emit(splitting)
 )]
-struct Principal;
+pub(crate) struct Principal;
 
 #[affine_model(
     dim = 3,
@@ -23,7 +22,7 @@ struct Principal;
     potential = tr(G)/2 - ln(det) + x[1]^2/2,
     emit(splitting),
 )]
-struct Oblique;
+pub(crate) struct Oblique;
 
 /// Inertia in space, of fields.
 #[affine_model(
@@ -32,8 +31,8 @@ struct Oblique;
     potential = tr(G)/2 - ln(det) + x[1]*phi[1,2]/4,
     emit(splitting)
 )]
-struct Spatial3 {
-    j: Matrix<3>,
+pub(crate) struct Spatial3 {
+    pub(crate) j: Matrix<3>,
 }
 
 /// Indefinite, in the plane, without a potential.
@@ -42,12 +41,12 @@ struct Spatial3 {
     kinetic(casimir2 = 0.2, body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]]),
     emit(splitting),
 )]
-struct Tensor2;
+pub(crate) struct Tensor2;
 
 #[affine_model(dim = 2, kinetic(casimir2 = a, space_tensor = k), potential = tr(G)/2 - ln(det), emit(splitting))]
-struct TensorOfFields {
-    a: f64,
-    k: Matrix<4>,
+pub(crate) struct TensorOfFields {
+    pub(crate) a: f64,
+    pub(crate) k: Matrix<4>,
 }
 
 /// `2 Oh_12 Oh_21` without squares of either.
@@ -57,7 +56,7 @@ struct TensorOfFields {
     potential = tr(G)/2 - ln(det),
     emit(splitting),
 )]
-struct Products;
+pub(crate) struct Products;
 
 /// `Sigma_hat_12` is conserved by the sum and by none of its squares.
 #[affine_model(
@@ -65,7 +64,7 @@ struct Products;
     kinetic(casimir2 = 1, body_tensor = [[0, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]]),
     emit(splitting)
 )]
-struct Fixed;
+pub(crate) struct Fixed;
 
 #[affine_model(
     dim = 2,
@@ -74,7 +73,7 @@ struct Fixed;
     potential = tr(G)/2 - ln(det),
     emit(splitting),
 )]
-struct InOtherMetrics;
+pub(crate) struct InOtherMetrics;
 
 #[affine_model(
     dim = 3,
@@ -83,22 +82,23 @@ struct InOtherMetrics;
     potential = tr(G)/2 - ln(det),
     emit(splitting)
 )]
-struct InMetricsOfFields {
-    i: f64,
-    eta: Matrix<3>,
+pub(crate) struct InMetricsOfFields {
+    pub(crate) i: f64,
+    pub(crate) eta: Matrix<3>,
 }
 
-fn oblique() -> Matrix<3> {
+pub(crate) fn oblique() -> Matrix<3> {
     Matrix::<3>::new(1.5, 0.25, 0.0, 0.25, 2.0, -0.5, 0.0, -0.5, 1.25)
 }
 
-fn tensor() -> Matrix<4> {
+pub(crate) fn tensor() -> Matrix<4> {
     Matrix::<4>::new(2.0, 0.5, 0.0, 1.0, 0.5, 3.0, 0.25, 0.0, 0.0, 0.25, 1.5, 0.5, 1.0, 0.0, 0.5, 4.0)
 }
 
 /// Calls a macro with each model, its dimension and its start.
-macro_rules! each {
+macro_rules! each_anisotropic {
     ($visit:ident) => {{
+        use crate::anisotropic::*;
         let start = Principal.at_momentum(phi3(), Comoving(spin3())).unwrap();
         $visit!("principal", 3, &Principal, start);
         let start = Oblique.at_momentum(x3(), phi3(), p3(), Comoving(spin3())).unwrap();
@@ -122,32 +122,7 @@ macro_rules! each {
         $visit!("in metrics of fields", 3, &model, start);
     }};
 }
-
-#[test]
-fn slopes_add_up_and_times_add() {
-    let mut count = 0;
-    macro_rules! visit {
-        ($name:literal, $n:literal, $model:expr, $start:expr) => {
-            assert_pieces::<$n, _>($name, $model, $start);
-            count += 1;
-        };
-    }
-    each!(visit);
-    assert_eq!(count, 9);
-}
-
-#[test]
-fn orders_on_nonlinear_problems() {
-    let mut count = 0;
-    macro_rules! visit {
-        ($name:literal, $n:literal, $model:expr, $start:expr) => {
-            assert_orders::<$n, _>($name, $model, $start);
-            count += 1;
-        };
-    }
-    each!(visit);
-    assert_eq!(count, 9);
-}
+pub(crate) use each_anisotropic;
 
 #[test]
 fn a_hundred_thousand_steps() {

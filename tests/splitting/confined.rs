@@ -1,12 +1,10 @@
 //! Motions on groups: exponentials stay on them, and kicks are projected.
 
 use affine_runtime::decompose::polar;
-use affine_runtime::kinematics::isochoric_part;
 use affine_runtime::prelude::*;
 
-use crate::models::{p3, phi2, phi3, spin2, spin3, x3};
-use crate::motions::{assert_kept, assert_orders};
-use crate::pieces::assert_pieces;
+use crate::models::{phi3, spin3};
+use crate::motions::assert_kept;
 
 /// A heavy top: rotations about its principal axes.
 #[affine_model(
@@ -16,7 +14,7 @@ use crate::pieces::assert_pieces;
     potential = 2*phi[3,3] + phi[3,1]/2,
     emit(splitting)
 )]
-struct Top;
+pub(crate) struct Top;
 
 #[affine_model(
     dim = 3,
@@ -25,8 +23,8 @@ struct Top;
     potential = phi[3,3]*x[1] + norm(x)^2/2,
     emit(splitting)
 )]
-struct Tethered {
-    j: Matrix<3>,
+pub(crate) struct Tethered {
+    pub(crate) j: Matrix<3>,
 }
 
 #[affine_model(
@@ -36,7 +34,7 @@ struct Tethered {
     potential = tr(G)/2 + norm(x)^2/2,
     emit(splitting),
 )]
-struct Incompressible;
+pub(crate) struct Incompressible;
 
 /// The vorticity turns along its exponential.
 #[affine_model(
@@ -46,7 +44,7 @@ struct Incompressible;
     potential = tr(G)/2 + G[1,1]^2/4,
     emit(splitting)
 )]
-struct Fibred;
+pub(crate) struct Fibred;
 
 #[affine_model(
     dim = 2,
@@ -55,8 +53,8 @@ struct Fibred;
     potential = tr(G)/2,
     emit(splitting)
 )]
-struct Planar {
-    i: f64,
+pub(crate) struct Planar {
+    pub(crate) i: f64,
 }
 
 #[affine_model(
@@ -66,7 +64,7 @@ struct Planar {
     potential = tr(G)/2 + Ct[1,2]/4,
     emit(splitting)
 )]
-struct Spatial3;
+pub(crate) struct Spatial3;
 
 #[affine_model(
     dim = 3,
@@ -75,28 +73,30 @@ struct Spatial3;
     potential = q^2 + phi[3,3]/2,
     emit(splitting)
 )]
-struct Conformal;
+pub(crate) struct Conformal;
 
-fn oblique() -> Matrix<3> {
+pub(crate) fn oblique() -> Matrix<3> {
     Matrix::<3>::new(1.5, 0.25, 0.0, 0.25, 2.0, -0.5, 0.0, -0.5, 1.25)
 }
 
 /// In the dual of the algebra: traceless, skew, or skew and a multiple of the identity.
-fn traceless<const N: usize>(spin: Matrix<N>) -> Matrix<N> {
+pub(crate) fn traceless<const N: usize>(spin: Matrix<N>) -> Matrix<N> {
     spin - Matrix::<N>::identity() * (spin.trace() / N as f64)
 }
 
-fn skew() -> Matrix<3> {
+pub(crate) fn skew() -> Matrix<3> {
     (spin3() - spin3().transpose()) / 2.0
 }
 
-fn rotation() -> Matrix<3> {
+pub(crate) fn rotation() -> Matrix<3> {
     polar(&phi3()).unwrap().rotation
 }
 
 /// Calls a macro with each model, its dimension and its start.
-macro_rules! each {
+macro_rules! each_confined {
     ($visit:ident) => {{
+        use crate::confined::*;
+        use affine_runtime::kinematics::isochoric_part;
         let start = Top.at_momentum(rotation(), Comoving(skew())).unwrap();
         $visit!("top", 3, &Top, start);
         let model = Tethered { j: oblique() }.prepare().unwrap();
@@ -119,32 +119,7 @@ macro_rules! each {
         $visit!("conformal", 3, &Conformal, start);
     }};
 }
-
-#[test]
-fn slopes_add_up_and_times_add() {
-    let mut count = 0;
-    macro_rules! visit {
-        ($name:literal, $n:literal, $model:expr, $start:expr) => {
-            assert_pieces::<$n, _>($name, $model, $start);
-            count += 1;
-        };
-    }
-    each!(visit);
-    assert_eq!(count, 7);
-}
-
-#[test]
-fn orders_on_nonlinear_problems() {
-    let mut count = 0;
-    macro_rules! visit {
-        ($name:literal, $n:literal, $model:expr, $start:expr) => {
-            assert_orders::<$n, _>($name, $model, $start);
-            count += 1;
-        };
-    }
-    each!(visit);
-    assert_eq!(count, 7);
-}
+pub(crate) use each_confined;
 
 #[test]
 fn a_hundred_thousand_steps_on_groups() {

@@ -161,6 +161,8 @@ macro_rules! each_model {
         $visit!("pressed", 2, &Pressed, start);
         let start = Driven.at_momentum(phi2(), Comoving(spin2())).unwrap();
         $visit!("driven", 2, &Driven, start);
+        crate::anisotropic::each_anisotropic!($visit);
+        crate::confined::each_confined!($visit);
     }};
 }
 pub(crate) use each_model;
