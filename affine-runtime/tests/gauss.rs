@@ -247,6 +247,24 @@ fn equations_without_solution_are_refused() {
 }
 
 #[test]
+fn a_correction_that_blows_up_is_no_small_residual() {
+    // Of the same equations: where Newton's matrix is nearly singular, a defect is small beside what it makes of it.
+    let tangent = |_: f64, y: &[f64; 1]| [1.0 + y[0] * y[0]];
+    let mut least = f64::INFINITY;
+    for tableau in METHODS {
+        for k in 0..400 {
+            let y0 = 0.01 * f64::from(k) - 2.0;
+            let mut run = Gauss::new(tangent, tableau, (0.0, [y0]), 10.0, 10.0).unwrap();
+            match run.advance() {
+                Err(Failure::NoSolution { residual }) => least = least.min(residual),
+                other => panic!("{y0}: {other:?}"),
+            }
+        }
+    }
+    assert!(least > 0.1, "{least:e}");
+}
+
+#[test]
 fn what_is_not_finite_and_steps_that_make_no_sense_are_refused() {
     let edge = |t: f64, _: &[f64; 1]| [if t > 1.0 { f64::NAN } else { 1.0 }];
     let mut run = Gauss::new(edge, &Tableau::TWO, (0.0, [0.0]), 3.0, 0.25).unwrap();
