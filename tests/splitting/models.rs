@@ -106,6 +106,46 @@ pub(crate) struct Cubic;
 )]
 pub(crate) struct Stretched;
 
+/// The trace changes with every dilatation: that of `U_dil` moves beside it.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
+    potential = hyperbolic_dilatation(kappa) + 0.3*(tr(G) - 3),
+    emit(splitting),
+)]
+pub(crate) struct Inflated {
+    pub(crate) kappa: f64,
+}
+
+/// A force on one corner, in space.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1),
+    potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5) + 0.7*phi[3,3],
+    emit(splitting),
+)]
+pub(crate) struct Pulled {
+    pub(crate) kappa: f64,
+}
+
+/// Forces on the centre of mass and between it and the placement; the centre moves beside the dilatation.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1, space_translation = 2),
+    potential = 10/2*q^2 + neo_hookean(0.5) + 0.1*x[1]^2 + 0.2*x[2]*phi[1,2]*cos(t),
+    emit(splitting),
+)]
+pub(crate) struct Tied;
+
+/// Of the functions of `q` one has a closed form; single stretches, and a weight on the centre: three pieces.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
+    potential = 5*sinh(q)^2 + gas(0.3) - q/5 + (q1^2 + q2^2 + q3^2)/2 + 0.4*x[3],
+    emit(splitting),
+)]
+pub(crate) struct Falling;
+
 pub(crate) fn phi3() -> Matrix<3> {
     Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05)
 }
@@ -161,6 +201,16 @@ macro_rules! each_model {
         $visit!("pressed", 2, &Pressed, start);
         let start = Driven.at_momentum(phi2(), Comoving(spin2())).unwrap();
         $visit!("driven", 2, &Driven, start);
+        let model = Inflated { kappa: 10.0 }.prepare().unwrap();
+        let start = model.at_momentum(phi3(), Comoving(spin3())).unwrap();
+        $visit!("inflated", 3, &model, start);
+        let model = Pulled { kappa: 10.0 }.prepare().unwrap();
+        let start = model.at_momentum(phi3(), Spatial(spin3())).unwrap();
+        $visit!("pulled", 3, &model, start);
+        let start = Tied.at_momentum(x2, phi2(), p2, Spatial(spin2())).unwrap();
+        $visit!("tied", 2, &Tied, start);
+        let start = Falling.at_momentum(x3(), phi3(), p3(), Comoving(spin3())).unwrap();
+        $visit!("falling", 3, &Falling, start);
         crate::anisotropic::each_anisotropic!($visit);
         crate::confined::each_confined!($visit);
     }};

@@ -71,5 +71,21 @@ fn slopes_add_up_and_times_add() {
         };
     }
     each_model!(visit);
-    assert_eq!(count, 28);
+    assert_eq!(count, 32);
+}
+
+#[test]
+fn a_dilatation_of_its_own_beside_any_potential() {
+    fn own<M: Splitting<N>, const N: usize>(_: &M) -> (usize, bool, bool, bool) {
+        (M::PIECES.len(), M::PIECES[0].contains("dilatation"), M::NYSTROM, M::NEAR_INTEGRABLE)
+    }
+    use crate::models::*;
+    assert_eq!(own(&Inflated { kappa: 1.0 }.prepare().unwrap()), (2, true, true, true));
+    assert_eq!(own(&Pulled { kappa: 1.0 }.prepare().unwrap()), (2, true, true, true));
+    assert_eq!(own(&Tied), (2, true, true, true));
+    // Translation moves the centre, which the weight reads.
+    assert_eq!(own(&Falling), (3, true, false, false));
+    // Where the reduction takes it out of the state, and where nothing has a closed form.
+    assert_eq!(own(&Vibrating), (2, false, true, false));
+    assert_eq!(own(&Attracted), (3, false, false, false));
 }

@@ -66,21 +66,7 @@ impl Slope {
 
     /// Reads `U_dil'` off a polynomial in `q`, `D` and `1/D` with coefficients in parameters.
     pub(super) fn of(arena: &mut Arena, slope: &Polynomial) -> Option<Self> {
-        let [q, up, down] = ["q", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
-        let mut powers: Vec<((usize, i64), Polynomial)> = Vec::new();
-        for (monomial, weight) in slope.terms() {
-            let count = |symbol: Expr| monomial.iter().filter(|atom| **atom == symbol).count();
-            let power = i64::try_from(count(up)).ok()? - i64::try_from(count(down)).ok()?;
-            let key = (count(q), power);
-            let rest = monomial.iter().copied().filter(|atom| ![q, up, down].contains(atom)).collect();
-            let rest = Polynomial::term(rest, weight.clone());
-            match powers.iter_mut().find(|(known, _)| *known == key) {
-                Some((_, sum)) => sum.add_scaled(&rest, &Rational::ONE),
-                None => powers.push((key, rest)),
-            }
-        }
-        powers.retain(|(_, coefficient)| !coefficient.is_zero());
-        powers.sort_by_key(|(key, _)| *key);
+        let powers = powers(arena, slope)?;
         // Not time, nor q inside other functions.
         if powers.iter().any(|(_, c)| c.any_symbol(arena, &mut |s| !is_parameter(arena, s))) {
             return None;
@@ -89,16 +75,93 @@ impl Slope {
             [] => Some(Self::Zero),
             [((1, 0), stiffness)] => Some(Self::Linear(stiffness.clone())),
             [((0, low), lower), ((0, high), upper)] if *low == -*high => {
-                let mut sum = lower.clone();
-                sum.add_scaled(upper, &Rational::ONE);
-                let scale = Rational::ratio(*high, 2)?;
-                // C (D^j - D^-j) = 2 C sinh(j q), j = 2 scale.
-                let stiffness = upper.scaled(&Rational::from(2 * high));
-                sum.is_zero().then_some(Self::Hyperbolic { stiffness, scale })
+                sum(lower, upper, &Rational::ONE).is_zero().then(|| Self::hyperbolic(upper, *high))?
             }
             _ => None,
         }
     }
+
+    /// The stiffest slope with a closed form among the terms of a polynomial in `q`, `D`, `1/D` and anything else. Only what
+    /// binds the dilatation is taken: what drives it apart is not stiff, and would leave in a finite time without the rest.
+    pub(super) fn stiffest_in(arena: &mut Arena, slope: &Polynomial) -> Option<Self> {
+        let powers = powers(arena, slope)?;
+        let mut found: Option<(_, Self)> = None;
+        for (key, coefficient) in &powers {
+            let binding = match *key {
+                (1, 0) => binding(arena, coefficient, None),
+                (0, 1..) => {
+                    let opposite = powers.iter().find(|(other, _)| *other == (0, -key.1));
+                    opposite.map_or_else(Polynomial::zero, |(_, c)| binding(arena, coefficient, Some(c)))
+                }
+                _ => continue,
+            };
+            let one = match *key {
+                _ if binding.is_zero() => continue,
+                (0, power) => Self::hyperbolic(&binding, power)?,
+                _ => Self::Linear(binding),
+            };
+            let stiffness = one.stiffness_by_fields();
+            if found.as_ref().is_none_or(|(most, _)| *most <= stiffness) {
+                found = Some((stiffness, one));
+            }
+        }
+        found.map(|(_, slope)| slope)
+    }
+
+    /// `upper (D^j - D^-j) = 2 upper sinh(j q)`, `j = 2 scale`.
+    fn hyperbolic(upper: &Polynomial, j: i64) -> Option<Self> {
+        let scale = Rational::ratio(j, 2)?;
+        Some(Self::Hyperbolic { stiffness: upper.scaled(&Rational::from(2 * j)), scale })
+    }
+
+    /// Is the stiffness set by fields, whose values may be of any size, and what is it where they are all 1?
+    fn stiffness_by_fields(&self) -> (bool, Rational) {
+        let (Self::Linear(stiffness) | Self::Hyperbolic { stiffness, .. }) = self else {
+            return (false, Rational::ZERO);
+        };
+        let size = stiffness.terms().fold(Rational::ZERO, |size, (_, weight)| &size + weight);
+        (stiffness.as_constant().is_none(), size)
+    }
+}
+
+/// A slope by the powers of `q` and `D`, in their order.
+type Powers = Vec<((usize, i64), Polynomial)>;
+
+fn powers(arena: &mut Arena, slope: &Polynomial) -> Option<Powers> {
+    let [q, up, down] = ["q", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
+    let mut powers = Powers::new();
+    for (monomial, weight) in slope.terms() {
+        let count = |symbol: Expr| monomial.iter().filter(|atom| **atom == symbol).count();
+        let power = i64::try_from(count(up)).ok()? - i64::try_from(count(down)).ok()?;
+        let key = (count(q), power);
+        let rest = monomial.iter().copied().filter(|atom| ![q, up, down].contains(atom)).collect();
+        let rest = Polynomial::term(rest, weight.clone());
+        match powers.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, sum)) => sum.add_scaled(&rest, &Rational::ONE),
+            None => powers.push((key, rest)),
+        }
+    }
+    powers.retain(|(_, coefficient)| !coefficient.is_zero());
+    powers.sort_by_key(|(key, _)| *key);
+    Some(powers)
+}
+
+/// The terms in parameters alone that are positive and, where an opposite is asked for, as much of them as it has with the
+/// other sign.
+fn binding(arena: &Arena, coefficient: &Polynomial, opposite: Option<&Polynomial>) -> Polynomial {
+    let mut part = Polynomial::zero();
+    for (monomial, weight) in coefficient.terms() {
+        if monomial.iter().any(|atom| arena.any_symbol(*atom, &mut |s| !is_parameter(arena, s))) {
+            continue;
+        }
+        let against = |(_, w): (_, &Rational)| -w;
+        let limit = opposite.map(|o| o.terms().find(|(m, _)| *m == monomial).map_or(Rational::ZERO, against));
+        let weight = limit.map_or_else(|| weight.clone(), |limit| weight.clone().min(limit));
+        if weight > Rational::ZERO {
+            part.add_term(monomial.clone(), &weight);
+        }
+    }
+    part
 }
 
 /// The system of `Psi` and `O` in place of `phi` and an affine spin; `load` are the forces of the potential in the

@@ -33,7 +33,7 @@ use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetic::Frame;
 use super::potential::Potential;
 use super::reduce::{Commuting, Reduction, gauge};
-use super::separation::{Separation, Slope};
+use super::separation::Separation;
 use flows::{exact_flow, expanded};
 pub use squares::Principal;
 use squares::Squares;
@@ -176,9 +176,7 @@ fn own_dilatation(
     if !(0..chart.dim).all(|a| states.contains(&diagonal(a))) {
         return None;
     }
-    let potential = potential?;
-    let slope = potential.dilatational_slope(arena).filter(|slope| *slope != Slope::Zero)?;
-    let rest = potential.beside_dilatation(arena, &slope)?;
+    let (slope, rest) = potential?.own_dilatation(arena)?;
     let inverse_mass = iso.inverse_dilatational_mass(chart.dim);
     let mut trace = Polynomial::zero();
     (0..chart.dim).for_each(|a| trace.add_scaled(&Polynomial::atom(diagonal(a)), &Rational::ONE));

@@ -1,4 +1,4 @@
-//! Does a potential split into a function of `q` and one that no dilatation changes?
+//! What of a potential is a function of `q` with a motion in closed form.
 
 use crate::algebra::{Arena, Polynomial, Rational};
 
@@ -22,8 +22,10 @@ impl Potential {
                 }
                 Base::TraceOfSquare => slope.add_product(&partial, &symbol, &Rational::from(4)),
                 Base::Placement(..) => slope.add_product(&partial, &symbol, &Rational::ONE),
+                // The centre of mass stays where it is.
+                Base::Position(_) => {}
                 // The axes of single stretches are those of phi, not of Psi.
-                Base::Position(_) | Base::LogStretch(_) => return None,
+                Base::LogStretch(_) => return None,
             }
         }
         let others: Vec<_> = Base::all(self.dim)
@@ -36,12 +38,29 @@ impl Potential {
         }
         Slope::of(arena, &slope)
     }
-    /// `U - U_dil(q)`, of which the forces alone are meant: what moves the rest beside a dilatation of its own.
-    pub(in crate::mechanics) fn beside_dilatation(&self, arena: &mut Arena, slope: &Slope) -> Option<Self> {
+
+    /// `U_dil'(q)` and `W`, of which the forces alone are meant, where `U = U_dil(q) + W` and the closed form of the motion
+    /// under `U_dil` is known. `W` is what no dilatation changes where there is such a sum; else `U_dil` is the stiffest among
+    /// the terms in `q` alone.
+    pub(in crate::mechanics) fn own_dilatation(&self, arena: &mut Arena) -> Option<(Slope, Self)> {
+        let place = self.slopes.iter().position(|(base, _)| *base == Base::MeanLogStretch)?;
+        let slope = match self.dilatational_slope(arena) {
+            Some(Slope::Zero) => return None,
+            Some(slope) => slope,
+            None => {
+                let partial = through_dilatation(arena, self.slopes[place].1);
+                let partial = Polynomial::normal_form(arena, partial);
+                Slope::stiffest_in(arena, &partial)?
+            }
+        };
         let own = slope.derivative(arena)?;
         let mut rest = self.clone();
-        let (_, partial) = rest.slopes.iter_mut().find(|(base, _)| *base == Base::MeanLogStretch)?;
+        let partial = &mut rest.slopes[place].1;
         *partial = arena.linear(&[(*partial, Rational::ONE), (own, Rational::MINUS_ONE)]);
-        Some(rest)
+        let left = through_dilatation(arena, *partial);
+        if Polynomial::normal_form(arena, left).is_zero() {
+            rest.slopes.remove(place);
+        }
+        Some((slope, rest))
     }
 }
