@@ -115,6 +115,59 @@ fn a_stiff_dilatation_does_not_limit_the_step() {
     }
 }
 
+/// What 40 steps leave of `phi` at t = 1, in the Euclidean norm, where the soft part of the potential changes with the
+/// dilatation; `phi_dot = 0` but for what the momentum of the start gives.
+fn unresolved<M: Model<3>>(model: &M, start: M::Point<f64>, order: usize) -> f64 {
+    let at_the_end = |method| {
+        let run = Simulation::new(model, start).until(1.0).tolerance(1e-12).max_steps(1_000_000);
+        run.method(method).output([1.0]).run().unwrap()
+    };
+    let split = at_the_end(Method::Splitting { order, step: 1.0 / 40.0 });
+    let resolved = at_the_end(Method::RungeKutta8);
+    (split.end().1.phi() - resolved.end().1.phi()).norm()
+}
+
+/// At order 4 with the stiffnesses below, which are at no resonance: 1e-10 to 7e-9 as long as the swings are resolved, then
+/// the displacement by single kicks; 4e-6 is the largest found.
+const KICKED: f64 = 1e-5;
+
+#[test]
+fn nor_beside_forces_that_change_with_it() {
+    let [(_, phi, momentum), ..] = rows(include_str!("../data/p2.csv"))[..] else { panic!("no rows") };
+    for kappa in [1e3, 1e4, 1e5, 1e6, 1e7, 1e8] {
+        let model = Inflated { kappa }.prepare().unwrap();
+        let error = unresolved(&model, model.at_momentum(phi, Comoving(momentum)).unwrap(), 4);
+        assert!(error < KICKED, "inflated, kappa = {kappa:e}: {error:e}");
+        let model = Pulled { kappa }.prepare().unwrap();
+        let error = unresolved(&model, model.at_momentum(phi, Comoving(momentum)).unwrap(), 4);
+        assert!(error < KICKED, "pulled, kappa = {kappa:e}: {error:e}");
+    }
+}
+
+/// The error of order 2 in what the steps do resolve.
+const RESOLVED: f64 = 1e-4;
+
+#[test]
+fn kicks_at_resonance_move_it_no_further_than_they_push() {
+    let [(_, phi, momentum), ..] = rows(include_str!("../data/p2.csv"))[..] else { panic!("no rows") };
+    let mut largest: f64 = 0.0;
+    for k in 0..30 {
+        let kappa = 10_f64.powf(5.0 + 0.1 * f64::from(k));
+        let model = Inflated { kappa }.prepare().unwrap();
+        let start = model.at_momentum(phi, Comoving(momentum)).unwrap();
+        // Where a step takes whole swings, kicks add to a momentum of `t dW/dq`, and q swings by that over m w: m = 4.5,
+        // dW/dq = 0.6 tr G, and |phi| is 2 at most.
+        let push = 0.6 * 4.0 / (4.5 * kappa).sqrt() * 2.0;
+        for order in [2, 4] {
+            let error = unresolved(&model, start, order);
+            assert!(error < push + RESOLVED, "order {order}, kappa = {kappa:e}: {error:e}, push {push:e}");
+            largest = largest.max(error);
+        }
+    }
+    // Order 2 meets the first resonance, h w = 2 pi, at 2.8e5.
+    assert!(largest > 10.0 * RESOLVED, "{largest:e}");
+}
+
 /// Steps of the long runs.
 const STEPS: u32 = 100_000;
 /// Momentum maps are kept to `c eps sqrt(steps)` times their size, `c` this: a tenth, since increments are summed with

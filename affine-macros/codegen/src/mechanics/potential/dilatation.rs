@@ -64,3 +64,94 @@ impl Potential {
         Some((slope, rest))
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::algebra::{Expr, Function};
+
+    /// A sum of `c q^2`, `c sinh(q)^2`, `c exp(-2q)`, `c q` and any other terms.
+    struct Sum(Arena, Vec<(Expr, Rational)>);
+
+    impl Sum {
+        fn new() -> Self {
+            Self(Arena::new(), Vec::new())
+        }
+
+        fn plus(mut self, factors: &[(&str, i32)], weight: (i64, i64)) -> Self {
+            let arena = &mut self.0;
+            let q = arena.symbol("q");
+            let factors: Vec<_> = factors
+                .iter()
+                .map(|(name, power)| match *name {
+                    "sinh q" => (arena.apply(Function::Sinh, q), *power),
+                    "exp q" => {
+                        let argument = arena.scale(q, &Rational::from(i64::from(*power)));
+                        (arena.apply(Function::Exp, argument), 1)
+                    }
+                    name => (arena.symbol(name), *power),
+                })
+                .collect();
+            let product = arena.product(&factors).unwrap();
+            self.1.push((product, Rational::ratio(weight.0, weight.1).unwrap()));
+            self
+        }
+
+        /// What is taken of it, and how many base functions are left.
+        fn own(mut self) -> Option<(Slope, usize)> {
+            let energy = self.0.linear(&self.1);
+            let potential = Potential::new(&mut self.0, 3, energy);
+            let (slope, rest) = potential.own_dilatation(&mut self.0)?;
+            Some((slope, rest.slopes.len()))
+        }
+    }
+
+    fn hyperbolic(stiffness: Polynomial) -> Slope {
+        Slope::Hyperbolic { stiffness, scale: Rational::ONE }
+    }
+
+    fn number(n: i64) -> Polynomial {
+        Polynomial::constant(Rational::from(n))
+    }
+
+    #[test]
+    fn functions_of_q_are_taken_from_a_sum() {
+        // kappa/2 sinh(q)^2 + 3/10 tr G: nothing of q is left.
+        let sum =
+            Sum::new().plus(&[("self.kappa", 1), ("sinh q", 2)], (1, 2)).plus(&[("trace_1", 1)], (3, 10));
+        let (slope, rest) = sum.own().unwrap();
+        assert!(matches!(slope, Slope::Hyperbolic { scale: Rational::ONE, .. }), "{slope:?}");
+        assert_eq!(rest, 1);
+        // 5 sinh(q)^2 + 3/10 exp(-2q): as much of both exponentials as is odd.
+        let sum = Sum::new().plus(&[("sinh q", 2)], (5, 1)).plus(&[("exp q", -2)], (3, 10));
+        assert_eq!(sum.own(), Some((hyperbolic(number(10)), 1)));
+        // q^2 + x_1^2
+        let sum = Sum::new().plus(&[("q", 2)], (1, 1)).plus(&[("x_1", 2)], (1, 1));
+        assert_eq!(sum.own(), Some((Slope::Linear(number(2)), 1)));
+        // Single stretches.
+        let sum = Sum::new().plus(&[("q", 2)], (1, 1)).plus(&[("q_1", 2)], (1, 1));
+        assert_eq!(sum.own(), Some((Slope::Linear(number(2)), 1)));
+    }
+
+    #[test]
+    fn the_stiffest_is_taken_and_what_binds() {
+        let trace = || Sum::new().plus(&[("trace_1", 1)], (1, 1));
+        let sum = trace().plus(&[("q", 2)], (3, 2)).plus(&[("sinh q", 2)], (5, 1));
+        assert_eq!(sum.own(), Some((hyperbolic(number(10)), 2)));
+        let sum = trace().plus(&[("q", 2)], (30, 1)).plus(&[("sinh q", 2)], (5, 1));
+        assert_eq!(sum.own(), Some((Slope::Linear(number(60)), 2)));
+        // A field may be of any size.
+        let sum = trace().plus(&[("self.kappa", 1), ("q", 2)], (1, 2)).plus(&[("sinh q", 2)], (5, 1));
+        assert!(matches!(sum.own(), Some((Slope::Linear(_), 2))));
+        // What has no closed form, drives apart, changes in time or with anything else stays.
+        assert_eq!(trace().plus(&[("q", 1)], (-3, 1)).own(), None);
+        assert_eq!(trace().plus(&[("q", 2)], (-3, 1)).own(), None);
+        assert_eq!(trace().plus(&[("sinh q", 2)], (-1, 2)).own(), None);
+        assert_eq!(trace().plus(&[("q", 4)], (1, 1)).own(), None);
+        assert_eq!(trace().plus(&[("q", 2), ("t", 1)], (1, 1)).own(), None);
+        assert_eq!(trace().plus(&[("q", 2), ("x_1", 1)], (1, 1)).own(), None);
+        // Alone, a function of q may do either.
+        assert_eq!(Sum::new().plus(&[("q", 2)], (-3, 1)).own(), Some((Slope::Linear(number(-6)), 0)));
+    }
+}
