@@ -80,9 +80,10 @@ use proc_macro::TokenStream;
 ///
 /// `emit(splitting)` adds the exact flows of pieces of `H`, for `Method::Splitting`: the Casimirs and the norm of vorticity or
 /// spin of an isotropic energy, the squares `d/2 <E, X>^2` that any other energy of affine velocities is a sum of
-/// (`phi -> phi exp(t d <E, X> E)`), `T(Pi)`, translation and potential, a separable dilatation. Constraints go with it, but
-/// not `dalembert` under `isochoric`, with its multiplier, or `conformal`, with its weight `D^2`; nor do terms of different
-/// frames.
+/// (`phi -> phi exp(t d <E, X> E)`), `T(Pi)`, translation and potential, and the dilatation of an isotropic energy along its
+/// closed form under the stiffest summand `c q^2` or `c sinh(k q)^2` of the potential, whatever the others are. Constraints
+/// go with it, but not `dalembert` under `isochoric`, with its multiplier, or `conformal`, with its weight `D^2`; nor do
+/// terms of different frames.
 ///
 /// `emit(two_polar)` is the lattice form `(q, p, M, N)` of doubly isotropic models. Beside it, `splitting` adds the exact flows
 /// of the lattice's pieces (`lattice::LatticeSplitting`; with `group = unitary` it stands alone), and `ratios`, for affine

@@ -108,10 +108,12 @@ pub enum Method {
     ///
     /// [`Method::Automatic`] never takes it: what it is for is what it keeps, over runs that are longer than the motion can
     /// be followed, and its steps know no tolerance. The stiff dilatation that a reduction separates is separated for every
-    /// method alike. Where translation keeps it in the state and the potential is `U_dil(q)` and a part that no dilatation
-    /// changes, it moves along its closed form here, in one piece with the Casimirs, by elliptic functions: steps need not
-    /// resolve it, as those of every other method do. Where it is stiff, that can be cheaper than the automatic choice at
-    /// errors down to 1e-6 (problem P7 of `cargo run --release --example work_precision -- symplectic`).
+    /// method alike. Where it stays in the state and the potential of an isotropic energy is `U_dil(q)`, quadratic or
+    /// hyperbolic, and anything else, it moves along its closed form here, in one piece with the Casimirs, by elliptic
+    /// functions: steps need not resolve it, as those of every other method do. (Forces `dW/dq` that change with it can move
+    /// it by `t dW/dq/(m w)` where steps take whole swings of its frequency `w`.) Where it is stiff, that can be cheaper than
+    /// the automatic choice at errors down to 1e-6 (problem P7 of
+    /// `cargo run --release --example work_precision -- symplectic`).
     Splitting {
         /// The order, 2, 4, 6 or 8.
         order: usize,

@@ -10,15 +10,19 @@
 //!
 //! The second one holds for the Casimirs of an isotropic energy, which leave `M` alone, and for the norm of the
 //! vorticity or the spin, which turns it; and for the squares that an anisotropic energy is a sum of. A third form
-//! is known beforehand: where the potential splits into `U_dil(q)` and what no dilatation changes, the dilatation with its own kinetic energy is a motion of one degree of freedom,
+//! is known beforehand: where the potential is `U_dil(q) + W` with a `U_dil` of the right form and any `W`, the dilatation
+//! of an isotropic energy under `U_dil` is a motion of one degree of freedom,
 //!
 //! ```text
 //! q' = p/m, p' = -U_dil'(q)          phi -> exp(q(t) - q) phi, M -> M + (p(t) - p)/n 1,    p = tr M
 //! ```
 //!
 //! which commutes with the Casimirs of the traceless momentum and with their rotation: steps need not resolve a
-//! stiff dilatation, even one that translation couples to the rest. Pieces that commute follow one another in one; translation and potential
-//! are one piece where their sum has the first form.
+//! stiff dilatation, whatever couples it to the rest, translation or `W`. Forces `dW/dq` kick it as often as a step
+//! has kicks, and displace it by `h dW/dq/(m w)`, `w` its frequency; by up to `t dW/dq/(m w)` where whole swings fit
+//! between kicks, and those add up (the impulse method of molecular dynamics: Garcia-Archilla, Sanz-Serna, Skeel, SIAM J.
+//! Sci. Comput. 20 (1999) 930; Hairer, Lubich, Wanner, Geometric Numerical Integration, XIII.1). Pieces that commute follow
+//! one another in one; translation and potential are one piece where their sum has the first form.
 
 mod flows;
 mod squares;
@@ -147,14 +151,14 @@ pub fn splitting(
     Some(Splitting { pieces, principal, nystrom })
 }
 
-/// A dilatation with a closed form that stays in the state, for translation couples it to the rest.
+/// A dilatation with a closed form that stays in the state, for translation or the potential couples it to the rest.
 struct OwnDilatation {
     separation: Separation,
     /// `p^2/(2 m)`.
     energy: Polynomial,
     /// The kinetic energy without it.
     h: Hamiltonian,
-    /// The potential without `U_dil`, for its forces.
+    /// The potential without `U_dil`, for its forces: functions of the placement and the position, as it was.
     rest: Potential,
 }
 
