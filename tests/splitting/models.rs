@@ -146,6 +146,29 @@ pub(crate) struct Tied;
 )]
 pub(crate) struct Falling;
 
+/// Over the total affine momentum, in two pieces.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 1, casimir1_squared = 0.1, body_translation = m),
+    potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5) + 0.7*phi[2,2],
+    emit(splitting),
+)]
+pub(crate) struct Towed {
+    pub(crate) kappa: f64,
+    pub(crate) m: f64,
+}
+
+/// Over the total affine momentum, in three.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 2),
+    potential = kappa/2*q^2 + neo_hookean(2) + x[1]^2,
+    emit(splitting),
+)]
+pub(crate) struct Moored {
+    pub(crate) kappa: f64,
+}
+
 pub(crate) fn phi3() -> Matrix<3> {
     Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05)
 }
@@ -211,6 +234,12 @@ macro_rules! each_model {
         $visit!("tied", 2, &Tied, start);
         let start = Falling.at_momentum(x3(), phi3(), p3(), Comoving(spin3())).unwrap();
         $visit!("falling", 3, &Falling, start);
+        let model = Towed { kappa: 10.0, m: 2.0 }.prepare().unwrap();
+        let start = model.at_momentum(x3(), phi3(), p3(), Spatial(spin3())).unwrap();
+        $visit!("towed", 3, &model, start);
+        let model = Moored { kappa: 10.0 }.prepare().unwrap();
+        let start = model.at_momentum(x2, phi2(), p2, Comoving(spin2())).unwrap();
+        $visit!("moored", 2, &model, start);
         crate::anisotropic::each_anisotropic!($visit);
         crate::confined::each_confined!($visit);
     }};

@@ -71,7 +71,7 @@ fn slopes_add_up_and_times_add() {
         };
     }
     each_model!(visit);
-    assert_eq!(count, 32);
+    assert_eq!(count, 34);
 }
 
 #[test]
@@ -85,6 +85,13 @@ fn a_dilatation_of_its_own_beside_any_potential() {
     assert_eq!(own(&Tied), (2, true, true, true));
     // Translation moves the centre, which the weight reads.
     assert_eq!(own(&Falling), (3, true, false, false));
+    let (towed, moored) = (Towed { kappa: 1.0, m: 1.0 }.prepare(), Moored { kappa: 1.0 }.prepare());
+    assert_eq!(own(&towed.unwrap()), (2, true, true, true));
+    assert_eq!(own(&moored.unwrap()), (3, true, false, false));
+    // What it moves is the affine spin in the total affine momentum.
+    for groups in [PreparedTowed::DESCRIPTION.reduced, PreparedMoored::DESCRIPTION.reduced] {
+        assert!(groups.iter().any(|group| group.name == "I(O)"), "{groups:?}");
+    }
     // Where the reduction takes it out of the state, and where nothing has a closed form.
     assert_eq!(own(&Vibrating), (2, false, true, false));
     assert_eq!(own(&Attracted), (3, false, false, false));

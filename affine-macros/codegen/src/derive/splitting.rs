@@ -69,7 +69,7 @@ pub enum FlowProgram {
         momentum: Vec<Vec<String>>,
         /// What the potential is.
         slope: Slope,
-        /// What the closed form reads.
+        /// What the closed form reads, and the diagonal of the affine spin.
         program: Program,
     },
 }
@@ -148,8 +148,11 @@ fn written(
             let program = program(arena, &Batch { shared: shared.clone(), results, ..Batch::default() });
             FlowProgram::Exponential { placement, momentum, right: *right, program }
         }
-        Flow::Dilatation(separation) => {
-            let program = program(arena, &separation.batch());
+        Flow::Dilatation { separation, spin } => {
+            let mut batch = separation.batch();
+            let entries = spin.iter().enumerate();
+            batch.results.extend(entries.map(|(a, entry)| (format!("spin_{}", a + 1), entry.clone())));
+            let program = program(arena, &batch);
             let (placement, momentum) = (placement(arena), momentum(arena));
             FlowProgram::Dilatation { placement, momentum, slope: separation.slope.clone(), program }
         }

@@ -204,11 +204,10 @@ fn dilated(
     let rt = &context.names.rt;
     let diagonal: Vec<String> =
         momentum.iter().enumerate().filter_map(|(a, row)| row.get(a).cloned()).collect();
-    let read: Vec<String> = placement.iter().flatten().chain(&diagonal).cloned().collect();
-    let bind = bound(context, program, &read);
+    let bind = bound(context, program, &placement.concat());
     let Body { lets, results } = context.generic(program);
+    let (results, spin) = results.split_at(results.len().saturating_sub(context.model.dim));
     let path = closed_form(slope);
-    let entries = identifiers(&diagonal);
     let matrix = table(placement);
     let grown = placement.iter().flatten().zip(identifiers(&placement.concat()));
     let grown = grown.map(|(name, entry)| accumulated(context, name, quote!(#entry * growth)));
@@ -216,7 +215,7 @@ fn dilated(
     quote!({
         #bind
         #lets
-        let (growth, rise) = #rt::dilated(#matrix, [#(#entries),*], h, |t_start, q_start, p_start| {
+        let (growth, rise) = #rt::dilated(#matrix, [#(#spin),*], h, |t_start, q_start, p_start| {
             #rt::Breathing::#path(t_start, q_start, p_start, #(#results),*)
         });
         #(#grown)*

@@ -81,8 +81,13 @@ pub enum Flow {
         /// Does the affine momentum turn along?
         turns_momentum: bool,
     },
-    /// `q` and `tr M` along the closed form of their motion.
-    Dilatation(Separation),
+    /// `q` and the trace of the affine spin along the closed form of their motion.
+    Dilatation {
+        /// The motion.
+        separation: Separation,
+        /// The diagonal of the affine spin.
+        spin: Vec<Polynomial>,
+    },
 }
 
 /// A summand of `H` with its equations over the reduced state.
@@ -138,7 +143,7 @@ pub fn splitting(
         groups.push((vec![summand], vec![own]));
     }
     if let (Some(own), Some((first, flows))) = (own, groups.first_mut()) {
-        flows.push(Flow::Dilatation(own.separation));
+        flows.push(Flow::Dilatation { separation: own.separation, spin: own.spin });
         first.push(Summand {
             name: "dilatation".into(),
             energy: Some(own.energy),
@@ -154,6 +159,8 @@ pub fn splitting(
 /// A dilatation with a closed form that stays in the state, for translation or the potential couples it to the rest.
 struct OwnDilatation {
     separation: Separation,
+    /// The diagonal of the affine spin over the reduced state: of the total affine momentum, `x p^T` is no part of it.
+    spin: Vec<Polynomial>,
     /// `p^2/(2 m)`.
     energy: Polynomial,
     /// The kinetic energy without it.
@@ -171,26 +178,30 @@ fn own_dilatation(
 ) -> Option<OwnDilatation> {
     let chart = &reduction.chart;
     let iso = h.isotropic.as_ref()?;
-    let moves_itself = matches!(chart.momentum, Momentum::Body | Momentum::Space) && iso.casimir3.is_zero();
+    let moves_itself = chart.momentum != Momentum::Canonical && iso.casimir3.is_zero();
     if reduction.separation.is_some() || h.constraint.is_some() || !moves_itself || iso.casimir2.is_zero() {
         return None;
     }
     let states: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
-    let diagonal = |a: usize| chart.m.0[a][a];
-    if !(0..chart.dim).all(|a| states.contains(&diagonal(a))) {
+    if !(0..chart.dim).all(|a| states.contains(&chart.m.0[a][a])) {
         return None;
     }
     let (slope, rest) = potential?.own_dilatation(arena)?;
     let inverse_mass = iso.inverse_dilatational_mass(chart.dim);
+    let rows = spatial_or_own(chart).into_iter().enumerate();
+    let spin: Vec<Polynomial> = rows.filter_map(|(a, row)| row.into_iter().nth(a)).collect();
     let mut trace = Polynomial::zero();
-    (0..chart.dim).for_each(|a| trace.add_scaled(&Polynomial::atom(diagonal(a)), &Rational::ONE));
+    spin.iter().for_each(|entry| trace.add_scaled(entry, &Rational::ONE));
     let mut energy = Polynomial::zero();
     energy.add_product(&trace.mul(&trace), &inverse_mass, &Rational::ratio(1, 2)?);
     let mut h = h.clone();
     let nth = Rational::ratio(-1, i64::try_from(chart.dim).ok()?)?;
     // tr M^2 - (tr M)^2/n, of the traceless momentum.
     h.isotropic.as_mut()?.casimir1_squared = iso.casimir2.scaled(&nth);
-    Some(OwnDilatation { separation: Separation { slope, inverse_mass }, energy, h, rest })
+    let gauge = gauge(chart, reduction.turned, reduction.layout);
+    let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
+    let spin = spin.iter().map(|entry| entry.substitute(&value)).collect();
+    Some(OwnDilatation { separation: Separation { slope, inverse_mass }, spin, energy, h, rest })
 }
 
 /// Kinetic energy, translation and potential in the chart of the reduction.
