@@ -14,7 +14,7 @@
 //! of an isotropic energy under `U_dil` is a motion of one degree of freedom,
 //!
 //! ```text
-//! q' = p/m, p' = -U_dil'(q)          phi -> exp(q(t) - q) phi, M -> M + (p(t) - p)/n 1,    p = tr M
+//! q' = p/m, p' = -U_dil'(q)          phi -> exp(q(t) - q) phi, M -> M + (p(t) - p)/n 1,    p = tr Sigma
 //! ```
 //!
 //! which commutes with the Casimirs of the traceless momentum and with their rotation: steps need not resolve a

@@ -6,7 +6,7 @@ use crate::kinematics::mean_log_stretch;
 use crate::scalar::Real;
 
 /// `(e^(q1 - q) - 1, (p1 - p)/N)`, by which a placement grows and the diagonal of its affine momentum rises, from `q` of
-/// the placement and `p` the trace of the momentum along their `motion`, a function of its start, for the time `h`.
+/// the placement and `p` the sum of the affine spin's `diagonal` along their `motion`, a function of its start, for the time `h`.
 #[inline]
 #[must_use]
 pub fn dilated<const N: usize, T: Real>(
