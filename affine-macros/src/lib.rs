@@ -78,7 +78,8 @@ use proc_macro::TokenStream;
 /// `centre_balance(t, &point)`: the kinematical spin
 /// `K = phi J phi_dot^T` and both sides of its balance in space and body, (3.6), (3.8), (3.9).
 ///
-/// `emit(splitting)` adds the exact flows of pieces of `H`, for `Method::Splitting`: the Casimirs and the norm of vorticity or
+/// `emit(splitting)` adds the exact flows of pieces of `H`, for `Method::Splitting` and, by which `Method::Automatic` passes
+/// over a stiff dilatation, `Method::AdaptiveSplitting`: the Casimirs and the norm of vorticity or
 /// spin of an isotropic energy, the squares `d/2 <E, X>^2` that any other energy of affine velocities is a sum of
 /// (`phi -> phi exp(t d <E, X> E)`), `T(Pi)`, translation and potential, and the dilatation of an isotropic energy along its
 /// closed form under the stiffest summand `c q^2` or `c sinh(k q)^2` of the potential, whatever the others are. Constraints

@@ -32,7 +32,7 @@ pub use rattle::Rattle;
 pub(crate) use runge_kutta::in_lanes;
 
 pub use runge_kutta::{RungeKutta5, RungeKutta8};
-pub use splitting::Splitting;
+pub use splitting::{AdaptiveSplitting, Splitting};
 pub use taylor::Taylor;
 
 use core::fmt;

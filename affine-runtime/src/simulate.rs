@@ -26,6 +26,7 @@ mod run;
 mod settings;
 mod signature;
 mod stepper;
+mod stiffness;
 mod trajectory;
 mod watcher;
 mod why;
@@ -54,7 +55,9 @@ pub enum Method {
     /// The closed form where model and start have one; else, where `emit(nystrom)` asked for it and unless there
     /// are events, which look at times within steps, [`Method::RungeKuttaNystrom12`], or at tolerances above
     /// [`NYSTROM_TOLERANCE`] [`Method::RungeKuttaNystrom8`]; else [`Method::Taylor`] where `emit(taylor)` asked
-    /// for it and the tolerance is at most [`TAYLOR_TOLERANCE`]; else [`Method::RungeKutta8`]. The motion of a body under a
+    /// for it and the tolerance is at most [`TAYLOR_TOLERANCE`]; else [`Method::RungeKutta8`]. Before these two, and unless
+    /// there are events, [`Method::AdaptiveSplitting`] where `emit(splitting)` gave a stiff dilatation a closed form within a
+    /// piece and the tolerance lets steps pass over several turns of it. The motion of a body under a
     /// constraint is integrated in charts of its group, see [`Chart`](crate::integrate::lie::Chart), by Runge-Kutta
     /// steps and by Gauss collocation: the placement stays on the group up to rounding.
     #[default]
@@ -107,18 +110,25 @@ pub enum Method {
     /// reached by a shorter step from the one before, which leaves the sequence of steps as it is.
     ///
     /// [`Method::Automatic`] never takes it: what it is for is what it keeps, over runs that are longer than the motion can
-    /// be followed, and its steps know no tolerance. The stiff dilatation that a reduction separates is separated for every
-    /// method alike. Where it stays in the state and the potential of an isotropic energy is `U_dil(q)`, quadratic or
-    /// hyperbolic, and anything else, it moves along its closed form here, in one piece with the Casimirs, by elliptic
-    /// functions: steps need not resolve it, as those of every other method do. (Forces `dW/dq` that change with it can move
-    /// it by `t dW/dq/(m w)` where steps take whole swings of its frequency `w`.) Where it is stiff, that can be cheaper than
-    /// the automatic choice at errors down to 1e-6 (problem P7 of
-    /// `cargo run --release --example work_precision -- symplectic`).
+    /// be followed, and its steps know no tolerance, as those of [`Method::AdaptiveSplitting`] do. The stiff dilatation that
+    /// a reduction separates is separated for every method alike. Where it stays in the state and the potential of an
+    /// isotropic energy is `U_dil(q)`, quadratic or hyperbolic, and anything else, it moves along its closed form here, in
+    /// one piece with the Casimirs, by elliptic functions: steps need not resolve it, as those of every other method do.
+    /// (Forces `dW/dq` that change with it can move it by `t dW/dq/(m w)` where steps take whole swings of its frequency
+    /// `w`.)
     Splitting {
         /// The order, 2, 4, 6 or 8.
         order: usize,
         /// Length of a step, positive; the interval is divided into equal steps that are not longer.
         step: f64,
+    },
+    /// The same in steps by their error, [`AdaptiveSplitting`](crate::integrate::AdaptiveSplitting): for a stiff dilatation that
+    /// a piece has in closed form. Momentum maps and Casimirs are kept up to rounding, but the motion as a whole is not
+    /// symplectic: the energy is kept to the tolerance, and may drift. Output times between steps are reached by shorter
+    /// steps from the one before; within a step that passes over many turns of the dilatation an event may be missed.
+    AdaptiveSplitting {
+        /// The order, 2, 4, 6 or 8; `None`: 4.
+        order: Option<usize>,
     },
 }
 
@@ -135,6 +145,7 @@ impl Method {
             | Method::RungeKutta5
             | Method::RungeKuttaNystrom12
             | Method::RungeKuttaNystrom8
+            | Method::AdaptiveSplitting { .. }
             | Method::Taylor { .. } => None,
         }
     }

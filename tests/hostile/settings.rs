@@ -131,6 +131,9 @@ fn of_other_orders(method: Method) -> Vec<(Method, String)> {
         Method::Splitting { step, .. } => {
             [0, 3, 10, usize::MAX].map(|order| named(Method::Splitting { order, step }, order)).to_vec()
         }
+        Method::AdaptiveSplitting { .. } => [0, 3, 10, usize::MAX]
+            .map(|order| named(Method::AdaptiveSplitting { order: Some(order) }, order))
+            .to_vec(),
         Method::Taylor { .. } => {
             orders.map(|order| named(Method::Taylor { order: Some(order) }, order)).to_vec()
         }
@@ -139,7 +142,7 @@ fn of_other_orders(method: Method) -> Vec<(Method, String)> {
 }
 
 /// One of every kind of method.
-fn all_methods() -> [Method; 9] {
+fn all_methods() -> [Method; 10] {
     let step = 0.1;
     [
         Method::Automatic,
@@ -151,6 +154,7 @@ fn all_methods() -> [Method; 9] {
         Method::RungeKuttaNystrom8,
         Method::Rattle { order: 4, step },
         Method::Splitting { order: 4, step },
+        Method::AdaptiveSplitting { order: None },
     ]
 }
 

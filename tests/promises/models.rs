@@ -71,6 +71,10 @@ fn gauss(stages: usize, step: f64) -> Method {
     Method::Gauss { stages, step: 2.0 * step }
 }
 
+fn adaptive(order: Option<usize>) -> Method {
+    Method::AdaptiveSplitting { order }
+}
+
 fn placement() -> Matrix<2> {
     Matrix::<2>::new(1.1, 0.2, -0.1, 0.9)
 }
@@ -101,7 +105,8 @@ pub(crate) fn vibrating(step: f64) -> Served<Vibrating, Point<Vibrating, 2>> {
 pub(crate) fn springs(step: f64) -> Served<Springs, Point<Springs, 2>> {
     let (x, p) = centre();
     let start = Springs.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
-    let methods = explicit_and([2, 4, 6, 8].map(|order| Method::Splitting { order, step }));
+    let pieces = [2, 4, 6, 8].map(|order| Method::Splitting { order, step });
+    let methods = explicit_and(pieces.into_iter().chain([None, Some(6)].map(adaptive)));
     Served { model: Springs, start, methods }
 }
 
@@ -122,7 +127,8 @@ pub(crate) fn top(step: f64) -> Served<Top, Point<Top, 3>> {
     let (x, v) = (Vector::<3>::new(0.4, -0.3, 0.1), Vector::<3>::new(0.2, 0.5, -0.1));
     let start = Top.at_velocity(x, Matrix::<3>::identity(), v, omega).unwrap();
     let pieces = [2, 4, 6, 8].map(|order| Method::Splitting { order, step });
-    let methods = explicit_and(pieces.into_iter().chain([gauss(2, step), gauss(3, step)]));
+    let others = [gauss(2, step), gauss(3, step), adaptive(Some(8))];
+    let methods = explicit_and(pieces.into_iter().chain(others));
     Served { model: Top, start, methods }
 }
 

@@ -1,6 +1,7 @@
 //! `emit(splitting)`: flows of pieces against the equations of motion, motions against reference solutions.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod adaptive;
 mod anisotropic;
 mod confined;
 mod models;

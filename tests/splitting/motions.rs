@@ -16,7 +16,7 @@ fn run<const N: usize, M: Model<N>>(
     run.max_steps(10_000_000).run().unwrap()
 }
 
-fn difference<const N: usize, P: Phase<N>>(one: &P, other: &P) -> f64 {
+pub(crate) fn difference<const N: usize, P: Phase<N>>(one: &P, other: &P) -> f64 {
     let placement = (one.phi() - other.phi()).norm();
     let spin = (one.sigma().0.0 - other.sigma().0.0).norm();
     let centre = (one.x() - other.x()).norm() + (one.p() - other.p()).norm();

@@ -67,6 +67,17 @@ pub struct Program {
 }
 
 impl Program {
+    /// Name of a value: what the derivation calls it, or its number.
+    #[must_use]
+    pub fn name(&self, value: Value) -> String {
+        if let Op::Input(name) = &self.steps[value] {
+            return name.clone();
+        }
+        let named = self.names.iter().find(|(v, _)| *v == value).map(|(_, name)| name);
+        let output = self.outputs.iter().find(|(_, v)| *v == value).map(|(name, _)| name);
+        named.or(output).cloned().unwrap_or_else(|| format!("v{value}"))
+    }
+
     /// How often each value is read, by steps, by calls and as a result.
     #[must_use]
     pub fn uses(&self) -> Vec<usize> {

@@ -1,9 +1,14 @@
-//! Splitting: exact flows of pieces of the Hamiltonian in turn, explicit and symplectic, with a fixed step.
+//! Splitting: exact flows of pieces of the Hamiltonian in turn, explicit and symplectic, with a fixed step or to a
+//! tolerance.
 
+mod adaptive;
 mod coefficients;
 mod dilated;
 mod growth;
 
+#[cfg(feature = "std")]
+pub(crate) use adaptive::fastest;
+pub use adaptive::{AdaptiveSplitting, ORDER};
 pub use coefficients::Sweeps;
 pub use dilated::dilated;
 pub use growth::{accumulate, conjugated, elongation, growth, left_product, right_product, turning};
@@ -63,10 +68,7 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
         t_end: f64,
         step: f64,
     ) -> Option<Result<Self, Failure>> {
-        let sweeps = match P::NEAR_INTEGRABLE {
-            true => Sweeps::near_integrable(order),
-            false => Sweeps::of_order(order, P::NYSTROM),
-        }?;
+        let sweeps = of_order::<S, C, P>(order)?;
         Some(Self::with(pieces, constants, sweeps, (t0, y0), t_end, step))
     }
 
@@ -137,20 +139,36 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
         Statistics { steps: self.steps.taken(), rejected: 0, evaluations: self.evaluations }
     }
 
-    /// One step of the composition.
-    #[inline]
     fn composed(&mut self, t: f64, begin: Sum<S>, h: f64) -> Sum<S> {
-        let mut state = begin;
-        let (pieces, last) = (&self.pieces, P::COUNT.saturating_sub(1));
-        let (mut elapsed, mut evaluations) = (0.0, 0);
-        self.sweeps.each(last + 1, |piece, part| {
-            pieces.flow(piece, t + elapsed * h, part * h, &self.constants, &mut state);
-            elapsed += if piece == 0 { part } else { 0.0 };
-            evaluations += u64::from(piece == last);
-        });
+        let (end, evaluations) = composed(&self.pieces, &self.sweeps, &self.constants, (t, begin), h);
         self.evaluations += evaluations;
-        state
+        end
     }
+}
+
+/// The composition of an order for pieces.
+fn of_order<S, C, P: Pieces<S, C>>(order: usize) -> Option<Sweeps> {
+    if P::NEAR_INTEGRABLE { Sweeps::near_integrable(order) } else { Sweeps::of_order(order, P::NYSTROM) }
+}
+
+/// One step of a composition, and the flows of its last piece.
+#[inline]
+fn composed<S, C, P: Pieces<S, C>>(
+    pieces: &P,
+    sweeps: &Sweeps,
+    constants: &C,
+    (t, begin): (f64, Sum<S>),
+    h: f64,
+) -> (Sum<S>, u64) {
+    let mut state = begin;
+    let last = P::COUNT.saturating_sub(1);
+    let (mut elapsed, mut evaluations) = (0.0, 0);
+    sweeps.each(last + 1, |piece, part| {
+        pieces.flow(piece, t + elapsed * h, part * h, constants, &mut state);
+        elapsed += if piece == 0 { part } else { 0.0 };
+        evaluations += u64::from(piece == last);
+    });
+    (state, evaluations)
 }
 
 impl<S: StateVector<f64>, C, P: Pieces<S, C>> fmt::Debug for Splitting<S, C, P> {

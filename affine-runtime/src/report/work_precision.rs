@@ -7,6 +7,7 @@ use super::local_error::share_above;
 use super::reference::reference_solution;
 use super::{method_name, save};
 use crate::error::Result;
+use crate::integrate::splitting::Pieces;
 use crate::integrate::{Statistics, norm};
 use crate::model::{Conserved, Model};
 use crate::simulate::{Halt, Method, Reason, Simulation, Stop, Trajectory};
@@ -56,7 +57,8 @@ pub struct WorkPrecision<'a, const N: usize, M: Model<N>> {
 impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     /// A comparison on the motion of `model` from the phase point `start` at time 0 to `t_end`, of
     /// [`Method::RungeKutta8`] at [`DEFAULT_TOLERANCES`], of [`Method::RungeKuttaNystrom8`],
-    /// [`Method::RungeKuttaNystrom12`] and [`Method::Taylor`] where they were emitted and, where there is one, of the closed form.
+    /// [`Method::RungeKuttaNystrom12`] and [`Method::Taylor`] where they were emitted, of [`Method::AdaptiveSplitting`] where a
+    /// dilatation has a closed form in what was emitted and, where there is one, of the closed form.
     #[must_use]
     pub fn new(model: &'a M, start: M::Point<f64>, t_end: f64) -> Self {
         Self {
@@ -146,6 +148,7 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
                 methods.extend([Method::RungeKuttaNystrom8, Method::RungeKuttaNystrom12]);
             }
             methods.extend(self.model.taylor().map(|_| Method::Taylor { order: None }));
+            methods.extend(passes_over_stiffness(self.model.splitting()));
             methods.extend(geodesic.map(|_| Method::ClosedForm));
         }
         let mut rows = Vec::new();
@@ -296,6 +299,11 @@ pub struct Measurement {
     /// Share of the steps whose true local error exceeds the tolerance, between 0 and 1; `None` where steps follow no
     /// tolerance, or one below 1e-13.
     pub above_tolerance: Option<f64>,
+}
+
+/// Splitting in adaptive steps, where one of the pieces has a stiff motion in closed form.
+fn passes_over_stiffness<S, C, R: Pieces<S, C>>(pieces: Option<R>) -> Option<Method> {
+    pieces.filter(|_| R::NEAR_INTEGRABLE).map(|_| Method::AdaptiveSplitting { order: None })
 }
 
 impl Row {

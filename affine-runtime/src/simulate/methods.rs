@@ -10,6 +10,7 @@ use super::motion::{Expanded, Expansion};
 use super::range::in_range;
 use super::recorder::Recorder;
 use super::stepper::{Explicit, Stepper};
+use super::stiffness::{PiecesOf, adaptive, stiffness};
 use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 use crate::capability::is_emitted;
 use crate::integrate::gauss::Tableau as Collocation;
@@ -63,6 +64,9 @@ fn integrate<const N: usize, M: Model<N>, const NAMED: bool>(
         Method::Splitting { order, step } if const { NAMED } => {
             by_pieces(model, (order, step), course, recorder)
         }
+        Method::AdaptiveSplitting { order } => {
+            by_adaptive_pieces::<N, M, _, NAMED>(model, model.splitting(), order, course, recorder)
+        }
         Method::RungeKuttaNystrom12 => by_halves(model, &Tableau::ORDER_12, course, recorder),
         Method::RungeKuttaNystrom8 => by_halves(model, &Tableau::ORDER_8, course, recorder),
         _ if const { !moves_on_group(&M::DESCRIPTION, N) } => {
@@ -79,7 +83,13 @@ fn integrate<const N: usize, M: Model<N>, const NAMED: bool>(
 
 /// Forces are computed from the placement alone, nothing being carried along.
 fn forms_determinant(method: Method) -> bool {
-    matches!(method, Method::RungeKuttaNystrom12 | Method::RungeKuttaNystrom8 | Method::Splitting { .. })
+    matches!(
+        method,
+        Method::RungeKuttaNystrom12
+            | Method::RungeKuttaNystrom8
+            | Method::Splitting { .. }
+            | Method::AdaptiveSplitting { .. }
+    )
 }
 
 /// The integrator to take, noted with what was missing for a better one.
@@ -92,6 +102,11 @@ fn chosen<const N: usize, M: Model<N>>(
     let in_reach =
         const { !carries_dilatation(&M::DESCRIPTION) } || in_range(course.t0, course.start.phi()).is_ok();
     let by_halves = !recorder.has_events() && in_reach;
+    let stiffness = match course.method {
+        Method::Automatic if by_halves => stiffness(model, model.splitting(), course),
+        _ => None,
+    };
+    recorder.trajectory.computation.stiffness = stiffness;
     let method = match course.method {
         Method::Automatic if model.second_order().is_some() && by_halves => {
             return if course.tolerance > NYSTROM_TOLERANCE {
@@ -99,6 +114,9 @@ fn chosen<const N: usize, M: Model<N>>(
             } else {
                 Method::RungeKuttaNystrom12
             };
+        }
+        Method::Automatic if by_halves && stiffness.is_some() => {
+            return Method::AdaptiveSplitting { order: None };
         }
         Method::Automatic
             if course.tolerance <= TAYLOR_TOLERANCE
@@ -152,6 +170,27 @@ fn by_pieces<const N: usize, M: Model<N>>(
     emitted::<N, M, _>(model.splitting(), "splitting", |pieces| {
         let integration = Splitting::new((pieces, constants), order, (t0, reduced), t_end, step);
         follow(integration.ok_or(Setting::Order { given: order })?, (&expand, layout), recorder)
+    })
+}
+
+/// The same in steps by their error. The automatic choice takes only pieces with a stiff motion of their own.
+fn by_adaptive_pieces<const N: usize, M: Model<N>, R: PiecesOf<N, M>, const NAMED: bool>(
+    model: &M,
+    pieces: Option<R>,
+    order: Option<usize>,
+    course: &Course<'_, M::Point<f64>>,
+    recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
+) -> Result<(), Reason> {
+    if const { !(NAMED || R::NEAR_INTEGRABLE) } {
+        return Err(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "splitting" }.into());
+    }
+    let layout = const { Layout::of(M::DESCRIPTION.reduced, N) };
+    let (reduced, constants) = model.reduce(course.t0, course.start);
+    let expand = |t: f64, reduced: &M::Reduced<f64>| model.expand(t, &constants, reduced);
+    emitted::<N, M, _>(pieces, "splitting", |pieces| {
+        let integration = adaptive(model, pieces, order, (reduced, constants), course);
+        let given = order.unwrap_or_default();
+        follow(integration.ok_or(Setting::Order { given })?, (&expand, layout), recorder)
     })
 }
 

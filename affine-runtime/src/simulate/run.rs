@@ -108,6 +108,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                 no_whirl: false,
                 at_rest: start.p().iter().all(|p| *p == 0.0),
                 missing: None,
+                stiffness: None,
                 condition: self.model.condition(start.phi()),
                 residual: None,
             },

@@ -100,7 +100,9 @@ impl Plan {
                     return Err(Setting::NotIsochoric { model: model.name });
                 }
             }
-            Method::Splitting { order, .. } if Sweeps::of_order(order, false).is_none() => {
+            Method::Splitting { order, .. } | Method::AdaptiveSplitting { order: Some(order) }
+                if Sweeps::of_order(order, false).is_none() =>
+            {
                 return Err(Setting::Order { given: order });
             }
             _ => {}

@@ -4,7 +4,7 @@ use super::checkpoint::Bits;
 use crate::integrate::lie::Coordinates;
 use crate::integrate::nystrom::SecondOrder;
 use crate::integrate::runge_kutta::{Dense, Field, Pair, RungeKutta};
-use crate::integrate::splitting::{Pieces, Splitting};
+use crate::integrate::splitting::{AdaptiveSplitting, Pieces, Splitting};
 use crate::integrate::taylor::{Series, Taylor};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKuttaNystrom, Statistics};
 use crate::model::StateVector;
@@ -136,6 +136,13 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Ra
     }
     fn residual(&self) -> Option<f64> {
         Some(Rattle::residual(self))
+    }
+}
+
+impl<S: StateVector<f64>, C, P: Pieces<S, C>> Stepper<S> for AdaptiveSplitting<S, C, P> {
+    by_the_same_names!(AdaptiveSplitting);
+    fn between(&mut self, t: f64) -> Result<S, Failure> {
+        self.at(t)
     }
 }
 

@@ -44,6 +44,9 @@ pub struct Computation {
     pub at_rest: bool,
     /// What `emit(...)` would have to list for the method that [`Method::Automatic`] would rather take.
     pub missing: Option<&'static str>,
+    /// How many radians of the fastest motion a step by pieces can be long, where that is why [`Method::Automatic`] takes
+    /// [`Method::AdaptiveSplitting`].
+    pub stiffness: Option<f64>,
     /// Condition number of a kinetic energy whose coefficients are fields, [`Model::condition`](crate::model::Model::condition),
     /// at the start; `None` where they are numbers, which were checked when the model was compiled.
     pub condition: Option<f64>,

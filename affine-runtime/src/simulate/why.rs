@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::trajectory::{Computation, Trajectory};
 use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
+use crate::integrate::splitting::ORDER;
 use crate::integrate::taylor::order_for;
 use crate::model::{Constraint, Description};
 use crate::state::Phase;
@@ -67,6 +68,7 @@ impl Why {
             Method::Gauss { stages, step } => self.gauss(f, stages, step),
             Method::Rattle { order, step } => self.rattle(f, order, step),
             Method::Splitting { order, step } => self.splitting(f, order, step),
+            Method::AdaptiveSplitting { order } => self.adaptive_splitting(f, order.unwrap_or(ORDER)),
         }
     }
 
@@ -124,6 +126,28 @@ impl Why {
         writeln!(f, "for what it keeps over long runs; Method::Automatic would take adaptive steps")
     }
 
+    fn adaptive_splitting(&self, f: &mut fmt::Formatter<'_>, order: usize) -> fmt::Result {
+        let Computation { tolerance, stiffness, closed_form_exists, .. } = self.computation;
+        write!(
+            f,
+            "splitting of order {order} by exact flows of pieces of H, relative error {tolerance:e} per step: "
+        )?;
+        match (stiffness, closed_form_exists) {
+            (Some(radians), _) => writeln!(
+                f,
+                "the dilatation is stiff and moves along its closed form: steps of more than {radians:.0} radians of it meet \
+                 the tolerance, which is cheaper than to resolve it"
+            ),
+            (None, true) => writeln!(f, "as asked for; Method::Automatic would take the closed form"),
+            (None, false) => writeln!(f, "as asked for"),
+        }?;
+        writeln!(
+            f,
+            "kept up to rounding: momenta that every piece conserves (p, spin, vorticity, angular momenta, where the model \
+             conserves them) and Casimirs; not symplectic, since steps follow the error: the energy is kept to the tolerance"
+        )
+    }
+
     /// The group on which the steps were taken.
     fn group(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let chart = match self.description.constraint {
@@ -136,7 +160,7 @@ impl Why {
         };
         match self.computation.method {
             Method::ClosedForm | Method::Rattle { .. } => Ok(()),
-            Method::Splitting { .. } => {
+            Method::Splitting { .. } | Method::AdaptiveSplitting { .. } => {
                 writeln!(f, "the flows that move phi are exponentials: it stays on the group up to rounding")
             }
             _ => writeln!(f, "steps on {chart} around the placement: phi stays on the group up to rounding"),

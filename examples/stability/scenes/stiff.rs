@@ -73,11 +73,24 @@ pub(crate) struct Missile {
 
 #[affine_model(
     dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
+    potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
+    emit(splitting),
+)]
+pub(crate) struct SplitMissile {
+    kappa: f64,
+}
+
+#[affine_model(
+    dim = 3,
     constraint = isochoric,
     kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1),
     potential = neo_hookean(0.5),
 )]
 pub(crate) struct ConfinedMissile;
+
+/// A tolerance for pictures.
+const LOOSE: f64 = 1e-3;
 
 pub(super) const KAPPAS: [f64; 11] = [1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12];
 
@@ -199,6 +212,17 @@ fn missile(report: &mut StabilityReport, extent: Extent) -> affine_runtime::Resu
         let model = Missile { kappa }.prepare()?;
         let solution = run(&model, model.at_momentum(Vector::<3>::zeros(), phi, p, Comoving(spin))?, t);
         both(report, ("drunk missile", kappa, t), solution, &confined, (kappa / 4.5).sqrt());
+    }
+    // Loosely, where splitting passes over the dilatation.
+    for kappa in KAPPAS {
+        let model = SplitMissile { kappa }.prepare()?;
+        let start = model.at_momentum(Vector::<3>::zeros(), phi, p, Comoving(spin))?;
+        let solution = Simulation::new(&model, start).until(t).tolerance(LOOSE).max_steps(1_000_000).run();
+        let named =
+            scene("drunk missile, split", 3, format!("kappa = {kappa:e}, t = {t}"), "phi", Oracle::Limit);
+        report.case(named, Demand::Held((4.0 / kappa).max(LOOSE)), || {
+            solution.map(|s| apart(&s, &confined)).map_err(Into::into)
+        });
     }
     Ok(())
 }

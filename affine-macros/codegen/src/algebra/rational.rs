@@ -160,6 +160,16 @@ impl Rational {
         (hi, lo)
     }
 
+    /// The number to half the digits of a double, the double nearest to the rest, and the one nearest to what is left.
+    #[must_use]
+    pub fn to_halves(&self) -> [f64; 3] {
+        let exact = self.to_big();
+        let half = f64::from_bits(nearest(&exact).to_bits() & !0x7ff_ffff);
+        let rest = BigRational::from_float(half).map_or_else(BigRational::default, |half| exact - half);
+        let (rest, left) = Self::shrink(rest).to_doubles();
+        [half, rest, left]
+    }
+
     /// `numerator / denominator`; `None` for a zero denominator.
     #[must_use]
     pub fn quotient(numerator: BigInt, denominator: BigInt) -> Option<Self> {

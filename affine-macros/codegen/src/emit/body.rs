@@ -283,6 +283,11 @@ pub(super) fn inner(operator: TokenStream) -> TokenStream {
     operator.into_iter().map(placed).collect()
 }
 
+/// A double.
+pub(super) fn double(value: f64) -> TokenStream {
+    literal(value, "")
+}
+
 /// A double with an exponent where that is shorter.
 fn literal(value: f64, suffix: &str) -> TokenStream {
     let size = value.abs();

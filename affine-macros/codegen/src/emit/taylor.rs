@@ -11,7 +11,7 @@ use quote::{format_ident, quote};
 
 use crate::algebra::Function;
 use crate::ir::taylor::{Recurrence, Rule, Series};
-use crate::ir::{Op, Program, Value};
+use crate::ir::{Program, Value};
 
 use super::body::{Body, inputs};
 use super::{Context, number, pattern};
@@ -95,13 +95,7 @@ impl Writer<'_> {
 
     /// Name of a value: what the derivation calls it, or its number.
     fn name(&self, value: Value) -> String {
-        let program = &self.recurrence.program;
-        if let Op::Input(name) = &program.steps[value] {
-            return name.clone();
-        }
-        let named = program.names.iter().find(|(v, _)| *v == value).map(|(_, n)| n);
-        let output = program.outputs.iter().find(|(_, v)| *v == value).map(|(n, _)| n);
-        named.or(output).cloned().unwrap_or_else(|| format!("v{value}"))
+        self.recurrence.program.name(value)
     }
 
     fn ident(&self, value: Value) -> Ident {
@@ -111,13 +105,11 @@ impl Writer<'_> {
     /// `start`: order zero of the row, and the slope.
     fn start(&self) -> TokenStream {
         let (rt, t) = (&self.context.names.rt, &self.context.names.scalar);
-        let rates = self.recurrence.program.outputs.iter().map(|(_, v)| *v);
-        let kept = self.recurrence.row.iter().flatten().filter(|s| !s.rate).map(|s| s.value);
-        let program = self.with_results(rates.clone().chain(kept));
-        let (read, constants) = self.constants(&program);
-        let (bind, state) = self.bind(&inputs(&program), "state");
-        let Body { lets, results } = self.context.generic(&program);
-        let (rates, kept) = results.split_at(rates.count());
+        let program = &self.recurrence.start;
+        let (read, constants) = self.constants(program);
+        let (bind, state) = self.bind(&inputs(program), "state");
+        let Body { lets, results } = self.context.generic(program);
+        let (rates, kept) = results.split_at(self.recurrence.program.outputs.len());
         let mut kept = kept.iter();
         let entries = self.recurrence.row.iter().map(|series| match series {
             Some(series) if !series.rate => kept.next().cloned().unwrap_or_default(),
@@ -148,7 +140,8 @@ impl Writer<'_> {
         let (read, constants) = self.constants(&program);
         let Body { lets, results } = self.context.generic(&program);
         self.fixed = values.into_iter().zip(results).collect();
-        (quote!(#read #lets), constants)
+        let divisors = self.divisors(rules);
+        (quote!(#read #lets #divisors), constants)
     }
 
     /// `next`: one order more.

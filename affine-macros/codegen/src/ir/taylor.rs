@@ -43,6 +43,8 @@ impl Series {
 pub struct Recurrence {
     /// The program, with the companions that functions need (the cosine of a sine).
     pub program: Program,
+    /// Rates, and what else a row keeps, at order zero.
+    pub start: Program,
     /// Does a value depend on the state?
     pub moving: Vec<bool>,
     /// Values that are known when an order begins: states and linear combinations of them.
@@ -149,6 +151,8 @@ pub enum Term {
     Scaled(Value, Value),
     /// `v_k / c` with a value `c` that does not move.
     Divided(Value, Value),
+    /// `v_k / (1/c)` with a number `c` that is no double.
+    Over(Value, Value),
     /// Convolutions of products.
     Lane(Place),
     /// `a_0 b_k + a_k b_0`
@@ -159,7 +163,7 @@ impl Recurrence {
     /// The recurrence of `y' = f(y)`: `states` are the inputs that move, in the order of the outputs, their rates.
     #[must_use]
     pub fn of(program: &Program, states: &[String]) -> Self {
-        let program = companions::completed(&quotients::divided(program));
+        let program = companions::completed(program);
         let draft = rules::Draft::of(&program, states);
         let Packed { lanes, mut row, vectors, full, inner, places } =
             lanes::pack(&draft.products, draft.kept());
@@ -167,7 +171,9 @@ impl Recurrence {
         let columns = columns::find(&program, states, &rules, (&row[..vectors], lanes));
         // Vectors of all rows then begin at multiples of their length, and none lies across two lines of a cache.
         row.resize(row.len().next_multiple_of(lanes), None);
+        let start = start(&program, &row);
         Self {
+            start,
             columns,
             moving: draft.moving,
             ready: draft.ready,
@@ -192,6 +198,14 @@ impl Recurrence {
     pub fn passes(&self) -> usize {
         self.full.len() + self.inner.len()
     }
+}
+
+/// The rates, and what a row holds besides, of the program.
+fn start(program: &Program, row: &[Option<Series>]) -> Program {
+    let kept = row.iter().flatten().filter(|series| !series.rate).map(|series| series.value);
+    let mut start = program.clone();
+    start.outputs.extend(kept.map(|value| (program.name(value), value)));
+    quotients::divided(&start)
 }
 
 /// Number of sums of a list of passes.

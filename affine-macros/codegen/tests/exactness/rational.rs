@@ -112,6 +112,17 @@ proptest! {
         // 2^-106 |value|: 53 bits for hi and 53 for lo.
         prop_assert!(left * Exact::from_integer(BigInt::from(1) << 106) <= a.abs());
     }
+
+    /// Half of the digits of a double, whose last 27 are zero, and the rest in two doubles.
+    #[test]
+    fn two_halves(a in fraction()) {
+        let [half, rest, left] = own(&a).to_halves();
+        prop_assert_eq!(half.to_bits() & 0x7ff_ffff, 0);
+        let lacking = &a - of_double(half).unwrap();
+        prop_assert!(lacking.abs() * Exact::from_integer(BigInt::from(1) << 25) <= a.abs());
+        prop_assert_eq!(rest.to_bits(), rounded(&lacking).to_bits());
+        prop_assert_eq!(left.to_bits(), rounded(&(lacking - of_double(rest).unwrap())).to_bits());
+    }
 }
 
 #[test]

@@ -10,7 +10,7 @@ pub(super) fn of(rule: &Rule) -> Vec<Value> {
         Rule::Sum(terms) => terms
             .iter()
             .flat_map(|(_, term)| match *term {
-                Term::Value(v) | Term::Scaled(_, v) | Term::Divided(v, _) => vec![v],
+                Term::Value(v) | Term::Scaled(_, v) | Term::Divided(v, _) | Term::Over(v, _) => vec![v],
                 Term::Ends(a, b) => vec![a, b],
                 Term::Lane(_) => Vec::new(),
             })

@@ -1,13 +1,14 @@
 //! The rules of the recurrence: sums, quotients, functions.
 
-use proc_macro2::TokenStream;
-use quote::quote;
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
 
+use super::super::body::double;
 use super::super::number;
 use super::Writer;
-use crate::algebra::Function;
-use crate::ir::Value;
+use crate::algebra::{Function, Rational};
 use crate::ir::taylor::{Place, Rule, Series, Term};
+use crate::ir::{Op, Value};
 
 impl Writer<'_> {
     /// The coefficient of order zero.
@@ -52,7 +53,7 @@ impl Writer<'_> {
         let mut sorted: Vec<&(bool, Term)> = terms.iter().collect();
         sorted.sort_by_key(|(negative, term)| match term {
             Term::Value(_) | Term::Lane(_) => (0, *negative),
-            Term::Divided(..) => (1, *negative),
+            Term::Divided(..) | Term::Over(..) => (1, *negative),
             Term::Scaled(..) | Term::Ends(..) => (2, false),
         });
         let mut sum: Option<TokenStream> = None;
@@ -66,6 +67,10 @@ impl Writer<'_> {
                 Term::Divided(v, c) => {
                     let (v, c) = (self.ident(v), self.fixed_value(c));
                     quote!(#v / #c)
+                }
+                Term::Over(v, c) => {
+                    let (rt, v, divisor) = (&self.context.names.rt, self.ident(v), self.divisor(c));
+                    quote!(#rt::over(#v, #divisor))
                 }
                 Term::Scaled(c, v) => {
                     let (c, v) = (self.fixed_value(c), self.ident(v));
@@ -92,6 +97,42 @@ impl Writer<'_> {
             });
         }
         sum.unwrap_or_else(|| quote!(#t::zero()))
+    }
+
+    /// The reciprocal of a number, to be divided by.
+    fn divisor(&self, value: Value) -> Ident {
+        let reciprocal = self.number(value).recip().map(|number| number.to_string()).unwrap_or_default();
+        format_ident!("divisor_{}", reciprocal.replace('/', "_").replace('-', "m"))
+    }
+
+    fn number(&self, value: Value) -> Rational {
+        match &self.recurrence.program.steps[value] {
+            Op::Constant(number) => number.clone(),
+            _ => Rational::ONE,
+        }
+    }
+
+    /// All that are divided by, as statements.
+    pub(super) fn divisors(&self, rules: &[&(Value, Rule)]) -> TokenStream {
+        let rt = &self.context.names.rt;
+        let terms = rules.iter().flat_map(|(_, rule)| match rule {
+            Rule::Sum(terms) => terms.as_slice(),
+            _ => &[],
+        });
+        let mut divisors: Vec<Value> = Vec::new();
+        for (_, term) in terms {
+            if let Term::Over(_, c) = term
+                && !divisors.contains(c)
+            {
+                divisors.push(*c);
+            }
+        }
+        let written = |c: &Value| {
+            let name = self.divisor(*c);
+            let [half, rest, left] = self.number(*c).to_halves().map(double);
+            quote!(let #name = #rt::Divisor::with_reciprocal(#half, #rest, #left);)
+        };
+        divisors.iter().map(written).collect()
     }
 
     /// The expression of a value that does not move.

@@ -3,7 +3,8 @@
 //! Which way `v` times the double next to `p/q` is rounded depends on the leading digits of `v`, always alike, for the digits
 //! of `p/q` repeat: of the products with `5/6` every sixth lies a hair above the middle between two doubles, and goes up.
 //! Taylor coefficients of different orders then err by different factors, each the same in every step, and the energy
-//! drifts. `v p / q` is rounded without a preference.
+//! drifts. `v p / q` is rounded without a preference, and so is `v/(q/p)` by a reciprocal in two parts, which takes a fraction
+//! of the time: recurrences have that, order by order, and the start of a step quotients.
 
 use crate::algebra::Rational;
 
@@ -43,6 +44,11 @@ fn split(program: &Program, a: Value, b: Value) -> Option<(Value, [Rational; 2])
         _ => None,
     };
     parts(b).map(|found| (a, found)).or_else(|| parts(a).map(|found| (b, found)))
+}
+
+/// Products with the number take a quotient.
+pub(super) fn is_quotient(number: &Rational) -> bool {
+    parts(number).is_some()
 }
 
 /// Numerator and denominator, where both are doubles and the number is none.

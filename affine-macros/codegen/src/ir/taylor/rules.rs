@@ -4,6 +4,7 @@ use crate::algebra::Function;
 
 use super::super::{Op, Program, Value};
 use super::companions::companion_of;
+use super::quotients::is_quotient;
 use super::{Place, Rule, Series, Term};
 
 /// A convolution to be formed.
@@ -154,6 +155,7 @@ impl Draft {
         for (negative, summand) in summands {
             let part = match summand {
                 Summand::Value(v) => Part::Term(Term::Value(v)),
+                Summand::Scaled(c, v) if reader.is_quotient(c) => Part::Term(Term::Over(v, c)),
                 Summand::Scaled(c, v) => Part::Term(Term::Scaled(c, v)),
                 Summand::Divided(v, c) => Part::Term(Term::Divided(v, c)),
                 Summand::Product(a, b) => {
@@ -162,7 +164,9 @@ impl Draft {
                 }
             };
             ready &= match part {
-                Part::Term(Term::Value(v) | Term::Scaled(_, v) | Term::Divided(v, _)) => self.ready[v],
+                Part::Term(Term::Value(v) | Term::Scaled(_, v) | Term::Divided(v, _) | Term::Over(v, _)) => {
+                    self.ready[v]
+                }
                 _ => false,
             };
             parts.push((negative, part));
@@ -271,6 +275,11 @@ impl<'a> Reader<'a> {
             reader.absorbed[value] = sign || adds && summand_only[value] && reads[value] == 1;
         }
         reader
+    }
+
+    /// A number, products with which are rounded by way of a quotient.
+    fn is_quotient(&self, value: Value) -> bool {
+        matches!(&self.program.steps[value], Op::Constant(number) if is_quotient(number))
     }
 
     /// The value behind changes of sign.

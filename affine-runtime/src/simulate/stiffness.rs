@@ -1,0 +1,62 @@
+//! Whether a motion is stiff in what a piece of it has in closed form.
+
+use super::mechanics::Course;
+use crate::capability::is_emitted;
+use crate::integrate::splitting::{Pieces, fastest};
+use crate::integrate::{AdaptiveSplitting, Failure};
+use crate::model::Model;
+
+/// Steps by pieces pay from so many radians of the fastest motion times `tolerance^(1/8)` on: three compositions of seven
+/// flows, each as long as some dozen evaluations, take the time of some twenty steps of order 8, which are
+/// `9 tolerance^(1/8)` radians long at the most; and later steps may be half as long as the first.
+const STIFF: f64 = 475.0;
+/// Trying one costs a part of a run of so many.
+const WORTH_A_TRIAL: f64 = 10.0;
+
+/// Exact flows of the pieces of a model.
+pub(super) trait PiecesOf<const N: usize, M: Model<N>>:
+    Pieces<M::Reduced<f64>, M::Constants<f64>>
+{
+}
+impl<const N: usize, M: Model<N>, R: Pieces<M::Reduced<f64>, M::Constants<f64>>> PiecesOf<N, M> for R {}
+
+/// An integration by the pieces of a model.
+type ByPieces<const N: usize, M, R> =
+    AdaptiveSplitting<<M as Model<N>>::Reduced<f64>, <M as Model<N>>::Constants<f64>, R>;
+
+/// The integration by pieces from the start of a course; `None` where there is no such order.
+pub(super) fn adaptive<const N: usize, M: Model<N>, R: PiecesOf<N, M>>(
+    model: &M,
+    pieces: R,
+    order: Option<usize>,
+    (reduced, constants): (M::Reduced<f64>, M::Constants<f64>),
+    course: &Course<'_, M::Point<f64>>,
+) -> Option<Result<ByPieces<N, M, R>, Failure>> {
+    let Course { t0, t_end, tolerance, .. } = *course;
+    let closed =
+        |t: f64, reduced: &M::Reduced<f64>| model.reduced_equations(t, &constants, &model.renewed(reduced));
+    let equations = (&closed, M::DESCRIPTION.reduced);
+    AdaptiveSplitting::new((pieces, constants), order, equations, (t0, reduced), t_end, tolerance)
+}
+
+/// How many radians of the fastest motion steps by pieces can be long, where that is worth while: where one of the pieces has
+/// a stiff motion in closed form, and the tolerance lets a first step pass over several turns of it.
+pub(super) fn stiffness<const N: usize, M: Model<N>, R: PiecesOf<N, M>>(
+    model: &M,
+    pieces: Option<R>,
+    course: &Course<'_, M::Point<f64>>,
+) -> Option<f64> {
+    if const { !(is_emitted::<R>() && R::NEAR_INTEGRABLE) } {
+        return None;
+    }
+    let (reduced, constants) = model.reduce(course.t0, course.start);
+    let closed =
+        |t: f64, reduced: &M::Reduced<f64>| model.reduced_equations(t, &constants, &model.renewed(reduced));
+    let radians = STIFF * libm::pow(course.tolerance, 0.125);
+    let length = radians / fastest(&closed, (course.t0, &reduced));
+    if length * WORTH_A_TRIAL > (course.t_end - course.t0).abs() {
+        return None;
+    }
+    let integration = adaptive(model, pieces?, None, (reduced, constants), course)?.ok()?;
+    integration.allows(length).then_some(radians)
+}
