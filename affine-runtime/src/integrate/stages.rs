@@ -26,11 +26,11 @@ pub(super) fn combination<S: StateVector<f64>, const TERMS: usize>(
 pub(super) fn moved<S: StateVector<f64>, const TERMS: usize>(
     y: &S,
     h: f64,
-    stages: &[S],
+    (stages, last): (&[S], &S),
     row: &[(usize, f64); TERMS],
 ) -> S {
     let mut moved = *y;
-    let [ref earlier @ .., (last, newest)] = row[..] else { return moved };
+    let [ref earlier @ .., (_, newest)] = row[..] else { return moved };
     for (i, moved) in moved.as_mut().iter_mut().enumerate() {
         if let [(first, leading), rest @ ..] = earlier {
             let mut sum = stages[first - 1].as_ref()[i] * leading;
@@ -39,7 +39,7 @@ pub(super) fn moved<S: StateVector<f64>, const TERMS: usize>(
             }
             *moved = sum.fma(h, *moved);
         }
-        *moved = stages[last - 1].as_ref()[i].fma(h * newest, *moved);
+        *moved = last.as_ref()[i].fma(h * newest, *moved);
     }
     moved
 }

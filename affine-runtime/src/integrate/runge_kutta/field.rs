@@ -23,7 +23,7 @@ pub trait Stages<L: StateVector<f64>> {
 
     /// `z + h sum_j a_j k_j`, where nothing but the last stage of the row is waited for.
     #[inline(always)]
-    fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
+    fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: (&[L], &L), row: &[(usize, f64); TERMS]) -> L {
         stages::moved(z, h, stages, row)
     }
 
@@ -163,7 +163,7 @@ pub(super) fn called<T>(act: impl FnOnce() -> T) -> T {
 fn moved_by_a_call<L: StateVector<f64>, const TERMS: usize>(
     z: &L,
     h: f64,
-    stages: &[L],
+    stages: (&[L], &L),
     row: &[(usize, f64); TERMS],
 ) -> L {
     stages::moved(z, h, stages, row)
@@ -181,7 +181,7 @@ impl<L: StateVector<f64>, F: Fn(f64, &L) -> L, V: Vectors> Stages<L> for StagesI
         if const { V::IS_LAST_RESORT } { called(|| (self.slope)(t, z)) } else { (self.slope)(t, z) }
     }
     #[inline(always)]
-    fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
+    fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: (&[L], &L), row: &[(usize, f64); TERMS]) -> L {
         if const { V::IS_LAST_RESORT } {
             moved_by_a_call(z, h, stages, row)
         } else {
@@ -216,7 +216,7 @@ impl<S, K, R: Packing<S, K>, V: Vectors> Stages<R::Packed> for StagesInVectors<'
         &self,
         z: &R::Packed,
         h: f64,
-        stages: &[R::Packed],
+        stages: (&[R::Packed], &R::Packed),
         row: &[(usize, f64); TERMS],
     ) -> R::Packed {
         if const { V::IS_LAST_RESORT } {
