@@ -307,7 +307,7 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         // One by one: what arrays are mapped by is not compiled for the vectors of the processor.
         let first = self.coordinates.change(&self.begin, &self.field.read(&first));
         let second = self.coordinates.change(&self.begin, &self.field.read(&second));
-        let relative = P::largest(Judged {
+        let relative = P::largest(&Judged {
             error_norm: &self.error_norm,
             length: self.step.length().abs(),
             states: [self.begin.value.as_ref(), reached.as_ref()],

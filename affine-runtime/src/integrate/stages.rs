@@ -1,5 +1,7 @@
 //! Linear combinations of the stages of a step.
 
+pub(super) mod by_rows;
+
 use crate::model::StateVector;
 use crate::scalar::Scalar;
 

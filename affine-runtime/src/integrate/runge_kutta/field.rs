@@ -2,9 +2,10 @@
 
 use core::marker::PhantomData;
 
+use super::step::STAGES;
 use crate::integrate::lie::{Coordinates, Flat, Sum};
 use crate::integrate::packed::{self, Packing};
-use crate::integrate::stages;
+use crate::integrate::stages::{self, by_rows};
 use crate::integrate::taylor::Vectors;
 use crate::integrate::widest::{Work, widest};
 use crate::model::StateVector;
@@ -158,15 +159,29 @@ pub(super) fn called<T>(act: impl FnOnce() -> T) -> T {
     act()
 }
 
-/// The sum over stages for all models whose states are stored alike.
+/// `z + h sum_j a_j k_j` by rows that are data.
 #[inline(never)]
-fn moved_by_a_call<L: StateVector<f64>, const TERMS: usize>(
-    z: &L,
-    h: f64,
-    stages: (&[L], &L),
-    row: &[(usize, f64); TERMS],
-) -> L {
-    stages::moved(z, h, stages, row)
+fn moved_by_a_call<L: StateVector<f64>>(z: &L, h: f64, stages: &[L], row: &[(usize, f64)]) -> L {
+    let mut moved = *z;
+    by_rows::moved(moved.as_mut(), h, &components(stages), row);
+    moved
+}
+
+/// `sum_j a_j k_j` by rows that are data.
+#[inline(never)]
+fn combination_by_a_call<L: StateVector<f64>>(stages: &[L], row: &[(usize, f64)]) -> L {
+    let mut sum = L::zeros();
+    by_rows::combination(sum.as_mut(), &components(stages), row);
+    sum
+}
+
+/// The components of each stage.
+fn components<L: StateVector<f64>>(stages: &[L]) -> [&[f64]; STAGES] {
+    let mut components: [&[f64]; STAGES] = [&[]; STAGES];
+    for (components, stage) in components.iter_mut().zip(stages) {
+        *components = stage.as_ref();
+    }
+    components
 }
 
 /// Slopes of numbers, and the sums over stages.
@@ -181,9 +196,17 @@ impl<L: StateVector<f64>, F: Fn(f64, &L) -> L, V: Vectors> Stages<L> for StagesI
         if const { V::IS_LAST_RESORT } { called(|| (self.slope)(t, z)) } else { (self.slope)(t, z) }
     }
     #[inline(always)]
+    fn combination<const TERMS: usize>(&self, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
+        if const { V::IS_LAST_RESORT } {
+            combination_by_a_call(stages, row)
+        } else {
+            stages::combination(stages, row)
+        }
+    }
+    #[inline(always)]
     fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: (&[L], &L), row: &[(usize, f64); TERMS]) -> L {
         if const { V::IS_LAST_RESORT } {
-            moved_by_a_call(z, h, stages, row)
+            moved_by_a_call(z, h, stages.0, row)
         } else {
             stages::moved(z, h, stages, row)
         }
@@ -209,7 +232,11 @@ impl<S, K, R: Packing<S, K>, V: Vectors> Stages<R::Packed> for StagesInVectors<'
         stages: &[R::Packed],
         row: &[(usize, f64); TERMS],
     ) -> R::Packed {
-        packed::combination(self.vectors, stages, row)
+        if const { V::IS_LAST_RESORT } {
+            combination_by_a_call(stages, row)
+        } else {
+            packed::combination(self.vectors, stages, row)
+        }
     }
     #[inline(always)]
     fn moved<const TERMS: usize>(
@@ -220,7 +247,7 @@ impl<S, K, R: Packing<S, K>, V: Vectors> Stages<R::Packed> for StagesInVectors<'
         row: &[(usize, f64); TERMS],
     ) -> R::Packed {
         if const { V::IS_LAST_RESORT } {
-            moved_by_a_call(z, h, stages, row)
+            moved_by_a_call(z, h, stages.0, row)
         } else {
             packed::moved(self.vectors, (z, h), stages, row)
         }

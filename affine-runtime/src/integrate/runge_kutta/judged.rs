@@ -21,22 +21,22 @@ pub struct Judged<'s> {
 impl Judged<'_> {
     /// The largest error of a group of components, divided by the length of the step.
     #[inline(always)]
-    pub(super) fn largest<P: Pair>(self) -> f64 {
+    pub(super) fn largest<P: Pair>(&self) -> f64 {
         widest(Largest { judged: self, error: P::error })
     }
 }
 
 /// Sums of squares on the vectors of a processor.
-struct Largest<'s, F> {
-    judged: Judged<'s>,
+struct Largest<'j, 's, F> {
+    judged: &'j Judged<'s>,
     error: F,
 }
 
-impl<F: Fn((f64, f64)) -> f64> Work for Largest<'_, F> {
+impl<F: Fn((f64, f64)) -> f64> Work for Largest<'_, '_, F> {
     type Output = f64;
     #[inline(always)]
     fn run(self, _: impl Vectors) -> f64 {
-        let Self { judged: Judged { error_norm, length, states: [before, after], slopes }, error } = self;
+        let Self { judged: &Judged { error_norm, length, states: [before, after], slopes }, error } = self;
         error_norm.largest(length, before, after, |range| {
             let slopes = slopes.map(|slopes| &slopes[range.clone()]);
             let squares = (sum_of_squares(slopes[0]), sum_of_squares(slopes[1]));

@@ -44,7 +44,7 @@ pub trait Pair: Sized {
     fn error(squares: (f64, f64)) -> f64;
 
     /// The largest of these estimates in a norm: of numbers alone, and compiled once for all models.
-    fn largest(judged: Judged<'_>) -> f64;
+    fn largest(judged: &Judged<'_>) -> f64;
 
     /// The last coefficients of the dense output, divided by `h`.
     fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>) -> [S; 4];
@@ -107,7 +107,7 @@ impl Pair for DormandPrince853 {
     }
 
     #[inline(never)]
-    fn largest(judged: Judged<'_>) -> f64 {
+    fn largest(judged: &Judged<'_>) -> f64 {
         judged.largest::<Self>()
     }
 
@@ -171,7 +171,7 @@ impl Pair for DormandPrince54 {
     }
 
     #[inline(never)]
-    fn largest(judged: Judged<'_>) -> f64 {
+    fn largest(judged: &Judged<'_>) -> f64 {
         judged.largest::<Self>()
     }
 

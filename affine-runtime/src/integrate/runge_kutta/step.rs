@@ -7,7 +7,8 @@ use super::pair::{DormandPrince853, Pair};
 use crate::integrate::lie::{Coordinates, Flat, Sum};
 use crate::model::StateVector;
 
-const STAGES: usize = 16;
+/// The first, eleven more, that at the end of the step, and three for dense output.
+pub(super) const STAGES: usize = 16;
 
 /// A step of the method of order 8.
 pub type Step<S> = OneStep<DormandPrince853, S>;
@@ -246,8 +247,12 @@ impl<L: StateVector<f64>> Dense<L> {
     /// The same polynomial of states that are stored otherwise.
     pub(super) fn read<S: StateVector<f64>>(self, read: impl Fn(&L) -> S) -> Dense<S> {
         let Self { t, t_end, y, y_end, coefficients, .. } = self;
-        let (y, y_end, coefficients) = (read(&y), read(&y_end), coefficients.map(|c| read(&c)));
-        Dense { t, t_end, y, y_end, coefficients, coordinates: Flat, base: Sum::of(y) }
+        let (y, y_end) = (read(&y), read(&y_end));
+        let mut of_states = [y; 7];
+        for (of_state, coefficient) in of_states.iter_mut().zip(&coefficients) {
+            *of_state = read(coefficient);
+        }
+        Dense { t, t_end, y, y_end, coefficients: of_states, coordinates: Flat, base: Sum::of(y) }
     }
 }
 
