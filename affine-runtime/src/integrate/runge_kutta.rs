@@ -178,7 +178,11 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         if self.is_finished() {
             return Ok(());
         }
-        if const { P::SUMS_ARE_LONG } { roomiest(Advance(self)) } else { widest(Advance(self)) }
+        if const { P::SUMS_ARE_LONG && F::IS_IN_VECTORS } {
+            roomiest(Advance(self))
+        } else {
+            widest(Advance(self))
+        }
     }
 
     /// One accepted step, all of it on the vectors of a processor: what is done between two steps is as long as an

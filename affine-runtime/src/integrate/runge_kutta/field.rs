@@ -50,6 +50,9 @@ impl<L: StateVector<f64>, F: Fn(f64, &L) -> L> Stages<L> for F {
 ///
 /// Functions of states are such, with `L = S`; [`InVectors`] is the other kind.
 pub trait Field<S, C, L: StateVector<f64>> {
+    /// Sums over stages are in vectors throughout.
+    const IS_IN_VECTORS: bool = false;
+
     /// `f(t, y)`.
     fn rate(&self, t: f64, y: &S) -> S;
 
@@ -99,6 +102,7 @@ impl<S: StateVector<f64>, C: Coordinates<S>, F: Fn(f64, &S) -> S> Field<S, C, S>
 pub struct InVectors<R, K>(pub R, pub K);
 
 impl<S: StateVector<f64>, K, R: Packing<S, K>> Field<S, Flat, R::Packed> for InVectors<R, K> {
+    const IS_IN_VECTORS: bool = true;
     #[inline(always)]
     fn rate(&self, t: f64, y: &S) -> S {
         widest(Evaluation { field: self, t, y })
