@@ -171,6 +171,8 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
     ///
     /// # Errors
     /// [`Failure`], now and ever after; the state stays that of the last accepted step.
+    // Not optimised a second time as a part of its only caller.
+    #[inline(never)]
     pub fn advance(&mut self) -> Result<(), Failure> {
         if let Some(failure) = self.failure {
             return Err(failure);
