@@ -22,8 +22,8 @@ pub(super) fn combination<S: StateVector<f64>, const TERMS: usize>(
     sum
 }
 
-/// `y + h sum_j a_j k_j` of pairs (stage, coefficient), stages counted from 1, the last of which is the newest as a rule: it
-/// enters last, so that what depends on it waits for two operations and not for four.
+/// `y + h sum_j a_j k_j` of pairs (stage, coefficient), stages counted from 1, the last of which is `last`, the newest as a
+/// rule: it enters last, so that what depends on it waits for two operations and not for four.
 #[inline(always)]
 pub(super) fn moved<S: StateVector<f64>, const TERMS: usize>(
     y: &S,

@@ -22,7 +22,8 @@ pub trait Stages<L: StateVector<f64>> {
         stages::combination(stages, row)
     }
 
-    /// `z + h sum_j a_j k_j`, where nothing but the last stage of the row is waited for.
+    /// `z + h sum_j a_j k_j`, where nothing but the last stage of the row is waited for: it stands beside the others, where
+    /// it can be in registers.
     #[inline(always)]
     fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: (&[L], &L), row: &[(usize, f64); TERMS]) -> L {
         stages::moved(z, h, stages, row)
@@ -163,7 +164,7 @@ pub(super) fn called<T>(act: impl FnOnce() -> T) -> T {
     act()
 }
 
-/// `z + h sum_j a_j k_j` by rows that are data.
+/// `z + h sum_j a_j k_j` by rows that are data: compiled once for all models whose states are stored alike.
 #[inline(never)]
 fn moved_by_a_call<L: StateVector<f64>>(z: &L, h: f64, stages: &[L], row: &[(usize, f64)]) -> L {
     let mut moved = *z;
