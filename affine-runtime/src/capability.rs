@@ -275,15 +275,20 @@ impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> fo
     }
 
     #[inline(always)]
-    fn coefficients_on(
+    fn coefficients_on<V: Vectors>(
         &self,
-        vectors: impl Vectors,
+        vectors: V,
         at: (f64, f64),
         constants: &M::Constants<f64>,
         coefficients: &mut [M::Reduced<f64>],
         rows: &mut [Self::Row],
     ) {
-        self.0.coefficients_on(vectors, at, constants, coefficients, rows);
+        if const { V::IS_LAST_RESORT } {
+            // What there is already, for slopes.
+            self.0.coefficients(at, constants, coefficients, rows);
+        } else {
+            self.0.coefficients_on(vectors, at, constants, coefficients, rows);
+        }
     }
 }
 

@@ -139,6 +139,8 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
     ///
     /// # Errors
     /// [`Failure`], now and ever after; the state stays that of the last accepted step.
+    // Not optimised a second time as a part of its only caller.
+    #[inline(never)]
     pub fn advance(&mut self) -> Result<(), Failure> {
         if let Some(failure) = self.failure {
             return Err(failure);

@@ -164,11 +164,11 @@ pub(super) fn combination<S: StateVector<f64>, const TERMS: usize>(
 pub(super) fn moved<S: StateVector<f64>, const TERMS: usize>(
     vectors: impl Vectors,
     (y, h): (&S, f64),
-    stages: &[S],
+    (stages, last): (&[S], &S),
     row: &[(usize, f64); TERMS],
 ) -> S {
     let mut moved = *y;
-    let [ref earlier @ .., (last, newest)] = row[..] else { return moved };
+    let [ref earlier @ .., (_, newest)] = row[..] else { return moved };
     let of = |stage: usize, k: usize| stages[stage - 1].as_ref().as_chunks().0[k];
     for (k, moved) in moved.as_mut().as_chunks_mut().0.iter_mut().enumerate() {
         if let [(first, leading), rest @ ..] = earlier {
@@ -178,7 +178,7 @@ pub(super) fn moved<S: StateVector<f64>, const TERMS: usize>(
             }
             *moved = vectors.plus_product(*moved, sum, [h; 4]);
         }
-        *moved = vectors.plus_product(*moved, of(last, k), [h * newest; 4]);
+        *moved = vectors.plus_product(*moved, last.as_ref().as_chunks().0[k], [h * newest; 4]);
     }
     moved
 }

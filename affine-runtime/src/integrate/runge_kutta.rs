@@ -5,6 +5,7 @@ mod dormand_prince_853;
 mod field;
 #[cfg(feature = "std")]
 pub(crate) mod in_lanes;
+mod judged;
 mod pair;
 pub(crate) mod start;
 mod step;
@@ -13,12 +14,13 @@ mod trees;
 
 use field::called;
 pub use field::{Field, InVectors, Stages};
+use judged::Judged;
 pub use pair::{DormandPrince54, DormandPrince853, Pair};
 pub use step::{Dense, OneStep, Step};
 
 use core::fmt;
 
-use super::error_norm::{ErrorNorm, IN_RANGE, sum_of_squares};
+use super::error_norm::ErrorNorm;
 use super::finite::is_finite;
 use super::lie::{Coordinates, Flat, Sum};
 use super::packed::Packing;
@@ -169,6 +171,8 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
     ///
     /// # Errors
     /// [`Failure`], now and ever after; the state stays that of the last accepted step.
+    // Not optimised a second time as a part of its only caller.
+    #[inline(never)]
     pub fn advance(&mut self) -> Result<(), Failure> {
         if let Some(failure) = self.failure {
             return Err(failure);
@@ -176,7 +180,11 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         if self.is_finished() {
             return Ok(());
         }
-        if const { P::SUMS_ARE_LONG } { roomiest(Advance(self)) } else { widest(Advance(self)) }
+        if const { P::SUMS_ARE_LONG && F::IS_IN_VECTORS } {
+            roomiest(Advance(self))
+        } else {
+            widest(Advance(self))
+        }
     }
 
     /// One accepted step, all of it on the vectors of a processor: what is done between two steps is as long as an
@@ -305,12 +313,11 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         // One by one: what arrays are mapped by is not compiled for the vectors of the processor.
         let first = self.coordinates.change(&self.begin, &self.field.read(&first));
         let second = self.coordinates.change(&self.begin, &self.field.read(&second));
-        let before = self.begin.value.as_ref();
-        let after = reached.as_ref();
-        let relative = self.error_norm.largest(self.step.length().abs(), before, after, |range| {
-            let slopes = [&first.as_ref()[range.clone()], &second.as_ref()[range]];
-            let squares = (sum_of_squares(slopes[0]), sum_of_squares(slopes[1]));
-            if IN_RANGE.contains(&squares.0) { P::error(squares) } else { scaled_error::<P>(slopes) }
+        let relative = P::largest(&Judged {
+            error_norm: &self.error_norm,
+            length: self.step.length().abs(),
+            states: [self.begin.value.as_ref(), reached.as_ref()],
+            slopes: [first.as_ref(), second.as_ref()],
         });
         self.step.length().abs() / self.tolerance * relative
     }
@@ -326,21 +333,6 @@ impl<P: Pair, S: StateVector<f64>, F, C, L: StateVector<f64>> fmt::Debug for Run
             .field("statistics", &self.statistics)
             .finish_non_exhaustive()
     }
-}
-
-/// The error estimate of a group whose squares leave the range of numbers; NaN where one of its components is.
-#[cold]
-fn scaled_error<P: Pair>(slopes: [&[f64]; 2]) -> f64 {
-    let all = slopes.into_iter().flatten();
-    let larger = |largest: f64, v: &f64| {
-        if v.abs() <= largest || largest.is_nan() { largest } else { v.abs() }
-    };
-    let largest = all.fold(0.0, larger);
-    if largest == 0.0 || !largest.is_finite() {
-        return largest;
-    }
-    let squares = slopes.map(|slopes| slopes.iter().map(|v| (v / largest) * (v / largest)).sum());
-    largest * P::error((squares[0], squares[1]))
 }
 
 /// An accepted step of an integration.

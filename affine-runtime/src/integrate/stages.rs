@@ -1,5 +1,7 @@
 //! Linear combinations of the stages of a step.
 
+pub(super) mod by_rows;
+
 use crate::model::StateVector;
 use crate::scalar::Scalar;
 
@@ -20,17 +22,17 @@ pub(super) fn combination<S: StateVector<f64>, const TERMS: usize>(
     sum
 }
 
-/// `y + h sum_j a_j k_j` of pairs (stage, coefficient), stages counted from 1, the last of which is the newest as a rule: it
-/// enters last, so that what depends on it waits for two operations and not for four.
+/// `y + h sum_j a_j k_j` of pairs (stage, coefficient), stages counted from 1, the last of which is `last`, the newest as a
+/// rule: it enters last, so that what depends on it waits for two operations and not for four.
 #[inline(always)]
 pub(super) fn moved<S: StateVector<f64>, const TERMS: usize>(
     y: &S,
     h: f64,
-    stages: &[S],
+    (stages, last): (&[S], &S),
     row: &[(usize, f64); TERMS],
 ) -> S {
     let mut moved = *y;
-    let [ref earlier @ .., (last, newest)] = row[..] else { return moved };
+    let [ref earlier @ .., (_, newest)] = row[..] else { return moved };
     for (i, moved) in moved.as_mut().iter_mut().enumerate() {
         if let [(first, leading), rest @ ..] = earlier {
             let mut sum = stages[first - 1].as_ref()[i] * leading;
@@ -39,7 +41,7 @@ pub(super) fn moved<S: StateVector<f64>, const TERMS: usize>(
             }
             *moved = sum.fma(h, *moved);
         }
-        *moved = stages[last - 1].as_ref()[i].fma(h * newest, *moved);
+        *moved = last.as_ref()[i].fma(h * newest, *moved);
     }
     moved
 }

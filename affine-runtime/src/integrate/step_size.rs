@@ -65,13 +65,13 @@ impl Controller {
     }
 
     /// Factor of the step size after an accepted step with `error <= 1`.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn accept(&mut self, error: f64) -> f64 {
         self.factor(true, error)
     }
 
     /// Factor of the step size after a rejected step; NaN stands for numbers that are not finite.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn reject(&mut self, error: f64) -> f64 {
         self.factor(false, error)
     }

@@ -40,9 +40,9 @@ pub trait Series<S, C> {
 
     /// The same coefficients, on the vectors of a processor where that is worth the while.
     #[inline(always)]
-    fn coefficients_on(
+    fn coefficients_on<V: Vectors>(
         &self,
-        _vectors: impl Vectors,
+        _vectors: V,
         (t, unit): (f64, f64),
         constants: &C,
         coefficients: &mut [S],
@@ -169,6 +169,8 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     ///
     /// # Errors
     /// [`Failure`], now and ever after; the state stays that of the last step.
+    // Not optimised a second time as a part of its only caller.
+    #[inline(never)]
     pub fn advance(&mut self) -> Result<(), Failure> {
         if let Some(failure) = self.failure {
             return Err(failure);

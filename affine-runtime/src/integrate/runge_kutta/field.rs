@@ -2,9 +2,10 @@
 
 use core::marker::PhantomData;
 
+use super::step::STAGES;
 use crate::integrate::lie::{Coordinates, Flat, Sum};
 use crate::integrate::packed::{self, Packing};
-use crate::integrate::stages;
+use crate::integrate::stages::{self, by_rows};
 use crate::integrate::taylor::Vectors;
 use crate::integrate::widest::{Work, widest};
 use crate::model::StateVector;
@@ -21,9 +22,10 @@ pub trait Stages<L: StateVector<f64>> {
         stages::combination(stages, row)
     }
 
-    /// `z + h sum_j a_j k_j`, where nothing but the last stage of the row is waited for.
+    /// `z + h sum_j a_j k_j`, where nothing but the last stage of the row is waited for: it stands beside the others, where
+    /// it can be in registers.
     #[inline(always)]
-    fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
+    fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: (&[L], &L), row: &[(usize, f64); TERMS]) -> L {
         stages::moved(z, h, stages, row)
     }
 
@@ -49,6 +51,9 @@ impl<L: StateVector<f64>, F: Fn(f64, &L) -> L> Stages<L> for F {
 ///
 /// Functions of states are such, with `L = S`; [`InVectors`] is the other kind.
 pub trait Field<S, C, L: StateVector<f64>> {
+    /// Sums over stages are in vectors throughout.
+    const IS_IN_VECTORS: bool = false;
+
     /// `f(t, y)`.
     fn rate(&self, t: f64, y: &S) -> S;
 
@@ -98,6 +103,7 @@ impl<S: StateVector<f64>, C: Coordinates<S>, F: Fn(f64, &S) -> S> Field<S, C, S>
 pub struct InVectors<R, K>(pub R, pub K);
 
 impl<S: StateVector<f64>, K, R: Packing<S, K>> Field<S, Flat, R::Packed> for InVectors<R, K> {
+    const IS_IN_VECTORS: bool = true;
     #[inline(always)]
     fn rate(&self, t: f64, y: &S) -> S {
         widest(Evaluation { field: self, t, y })
@@ -158,15 +164,29 @@ pub(super) fn called<T>(act: impl FnOnce() -> T) -> T {
     act()
 }
 
-/// The sum over stages for all models whose states are stored alike.
+/// `z + h sum_j a_j k_j` by rows that are data: compiled once for all models whose states are stored alike.
 #[inline(never)]
-fn moved_by_a_call<L: StateVector<f64>, const TERMS: usize>(
-    z: &L,
-    h: f64,
-    stages: &[L],
-    row: &[(usize, f64); TERMS],
-) -> L {
-    stages::moved(z, h, stages, row)
+fn moved_by_a_call<L: StateVector<f64>>(z: &L, h: f64, stages: &[L], row: &[(usize, f64)]) -> L {
+    let mut moved = *z;
+    by_rows::moved(moved.as_mut(), h, &components(stages), row);
+    moved
+}
+
+/// `sum_j a_j k_j` by rows that are data.
+#[inline(never)]
+fn combination_by_a_call<L: StateVector<f64>>(stages: &[L], row: &[(usize, f64)]) -> L {
+    let mut sum = L::zeros();
+    by_rows::combination(sum.as_mut(), &components(stages), row);
+    sum
+}
+
+/// The components of each stage.
+fn components<L: StateVector<f64>>(stages: &[L]) -> [&[f64]; STAGES] {
+    let mut components: [&[f64]; STAGES] = [&[]; STAGES];
+    for (components, stage) in components.iter_mut().zip(stages) {
+        *components = stage.as_ref();
+    }
+    components
 }
 
 /// Slopes of numbers, and the sums over stages.
@@ -181,9 +201,17 @@ impl<L: StateVector<f64>, F: Fn(f64, &L) -> L, V: Vectors> Stages<L> for StagesI
         if const { V::IS_LAST_RESORT } { called(|| (self.slope)(t, z)) } else { (self.slope)(t, z) }
     }
     #[inline(always)]
-    fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
+    fn combination<const TERMS: usize>(&self, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
         if const { V::IS_LAST_RESORT } {
-            moved_by_a_call(z, h, stages, row)
+            combination_by_a_call(stages, row)
+        } else {
+            stages::combination(stages, row)
+        }
+    }
+    #[inline(always)]
+    fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: (&[L], &L), row: &[(usize, f64); TERMS]) -> L {
+        if const { V::IS_LAST_RESORT } {
+            moved_by_a_call(z, h, stages.0, row)
         } else {
             stages::moved(z, h, stages, row)
         }
@@ -209,18 +237,22 @@ impl<S, K, R: Packing<S, K>, V: Vectors> Stages<R::Packed> for StagesInVectors<'
         stages: &[R::Packed],
         row: &[(usize, f64); TERMS],
     ) -> R::Packed {
-        packed::combination(self.vectors, stages, row)
+        if const { V::IS_LAST_RESORT } {
+            combination_by_a_call(stages, row)
+        } else {
+            packed::combination(self.vectors, stages, row)
+        }
     }
     #[inline(always)]
     fn moved<const TERMS: usize>(
         &self,
         z: &R::Packed,
         h: f64,
-        stages: &[R::Packed],
+        stages: (&[R::Packed], &R::Packed),
         row: &[(usize, f64); TERMS],
     ) -> R::Packed {
         if const { V::IS_LAST_RESORT } {
-            moved_by_a_call(z, h, stages, row)
+            moved_by_a_call(z, h, stages.0, row)
         } else {
             packed::moved(self.vectors, (z, h), stages, row)
         }

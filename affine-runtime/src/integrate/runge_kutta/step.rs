@@ -7,7 +7,8 @@ use super::pair::{DormandPrince853, Pair};
 use crate::integrate::lie::{Coordinates, Flat, Sum};
 use crate::model::StateVector;
 
-const STAGES: usize = 16;
+/// The first, eleven more, that at the end of the step, and three for dense output.
+pub(super) const STAGES: usize = 16;
 
 /// A step of the method of order 8.
 pub type Step<S> = OneStep<DormandPrince853, S>;
@@ -50,7 +51,15 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
     pub(super) fn attempt_in(&mut self, f: &impl Stages<S>, end: f64) {
         self.t_trial = end;
         self.accepted = false;
-        P::attempt(self, f);
+        // One after the other in a loop, where the equations stand once, and in the caches once. The newest slope goes
+        // from one turn to the next in registers: the next place waits for it.
+        let mut newest = self.stages[0];
+        for (stage, (number, node)) in P::STAGES.iter().enumerate() {
+            let place = P::place(self, f, stage, &newest);
+            newest = f.slope(self.time_at(*node), &place);
+            self.stages[number - 1] = newest;
+        }
+        self.y_trial = P::end(self, f);
     }
 
     /// Accepts the step: evaluates the slope at its end. One evaluation.
@@ -177,14 +186,35 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
         (number, node): (usize, f64),
         row: &[(usize, f64); TERMS],
     ) {
-        let time = if node == 1.0 { self.t_trial } else { self.t + node * self.length() };
-        self.stages[number - 1] = f.slope(time, &f.moved(&self.y, self.length(), &self.stages, row));
+        let place = self.place(f, &self.stages[row[TERMS - 1].0 - 1], row);
+        self.stages[number - 1] = f.slope(self.time_at(node), &place);
+    }
+
+    /// `y + h sum_j a_j k_j`, where the last `k_j` of the row is `newest`.
+    #[inline(always)]
+    pub(super) fn place<const TERMS: usize>(
+        &self,
+        f: &impl Stages<S>,
+        newest: &S,
+        row: &[(usize, f64); TERMS],
+    ) -> S {
+        f.moved(&self.y, self.length(), (&self.stages, newest), row)
+    }
+
+    /// `t + c h`, the end itself for `c = 1`.
+    #[inline(always)]
+    fn time_at(&self, node: f64) -> f64 {
+        if node == 1.0 { self.t_trial } else { self.t + node * self.length() }
     }
 
     /// The end of the step by its weights, rounded once.
     #[inline(always)]
-    pub(super) fn end_at<const TERMS: usize>(&mut self, f: &impl Stages<S>, weights: &[(usize, f64); TERMS]) {
-        self.y_trial = f.plus_multiple(&self.y, self.length(), &self.combination(f, weights));
+    pub(super) fn end_at<const TERMS: usize>(
+        &self,
+        f: &impl Stages<S>,
+        weights: &[(usize, f64); TERMS],
+    ) -> S {
+        f.plus_multiple(&self.y, self.length(), &self.combination(f, weights))
     }
 
     /// `sum_j a_j k_j`.
@@ -217,8 +247,12 @@ impl<L: StateVector<f64>> Dense<L> {
     /// The same polynomial of states that are stored otherwise.
     pub(super) fn read<S: StateVector<f64>>(self, read: impl Fn(&L) -> S) -> Dense<S> {
         let Self { t, t_end, y, y_end, coefficients, .. } = self;
-        let (y, y_end, coefficients) = (read(&y), read(&y_end), coefficients.map(|c| read(&c)));
-        Dense { t, t_end, y, y_end, coefficients, coordinates: Flat, base: Sum::of(y) }
+        let (y, y_end) = (read(&y), read(&y_end));
+        let mut of_states = [y; 7];
+        for (of_state, coefficient) in of_states.iter_mut().zip(&coefficients) {
+            *of_state = read(coefficient);
+        }
+        Dense { t, t_end, y, y_end, coefficients: of_states, coordinates: Flat, base: Sum::of(y) }
     }
 }
 

@@ -4,8 +4,8 @@ use wide::f64x4;
 
 /// Vectors of four doubles, as a processor has them; what it rounds is the same on all.
 pub trait Vectors: Copy {
-    /// Wider ones are looked for at run time, and these are for processors without. There slopes are called, not inlined:
-    /// what is compiled for every model is shorter.
+    /// Wider ones are looked for at run time, and these are for processors without. There slopes and sums over stages are
+    /// called, not inlined: what is compiled for every model is shorter.
     const IS_LAST_RESORT: bool = false;
     /// The same, as one vector where it might else be taken apart: stored so, it can be loaded so at once.
     fn whole(self, vector: [f64; 4]) -> [f64; 4];
