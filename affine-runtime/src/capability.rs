@@ -161,8 +161,8 @@ pub trait Splitting<const N: usize>: Model<N> {
     const PIECES: &'static [&'static str];
     /// There are two pieces, `A` and `B`, with `[B, [B, [B, A]]] = 0`.
     const NYSTROM: bool;
-    /// And `A`, which contains a dilatation of its own, may be much larger than `B`.
-    const NEAR_INTEGRABLE: bool = false;
+    /// The first piece contains a dilatation of its own, and may be much larger than the others.
+    const DILATES: bool = false;
 
     /// Moves the reduced state along a piece for the time `h`, adding to each component and to what rounding left out
     /// of it; `t` is the time that a potential reads. What is a function of the rest, `1/D` and `q`, stays as it is:
@@ -303,7 +303,7 @@ impl<S, C> Series<S, C> for NotEmitted {
 impl<const N: usize, M: Splitting<N>> Pieces<M::Reduced<f64>, M::Constants<f64>> for Emitted<'_, M, N> {
     const COUNT: usize = M::PIECES.len();
     const NYSTROM: bool = M::NYSTROM;
-    const NEAR_INTEGRABLE: bool = M::NEAR_INTEGRABLE;
+    const DILATES: bool = M::DILATES;
 
     #[inline]
     fn flow(
@@ -321,7 +321,7 @@ impl<const N: usize, M: Splitting<N>> Pieces<M::Reduced<f64>, M::Constants<f64>>
 impl<S, C> Pieces<S, C> for NotEmitted {
     const COUNT: usize = 0;
     const NYSTROM: bool = false;
-    const NEAR_INTEGRABLE: bool = false;
+    const DILATES: bool = false;
 
     fn flow(&self, _: usize, _: f64, _: f64, _: &C, _: &mut Sum<S>) {
         match *self {}

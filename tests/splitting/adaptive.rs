@@ -162,6 +162,16 @@ fn when_it_is_taken() {
     for (kappa, tolerance) in [(10.0, 1e-3), (1e4, 1e-1), (1e6, 1e-6), (1e8, 1e-9)] {
         assert_eq!(taken(kappa, tolerance), Method::RungeKutta8, "{kappa:e} {tolerance:e}");
     }
+    // Three pieces, in the plane.
+    let moored = Moored { kappa: 1e8 }.prepare().unwrap();
+    let (x, p) = (Vector::<2>::new(0.4, -0.1), Vector::<2>::new(0.3, -0.2));
+    let start = moored.at_momentum(x, phi2(), p, Comoving(spin2())).unwrap();
+    let split = run(&moored, start, (2.0, 1e-3), Method::Automatic);
+    assert_eq!(split.computation().method, ADAPTIVE);
+    let exact = run(&moored, start, (2.0, 1e-8), Method::RungeKutta8);
+    let error = (split.end().1.phi() - exact.end().1.phi()).norm();
+    assert!(error < 1e-3, "{error:e}");
+    assert!(exact.statistics().steps > 1000 * split.statistics().steps);
     let (model, start) = missile(1e8);
     let stiff = || Simulation::new(&model, start).until(1.0).tolerance(1e-3).max_steps(1_000_000);
     let why = stiff().run().unwrap().why().to_string();

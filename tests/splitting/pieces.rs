@@ -77,17 +77,17 @@ fn slopes_add_up_and_times_add() {
 #[test]
 fn a_dilatation_of_its_own_beside_any_potential() {
     fn own<M: Splitting<N>, const N: usize>(_: &M) -> (usize, bool, bool, bool) {
-        (M::PIECES.len(), M::PIECES[0].contains("dilatation"), M::NYSTROM, M::NEAR_INTEGRABLE)
+        (M::PIECES.len(), M::PIECES[0].contains("dilatation"), M::NYSTROM, M::DILATES)
     }
     use crate::models::*;
     assert_eq!(own(&Inflated { kappa: 1.0 }.prepare().unwrap()), (2, true, true, true));
     assert_eq!(own(&Pulled { kappa: 1.0 }.prepare().unwrap()), (2, true, true, true));
     assert_eq!(own(&Tied), (2, true, true, true));
     // Translation moves the centre, which the weight reads.
-    assert_eq!(own(&Falling), (3, true, false, false));
+    assert_eq!(own(&Falling), (3, true, false, true));
     let (towed, moored) = (Towed { kappa: 1.0, m: 1.0 }.prepare(), Moored { kappa: 1.0 }.prepare());
     assert_eq!(own(&towed.unwrap()), (2, true, true, true));
-    assert_eq!(own(&moored.unwrap()), (3, true, false, false));
+    assert_eq!(own(&moored.unwrap()), (3, true, false, true));
     // What it moves is the affine spin in the total affine momentum.
     for groups in [PreparedTowed::DESCRIPTION.reduced, PreparedMoored::DESCRIPTION.reduced] {
         assert!(groups.iter().any(|group| group.name == "I(O)"), "{groups:?}");

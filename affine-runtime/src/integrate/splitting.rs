@@ -29,8 +29,8 @@ pub trait Pieces<S, C> {
     const COUNT: usize;
     /// There are two pieces, `A` and `B`, with `[B, [B, [B, A]]] = 0`.
     const NYSTROM: bool;
-    /// And `A` is much larger than `B`, as it may be where a stiff motion is part of it.
-    const NEAR_INTEGRABLE: bool;
+    /// The first piece contains a dilatation in closed form: where that is stiff, it is much larger than the others.
+    const DILATES: bool;
 
     /// Moves the state along a piece for the time `h`; `t` is the time that a potential reads.
     fn flow(&self, piece: usize, t: f64, h: f64, constants: &C, state: &mut Sum<S>);
@@ -148,7 +148,11 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
 
 /// The composition of an order for pieces.
 fn of_order<S, C, P: Pieces<S, C>>(order: usize) -> Option<Sweeps> {
-    if P::NEAR_INTEGRABLE { Sweeps::near_integrable(order) } else { Sweeps::of_order(order, P::NYSTROM) }
+    if P::NYSTROM && P::DILATES {
+        Sweeps::near_integrable(order)
+    } else {
+        Sweeps::of_order(order, P::NYSTROM)
+    }
 }
 
 /// One step of a composition, and the flows of its last piece.

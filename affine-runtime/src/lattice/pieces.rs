@@ -101,7 +101,7 @@ struct InTurn<'a, const N: usize, M>(&'a M);
 impl<const N: usize, M: LatticePieces<N>> Pieces<M::Framed<f64>, M::Couplings<f64>> for InTurn<'_, N, M> {
     const COUNT: usize = M::PIECES.len();
     const NYSTROM: bool = M::NYSTROM;
-    const NEAR_INTEGRABLE: bool = false;
+    const DILATES: bool = false;
 
     #[inline]
     fn flow(

@@ -303,7 +303,7 @@ pub struct Measurement {
 
 /// Splitting in adaptive steps, where one of the pieces has a stiff motion in closed form.
 fn passes_over_stiffness<S, C, R: Pieces<S, C>>(pieces: Option<R>) -> Option<Method> {
-    pieces.filter(|_| R::NEAR_INTEGRABLE).map(|_| Method::AdaptiveSplitting { order: None })
+    pieces.filter(|_| R::DILATES).map(|_| Method::AdaptiveSplitting { order: None })
 }
 
 impl Row {

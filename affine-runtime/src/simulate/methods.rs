@@ -181,7 +181,7 @@ fn by_adaptive_pieces<const N: usize, M: Model<N>, R: PiecesOf<N, M>, const NAME
     course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
-    if const { !(NAMED || R::NEAR_INTEGRABLE) } {
+    if const { !(NAMED || R::DILATES) } {
         return Err(Setting::NotEmitted { model: M::DESCRIPTION.name, key: "splitting" }.into());
     }
     let layout = const { Layout::of(M::DESCRIPTION.reduced, N) };

@@ -46,7 +46,7 @@ pub(super) fn stiffness<const N: usize, M: Model<N>, R: PiecesOf<N, M>>(
     pieces: Option<R>,
     course: &Course<'_, M::Point<f64>>,
 ) -> Option<f64> {
-    if const { !(is_emitted::<R>() && R::NEAR_INTEGRABLE) } {
+    if const { !(is_emitted::<R>() && R::DILATES) } {
         return None;
     }
     let (reduced, constants) = model.reduce(course.t0, course.start);

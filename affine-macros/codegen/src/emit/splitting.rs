@@ -34,9 +34,9 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
     let programs = || pieces.iter().flat_map(|(_, flows)| flows).map(program);
     let dilates =
         pieces.iter().flat_map(|(_, flows)| flows).any(|flow| matches!(flow, FlowProgram::Dilatation { .. }));
-    let near_integrable = (*nystrom && dilates).then(|| {
+    let dilates = dilates.then(|| {
         quote!(
-            const NEAR_INTEGRABLE: ::core::primitive::bool = true;
+            const DILATES: ::core::primitive::bool = true;
         )
     });
     let reads = |name: &str| programs().any(|program| inputs(program).contains(&name));
@@ -49,7 +49,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         impl #generics #rt::Splitting<#n> for #prepared #types #clause {
             const PIECES: &'static [&'static ::core::primitive::str] = &[#(#names),*];
             const NYSTROM: ::core::primitive::bool = #nystrom;
-            #near_integrable
+            #dilates
 
             #[inline]
             fn flow<#t: #rt::Real>(
