@@ -56,7 +56,7 @@ fn tolerances_are_met() {
 
 #[test]
 fn stiffness_costs_nothing_at_loose_tolerances() {
-    for kappa in [1e6, 1e7, 1e8] {
+    for (kappa, saving) in [(1e6, 60), (1e7, 200), (1e8, 900)] {
         let (model, start) = missile(kappa);
         let split = run(&model, start, (10.0, 1e-2), Method::Automatic);
         let resolved = run(&model, start, (10.0, 1e-5), Method::RungeKutta8);
@@ -66,7 +66,7 @@ fn stiffness_costs_nothing_at_loose_tolerances() {
         assert!(error < 1e-2, "{kappa:e}: {error:e}");
         assert!(cost.steps + cost.rejected < 40, "{kappa:e}: {cost:?}");
         let explicit = run(&model, start, (10.0, 1e-2), Method::RungeKutta8).statistics();
-        assert!(explicit.steps > 60 * cost.steps, "{kappa:e}: {cost:?} for {explicit:?}");
+        assert!(explicit.steps > saving * cost.steps, "{kappa:e}: {cost:?} for {explicit:?}");
     }
 }
 
