@@ -40,7 +40,8 @@ pub(super) fn adaptive<const N: usize, M: Model<N>, R: PiecesOf<N, M>>(
 }
 
 /// How many radians of the fastest motion steps by pieces can be long, where that is worth while: where one of the pieces has
-/// a stiff motion in closed form, and the tolerance lets a first step pass over several turns of it.
+/// a stiff motion in closed form, and the tolerance lets a first step pass over several turns of it. What the trial takes, one
+/// step and as many evaluations as a start, is not counted as cost of the run.
 pub(super) fn stiffness<const N: usize, M: Model<N>, R: PiecesOf<N, M>>(
     model: &M,
     pieces: Option<R>,

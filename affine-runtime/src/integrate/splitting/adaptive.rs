@@ -12,8 +12,8 @@ use crate::integrate::tape::Tape;
 use crate::integrate::{Failure, Statistics, sound};
 use crate::model::{Group, StateVector};
 
-/// Steps by [`ORDER`] where none is given: on problem P7 with stiffnesses from 1e4 to 1e8 the least work at errors from 1e-4
-/// to 1e-9; at 1e-3 order 2 needs about half of it.
+/// The order of steps where none is given: on problem P7 with stiffnesses from 1e4 to 1e8 the least work of orders 2, 4 and 6
+/// at nearly all errors from 1e-3 to 1e-9.
 pub const ORDER: usize = 4;
 /// The error of two halves is their difference to the whole over `2^p - 1`, where steps resolve the motion. Steps that pass
 /// over many turns of a stiff dilatation do not, and what is gained by halving them is that of order 2 at best.
