@@ -44,7 +44,8 @@ fn main() -> affine_runtime::Result<()> {
         (Some(alone), Some(together)) => (alone.phi() - together.phi()).norm() / alone.phi().norm(),
         _ => f64::NAN,
     });
-    let worst = worst.fold(0.0, |worst, error| if error <= worst { worst } else { error });
+    let worst =
+        worst.fold(0.0, |worst: f64, error| if error <= worst || worst.is_nan() { worst } else { error });
     println!("{BODIES} bodies to t = {T_END} at {TOLERANCE:e}, {} lanes", Widest::LANES);
     println!("largest difference between the two ways: {worst:.1e}");
     let scalar = median(&mut rates[0]);

@@ -9,6 +9,8 @@ mod dissipation;
 mod fields;
 #[path = "metrics/forces.rs"]
 mod forces;
+#[path = "metrics/kinematics.rs"]
+mod kinematics;
 #[path = "metrics/matrices.rs"]
 mod matrices;
 #[path = "metrics/quantities.rs"]

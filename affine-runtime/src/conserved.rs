@@ -4,7 +4,7 @@ use crate::frames::{Matrix, Vector};
 use crate::integrate::norm;
 use crate::kinematics::Kinematics;
 use crate::model::Conserved;
-use crate::state::Phase;
+use crate::state::{Euclidean, Phase};
 
 /// Independent components of a quantity: at most nine, in the dimensions 2 and 3.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,7 +64,10 @@ impl Components {
 /// The quantity at a phase point (Slawianowski et al., sections 2 and 5); `None` for the energy, which
 /// belongs to the model and not to the point.
 #[must_use]
-pub fn evaluate<const N: usize, P: Phase<N>>(quantity: Conserved, point: &P) -> Option<Components> {
+pub fn evaluate<const N: usize, P: Phase<N> + Euclidean>(
+    quantity: Conserved,
+    point: &P,
+) -> Option<Components> {
     Some(match quantity {
         Conserved::Energy => return None,
         Conserved::LinearMomentum => Components::vector(&point.p()),
@@ -93,7 +96,7 @@ pub fn evaluate<const N: usize, P: Phase<N>>(quantity: Conserved, point: &P) -> 
 /// `tr Sigma^2`, `|x| |p| + |Sigma|` for the total affine momentum, so that a quantity that vanishes has a scale
 /// too. `None` for the energy.
 #[must_use]
-pub fn scale<const N: usize, P: Phase<N>>(quantity: Conserved, point: &P) -> Option<f64> {
+pub fn scale<const N: usize, P: Phase<N> + Euclidean>(quantity: Conserved, point: &P) -> Option<f64> {
     let sigma = || norm(point.sigma().0.0.as_slice());
     let sigma_hat = || norm(point.sigma_hat().0.0.as_slice());
     let p = || norm(point.p().as_slice());

@@ -13,18 +13,22 @@
 //! | `Spatial<AngularMomentum>` `S`, `x p^T - p x^T` | `Comoving<Vorticity>` `Vort` | |
 //! | `Spatial<AffineMomentum>` `x p^T`, `I(O)` | | |
 //!
+//! Quantities that need the metrics of space and body, in the second half of the table and all stretches, are read off points
+//! in orthonormal bases alone, [`Euclidean`]: those of every model without `metrics(...)`. A model with metrics gives them,
+//! [`Model::orthonormal`](crate::model::Model::orthonormal).
+//!
 //! Spin and vorticity have different types because one is not the other in another frame: `S` differs from
 //! `phi Vort phi^-1`. Like quantities add; everything else does not compile:
 //!
 //! ```
 //! use affine_runtime::kinematics::Kinematics;
 //! use affine_runtime::model::Velocity;
-//! use affine_runtime::state::Phase;
+//! use affine_runtime::state::{Euclidean, Phase};
 //!
 //! fn internal_power(point: &impl Phase<3>, velocity: &Velocity<3>) -> f64 {
 //!     point.sigma().pair(point.omega(velocity))
 //! }
-//! fn total_angular_momentum(point: &impl Phase<3>) -> f64 {
+//! fn total_angular_momentum(point: &(impl Phase<3> + Euclidean)) -> f64 {
 //!     (point.orbital_angular_momentum() + point.spin()).norm_squared()
 //! }
 //! ```
@@ -45,9 +49,9 @@
 //!
 //! ```compile_fail,E0308
 //! use affine_runtime::kinematics::Kinematics;
-//! use affine_runtime::state::Phase;
+//! use affine_runtime::state::{Euclidean, Phase};
 //!
-//! fn total_angular_momentum(point: &impl Phase<3>) -> f64 {
+//! fn total_angular_momentum(point: &(impl Phase<3> + Euclidean)) -> f64 {
 //!     (point.orbital_angular_momentum() + point.vorticity()).norm_squared()
 //! }
 //! ```
@@ -96,7 +100,7 @@ pub use velocities::LinearVelocity;
 use crate::frames::{AffineVelocity, Comoving, Matrix, Spatial, TwoPoint};
 use crate::model::Velocity;
 use crate::scalar::Real;
-use crate::state::Phase;
+use crate::state::{Euclidean, Phase};
 
 /// Everything that section 2 of the paper reads off a phase point, and off a phase point and a velocity.
 pub trait Kinematics<const N: usize, T: Real = f64>: Phase<N, T> {
@@ -114,43 +118,73 @@ pub trait Kinematics<const N: usize, T: Real = f64>: Phase<N, T> {
     }
 
     /// Green deformation tensor `G = phi^T phi`.
-    fn green(&self) -> Comoving<GreenTensor<N, T>> {
+    fn green(&self) -> Comoving<GreenTensor<N, T>>
+    where
+        Self: Euclidean,
+    {
         GreenTensor::of(self.phi())
     }
     /// Inverse Green deformation tensor `G^-1 = phi^-1 phi^-T`.
-    fn green_inverse(&self) -> Comoving<InverseGreenTensor<N, T>> {
+    fn green_inverse(&self) -> Comoving<InverseGreenTensor<N, T>>
+    where
+        Self: Euclidean,
+    {
         InverseGreenTensor::of(self.phi())
     }
     /// Cauchy deformation tensor `C = phi^-T phi^-1`.
-    fn cauchy(&self) -> Spatial<CauchyTensor<N, T>> {
+    fn cauchy(&self) -> Spatial<CauchyTensor<N, T>>
+    where
+        Self: Euclidean,
+    {
         CauchyTensor::of(self.phi())
     }
     /// Inverse Cauchy deformation tensor `C^-1 = phi phi^T`.
-    fn cauchy_inverse(&self) -> Spatial<InverseCauchyTensor<N, T>> {
+    fn cauchy_inverse(&self) -> Spatial<InverseCauchyTensor<N, T>>
+    where
+        Self: Euclidean,
+    {
         InverseCauchyTensor::of(self.phi())
     }
     /// Lagrange (Green) strain `E = (G - 1)/2`.
-    fn lagrange_strain(&self) -> Comoving<Strain<N, T>> {
+    fn lagrange_strain(&self) -> Comoving<Strain<N, T>>
+    where
+        Self: Euclidean,
+    {
         Strain::lagrange(self.phi())
     }
     /// Euler (Cauchy) strain `e = (1 - C)/2`.
-    fn euler_strain(&self) -> Spatial<Strain<N, T>> {
+    fn euler_strain(&self) -> Spatial<Strain<N, T>>
+    where
+        Self: Euclidean,
+    {
         Strain::euler(self.phi())
     }
     /// Characteristic invariants `I1..In` of `G`; see [`characteristic_invariants`].
-    fn invariants(&self) -> [T; N] {
+    fn invariants(&self) -> [T; N]
+    where
+        Self: Euclidean,
+    {
         characteristic_invariants(self.phi())
     }
     /// Mean log-stretch `q = ln(det phi)/n`; see [`mean_log_stretch`].
-    fn mean_log_stretch(&self) -> T {
+    fn mean_log_stretch(&self) -> T
+    where
+        Self: Euclidean,
+    {
         mean_log_stretch(self.phi())
     }
     /// Dilatation `D = exp(q)`; see [`dilatation`].
-    fn dilatation(&self) -> T {
+    fn dilatation(&self) -> T
+    where
+        Self: Euclidean,
+    {
         dilatation(self.phi())
     }
     /// Isochoric part `Psi = exp(-q) phi`; see [`isochoric_part`].
-    fn isochoric_part(&self) -> Matrix<N, T> {
+    fn isochoric_part(&self) -> Matrix<N, T>
+    where
+        Self: Euclidean,
+    {
         isochoric_part(self.phi())
     }
     /// Spatial inertial quadrupole `J[phi] = phi J phi^T` of a body with the co-moving quadrupole `J`.
@@ -162,11 +196,17 @@ pub trait Kinematics<const N: usize, T: Real = f64>: Phase<N, T> {
     }
 
     /// Spin `S = Sigma - Sigma^T` (2.6).
-    fn spin(&self) -> Spatial<AngularMomentum<N, T>> {
+    fn spin(&self) -> Spatial<AngularMomentum<N, T>>
+    where
+        Self: Euclidean,
+    {
         self.sigma().spin()
     }
     /// Vorticity `Vort = Sigma_hat - Sigma_hat^T` (2.6).
-    fn vorticity(&self) -> Comoving<Vorticity<N, T>> {
+    fn vorticity(&self) -> Comoving<Vorticity<N, T>>
+    where
+        Self: Euclidean,
+    {
         self.sigma_hat().vorticity()
     }
     /// Orbital affine momentum `Lambda = x p^T` about the origin of space; zero for a pinned body.
@@ -178,11 +218,17 @@ pub trait Kinematics<const N: usize, T: Real = f64>: Phase<N, T> {
         self.orbital_affine_momentum() + Spatial(AffineMomentum(self.sigma().0.0))
     }
     /// Orbital angular momentum `x p^T - p x^T` about the origin of space; zero for a pinned body.
-    fn orbital_angular_momentum(&self) -> Spatial<AngularMomentum<N, T>> {
+    fn orbital_angular_momentum(&self) -> Spatial<AngularMomentum<N, T>>
+    where
+        Self: Euclidean,
+    {
         self.orbital_affine_momentum().angular_momentum()
     }
     /// Total angular momentum `I(O) - I(O)^T = x p^T - p x^T + S` about the origin of space.
-    fn total_angular_momentum(&self) -> Spatial<AngularMomentum<N, T>> {
+    fn total_angular_momentum(&self) -> Spatial<AngularMomentum<N, T>>
+    where
+        Self: Euclidean,
+    {
         self.orbital_angular_momentum() + self.spin()
     }
     /// Dilatational momentum `p_dil = tr Sigma = tr Sigma_hat`, conjugate to `q`; the Casimir `C(1)`.

@@ -2,6 +2,7 @@
 
 mod forms;
 mod quantities;
+mod tensor;
 
 use crate::error::{Error, IllPosed, Result};
 use crate::frames::Matrix;
@@ -12,6 +13,7 @@ use crate::scalar::{Real, Scalar};
 pub use forms::{rebased_inertia, rebased_tensor, told_in_given_bases};
 #[doc(hidden)]
 pub use quantities::{form_in_given_bases, inverse_in_given_bases};
+pub use tensor::Tensor;
 
 /// A change of the bases of space and body, `x' = A x`, `phi' = A phi B^-1`.
 ///

@@ -8,7 +8,7 @@ use crate::integrate::nystrom::SecondOrder;
 use crate::integrate::packed::Packing;
 use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::Series;
-use crate::metrics::Bases;
+use crate::metrics::{Bases, Tensor};
 pub use crate::regularity::Regularity;
 use crate::scalar::{Real, Scalar};
 use crate::state::Phase;
@@ -54,7 +54,15 @@ pub trait Model<const N: usize> {
     /// The point from a plain array, unchecked.
     fn unflatten<T: Real>(&self, full: &Self::Full<T>) -> Self::Point<T>;
     /// Hamilton's equations over the plain array: its time derivative.
+    ///
+    /// Not for `dalembert` under `constraint = isochoric`, whose motion is kept on `det phi = 1` by a multiplier that the
+    /// methods of a `Simulation` solve for: a call does not compile there.
     fn hamilton_equations<T: Scalar>(&self, t: T, full: &Self::Full<T>) -> Self::Full<T>;
+    /// The same without the multiplier of a constraint, for the methods that solve for it.
+    #[doc(hidden)]
+    fn free_equations<T: Scalar>(&self, t: T, full: &Self::Full<T>) -> Self::Full<T> {
+        self.hamilton_equations(t, full)
+    }
 
     /// The reduced state and the constants of the trajectory that passes through `point` at time `t0`.
     fn reduce<T: Real>(&self, t0: T, point: &Self::Point<T>) -> (Self::Reduced<T>, Self::Constants<T>);
@@ -104,6 +112,49 @@ pub trait Model<const N: usize> {
     /// they are the identity there. Plain arrays, reduced states and closed forms stand in them, phase points do not.
     fn bases(&self) -> Option<Bases<N>> {
         None
+    }
+
+    /// The point in bases in which the metrics are the identity: `phi' = A phi B^-1`, with `g = A^T A`, `eta = B^T B`. What
+    /// needs the metrics is read off it: deformation tensors, strains, invariants, stretches, `q`, spin and vorticity. The
+    /// point itself of a model without `metrics(...)`.
+    ///
+    /// ```
+    /// use affine_runtime::prelude::*;
+    ///
+    /// #[affine_model(
+    ///     dim = 2,
+    ///     metrics(space = diag(4, 1), body = diag(1, 1)),
+    ///     kinetic(casimir2 = 0.2, body_inertia = 1),
+    ///     potential = tr(G),
+    /// )]
+    /// struct Body;
+    ///
+    /// let point = Body.at_momentum(Matrix::<2>::identity(), Comoving(Matrix::<2>::zeros()))?;
+    /// let orthonormal = Body.orthonormal(&point);
+    /// assert_eq!(orthonormal.green().0.0.trace(), 5.0); // as in the potential
+    /// assert_eq!(Body.hamiltonian(0.0, &point), 5.0);
+    /// assert_eq!(Body.components(orthonormal.green()), Matrix::<2>::new(4.0, 0.0, 0.0, 1.0)); // g_ij phi_iA phi_jB
+    /// # Ok::<(), affine_runtime::Error>(())
+    /// ```
+    ///
+    /// What is read off the point itself would use other metrics, and does not compile:
+    ///
+    /// ```compile_fail,E0277
+    /// # use affine_runtime::prelude::*;
+    /// # #[affine_model(dim = 2, metrics(space = diag(4, 1), body = diag(1, 1)), kinetic(casimir2 = 0.2, body_inertia = 1))]
+    /// # struct Body;
+    /// # let point = Body.at_momentum(Matrix::<2>::identity(), Comoving(Matrix::<2>::zeros())).unwrap();
+    /// let trace = point.green().0.0.trace();
+    /// ```
+    fn orthonormal<T: Real>(&self, point: &Self::Point<T>) -> <Self::Point<T> as Phase<N, T>>::InOrthonormal {
+        point.in_orthonormal(self.bases().map(|bases| bases.over()).as_ref())
+    }
+
+    /// Components of a tensor in the model's own bases, of one that was read off an [`orthonormal`](Self::orthonormal) point:
+    /// `G_AB = g_ij phi^i_A phi^j_B`, `C_ij = eta_AB (phi^-1)^A_i (phi^-1)^B_j`, `S^i_j = Sigma^i_j - g^ik Sigma^l_k g_lj`,
+    /// `Vort` likewise with `eta`.
+    fn components(&self, tensor: impl Tensor<N>) -> Matrix<N> {
+        tensor.components(self.bases().as_ref())
     }
 
     /// The closed form of the trajectory through `point` at time `t0`, where the model and the scene have one.

@@ -50,30 +50,30 @@ pub use crate::reduction::{
 };
 pub use crate::regularity::regular;
 pub use crate::scalar::{Real, Scalar};
-pub use crate::state::{Centre, Phase, PhasePoint, Pinned};
+pub use crate::state::{Centre, Given, Phase, PhasePoint, Pinned};
 
 use crate::frames::Frame;
-use crate::state::Translation;
+use crate::state::{Basis, Translation};
 
 /// The phase point with placement `phi`, a momentum given in any frame, and `centre`.
 ///
 /// # Errors
 /// [`Error::Placement`](crate::Error::Placement) unless `phi` is finite and `det phi > 0`;
 /// [`Error::NotFinite`](crate::Error::NotFinite) with the name of the momentum, `x` or `p` that is not finite.
-pub fn phase_point<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
+pub fn phase_point<const N: usize, F: Frame, C: Translation<N, T>, T: Real, B: Basis>(
     phi: Matrix<N, T>,
     momentum: impl Momentum<N, T>,
     centre: C,
-) -> Result<PhasePoint<N, F, C, T>> {
+) -> Result<PhasePoint<N, F, C, T, B>> {
     PhasePoint::checked(phi, momentum, centre)
 }
 
 /// The same point, unchecked: integrators watch over their states themselves.
-pub fn point<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
+pub fn point<const N: usize, F: Frame, C: Translation<N, T>, T: Real, B: Basis>(
     phi: Matrix<N, T>,
     momentum: impl Momentum<N, T>,
     centre: C,
-) -> PhasePoint<N, F, C, T> {
+) -> PhasePoint<N, F, C, T, B> {
     PhasePoint::with_momentum(phi, momentum, centre)
 }
 
@@ -96,6 +96,28 @@ pub fn point<const N: usize, F: Frame, C: Translation<N, T>, T: Real>(
 pub const fn no_kinetic_energy_of_velocities<T>() -> T {
     panic!(
         "with `casimir3` several momenta have one velocity, and T is no function of velocities; on momenta it is tr(X O) - H"
+    )
+}
+
+/// Stops the compilation of a call of `hamilton_equations` for a motion that a multiplier keeps on its constraint.
+///
+/// ```compile_fail,E0080
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(dim = 2, constraint = isochoric, kinetic(dalembert = 1), potential = tr(G))]
+/// struct Drop;
+///
+/// let start = Drop.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
+/// let _ = Drop.hamilton_equations(0.0, &Drop.flatten(&start));
+/// ```
+///
+/// # Panics
+/// Always, and only while the compiler evaluates it.
+#[allow(clippy::panic, reason = "evaluated by the compiler alone: the panic is the error message")]
+pub const fn no_equations_without_multiplier<T>() -> T {
+    panic!(
+        "`dalembert` under `constraint = isochoric` is kept on det phi = 1 by a multiplier, which is not in the plain \
+         equations; run a `Simulation`, or state the same energy by `flat_tensor`, whose equations contain it"
     )
 }
 

@@ -43,6 +43,9 @@ pub use round_trip::RoundTrip;
 pub use trajectory::{Computation, Trajectory};
 pub use why::Why;
 
+#[cfg(feature = "report")]
+pub(crate) use layout::has_multiplier;
+
 use crate::model::Model;
 use mechanics::{Integrate, Moving};
 use output::Output;

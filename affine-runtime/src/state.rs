@@ -75,16 +75,49 @@ impl<const N: usize, T: Real> Translation<N, T> for Centre<N, T> {
     }
 }
 
+/// The bases of space and body that the components of a phase point belong to: [`Orthonormal`] or [`Given`].
+pub trait Basis: Copy + Debug + PartialEq + Send + Sync + sealed::Sealed + 'static {}
+
+/// Orthonormal bases: both metrics are the identity, transposes and norms are the plain ones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Orthonormal;
+
+/// The bases in which a model states its `metrics(...)`: the metrics are `g` and `eta`, which the model knows and the
+/// point does not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Given;
+
+impl Basis for Orthonormal {}
+impl Basis for Given {}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Orthonormal {}
+    impl Sealed for super::Given {}
+}
+
+/// A phase point in orthonormal bases: what the deformation tensors, the spin and the stretches are read off.
+#[diagnostic::on_unimplemented(
+    message = "the metrics of this model are not the identity in the bases of its phase points",
+    label = "deformation tensors, stretches, spin and vorticity need the metrics",
+    note = "ask the model for the point in orthonormal bases: `model.orthonormal(&point)`; `model.components(quantity)` gives \
+            the components of what is read off it in the bases of the model"
+)]
+pub trait Euclidean {}
+
+impl<const N: usize, F, C, T: Real> Euclidean for PhasePoint<N, F, C, T, Orthonormal> {}
+
 /// A point of phase space: placement `phi` with `det phi > 0`, affine spin in the frame `F` of the model, and
-/// the centre of mass where the model has one.
+/// the centre of mass where the model has one; components belong to the bases `B`, those of a model without
+/// `metrics(...)` are [`Orthonormal`].
 ///
 /// Points are made by the models (`at_momentum`, `at_velocity`), which check them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PhasePoint<const N: usize, F, C, T: Real = f64> {
+pub struct PhasePoint<const N: usize, F, C, T: Real = f64, B = Orthonormal> {
     phi: Matrix<N, T>,
     spin: Matrix<N, T>,
     centre: C,
-    frame: core::marker::PhantomData<F>,
+    frame: core::marker::PhantomData<(F, B)>,
 }
 
 /// What integrators and reports read of a phase point, whatever the model.
@@ -117,9 +150,14 @@ pub trait Phase<const N: usize, T: Real = f64>: Copy + Debug + PartialEq {
         phi: Matrix<N, T>,
         spin: impl FnOnce(&Matrix<N, T>) -> Matrix<N, T>,
     ) -> Self;
-    /// The same point in other bases of space and body.
+    /// The type of phase points of the same model in orthonormal bases; the same type where these are the model's own.
+    type InOrthonormal: Phase<N, T, InOrthonormal = Self::InOrthonormal> + Euclidean;
+    /// The point in orthonormal bases, to which `bases` lead; `None` where the model's own are orthonormal. See
+    /// [`Model::orthonormal`](crate::model::Model::orthonormal).
+    fn in_orthonormal(&self, bases: Option<&Bases<N, T>>) -> Self::InOrthonormal;
+    /// The point from one in orthonormal bases, to which `bases` lead.
     #[must_use]
-    fn rebased(&self, bases: &Bases<N, T>) -> Self;
+    fn from_orthonormal(point: &Self::InOrthonormal, bases: &Bases<N, T>) -> Self;
     /// All numbers of the point as it stands, in its own frame and unconverted: `phi`, the affine spin, `x`, `p`.
     fn entries(&self, each: &mut dyn FnMut(T));
     /// The point with other numbers, in the order of [`entries`](Self::entries), unchecked.
@@ -129,10 +167,16 @@ pub trait Phase<const N: usize, T: Real = f64>: Copy + Debug + PartialEq {
     fn is_finite(&self) -> bool;
 }
 
-impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> PhasePoint<N, F, C, T> {
+impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real, B: Basis> PhasePoint<N, F, C, T, B> {
     /// The point as it stands, unchecked; `spin` is the affine spin in the frame `F`.
     pub(crate) fn new(phi: Matrix<N, T>, spin: Matrix<N, T>, centre: C) -> Self {
         Self { phi, spin, centre, frame: core::marker::PhantomData }
+    }
+
+    /// The same point with components in other bases.
+    fn rebased<O: Basis>(&self, bases: &Bases<N, T>) -> PhasePoint<N, F, C, T, O> {
+        let spin = F::rebased(bases, &self.spin);
+        PhasePoint::new(bases.placement(&self.phi), spin, self.centre.rebased(bases))
     }
 
     /// The point with a momentum given in any frame, unchecked.
@@ -167,7 +211,7 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> PhasePoint<N, F, C
     }
 }
 
-impl<const N: usize, F, C: Copy, T: Real> PhasePoint<N, F, C, T> {
+impl<const N: usize, F, C: Copy, T: Real, B> PhasePoint<N, F, C, T, B> {
     /// The point with another affine spin of its own frame.
     pub(crate) fn respinned(self, spin: impl FnOnce(&Matrix<N, T>) -> Result<Matrix<N, T>>) -> Result<Self> {
         Ok(Self { spin: spin(&self.spin)?, ..self })
@@ -184,7 +228,11 @@ pub(crate) trait MomentumIn<const N: usize, T: Real>: Momentum<N, T> + Sized {
 
 impl<const N: usize, T: Real, M: Momentum<N, T>> MomentumIn<N, T> for M {}
 
-impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> Phase<N, T> for PhasePoint<N, F, C, T> {
+impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real, B: Basis> Phase<N, T>
+    for PhasePoint<N, F, C, T, B>
+{
+    type InOrthonormal = PhasePoint<N, F, C, T, Orthonormal>;
+
     fn phi(&self) -> &Matrix<N, T> {
         &self.phi
     }
@@ -214,8 +262,14 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real> Phase<N, T> for Ph
     ) -> Self {
         Self::new(phi, spin(&self.spin), self.centre.moved(x))
     }
-    fn rebased(&self, bases: &Bases<N, T>) -> Self {
-        Self::new(bases.placement(&self.phi), F::rebased(bases, &self.spin), self.centre.rebased(bases))
+    fn in_orthonormal(&self, bases: Option<&Bases<N, T>>) -> Self::InOrthonormal {
+        match bases {
+            Some(bases) => self.rebased(bases),
+            None => PhasePoint::new(self.phi, self.spin, self.centre),
+        }
+    }
+    fn from_orthonormal(point: &Self::InOrthonormal, bases: &Bases<N, T>) -> Self {
+        point.rebased(&bases.reversed())
     }
     fn entries(&self, each: &mut dyn FnMut(T)) {
         self.phi.iter().chain(self.spin.iter()).for_each(|entry| each(*entry));

@@ -9,7 +9,7 @@ use affine_runtime::frames::{
 };
 use affine_runtime::kinematics::{GreenTensor, Kinematics, Strain, dilatation, mean_log_stretch};
 use affine_runtime::model::Velocity;
-use affine_runtime::state::{Centre, Phase, PhasePoint, Pinned};
+use affine_runtime::state::{Centre, Orthonormal, Phase, PhasePoint, Pinned};
 use proptest::prelude::*;
 
 /// Stretches lie between `exp(-1)` and `exp(1)`: condition number at most `e^2 = 7.4`; products of two such
@@ -265,7 +265,7 @@ fn extreme_numbers_keep_their_dilatation() {
 #[test]
 fn phase_points_are_checked() {
     let placement = |phi: Matrix<2>| {
-        phase_point::<2, Body, _, f64>(phi, Comoving(Matrix::<2>::zeros()), Pinned).map(|_| ())
+        phase_point::<2, Body, _, f64, Orthonormal>(phi, Comoving(Matrix::<2>::zeros()), Pinned).map(|_| ())
     };
     assert_eq!(placement(Matrix::<2>::identity() * 1e-300), Ok(()));
     assert_eq!(placement(Matrix::<2>::zeros()), Err(Error::Placement { determinant: 0.0 }));
@@ -281,7 +281,7 @@ fn phase_points_are_checked() {
     let fine = Centre { x: Vector::<2>::zeros(), p: Vector::<2>::zeros() };
     let start = |momentum: Matrix<2>, centre: Centre<2>| {
         let momentum = Spatial(AffineSpin(momentum));
-        phase_point::<2, Space, _, f64>(Matrix::identity(), momentum, centre).map(|_| ())
+        phase_point::<2, Space, _, f64, Orthonormal>(Matrix::identity(), momentum, centre).map(|_| ())
     };
     let broken = Vector::<2>::new(0.0, f64::NAN);
     assert_eq!(start(Matrix::identity(), fine), Ok(()));

@@ -9,7 +9,7 @@ use crate::sweep::{Ask, Outputs, Sweep, arrives, sound, stops, sweep};
 fn apart<const N: usize, M: Model<N>>(model: &M, a: &M::Point<f64>, b: &M::Point<f64>) -> f64 {
     let (a, b) = (model.flatten(a), model.flatten(b));
     let differences = a.as_ref().iter().zip(b.as_ref()).map(|(a, b)| (a - b).abs());
-    differences.fold(0.0, |most, d| if d <= most { most } else { d })
+    differences.fold(0.0, |most: f64, d| if d <= most || most.is_nan() { most } else { d })
 }
 
 struct Short;

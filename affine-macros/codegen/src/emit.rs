@@ -151,7 +151,8 @@ impl Context<'_> {
     /// Type of phase points over a scalar.
     fn point(&self, scalar: &TokenStream) -> TokenStream {
         let (rt, n, frame, centre) = (&self.names.rt, self.dim(), self.frame(), self.centre(scalar));
-        quote!(#rt::PhasePoint<#n, #frame, #centre, #scalar>)
+        let basis = self.model.metrics.is_some().then(|| quote!(, #rt::Given));
+        quote!(#rt::PhasePoint<#n, #frame, #centre, #scalar #basis>)
     }
 
     /// Generics of the type that implements the model.

@@ -1,4 +1,4 @@
-//! Whether numbers are finite.
+//! Whether numbers are finite, and which is the largest.
 
 use crate::model::StateVector;
 
@@ -16,9 +16,22 @@ pub(crate) fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
     rest.iter().fold((sums[0] + sums[2]) + (sums[1] + sums[3]), |sum, v| sum + 0.0 * v) == 0.0
 }
 
+/// The larger of two numbers; NaN where one is, which `f64::max` would drop.
+#[inline(always)]
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::is_finite;
+    use super::{is_finite, larger};
+
+    #[test]
+    fn nothing_is_larger_than_what_is_no_number() {
+        assert_eq!((larger(1.0, 2.0), larger(2.0, 1.0), larger(-1.0, 0.0)), (2.0, 2.0, 0.0));
+        let lists = [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]];
+        assert!(lists.iter().all(|list| list.iter().copied().fold(0.0, larger).is_nan()));
+    }
 
     #[test]
     fn each_component_counts() {

@@ -88,6 +88,7 @@ impl Class {
 #[must_use]
 pub fn classify<const N: usize, M: TwoPolarForm<N>>(model: &M, point: &M::Point<f64>) -> Option<Class> {
     let isotropic = model.isotropic()?;
+    let point = model.orthonormal(point);
     let p_dil = point.dilatational_momentum();
     let n = N as f64;
     let dilatation = match M::LATTICE.potential {

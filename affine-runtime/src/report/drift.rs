@@ -2,6 +2,7 @@
 
 use super::axes::Axis;
 use super::palette::category_count;
+use crate::integrate::larger;
 use crate::simulate::{Drift, Trajectory};
 use crate::state::Phase;
 
@@ -36,7 +37,7 @@ impl History {
         let row = |drift: &Drift| {
             let mut worst = 0.0;
             let history = trajectory.relative_drifts(drift).into_iter().map(|value| {
-                worst = if value <= worst { worst } else { value };
+                worst = larger(worst, value);
                 worst
             });
             Row { name: drift.quantity.name(), worst_so_far: history.collect() }

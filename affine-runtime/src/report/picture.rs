@@ -34,7 +34,8 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// The trajectory as an SVG document: the deformed unit ball `{x + phi u : |u| <= 1}` at a few times, from
     /// dark (early) to bright (late), with the path of the centre of mass; the log-stretches `q_a`, half the
     /// logarithms of the eigenvalues of `phi^T phi`, over time; and the largest relative drift so far of the
-    /// conserved quantities (see [`conservation`](Self::conservation)).
+    /// conserved quantities (see [`conservation`](Self::conservation)). Bodies of a model with `metrics(...)` are drawn in
+    /// orthonormal bases, where lengths are those of the metrics.
     ///
     /// In three dimensions the view is orthographic, from azimuth 35 and elevation 25 degrees, and the lines on
     /// the body are the images of the great circles in its coordinate planes, where the eye sees them; bodies
@@ -114,6 +115,7 @@ impl<const N: usize> Samples<N> {
         for (t, point) in core::iter::once(start).chain(trajectory.iter()).chain([end]) {
             if bodies.last().is_none_or(|last| last.0 != t) {
                 let fraction = if span == 0.0 { 0.0 } else { (t - start.0) / span };
+                let point = trajectory.orthonormal(point);
                 bodies.push((t, Body { x: point.x(), phi: *point.phi(), fraction }));
             }
         }

@@ -5,7 +5,7 @@ mod table;
 
 use crate::error::Error;
 use crate::frames::Matrix;
-use crate::integrate::norm;
+use crate::integrate::{larger, norm};
 
 /// What a result is held against. None of them is the method under test at another tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -210,16 +210,29 @@ pub fn relative_distance<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> f64 {
 }
 
 /// The largest `|a_i - b_i|/|b_i|` over rows: every row against its own size, as an affine map of space that scales the axes
-/// differently demands.
+/// differently demands. 0 where rows agree even in a vanishing one; NaN where an entry is.
 #[must_use]
 pub fn relative_distance_by_rows<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> f64 {
-    let row = |i: usize| {
-        let largest = (0..N)
-            .fold(0.0_f64, |largest, j| if b[(i, j)].abs() > largest { b[(i, j)].abs() } else { largest });
-        let scaled = |m: &Matrix<N>| -> [f64; N] { core::array::from_fn(|j| m[(i, j)] / largest) };
-        let (a, b) = (scaled(a), scaled(b));
-        let difference: [f64; N] = core::array::from_fn(|j| a[j] - b[j]);
-        norm(&difference) / norm(&b)
-    };
-    (0..N).map(row).fold(0.0, |largest, error| if error <= largest { largest } else { error })
+    let alone = |m: &Matrix<N>, i: usize| Matrix::<N>::from_fn(|k, j| if k == 0 { m[(i, j)] } else { 0.0 });
+    (0..N).map(|i| relative_distance(&alone(a, i), &alone(b, i))).fold(0.0, larger)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Matrix, relative_distance_by_rows};
+
+    #[test]
+    fn a_row_that_is_no_number_is_not_passed_over() {
+        let b = Matrix::<3>::new(1.0, 2.0, 3.0, 4e200, 5e200, 6e200, 0.0, 0.0, 0.0);
+        assert_eq!(relative_distance_by_rows(&b, &b), 0.0);
+        let mut a = b;
+        a[(1, 2)] = 6.6e200;
+        let expected = 0.6 / 77.0_f64.sqrt();
+        assert!((relative_distance_by_rows(&a, &b) - expected).abs() < 1e-15);
+        for row in 0..3 {
+            let mut a = b;
+            a[(row, 0)] = f64::NAN;
+            assert!(relative_distance_by_rows(&a, &b).is_nan(), "row {row}");
+        }
+    }
 }

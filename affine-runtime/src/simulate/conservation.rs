@@ -5,6 +5,7 @@ use core::fmt;
 use super::power_balance::PowerBalance;
 use super::trajectory::Trajectory;
 use crate::conserved::{Components, evaluate, scale};
+use crate::integrate::larger;
 use crate::model::Conserved;
 use crate::state::Phase;
 
@@ -59,7 +60,7 @@ impl Conservation {
     /// The largest relative drift; NaN where one is.
     #[must_use]
     pub fn worst(&self) -> f64 {
-        self.drifts.iter().map(Drift::relative).fold(0.0, |worst, d| if d <= worst { worst } else { d })
+        self.drifts.iter().map(Drift::relative).fold(0.0, larger)
     }
 }
 
@@ -94,13 +95,14 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         self.points.iter().map(distance).map(relative).collect()
     }
 
-    /// A quantity in bases in which the metrics are the identity, where transposes and norms are the plain ones.
+    /// A quantity, where transposes and norms are the plain ones.
     fn value(&self, quantity: Conserved, point: &P) -> Option<Components> {
         evaluate(quantity, &self.orthonormal(point))
     }
 
-    fn orthonormal(&self, point: &P) -> P {
-        self.bases.as_ref().map_or(*point, |bases| point.rebased(bases))
+    /// A phase point in bases in which the model's metrics are the identity.
+    pub(crate) fn orthonormal(&self, point: &P) -> P::InOrthonormal {
+        point.in_orthonormal(self.bases.as_deref())
     }
 
     fn drift(&self, quantity: Conserved) -> Drift {
@@ -119,11 +121,6 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         }
         drift
     }
-}
-
-/// The larger of two numbers; NaN where one is.
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if a >= b || a.is_nan() { a } else { b }
 }
 
 impl fmt::Display for Conservation {
@@ -145,5 +142,26 @@ impl fmt::Display for Conservation {
             writeln!(f, "{balance}")?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wherever it stands, a drift that is no number is the worst.
+    #[test]
+    fn a_drift_that_is_no_number_is_not_passed_over() {
+        let row = |quantity, absolute| Drift { quantity, absolute, scale: 1.0 };
+        let worst = |absolute: [f64; 3]| {
+            let quantities = [Conserved::Energy, Conserved::Spin, Conserved::Vorticity];
+            let drifts =
+                quantities.into_iter().zip(absolute).map(|(quantity, absolute)| row(quantity, absolute));
+            Conservation { model: "Body", drifts: drifts.collect(), balance: None }.worst()
+        };
+        assert_eq!(worst([1e-3, 0.0, 1e-9]), 1e-3);
+        assert!(worst([f64::NAN, 1e-9, 1e-16]).is_nan());
+        assert!(worst([1e-9, f64::NAN, 1e-16]).is_nan());
+        assert!(worst([1e-9, 1e-16, f64::NAN]).is_nan());
     }
 }

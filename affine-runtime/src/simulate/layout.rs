@@ -71,8 +71,8 @@ pub(super) const fn is_free_in_pi(model: &Description) -> bool {
     model.constraint.is_none() && components(model.full, "Pi").is_some()
 }
 
-/// The phase point is that of an isochoric body, with `Pi` its momentum.
-pub(super) const fn is_isochoric_in_pi(model: &Description) -> bool {
+/// The phase point is that of an isochoric body, with `Pi` its momentum: a multiplier keeps `det phi = 1`.
+pub(crate) const fn has_multiplier(model: &Description) -> bool {
     matches!(model.constraint, Some(Constraint::Isochoric)) && components(model.full, "Pi").is_some()
 }
 

@@ -2,8 +2,7 @@
 
 use super::halt::{Reason, Setting};
 use super::layout::{
-    Layout, carries_dilatation, is_canonical, is_isochoric_in_pi, is_second_order, moves_on_group,
-    placement_in,
+    Layout, carries_dilatation, has_multiplier, is_canonical, is_second_order, moves_on_group, placement_in,
 };
 use super::mechanics::Course;
 use super::motion::{Expanded, Expansion};
@@ -54,7 +53,7 @@ fn integrate<const N: usize, M: Model<N>, const NAMED: bool>(
     recorder.trajectory.computation.method = method;
     recorder.needs_determinant = const { carries_dilatation(&M::DESCRIPTION) } && forms_determinant(method);
     if recorder.needs_determinant {
-        in_range(course.t0, course.start.phi())?;
+        in_range(course.t0, model.orthonormal(course.start).phi())?;
     }
     match method {
         Method::Rattle { order, step } if const { NAMED } => {
@@ -99,8 +98,8 @@ fn chosen<const N: usize, M: Model<N>>(
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Method {
     // Within steps a Nystrom method costs a step for each time that is looked at.
-    let in_reach =
-        const { !carries_dilatation(&M::DESCRIPTION) } || in_range(course.t0, course.start.phi()).is_ok();
+    let in_reach = const { !carries_dilatation(&M::DESCRIPTION) }
+        || in_range(course.t0, model.orthonormal(course.start).phi()).is_ok();
     let by_halves = !recorder.has_events() && in_reach;
     let stiffness = match course.method {
         Method::Automatic if by_halves => stiffness(model, model.splitting(), course),
@@ -300,7 +299,7 @@ fn with_reaction<const N: usize, M: Model<N>, const NAMED: bool>(
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
     let groups = M::DESCRIPTION.full;
-    let free = |t: f64, full: &M::Full<f64>| model.hamilton_equations(t, full);
+    let free = |t: f64, full: &M::Full<f64>| model.free_equations(t, full);
     let start = model.flatten(course.start);
     let reaction = Reaction::<N>::of(groups, &free, (course.t0, &start));
     let reaction = reaction.map_err(|failure| recorder.reason(failure))?;
@@ -364,11 +363,11 @@ fn by_rattle<const N: usize, M: Model<N>>(
     course: &Course<'_, M::Point<f64>>,
     recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
 ) -> Result<(), Reason> {
-    if const { !is_isochoric_in_pi(&M::DESCRIPTION) } {
+    if const { !has_multiplier(&M::DESCRIPTION) } {
         return Err(Setting::NotSeparable { model: M::DESCRIPTION.name }.into());
     }
     let composition = Composition::of_order(order).ok_or(Setting::Order { given: order })?;
-    let equations = |t: f64, full: &M::Full<f64>| model.hamilton_equations(t, full);
+    let equations = |t: f64, full: &M::Full<f64>| model.free_equations(t, full);
     let expand = |_: f64, full: &M::Full<f64>| model.unflatten(full);
     let (groups, layout) = (M::DESCRIPTION.full, const { Layout::of(M::DESCRIPTION.full, N) });
     let begin = (course.t0, model.flatten(course.start));

@@ -2,11 +2,10 @@
 
 use core::ops::ControlFlow;
 
-use super::conservation::larger;
 use super::halt::{Callback, Reason};
 use super::mechanics::Mechanics;
 use crate::frames::Matrix;
-use crate::integrate::{norm, sum_of_squares};
+use crate::integrate::{larger, norm, sum_of_squares};
 use crate::kinematics::LogDeterminant;
 use crate::state::Phase;
 
@@ -56,13 +55,17 @@ pub(super) fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
     }
 }
 
-/// What an energy is measured against: `|H|`, or `(|Pi| |phi_dot| + |p| |x_dot|)/2`, which is at least `|T|`.
+/// What an energy is measured against: `|H|`, or `(|Pi| |phi_dot| + |p| |x_dot|)/2` in orthonormal bases, which is at least
+/// `|T|`.
 pub(super) fn energy_scale<const N: usize, P: Phase<N>>(
     model: &dyn Mechanics<N, P>,
     point: &P,
     energy: f64,
 ) -> f64 {
+    let bases = model.bases();
     let velocity = model.velocity(point);
+    let velocity = bases.as_ref().map_or(velocity, |bases| bases.velocity(&velocity));
+    let point = point.in_orthonormal(bases.as_ref());
     let internal = norm(point.pi().0.0.as_slice()) * norm(velocity.phi_dot.as_slice());
     let translational = norm(point.p().as_slice()) * norm(velocity.x_dot.as_slice());
     larger(energy.abs(), 0.5 * (internal + translational))

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::conservation::larger;
 use super::trajectory::Trajectory;
+use crate::integrate::larger;
 use crate::model::WORK;
 use crate::state::Phase;
 

@@ -5,7 +5,7 @@ use super::point::is_clearly_positive;
 use crate::frames::Matrix;
 use crate::kinematics::LogDeterminant;
 
-/// Refuses a placement at which `det phi` or its inverse is no normal number: a force that underflows would be left out
+/// Refuses a placement, in orthonormal bases, at which `det phi` or its inverse is no normal number: a force that underflows would be left out
 /// without a word.
 pub(super) fn in_range<const N: usize>(t: f64, phi: &Matrix<N>) -> Result<(), Reason> {
     // A determinant whose square is a number is one itself, and so is its inverse.

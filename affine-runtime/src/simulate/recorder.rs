@@ -1,7 +1,6 @@
 //! A trajectory in the making.
 
 use super::checkpoint::{Bits, Place};
-use super::conservation::larger;
 use super::event::{Action, Occurrence};
 use super::halt::{Callback, Reason};
 use super::mechanics::Mechanics;
@@ -13,7 +12,7 @@ use super::trajectory::Trajectory;
 use super::watcher::{Met, Watcher};
 use super::{Observe, Progress, Watch};
 use crate::error::Error;
-use crate::integrate::Failure;
+use crate::integrate::{Failure, larger};
 use crate::state::Phase;
 
 /// What is recorded of a run, and how far it has come.
@@ -220,7 +219,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     pub(super) fn reach(&mut self, t: f64, (point, work): WithWork<P>) -> Result<(), Reason> {
         check(t, &point)?;
         if self.needs_determinant {
-            in_range(t, point.phi())?;
+            in_range(t, self.trajectory.orthonormal(&point).phi())?;
         }
         self.trajectory.end = (t, point);
         self.trajectory.energies.work_at_end = self.place.work() + work;

@@ -38,7 +38,7 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
         _ => quote!(let drift = #rt::Vector::<#n>::zeros();),
     };
     let spin = own_spin(context);
-    let (bases, typed) = (context.bases(None), context.bases(Some(&f64)));
+    let typed = context.bases(Some(&f64));
     let velocity = match context.model.metrics {
         None => quote!(#rt::Model::velocity(self, point)),
         Some(_) => quote!(#typed.velocity(&#rt::Model::velocity(self, stated))),
@@ -54,8 +54,8 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
             t: #f64,
             start: &Self::Point<#f64>,
         ) -> Self::Point<#f64> {
-            let point = geodesic.point(t, &#rt::Phase::rebased(start, &#bases));
-            #rt::Phase::rebased(&point, &#typed.reversed())
+            let start = #rt::Model::orthonormal(self, start);
+            #rt::Phase::from_orthonormal(&geodesic.point(t, &start), &#typed)
         }
     });
     let motion = match (form, &context.model.isotropic) {

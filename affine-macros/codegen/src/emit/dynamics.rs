@@ -320,9 +320,24 @@ fn hamilton_equations(context: &Context) -> TokenStream {
     let bound = pattern(&all, &inputs(program));
     let time = time(program);
     let Body { lets, results } = context.generic(program);
+    // A constraint that momenta are not projected to is kept by a multiplier.
+    let has_multiplier = context.constraint().is_some() && !context.model.projected;
+    let (name, refusal) = match has_multiplier {
+        false => (quote!(hamilton_equations), TokenStream::new()),
+        true => {
+            let refusal = quote! {
+                fn hamilton_equations<#t: #rt::Scalar>(&self, _t: #t, _full: &Self::Full<#t>) -> Self::Full<#t> {
+                    const { #rt::no_equations_without_multiplier() }
+                }
+            };
+            (quote!(free_equations), refusal)
+        }
+    };
     quote! {
+        #refusal
+
         #[inline]
-        fn hamilton_equations<#t: #rt::Scalar>(&self, #time: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
+        fn #name<#t: #rt::Scalar>(&self, #time: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
             let #bound = *full;
             #lets
             [#(#results),*]

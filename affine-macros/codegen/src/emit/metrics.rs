@@ -13,7 +13,7 @@ use super::prepare::{matrix_name, over_fields};
 use super::{Context, number, runtime};
 use crate::ir::Program;
 
-/// The bases as a function of the scalar, where they are known, and the method of the trait that tells of them.
+/// The bases as a function of the scalar, where they are known, and the methods of the trait that tell of them.
 pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
     let method = |bases: TokenStream| {
@@ -45,7 +45,18 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
             #rt::Bases { space: #a, space_inverse: #a_inverse, body: #b, body_inverse: #b_inverse }
         }
     };
-    (function, method(quote!(bases())))
+    let method = method(quote!(bases()));
+    // Numbers are known better than as doubles.
+    let methods = quote! {
+        #method
+        fn orthonormal<#t: #rt::Real>(
+            &self,
+            point: &Self::Point<#t>,
+        ) -> <Self::Point<#t> as #rt::Phase<#n, #t>>::InOrthonormal {
+            #rt::Phase::in_orthonormal(point, ::core::option::Option::Some(&bases()))
+        }
+    };
+    (function, methods)
 }
 
 /// The bases in the prepared model, and the statement of `prepare()` that finds them.
@@ -145,15 +156,14 @@ impl Context<'_> {
     /// Puts `point`, a reference, in orthonormal bases.
     pub(super) fn inward(&self) -> TokenStream {
         let rt = &self.names.rt;
-        let bases = self.bases(None);
-        self.with_metrics(quote!(let point = &#rt::Phase::rebased(point, &#bases);))
+        self.with_metrics(quote!(let point = &#rt::Model::orthonormal(self, point);))
     }
 
     /// A point in the user's bases.
     pub(super) fn outward(&self, scalar: &TokenStream, point: TokenStream) -> TokenStream {
         let (rt, bases) = (&self.names.rt, self.bases(Some(scalar)));
         match self.model.metrics {
-            Some(_) => quote!(#rt::Phase::rebased(&#point, &#bases.reversed())),
+            Some(_) => quote!(#rt::Phase::from_orthonormal(&#point, &#bases)),
             None => point,
         }
     }

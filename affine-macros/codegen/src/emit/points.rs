@@ -55,8 +55,8 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
                 #inward_centre
                 let (phi, phi_dot) = (bases.placement(&phi), bases.placement(&phi_dot));
             });
-            let outward = context
-                .with_metrics(quote!(.map(|point: #point| #rt::Phase::rebased(&point, &bases.reversed()))));
+            let outward =
+                context.with_metrics(quote!(.map(|point| #rt::Phase::from_orthonormal(&point, &bases))));
             let doc = format!(
                 " The phase point at the placement {q} with the velocity {v}: the Legendre transformation \
                  `X = (dT/dO)^T` (4.6), (4.8)."
