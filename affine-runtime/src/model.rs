@@ -49,6 +49,9 @@ pub trait Model<const N: usize> {
         T::zero()
     }
 
+    /// The values of the functions of [`Description::domain`], one after the other.
+    fn domain(&self, _t: f64, _point: &Self::Point<f64>, _each: &mut dyn FnMut(f64)) {}
+
     /// The point as a plain array.
     fn flatten<T: Real>(&self, point: &Self::Point<T>) -> Self::Full<T>;
     /// The point from a plain array, unchecked.
@@ -268,8 +271,55 @@ pub struct Description {
     pub reduced_operations: Operations,
     /// The group to which the motion is confined; `None` for all of GL+(n).
     pub constraint: Option<Constraint>,
-    /// What was taken out of the state, in words.
-    pub left_out: &'static [&'static str],
+    /// Functions of the state that keep their sign where the potential has a value; empty where that is everywhere.
+    pub domain: &'static [Guard],
+    /// What was taken out of the state.
+    pub left_out: &'static [LeftOut],
+}
+
+/// Something that is not integrated, and in which runs it is not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeftOut {
+    /// What it is and why, in words.
+    pub what: &'static str,
+    /// The runs.
+    pub scope: Scope,
+}
+
+/// The runs that leave something out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Every run of the model.
+    Model,
+    /// Those by the reduced equations, [`Model::reduced_equations`].
+    Reduction,
+    /// Those by methods that integrate what the reduced state carries along, see [`Model::renewed`].
+    Carried,
+    /// Those with `p = 0`.
+    Rest,
+}
+
+/// A part of a potential that has a value only where a function of the state keeps its sign. The values of these functions
+/// are those of [`Model::domain`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guard {
+    /// The part, as written: `ln(q)`, `1/x[1]`.
+    pub part: &'static str,
+    /// The function, as written: `q`, `x[1]`.
+    pub argument: &'static str,
+    /// The signs that it may have.
+    pub bound: Bound,
+}
+
+/// The signs that a function of the state may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// Above zero: the argument of a logarithm.
+    Positive,
+    /// Zero or above: the argument of a root.
+    NotNegative,
+    /// The sign that it has at the start: a divisor.
+    NotZero,
 }
 
 /// A formula as text and as LaTeX.

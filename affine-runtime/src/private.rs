@@ -41,8 +41,8 @@ pub use crate::metrics::{
     told_in_given_bases,
 };
 pub use crate::model::{
-    Conserved, Constraint, Description, Formula, Group, Model, Operations, Regularity, TANGENT, Velocity,
-    VelocityDeterminesMomentum,
+    Bound, Conserved, Constraint, Description, Formula, Group, Guard, LeftOut, Model, Operations, Regularity,
+    Scope, TANGENT, Velocity, VelocityDeterminesMomentum,
 };
 pub use crate::reduction::{
     Condition, finite, from_shear_and_turn, inverse_form, principal_axes, shear_and_turn,

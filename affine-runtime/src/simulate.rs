@@ -5,6 +5,7 @@ mod closed_form;
 mod collapse;
 mod conservation;
 mod csv;
+mod domain;
 mod ensemble;
 mod event;
 mod fingerprint;
@@ -30,6 +31,7 @@ mod stiffness;
 mod trajectory;
 mod watcher;
 mod why;
+mod witness;
 
 use core::ops::ControlFlow;
 

@@ -11,7 +11,7 @@ use affine_runtime::frames::{
 };
 use affine_runtime::kinematics::{InertialQuadrupole, Kinematics, LinearVelocity};
 use affine_runtime::model::Velocity;
-use affine_runtime::state::{Centre, Phase, PhasePoint, Pinned};
+use affine_runtime::state::{Centre, Orthonormal, Phase, PhasePoint, Pinned};
 
 /// Allowed error of each quantity: `factor * epsilon * condition^power`, relative to the largest entry of the
 /// quantity, or to the scale that the check names where terms cancel. `condition` is that of `phi`.
@@ -279,7 +279,8 @@ fn check_orientation<const N: usize>() {
         let mut mirrored = case.matrix::<N>("phi");
         mirrored.swap_rows(0, 1);
         let refused =
-            phase_point::<N, Body, _, f64>(mirrored, Comoving(Matrix::<N>::zeros()), Pinned).unwrap_err();
+            phase_point::<N, Body, _, f64, Orthonormal>(mirrored, Comoving(Matrix::<N>::zeros()), Pinned)
+                .unwrap_err();
         let Error::Placement { determinant } = refused else { panic!("{}: {refused}", case.name) };
         let expected = -(N as f64 * case.get("q")[0]).exp();
         // Zero and infinity included: the determinant itself may leave the range. The exponential magnifies the

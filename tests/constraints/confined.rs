@@ -189,7 +189,7 @@ fn nothing_drifts<const N: usize, M: Confined<N>>() {
             }
         };
         let (_, end) = run.end();
-        let (phi, defect) = (end.phi(), off_the_group(M::CONSTRAINT, end));
+        let (phi, defect) = (end.phi(), off_the_group(M::CONSTRAINT, &model.orthonormal(end)));
         // A placement of condition c is on the group to c roundings.
         let condition = phi.norm() * inverse(phi).norm();
         assert!(defect < ON_THE_GROUP * condition, "{defect:e} at {condition:e}");

@@ -3,6 +3,7 @@
 use affine_oracle::{Constraint, Differential, Matrix as Exact, Motion, Observable, Place, Random, rational};
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
+use affine_runtime::state::Euclidean;
 
 use crate::charts::exists;
 use crate::reference::{Reference, assert_close};
@@ -114,7 +115,10 @@ pub(crate) fn has_another_name(constraint: Constraint, multiplier: bool, observa
 }
 
 /// How far a placement is from the group.
-pub(crate) fn off_the_group<const N: usize>(constraint: Constraint, point: &impl Phase<N>) -> f64 {
+pub(crate) fn off_the_group<const N: usize>(
+    constraint: Constraint,
+    point: &(impl Phase<N> + Euclidean),
+) -> f64 {
     let green = point.phi().tr_mul(point.phi());
     match constraint {
         // ln det phi = n q

@@ -92,7 +92,7 @@ where
             let Err(stop) = end else { panic!("kind {kind}: {end:?}") };
             match (stop.reason, determinant) {
                 (Reason::NotFinite, None) => {}
-                (Reason::Placement { determinant, t: 0.0 }, Some(expected)) => {
+                (Reason::Placement { determinant, rate: None, t: 0.0 }, Some(expected)) => {
                     assert_eq!(determinant, expected)
                 }
                 _ => panic!("{kind}: {stop}"),

@@ -90,7 +90,9 @@ impl Sweep for Changes {
             assert_eq!(halt.stop.reason, Reason::NotFinite, "{method:?}");
             let flat = |_: f64, p: &M::Point<f64>| Ok(p.with_entries(&mut || 0.0));
             let halt = stops(simulation().event(at(0.2).change(flat)), &label("a point"));
-            let Reason::Placement { determinant, t } = halt.stop.reason else { panic!("{method:?}: {halt}") };
+            let Reason::Placement { determinant, t, .. } = halt.stop.reason else {
+                panic!("{method:?}: {halt}")
+            };
             assert!(determinant == 0.0 && (t - 0.2).abs() < 1e-9, "{halt}");
             // The errors of its function.
             for (error, is_named) in [

@@ -64,7 +64,7 @@ impl Sweep for Inverted {
                 let label = format!("{method:?}: {what}");
                 let reason =
                     refused(sound().of(model, placed(phi), method), &["det phi = ", "not positive"], &label);
-                let Reason::Placement { determinant, t } = reason else { panic!("{label}: {reason:?}") };
+                let Reason::Placement { determinant, t, .. } = reason else { panic!("{label}: {reason:?}") };
                 assert!(determinant <= 0.0 && t == 0.0, "{label}: {determinant}");
             }
         }

@@ -1,6 +1,7 @@
 //! The derivation of one model: from its quadratic form to straight-line programs, ready to be written down.
 
 mod constant;
+mod domain;
 mod lattice;
 mod metrics;
 mod mixed;
@@ -17,8 +18,8 @@ use crate::check::Energy;
 pub use lattice::{PieceProgram, PiecePrograms, RatioProgram, TwoPolar};
 pub use metrics::{ChangeOfBases, GivenMatrix, GivenSource, Preparation};
 pub use model::{
-    Balance, Condition, Damping, Equations, Formulas, Metric, MixedMasses, Model, NumericBlock, Regularity,
-    Relation, VelocitySide,
+    Balance, Condition, Damping, Domain, Equations, Formulas, Metric, MixedMasses, Model, NumericBlock,
+    Regularity, Relation, VelocitySide,
 };
 
 /// Derives a model; `None` only for energies that the checks refuse.

@@ -3,6 +3,7 @@
 mod body;
 mod closed_form;
 mod description;
+mod domain;
 mod dynamics;
 mod forces;
 mod kernel;
@@ -248,7 +249,7 @@ fn model_impl(context: &Context) -> TokenStream {
     let second_order = second_order::capability(context);
     let taylor = taylor::capability(context);
     let packing = packed::capability(context);
-    let power = forces::power(context);
+    let (power, domain) = (forces::power(context), domain::values(context));
     quote! {
         #(#[doc = #docs])*
         impl #generics #rt::Model<#n> for #prepared #types #clause {
@@ -266,6 +267,7 @@ fn model_impl(context: &Context) -> TokenStream {
             #taylor
             #packing
             #power
+            #domain
         }
     }
 }

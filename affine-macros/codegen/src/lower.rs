@@ -1,6 +1,7 @@
 //! From what the user wrote to symbolic terms: the last place where the specification's syntax is known.
 
 mod components;
+mod domain;
 mod metrics;
 mod momentum_side;
 mod potential;
@@ -22,6 +23,11 @@ pub(crate) use potential::{difference_of, energy};
 
 /// Stem of the symbols of fields: kept apart from the names that the derivation makes.
 pub const FIELD: &str = "self.";
+
+/// Does the expression depend on more than fields?
+pub(crate) fn moves(arena: &Arena, expr: Expr) -> bool {
+    arena.any_symbol(expr, &mut |symbol| arena.name(symbol).is_some_and(|name| !name.starts_with(FIELD)))
+}
 
 /// The symbol of an entry of a field of matrix type, indices from 1.
 #[must_use]

@@ -28,6 +28,8 @@ pub(super) struct Place {
     pub(super) cost: [u64; 3],
     /// Bits of the work before.
     pub(super) work: u64,
+    /// Bits of the largest `|T| + |U|` met since then.
+    pub(super) energy: u64,
     /// State of the integrator, or the time reached in closed form; empty where it has not begun.
     pub(super) integrator: Vec<u64>,
     /// Output times done.
@@ -64,6 +66,16 @@ impl Place {
     /// A step is done with.
     pub(super) fn passed(&mut self, integrator: Vec<u64>) {
         (self.integrator, self.met, self.recorded) = (integrator, 0, false);
+    }
+
+    /// How large they have been.
+    pub(super) fn largest_energy(&self) -> f64 {
+        f64::from_bits(self.energy)
+    }
+
+    /// Notes how large kinetic and potential energy have been.
+    pub(super) fn met_energy(&mut self, scale: f64) {
+        self.energy = scale.to_bits();
     }
 
     /// The work before.

@@ -1,6 +1,7 @@
 //! A trajectory in closed form: no steps, exact up to rounding.
 
 use super::Method;
+use super::collapse::rate_of_determinant;
 use super::follow::WITHIN_A_STEP;
 use super::halt::Reason;
 use super::mechanics::Course;
@@ -33,7 +34,12 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         };
         let stands = |t: f64| match collapse {
             Some(end) if is_behind(t, end) => {
-                Err(Reason::Placement { determinant: LogDeterminant::of(at(t).phi()).to_f64(), t: end })
+                let determinant = LogDeterminant::of(at(t).phi()).to_f64();
+                Err(Reason::Placement {
+                    determinant,
+                    rate: Some(rate_of_determinant(model, &at(end))),
+                    t: end,
+                })
             }
             _ => Ok(()),
         };

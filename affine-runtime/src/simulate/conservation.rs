@@ -100,8 +100,10 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         evaluate(quantity, &self.orthonormal(point))
     }
 
-    /// A phase point in bases in which the model's metrics are the identity.
-    pub(crate) fn orthonormal(&self, point: &P) -> P::InOrthonormal {
+    /// A phase point of the trajectory in bases in which the model's metrics are the identity, as
+    /// [`Model::orthonormal`](crate::Model::orthonormal) gives it.
+    #[must_use]
+    pub fn orthonormal(&self, point: &P) -> P::InOrthonormal {
         point.in_orthonormal(self.bases.as_deref())
     }
 

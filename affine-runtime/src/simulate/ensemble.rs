@@ -6,9 +6,13 @@ use core::fmt;
 
 use super::halt::{Setting, Stop};
 use super::layout::placement_in;
+use super::mechanics::Moving;
+use super::methods::automatic;
+use super::motion::WithWork;
 use super::orientation::passes_through_zero;
 use super::point::is_clearly_positive;
 use super::settings::Plan;
+use super::witness::Witness;
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
 use crate::capability::InLanes;
 use crate::lanes::{Lanes, Widest};
@@ -31,7 +35,8 @@ pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
 /// that cannot go on (numbers that are not finite, a collapse, a step that underflows) leaves its lane and is integrated
 /// alone: its outcome, an end or a [`Stop`], is that of a [`Simulation`]. Bodies with a closed form take that, and bodies
 /// under a constraint, whose steps are taken on its group, are integrated one by one; so are bodies in a flat metric whose
-/// potential does not know `q`, of which every step is looked at whether `det phi` stays positive within it.
+/// potential does not know `q`, of which every step is looked at whether `det phi` stays positive within it, and bodies under
+/// a potential that does not have a value everywhere.
 ///
 /// With the feature `parallel` bodies are spread over the threads of the current `rayon` pool. Results are the same bits
 /// for any number of threads.
@@ -147,7 +152,8 @@ impl<const N: usize, M: InLanes<N>> Ensemble<'_, N, M> {
             let mut bodies = Bodies::<N, T, M>::filled(self, first, &mut begun, t_end);
             while bodies.are_moving() {
                 for Done { lane, body, end } in bodies.advance() {
-                    ends[body] = end.filter(is_sound);
+                    ends[body] =
+                        end.filter(|end| self.keeps(&starts[body], (t_end, end))).map(|(end, _)| end);
                     match begun.next() {
                         Some(next) => bodies.put(lane, &next),
                         None => bodies.rest(lane),
@@ -165,19 +171,29 @@ impl<const N: usize, M: InLanes<N>> Ensemble<'_, N, M> {
             return Some(Method::ClosedForm);
         }
         let is_placed = const { placement_in(M::DESCRIPTION.reduced, N).is_some() };
-        // The signature of a mass matrix that depends on the placement is looked after step by step, and the orientation
-        // of a body that nothing keeps from losing it within them.
+        // The signature of a mass matrix that depends on the placement is looked after step by step, as the domain of a
+        // potential is, and the orientation of a body that nothing keeps from losing it within them.
         let is_special = M::DESCRIPTION.constraint.is_some()
+            || !M::DESCRIPTION.domain.is_empty()
             || self.model.regularity(start.phi()).is_some()
             || passes_through_zero(&M::DESCRIPTION);
-        let alone = !is_placed || is_special || t_end == self.t0 || !is_sound(start);
+        let alone = !is_placed || is_special || t_end == self.t0 || !self.is_sound(self.t0, start);
         alone.then_some(Method::RungeKutta8)
     }
-}
 
-/// A phase point needs no second look.
-fn is_sound<const N: usize, P: Phase<N>>(point: &P) -> bool {
-    point.is_finite() && is_clearly_positive(point.phi())
+    /// A phase point needs no second look.
+    fn is_sound(&self, t: f64, point: &M::Point<f64>) -> bool {
+        let stands = point.is_finite() && is_clearly_positive(point.phi());
+        stands && self.model.hamiltonian(t, point).is_finite()
+    }
+
+    /// Nor does the energy of a motion that ends at one.
+    fn keeps(&self, start: &M::Point<f64>, (t_end, (end, work)): (f64, &WithWork<M::Point<f64>>)) -> bool {
+        let model = &Moving { model: self.model, integrate: automatic };
+        let energy = |t: f64, point| self.model.hamiltonian(t, point);
+        let mut witness = Witness::begin(model, (energy(self.t0, start), 0.0), (start, 0.0), true);
+        self.is_sound(t_end, end) && witness.look(model, (t_end, end), (energy(t_end, end), *work)).is_ok()
+    }
 }
 
 /// One part after the other: there is one.

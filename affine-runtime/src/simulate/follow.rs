@@ -1,6 +1,7 @@
 //! Steps to the end of an integration, with output, events and callbacks on the way.
 
-use super::collapse::first_failure;
+use super::collapse::{failing, first_failure, rate_of_determinant};
+use super::domain::Domain;
 use super::halt::Reason;
 use super::motion::Motion;
 use super::orientation::{Moment, keeps_orientation, passes_through_zero};
@@ -18,11 +19,15 @@ pub(super) const WITHIN_A_STEP: u32 = 4;
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Steps to the end with output on the way, and the expansion of the last good step.
     pub(super) fn follow(&mut self, motion: &mut dyn Motion<P>) -> Result<(), Reason> {
-        let outcome = self.step_through(motion).map_err(|reason| match reason {
-            Reason::Placement { determinant, t } => {
-                let good = motion.kept_at().unwrap_or(self.trajectory.end.0);
+        let since = self.trajectory.end.0;
+        let outcome = self.step_through(motion, since).map_err(|reason| match reason {
+            Reason::Placement { determinant, rate: None, t } => {
+                let (good, rate) = match motion.kept() {
+                    Some((good, (point, _))) => (good, rate_of_determinant(self.model, &point)),
+                    None => (since, rate_of_determinant(self.model, &self.trajectory.end.1)),
+                };
                 let stands = |t| motion.between(t).is_ok_and(|(point, _)| check(t, &point).is_ok());
-                Reason::Placement { determinant, t: first_failure(good, t, stands) }
+                Reason::Placement { determinant, rate: Some(rate), t: first_failure(good, t, stands) }
             }
             other => other,
         });
@@ -42,7 +47,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
 
     /// Steps to the end. A step without output whose state shows that it is good is not expanded: it is only kept, for
     /// a halt in the next one.
-    fn step_through(&mut self, motion: &mut dyn Motion<P>) -> Result<(), Reason> {
+    fn step_through(&mut self, motion: &mut dyn Motion<P>, since: f64) -> Result<(), Reason> {
         let model = self.model;
         let signature = Signature::of(model.regularity(self.trajectory.end.1.phi()));
         let regularity = |motion: &dyn Motion<P>| model.regularity(motion.reached().0.phi());
@@ -50,6 +55,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         self.take_up(motion);
         let mut moment = passes_through_zero(model.description())
             .then(|| Moment::of(model, (motion.t(), &motion.reached().0)));
+        let mut domain = Domain::at(model, (motion.t(), &motion.reached().0))?;
         let is_watched = self.progress.is_some() || self.is_watched();
         let parts = if self.trajectory.computation.asked.step().is_some() { 1 } else { WITHIN_A_STEP };
         while !motion.is_finished() {
@@ -59,8 +65,15 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 return Err(Reason::StepLimit { limit: self.max_steps });
             }
             if let Err(failure) = motion.advance() {
-                let degenerate = signature.failing(regularity(motion), motion.t());
-                return Err(degenerate.unwrap_or_else(|| self.reason(failure)));
+                let (t, (point, _)) = (motion.t(), motion.reached());
+                let degenerate = signature.failing(regularity(motion), t);
+                let step = self.trajectory.computation.asked.step();
+                let singular = || domain.as_ref().and_then(|domain| domain.failing(since));
+                let collapsing = || failing(model, (t, &point), since, step);
+                return Err(degenerate
+                    .or_else(singular)
+                    .or_else(collapsing)
+                    .unwrap_or_else(|| self.reason(failure)));
             }
             let t = motion.t();
             if signature.may_change() {
@@ -70,14 +83,20 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 Some(begin) => self.oriented(motion, begin),
                 None => Ok(()),
             };
-            let until = match oriented {
-                Err(Reason::Placement { t, .. }) => t,
+            let stands = match &mut domain {
+                Some(domain) => {
+                    oriented.and_then(|()| domain.keep(model, motion, &|failure| self.reason(failure)))
+                }
+                None => oriented,
+            };
+            let until = match stands {
+                Err(Reason::Placement { t, .. } | Reason::Domain { t, .. }) => t,
                 _ => t,
             };
             if self.pass_through(motion, until, parts)? {
                 return Ok(());
             }
-            oriented?;
+            stands?;
             if self.schedule == Schedule::Steps {
                 self.record_step(t, motion.reached())?;
             } else if self.trajectory.end.0 != t {

@@ -5,6 +5,7 @@ use core::fmt;
 use super::trajectory::Trajectory;
 use crate::error::Error;
 use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER};
+use crate::model::{Bound, Guard};
 use crate::state::Phase;
 
 /// A run that did not reach its end: the stop, and the trajectory up to there.
@@ -40,10 +41,38 @@ pub enum Reason {
     NotFinite,
     /// The placement lost its orientation or degenerated.
     Placement {
-        /// `det phi` of the first bad phase point met.
+        /// `det phi` of the first bad phase point met; of the last good one where no step leads on from it.
         determinant: f64,
+        /// The rate of `det phi` along the motion at the last good phase point; `None` for a start.
+        rate: Option<f64>,
         /// The time at which `det phi` fell to zero: the zero itself of the closed form, else, to the rounding of times,
         /// that of the dense output of the step in which it lies; the time of a start that is bad.
+        t: f64,
+    },
+    /// The motion leaves the states at which the potential has a value, or starts at one where it has none.
+    Domain {
+        /// The part of the potential, and the function that loses its sign.
+        guard: Guard,
+        /// The value of that function: the first of another sign, or the last before steps end.
+        value: f64,
+        /// The time: to the rounding of times that of the dense output of the step in which the sign is lost.
+        t: f64,
+    },
+    /// The energy is not finite: a sum, a power or an exponential function in it has left the range of numbers.
+    Energy {
+        /// `H`.
+        energy: f64,
+        /// The time.
+        t: f64,
+    },
+    /// The energy, less the work of the forces that no potential has, is no longer what it was at the start: the steps have
+    /// lost the motion, as they do where they pass over a singularity.
+    EnergyLost {
+        /// `|H(t) - H(t0) - W(t)|`.
+        defect: f64,
+        /// The largest `|T| + |U|` met; a tenth of it is allowed.
+        scale: f64,
+        /// The time.
         t: f64,
     },
     /// The mass matrix, which depends on the placement, became degenerate or changed its signature: the momentum no
@@ -323,11 +352,36 @@ impl fmt::Display for Reason {
                 "the equations of motion or the phase point are not finite any more: the motion has left the range \
                  of numbers or met a singularity of the model; end the run before, or change the potential",
             ),
-            Reason::Placement { determinant, t } => write!(
+            Reason::Placement { determinant, rate, t } => {
+                write!(f, "det phi = {determinant:e}, and not positive from t = {t} on")?;
+                if let Some(rate) = rate {
+                    write!(f, ", with the rate {rate:.3e} before")?;
+                }
+                f.write_str(
+                    ": the body has collapsed or turned inside out, and leaves the configuration space GL+(n); a potential \
+                     that grows without bound as det phi -> 0 prevents it",
+                )
+            }
+            Reason::Domain { guard: Guard { part, argument, bound }, value, t } => write!(
                 f,
-                "det phi = {determinant:e}, and not positive from t = {t} on: the body has collapsed or turned inside out, \
-                 and leaves the configuration space GL+(n); a potential that grows without bound as det phi -> 0 \
-                 prevents it"
+                "{argument} is {value:e} at t = {t}, and {}: `{part}` of the potential has no value there; end the run before, \
+                 start elsewhere, or choose a potential that keeps the motion away from there",
+                match bound {
+                    Bound::Positive => "is not positive, or about to vanish",
+                    Bound::NotNegative => "is negative, or about to be",
+                    Bound::NotZero => "changes its sign",
+                }
+            ),
+            Reason::Energy { energy, t } => write!(
+                f,
+                "the energy is {energy} at t = {t}: a function in it has left the range of numbers or of its own values; end \
+                 the run before, start elsewhere, or choose other units"
+            ),
+            Reason::EnergyLost { defect, scale, t } => write!(
+                f,
+                "the energy is off by {defect:.2e} at t = {t}, where kinetic and potential energy were {scale:.2e} at the most: \
+                 the steps have lost the motion, or have passed over a singularity; ask for a smaller tolerance, or end the run \
+                 before"
             ),
             Reason::Degenerate { weakest, t } => write!(
                 f,

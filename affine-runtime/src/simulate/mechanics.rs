@@ -19,6 +19,7 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn condition(&self, phi: &Matrix<N>) -> Option<f64>;
     fn regularity(&self, phi: &Matrix<N>) -> Option<Regularity>;
     fn hamiltonian(&self, t: f64, point: &P) -> f64;
+    fn domain(&self, t: f64, point: &P, each: &mut dyn FnMut(f64));
     fn velocity(&self, point: &P) -> Velocity<N>;
     fn geodesic(&self, t0: f64, point: &P) -> Option<Geodesic<N>>;
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &P) -> P;
@@ -66,6 +67,9 @@ impl<const N: usize, M: Model<N>> Mechanics<N, M::Point<f64>> for Moving<'_, N, 
     }
     fn hamiltonian(&self, t: f64, point: &M::Point<f64>) -> f64 {
         self.model.hamiltonian(t, point)
+    }
+    fn domain(&self, t: f64, point: &M::Point<f64>, each: &mut dyn FnMut(f64)) {
+        self.model.domain(t, point, each);
     }
     fn velocity(&self, point: &M::Point<f64>) -> Velocity<N> {
         self.model.velocity(point)

@@ -67,7 +67,7 @@ pub(super) fn keeps_orientation<const N: usize, P: Phase<N>>(
             ends.pop();
         } else if middle == begin.t || middle == end.t {
             let determinant = LogDeterminant::of(&end.phi).to_f64();
-            return Err(Reason::Placement { determinant, t: end.t });
+            return Err(Reason::Placement { determinant, rate: None, t: end.t });
         } else {
             let (point, _) = motion.between(middle).map_err(reason)?;
             check(middle, &point)?;

@@ -31,7 +31,7 @@ pub(super) fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<()
     if determinant.is_positive() {
         return Ok(());
     }
-    Err(Reason::Placement { determinant: determinant.to_f64(), t })
+    Err(Reason::Placement { determinant: determinant.to_f64(), rate: None, t })
 }
 
 /// A few products settle the sign of most determinants; what is close to zero, or out of the range of numbers,
@@ -62,11 +62,22 @@ pub(super) fn energy_scale<const N: usize, P: Phase<N>>(
     point: &P,
     energy: f64,
 ) -> f64 {
+    larger(energy.abs(), energy_bound(model, point).0)
+}
+
+/// `(|Pi| |phi_dot| + |p| |x_dot|)/2` in orthonormal bases, and `T = (tr(Pi phi_dot) + p . x_dot)/2` of a quadratic energy, which
+/// is not larger.
+pub(super) fn energy_bound<const N: usize, P: Phase<N>>(
+    model: &dyn Mechanics<N, P>,
+    point: &P,
+) -> (f64, f64) {
     let bases = model.bases();
     let velocity = model.velocity(point);
     let velocity = bases.as_ref().map_or(velocity, |bases| bases.velocity(&velocity));
     let point = point.in_orthonormal(bases.as_ref());
-    let internal = norm(point.pi().0.0.as_slice()) * norm(velocity.phi_dot.as_slice());
-    let translational = norm(point.p().as_slice()) * norm(velocity.x_dot.as_slice());
-    larger(energy.abs(), 0.5 * (internal + translational))
+    let (pi, p) = (point.pi().0.0, point.p());
+    let internal = norm(pi.as_slice()) * norm(velocity.phi_dot.as_slice());
+    let translational = norm(p.as_slice()) * norm(velocity.x_dot.as_slice());
+    let kinetic = pi.transpose().dot(&velocity.phi_dot) + p.dot(&velocity.x_dot);
+    (0.5 * (internal + translational), 0.5 * kinetic)
 }

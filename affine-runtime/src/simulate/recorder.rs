@@ -1,6 +1,7 @@
 //! A trajectory in the making.
 
 use super::checkpoint::{Bits, Place};
+use super::domain::Domain;
 use super::event::{Action, Occurrence};
 use super::halt::{Callback, Reason};
 use super::mechanics::Mechanics;
@@ -10,6 +11,7 @@ use super::point::{check, energy_scale, go_on};
 use super::range::in_range;
 use super::trajectory::Trajectory;
 use super::watcher::{Met, Watcher};
+use super::witness::Witness;
 use super::{Observe, Progress, Watch};
 use crate::error::Error;
 use crate::integrate::{Failure, larger};
@@ -33,6 +35,7 @@ pub(super) struct Recorder<'r, 'a, const N: usize, P> {
     /// The run goes backward in time.
     pub(super) backward: bool,
     pub(super) place: Place,
+    pub(super) witness: Witness,
     /// The integrator's state cannot be kept.
     pub(super) is_lost: bool,
     /// What an event has led to.
@@ -172,11 +175,14 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 // A collapse is a placement without inverse, and may be the event.
                 self.trajectory.end = (t, point);
                 self.trajectory.energies.work_at_end = self.place.work() + work;
-                if self.schedule.ends_with_output() { self.push() } else { Ok(()) }
+                match self.schedule.ends_with_output() {
+                    true => self.push(self.model.hamiltonian(t, &point)),
+                    false => Ok(()),
+                }
             }
             Action::Change(change) => {
                 let changed = change(t, &point).map_err(|error| match error {
-                    Error::Placement { determinant } => Reason::Placement { determinant, t },
+                    Error::Placement { determinant } => Reason::Placement { determinant, rate: None, t },
                     Error::NotFinite { .. } => Reason::NotFinite,
                     _ => Reason::Change { event: name },
                 })?;
@@ -226,18 +232,51 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         Ok(())
     }
 
-    /// Checks a phase point, records it as an output and shows it to the observer.
+    /// Checks a phase point and its energy, records it as an output and shows it to the observer.
     pub(super) fn record(&mut self, t: f64, point: WithWork<P>) -> Result<(), Reason> {
+        check(t, &point.0)?;
+        let energy = self.witnessed(t, &point)?;
         self.reach(t, point)?;
-        self.push()
+        self.push(energy)
     }
 
-    /// Records the end so far, with the work there.
-    fn push(&mut self) -> Result<(), Reason> {
+    /// Begins to hold the energy against what it is at the start of an integration.
+    pub(super) fn begin_energy(&mut self, t0: f64, start: &P, is_held: bool) -> Result<(), Reason> {
+        Domain::at(self.model, (t0, start))?;
+        let energy = self.model.hamiltonian(t0, start);
+        if !energy.is_finite() {
+            return Err(Reason::Energy { energy, t: t0 });
+        }
+        let before = (energy, self.place.work());
+        self.witness = Witness::begin(self.model, before, (start, self.place.largest_energy()), is_held);
+        Ok(())
+    }
+
+    /// Looks at the energy at the end, where that is no output.
+    pub(super) fn arrive(&mut self) -> Result<(), Reason> {
+        let (t, point) = self.trajectory.end;
+        if self.trajectory.times.last() == Some(&t) {
+            return Ok(());
+        }
+        let work = self.trajectory.energies.work_at_end - self.place.work();
+        self.witnessed(t, &(point, work)).map(|_| ())
+    }
+
+    /// The energy of a point, held against that of the start.
+    pub(super) fn witnessed(&mut self, t: f64, (point, work): &WithWork<P>) -> Result<f64, Reason> {
+        let energy = self.model.hamiltonian(t, point);
+        let looked = self.witness.look(self.model, (t, point), (energy, self.place.work() + work));
+        self.place.met_energy(self.witness.scale());
+        let defect = &mut self.trajectory.computation.energy_defect;
+        *defect = larger(*defect, self.witness.worst());
+        looked.map(|()| energy)
+    }
+
+    /// Records the end so far, with its energy and the work there.
+    fn push(&mut self, energy: f64) -> Result<(), Reason> {
         let Trajectory { end: (t, point), times, points, energies, .. } = &mut *self.trajectory;
         times.push(*t);
         points.push(*point);
-        let energy = self.model.hamiltonian(*t, point);
         energies.outputs.push(energy);
         energies.work.push(energies.work_at_end);
         energies.scale = larger(energies.scale, energy_scale(self.model, point, energy));

@@ -10,6 +10,7 @@ use super::recorder::{Recorder, Turn};
 use super::settings::{Plan, Settings};
 use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;
+use super::witness::Witness;
 use super::{Method, Simulation};
 use crate::integrate::Statistics;
 use crate::model::{Model, StateVector};
@@ -111,6 +112,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                 stiffness: None,
                 condition: self.model.condition(start.phi()),
                 residual: None,
+                energy_defect: 0.0,
             },
         }
     }
@@ -134,6 +136,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             t_end,
             backward: t_end < t0,
             place: Place::starting(None, (Statistics::default(), 0.0)),
+            witness: Witness::default(),
             is_lost: false,
             turn: None,
         };
@@ -176,7 +179,11 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let mut changes = 0;
         loop {
             self.leg(from, recorder)?;
-            let Some(Turn::Changed { t, point, event, work }) = recorder.turn.take() else { return Ok(()) };
+            let (t, point, event, work) = match recorder.turn.take() {
+                Some(Turn::Changed { t, point, event, work }) => (t, point, event, work),
+                Some(Turn::Stopped) => return Ok(()),
+                None => return recorder.arrive(),
+            };
             check(t, &point)?;
             changes += 1;
             if changes > recorder.max_steps {
@@ -198,6 +205,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let course = Course { t0, start, t_end: recorder.t_end, method, tolerance };
         let geodesic = self.model.geodesic(t0, start);
         recorder.trajectory.computation.closed_form_exists = geodesic.is_some();
+        recorder.begin_energy(t0, start, method.step().is_none() && geodesic.is_none())?;
         match (method, geodesic) {
             (Method::ClosedForm, None) => {
                 Err(Setting::NoClosedForm { model: self.model.description().name }.into())

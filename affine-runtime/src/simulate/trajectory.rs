@@ -52,6 +52,9 @@ pub struct Computation {
     pub condition: Option<f64>,
     /// Largest relative residual of the equations of implicit steps; `None` where the method is explicit.
     pub residual: Option<f64>,
+    /// Largest `|H(t) - H(t0) - W(t)|` over the outputs and the end, relative to the largest `|T| + |U|` met by then; 0 where the
+    /// energy is neither conserved nor balanced by a work. An event that changes the point starts it anew.
+    pub energy_defect: f64,
 }
 
 impl Computation {

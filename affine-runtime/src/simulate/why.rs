@@ -3,10 +3,11 @@
 use core::fmt;
 
 use super::trajectory::{Computation, Trajectory};
+use super::witness::{LOST, WORTH_NAMING};
 use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 use crate::integrate::splitting::ORDER;
 use crate::integrate::taylor::order_for;
-use crate::model::{Constraint, Description};
+use crate::model::{Constraint, Description, LeftOut, Scope};
 use crate::state::Phase;
 
 /// Condition numbers from here on take more than half the digits.
@@ -224,6 +225,51 @@ impl Why {
         }
     }
 
+    /// Is what this kind of run leaves out left out of this one?
+    fn leaves_out(&self, scope: Scope) -> bool {
+        let Computation { method, at_rest, .. } = self.computation;
+        let is_reduced = !matches!(method, Method::ClosedForm | Method::Rattle { .. });
+        // The others compute it from the rest of the state.
+        let integrates_all =
+            matches!(method, Method::RungeKutta8 | Method::RungeKutta5 | Method::Taylor { .. });
+        match scope {
+            Scope::Model => true,
+            Scope::Reduction => is_reduced,
+            Scope::Carried => integrates_all,
+            Scope::Rest => at_rest,
+        }
+    }
+
+    /// What the energy says of the run, where that is nothing good.
+    fn energy(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Computation { method, tolerance, energy_defect, .. } = self.computation;
+        match method.step() {
+            None if energy_defect > WORTH_NAMING * tolerance => writeln!(
+                f,
+                "the energy is off by {energy_defect:.1e} of the largest |T| + |U|, {:.0e} tolerances: compare with a run at a \
+                 smaller tolerance",
+                energy_defect / tolerance
+            ),
+            Some(_) if energy_defect > LOST => writeln!(
+                f,
+                "the energy is off by {energy_defect:.1e} of the largest |T| + |U|: the steps do not resolve the motion; \
+                 compare with shorter ones"
+            ),
+            _ => Ok(()),
+        }
+    }
+
+    /// Directions in which the kinetic energy is negative, which a slip of a sign gives too.
+    fn signature(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.description.signature {
+            Some((positive, negative)) if negative > 0 => writeln!(
+                f,
+                "the kinetic energy is indefinite: {positive} positive directions, {negative} negative ones"
+            ),
+            _ => Ok(()),
+        }
+    }
+
     fn scene(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Computation { method, no_whirl, at_rest, .. } = self.computation;
         let translates = self.description.full.iter().any(|group| group.name == "p" || group.name == "p_hat");
@@ -245,10 +291,13 @@ impl fmt::Display for Why {
             writeln!(f, "not emitted: `emit({key})` would give a method that is cheaper at this tolerance")?;
         }
         self.group(f)?;
+        self.signature(f)?;
         self.condition(f)?;
-        for left_out in self.description.left_out {
-            writeln!(f, "left out of the model: {left_out}")?;
+        let applies = |left_out: &&LeftOut| self.leaves_out(left_out.scope);
+        for left_out in self.description.left_out.iter().filter(applies) {
+            writeln!(f, "left out of the model: {}", left_out.what)?;
         }
-        self.scene(f)
+        self.scene(f)?;
+        self.energy(f)
     }
 }

@@ -71,7 +71,7 @@ fn collapse_keeps_what_came_before() {
     let exact = (1.72 - (1.72_f64 * 1.72 - 4.0 * 0.2 * 1.5).sqrt()) / 0.4;
     for method in [Method::ClosedForm, Method::RungeKutta8] {
         let halt = free(-1.0).every(0.25).method(method).run().unwrap_err();
-        let Reason::Placement { determinant, t } = halt.stop.reason else { panic!("{halt}") };
+        let Reason::Placement { determinant, t, .. } = halt.stop.reason else { panic!("{halt}") };
         assert!(determinant < 0.0 && (t - exact).abs() < 1e-6, "{halt}");
         assert_eq!(halt.trajectory.times(), [0.0, 0.25, 0.5, 0.75]);
         assert_eq!((halt.stop.t, halt.trajectory.end().0), (0.75, 0.75), "the last good point");
@@ -86,7 +86,7 @@ fn collapse_between_outputs_is_seen_at_the_steps() {
     let start = planar::start(-1.0);
     let simulation = || Simulation::new(&Planar::SPRING, start).tolerance(1e-12);
     let halt = simulation().until(2.0).output([2.0]).run().unwrap_err();
-    let Reason::Placement { determinant, t } = halt.stop.reason else { panic!("{halt}") };
+    let Reason::Placement { determinant, t, .. } = halt.stop.reason else { panic!("{halt}") };
     assert!(determinant < 0.0 && (0.75..1.5).contains(&t), "{halt}");
     assert!(halt.trajectory.is_empty() && halt.stop.t > 0.0 && halt.stop.t < t);
     assert!(halt.trajectory.end().1.phi().determinant() > 0.0);
@@ -123,9 +123,12 @@ fn starts_that_are_no_phase_points() {
     assert_eq!(reason(Matrix::<2>::new(f64::NAN, 0.0, 0.0, 1.0)), Reason::NotFinite);
     assert_eq!(
         reason(Matrix::<2>::new(-1.0, 0.0, 0.0, 1.0)),
-        Reason::Placement { determinant: -1.0, t: 1.0 }
+        Reason::Placement { determinant: -1.0, rate: None, t: 1.0 }
     );
-    assert_eq!(reason(Matrix::<2>::new(1.0, 2.0, 2.0, 4.0)), Reason::Placement { determinant: 0.0, t: 1.0 });
+    assert_eq!(
+        reason(Matrix::<2>::new(1.0, 2.0, 2.0, 4.0)),
+        Reason::Placement { determinant: 0.0, rate: None, t: 1.0 }
+    );
     // A determinant far below the square of the norm, and positive.
     let thin = start(Matrix::<2>::new(1.0, 0.0, 0.0, 1e-14));
     assert!(Simulation::new(&Planar::SPRING, thin).until(1e-9).run().is_ok());

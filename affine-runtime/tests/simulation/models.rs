@@ -65,6 +65,7 @@ const fn description(name: &'static str) -> Description {
         full_operations: NOTHING,
         reduced_operations: NOTHING,
         constraint: None,
+        domain: &[],
         left_out: &[],
     }
 }

@@ -158,7 +158,8 @@ fn no_drift<const N: usize, M: Model<N>>(
 ) {
     let signed = |run: &Run<N, M>| {
         let run = run.as_ref().ok()?;
-        let [first, last] = [run.points().first()?, run.end().1].map(|point| point.spin().0.0[(0, 1)]);
+        let [first, last] =
+            [run.points().first()?, run.end().1].map(|point| run.orthonormal(point).spin().0.0[(0, 1)]);
         Some((last - first) / first)
     };
     let ends: Vec<f64> = runs.iter().filter_map(signed).collect();

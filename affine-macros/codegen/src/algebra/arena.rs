@@ -176,6 +176,13 @@ impl Arena {
                 let inner = *inner;
                 return self.apply(function, inner);
             }
+            // sqrt(u^2) = |u|, which has a slope where u vanishes in passing.
+            (Function::Sqrt, Node::Product(factors)) if factors.iter().all(|(_, k)| *k > 0 && k % 2 == 0) => {
+                let halves: Vec<_> = factors.iter().map(|(base, k)| (*base, k / 2)).collect();
+                if let Some(root) = self.product(&halves) {
+                    return self.apply(Function::Abs, root);
+                }
+            }
             _ => {}
         }
         let negative = match self.node(argument) {
@@ -192,6 +199,7 @@ impl Arena {
                 | Function::Sinh
                 | Function::Tan
                 | Function::Tanh
+                | Function::Sign
                 | Function::Cbrt
                 | Function::InverseCbrt
         );

@@ -53,7 +53,8 @@ impl Arena {
             Function::Sqrt => reciprocal(self, value, -1, (1, 2)),
             Function::Cbrt => reciprocal(self, value, -2, (1, 3)),
             Function::InverseCbrt => reciprocal(self, value, 4, (-1, 3)),
-            Function::Abs => self.div(argument, value).unwrap_or(one),
+            Function::Abs => self.apply(Function::Sign, argument),
+            Function::Sign => self.constant(Rational::ZERO),
             Function::Sin => self.apply(Function::Cos, argument),
             Function::Cos => {
                 let sine = self.apply(Function::Sin, argument);

@@ -60,6 +60,7 @@ impl Field for f64 {
             Function::Cbrt => self.cbrt(),
             Function::InverseCbrt => 1.0 / self.cbrt(),
             Function::Abs => self.abs(),
+            Function::Sign => self.signum(),
             Function::Sin => self.sin(),
             Function::Cos => self.cos(),
             Function::Tan => self.tan(),

@@ -17,6 +17,8 @@ pub enum Function {
     InverseCbrt,
     /// Absolute value.
     Abs,
+    /// 1 with the sign of the argument, the slope of the absolute value; for programs.
+    Sign,
     /// Sine.
     Sin,
     /// Cosine.
@@ -43,6 +45,7 @@ impl Function {
             Self::Cbrt => "cbrt",
             Self::InverseCbrt => "inverse_cbrt",
             Self::Abs => "abs",
+            Self::Sign => "signum",
             Self::Sin => "sin",
             Self::Cos => "cos",
             Self::Tan => "tan",

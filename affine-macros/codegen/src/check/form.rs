@@ -262,11 +262,11 @@ pub(super) fn potential(
     (metrics, rebased): (Option<&Metrics>, &mut Vec<Rebased>),
     found: &mut Diagnostics,
 ) -> Option<Potential> {
-    let energy = lower::potential(arena, spec, metrics, rebased)?;
+    let (energy, domain) = lower::potential(arena, spec, metrics, rebased)?;
     let (Some(group), Some(constraint), Some(written)) = (group, spec.constraint, &spec.potential) else {
-        return Some(Potential::new(arena, spec.dim.value, energy));
+        return Some(Potential::new(arena, spec.dim.value, energy).within(domain));
     };
-    let left = Potential::under(arena, spec.dim.value, energy, group);
+    let left = Potential::under(arena, spec.dim.value, (energy, domain), group);
     let defect = match &left {
         None => "has no value",
         Some(left) if left.is_constant() => "is constant",

@@ -9,6 +9,7 @@ use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function};
 use crate::diagnostics::{Diagnostics, PotentialMistake};
 use crate::lower::{self, FIELD};
+use crate::mechanics::potential::TIME;
 use crate::mechanics::potential::stretches::{
     canonical, exchanged, is_stretched, singular_at_coincidence, vanishes_at_coincidence,
 };
@@ -118,9 +119,11 @@ fn absolute_value(arena: &Arena, value: Expr) -> Option<Expr> {
     None
 }
 
-/// Does the expression depend on more than fields?
+/// Does the expression change with the state? What changes with fields and the time alone is a factor of forces, and may
+/// have kinks.
 fn moves(arena: &Arena, expr: Expr) -> bool {
-    arena.any_symbol(expr, &mut |symbol| arena.name(symbol).is_some_and(|name| !name.starts_with(FIELD)))
+    let is_state = |name: &str| name != TIME && !name.starts_with(FIELD);
+    arena.any_symbol(expr, &mut |symbol| arena.name(symbol).is_some_and(is_state))
 }
 
 /// A place where smoothness ends, as written.
@@ -129,6 +132,12 @@ enum Kink<'a> {
     Absolute(&'a Expression),
     /// A root, a logarithm or a quotient, what vanishes in it, and the stretches, from 1, where they coincide.
     Coincidence(&'a Expression, &'a Expression, (usize, usize)),
+}
+
+/// Is the part an absolute value of what changes with the state, and its sign?
+fn is_absolute(arena: &mut Arena, n: usize, part: &Expression, difference: Option<Expr>) -> bool {
+    let value = lower::energy(arena, n, part, difference).map(|value| arena.node(value));
+    matches!(value, Some(Node::Function(Function::Abs, argument)) if moves(arena, *argument))
 }
 
 /// All such places, the inner ones first; `d` stands for `difference`.
@@ -140,13 +149,14 @@ fn kinks<'a>(arena: &mut Arena, n: usize, part: &'a Expression, difference: Opti
     let mut list: Vec<Kink> =
         part.operands().into_iter().flat_map(|operand| kinks(arena, n, operand, inner)).collect();
     let vanishing = match &part.kind {
-        ExpressionKind::Call(Function::Abs, argument) => {
-            let value = lower::energy(arena, n, argument, difference);
-            if value.is_some_and(|value| moves(arena, value)) {
-                list.push(Kink::Absolute(part));
-            }
+        // The root of a square is an absolute value too.
+        ExpressionKind::Call(Function::Abs | Function::Sqrt, _)
+            if is_absolute(arena, n, part, difference) =>
+        {
+            list.push(Kink::Absolute(part));
             return list;
         }
+        ExpressionKind::Call(Function::Abs, _) => return list,
         ExpressionKind::Call(Function::Sqrt | Function::Ln, argument)
         | ExpressionKind::Divide(_, argument)
         | ExpressionKind::Power(argument, _) => argument,

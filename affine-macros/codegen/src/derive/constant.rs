@@ -1,5 +1,6 @@
 //! A model whose mass matrix is constant in one frame.
 
+use super::domain::domain;
 use super::model::{Formulas, Model, VelocitySide};
 use super::prepared::{coefficient_program, conditions, damping, numeric_blocks};
 use super::programs::{Asked, Reduced, best_reduction, full_chart, full_equations, power_batch};
@@ -84,6 +85,8 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         left_out: describe::left_out(&h, &reduction, closed_form),
     };
 
+    let points = point_inputs(arena, &full_chart, potential, &forces);
+    let domain = domain(arena, &full_chart, potential, &mut coefficients, &points);
     let mut inline = |arena: &mut Arena, batch: Batch, inputs: Vec<Expr>| {
         fuse(&straight_line(arena, &batch, &mut coefficients, &|a| inputs.contains(&a)))
     };
@@ -117,7 +120,6 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         far_away.map(|value| energy_of(arena, &full_chart, internal.clone(), Some(value), &forces));
     let near = potential.map(|u| u.energy_at_a_point(arena, &full_chart));
     let energy = energy_of(arena, &full_chart, internal, near, &forces);
-    let points = point_inputs(arena, &full_chart, potential, &forces);
     let power = power_batch(arena, &h, &full_chart, &full_h, potential, &forces);
     let power = power.map(|batch| inline(arena, batch, points.clone()));
     let hamiltonian = inline(arena, energy, points.clone());
@@ -170,6 +172,7 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         balance,
         hamiltonian,
         hamiltonian_far_away,
+        domain,
         power,
         full,
         reduced,

@@ -8,7 +8,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 use crate::check::MixedForm;
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
-use crate::mechanics::describe;
+use crate::mechanics::describe::{self, Scope, closed_form};
 use crate::mechanics::equations::{self, Load, System, gradient, hamilton};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
@@ -101,6 +101,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         balance: None,
         hamiltonian: programs.hamiltonian,
         hamiltonian_far_away: programs.hamiltonian_far_away,
+        domain: programs.domain,
         power: programs.power,
         full,
         reduced,
@@ -390,17 +391,16 @@ impl Body<'_> {
         equations.extend(self.forces.formulas(arena));
         let mut left_out = Vec::new();
         if self.masses.are_none() {
-            left_out.push("x and p: the model has no translation".to_owned());
+            left_out.push(Scope::Model.without("x and p: the model has no translation"));
         }
         if !reduction.commuting.is_empty() {
-            left_out.push("x and p: the centre of mass moves freely, x = x0 + t p/m".to_owned());
-        } else if reduction.turned {
             left_out
-                .push("p: conserved; space is turned so that only its first component is left".to_owned());
+                .push(Scope::Reduction.without("x and p: the centre of mass moves freely, x = x0 + t p/m"));
+        } else if reduction.turned {
+            let turned = "p: conserved; space is turned so that only its first component is left";
+            left_out.push(Scope::Reduction.without(turned));
         }
-        if closed.is_some() {
-            left_out.push("integration of motions with p = 0: they have a closed form".to_owned());
-        }
+        left_out.extend(closed.map(|_| closed_form(true)));
         Formulas {
             kinetic_energy: mixed::energy(arena, self.mixed),
             hamiltonian,

@@ -9,8 +9,9 @@ use crate::ir::tangent::with_tangent;
 use crate::ir::taylor::Recurrence;
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::describe::Formula;
+use crate::mechanics::describe::{Formula, LeftOut};
 use crate::mechanics::kinetic::Frame;
+use crate::mechanics::potential::Guard;
 use crate::mechanics::reduce::{ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 use crate::spec::{Capability, Spanned};
@@ -56,6 +57,8 @@ pub struct Model {
     pub hamiltonian: Program,
     /// The same where stretches are far from 1, where that takes another form.
     pub hamiltonian_far_away: Option<Program>,
+    /// Where the potential has a value, where that is not everywhere.
+    pub domain: Option<Domain>,
     /// Point -> power of the forces that no potential has.
     pub power: Option<Program>,
     /// Hamilton's equations in the model's own frames.
@@ -121,7 +124,15 @@ pub struct Formulas {
     /// The reduced equations, component by component.
     pub reduced: Vec<Formula>,
     /// What was taken out of the state.
-    pub left_out: Vec<String>,
+    pub left_out: Vec<LeftOut>,
+}
+
+/// Where the potential has a value.
+pub struct Domain {
+    /// Functions of the state that keep their sign.
+    pub guards: Vec<Guard>,
+    /// Point -> their values.
+    pub program: Program,
 }
 
 /// A first-order system as a program over a plain array.

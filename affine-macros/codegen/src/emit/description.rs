@@ -30,7 +30,7 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
     lines.extend(system("Reduced equations", model.reduced.program.operations(), &formulas.reduced));
     if !formulas.left_out.is_empty() {
         lines.push("Left out of the state:".to_owned());
-        lines.extend(formulas.left_out.iter().map(|what| format!("- {what}")));
+        lines.extend(formulas.left_out.iter().map(|left_out| format!("- {}", left_out.what)));
         lines.push(String::new());
     }
     lines.push(match model.signature {
@@ -132,7 +132,11 @@ pub(super) fn constant(context: &Context) -> TokenStream {
     let hamiltonian = formula(&model.formulas.hamiltonian);
     let equations = model.formulas.equations.iter().map(formula);
     let reduced_equations = model.formulas.reduced.iter().map(formula);
-    let left_out = &model.formulas.left_out;
+    let left_out = model.formulas.left_out.iter().map(|left_out| {
+        let (what, scope) = (&left_out.what, format_ident!("{}", format!("{:?}", left_out.scope)));
+        quote!(#rt::LeftOut { what: #what, scope: #rt::Scope::#scope })
+    });
+    let domain = super::domain::guards(context);
     let signature = match model.signature {
         Some((p, q)) => {
             let (p, q) = (number(p), number(q));
@@ -177,6 +181,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
             full_operations: #full_operations,
             reduced_operations: #reduced_operations,
             constraint: #constraint,
+            domain: #domain,
             left_out: &[#(#left_out),*],
         }
     }

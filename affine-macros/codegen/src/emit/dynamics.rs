@@ -215,8 +215,21 @@ fn hamiltonian(context: &Context) -> TokenStream {
 
 /// `H` of `point`, by a program.
 fn energy(context: &Context, program: &Program) -> TokenStream {
-    let rt = &context.names.rt;
     let bound = bind_point(context, program);
+    let placed = at_placement(context, program);
+    let body = context.generic(program);
+    let (lets, energy) = (&body.lets, body.result());
+    quote! {
+        #bound
+        #placed
+        #lets
+        #energy
+    }
+}
+
+/// `let` statements for the functions of the placement of `point` that a program reads: `q`, `D` and `q_a`.
+pub(super) fn at_placement(context: &Context, program: &Program) -> TokenStream {
+    let rt = &context.names.rt;
     let used = inputs(program);
     let of_placement = |name: &str| {
         let (symbol, function) = match name {
@@ -231,15 +244,10 @@ fn energy(context: &Context, program: &Program) -> TokenStream {
         let bound = pattern(&names, &used);
         quote!(let #bound = #rt::log_stretches(#rt::Phase::phi(point));)
     });
-    let body = context.generic(program);
-    let (lets, energy) = (&body.lets, body.result());
     quote! {
-        #bound
         #mean
         #dilatation
         #stretches
-        #lets
-        #energy
     }
 }
 

@@ -51,7 +51,8 @@ impl Program {
         let mut count = Operations::default();
         for step in &self.steps {
             match step {
-                Op::Input(_) | Op::Constant(_) | Op::Neg(_) | Op::Call(Function::Abs, _) => {}
+                Op::Input(_) | Op::Constant(_) | Op::Neg(_) | Op::Call(Function::Abs | Function::Sign, _) => {
+                }
                 Op::Call(Function::Sqrt | Function::Cbrt, _) => count.sqrt += 1,
                 // A number of any kind computes it so.
                 Op::Call(Function::InverseCbrt, _) => {

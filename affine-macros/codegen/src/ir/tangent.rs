@@ -136,11 +136,8 @@ impl Builder {
                 let along = self.step(Op::Div(above, below));
                 if function == Function::Cbrt { along } else { self.step(Op::Neg(along)) }
             }
-            // The sign of a is |a|/a.
-            Function::Abs => {
-                let sign = self.step(Op::Div(value, a));
-                self.step(Op::Mul(change, sign))
-            }
+            Function::Abs => self.times(Function::Sign, a, change),
+            Function::Sign => self.step(Op::Constant(Rational::ZERO)),
             Function::Sin => self.times(Function::Cos, a, change),
             Function::Cos => {
                 let slope = self.times(Function::Sin, a, change);

@@ -17,26 +17,28 @@ pub(super) fn symbol(arena: &mut Arena, base: Base) -> Expr {
     arena.symbol(&name)
 }
 
-/// The energy with these symbols replaced.
+/// Expressions with these symbols replaced.
 pub(super) fn carried(
     arena: &mut Arena,
     n: usize,
-    energy: Expr,
+    expressions: &[Expr],
     metrics: &Metrics,
     rebased: &mut Vec<Rebased>,
-) -> Option<Expr> {
+) -> Option<Vec<Expr>> {
     let pairs = || (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)));
     let mut bases: Vec<Base> = (0..n).map(Base::Position).collect();
     bases.extend(pairs().map(|(i, a)| Base::Placement(i, a)));
     bases.extend(pairs().filter(|(a, b)| a <= b).flat_map(|(a, b)| [Base::Green(a, b), Base::Finger(a, b)]));
     let named: Vec<(Expr, Base)> = bases.into_iter().map(|base| (symbol(arena, base), base)).collect();
-    if !arena.any_symbol(energy, &mut |e| named.iter().any(|(symbol, _)| *symbol == e)) {
-        return Some(energy);
+    let is_named = |e: Expr| named.iter().any(|(symbol, _)| *symbol == e);
+    if !expressions.iter().any(|one| arena.any_symbol(*one, &mut |e| is_named(e))) {
+        return Some(expressions.to_vec());
     }
     let [space_inverse, body] = metrics.factors(arena, rebased);
     let values: Vec<(Expr, Expr)> =
         named.into_iter().map(|(symbol, base)| (symbol, value(arena, base, &space_inverse, &body))).collect();
-    arena.substitute(energy, &|e| values.iter().find(|(symbol, _)| *symbol == e).map(|(_, value)| *value))
+    let value = |e: Expr| values.iter().find(|(symbol, _)| *symbol == e).map(|(_, value)| *value);
+    expressions.iter().map(|one| arena.substitute(*one, &value)).collect()
 }
 
 /// A component as a sum of those in orthonormal bases.

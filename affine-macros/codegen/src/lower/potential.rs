@@ -1,38 +1,41 @@
 //! Potentials as expressions in base functions of the placement.
 
+use crate::algebra::arena::Node;
 use crate::algebra::ring::{Square, product};
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::check::constant;
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::potential::stretches::{canonical, is_stretched};
-use crate::mechanics::potential::{Base, TIME};
+use crate::mechanics::potential::{Base, Guard, TIME};
 use crate::spec::{Expression, ExpressionKind, MatrixName, Spec, numbered};
 
-use super::{FIELD, components};
+use super::{FIELD, components, domain};
 
-/// The potential energy, if the model states one that is not constant: an expression in the symbols of [`Base`]. Beside
-/// metrics these stand in orthonormal bases; what `prepare()` has to know of them is added to `rebased`.
+/// The potential energy, if the model states one that is not constant, and where it has a value: expressions in the symbols
+/// of [`Base`]. Beside metrics these stand in orthonormal bases; what `prepare()` has to know of them is added to `rebased`.
 pub fn potential(
     arena: &mut Arena,
     spec: &Spec,
     metrics: Option<&Metrics>,
     rebased: &mut Vec<Rebased>,
-) -> Option<Expr> {
-    let written = spec.potential.as_ref()?;
-    let n = spec.dim.value;
-    let mut energy = match metrics {
-        None => energy(arena, n, &written.energy, None)?,
-        Some(metrics) => {
-            let given = value(arena, n, &written.energy, Reading { difference: None, given: true })?;
-            components::carried(arena, n, given, metrics, rebased)?
-        }
-    };
+) -> Option<(Expr, Vec<Guard>)> {
+    let written = &spec.potential.as_ref()?.energy;
+    let (n, given) = (spec.dim.value, metrics.is_some());
+    let mut energy = value(arena, n, written, Reading { difference: None, given })?;
+    let mut domain = domain::guards(arena, n, written, given);
+    if let Some(metrics) = metrics {
+        let mut all = vec![energy];
+        all.extend(domain.iter().map(|guard| guard.value));
+        let mut carried = components::carried(arena, n, &all, metrics, rebased)?.into_iter();
+        energy = carried.next()?;
+        domain.iter_mut().zip(carried).for_each(|(guard, value)| guard.value = value);
+    }
     if is_stretched(arena, n, energy) {
         energy = canonical(arena, n, energy);
     }
     let form = Polynomial::normal_form(arena, energy);
     // A constant moves nothing and leaves no trace.
-    (form.as_constant().is_none()).then_some(energy)
+    (form.as_constant().is_none()).then_some((energy, domain))
 }
 
 /// The symbolic value, with `difference` for `d`; `None` only for what the checks refuse.
@@ -42,14 +45,14 @@ pub(crate) fn energy(arena: &mut Arena, n: usize, e: &Expression, difference: Op
 
 /// How an expression is read.
 #[derive(Clone, Copy)]
-struct Reading {
+pub(super) struct Reading {
     /// What `d` stands for.
-    difference: Option<Expr>,
+    pub(super) difference: Option<Expr>,
     /// Are components told from those in orthonormal bases?
-    given: bool,
+    pub(super) given: bool,
 }
 
-fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Reading) -> Option<Expr> {
+pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Reading) -> Option<Expr> {
     if let Some(value) = constant(e, n) {
         return Some(arena.constant(value));
     }
@@ -126,15 +129,16 @@ pub(crate) fn difference_of(arena: &mut Arena, a: usize, b: usize) -> Expr {
 /// A function of an argument; an absolute value of what keeps its sign is no function.
 fn applied(arena: &mut Arena, function: Function, argument: Expr) -> Expr {
     let value = arena.apply(function, argument);
-    match (function, arena.sign(argument, &is_positive)) {
-        (Function::Abs, Some(sign)) if sign.negative => arena.neg(argument),
-        (Function::Abs, Some(_)) => argument,
-        _ => value,
+    let Node::Function(Function::Abs, of) = *arena.node(value) else { return value };
+    match arena.sign(of, &is_positive) {
+        Some(sign) if sign.negative => arena.neg(of),
+        Some(_) => of,
+        None => value,
     }
 }
 
 /// Traces and diagonal entries of `G` and `Ct` are positive.
-fn is_positive(name: &str) -> bool {
+pub(super) fn is_positive(name: &str) -> bool {
     let name = name.strip_prefix(components::GIVEN).unwrap_or(name);
     let diagonal = |entry: &str| matches!(entry, "11" | "22" | "33");
     ["trace_1", "trace_2"].contains(&name)

@@ -15,7 +15,7 @@ use crate::mechanics::notation::{field_latex, is_number, latex, matrix_field, pl
 
 pub use equations::equations;
 pub use hamiltonian::{hamiltonian, kinetic_energy_of_momenta};
-pub use left_out::left_out;
+pub use left_out::{LeftOut, Scope, closed_form, left_out};
 pub use system::system;
 
 /// A formula in both notations.

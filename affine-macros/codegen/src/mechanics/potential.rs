@@ -7,6 +7,7 @@ mod at_a_point;
 mod axes;
 mod base;
 mod dilatation;
+mod domain;
 mod far_away;
 mod invariance;
 mod load;
@@ -23,6 +24,7 @@ use super::conserved::Candidate;
 use super::constraint::Constraint;
 pub use axes::OnAxes;
 pub use base::Base;
+pub use domain::{Bound, Guard};
 use invariance::Evidence;
 use restriction::restricted;
 use rewriting::through_dilatation;
@@ -36,6 +38,7 @@ pub struct Potential {
     slopes: Vec<(Base, Expr)>,
     time: Option<Expr>,
     invariance: Evidence,
+    domain: Vec<Guard>,
 }
 
 /// Name of the symbol of `D = exp(q)`.
@@ -50,16 +53,22 @@ impl Potential {
         let slopes = Self::slopes(arena, dim, energy);
         let invariance = Evidence::identities(arena, dim, &slopes);
         let time = Self::time_in(arena, energy);
-        Self { dim, energy, slopes, time, invariance }
+        Self { dim, energy, slopes, time, invariance, domain: Vec::new() }
     }
 
-    /// The potential on the group of a constraint; `None` where it has no value there.
-    pub fn under(arena: &mut Arena, dim: usize, energy: Expr, group: Constraint) -> Option<Self> {
+    /// The potential on the group of a constraint, within its domain; `None` where it has no value there.
+    pub fn under(
+        arena: &mut Arena,
+        dim: usize,
+        (energy, domain): (Expr, Vec<Guard>),
+        group: Constraint,
+    ) -> Option<Self> {
         let energy = restricted(arena, dim, energy, group)?;
+        let domain = domain::confined(arena, dim, domain, group)?;
         let slopes = Self::slopes(arena, dim, energy);
         let invariance = Evidence::on_the_group(arena, dim, &slopes, group);
         let time = Self::time_in(arena, energy);
-        Some(Self { dim, energy, slopes, time, invariance })
+        Some(Self { dim, energy, slopes, time, invariance, domain })
     }
 
     /// Does it change along no velocity that the constraint leaves free?

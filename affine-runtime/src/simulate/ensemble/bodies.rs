@@ -9,7 +9,8 @@ use crate::integrate::in_lanes::{Equations, Fate, RungeKutta8InLanes};
 use crate::integrate::runge_kutta::start::{Start, starts_in_lanes};
 use crate::lanes::{Lanes, gathered};
 use crate::model::{Group, StateVector};
-use crate::simulate::layout::placement_in;
+use crate::simulate::layout::{Layout, placement_in};
+use crate::simulate::motion::WithWork;
 use crate::simulate::point::is_clearly_positive;
 
 /// A body before its first step.
@@ -47,8 +48,8 @@ pub(super) fn begun<const N: usize, T: Lanes, M: InLanes<N>>(
 pub(super) struct Done<P> {
     pub(super) lane: usize,
     pub(super) body: usize,
-    /// Where it has come to; `None` where it cannot go on.
-    pub(super) end: Option<P>,
+    /// Where it has come to, with the work done; `None` where it cannot go on.
+    pub(super) end: Option<WithWork<P>>,
 }
 
 /// Lanes, each with a body or at rest.
@@ -125,13 +126,15 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
         done
     }
 
-    /// The phase point at the end of the interval.
-    fn end(&self, lane: usize) -> M::Point<f64> {
+    /// The phase point at the end of the interval, with the work done.
+    fn end(&self, lane: usize) -> WithWork<M::Point<f64>> {
         let mut state = M::Reduced::<f64>::zeros();
         for (component, lanes) in state.as_mut().iter_mut().zip(self.integration.y().as_ref()) {
             *component = lanes.lane(lane);
         }
-        self.model.expand(self.t_end, &self.constants[lane], &state)
+        let work = const { Layout::of(M::DESCRIPTION.reduced, N) }.work;
+        let work = work.map_or(0.0, |place| state.as_ref()[place]);
+        (self.model.expand(self.t_end, &self.constants[lane], &state), work)
     }
 }
 

@@ -4,7 +4,7 @@
 use affine_runtime::__private::point as point_of;
 use affine_runtime::frames::{AffineSpin, Body, Comoving, Matrix, Vector};
 use affine_runtime::geodesic::Geodesic;
-use affine_runtime::model::{Conserved, Description, Group, Model, Velocity};
+use affine_runtime::model::{Conserved, Description, Group, LeftOut, Model, Scope, Velocity};
 use affine_runtime::scalar::{Real, Scalar};
 use affine_runtime::state::{Centre, Phase, PhasePoint};
 
@@ -49,7 +49,7 @@ impl Model<3> for DrunkMissile {
         ];
         text.conserved_at_rest =
             &[Conserved::Energy, Conserved::AffineSpin, Conserved::Vorticity, Conserved::Casimir2];
-        text.left_out = &["nothing: a naive fixture"];
+        text.left_out = &[LeftOut { what: "nothing: a naive fixture", scope: Scope::Model }];
         text
     };
 

@@ -5,7 +5,7 @@
 use affine_runtime::__private::point as point_of;
 use affine_runtime::frames::{Body, Comoving, Matrix};
 use affine_runtime::geodesic::Geodesic;
-use affine_runtime::model::{Conserved, Description, Group, Model, Velocity};
+use affine_runtime::model::{Conserved, Description, Group, LeftOut, Model, Scope, Velocity};
 use affine_runtime::scalar::{Real, Scalar};
 use affine_runtime::state::{Phase, PhasePoint, Pinned};
 
@@ -70,7 +70,7 @@ impl Model<3> for VibratingBody {
         text.reduced = GROUPS;
         text.conserved = &[Conserved::Energy, Conserved::Spin, Conserved::Vorticity, Conserved::SpinNorm];
         text.conserved_at_rest = text.conserved;
-        text.left_out = &["x and p: the model has no translation"];
+        text.left_out = &[LeftOut { what: "x and p: the model has no translation", scope: Scope::Model }];
         text
     };
 

@@ -3,8 +3,10 @@
 use crate::algebra::bind::Constants;
 use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::derive::Domain;
 use crate::derive::MixedMasses;
 use crate::derive::constant::{legendre_batch, matrix_batch, placement_inputs, result};
+use crate::derive::domain::domain;
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::Chart;
@@ -23,6 +25,7 @@ pub(super) struct Programs {
     pub(super) kinetic_energy: Program,
     pub(super) hamiltonian: Program,
     pub(super) hamiltonian_far_away: Option<Program>,
+    pub(super) domain: Option<Domain>,
     pub(super) power: Option<Program>,
     pub(super) isotropic: Option<Program>,
 }
@@ -62,6 +65,7 @@ impl Body<'_> {
             None => None,
         };
         let power = self.power(arena, chart)?.map(|batch| inline(arena, &batch, &at_a_point));
+        let isotropic = self.isotropic();
         Some(Programs {
             legendre: inline(arena, &legendre, &inputs),
             velocity: inline(arena, &velocity, &momenta.0.concat()),
@@ -71,7 +75,8 @@ impl Body<'_> {
             hamiltonian: inline(arena, &hamiltonian, &at_a_point),
             hamiltonian_far_away: far_away.map(|batch| inline(arena, &batch, &at_a_point)),
             power,
-            isotropic: self.isotropic().map(|batch| inline(arena, &batch, &[])),
+            isotropic: isotropic.map(|batch| inline(arena, &batch, &[])),
+            domain: domain(arena, chart, self.potential, coefficients, &[phi, at_a_point].concat()),
         })
     }
 

@@ -7,14 +7,43 @@ use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::reduce::{ClosedForm, Commuting, Layout, Reduction};
 use crate::mechanics::separation::Slope;
 
+/// Something that is not integrated, and in which runs it is not.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// What it is and why, in words.
+    pub what: String,
+    /// The runs.
+    pub scope: Scope,
+}
+
+/// The runs that leave something out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Every run of the model.
+    Model,
+    /// Those by the reduced equations.
+    Reduction,
+    /// Those by methods that integrate what the reduced state carries along.
+    Carried,
+    /// Those with `p = 0`.
+    Rest,
+}
+
+impl Scope {
+    /// Something that these runs leave out.
+    pub fn without(self, what: impl Into<String>) -> LeftOut {
+        LeftOut { what: what.into(), scope: self }
+    }
+}
+
 /// What the reduction took out of the state, one sentence each.
-pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedForm, bool)>) -> Vec<String> {
+pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedForm, bool)>) -> Vec<LeftOut> {
     let mut list = Vec::new();
     if h.translation.is_none() {
-        list.push("x and p: the model has no translation".to_owned());
+        list.push(Scope::Model.without("x and p: the model has no translation"));
     }
-    for piece in &reduction.commuting {
-        list.push(match piece {
+    list.extend(reduction.commuting.iter().map(|piece| {
+        Scope::Reduction.without(match piece {
             Commuting::Vorticity(_) => {
                 "the |Vort|^2 part of H: it commutes with the rest and is applied exactly, phi -> phi exp(-t Vort/mu)"
             }
@@ -22,9 +51,8 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
                 "the |S|^2 part of H: it commutes with the rest and is applied exactly, phi -> exp(-t S/mu) phi"
             }
             Commuting::Drift(_) => "x and p: the centre of mass moves freely, x = x0 + t p/m",
-        }
-        .to_owned());
-    }
+        })
+    }));
     let (name, ..) = momentum_names(reduction.chart.momentum);
     if let Some(separation) = &reduction.separation {
         let path = match separation.slope {
@@ -32,38 +60,44 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
             Slope::Linear(_) => "swings harmonically",
             Slope::Hyperbolic { .. } => "moves by an elliptic function",
         };
-        list.push(format!(
+        list.push(Scope::Reduction.without(format!(
             "the dilatation: phi = e^q Psi with det Psi = 1, and q {path}; the state is Psi with O, the traceless part \
              of {name} over alpha, in parts O = s + w, symmetric and skew"
-        ));
+        )));
         if !reduction.fixed.is_empty() {
-            list.push("w: conserved".to_owned());
+            list.push(Scope::Reduction.without("w: conserved"));
         }
     }
     list.extend(reduction.carried.iter().map(|carried| {
-        match carried {
+        Scope::Carried.without(match carried {
             Carried::InverseDilatation => {
                 "the root of det phi: 1/D = (det phi)^(-1/n) is integrated beside phi"
             }
             Carried::MeanLogStretch => "the logarithm of det phi: q = ln(det phi)/n is integrated beside phi",
-        }
-        .to_owned()
+        })
     }));
     match reduction.layout {
         // The flow that is applied exactly turns the momentum of its own frame.
-        Layout::Constant if turns(reduction) => list.push(format!("{name}: conserved by the rest of H")),
-        Layout::Constant => list.push(format!("{name}: conserved")),
+        Layout::Constant if turns(reduction) => {
+            list.push(Scope::Reduction.without(format!("{name}: conserved by the rest of H")));
+        }
+        Layout::Constant => list.push(Scope::Reduction.without(format!("{name}: conserved"))),
         Layout::Entries => {}
     }
     if reduction.chart.linear.is_some() && reduction.turned {
-        list.push("p: conserved; space is turned so that only its first component is left".to_owned());
+        let turned = "p: conserved; space is turned so that only its first component is left";
+        list.push(Scope::Reduction.without(turned));
     }
-    match closed {
-        Some((_, false)) => list.push("integration: every motion has a closed form".to_owned()),
-        Some((_, true)) => list.push("integration of motions with p = 0: they have a closed form".to_owned()),
-        None => {}
-    }
+    list.extend(closed.map(|(_, only_at_rest)| closed_form(only_at_rest)));
     list
+}
+
+/// What a closed form leaves out: all integration, or that of motions with `p = 0`.
+pub fn closed_form(only_at_rest: bool) -> LeftOut {
+    match only_at_rest {
+        false => Scope::Model.without("integration: every motion has a closed form"),
+        true => Scope::Rest.without("integration of motions with p = 0: they have a closed form"),
+    }
 }
 
 /// Does a piece that is applied exactly move the momentum of the reduced chart?

@@ -17,7 +17,17 @@ impl Potential {
         arena: &mut Arena,
         chart: &Chart,
     ) -> (Polynomial, Vec<(Expr, Polynomial)>) {
-        let shifted = about_undeformed(arena, self.energy);
+        self.at_a_point(arena, chart, self.energy)
+    }
+
+    /// The same of any function of the placement, of `x` and of the time.
+    pub(super) fn at_a_point(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        value: Expr,
+    ) -> (Polynomial, Vec<(Expr, Polynomial)>) {
+        let shifted = about_undeformed(arena, value);
         let form = Polynomial::normal_form(arena, shifted);
         let n = Rational::from(i64::try_from(self.dim).unwrap_or(1));
         let mut shared = definitions(arena, self.dim, chart);

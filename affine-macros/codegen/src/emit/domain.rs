@@ -1,0 +1,42 @@
+//! Where the potential has a value.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::Context;
+use super::dynamics::{at_placement, bind_point, time};
+
+/// The functions of the state that keep their sign, in the description of the model.
+pub(super) fn guards(context: &Context) -> TokenStream {
+    let rt = &context.names.rt;
+    let guards = context.model.domain.iter().flat_map(|domain| &domain.guards).map(|guard| {
+        let (part, argument) = (&guard.part, &guard.argument);
+        let bound = format_ident!("{}", format!("{:?}", guard.bound));
+        quote!(#rt::Guard { part: #part, argument: #argument, bound: #rt::Bound::#bound })
+    });
+    quote!(&[#(#guards),*])
+}
+
+/// `domain`: nothing where the potential has a value at every state.
+pub(super) fn values(context: &Context) -> TokenStream {
+    let Some(domain) = &context.model.domain else { return TokenStream::new() };
+    let rt = &context.names.rt;
+    let program = &domain.program;
+    let (time, inward) = (time(program), context.inward());
+    let (bound, placed) = (bind_point(context, program), at_placement(context, program));
+    let body = context.double(program);
+    let (lets, values) = (&body.lets, &body.results);
+    let (point, inward) = match bound.is_empty() && placed.is_empty() {
+        true => (quote!(_point), TokenStream::new()),
+        false => (quote!(point), inward),
+    };
+    quote! {
+        fn domain(&self, #time: #rt::f64, #point: &Self::Point<#rt::f64>, each: &mut dyn FnMut(#rt::f64)) {
+            #inward
+            #bound
+            #placed
+            #lets
+            #(each(#values);)*
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Where a potential has a value, read off what the user wrote: arguments of logarithms and roots, and divisors.
+
+use crate::algebra::{Arena, Expr, Function};
+use crate::check::constant;
+use crate::mechanics::potential::{Bound, Guard};
+use crate::spec::{Expression, ExpressionKind};
+
+use super::potential::{Reading, difference_of, is_positive, value};
+
+/// The guards of an energy, in the order of its parts; those that hold everywhere are left out.
+pub(super) fn guards(arena: &mut Arena, n: usize, energy: &Expression, given: bool) -> Vec<Guard> {
+    let mut guards = Guards { arena, n, given, found: Vec::new() };
+    guards.read(energy, None);
+    guards.found
+}
+
+struct Guards<'a> {
+    arena: &'a mut Arena,
+    n: usize,
+    /// Are components told from those in orthonormal bases?
+    given: bool,
+    found: Vec<Guard>,
+}
+
+impl Guards<'_> {
+    /// A part of the energy, with `difference` for `d`.
+    fn read(&mut self, part: &Expression, difference: Option<Expr>) {
+        if let ExpressionKind::Pairs(one) = &part.kind {
+            let n = self.n;
+            for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
+                let difference = difference_of(self.arena, a, b);
+                self.read(one, Some(difference));
+            }
+            return;
+        }
+        match &part.kind {
+            ExpressionKind::Call(Function::Ln, argument) => {
+                self.keep(part, argument, Bound::Positive, difference);
+                // The logarithm of a square ends where that is zero.
+                self.divide(part, argument, difference);
+            }
+            ExpressionKind::Call(Function::Sqrt, argument) => {
+                self.keep(part, argument, Bound::NotNegative, difference);
+            }
+            // A tangent is a quotient by the cosine.
+            ExpressionKind::Call(Function::Tan, argument) => {
+                if let Some(argument_value) = self.value(argument, difference) {
+                    let cosine = self.arena.apply(Function::Cos, argument_value);
+                    self.add(part, format!("cos({argument})"), Bound::NotZero, cosine);
+                }
+            }
+            ExpressionKind::Divide(_, divisor) => self.divide(part, divisor, difference),
+            ExpressionKind::Power(base, exponent)
+                if constant(exponent, self.n).is_some_and(|exponent| exponent.is_negative()) =>
+            {
+                self.divide(part, base, difference);
+            }
+            _ => {}
+        }
+        part.operands().into_iter().for_each(|operand| self.read(operand, difference));
+    }
+
+    /// The factors of what a part divides by.
+    fn divide(&mut self, part: &Expression, divisor: &Expression, difference: Option<Expr>) {
+        match &divisor.kind {
+            ExpressionKind::Multiply(a, b) => {
+                self.divide(part, a, difference);
+                self.divide(part, b, difference);
+            }
+            ExpressionKind::Negate(a)
+            | ExpressionKind::Power(a, _)
+            | ExpressionKind::Divide(a, _)
+            | ExpressionKind::Call(Function::Abs, a) => self.divide(part, a, difference),
+            _ => self.keep(part, divisor, Bound::NotZero, difference),
+        }
+    }
+
+    fn keep(&mut self, part: &Expression, argument: &Expression, bound: Bound, difference: Option<Expr>) {
+        if let Some(value) = self.value(argument, difference) {
+            self.add(part, argument.to_string(), bound, value);
+        }
+    }
+
+    fn value(&mut self, e: &Expression, difference: Option<Expr>) -> Option<Expr> {
+        value(self.arena, self.n, e, Reading { difference, given: self.given })
+    }
+
+    /// One more guard, unless it holds everywhere, is there already, or is one of numbers and fields, which are looked at
+    /// when the model is prepared.
+    fn add(&mut self, part: &Expression, argument: String, bound: Bound, value: Expr) {
+        let sign = self.arena.sign(value, &is_positive);
+        // What has one sign everywhere does not change it on the way, though it may vanish at a point.
+        let holds = sign.is_some_and(|sign| !sign.negative || bound == Bound::NotZero);
+        let says_as_much = |guard: &Guard| bound == Bound::NotZero || guard.bound == bound;
+        let is_known = self.found.iter().any(|guard| guard.value == value && says_as_much(guard));
+        if !holds && !is_known && super::moves(self.arena, value) {
+            self.found.push(Guard { part: part.to_string(), argument, bound, value });
+        }
+    }
+}

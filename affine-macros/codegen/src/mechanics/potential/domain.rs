@@ -1,0 +1,88 @@
+//! Where a potential has a value: functions of the placement, of `x` and of the time that keep their sign.
+
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::mechanics::charts::Chart;
+use crate::mechanics::constraint::Constraint;
+use crate::mechanics::metric::Definitions;
+
+use super::Potential;
+use super::restriction::restricted;
+
+/// A part of a potential that has a value only where a function of the state keeps its sign.
+#[derive(Clone, Debug)]
+pub struct Guard {
+    /// The part as written: `ln(q)`, `1/x[1]`.
+    pub part: String,
+    /// What has to keep its sign, as written: `q`, `x[1]`.
+    pub argument: String,
+    /// Which signs it may have.
+    pub bound: Bound,
+    /// Its value.
+    pub value: Expr,
+}
+
+/// The signs that a function of the state may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// Above zero: the argument of a logarithm.
+    Positive,
+    /// Zero or above: the argument of a root.
+    NotNegative,
+    /// The sign that it has at the start: a divisor.
+    NotZero,
+}
+
+impl Bound {
+    fn admits(self, value: &Rational) -> bool {
+        match self {
+            Self::Positive => !value.is_zero() && !value.is_negative(),
+            Self::NotNegative => !value.is_negative(),
+            Self::NotZero => !value.is_zero(),
+        }
+    }
+}
+
+impl Potential {
+    /// The potential with what keeps the state within its domain.
+    #[must_use]
+    pub fn within(self, domain: Vec<Guard>) -> Self {
+        Self { domain, ..self }
+    }
+
+    /// What keeps the state within the domain of the potential.
+    #[must_use]
+    pub fn domain(&self) -> &[Guard] {
+        &self.domain
+    }
+
+    /// The values of these functions at a point of a chart, with what they share; `q` and `q_a` are inputs.
+    pub fn domain_at_a_point(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+    ) -> Option<(Vec<Polynomial>, Definitions)> {
+        let values: Vec<Expr> = self.domain.iter().map(|guard| guard.value).collect();
+        let (values, shared): (Vec<_>, Vec<_>) =
+            values.into_iter().map(|value| self.at_a_point(arena, chart, value)).unzip();
+        Some((values, shared.into_iter().next()?))
+    }
+}
+
+/// The guards on the group of a constraint, without those that hold everywhere; `None` where one holds nowhere.
+pub(super) fn confined(
+    arena: &mut Arena,
+    dim: usize,
+    domain: Vec<Guard>,
+    group: Constraint,
+) -> Option<Vec<Guard>> {
+    let mut left = Vec::new();
+    for guard in domain {
+        let value = restricted(arena, dim, guard.value, group)?;
+        match arena.as_constant(value) {
+            Some(constant) if !guard.bound.admits(constant) => return None,
+            Some(_) => {}
+            None => left.push(Guard { value, ..guard }),
+        }
+    }
+    Some(left)
+}
