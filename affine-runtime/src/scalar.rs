@@ -92,6 +92,11 @@ pub trait Scalar:
     /// by sign becomes in straight-line code.
     #[must_use]
     fn copysign(self, sign: Self) -> Self;
+    /// 1 with the sign of this number: the slope of its absolute value, either one-sided slope where it is zero.
+    #[must_use]
+    fn signum(self) -> Self {
+        Self::one().copysign(self)
+    }
 }
 
 /// An ordered number, for everything outside right-hand sides.

@@ -1,0 +1,11 @@
+//! Runs that leave the states at which their potential has a value, or lose their energy, end typed.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "domain/energies.rs"]
+mod energies;
+#[path = "domain/listed.rs"]
+mod listed;
+#[path = "domain/singular.rs"]
+mod singular;
+#[path = "domain/time.rs"]
+mod time;

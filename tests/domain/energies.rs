@@ -1,0 +1,86 @@
+//! The energy as a witness.
+
+use affine_runtime::prelude::*;
+use affine_runtime::simulate::Reason;
+
+#[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = -1/norm(x))]
+struct Kepler;
+
+fn kepler(speed: f64) -> <Kepler as Model<2>>::Point<f64> {
+    let (x, v) = (Vector::<2>::new(1.0, 0.0), Vector::<2>::new(0.0, speed));
+    Kepler.at_velocity(x, Matrix::<2>::identity(), v, Matrix::<2>::zeros()).unwrap()
+}
+
+/// A fall into the centre, which no function loses its sign at: it ends, at any tolerance, about when it should.
+#[test]
+fn a_fall_into_the_centre() {
+    let exact = core::f64::consts::PI / 8.0_f64.sqrt();
+    for tolerance in [1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-13] {
+        let halt = Simulation::new(&Kepler, kepler(0.0)).until(2.0).tolerance(tolerance).run().unwrap_err();
+        let typed = matches!(
+            halt.stop.reason,
+            Reason::EnergyLost { .. } | Reason::StepUnderflow { .. } | Reason::NotFinite
+        );
+        assert!(typed && (halt.stop.t - exact).abs() < 0.2, "{halt}");
+    }
+}
+
+/// An orbit that comes near the centre keeps its energy, and nothing is said of it.
+#[test]
+fn an_eccentric_orbit_is_no_fall() {
+    for tolerance in [1e-3, 1e-6, 1e-10] {
+        let run = Simulation::new(&Kepler, kepler(0.1)).until(5.0).tolerance(tolerance).run().unwrap();
+        assert!(!run.why().to_string().contains("energy is off"), "{}", run.why());
+    }
+}
+
+/// Steps that are far too long for the motion: a method of equal steps goes on, and says so.
+#[test]
+fn coarse_equal_steps_are_named() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1, space_translation = 1),
+        potential = 500*x[1]^2,
+        emit(splitting)
+    )]
+    struct Stiff;
+    let (x, v) = (Vector::<2>::new(1.0, 0.0), Vector::<2>::zeros());
+    let start = Stiff.at_velocity(x, Matrix::<2>::identity(), v, Matrix::<2>::zeros()).unwrap();
+    let run =
+        |step| Simulation::new(&Stiff, start).until(1.0).method(Method::Splitting { order: 2, step }).run();
+    let fine = run(1e-3).unwrap();
+    assert!(!fine.why().to_string().contains("energy is off"), "{}", fine.why());
+    let coarse = run(0.05).unwrap();
+    let worst = coarse.computation().energy_defect;
+    assert!(worst > 0.1 && coarse.why().to_string().contains("the steps do not resolve"), "{}", coarse.why());
+}
+
+/// A potential that leaves the range of numbers, at the start and on the way.
+#[test]
+fn an_energy_that_overflows() {
+    #[affine_model(dim = 2, kinetic(dalembert = 1), potential = -exp(exp(q)))]
+    struct Steep;
+    let at =
+        |scale: f64| Steep.at_velocity(Matrix::<2>::identity() * scale, Matrix::<2>::identity()).unwrap();
+    let halt = Simulation::new(&Steep, at(800.0)).until(1.0).run().unwrap_err();
+    assert!(matches!(halt.stop.reason, Reason::Energy { t: 0.0, .. }), "{halt}");
+    assert!(halt.to_string().contains("the energy is -inf"), "{halt}");
+}
+
+/// An event that changes the point changes the energy, and the witness looks from there on.
+#[test]
+fn a_change_is_no_loss() {
+    #[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = 9.81*x[2])]
+    struct Ball;
+    type Point = <Ball as Model<2>>::Point<f64>;
+    let (x, v) = (Vector::<2>::new(0.0, 1.0), Vector::<2>::zeros());
+    let start = Ball.at_velocity(x, Matrix::<2>::identity(), v, Matrix::<2>::zeros()).unwrap();
+    let bounced = |_: f64, point: &Point| {
+        let p = Vector::<2>::new(point.p()[0], -0.2 * point.p()[1]);
+        Ball.at_momentum(point.x(), *point.phi(), p, point.pi())
+    };
+    let floor = || Event::position(2, 0.0).falling().change(bounced);
+    let run = Simulation::new(&Ball, start).until(0.5).tolerance(1e-6).event(floor()).run().unwrap();
+    assert_eq!(run.events().len(), 1);
+    assert!(run.computation().energy_defect < 1e-6);
+}
