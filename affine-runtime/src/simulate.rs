@@ -4,6 +4,7 @@ mod checkpoint;
 mod closed_form;
 mod collapse;
 mod conservation;
+#[cfg(feature = "csv")]
 mod csv;
 mod domain;
 mod ensemble;

@@ -71,7 +71,7 @@ fn agrees_with_the_oracle<const N: usize, M: Confined<N>>() {
         let kinetic = model.kinetic_energy(point.phi(), &velocity);
         assert_close("T", &[kinetic], &[energy - potential], reference.energy_size(), tolerance);
 
-        let rates = model.hamilton_equations(T0, &model.flatten(&point));
+        let rates = model.free_equations(T0, &model.flatten(&point));
         for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
             assert_components(&reference, N, name, rate, UNDER_POTENTIAL);
         }

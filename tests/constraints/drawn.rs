@@ -102,7 +102,7 @@ pub(crate) fn full_equations<const N: usize, M: Drawn<N>>() {
             let found = model.kinetic_energy(point.phi(), &velocity);
             assert_close("T", &[found], &[free.expected.hamiltonian], size, tolerance);
 
-            let rates = model.hamilton_equations(T0, &model.flatten(&point));
+            let rates = model.free_equations(T0, &model.flatten(&point));
             for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
                 assert_components(&reference, N, name, rate, M::ROUNDING);
             }

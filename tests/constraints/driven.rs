@@ -68,7 +68,7 @@ fn agrees_with_the_oracle<const N: usize, M: Driven<N>>() {
     for point in model.points() {
         let state = exact_state(spin, &point);
         let reference = M::reference(T0, &state);
-        let rates = model.hamilton_equations(T0, &model.flatten(&point));
+        let rates = model.free_equations(T0, &model.flatten(&point));
         for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
             assert_components(&reference, N, name, rate, UNDER_POTENTIAL);
         }

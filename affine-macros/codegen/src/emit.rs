@@ -68,9 +68,11 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let taylor = taylor::taylor_impl(&context);
     let lanes = reduction::lanes::implementation(&context);
     let packed = packed::implementation(&context);
+    let lints = metrics::lints(&context);
     quote! {
         #item
         #prepared_type
+        #lints
         const _: () = {
             use #runtime::__private as #rt;
             #prepare

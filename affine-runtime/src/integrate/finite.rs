@@ -17,6 +17,7 @@ pub(crate) fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
 }
 
 /// The larger of two numbers; NaN where one is, which `f64::max` would drop.
+#[cfg(feature = "std")]
 #[inline(always)]
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }
@@ -24,8 +25,11 @@ pub(crate) fn larger(a: f64, b: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_finite, larger};
+    use super::is_finite;
+    #[cfg(feature = "std")]
+    use super::larger;
 
+    #[cfg(feature = "std")]
     #[test]
     fn nothing_is_larger_than_what_is_no_number() {
         assert_eq!((larger(1.0, 2.0), larger(2.0, 1.0), larger(-1.0, 0.0)), (2.0, 2.0, 0.0));

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use super::work_precision::{Measurement, Row, WorkPrecisionReport};
-use super::{method_name, save};
+use super::{csv_lines, method_name, save};
 use crate::error::Result;
 
 impl WorkPrecisionReport {
@@ -14,18 +14,16 @@ impl WorkPrecisionReport {
     ///
     /// Numbers are the shortest decimals that read back as the same doubles. A field is empty where there is
     /// nothing to say: the tolerance of a closed form, the energy drift of a model that does not conserve energy,
-    /// all measurements of a run that stopped. `stopped` is the reason, in quotation marks, else empty.
+    /// all measurements of a run that stopped. `stopped` is the reason, else empty.
     #[must_use]
     pub fn to_csv(&self) -> String {
-        let mut csv = String::from("model,method,tolerance");
-        for quantity in self.quantities() {
-            csv.extend([",error_", quantity]);
-        }
-        csv.push_str(",steps,rejected,evaluations,seconds,repeats,energy_drift,above_tolerance,stopped\n");
-        for row in self.rows() {
-            csv.push_str(&self.csv_line(row));
-        }
-        csv
+        let mut head = vec!["model".to_owned(), "method".to_owned(), "tolerance".to_owned()];
+        head.extend(self.quantities().iter().map(|quantity| format!("error_{quantity}")));
+        let rest =
+            ["steps", "rejected", "evaluations", "seconds", "repeats", "energy_drift", "above_tolerance"];
+        head.extend(rest.map(str::to_owned));
+        head.push("stopped".to_owned());
+        csv_lines(core::iter::once(head).chain(self.rows().iter().map(|row| self.fields(row))))
     }
 
     /// Writes [`to_csv`](Self::to_csv) to a file.
@@ -36,7 +34,7 @@ impl WorkPrecisionReport {
         save(path.as_ref(), Ok(self.to_csv()))
     }
 
-    fn csv_line(&self, row: &Row) -> String {
+    fn fields(&self, row: &Row) -> Vec<String> {
         let mut fields = vec![self.model().to_owned(), method_name(row.method).to_owned()];
         fields.push(exponential(row.tolerance));
         match &row.outcome {
@@ -53,10 +51,10 @@ impl WorkPrecisionReport {
             }
             Err(stop) => {
                 fields.extend(vec![String::new(); self.quantities().len() + 7]);
-                fields.push(format!("\"{}\"", stop.to_string().replace('"', "\"\"")));
+                fields.push(stop.to_string());
             }
         }
-        fields.join(",") + "\n"
+        fields
     }
 }
 

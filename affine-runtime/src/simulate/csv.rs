@@ -1,8 +1,10 @@
 //! Trajectories as comma-separated values.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
+
+use csv::Writer;
 
 use super::trajectory::Trajectory;
 use crate::error::{Error, Result};
@@ -16,11 +18,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// [`Error::File`] with path and kind of the failure.
     pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
-        let written = File::create(path).and_then(|file| {
-            let mut writer = BufWriter::new(file);
-            self.csv(&mut writer)?;
-            writer.flush()
-        });
+        let written = File::create(path).and_then(|file| self.csv(file));
         written.map_err(|error| Error::File { path: path.to_path_buf(), kind: error.kind() })
     }
 
@@ -30,36 +28,37 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     ///
     /// # Errors
     /// Those of the writer.
-    pub fn csv(&self, mut writer: impl Write) -> io::Result<()> {
+    pub fn csv(&self, writer: impl Write) -> io::Result<()> {
         let columns = Columns::<N, P>::of(self);
-        writeln!(writer, "t{}", columns.names())?;
+        let mut lines = Writer::from_writer(writer);
+        lines.write_record(core::iter::once("t".to_owned()).chain(columns.names()))?;
         for (t, point) in self.iter() {
-            write!(writer, "{t:e}")?;
-            for value in columns.values(point) {
-                write!(writer, ",{value:e}")?;
-            }
-            writeln!(writer)?;
+            lines.write_record(core::iter::once(number(t)).chain(columns.values(point)))?;
         }
-        Ok(())
+        lines.flush()
     }
 
-    /// Writes the events likewise, a line per event: `event`, its name as it stands, `rising`, `true` or `false`, and
-    /// then the columns of [`csv`](Self::csv).
+    /// Writes the events likewise, a line per event: `event`, its name, `rising`, `true` or `false`, and then the columns of
+    /// [`csv`](Self::csv).
     ///
     /// # Errors
     /// Those of the writer.
-    pub fn events_csv(&self, mut writer: impl Write) -> io::Result<()> {
+    pub fn events_csv(&self, writer: impl Write) -> io::Result<()> {
         let columns = Columns::<N, P>::of(self);
-        writeln!(writer, "event,rising,t{}", columns.names())?;
+        let mut lines = Writer::from_writer(writer);
+        let head = ["event", "rising", "t"].map(str::to_owned);
+        lines.write_record(head.into_iter().chain(columns.names()))?;
         for event in self.events() {
-            write!(writer, "{},{},{:e}", event.name, event.rising, event.t)?;
-            for value in columns.values(&event.point) {
-                write!(writer, ",{value:e}")?;
-            }
-            writeln!(writer)?;
+            let head = [event.name.to_owned(), event.rising.to_string(), number(event.t)];
+            lines.write_record(head.into_iter().chain(columns.values(&event.point)))?;
         }
-        Ok(())
+        lines.flush()
     }
+}
+
+/// The shortest decimals that read back as the same double.
+fn number(value: f64) -> String {
+    format!("{value:e}")
 }
 
 /// What a line holds besides the time.
@@ -81,29 +80,28 @@ impl<const N: usize, P: Phase<N>> Columns<N, P> {
         Self { translation: stored("x"), momentum }
     }
 
-    fn names(&self) -> String {
-        let vector = |name: &str| (1..=N).map(|a| format!(",{name}{a}")).collect::<String>();
+    fn names(&self) -> Vec<String> {
+        let vector = |name: &str| (1..=N).map(|a| format!("{name}{a}")).collect::<Vec<_>>();
         let matrix = |name: &str| {
             let indices = (0..N * N).map(|k| (k / N + 1, k % N + 1));
-            indices.map(|(a, b)| format!(",{name}{a}{b}")).collect::<String>()
+            indices.map(|(a, b)| format!("{name}{a}{b}")).collect::<Vec<_>>()
         };
         let momentum = matrix(self.momentum.0);
-        if self.translation {
-            [vector("x"), matrix("phi"), vector("p"), momentum].concat()
-        } else {
-            [matrix("phi"), momentum].concat()
+        match self.translation {
+            true => [vector("x"), matrix("phi"), vector("p"), momentum].concat(),
+            false => [matrix("phi"), momentum].concat(),
         }
     }
 
-    fn values(&self, point: &P) -> Vec<f64> {
-        let rows = |m: Matrix<N>| (0..N * N).map(move |k| m[(k / N, k % N)]);
+    fn values(&self, point: &P) -> Vec<String> {
+        let rows = |m: Matrix<N>| (0..N * N).map(move |k| number(m[(k / N, k % N)]));
         let mut values = Vec::with_capacity(2 * N * (N + 1));
         if self.translation {
-            values.extend(point.x().iter());
+            values.extend(point.x().iter().copied().map(number));
         }
         values.extend(rows(*point.phi()));
         if self.translation {
-            values.extend(point.p().iter());
+            values.extend(point.p().iter().copied().map(number));
         }
         values.extend(rows((self.momentum.1)(point)));
         values

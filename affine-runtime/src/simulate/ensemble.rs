@@ -191,7 +191,8 @@ impl<const N: usize, M: InLanes<N>> Ensemble<'_, N, M> {
     fn keeps(&self, start: &M::Point<f64>, (t_end, (end, work)): (f64, &WithWork<M::Point<f64>>)) -> bool {
         let model = &Moving { model: self.model, integrate: automatic };
         let energy = |t: f64, point| self.model.hamiltonian(t, point);
-        let mut witness = Witness::begin(model, (energy(self.t0, start), 0.0), (start, 0.0), true);
+        let mut witness =
+            Witness::begin(model, (energy(self.t0, start), 0.0), (start, 0.0), Some(self.tolerance));
         self.is_sound(t_end, end) && witness.look(model, (t_end, end), (energy(t_end, end), *work)).is_ok()
     }
 }

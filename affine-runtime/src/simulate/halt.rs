@@ -70,7 +70,7 @@ pub enum Reason {
     EnergyLost {
         /// `|H(t) - H(t0) - W(t)|`.
         defect: f64,
-        /// The largest `|T| + |U|` met; a tenth of it is allowed.
+        /// The largest `|T| + |U|` met; a tenth of it is allowed, or what an error of ten tolerances in the placement is worth.
         scale: f64,
         /// The time.
         t: f64,

@@ -35,7 +35,8 @@ pub(super) struct Recorder<'r, 'a, const N: usize, P> {
     /// The run goes backward in time.
     pub(super) backward: bool,
     pub(super) place: Place,
-    pub(super) witness: Witness,
+    /// The energy since the integration started.
+    pub(super) witness: Option<Witness>,
     /// The integrator's state cannot be kept.
     pub(super) is_lost: bool,
     /// What an event has led to.
@@ -241,14 +242,15 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     }
 
     /// Begins to hold the energy against what it is at the start of an integration.
-    pub(super) fn begin_energy(&mut self, t0: f64, start: &P, is_held: bool) -> Result<(), Reason> {
+    pub(super) fn begin_energy(&mut self, t0: f64, start: &P, tolerance: Option<f64>) -> Result<(), Reason> {
         Domain::at(self.model, (t0, start))?;
         let energy = self.model.hamiltonian(t0, start);
         if !energy.is_finite() {
             return Err(Reason::Energy { energy, t: t0 });
         }
         let before = (energy, self.place.work());
-        self.witness = Witness::begin(self.model, before, (start, self.place.largest_energy()), is_held);
+        let scale = self.place.largest_energy();
+        self.witness = Some(Witness::begin(self.model, before, (start, scale), tolerance));
         Ok(())
     }
 
@@ -265,11 +267,14 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// The energy of a point, held against that of the start.
     pub(super) fn witnessed(&mut self, t: f64, (point, work): &WithWork<P>) -> Result<f64, Reason> {
         let energy = self.model.hamiltonian(t, point);
-        let looked = self.witness.look(self.model, (t, point), (energy, self.place.work() + work));
-        self.place.met_energy(self.witness.scale());
-        let defect = &mut self.trajectory.computation.energy_defect;
-        *defect = larger(*defect, self.witness.worst());
-        looked.map(|()| energy)
+        if let Some(witness) = &mut self.witness {
+            let looked = witness.look(self.model, (t, point), (energy, self.place.work() + work));
+            self.place.met_energy(witness.scale());
+            let defect = &mut self.trajectory.computation.energy_defect;
+            *defect = larger(*defect, witness.worst());
+            looked?;
+        }
+        Ok(energy)
     }
 
     /// Records the end so far, with its energy and the work there.

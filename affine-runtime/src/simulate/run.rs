@@ -10,7 +10,6 @@ use super::recorder::{Recorder, Turn};
 use super::settings::{Plan, Settings};
 use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;
-use super::witness::Witness;
 use super::{Method, Simulation};
 use crate::integrate::Statistics;
 use crate::model::{Model, StateVector};
@@ -136,7 +135,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             t_end,
             backward: t_end < t0,
             place: Place::starting(None, (Statistics::default(), 0.0)),
-            witness: Witness::default(),
+            witness: None,
             is_lost: false,
             turn: None,
         };
@@ -205,7 +204,8 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let course = Course { t0, start, t_end: recorder.t_end, method, tolerance };
         let geodesic = self.model.geodesic(t0, start);
         recorder.trajectory.computation.closed_form_exists = geodesic.is_some();
-        recorder.begin_energy(t0, start, method.step().is_none() && geodesic.is_none())?;
+        let has_tolerance = method.step().is_none() && geodesic.is_none();
+        recorder.begin_energy(t0, start, has_tolerance.then_some(tolerance))?;
         match (method, geodesic) {
             (Method::ClosedForm, None) => {
                 Err(Setting::NoClosedForm { model: self.model.description().name }.into())

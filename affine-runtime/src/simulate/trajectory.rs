@@ -52,7 +52,8 @@ pub struct Computation {
     pub condition: Option<f64>,
     /// Largest relative residual of the equations of implicit steps; `None` where the method is explicit.
     pub residual: Option<f64>,
-    /// Largest `|H(t) - H(t0) - W(t)|` over the outputs and the end, relative to the largest `|T| + |U|` met by then; 0 where the
+    /// Largest `|H(t) - H(t0) - W(t)|` over the outputs and the end, relative to the largest `|T| + |U|` met by then, where that
+    /// is more than 1e4 tolerances and more than an error of ten tolerances in the placement is worth; 0 elsewhere, and where the
     /// energy is neither conserved nor balanced by a work. An event that changes the point starts it anew.
     pub energy_defect: f64,
 }

@@ -3,7 +3,6 @@
 use core::fmt;
 
 use super::trajectory::{Computation, Trajectory};
-use super::witness::{LOST, WORTH_NAMING};
 use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 use crate::integrate::splitting::ORDER;
 use crate::integrate::taylor::order_for;
@@ -244,13 +243,13 @@ impl Why {
     fn energy(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Computation { method, tolerance, energy_defect, .. } = self.computation;
         match method.step() {
-            None if energy_defect > WORTH_NAMING * tolerance => writeln!(
+            None if energy_defect > 0.0 => writeln!(
                 f,
                 "the energy is off by {energy_defect:.1e} of the largest |T| + |U|, {:.0e} tolerances: compare with a run at a \
                  smaller tolerance",
                 energy_defect / tolerance
             ),
-            Some(_) if energy_defect > LOST => writeln!(
+            Some(_) if energy_defect > 0.0 => writeln!(
                 f,
                 "the energy is off by {energy_defect:.1e} of the largest |T| + |U|: the steps do not resolve the motion; \
                  compare with shorter ones"

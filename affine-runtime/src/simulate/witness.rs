@@ -3,40 +3,44 @@
 use super::halt::Reason;
 use super::mechanics::Mechanics;
 use super::point::energy_bound;
-use crate::integrate::larger;
+use crate::integrate::{larger, norm};
 use crate::model::{Conserved, Description, WORK};
 use crate::state::Phase;
 
-/// A run ends where the energy is off by so much of the largest `|T| + |U|` met. What errors of a step may add up to over the
-/// longest of loose runs stays below.
-pub(super) const LOST: f64 = 0.1;
+/// A run ends where the energy is off by so much of the largest `|T| + |U|` met.
+const LOST: f64 = 0.1;
 /// So many tolerances off, the energy is named in what is said of a run.
-pub(super) const WORTH_NAMING: f64 = 1e4;
+const WORTH_NAMING: f64 = 1e4;
+/// No energy counts as off that an error of so many tolerances in the placement is worth: the energies of tiny vibrations, of
+/// stiff ones that steps pass over, and of rounding.
+const RESOLVED: f64 = 10.0;
+/// Nor one that a change of the placement by so much of itself is worth, at which the rounding of an energy may hide what is
+/// quadratic in the change.
+const ROUNDING: f64 = 1e-7;
 
 /// The energy of a motion since its integration started.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Witness {
     /// `H - W` at the start; `None` where the energy is neither conserved nor balanced.
     before: Option<f64>,
     /// Largest `|T| + |U|` met.
     scale: f64,
-    /// Largest `|H - W - before|` met, relative to the scale then.
+    /// Largest `|H - W - before|` met, relative to the scale then, of those that are worth naming.
     worst: f64,
-    /// The method has a tolerance, and is not to go on without its energy.
-    is_held: bool,
+    tolerance: Option<f64>,
 }
 
 impl Witness {
-    /// Of a motion that starts with an energy, less the work so far; `scale` is what was met before.
+    /// Of a motion that starts with an energy, less the work so far; `scale` is what was met before, and a method with a
+    /// tolerance does not go on without its energy.
     pub(super) fn begin<const N: usize, P: Phase<N>>(
         model: &dyn Mechanics<N, P>,
         (energy, work): (f64, f64),
-        (point, scale): (&P, f64),
-        is_held: bool,
+        (start, scale): (&P, f64),
+        tolerance: Option<f64>,
     ) -> Self {
         let before = is_accounted_for(model.description()).then_some(energy - work);
-        let scale = larger(scale, size(model, point, energy));
-        Self { before, scale, worst: 0.0, is_held }
+        Self { before, scale: larger(scale, size(model, start, energy)), worst: 0.0, tolerance }
     }
 
     /// Largest `|T| + |U|` met.
@@ -44,7 +48,7 @@ impl Witness {
         self.scale
     }
 
-    /// How far off the energy was at the most, relative to the scale.
+    /// How far off the energy was at the most, relative to the scale; 0 where that is not worth naming.
     pub(super) fn worst(&self) -> f64 {
         self.worst
     }
@@ -66,15 +70,46 @@ impl Witness {
         let Some(before) = self.before else { return Ok(()) };
         self.scale = larger(self.scale, size(model, point, energy));
         let defect = (energy - work - before).abs();
-        if defect == 0.0 {
+        let named = self.tolerance.map_or(LOST, |tolerance| LOST.min(WORTH_NAMING * tolerance));
+        let reach = self.tolerance.map_or(ROUNDING, |tolerance| ROUNDING.max(RESOLVED * tolerance));
+        if defect <= named * self.scale || defect <= worth(model, (t, point), energy, reach) {
             return Ok(());
         }
         self.worst = larger(self.worst, defect / self.scale);
-        match self.is_held && defect > LOST * self.scale {
+        match self.tolerance.is_some() && defect > LOST * self.scale {
             true => Err(Reason::EnergyLost { defect, scale: self.scale, t }),
             false => Ok(()),
         }
     }
+}
+
+/// The largest change of the energy by a change of one entry of `phi` by `reach |phi|`, or of `x` by `reach (|x| + |phi|)`, either
+/// way; infinite where an energy there is not finite.
+fn worth<const N: usize, P: Phase<N>>(
+    model: &dyn Mechanics<N, P>,
+    (t, point): (f64, &P),
+    energy: f64,
+    reach: f64,
+) -> f64 {
+    let (placed, deformed) = (norm(point.x().as_slice()), norm(point.phi().as_slice()));
+    let mut largest = 0.0;
+    let mut look = |x, phi| {
+        let changed = (model.hamiltonian(t, &point.moved(x, phi, |spin| *spin)) - energy).abs();
+        largest = larger(largest, if changed.is_nan() { f64::INFINITY } else { changed });
+    };
+    for way in [reach, -reach] {
+        for entry in 0..N * N {
+            let mut phi = *point.phi();
+            phi[(entry / N, entry % N)] += way * deformed;
+            look(point.x(), phi);
+        }
+        for i in 0..N {
+            let mut x = point.x();
+            x[i] += way * (placed + deformed);
+            look(x, *point.phi());
+        }
+    }
+    largest
 }
 
 /// The energy is conserved, or changes by a work that is integrated with the motion.

@@ -39,7 +39,7 @@ fn missile() -> WorkPrecision<'static, 3, DrunkMissile> {
 
 /// Runs into the singularity of its force.
 fn doomed() -> WorkPrecisionReport {
-    let model = Planar { spring: 0.0, singular_at: Some(0.5) };
+    let model = Planar::<true> { spring: 0.0, singular_at: Some(0.5) };
     let start = planar::start(0.1);
     WorkPrecision::new(&model, start, 1.0).against(start).tolerances([1e-6, 1e-9]).run().unwrap()
 }
@@ -150,7 +150,7 @@ fn runs_that_stop_keep_their_rows() {
 
 #[test]
 fn what_makes_no_sense_is_refused() {
-    let model = Planar { spring: 0.0, singular_at: Some(0.5) };
+    let model = Planar::<true> { spring: 0.0, singular_at: Some(0.5) };
     let without = WorkPrecision::new(&model, planar::start(0.1), 1.0).run().unwrap_err();
     assert_eq!(without, Error::NoReference { model: "Planar" });
     assert!(without.to_string().contains(".against("));
@@ -221,10 +221,13 @@ fn csv_reads_back() {
 #[test]
 fn csv_of_a_stopped_run_quotes_the_reason() {
     let csv = doomed().to_csv();
-    for line in csv.lines().skip(1) {
-        let (fields, reason) = line.split_once(",\"").unwrap();
-        assert_eq!(fields.matches(',').count(), csv.lines().next().unwrap().matches(',').count() - 1);
-        assert!(reason.starts_with("stopped at t = 0.4") && reason.ends_with('"'));
+    let mut read = csv::Reader::from_reader(csv.as_bytes());
+    let columns = read.headers().unwrap().len();
+    let rows: Vec<csv::StringRecord> = read.records().collect::<Result<_, _>>().unwrap();
+    assert!(!rows.is_empty());
+    for row in rows {
+        assert_eq!(row.len(), columns);
+        assert!(row[columns - 1].starts_with("stopped at t = 0.4"), "{row:?}");
     }
 }
 

@@ -207,6 +207,21 @@ fn ready_made_events() {
     assert_eq!(wrong.stop.reason, Reason::Setting(Setting::EventIndex { event: "x", index: 4 }));
 }
 
+/// A name that has commas and quotation marks is one field.
+#[test]
+fn names_of_events_are_one_field() {
+    for name in ["stretch, largest", "the \"first\" meeting", "two\nlines"] {
+        let run = swinging().until(1.0).event(meeting().named(name)).run().unwrap();
+        let mut written = Vec::new();
+        run.events_csv(&mut written).unwrap();
+        let mut read = csv::Reader::from_reader(written.as_slice());
+        let columns = read.headers().unwrap().len();
+        let rows: Vec<csv::StringRecord> = read.records().collect::<Result<_, _>>().unwrap();
+        assert_eq!(rows.len(), 1);
+        assert_eq!((&rows[0][0], rows[0].len()), (name, columns));
+    }
+}
+
 #[test]
 fn events_as_comma_separated_values() {
     let run = swinging().until(1.0).event(meeting()).run().unwrap();

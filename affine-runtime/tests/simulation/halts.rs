@@ -95,7 +95,7 @@ fn collapse_between_outputs_is_seen_at_the_steps() {
 #[test]
 fn singular_force_stops_with_the_step() {
     // Pi_11 = 1/(1 - t) - 1 + Pi_11(0): no step passes t = 1.
-    let model = Planar { spring: 0.0, singular_at: Some(1.0) };
+    let model = Planar::<true> { spring: 0.0, singular_at: Some(1.0) };
     let halt = Simulation::new(&model, planar::start(0.5)).until(2.0).tolerance(1e-10).run().unwrap_err();
     assert_eq!(halt.stop.reason, Reason::StepUnderflow { tolerance: 1e-10 });
     let (t, end) = halt.trajectory.end();
@@ -137,7 +137,7 @@ fn starts_that_are_no_phase_points() {
 #[test]
 fn overflow_is_not_finite() {
     // The force at the start is infinite.
-    let model = Planar { spring: 0.0, singular_at: Some(0.0) };
+    let model = Planar::<true> { spring: 0.0, singular_at: Some(0.0) };
     let halt = Simulation::new(&model, planar::start(0.5)).until(1.0).run().unwrap_err();
     assert_eq!(halt.stop.reason, Reason::NotFinite);
     assert_eq!(halt.trajectory.times(), [0.0], "the start is good");

@@ -40,7 +40,6 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
     // Fields are called over every number that equations are evaluated in.
     let number = if context.spec.customs.is_empty() { quote!(Real) } else { quote!(Scalar) };
     let function = quote! {
-        #[allow(clippy::approx_constant)]
         fn bases<#t: #rt::#number>() -> #rt::Bases<#n, #t> {
             #rt::Bases { space: #a, space_inverse: #a_inverse, body: #b, body_inverse: #b_inverse }
         }
@@ -57,6 +56,14 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
         }
     };
     (function, methods)
+}
+
+/// Roots of numbers in bases that are known may be near to constants that linters know.
+pub(super) fn lints(context: &Context) -> TokenStream {
+    match context.model.metrics {
+        Some(ChangeOfBases::Known(_)) => quote!(#[allow(clippy::approx_constant)]),
+        _ => TokenStream::new(),
+    }
 }
 
 /// The bases in the prepared model, and the statement of `prepare()` that finds them.

@@ -5,37 +5,37 @@ use std::path::Path;
 
 use super::{Demand, Finding, StabilityCase, StabilityReport, Verdict};
 use crate::error::Result;
-use crate::report::save;
+use crate::report::{csv_lines, save};
 
 impl StabilityReport {
     /// The cases as comma-separated values below a line of names: `heading`, `model`, `n`, `scene`, `quantity`, `oracle`,
     /// `demanded`, `error`, `steps`, `verdict`, `stopped`.
     #[must_use]
     pub fn to_csv(&self) -> String {
-        let mut csv =
-            String::from("heading,model,n,scene,quantity,oracle,demanded,error,steps,verdict,stopped\n");
-        for case in self.cases() {
+        let head = [
+            "heading", "model", "n", "scene", "quantity", "oracle", "demanded", "error", "steps", "verdict",
+            "stopped",
+        ];
+        let rows = self.cases().iter().map(|case| {
             let (error, steps, stopped) = match &case.finding {
                 Finding::Ran { error, steps } => (format!("{error:e}"), steps.to_string(), String::new()),
-                Finding::Stopped(text) => (String::new(), String::new(), quoted(text)),
+                Finding::Stopped(text) => (String::new(), String::new(), text.clone()),
             };
-            let fields = [
-                quoted(case.heading),
-                quoted(case.model),
+            vec![
+                case.heading.to_owned(),
+                case.model.to_owned(),
                 case.n.to_string(),
-                quoted(&case.scene),
-                quoted(case.quantity),
+                case.scene.clone(),
+                case.quantity.to_owned(),
                 case.oracle.name().to_owned(),
                 demanded(case),
                 error,
                 steps,
                 case.verdict().name().to_owned(),
                 stopped,
-            ];
-            csv.push_str(&fields.join(","));
-            csv.push('\n');
-        }
-        csv
+            ]
+        });
+        csv_lines(core::iter::once(head.map(str::to_owned).to_vec()).chain(rows))
     }
 
     /// Writes [`to_csv`](Self::to_csv) to a file.
@@ -97,8 +97,4 @@ fn demanded(case: &StabilityCase) -> String {
         Demand::Held(most) | Demand::HeldOrRefused(most) => format!("{most:.1e}"),
         Demand::Refused(_) => "refusal".to_owned(),
     }
-}
-
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('"', "\"\""))
 }

@@ -11,8 +11,9 @@ use affine_runtime::state::{Phase, PhasePoint, Pinned};
 
 use super::{description, matrix, write};
 
-/// `H = (|Pi|^2 + k |phi|^2)/2`, with a force that turns infinite at the time `singular_at`.
-pub(crate) struct Planar {
+/// `H = (|Pi|^2 + k |phi|^2)/2`, with a force that turns infinite at the time `singular_at`. A driven body does not say that it
+/// keeps its energy.
+pub(crate) struct Planar<const DRIVEN: bool = false> {
     pub(crate) spring: f64,
     pub(crate) singular_at: Option<f64>,
 }
@@ -26,12 +27,15 @@ impl Planar {
     pub(crate) const SPRING: Self = Self { spring: 1.0, singular_at: None };
 }
 
-impl Model<2> for Planar {
+impl<const DRIVEN: bool> Model<2> for Planar<DRIVEN> {
     const DESCRIPTION: Description = {
         let mut text = description("Planar");
         text.full = GROUPS;
         text.reduced = GROUPS;
-        text.conserved = &[Conserved::Energy, Conserved::Spin, Conserved::Vorticity];
+        text.conserved = match DRIVEN {
+            false => &[Conserved::Energy, Conserved::Spin, Conserved::Vorticity],
+            true => &[],
+        };
         text.conserved_at_rest = text.conserved;
         text
     };
