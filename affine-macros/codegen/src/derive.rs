@@ -5,6 +5,7 @@ mod lattice;
 mod metrics;
 mod mixed;
 mod model;
+mod numbers;
 mod prepared;
 mod programs;
 mod quantities;
@@ -20,6 +21,7 @@ pub use model::{
     Balance, Condition, Damping, Equations, Formulas, Metric, MixedMasses, Model, NumericBlock, Regularity,
     Relation, VelocitySide,
 };
+pub use numbers::Numbers;
 
 /// Derives a model; `None` only for energies that the checks refuse.
 pub fn derive(energy: impl Into<Energy>, require_positive: bool) -> Option<Model> {

@@ -1,6 +1,6 @@
 //! Straight-line programs as Rust: one `let` for what has a name or is read twice, everything else in place.
 
-use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
@@ -294,7 +294,6 @@ fn literal(value: f64, suffix: &str) -> TokenStream {
     let plain = size == 0.0 || (1e-4..1e16).contains(&size);
     let digits = if plain { format!("{size:?}") } else { format!("{size:e}") };
     // Both forms are literals of Rust.
-    let digits: Literal =
-        format!("{digits}{suffix}").parse().unwrap_or_else(|_| Literal::f64_unsuffixed(size));
+    let digits: TokenStream = format!("{digits}{suffix}").parse().unwrap_or_default();
     if value.is_sign_negative() { quote!(-#digits) } else { quote!(#digits) }
 }

@@ -1,6 +1,6 @@
 //! `prepare()`: from values of the fields to a checked model with its coefficients.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::derive::splitting::PrincipalProgram;
@@ -8,7 +8,7 @@ use crate::derive::{Condition, Damping, NumericBlock, Relation};
 use crate::lower::FIELD;
 use crate::spec::{Field, Storage};
 
-use super::body::{Body, Number, Scope, body};
+use super::body::{Body, Number, Scope, body, double};
 use super::{Context, identifiers, metrics, number};
 use crate::ir::{Op, Program};
 
@@ -285,7 +285,7 @@ fn numeric_block(context: &Context, block: &NumericBlock, rt: &Ident) -> TokenSt
     let (entries, terms) = results.split_at(block.inverse.len());
     let basis = block.basis.iter().map(|vector| {
         let entries = vector.iter().map(|(place, weight)| {
-            let (place, weight) = (number(*place), Literal::f64_unsuffixed(weight.to_doubles().0));
+            let (place, weight) = (number(*place), double(weight.to_doubles().0));
             quote!((#place, #weight))
         });
         quote!(&[#(#entries),*])
