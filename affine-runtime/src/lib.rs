@@ -51,6 +51,8 @@ pub mod signature;
 pub mod simulate;
 pub mod state;
 pub mod variation;
+#[cfg(all(feature = "std", not(feature = "report")))]
+mod without_report;
 
 #[doc(hidden)]
 #[path = "private.rs"]
