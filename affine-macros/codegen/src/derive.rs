@@ -5,13 +5,13 @@ mod lattice;
 mod metrics;
 mod mixed;
 mod model;
-mod numbers;
 mod prepared;
 mod programs;
 mod quantities;
 pub mod second_order;
 pub mod splitting;
 mod stated;
+mod written;
 
 use crate::check::Energy;
 
@@ -21,7 +21,7 @@ pub use model::{
     Balance, Condition, Damping, Equations, Formulas, Metric, MixedMasses, Model, NumericBlock, Regularity,
     Relation, VelocitySide,
 };
-pub use numbers::Numbers;
+pub use written::{Part, Written};
 
 /// Derives a model; `None` only for energies that the checks refuse.
 pub fn derive(energy: impl Into<Energy>, require_positive: bool) -> Option<Model> {

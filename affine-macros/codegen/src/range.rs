@@ -4,7 +4,7 @@
 //! when the model is derived.
 
 use crate::algebra::{Arena, Expr, Rational};
-use crate::derive::{Model, Numbers};
+use crate::derive::{Model, Written};
 use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
 use crate::ir::build::Builder;
 use crate::lower;
@@ -51,10 +51,8 @@ impl Difficulty {
     }
 }
 
-fn hardest<'m>(held: &'m impl Numbers) -> Option<&'m Rational> {
-    let mut numbers = Vec::new();
-    held.visit(&mut |number| numbers.push(number));
-    numbers.into_iter().max_by_key(|number| Difficulty::of(number))
+fn hardest(written: &impl Written) -> Option<&Rational> {
+    written.numbers().into_iter().max_by_key(|number| Difficulty::of(number))
 }
 
 /// An expression of the specification.

@@ -108,6 +108,18 @@ mod tests {
         if value.rem_euclid(3) == 0 { Rational::ZERO } else { Rational::from(value) }
     }
 
+    /// A weight that no double holds is a weight.
+    #[test]
+    fn no_square_is_too_small() {
+        let tiny = Rational::from(10).pow(-400).unwrap();
+        let entry = |number: Rational| Polynomial::constant(number);
+        let zero = Polynomial::zero;
+        let form = vec![vec![entry(tiny.clone()), zero()], vec![zero(), entry(Rational::ONE)]];
+        let squares = completed(&mut Arena::new(), form).unwrap();
+        let weights: Vec<_> = squares.into_iter().map(|(weight, _)| weight.as_constant().unwrap()).collect();
+        assert_eq!(weights, [Rational::ONE, tiny]);
+    }
+
     #[test]
     fn squares_add_up_to_the_form() {
         let (mut arena, mut state, mut indefinite) = (Arena::new(), 1, 0);

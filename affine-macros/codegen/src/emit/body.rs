@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
 use crate::algebra::{Function, Rational};
+use crate::derive::Written;
 use crate::ir::call::Call;
 use crate::ir::{Op, Program, Value};
 
@@ -67,6 +68,8 @@ pub(super) struct Scope<'a> {
     pub input: &'a dyn Fn(&str) -> TokenStream,
     /// Have the fields that it calls other bases than its equations?
     pub rebased: bool,
+    /// Where the specification names these fields.
+    pub places: &'a [Span],
     /// The runtime's support module.
     pub rt: &'a Ident,
 }
@@ -104,14 +107,7 @@ pub(super) fn body(program: &Program, scope: &Scope) -> Body {
 
 /// The inputs a program reads.
 pub(super) fn inputs(program: &Program) -> Vec<&str> {
-    program
-        .steps
-        .iter()
-        .filter_map(|step| match step {
-            Op::Input(name) => Some(name.as_str()),
-            _ => None,
-        })
-        .collect()
+    program.inputs()
 }
 
 /// Expressions nested deeper than this are cut by a name.
@@ -161,13 +157,7 @@ impl Writer<'_> {
             call.arguments.iter().map(|group| kernel::written(group, |v| self.expression(*v).0)).collect();
         let read = inputs(self.program);
         let results = call.results.iter().map(|group| kernel::bound(group, &read));
-        self.lets.extend(kernel::statement(
-            self.scope.rt,
-            self.scope.rebased,
-            call.callee,
-            arguments,
-            results,
-        ));
+        self.lets.extend(kernel::statement(self.scope, call.callee, arguments, results));
         self.called.push(call);
     }
 

@@ -1,5 +1,5 @@
-//! Every number that is written down of a model. Each part is taken apart by name: a new one does not compile before it
-//! says whether it holds numbers.
+//! Everything of a model that is written down as arithmetic: programs, and numbers by themselves. Each part is taken apart by
+//! name: a new one does not compile before it says what it holds.
 
 use super::second_order::Halves;
 use super::splitting::{FlowProgram, PrincipalProgram, Programs};
@@ -14,48 +14,80 @@ use crate::ir::taylor::Recurrence;
 use crate::ir::{Op, Program};
 use crate::mechanics::metrics::{Bases, Factor};
 
-/// What holds numbers that are written down.
-pub trait Numbers {
+/// What is written down.
+#[derive(Clone, Copy, Debug)]
+pub enum Part<'m> {
+    /// A program.
+    Program(&'m Program),
+    /// A number by itself.
+    Number(&'m Rational),
+}
+
+/// What holds parts that are written down.
+pub trait Written {
     /// Hands each of them on.
-    fn visit<'m>(&'m self, each: &mut dyn FnMut(&'m Rational));
-}
+    fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>));
 
-impl Numbers for Rational {
-    fn visit<'m>(&'m self, each: &mut dyn FnMut(&'m Rational)) {
-        each(self);
+    /// Every number, those of programs among them.
+    fn numbers(&self) -> Vec<&Rational> {
+        let mut numbers = Vec::new();
+        self.visit(&mut |part| match part {
+            Part::Number(number) => numbers.push(number),
+            Part::Program(program) => numbers.extend(program.steps.iter().filter_map(|step| match step {
+                Op::Constant(number) => Some(number),
+                _ => None,
+            })),
+        });
+        numbers
     }
-}
 
-impl Numbers for Program {
-    fn visit<'m>(&'m self, each: &mut dyn FnMut(&'m Rational)) {
-        for step in &self.steps {
-            if let Op::Constant(number) = step {
-                each(number);
+    /// The inputs of every program.
+    fn inputs(&self) -> Vec<&str> {
+        let mut inputs = Vec::new();
+        self.visit(&mut |part| {
+            if let Part::Program(program) = part {
+                inputs.extend(program.steps.iter().filter_map(|step| match step {
+                    Op::Input(name) => Some(name.as_str()),
+                    _ => None,
+                }));
             }
-        }
+        });
+        inputs
     }
 }
 
-impl<T: Numbers> Numbers for Option<T> {
-    fn visit<'m>(&'m self, each: &mut dyn FnMut(&'m Rational)) {
+impl Written for Rational {
+    fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
+        each(Part::Number(self));
+    }
+}
+
+impl Written for Program {
+    fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
+        each(Part::Program(self));
+    }
+}
+
+impl<T: Written> Written for Option<T> {
+    fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
         self.iter().for_each(|one| one.visit(each));
     }
 }
 
-impl<T: Numbers> Numbers for Vec<T> {
-    fn visit<'m>(&'m self, each: &mut dyn FnMut(&'m Rational)) {
+impl<T: Written> Written for Vec<T> {
+    fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
         self.iter().for_each(|one| one.visit(each));
     }
 }
 
-impl<T: Numbers, const K: usize> Numbers for [T; K] {
-    fn visit<'m>(&'m self, each: &mut dyn FnMut(&'m Rational)) {
+impl<T: Written, const K: usize> Written for [T; K] {
+    fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
         self.iter().for_each(|one| one.visit(each));
     }
 }
 
-impl<A: Numbers, B: Numbers> Numbers for (A, B) {
-    fn visit<'m>(&'m self, each: &mut dyn FnMut(&'m Rational)) {
+impl<A: Written, B: Written> Written for (A, B) {
+    fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
         self.0.visit(each);
         self.1.visit(each);
     }
@@ -64,19 +96,19 @@ impl<A: Numbers, B: Numbers> Numbers for (A, B) {
 /// Places and names.
 macro_rules! none {
     ($($ty:ty),*) => {
-        $(impl Numbers for $ty {
-            fn visit<'m>(&'m self, _: &mut dyn FnMut(&'m Rational)) {}
+        $(impl Written for $ty {
+            fn visit<'m>(&'m self, _: &mut dyn FnMut(Part<'m>)) {}
         })*
     };
 }
 
 none!(usize, String);
 
-/// The fields that hold numbers; after the semicolon those that hold none.
-macro_rules! numbers {
+/// The fields that are written down; after the semicolon those that are not.
+macro_rules! written {
     ($($part:ident { $($held:ident),*; $($other:ident),* })*) => {
-        $(impl Numbers for $part {
-            fn visit<'m>(&'m self, each: &mut dyn FnMut(&'m Rational)) {
+        $(impl Written for $part {
+            fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
                 let Self { $($held,)* $($other: _,)* } = self;
                 $($held.visit(each);)*
             }
@@ -84,7 +116,7 @@ macro_rules! numbers {
     };
 }
 
-numbers! {
+written! {
     Model {
         coefficients, numeric_blocks, conditions, damping, velocity_side, velocity, mass, mixed_masses, regularity,
         metric, acceleration, balance, hamiltonian, hamiltonian_far_away, power, full, reduced, trajectory, isotropic,
@@ -116,8 +148,8 @@ numbers! {
     Packed { program; state, vectors, steps, in_lanes, rates }
 }
 
-impl Numbers for ChangeOfBases {
-    fn visit<'m>(&'m self, each: &mut dyn FnMut(&'m Rational)) {
+impl Written for ChangeOfBases {
+    fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
         match self {
             Self::Known(bases) => bases.visit(each),
             Self::Prepared(preparation) => preparation.visit(each),
@@ -125,8 +157,8 @@ impl Numbers for ChangeOfBases {
     }
 }
 
-impl Numbers for GivenSource {
-    fn visit<'m>(&'m self, each: &mut dyn FnMut(&'m Rational)) {
+impl Written for GivenSource {
+    fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
         match self {
             Self::Form { entries, frame: _, tensor: _ } => entries.visit(each),
             Self::SpaceInverse | Self::Body => {}
@@ -134,8 +166,8 @@ impl Numbers for GivenSource {
     }
 }
 
-impl Numbers for FlowProgram {
-    fn visit<'m>(&'m self, each: &mut dyn FnMut(&'m Rational)) {
+impl Written for FlowProgram {
+    fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
         self.program().visit(each);
     }
 }
