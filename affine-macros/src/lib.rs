@@ -151,7 +151,8 @@ use proc_macro::TokenStream;
 /// the model itself; the signature of its energy is `affine_runtime::signature::signature`.
 ///
 /// A model is refused, with the condition, its numbers and the remedy, where the Legendre transformation is
-/// degenerate, a claim is broken, or a matrix is not what its term asks for.
+/// degenerate, a claim is broken, a matrix is not what its term asks for, or a number of its equations is none that `f64`
+/// holds.
 #[proc_macro_attribute]
 pub fn affine_model(args: TokenStream, item: TokenStream) -> TokenStream {
     affine_codegen::expand(args.into(), item.into()).into()
