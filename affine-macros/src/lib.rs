@@ -147,11 +147,12 @@ use proc_macro::TokenStream;
 /// and that multiplier.
 ///
 /// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
-/// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`; the signature
-/// of its energy is `affine_runtime::signature::signature`.
+/// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`, else it returns
+/// the model itself; the signature of its energy is `affine_runtime::signature::signature`.
 ///
 /// A model is refused, with the condition, its numbers and the remedy, where the Legendre transformation is
-/// degenerate, a claim is broken, or a matrix is not what its term asks for.
+/// degenerate, a claim is broken, a matrix is not what its term asks for, or a number of its equations is none that `f64`
+/// holds.
 #[proc_macro_attribute]
 pub fn affine_model(args: TokenStream, item: TokenStream) -> TokenStream {
     affine_codegen::expand(args.into(), item.into()).into()

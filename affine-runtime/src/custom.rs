@@ -25,6 +25,19 @@ fn components<const N: usize, T: Scalar>(vector: &Vector<N, T>) -> [T; N] {
     core::array::from_fn(|i| vector[i])
 }
 
+/// A field as the potential that it computes; emitted where the specification names the field, so that the compiler says
+/// there what its type lacks.
+#[inline]
+pub fn as_potential<const N: usize, P: Potential<N>>(field: &P) -> &impl Potential<N> {
+    field
+}
+
+/// A field as the force that it computes.
+#[inline]
+pub fn as_force<const N: usize, Q: Form<N>, F: Force<N, Form = Q>>(field: &F) -> &impl Force<N, Form = Q> {
+    field
+}
+
 fn asked<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N>>(
     force: &F,
     t: T,

@@ -11,6 +11,15 @@ pub type Result<T> = core::result::Result<T, Error>;
 pub enum Error {
     /// A condition of well-posedness fails for the values of the model's fields.
     IllPosed(IllPosed),
+    /// A field that coefficients of the model are computed from is NaN or infinite.
+    FieldNotFinite {
+        /// Its name.
+        field: &'static str,
+        /// Row and column from 1, of a field of matrix type.
+        entry: Option<(usize, usize)>,
+        /// Its value.
+        value: f64,
+    },
     /// The placement is not finite or does not preserve orientation.
     Placement {
         /// `det phi`; NaN where an entry of `phi` is not finite.
@@ -109,6 +118,11 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Error::IllPosed(defect) => defect.fmt(f),
+            Error::FieldNotFinite { field, entry, value } => {
+                write!(f, "the field `{field}` ")?;
+                entry.map_or(Ok(()), |(row, column)| write!(f, "has in row {row}, column {column} an entry that "))?;
+                write!(f, "is {value}: the coefficients of the equations are computed from it; give a finite number")
+            }
             Error::Placement { determinant } => write!(
                 f,
                 "det phi = {determinant:e}: a placement has finite entries and a positive determinant, since the \

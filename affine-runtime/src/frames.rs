@@ -160,6 +160,23 @@ pub trait Momentum<const N: usize, T: Real> {
     fn matrix(self) -> Matrix<N, T>;
 }
 
+/// A vector of the centre of mass: its position `x`, its velocity `x_dot`, its momentum `p`.
+#[diagnostic::on_unimplemented(
+    message = "this is no vector of the centre of mass, `x`, `x_dot` or `p`, in dimension {N}",
+    label = "no vector of the centre of mass",
+    note = "a body with translation has `at_velocity(x, phi, x_dot, phi_dot)` and `at_momentum(x, phi, p, spin)`"
+)]
+pub trait OfCentre<const N: usize> {
+    /// The vector.
+    fn vector(self) -> Vector<N>;
+}
+
+impl<const N: usize> OfCentre<N> for Vector<N> {
+    fn vector(self) -> Vector<N> {
+        self
+    }
+}
+
 macro_rules! momentum {
     ($wrapper:ident, $frame:ident) => {
         impl<const N: usize, T: Real> Momentum<N, T> for $wrapper<Matrix<N, T>> {

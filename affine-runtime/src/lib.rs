@@ -50,7 +50,10 @@ pub mod signature;
 #[cfg(feature = "std")]
 pub mod simulate;
 pub mod state;
+mod unprepared;
 pub mod variation;
+#[cfg(all(feature = "std", not(feature = "report")))]
+mod without_report;
 
 #[doc(hidden)]
 #[path = "private.rs"]

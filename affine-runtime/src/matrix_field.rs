@@ -7,21 +7,22 @@ use crate::error::{Error, IllPosed, Result};
 /// of Numerical Algorithms, section 3.5).
 ///
 /// # Errors
-/// [`Error::IllPosed`] with the largest `|J_ab - J_ba|`; NaN where an entry is not finite.
+/// [`Error::FieldNotFinite`] with the first entry that is not finite; [`Error::IllPosed`] with the largest `|J_ab - J_ba|`.
 pub fn symmetric_part<const K: usize>(
+    field: &'static str,
     rows: [[f64; K]; K],
     condition: &'static str,
     reason: &'static str,
 ) -> Result<[[f64; K]; K]> {
-    let pairs = || (0..K).flat_map(|a| (0..=a).map(move |b| (a, b)));
-    // NaN stays, and infinities make one.
-    let largest = |sizes: &mut dyn Iterator<Item = f64>| {
-        sizes.fold(0.0, |most: f64, size| if size.is_nan() || size > most { size } else { most })
-    };
-    let value = largest(&mut pairs().map(|(a, b)| (rows[a][b] - rows[b][a]).abs()));
+    let entries = || (0..K).flat_map(|a| (0..K).map(move |b| (a, b)));
+    if let Some((a, b)) = entries().find(|&(a, b)| !rows[a][b].is_finite()) {
+        return Err(Error::FieldNotFinite { field, entry: Some((a + 1, b + 1)), value: rows[a][b] });
+    }
+    let largest = |sizes: &mut dyn Iterator<Item = f64>| sizes.fold(0.0, f64::max);
+    let value = largest(&mut entries().map(|(a, b)| (rows[a][b] - rows[b][a]).abs()));
     let threshold =
         4.0 * K as f64 * f64::EPSILON * largest(&mut rows.iter().flatten().map(|entry| entry.abs()));
-    if !value.is_finite() || value > threshold {
+    if value > threshold {
         return Err(Error::IllPosed(IllPosed { condition, reason, value, threshold, velocity: None }));
     }
     Ok(core::array::from_fn(|a| core::array::from_fn(|b| 0.5 * rows[a][b] + 0.5 * rows[b][a])))

@@ -9,15 +9,17 @@ pub use crate::capability::{
 };
 pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::custom::{
-    comoving_force, comoving_force_in, potential_energy, potential_energy_in, potential_slopes,
-    potential_slopes_in, spatial_force, spatial_force_in, translational_force, translational_force_in,
+    as_force, as_potential, comoving_force, comoving_force_in, potential_energy, potential_energy_in,
+    potential_slopes, potential_slopes_in, spatial_force, spatial_force_in, translational_force,
+    translational_force_in,
 };
 pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
 pub use crate::dissipation::{semidefinite, semidefinite_form};
 pub use crate::dual::Dual;
 pub use crate::error::Result;
+pub use crate::force;
 pub use crate::frames::{
-    Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector, inverse,
+    Body, Canonical, Comoving, Matrix, Momentum, OfCentre, Space, Spatial, TwoPoint, Vector, inverse,
 };
 pub use crate::geodesic::{Geodesic, Motion};
 pub use crate::integrate::nystrom::SecondOrder;
@@ -45,12 +47,13 @@ pub use crate::model::{
     Scope, TANGENT, Velocity, VelocityDeterminesMomentum,
 };
 pub use crate::reduction::{
-    Condition, finite, from_shear_and_turn, inverse_form, principal_axes, shear_and_turn,
+    Condition, finite, finite_fields, from_shear_and_turn, inverse_form, principal_axes, shear_and_turn,
     total_affine_momentum, total_size, turn, well_posed,
 };
 pub use crate::regularity::regular;
 pub use crate::scalar::{Real, Scalar};
 pub use crate::state::{Centre, Given, Phase, PhasePoint, Pinned};
+pub use crate::unprepared::{IsPrepared, Unprepared};
 
 use crate::frames::Frame;
 use crate::state::{Basis, Translation};

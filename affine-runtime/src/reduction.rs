@@ -128,29 +128,30 @@ pub fn well_posed(conditions: &[Condition]) -> Result<()> {
     Ok(())
 }
 
-/// The coefficients, if all are finite: a value can pass its threshold and still have no reciprocal. The fields that they
-/// are computed from go with what is asked of each: `kappa is finite`.
+/// The fields that coefficients are computed from, each with its name, are finite.
 ///
 /// # Errors
-/// [`Error::IllPosed`] with the first field that is not finite, else with the first coefficient.
-pub fn finite<const K: usize, const F: usize>(
-    coefficients: [f64; K],
-    fields: [(&'static str, f64); F],
-) -> Result<[f64; K]> {
+/// [`Error::FieldNotFinite`] with the first that is not.
+pub fn finite_fields(fields: &[(&'static str, f64)]) -> Result<()> {
+    match fields.iter().find(|(_, value)| !value.is_finite()) {
+        Some(&(field, value)) => Err(Error::FieldNotFinite { field, entry: None, value }),
+        None => Ok(()),
+    }
+}
+
+/// The coefficients, if all are finite: a value can pass its threshold and still have no reciprocal.
+///
+/// # Errors
+/// [`Error::IllPosed`] with the first that is not.
+pub fn finite<const K: usize>(coefficients: [f64; K]) -> Result<[f64; K]> {
     let Some(&value) = coefficients.iter().find(|c| !c.is_finite()) else { return Ok(coefficients) };
-    let (condition, reason, value) = match fields.into_iter().find(|(_, value)| !value.is_finite()) {
-        Some((condition, value)) => (
-            condition,
-            "a coefficient of the equations is computed from this field; give a finite number",
-            value,
-        ),
-        None => (
-            "every coefficient is finite",
-            "a coefficient of the equations overflows; choose fields nearer to 1, in other units",
-            value,
-        ),
-    };
-    Err(Error::IllPosed(IllPosed { condition, reason, value, threshold: f64::MAX, velocity: None }))
+    Err(Error::IllPosed(IllPosed {
+        condition: "every coefficient is finite",
+        reason: "a coefficient of the equations overflows; choose fields nearer to 1, in other units",
+        value,
+        threshold: f64::MAX,
+        velocity: None,
+    }))
 }
 
 /// Inverse of a symmetric form on affine velocities of dimension `N`, given by its upper triangle in a basis, as an

@@ -3,7 +3,8 @@
 
 use affine_oracle::{Kinetic, Random, Term, exact};
 use affine_runtime::error::IllPosed;
-use affine_runtime::{Error, Result, affine_model};
+use affine_runtime::prelude::*;
+use affine_runtime::{Error, Result};
 
 use crate::families::Parameters;
 
@@ -47,6 +48,15 @@ const EPS: f64 = f64::EPSILON;
 fn defect<P>(prepared: Result<P>) -> IllPosed {
     match prepared {
         Err(Error::IllPosed(defect)) => defect,
+        Err(other) => panic!("another error: {other}"),
+        Ok(_) => panic!("accepted"),
+    }
+}
+
+/// The field that is refused because its value is none.
+fn not_finite<P>(prepared: Result<P>) -> &'static str {
+    match prepared {
+        Err(Error::FieldNotFinite { field, value, .. }) if !value.is_finite() => field,
         Err(other) => panic!("another error: {other}"),
         Ok(_) => panic!("accepted"),
     }
@@ -195,8 +205,8 @@ fn degenerate_affine_inertias_are_refused() {
     assert!(space.prepare().is_ok());
     assert!(Space2 { k: 1.0, ..space }.prepare().is_err());
     for wrong in [f64::NAN, f64::INFINITY] {
-        defect(Body2 { k: wrong, ..body }.prepare());
-        defect(Space2 { k: wrong, ..space }.prepare());
+        assert_eq!(not_finite(Body2 { k: wrong, ..body }.prepare()), "k");
+        assert_eq!(not_finite(Space2 { k: wrong, ..space }.prepare()), "k");
     }
 }
 
@@ -270,23 +280,53 @@ fn required_definiteness_is_decided_by_the_signature() {
 fn fields_that_are_not_finite_are_refused() {
     for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let left = Left3 { i: 1.0, a: 0.25, b: 0.125, m: 1.0 };
-        defect(Left3 { i: wrong, ..left }.prepare());
-        defect(Left3 { a: wrong, ..left }.prepare());
-        defect(Left3 { b: wrong, ..left }.prepare());
-        defect(Left3 { m: wrong, ..left }.prepare());
-        defect(Right3 { i: 1.0, a: 0.25, b: wrong, m: 1.0 }.prepare());
-        defect(AffineAffine3 { a: wrong, b: 1.0 }.prepare());
-        defect(Definite3 { i: wrong, a: 0.25, b: 0.125, m: 1.0 }.prepare());
-        defect(Scalar3 { j: wrong, m: 1.0 }.prepare());
-        defect(Scalar3 { j: 1.0, m: wrong }.prepare());
-        defect(Diagonal2 { j: 1.0, k: wrong }.prepare());
-        defect(Full2 { j: wrong, k: 0.5, l: 1.0 }.prepare());
-        defect(Full2 { j: 1.0, k: wrong, l: 1.0 }.prepare());
-        defect(Full2 { j: 1.0, k: 0.5, l: wrong }.prepare());
-        defect(Tensor2 { a: wrong }.prepare());
+        assert_eq!(not_finite(Left3 { i: wrong, ..left }.prepare()), "i");
+        assert_eq!(not_finite(Left3 { a: wrong, ..left }.prepare()), "a");
+        assert_eq!(not_finite(Left3 { b: wrong, ..left }.prepare()), "b");
+        assert_eq!(not_finite(Left3 { m: wrong, ..left }.prepare()), "m");
+        assert_eq!(not_finite(Right3 { i: 1.0, a: 0.25, b: wrong, m: 1.0 }.prepare()), "b");
+        assert_eq!(not_finite(AffineAffine3 { a: wrong, b: 1.0 }.prepare()), "a");
+        assert_eq!(not_finite(Definite3 { i: wrong, a: 0.25, b: 0.125, m: 1.0 }.prepare()), "i");
+        assert_eq!(not_finite(Scalar3 { j: wrong, m: 1.0 }.prepare()), "j");
+        assert_eq!(not_finite(Scalar3 { j: 1.0, m: wrong }.prepare()), "m");
+        assert_eq!(not_finite(Diagonal2 { j: 1.0, k: wrong }.prepare()), "k");
+        assert_eq!(not_finite(Full2 { j: wrong, k: 0.5, l: 1.0 }.prepare()), "j");
+        assert_eq!(not_finite(Full2 { j: 1.0, k: wrong, l: 1.0 }.prepare()), "k");
+        assert_eq!(not_finite(Full2 { j: 1.0, k: 0.5, l: wrong }.prepare()), "l");
+        assert_eq!(not_finite(Tensor2 { a: wrong }.prepare()), "a");
     }
     // Opposite infinities, and sums beyond the range of f64.
     let left = Left3 { i: f64::INFINITY, a: f64::NEG_INFINITY, b: 0.0, m: 1.0 };
-    defect(left.prepare());
+    assert_eq!(not_finite(left.prepare()), "i");
     defect(Left3 { i: f64::MAX, a: f64::MAX, ..left }.prepare());
+}
+
+/// Programs that prepare whatever model they are given: what no field decides is ready as it stands.
+#[test]
+fn every_model_is_prepared() {
+    #[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1))]
+    struct Unit;
+    #[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1))]
+    struct Labelled<T> {
+        label: T,
+    }
+    #[affine_model(dim = 2, kinetic(casimir2 = a, body_inertia = 1))]
+    struct OfFields {
+        a: f64,
+    }
+    fn energy<M: Model<2, Point<f64> = <Unit as Model<2>>::Point<f64>>>(model: &M) -> f64 {
+        let momentum = Comoving(Matrix::<2>::new(0.1, 0.4, -0.3, -0.2));
+        let point = Unit.at_momentum(Matrix::<2>::identity(), momentum).unwrap();
+        model.hamiltonian(0.0, &point)
+    }
+    macro_rules! prepared {
+        ($model:expr) => {
+            energy(&$model.prepare().unwrap())
+        };
+    }
+    let labelled = Labelled { label: "of the user's own" };
+    assert!(!labelled.label.is_empty());
+    let energies = [prepared!(Unit), prepared!(labelled), prepared!(OfFields { a: 0.2 })];
+    assert!(energies.iter().all(|energy| (energy - energies[0]).abs() < 1e-15), "{energies:?}");
+    assert!(energies[0] > 0.0);
 }

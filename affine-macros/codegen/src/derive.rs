@@ -12,6 +12,7 @@ mod quantities;
 pub mod second_order;
 pub mod splitting;
 mod stated;
+mod written;
 
 use crate::check::Energy;
 
@@ -21,6 +22,7 @@ pub use model::{
     Balance, Condition, Damping, Domain, Equations, Formulas, Metric, MixedMasses, Model, NumericBlock,
     Regularity, Relation, VelocitySide,
 };
+pub use written::{Part, Written};
 
 /// Derives a model; `None` only for energies that the checks refuse.
 pub fn derive(energy: impl Into<Energy>, require_positive: bool) -> Option<Model> {

@@ -22,14 +22,14 @@ mod tangent;
 mod taylor;
 mod two_polar;
 
-use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote, quote_spanned};
 
 use crate::algebra::kernel::Callee;
 use crate::derive::{ChangeOfBases, Equations, Model};
 use crate::ir::Program;
 use crate::mechanics::kinetic::Frame;
-use crate::spec::Spec;
+use crate::spec::{Custom, Role, Spec};
 
 use body::{Body, Number, Scope, body, inputs};
 use names::Names;
@@ -60,6 +60,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let constants = reduction::constants_type(&context);
     let implementation = model_impl(&context);
     let points = points::inherent(&context);
+    let unprepared = points::unprepared(&context);
     let two_polar = two_polar::implementations(&context);
     let (bases, _) = metrics::bases(&context);
     let splitting = splitting::splitting_impl(&context);
@@ -76,6 +77,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
         const _: () = {
             use #runtime::__private as #rt;
             #prepare
+            #unprepared
             #bases
             #constants
             #implementation
@@ -167,6 +169,28 @@ impl Context<'_> {
         (quote!(#implementation), quote!(#ty), quote!(#clause))
     }
 
+    /// A field as what it computes. It stands where the specification names it, so that what its type lacks is said there,
+    /// and once: the calls ask nothing of it any more.
+    fn computing(&self, name: &Ident, custom: &Custom) -> TokenStream {
+        let at = place(custom);
+        let (n, rt) = (self.dim(), Ident::new(&self.names.rt.to_string(), at));
+        let name = Ident::new(&name.to_string(), at);
+        let field = if self.has_fields { &name } else { &custom.field };
+        let force = |form| {
+            let form = Ident::new(form, at);
+            quote_spanned!(at=> as_force::<#n, #rt::force::#form, _>)
+        };
+        let function = match custom.role.value {
+            Role::Spatial => force("Spatial"),
+            Role::Comoving => force("Comoving"),
+            Role::Translation => force("Translation"),
+            Role::Isotropic | Role::Green | Role::Finger | Role::General => {
+                quote_spanned!(at=> as_potential::<#n, _>)
+            }
+        };
+        quote_spanned!(at=> let #name = #rt::#function(&self.#field);)
+    }
+
     /// A program over the scalar type parameter.
     fn generic(&self, program: &Program) -> Body {
         self.body(program, Number::Generic(&self.names.scalar))
@@ -184,8 +208,9 @@ impl Context<'_> {
             quote!(#name)
         };
         let rebased = self.model.metrics.is_some();
-        let Body { lets, results } =
-            body(program, &Scope { number, input: &input, rebased, rt: &self.names.rt });
+        let places: Vec<Span> = self.spec.customs.iter().map(place).collect();
+        let scope = Scope { number, input: &input, rebased, places: &places, rt: &self.names.rt };
+        let Body { lets, results } = body(program, &scope);
         let coefficients = inputs(program).into_iter().filter_map(|name| {
             let (index, name) = (coefficient_index(name)?, format_ident!("{name}"));
             let value = number.of_double(quote!(self.coefficients[#index]));
@@ -197,12 +222,16 @@ impl Context<'_> {
                 .iter()
                 .find(|call| matches!(call.callee, Callee::Custom(place, _) if place == k + 1))?;
             let name = format_ident!("custom_{}", k + 1);
-            let field = if self.has_fields { &name } else { &custom.field };
-            Some(quote!(let #name = &self.#field;))
+            Some(self.computing(&name, custom))
         });
         let change = self.change_for(program, number);
         Body { lets: coefficients.chain(change).chain(fields).chain([lets]).collect(), results }
     }
+}
+
+/// Where the specification names a field that is called; names there mean what they mean elsewhere.
+fn place(custom: &Custom) -> Span {
+    Span::call_site().located_at(custom.field.span())
 }
 
 /// Index of `c_1`, `c_2`, ... in the prepared model.

@@ -1,8 +1,8 @@
 //! Symbolic mechanics behind `#[affine_model(...)]`.
 //!
 //! The order of the modules is the order of the passes and of permission: the front half (`diagnostics`,
-//! `spec`, `check`) never emits, the back half never fails. `algebra` and `ir` know neither Rust syntax nor
-//! mechanics, `mechanics` never sees tokens, `emit` does no algebra.
+//! `spec`, `check`) never emits, the back half never fails, but for the size of the numbers that it derives (`range`).
+//! `algebra` and `ir` know neither Rust syntax nor mechanics, `mechanics` never sees tokens, `emit` does no algebra.
 
 pub mod diagnostics;
 
@@ -22,6 +22,8 @@ pub mod optimise;
 
 pub mod derive;
 
+pub mod range;
+
 pub mod emit;
 
 pub mod stub;
@@ -30,7 +32,7 @@ use proc_macro2::TokenStream;
 
 use diagnostics::{Rejected, gate};
 
-/// The expansion of `#[affine_model(args)] item`: parse, gate, check, gate, derive, optimise, emit.
+/// The expansion of `#[affine_model(args)] item`, of a refused model its reasons and a stand-in.
 #[must_use]
 pub fn expand(args: TokenStream, item: TokenStream) -> TokenStream {
     match model(args.clone(), item.clone()) {
@@ -39,12 +41,18 @@ pub fn expand(args: TokenStream, item: TokenStream) -> TokenStream {
     }
 }
 
-fn model(args: TokenStream, item: TokenStream) -> Result<TokenStream, Rejected> {
+/// The model of `#[affine_model(args)] item`: parse, gate, check, gate, derive, optimise, gate, emit.
+///
+/// # Errors
+/// [`Rejected`] with the reasons, where the model is refused.
+pub fn model(args: TokenStream, item: TokenStream) -> Result<TokenStream, Rejected> {
     let spec = gate(|found| spec::parse(args, item, found))?;
     gate(|found| check::as_written(&spec, found))?;
     let energy = gate(|found| check::energy(&spec, found))?;
-    // Past the second gate nothing can fail: a form that passed has an invertible Legendre transformation.
+    // Past the second gate no derivation can fail: a form that passed has an invertible Legendre transformation.
     let positive = spec.require.iter().any(|r| r.value == spec::Requirement::PositiveDefinite);
-    let tokens = derive::derive(energy, positive).map(|model| emit::emit(&spec, &model.with(&spec.emit)));
-    Ok(tokens.unwrap_or(spec.item.tokens))
+    let Some(model) = derive::derive(energy, positive) else { return Ok(spec.item.tokens) };
+    let model = model.with(&spec.emit);
+    gate(|found| range::representable(&spec, &model, found))?;
+    Ok(emit::emit(&spec, &model))
 }

@@ -2,7 +2,7 @@
 
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::quote;
-use syn::{Data, DeriveInput, Fields};
+use syn::{Data, DeriveInput};
 
 use crate::diagnostics::{Rejected, gate};
 use crate::spec::{self, Field, Item, Spec};
@@ -21,8 +21,7 @@ pub fn stub(args: TokenStream, item: &TokenStream, rejected: &Rejected) -> Token
 fn stand_in(args: TokenStream, item: &TokenStream) -> Option<TokenStream> {
     let input: DeriveInput = syn::parse2(item.clone()).ok()?;
     let outline = Outline::of(args)?;
-    let (field, is_unit) = parameters(&input.data, &outline);
-    let prepare = (field.is_none() && !is_unit).then(|| prepare(&input, &outline));
+    let field = parameter(&input.data, &outline);
     let mut spec = outline.well_posed(field.as_ref().map(|field| &field.ident))?;
     spec.item = Item {
         tokens: item.clone(),
@@ -33,33 +32,18 @@ fn stand_in(args: TokenStream, item: &TokenStream) -> Option<TokenStream> {
         fields: field.into_iter().collect(),
     };
     let form = gate(|found| check::form(&spec, found)).ok()?;
-    let model = emit::emit(&spec, &derive::derive(form, false)?.with(&spec.emit));
-    Some(quote!(#model #prepare))
+    Some(emit::emit(&spec, &derive::derive(form, false)?.with(&spec.emit)))
 }
 
-/// A field that coefficients name, and whether there is nothing that a model could be prepared from.
-fn parameters(data: &Data, outline: &Outline) -> (Option<Field>, bool) {
-    let Data::Struct(data) = data else { return (None, false) };
+/// A field that coefficients name.
+fn parameter(data: &Data, outline: &Outline) -> Option<Field> {
+    let Data::Struct(data) = data else { return None };
     let named = data.fields.iter().filter_map(|field| {
         let ident = field.ident.clone()?;
         Some(Field { span: ident.span().into(), ident, ty: field.ty.clone() })
     });
     let coefficient = |field: &Field| field.is_real() && outline.names.contains(&field.ident);
-    (named.filter(coefficient).find(|field| field.ident != "n"), matches!(data.fields, Fields::Unit))
-}
-
-/// `prepare()` where no field can stand for the coefficients; never runs.
-fn prepare(input: &DeriveInput, outline: &Outline) -> TokenStream {
-    let DeriveInput { vis, ident, generics, .. } = input;
-    let (implementation, types, clause) = generics.split_for_impl();
-    let runtime = emit::runtime(outline.runtime.as_ref());
-    quote! {
-        impl #implementation #ident #types #clause {
-            #vis fn prepare(&self) -> #runtime::Result<Self> {
-                loop {}
-            }
-        }
-    }
+    named.filter(coefficient).find(|field| field.ident != "n")
 }
 
 /// What can be told of a specification that may not parse.

@@ -4,8 +4,8 @@
 
 use std::collections::BTreeSet;
 
-use affine_codegen::diagnostics::{Diagnostic, Rejected, gate};
-use affine_codegen::{check, spec};
+use affine_codegen::diagnostics::{Diagnostic, Rejected};
+use affine_codegen::model;
 use proc_macro2::{Span, TokenStream, TokenTree};
 
 const TABLE: &str = include_str!("messages.txt");
@@ -32,13 +32,7 @@ fn cases() -> Vec<Case> {
 
 fn refusal(args: &str, item: &str) -> Rejected {
     let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
-    gate(|found| spec::parse(tokens(args), tokens(item), found))
-        .and_then(|spec| {
-            gate(|found| check::as_written(&spec, found))?;
-            gate(|found| check::energy(&spec, found))
-        })
-        .err()
-        .unwrap_or_else(|| panic!("accepted: {args}"))
+    model(tokens(args), tokens(item)).err().unwrap_or_else(|| panic!("accepted: {args}"))
 }
 
 /// What the compiler would underline: from the first to the last token of each `compile_error!`.

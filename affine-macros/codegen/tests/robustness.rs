@@ -1,8 +1,7 @@
 //! Whatever the tokens: an answer, never a panic.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use affine_codegen::diagnostics::{Rejected, gate};
-use affine_codegen::{check, expand, spec};
+use affine_codegen::{expand, model};
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use proptest::prelude::*;
 
@@ -154,20 +153,9 @@ fn any_specification() -> impl Strategy<Value = String> {
         .prop_map(|(dim, kinetic, other)| format!("{dim}, {kinetic}, {}", other.unwrap_or_default()))
 }
 
-/// The refusal, if there is one, by the same passes as an expansion.
-fn refusal(args: TokenStream, item: TokenStream) -> Option<Rejected> {
-    let spec = match gate(|found| spec::parse(args, item, found)) {
-        Ok(spec) => spec,
-        Err(rejected) => return Some(rejected),
-    };
-    gate(|found| check::as_written(&spec, found))
-        .and_then(|()| gate(|found| check::energy(&spec, found)).map(|_| ()))
-        .err()
-}
-
 fn answered(args: TokenStream, item: TokenStream) -> Result<bool, TestCaseError> {
     let expansion = expand(args.clone(), item.clone()).to_string();
-    let Some(rejected) = refusal(args, item.clone()) else {
+    let Some(rejected) = model(args, item.clone()).err() else {
         prop_assert!(!expansion.contains("compile_error"));
         return Ok(true);
     };
@@ -221,7 +209,7 @@ fn the_near_misses_include_good_models() {
         .filter(|_| {
             let args = any_specification().new_tree(&mut runner).expect("a tree").current();
             let item = "struct Model { a: f64 }".parse().expect("an item");
-            refusal(args.parse().expect("arguments"), item).is_none()
+            model(args.parse().expect("arguments"), item).is_ok()
         })
         .count();
     assert!(accepted > 40, "only {accepted} of 1000 are accepted: the generator tests little");

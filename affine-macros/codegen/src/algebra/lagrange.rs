@@ -40,27 +40,27 @@ pub fn completed(
     Some(squares)
 }
 
-/// Least size of a square beside a product: the quotient of Bunch and Parlett, `(1 + sqrt 17)/8`.
-const ENOUGH: f64 = 0.64;
+/// Least size of a square beside a product: the quotient of Bunch and Parlett, `(1 + sqrt 17)/8`, as 16/25.
+const ENOUGH: [i64; 2] = [16, 25];
 
 /// The place of the largest square; where the largest product is much larger, that of the sum of its factors, made a
 /// coordinate. `None` where nothing is left.
 fn pivot(form: &mut [Vec<Polynomial>], rows: &mut [Vec<Polynomial>], open: &[usize]) -> Option<usize> {
     let pairs = open.iter().flat_map(|i| open.iter().map(move |j| (*i, *j)));
-    let sizes = pairs.map(|(i, j)| ((i, j), size(&form[i][j]))).filter(|(_, size)| *size > 0.0);
+    let sizes = pairs.map(|(i, j)| ((i, j), size(&form[i][j]))).filter(|(_, size)| !size.is_zero());
     let (squares, products): (Vec<_>, Vec<_>) = sizes.partition(|((i, j), _)| i == j);
     // The first of equals: nothing but the form decides.
-    let largest = |list: &[((usize, usize), f64)]| {
-        list.iter().copied().reduce(|most, next| if next.1 > most.1 { next } else { most })
+    let largest = |list: Vec<((usize, usize), Rational)>| {
+        list.into_iter().reduce(|most, next| if next.1 > most.1 { next } else { most })
     };
-    let (square, product) = (largest(&squares), largest(&products));
-    let ((i, j), size) = product.unwrap_or(((0, 0), 0.0));
+    let (square, product) = (largest(squares), largest(products));
+    let Some(((i, j), product)) = product else { return square.map(|((k, _), _)| k) };
+    let [above, below] = ENOUGH.map(Rational::from);
     if let Some(((k, _), square)) = square
-        && square >= ENOUGH * size
+        && &square * &below >= &product * &above
     {
         return Some(k);
     }
-    product?;
     // y_i = (u + v)/2 and y_j = (u - v)/2, in the rows and in the columns of the form.
     let half = Rational::ratio(1, 2)?;
     for _ in 0..2 {
@@ -72,11 +72,8 @@ fn pivot(form: &mut [Vec<Polynomial>], rows: &mut [Vec<Polynomial>], open: &[usi
 }
 
 /// The size of a number; of what is no rational number, that of one.
-fn size(entry: &Polynomial) -> f64 {
-    match entry.as_constant() {
-        Some(number) => number.to_doubles().0.abs(),
-        None => 1.0,
-    }
+fn size(entry: &Polynomial) -> Rational {
+    entry.as_constant().map_or(Rational::ONE, |number| number.abs())
 }
 
 /// Rows `i` and `j` become `w` times their sum and their difference.
@@ -109,6 +106,18 @@ mod tests {
         *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let value = i64::try_from((*state >> 33) % 9).unwrap() - 4;
         if value.rem_euclid(3) == 0 { Rational::ZERO } else { Rational::from(value) }
+    }
+
+    /// A weight that no double holds is a weight.
+    #[test]
+    fn no_square_is_too_small() {
+        let tiny = Rational::from(10).pow(-400).unwrap();
+        let entry = |number: Rational| Polynomial::constant(number);
+        let zero = Polynomial::zero;
+        let form = vec![vec![entry(tiny.clone()), zero()], vec![zero(), entry(Rational::ONE)]];
+        let squares = completed(&mut Arena::new(), form).unwrap();
+        let weights: Vec<_> = squares.into_iter().map(|(weight, _)| weight.as_constant().unwrap()).collect();
+        assert_eq!(weights, [Rational::ONE, tiny]);
     }
 
     #[test]

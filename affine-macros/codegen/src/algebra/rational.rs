@@ -139,10 +139,45 @@ impl Rational {
         }
     }
 
-    /// For readers: exactly, or the nearest double of a long one.
+    /// For readers: exactly, or the nearest double of a long one, of one beyond them to three digits.
     #[must_use]
     pub fn shown(&self) -> String {
-        if self.is_long() { self.to_doubles().0.to_string() } else { self.to_string() }
+        match self.is_long() {
+            false => self.to_string(),
+            true if self.fits_a_double() => self.to_doubles().0.to_string(),
+            true => self.about(),
+        }
+    }
+
+    /// Is it zero, or of the size of a normal double: does rounding leave it its digits?
+    #[must_use]
+    pub fn fits_a_double(&self) -> bool {
+        match &self.0 {
+            Repr::Small(..) => true,
+            Repr::Big(b) => nearest(b).is_normal(),
+        }
+    }
+
+    /// `k` with `2^(k - 1) < |number| < 2^(k + 1)`; 0 for zero.
+    #[must_use]
+    pub fn binary_exponent(&self) -> i64 {
+        let (numerator, denominator) = self.parts();
+        let bits = |part: BigInt| i64::try_from(part.bits()).unwrap_or(i64::MAX);
+        if self.is_zero() { 0 } else { bits(numerator) - bits(denominator) }
+    }
+
+    /// To three digits, however large or small: `1e-400`, `-2.35e312`.
+    #[must_use]
+    pub fn about(&self) -> String {
+        // Digits above less digits below: the decimal exponent, or one more.
+        let (numerator, denominator) = self.abs().parts();
+        let digits = |part: &BigInt| i32::try_from(part.to_string().len()).unwrap_or(i32::MAX);
+        let exponent = digits(&numerator) - digits(&denominator);
+        let unit = Self::from(10).pow(-exponent).unwrap_or(Self::ONE);
+        let scaled = format!("{:.2e}", (self * &unit).to_doubles().0);
+        let (mantissa, rest) = scaled.split_once('e').unwrap_or((&scaled, "0"));
+        let exponent = exponent + rest.parse::<i32>().unwrap_or(0);
+        format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
     }
 
     /// Absolute value.

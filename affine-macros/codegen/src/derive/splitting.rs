@@ -74,6 +74,19 @@ pub enum FlowProgram {
     },
 }
 
+impl FlowProgram {
+    /// What it computes.
+    #[must_use]
+    pub fn program(&self) -> &Program {
+        match self {
+            Self::Shift { program, .. }
+            | Self::Rise { program, .. }
+            | Self::Exponential { program, .. }
+            | Self::Dilatation { program, .. } => program,
+        }
+    }
+}
+
 impl Programs {
     /// The pieces of the chosen reduction; coefficients that a trajectory fixes join `constants`.
     pub(super) fn of(

@@ -34,6 +34,27 @@ pub enum ExpressionMistake {
         /// The literal.
         literal: String,
     },
+    /// A number of the equations that no double holds.
+    ValueRange {
+        /// What it comes from.
+        expression: String,
+        /// The number.
+        number: String,
+    },
+    /// `a.powi(2)`, `self.a`.
+    RustNotation {
+        /// What stands there.
+        written: String,
+        /// What to write.
+        instead: String,
+    },
+    /// `std::f64::consts::PI`.
+    Path {
+        /// The path.
+        path: String,
+        /// How a field may be called instead.
+        field: String,
+    },
     /// `f(...)` or `f[...]` in a coefficient.
     FunctionCall {
         /// What stands before the bracket.
@@ -99,6 +120,9 @@ names! { ExpressionMistake
     NumberSuffix => "number-suffix",
     NotANumber => "not-a-number",
     NumberRange => "number-range",
+    ValueRange => "value-range",
+    RustNotation => "rust-notation",
+    Path => "path",
     FunctionCall => "function-call",
     ExpressionSize => "expression-size",
     FlatMatrix => "flat-matrix",
@@ -146,6 +170,24 @@ impl ExpressionMistake {
                 format!("the number `{literal}` is beyond the range of machine numbers"),
                 "coefficients are rounded to f64 in the end, which spans about 1e-308 to 1e308",
                 "choose units in which the coefficients are of moderate size",
+            ),
+            Self::ValueRange { expression, number } => text(
+                format!(
+                    "`{expression}` brings the number {number} into the equations, which no double holds"
+                ),
+                "numbers are exact until they are rounded to f64 in the end, which holds 2.3e-308 to 1.7e308: beyond, they \
+                 are infinite, lose their digits or vanish, with the terms that they belong to",
+                "choose units in which coefficients, their squares and their quotients are of moderate size",
+            ),
+            Self::RustNotation { written, instead } => text(
+                format!("`{written}` is notation of Rust, and expressions are formulas"),
+                "powers are written with `^`, functions stand before their argument, and fields have their bare names",
+                instead,
+            ),
+            Self::Path { path, field } => text(
+                format!("`{path}` is a path, where a number or a field of the struct should stand"),
+                "coefficients are exact, and the macro does not see the values of items elsewhere in the program",
+                format!("write the number in digits, or add a field `{field}: f64` and write `{field}`"),
             ),
             Self::FunctionCall { name } => text(
                 format!("`{name}` is applied to brackets, but a coefficient has no functions and no indices"),

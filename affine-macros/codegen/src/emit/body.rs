@@ -1,10 +1,11 @@
 //! Straight-line programs as Rust: one `let` for what has a name or is read twice, everything else in place.
 
-use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
 use crate::algebra::{Function, Rational};
+use crate::derive::Written;
 use crate::ir::call::Call;
 use crate::ir::{Op, Program, Value};
 
@@ -67,6 +68,8 @@ pub(super) struct Scope<'a> {
     pub input: &'a dyn Fn(&str) -> TokenStream,
     /// Have the fields that it calls other bases than its equations?
     pub rebased: bool,
+    /// Where the specification names these fields.
+    pub places: &'a [Span],
     /// The runtime's support module.
     pub rt: &'a Ident,
 }
@@ -104,14 +107,7 @@ pub(super) fn body(program: &Program, scope: &Scope) -> Body {
 
 /// The inputs a program reads.
 pub(super) fn inputs(program: &Program) -> Vec<&str> {
-    program
-        .steps
-        .iter()
-        .filter_map(|step| match step {
-            Op::Input(name) => Some(name.as_str()),
-            _ => None,
-        })
-        .collect()
+    program.inputs()
 }
 
 /// Expressions nested deeper than this are cut by a name.
@@ -161,13 +157,7 @@ impl Writer<'_> {
             call.arguments.iter().map(|group| kernel::written(group, |v| self.expression(*v).0)).collect();
         let read = inputs(self.program);
         let results = call.results.iter().map(|group| kernel::bound(group, &read));
-        self.lets.extend(kernel::statement(
-            self.scope.rt,
-            self.scope.rebased,
-            call.callee,
-            arguments,
-            results,
-        ));
+        self.lets.extend(kernel::statement(self.scope, call.callee, arguments, results));
         self.called.push(call);
     }
 
@@ -294,7 +284,6 @@ fn literal(value: f64, suffix: &str) -> TokenStream {
     let plain = size == 0.0 || (1e-4..1e16).contains(&size);
     let digits = if plain { format!("{size:?}") } else { format!("{size:e}") };
     // Both forms are literals of Rust.
-    let digits: Literal =
-        format!("{digits}{suffix}").parse().unwrap_or_else(|_| Literal::f64_unsuffixed(size));
+    let digits: TokenStream = format!("{digits}{suffix}").parse().unwrap_or_default();
     if value.is_sign_negative() { quote!(-#digits) } else { quote!(#digits) }
 }

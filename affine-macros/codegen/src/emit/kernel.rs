@@ -1,15 +1,16 @@
 //! Calls of runtime functions in emitted code: `let (results) = rt::function(arguments);`
 
-use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote, quote_spanned};
 
+use super::body::Scope;
 use crate::algebra::kernel::{Asked, Callee, Group};
 
 /// The statement of a call. One group of results is bound by itself, several as a tuple. Fields of a model with metrics
-/// are told what they are asked in the user's bases, by the change `change` to orthonormal ones.
+/// are told what they are asked in the user's bases, by the change `change` to orthonormal ones. A call of a field stands
+/// where the specification names it.
 pub(super) fn statement(
-    rt: &Ident,
-    rebased: bool,
+    Scope { rt, rebased, places, .. }: &Scope,
     callee: Callee,
     mut arguments: Vec<TokenStream>,
     results: impl Iterator<Item = TokenStream>,
@@ -21,24 +22,26 @@ pub(super) fn statement(
         Callee::Custom(k, asked) => {
             let field = format_ident!("custom_{k}");
             arguments.insert(0, quote!(#field));
-            let suffix = if rebased { "_in" } else { "" };
-            if rebased {
+            let suffix = if *rebased { "_in" } else { "" };
+            let at = k.checked_sub(1).and_then(|k| places.get(k).copied()).unwrap_or_else(Span::call_site);
+            let rt = Ident::new(&rt.to_string(), at);
+            if *rebased {
                 arguments.insert(1, quote!(change));
             }
             match asked {
                 Asked::Force(name, gyroscopic) => {
-                    let function = format_ident!("{name}{suffix}");
-                    quote!(#rt::#function::<_, #gyroscopic, _, _>)
+                    let function = format_ident!("{name}{suffix}", span = at);
+                    quote_spanned!(at=> #rt::#function::<_, #gyroscopic, _, _>)
                 }
                 Asked::Energy(class, moves) => {
                     let class = Literal::u8_unsuffixed(class);
-                    let function = format_ident!("potential_energy{suffix}");
-                    quote!(#rt::#function::<_, #class, #moves, _, _>)
+                    let function = format_ident!("potential_energy{suffix}", span = at);
+                    quote_spanned!(at=> #rt::#function::<_, #class, #moves, _, _>)
                 }
                 Asked::Slopes(class, moves) => {
                     let class = Literal::u8_unsuffixed(class);
-                    let function = format_ident!("potential_slopes{suffix}");
-                    quote!(#rt::#function::<_, #class, #moves, _, _>)
+                    let function = format_ident!("potential_slopes{suffix}", span = at);
+                    quote_spanned!(at=> #rt::#function::<_, #class, #moves, _, _>)
                 }
             }
         }

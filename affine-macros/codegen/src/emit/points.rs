@@ -1,11 +1,15 @@
 //! Constructors of phase points: inherent methods, so that a model without translation has no `x` to give.
 
+mod refused;
+
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{format_ident, quote};
 
 use crate::derive::VelocitySide;
 use crate::ir::Program;
 use crate::mechanics::kinetic::Frame;
+
+pub(super) use refused::unprepared;
 
 use super::body::Body;
 use super::{Context, inputs, mixed, pattern, quantities};
@@ -20,9 +24,9 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
     let (x, p, x_dot, centre) = match moving {
         false => (quote!(), quote!(), quote!(), quote!(#rt::Pinned)),
         true => (
-            quote!(x: #rt::Vector<#n>,),
-            quote!(p: #rt::Vector<#n>,),
-            quote!(x_dot: #rt::Vector<#n>,),
+            quote!(x: impl #rt::OfCentre<#n>,),
+            quote!(p: impl #rt::OfCentre<#n>,),
+            quote!(x_dot: impl #rt::OfCentre<#n>,),
             quote!(#rt::Centre { x, p }),
         ),
     };
@@ -36,6 +40,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
     );
     let refusal = mixed::refusal(context);
     let quantities = quantities::inherent(context);
+    let vectors = of_centre(context, "p");
     let errors = |of: &str| {
         format!(
             " `Placement` unless `phi` is finite with a positive determinant, `NotFinite` for a {of}{refusal}."
@@ -43,10 +48,11 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
     };
     let (momentum_errors, velocity_errors) = (errors("momentum"), errors("velocity"));
     let at_velocity = match &context.model.velocity_side {
-        None => without_velocity(context, &point),
+        None => refused::without_velocity(context, &point),
         Some(VelocitySide { legendre: program, .. }) => {
             let legendre = legendre(context, program);
             let momentum_of_centre = momentum_of_centre(context);
+            let vectors = of_centre(context, "x_dot");
             let inward_centre =
                 moving.then(|| quote!(let (x, x_dot) = (bases.space * x, bases.space * x_dot);));
             let bases = context.bases(Some(&quote!(#rt::f64)));
@@ -74,6 +80,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
                     #x_dot
                     phi_dot: #rt::Matrix<#n>,
                 ) -> #rt::Result<#point> {
+                    #vectors
                     #inward
                     #tangent
                     #legendre
@@ -97,6 +104,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
                 #p
                 spin: impl #rt::Momentum<#n, #rt::f64>,
             ) -> #rt::Result<#point> {
+                #vectors
                 #from_momentum
             }
 
@@ -107,36 +115,11 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
     }
 }
 
-/// `at_velocity` of a model whose velocities do not determine the momentum: its call does not compile, and the bound,
-/// which nothing meets, says why.
-fn without_velocity(context: &Context, point: &TokenStream) -> TokenStream {
-    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
-    let (_, types, _) = context.generics();
-    let visibility = &context.spec.item.visibility;
-    // A lifetime keeps the compiler from judging the bound before the method is called.
-    let of_centre =
-        |name: TokenStream, moves: bool| if moves { quote!(#name: #rt::Vector<#n>,) } else { quote!() };
+/// The vectors of the centre of mass that a constructor is given.
+fn of_centre(context: &Context, other: &str) -> Option<TokenStream> {
+    let (rt, other) = (&context.names.rt, format_ident!("{other}"));
     let moves = context.model.translation.is_some();
-    let (x, x_dot) = (of_centre(quote!(_x), moves), of_centre(quote!(_x_dot), moves));
-    quote! {
-        /// Does not compile when called: with `C(3)` in `H` the velocity is quadratic in the momentum, and neither
-        /// determines it nor reaches every value; `at_momentum` makes the points.
-        ///
-        /// # Errors
-        /// None: it cannot be called.
-        #visibility fn at_velocity(
-            &self,
-            #x
-            _phi: #rt::Matrix<#n>,
-            #x_dot
-            _phi_dot: #rt::Matrix<#n>,
-        ) -> #rt::Result<#point>
-        where
-            for<'never> #prepared #types: #rt::VelocityDeterminesMomentum,
-        {
-            #rt::VelocityDeterminesMomentum::never(self)
-        }
-    }
+    moves.then(|| quote!(let (x, #other) = (#rt::OfCentre::vector(x), #rt::OfCentre::vector(#other));))
 }
 
 /// How points are made and what a constraint asks of them.

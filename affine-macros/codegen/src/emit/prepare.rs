@@ -1,16 +1,16 @@
 //! `prepare()`: from values of the fields to a checked model with its coefficients.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::derive::splitting::PrincipalProgram;
-use crate::derive::{Condition, Damping, NumericBlock, Relation};
+use crate::derive::{Condition, Damping, NumericBlock, Relation, Written};
 use crate::lower::FIELD;
 use crate::spec::{Field, Storage};
 
-use super::body::{Body, Number, Scope, body};
+use super::body::{Body, Number, Scope, body, double};
 use super::{Context, identifiers, metrics, number};
-use crate::ir::{Op, Program};
+use crate::ir::Program;
 
 /// What `prepare()` returns; nothing for a model without fields in its coefficients.
 pub(super) fn prepared_type(context: &Context) -> TokenStream {
@@ -68,10 +68,10 @@ fn called<'a>(context: &'a Context) -> impl Iterator<Item = (Ident, &'a Field)> 
     })
 }
 
-/// The method that makes it.
+/// `prepare()`.
 pub(super) fn method(context: &Context) -> TokenStream {
     if !context.has_fields {
-        return TokenStream::new();
+        return as_it_is(context);
     }
     let (model, prepared, rt) = (&context.names.model, &context.names.prepared, &context.names.rt);
     let visibility = &context.spec.item.visibility;
@@ -96,15 +96,16 @@ pub(super) fn method(context: &Context) -> TokenStream {
     // What is carried to orthonormal bases is looked at in them.
     let (first, last) = if rebased.is_empty() { (None, Some(&bases)) } else { (Some(&bases), None) };
     let Body { lets, results } = over_fields(rt, &context.model.coefficients);
-    let numbers = numbers(&context.model.coefficients);
+    let finite = finite_fields(context, rt);
     quote! {
         impl #generics #model #types #clause {
             /// Checks the values of the fields and computes the coefficients of the equations.
             ///
             /// # Errors
-            /// `IllPosed` with the condition, its value and its threshold, where the Legendre transformation
-            /// is degenerate to rounding, a required sign is missing, or a field or a coefficient is not finite.
+            /// `FieldNotFinite` with the field; `IllPosed` with the condition, its value and its threshold, where the
+            /// Legendre transformation is degenerate to rounding, a required sign is missing, or a coefficient overflows.
             #visibility fn prepare(&self) -> #rt::Result<#prepared #of> {
+                #finite
                 #matrices
                 #first
                 #rebased
@@ -114,30 +115,46 @@ pub(super) fn method(context: &Context) -> TokenStream {
                 #damping
                 #last
                 #lets
-                let coefficients = #rt::finite([#(#results),*], [#(#numbers),*])?;
+                let coefficients = #rt::finite([#(#results),*])?;
                 ::core::result::Result::Ok(#prepared { coefficients #(#fields)* })
             }
         }
     }
 }
 
-/// The fields that are numbers and that a program reads, each with what is asked of it.
-fn numbers(program: &Program) -> Vec<TokenStream> {
-    let mut names: Vec<&str> = program
-        .steps
-        .iter()
-        .filter_map(|step| match step {
-            Op::Input(name) => name.strip_prefix(FIELD).filter(|field| !field.ends_with(']')),
-            _ => None,
-        })
-        .collect();
-    names.sort_unstable();
-    names.dedup();
-    let named = names.into_iter().map(|name| {
-        let (condition, value) = (format!("{} is finite", name.trim_start_matches("r#")), read_field(name));
-        quote!((#condition, #value))
+/// The method of a model that is prepared as it stands.
+fn as_it_is(context: &Context) -> TokenStream {
+    let (model, rt) = (&context.names.model, &context.names.rt);
+    let visibility = &context.spec.item.visibility;
+    let (generics, types, clause) = context.spec.item.generics.split_for_impl();
+    quote! {
+        impl #generics #model #types #clause {
+            /// The model itself, for programs that prepare whatever model they are given: no field decides anything.
+            ///
+            /// # Errors
+            /// None.
+            #[allow(dead_code)]
+            #visibility fn prepare(self) -> #rt::Result<Self> {
+                ::core::result::Result::Ok(self)
+            }
+        }
+    }
+}
+
+/// The fields that are numbers and that the model reads, each with its name, are finite.
+fn finite_fields(context: &Context, rt: &Ident) -> TokenStream {
+    let read = context.model.inputs();
+    let fields = context.spec.item.fields.iter().map(|field| &field.ident);
+    let named = fields.filter(|field| read.contains(&format!("{FIELD}{field}").as_str())).map(|field| {
+        let name = field.to_string();
+        let name = name.trim_start_matches("r#");
+        quote!((#name, self.#field))
     });
-    named.collect()
+    let named: Vec<TokenStream> = named.collect();
+    if named.is_empty() {
+        return TokenStream::new();
+    }
+    quote!(#rt::finite_fields(&[#(#named),*])?;)
 }
 
 /// The symmetric parts of the fields of matrix type.
@@ -150,13 +167,15 @@ fn matrices(context: &Context, rt: &Ident) -> TokenStream {
                 ::core::array::from_fn(|a| ::core::array::from_fn(|b| self.#field[(a, b)]))
             },
         };
-        let condition = format!("{field} = {field}^T");
+        let name = field.to_string();
+        let name = name.trim_start_matches("r#");
+        let condition = format!("{name} = {name}^T");
         let reason = format!(
-            "the value is the largest difference of two entries of `{field}` whose places are exchanged, and its \
-             symmetric part alone has a meaning; give a symmetric matrix of finite numbers"
+            "the value is the largest difference of two entries of `{name}` whose places are exchanged, and its \
+             symmetric part alone has a meaning; give a symmetric matrix"
         );
         let size = number(size);
-        quote!(let #local = #rt::symmetric_part::<#size>(#rows, #condition, #reason)?;)
+        quote!(let #local = #rt::symmetric_part::<#size>(#name, #rows, #condition, #reason)?;)
     });
     matrices.collect()
 }
@@ -192,7 +211,7 @@ pub(super) fn over_fields(rt: &Ident, program: &Program) -> Body {
             quote!(#name)
         }
     };
-    body(program, &Scope { number: Number::Double, input: &input, rebased: false, rt })
+    body(program, &Scope { number: Number::Double, input: &input, rebased: false, places: &[], rt })
 }
 
 /// Eigenvalues share one threshold, a mass has its own.
@@ -285,7 +304,7 @@ fn numeric_block(context: &Context, block: &NumericBlock, rt: &Ident) -> TokenSt
     let (entries, terms) = results.split_at(block.inverse.len());
     let basis = block.basis.iter().map(|vector| {
         let entries = vector.iter().map(|(place, weight)| {
-            let (place, weight) = (number(*place), Literal::f64_unsuffixed(weight.to_doubles().0));
+            let (place, weight) = (number(*place), double(weight.to_doubles().0));
             quote!((#place, #weight))
         });
         quote!(&[#(#entries),*])

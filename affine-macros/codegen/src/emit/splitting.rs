@@ -31,7 +31,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         [only] => (only.clone(), quote!(_piece)),
         _ => (quote!(match piece { #(#arms)* }), quote!(piece)),
     };
-    let programs = || pieces.iter().flat_map(|(_, flows)| flows).map(program);
+    let programs = || pieces.iter().flat_map(|(_, flows)| flows).map(FlowProgram::program);
     let dilates =
         pieces.iter().flat_map(|(_, flows)| flows).any(|flow| matches!(flow, FlowProgram::Dilatation { .. }));
     let dilates = dilates.then(|| {
@@ -79,15 +79,6 @@ pub(super) fn capability(context: &Context) -> TokenStream {
         ) -> ::core::option::Option<impl #rt::Pieces<Self::Reduced<#rt::f64>, Self::Constants<#rt::f64>>> {
             ::core::option::Option::Some(#rt::Emitted(self))
         }
-    }
-}
-
-fn program(flow: &FlowProgram) -> &Program {
-    match flow {
-        FlowProgram::Shift { program, .. }
-        | FlowProgram::Rise { program, .. }
-        | FlowProgram::Exponential { program, .. }
-        | FlowProgram::Dilatation { program, .. } => program,
     }
 }
 

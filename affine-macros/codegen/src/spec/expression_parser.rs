@@ -14,6 +14,7 @@
 //! Rust's own precedences are of no use: there `^` is weaker than `+`.
 
 mod applied;
+mod rust_notation;
 
 pub(crate) use applied::application;
 
@@ -118,6 +119,9 @@ impl<'p> Parser<'p> {
 
     fn power(&mut self) -> Result<Expression, Reported> {
         let base = self.atom()?;
+        if let Some(dot) = self.punct('.') {
+            return Err(self.behind_a_dot(&base, dot));
+        }
         match self.operator(&[('^', Operator::Power)])? {
             None => Ok(base),
             Some(power) => Ok(power.apply(base, self.deeper(Self::sign)?)),
@@ -138,6 +142,7 @@ impl<'p> Parser<'p> {
             {
                 self.group(&group)
             }
+            TokenTree::Punct(colon) if colon.as_char() == ':' => Err(self.path(self.last, ":".to_owned())),
             other => Err(self.unexpected(&other, "a number, a field or `(`")),
         }
     }
@@ -161,6 +166,9 @@ impl<'p> Parser<'p> {
     /// A name; brackets directly after it apply a function or an index.
     fn symbol(&mut self, name: Ident) -> Result<Expression, Reported> {
         let span = Region::from(name.span());
+        if matches!(self.tokens.peek(), Some(TokenTree::Punct(colon)) if colon.as_char() == ':') {
+            return Err(self.path(span, name.to_string()));
+        }
         let brackets = self.tokens.next_if(|token| {
             matches!(token, TokenTree::Group(group)
                 if matches!(group.delimiter(), Delimiter::Parenthesis | Delimiter::Bracket))

@@ -55,7 +55,7 @@ pub(super) fn is_quotient(number: &Rational) -> bool {
 fn parts(number: &Rational) -> Option<[Rational; 2]> {
     let (numerator, denominator) = number.parts();
     let parts = [Rational::quotient(numerator, 1.into())?, Rational::quotient(denominator, 1.into())?];
-    let is_double = |number: &Rational| number.to_doubles().1 == 0.0;
+    let is_double = |number: &Rational| number.fits_a_double() && number.to_doubles().1 == 0.0;
     (!is_double(number) && parts.iter().all(is_double)).then_some(parts)
 }
 

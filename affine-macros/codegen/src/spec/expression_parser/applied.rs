@@ -13,7 +13,7 @@ use crate::spec::{Expression, ExpressionKind, MatrixName};
 
 /// The functions of a potential. `cbrt` is not among them: a power with an exponent of 1/3 is stated through
 /// its logarithm, which shows that the base must be positive.
-const FUNCTIONS: [Function; 10] = [
+pub(super) const FUNCTIONS: [Function; 10] = [
     Function::Exp,
     Function::Ln,
     Function::Sqrt,

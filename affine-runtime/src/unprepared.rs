@@ -1,0 +1,129 @@
+//! Structs whose fields were not looked at yet: models in type alone, so that a forgotten `prepare()` is one error, where
+//! the first phase point is asked for, and not one more at every later use.
+
+use crate::frames::{Body, Matrix, Vector};
+use crate::geodesic::Geodesic;
+use crate::metrics::Bases;
+use crate::model::{Description, Model, Regularity, Velocity};
+use crate::scalar::{Real, Scalar};
+use crate::state::{PhasePoint, Translation};
+
+/// A struct with fields that `prepare()` makes a model of dimension `N`; implemented by the macro alone.
+///
+/// It has no phase points: whatever computes with them does not compile.
+///
+/// ```compile_fail,E0308
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(dim = 2, kinetic(casimir2 = a, body_inertia = 1))]
+/// struct Disc { a: f64 }
+///
+/// fn energy(prepared: &PreparedDisc, start: &<PreparedDisc as Model<2>>::Point<f64>) -> f64 {
+///     Disc { a: 0.2 }.hamiltonian(0.0, start)
+/// }
+/// ```
+///
+/// Nor does what needs none of them compile, once it is called.
+///
+/// ```compile_fail,E0080
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(dim = 2, kinetic(casimir2 = a, body_inertia = 1))]
+/// struct Disc { a: f64 }
+///
+/// let condition = Disc { a: 0.2 }.condition(&Matrix::<2>::identity());
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a prepared model of an affinely-rigid body in dimension {N}",
+    label = "no Hamilton equations here",
+    note = "put `#[affine_model(...)]` on the struct; a struct with fields becomes a model by `.prepare()?`"
+)]
+pub trait Unprepared<const N: usize> {}
+
+/// What `at_momentum` and `at_velocity` of a struct with fields ask of it in vain; nothing implements it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not prepared: a struct with fields becomes a model by `.prepare()?`",
+    label = "`.prepare()?` is missing before this",
+    note = "`prepare()` checks the values of the fields and computes the coefficients of the equations: \
+            `let model = {Self} {{ .. }}.prepare()?;`"
+)]
+pub trait IsPrepared {
+    /// What follows from it.
+    fn never<T>(&self) -> T;
+}
+
+/// The centre of mass of phase points that do not exist.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NotPrepared {}
+
+impl<const N: usize, T: Real> Translation<N, T> for NotPrepared {
+    fn position(&self) -> Vector<N, T> {
+        match *self {}
+    }
+    fn momentum(&self) -> Vector<N, T> {
+        match *self {}
+    }
+    fn moved(&self, _: Vector<N, T>) -> Self {
+        *self
+    }
+    fn replaced(&self, _: Vector<N, T>, _: Vector<N, T>) -> Self {
+        *self
+    }
+    fn rebased(&self, _: &Bases<N, T>) -> Self {
+        *self
+    }
+}
+
+/// Stops the compilation of whatever calls it.
+#[allow(clippy::panic, reason = "evaluated by the compiler alone: the panic is the error message")]
+const fn unprepared<T>() -> T {
+    panic!("a struct with fields becomes a model by `.prepare()?`")
+}
+
+impl<const N: usize, U: Unprepared<N>> Model<N> for U {
+    const DESCRIPTION: Description = unprepared();
+    type Point<T: Real> = PhasePoint<N, Body, NotPrepared, T>;
+    type Reduced<T: Scalar> = [T; 0];
+    type Constants<T: Scalar> = ();
+    type Full<T: Scalar> = [T; 0];
+
+    fn velocity<T: Real>(&self, _: &Self::Point<T>) -> Velocity<N, T> {
+        const { unprepared() }
+    }
+    fn kinetic_energy<T: Real>(&self, _: &Matrix<N, T>, _: &Velocity<N, T>) -> T {
+        const { unprepared() }
+    }
+    fn hamiltonian<T: Real>(&self, _: T, _: &Self::Point<T>) -> T {
+        const { unprepared() }
+    }
+    fn flatten<T: Real>(&self, _: &Self::Point<T>) -> [T; 0] {
+        const { unprepared() }
+    }
+    fn unflatten<T: Real>(&self, _: &[T; 0]) -> Self::Point<T> {
+        const { unprepared() }
+    }
+    fn hamilton_equations<T: Scalar>(&self, _: T, _: &[T; 0]) -> [T; 0] {
+        const { unprepared() }
+    }
+    fn reduce<T: Real>(&self, _: T, _: &Self::Point<T>) -> ([T; 0], ()) {
+        const { unprepared() }
+    }
+    fn reduced_equations<T: Scalar>(&self, _: T, (): &(), _: &[T; 0]) -> [T; 0] {
+        const { unprepared() }
+    }
+    fn expand<T: Real>(&self, _: T, (): &(), _: &[T; 0]) -> Self::Point<T> {
+        const { unprepared() }
+    }
+    fn regularity(&self, _: &Matrix<N>) -> Option<Regularity> {
+        const { unprepared() }
+    }
+    fn bases(&self) -> Option<Bases<N>> {
+        const { unprepared() }
+    }
+    fn domain(&self, _: f64, _: &Self::Point<f64>, _: &mut dyn FnMut(f64)) {
+        const { unprepared() }
+    }
+    fn geodesic(&self, _: f64, _: &Self::Point<f64>) -> Option<Geodesic<N>> {
+        const { unprepared() }
+    }
+}
