@@ -5,8 +5,22 @@ use core::fmt;
 /// Result of fallible runtime calls.
 pub type Result<T> = core::result::Result<T, Error>;
 
+/// `Debug` as it is displayed: a `main` that returns an error prints that.
+macro_rules! debug_as_displayed {
+    ($([$($generics:tt)*] $error:ty),*) => {$(
+        impl<$($generics)*> core::fmt::Debug for $error {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                core::fmt::Display::fmt(self, f)
+            }
+        }
+    )*};
+}
+pub(crate) use debug_as_displayed;
+
+debug_as_displayed!([] Error, [] IllPosed);
+
 /// What can be wrong with a model's numbers, a phase point or a setting.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
     /// A condition of well-posedness fails for the values of the model's fields.
@@ -64,7 +78,7 @@ pub enum Error {
 }
 
 /// A condition on the kinetic energy or the dissipation that fails.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct IllPosed {
     /// The condition, in the model's own parameters: `I + A != 0`.
     pub condition: &'static str,

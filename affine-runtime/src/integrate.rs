@@ -40,7 +40,7 @@ pub use taylor::Taylor;
 use core::fmt;
 
 /// Why an integrator cannot go on. Its last accepted state stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Failure {
     /// The right-hand side, or a step however short, gives numbers that are not finite.
@@ -111,6 +111,8 @@ impl fmt::Display for Failure {
         }
     }
 }
+
+crate::error::debug_as_displayed!([] Failure);
 
 impl core::error::Error for Failure {}
 

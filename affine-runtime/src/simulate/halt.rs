@@ -3,13 +3,13 @@
 use core::fmt;
 
 use super::trajectory::Trajectory;
-use crate::error::Error;
+use crate::error::{Error, debug_as_displayed};
 use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER};
 use crate::model::{Bound, Guard};
 use crate::state::Phase;
 
 /// A run that did not reach its end: the stop, and the trajectory up to there.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Halt<const N: usize, P> {
     /// Why, when and at which step.
     pub stop: Stop,
@@ -21,7 +21,7 @@ pub struct Halt<const N: usize, P> {
 pub type Outcome<const N: usize, P, R = Trajectory<N, P>> = core::result::Result<R, Halt<N, P>>;
 
 /// Why, when and at which step a run stopped.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct Stop {
     /// The reason.
     pub reason: Reason,
@@ -32,7 +32,7 @@ pub struct Stop {
 }
 
 /// Why a run stopped.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Reason {
     /// A setting is wrong; the run did not begin.
@@ -143,7 +143,7 @@ pub enum Callback {
 }
 
 /// A setting of a simulation that makes no sense.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Setting {
     /// No end time was given.
@@ -446,9 +446,11 @@ impl<const N: usize, P> fmt::Display for Halt<N, P> {
     }
 }
 
+debug_as_displayed!([const N: usize, P] Halt<N, P>, [] Stop, [] Reason, [] Setting);
+
 impl std::error::Error for Setting {}
 impl std::error::Error for Stop {}
-impl<const N: usize, P: Phase<N>> std::error::Error for Halt<N, P> {}
+impl<const N: usize, P> std::error::Error for Halt<N, P> {}
 
 impl From<Setting> for Reason {
     fn from(setting: Setting) -> Self {

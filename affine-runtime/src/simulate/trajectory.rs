@@ -1,5 +1,7 @@
 //! A computed trajectory.
 
+use core::fmt;
+
 use super::{Checkpoint, Method, Occurrence, Reason, Setting};
 use crate::integrate::{Failure, Statistics};
 use crate::metrics::Bases;
@@ -7,7 +9,7 @@ use crate::model::Description;
 use crate::state::Phase;
 
 /// Phase points over time, with how they were computed and what they should conserve.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Trajectory<const N: usize, P> {
     pub(super) description: &'static Description,
     pub(super) start: (f64, P),
@@ -171,5 +173,20 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     #[must_use]
     pub fn description(&self) -> &Description {
         self.description
+    }
+}
+
+impl<const N: usize, P: fmt::Debug> fmt::Debug for Trajectory<N, P> {
+    /// Without the outputs, of which there may be millions.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Trajectory")
+            .field("model", &self.description.name)
+            .field("start", &self.start)
+            .field("end", &self.end)
+            .field("outputs", &self.times.len())
+            .field("events", &self.events.len())
+            .field("statistics", &self.statistics)
+            .field("method", &self.computation.method)
+            .finish_non_exhaustive()
     }
 }
