@@ -63,7 +63,7 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         kept(arena, &h, (&own, &own_h), potential, &forces);
     let commuting = reduce::commuting(arena, &h, potential, &forces);
     let closed_form = match potential {
-        None if forces.is_empty() => reduce::closed_form(arena, &h, &commuting),
+        None if forces.is_empty() => reduce::closed_form(&h, &commuting),
         _ => None,
     };
 

@@ -353,7 +353,7 @@ impl Body<'_> {
             return None;
         }
         let commuting = reduce::commuting(arena, h, None, &Forces::default());
-        reduce::closed_form(arena, h, &commuting).map(|(form, _)| (form, true))
+        reduce::closed_form(h, &commuting).map(|(form, _)| (form, true))
     }
 
     fn formulas(
