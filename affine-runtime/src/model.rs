@@ -222,6 +222,9 @@ pub struct Description {
 }
 
 /// A formula as text and as LaTeX.
+///
+/// Fields have the names that they have in the struct. One that is written like a symbol of the mechanics stands as
+/// `self.name`, in LaTeX in typewriter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Formula {
     /// Plain text.
