@@ -11,7 +11,7 @@ use crate::ir::fuse::fuse;
 use crate::mechanics::balance::Laws;
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
-use crate::mechanics::describe::{self, Notation, Spoken};
+use crate::mechanics::describe::{self, Described, Notation};
 use crate::mechanics::equations::{self, hamilton};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
@@ -75,14 +75,14 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
     };
     let energies = std::slice::from_ref(&kinetic);
     let metrics_of = metrics.as_ref();
-    let spoken = Spoken {
+    let described = Described {
         energies,
         blocks: &h.numeric_blocks,
         forces: &forces,
         metrics: metrics_of,
         rebased: &rebased,
     };
-    let notation = Notation::new(arena, &spoken);
+    let notation = Notation::new(arena, &described);
     let energy = (&h, &kinetic);
     let formulas = Formulas {
         kinetic_energy: match cubic {

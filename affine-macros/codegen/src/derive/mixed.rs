@@ -8,7 +8,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 use crate::check::MixedForm;
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
-use crate::mechanics::describe::{self, Notation, Spoken};
+use crate::mechanics::describe::{self, Described, Notation};
 use crate::mechanics::equations::{self, Load, System, gradient, hamilton};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
@@ -368,8 +368,9 @@ impl Body<'_> {
             Inner::Constant(_, h) => &h.numeric_blocks,
             Inner::Varying(_) | Inner::Confined(_) => &[],
         };
-        let spoken = Spoken { energies: &energies, blocks, forces: self.forces, metrics: None, rebased: &[] };
-        let notation = &Notation::new(arena, &spoken);
+        let described =
+            Described { energies: &energies, blocks, forces: self.forces, metrics: None, rebased: &[] };
+        let notation = &Notation::new(arena, &described);
         let masses = &self.masses;
         let (internal, mut equations) = match &self.inner {
             Inner::Varying(_) => {

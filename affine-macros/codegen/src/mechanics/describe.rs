@@ -14,7 +14,7 @@ use crate::mechanics::charts::Momentum;
 use crate::mechanics::kinetic::{Coefficient, Frame, Kinetic, Term, TermKind};
 use crate::mechanics::notation::MatrixName;
 
-pub use super::notation::{Formula, Notation, Spoken};
+pub use super::notation::{Described, Formula, Notation};
 pub use equations::equations;
 pub use hamiltonian::{hamiltonian, kinetic_energy_of_momenta};
 pub use left_out::left_out;

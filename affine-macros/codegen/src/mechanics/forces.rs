@@ -204,8 +204,8 @@ fn symbols(custom: &Custom) -> (String, String) {
         Role::Force { on: On::Body, .. } => ("Q_hat", "\\hat Q"),
         Role::Force { on: On::Centre, .. } => ("F", "F"),
     };
-    let name = &custom.name;
-    (format!("{stem}[{name}]"), format!("{latex}_{{{}}}", field_index(name)))
+    let [name, index] = field_index(&custom.name);
+    (format!("{stem}[{name}]"), format!("{latex}_{{{index}}}"))
 }
 
 /// What a field adds to the forces on the linear and the affine momentum of a chart.

@@ -35,8 +35,8 @@ pub struct Formula {
     pub latex: String,
 }
 
-/// What the formulas of a model speak of.
-pub struct Spoken<'a> {
+/// What the formulas of a model describe.
+pub struct Described<'a> {
     /// The kinetic energies.
     pub energies: &'a [Kinetic],
     /// The blocks of the mass matrix whose inverses need numbers.
@@ -63,17 +63,17 @@ pub struct Notation<'a> {
 
 impl<'a> Notation<'a> {
     /// The names for a model.
-    pub fn new(arena: &mut Arena, spoken: &Spoken<'a>) -> Self {
+    pub fn new(arena: &mut Arena, described: &Described<'a>) -> Self {
         let mut notation = Self {
-            customs: &spoken.forces.customs,
-            metrics: spoken.metrics,
-            rebased: spoken.rebased,
+            customs: &described.forces.customs,
+            metrics: described.metrics,
+            rebased: described.rebased,
             matrices: Vec::new(),
             inverses: FxHashMap::default(),
             blocks: Vec::new(),
         };
-        notation.name_matrices(arena, spoken.energies, spoken.forces);
-        notation.name_blocks(arena, spoken.blocks);
+        notation.name_matrices(arena, described.energies, described.forces);
+        notation.name_blocks(arena, described.blocks);
         notation
     }
 
@@ -197,7 +197,7 @@ impl<'a> Notation<'a> {
         }
         symbols::written(name)
             .or_else(|| self.computed(name))
-            .unwrap_or_else(|| [Written::letter(name), Written::letter(format!("\\mathtt{{{name}}}"))])
+            .unwrap_or_else(|| [Written::letter(name), Written::letter(field::typewriter(name))])
     }
 
     /// An entry of a field, or of a matrix that `prepare()` makes.
@@ -224,8 +224,7 @@ impl<'a> Notation<'a> {
         };
         let place: usize = place.parse().ok()?;
         let custom = self.customs.iter().find(|custom| custom.place == place)?;
-        let name = &custom.name;
-        let sub = field_index(name);
+        let [name, sub] = field_index(&custom.name);
         let entry = |text: &str, latex: &str, index: &str| {
             [
                 Written::letter(format!("{text}[{name}]_{index}")),

@@ -22,9 +22,9 @@ pub(super) fn matrix(field: &str) -> MatrixName {
     MatrixName { text: text(field), latex, letter }
 }
 
-/// LaTeX of a field as an index.
-pub(in crate::mechanics) fn index(field: &str) -> String {
-    latex(field, false).0
+/// Text and LaTeX of a field as an index.
+pub(in crate::mechanics) fn index(field: &str) -> [String; 2] {
+    [bare(field).to_owned(), latex(field, false).0]
 }
 
 /// As text. What a symbol is written like stands as in Rust.
@@ -46,13 +46,18 @@ fn latex(field: &str, entries: bool) -> (String, bool) {
     };
     let hides = letter.as_ref().is_some_and(|letter| is_letter(letter, entries || digit.is_some()));
     if hides || is_symbol(name) {
-        return (format!("\\mathtt{{{}}}", escaped(name)), true);
+        return (typewriter(name), true);
     }
     let body = letter.unwrap_or_else(|| format!("\\mathit{{{}}}", escaped(word)));
     match digit {
         None => (body, true),
         Some(digit) => (format!("{body}_{{{digit}}}"), false),
     }
+}
+
+/// A name of the program.
+pub(super) fn typewriter(name: &str) -> String {
+    format!("\\mathtt{{{}}}", escaped(name))
 }
 
 /// The name without the mark of a raw identifier.
