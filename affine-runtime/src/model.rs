@@ -323,6 +323,9 @@ pub enum Bound {
 }
 
 /// A formula as text and as LaTeX.
+///
+/// Fields have the names that they have in the struct. One that is written like a symbol of the mechanics stands as
+/// `self.name`, in LaTeX in typewriter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Formula {
     /// Plain text.

@@ -17,7 +17,7 @@ pub mod residue;
 pub mod ring;
 pub mod root;
 pub mod substitute;
-mod text;
+pub mod text;
 
 pub use arena::{Arena, Expr};
 pub use function::Function;

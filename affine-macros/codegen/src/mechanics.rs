@@ -21,7 +21,7 @@ pub mod metric;
 pub mod metrics;
 pub mod mixed;
 pub mod momentum_side;
-mod notation;
+pub mod notation;
 pub mod potential;
 pub mod reduce;
 pub mod second_order;

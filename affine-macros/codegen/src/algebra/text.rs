@@ -5,39 +5,85 @@ use std::fmt::Write as _;
 use super::arena::Node;
 use super::{Arena, Expr, Rational};
 
+/// A symbol as it is written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// What is written.
+    pub body: String,
+    /// Where it takes brackets.
+    pub shape: Shape,
+}
+
+/// Where what is written for a symbol takes brackets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Nowhere: a letter, with an index or without.
+    Letter,
+    /// Before a power: it has a superscript already.
+    Raised,
+    /// Among factors too: a function without brackets of its own.
+    Applied,
+}
+
+impl Written {
+    /// A letter.
+    #[must_use]
+    pub fn letter(body: impl Into<String>) -> Self {
+        Self { body: body.into(), shape: Shape::Letter }
+    }
+
+    /// What has a superscript.
+    #[must_use]
+    pub fn raised(body: impl Into<String>) -> Self {
+        Self { body: body.into(), shape: Shape::Raised }
+    }
+
+    /// Can it stand as a factor with this exponent, `alone` or not, without brackets?
+    #[must_use]
+    pub fn is_bare(&self, exponent: u32, alone: bool) -> bool {
+        match self.shape {
+            Shape::Letter => true,
+            Shape::Raised => exponent == 1,
+            Shape::Applied => exponent == 1 && alone,
+        }
+    }
+}
+
 impl Arena {
     /// The expression as text in the notation of specifications: `2*a + b^2/3`.
     #[must_use]
     pub fn text(&self, expr: Expr) -> String {
+        self.text_with(expr, &|symbol| Written::letter(self.name(symbol).unwrap_or_default()))
+    }
+
+    /// The same with other names for the symbols.
+    pub fn text_with(&self, expr: Expr, name: &dyn Fn(Expr) -> Written) -> String {
         match self.node(expr) {
             Node::Constant(value) => value.shown(),
-            Node::Symbol(name) => name.clone(),
-            Node::Sum(constant, terms) => self.sum_text(constant, terms),
-            Node::Product(factors) => self.product_text(factors),
-            Node::Function(function, argument) => format!("{}({})", function.name(), self.text(*argument)),
+            Node::Symbol(_) => name(expr).body,
+            Node::Sum(constant, terms) => self.sum_text(constant, terms, name),
+            Node::Product(factors) => self.product_text(factors, name),
+            Node::Function(function, argument) => {
+                format!("{}({})", function.name(), self.text_with(*argument, name))
+            }
         }
     }
 
-    fn sum_text(&self, constant: &Rational, terms: &[(Expr, Rational)]) -> String {
+    fn sum_text(
+        &self,
+        constant: &Rational,
+        terms: &[(Expr, Rational)],
+        name: &dyn Fn(Expr) -> Written,
+    ) -> String {
         let mut text = String::new();
         for (term, c) in terms {
-            let sign = if c.is_negative() { "-" } else { "+" };
-            match (text.is_empty(), sign) {
-                (true, "-") => text.push('-'),
-                (true, _) => {}
-                (false, sign) => {
-                    let _ = write!(text, " {sign} ");
-                }
-            }
-            if !c.abs().is_one() {
-                let _ = write!(text, "{}*", c.abs().shown());
-            }
-            match self.node(*term) {
-                Node::Sum(..) => {
-                    let _ = write!(text, "({})", self.text(*term));
-                }
-                _ => text.push_str(&self.text(*term)),
-            }
+            text.push_str(match (c.is_negative(), text.is_empty()) {
+                (true, true) => "-",
+                (true, false) => " - ",
+                (false, true) => "",
+                (false, false) => " + ",
+            });
+            text.push_str(&self.multiple_text(&c.abs(), *term, name));
         }
         if !constant.is_zero() {
             let sign = if constant.is_negative() { "-" } else { "+" };
@@ -46,25 +92,55 @@ impl Arena {
         text
     }
 
-    fn product_text(&self, factors: &[(Expr, i32)]) -> String {
-        let mut above = Vec::new();
-        let mut below = Vec::new();
-        for &(base, exponent) in factors {
-            let body = match self.node(base) {
-                Node::Sum(..) => format!("({})", self.text(base)),
-                _ => self.text(base),
+    /// A number times an expression: `2*a`, `5/6*a`, `5/(6*a)` of `1/a`.
+    fn multiple_text(&self, number: &Rational, expr: Expr, name: &dyn Fn(Expr) -> Written) -> String {
+        let number = (!number.is_one()).then(|| number.shown());
+        match (self.node(expr), number) {
+            (Node::Product(factors), Some(number)) if factors.iter().all(|(_, e)| *e < 0) => {
+                let (above, below) = number.split_once('/').unwrap_or((&number, ""));
+                let own = (!below.is_empty()).then(|| below.to_owned());
+                let below: Vec<String> = own.into_iter().chain(self.powers_text(factors, name)).collect();
+                quotient_text(above, &below)
+            }
+            (Node::Sum(..), Some(number)) => format!("{number}*({})", self.text_with(expr, name)),
+            (Node::Sum(..), None) => format!("({})", self.text_with(expr, name)),
+            (_, Some(number)) => format!("{number}*{}", self.text_with(expr, name)),
+            (_, None) => self.text_with(expr, name),
+        }
+    }
+
+    fn product_text(&self, factors: &[(Expr, i32)], name: &dyn Fn(Expr) -> Written) -> String {
+        let (above, below): (Vec<_>, Vec<_>) = factors.iter().partition(|(_, exponent)| *exponent > 0);
+        let above = match above.is_empty() {
+            true => "1".to_owned(),
+            false => self.powers_text(&above, name).join("*"),
+        };
+        quotient_text(&above, &self.powers_text(&below, name))
+    }
+
+    /// Each factor to the size of its exponent.
+    fn powers_text(&self, factors: &[(Expr, i32)], name: &dyn Fn(Expr) -> Written) -> Vec<String> {
+        let power = |(base, exponent): &(Expr, i32)| {
+            let bare = match self.node(*base) {
+                Node::Sum(..) => false,
+                Node::Symbol(_) => *exponent == 1 || name(*base).shape == Shape::Letter,
+                _ => true,
             };
-            let list = if exponent > 0 { &mut above } else { &mut below };
-            list.push(match exponent.unsigned_abs() {
+            let body = self.text_with(*base, name);
+            let body = if bare { body } else { format!("({body})") };
+            match exponent.unsigned_abs() {
                 1 => body,
                 power => format!("{body}^{power}"),
-            });
-        }
-        let above = if above.is_empty() { "1".to_owned() } else { above.join("*") };
-        match below.len() {
-            0 => above,
-            1 => format!("{above}/{}", below[0]),
-            _ => format!("{above}/({})", below.join("*")),
-        }
+            }
+        };
+        factors.iter().map(power).collect()
+    }
+}
+
+fn quotient_text(above: &str, below: &[String]) -> String {
+    match below {
+        [] => above.to_owned(),
+        [only] => format!("{above}/{only}"),
+        _ => format!("{above}/({})", below.join("*")),
     }
 }

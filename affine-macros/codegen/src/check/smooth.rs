@@ -40,8 +40,7 @@ pub(super) fn potential(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics)
         });
         match (innermost, singular) {
             (Some(Kink::Absolute(part)), _) => {
-                let argument = part.operands().first().map(ToString::to_string).unwrap_or_default();
-                found.report(part.span, PotentialMistake::NotSmooth { argument });
+                found.report(part.span, PotentialMistake::NotSmooth { written: part.to_string() });
             }
             (Some(Kink::Coincidence(part, argument, stretches)), _) => {
                 let argument = argument.to_string();
@@ -57,8 +56,7 @@ pub(super) fn potential(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics)
                 );
             }
             (None, None) => {
-                let argument = absolute.map(|argument| arena.text(argument)).unwrap_or_default();
-                found.report(written.span, PotentialMistake::NotSmooth { argument });
+                found.report(written.span, PotentialMistake::NotSmooth { written: written.to_string() });
             }
         }
     }

@@ -12,7 +12,7 @@ use crate::ir::fuse::fuse;
 use crate::mechanics::balance::Laws;
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
-use crate::mechanics::describe;
+use crate::mechanics::describe::{self, Described, Notation};
 use crate::mechanics::equations::{self, hamilton};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
@@ -64,7 +64,7 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         kept(arena, &h, (&own, &own_h), potential, &forces);
     let commuting = reduce::commuting(arena, &h, potential, &forces);
     let closed_form = match potential {
-        None if forces.is_empty() => reduce::closed_form(arena, &h, &commuting),
+        None if forces.is_empty() => reduce::closed_form(&h, &commuting),
         _ => None,
     };
 
@@ -74,14 +74,25 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         let asked = (rotations, Asked { split, nystrom });
         best_reduction(arena, &h, potential, &forces, asked, &mut coefficients)?
     };
+    let energies = std::slice::from_ref(&kinetic);
+    let metrics_of = metrics.as_ref();
+    let described = Described {
+        energies,
+        blocks: &h.numeric_blocks,
+        forces: &forces,
+        metrics: metrics_of,
+        rebased: &rebased,
+    };
+    let notation = Notation::new(arena, &described);
+    let energy = (&h, &kinetic);
     let formulas = Formulas {
         kinetic_energy: match cubic {
-            None => describe::kinetic_energy(arena, &kinetic),
-            Some(_) => describe::kinetic_energy_of_momenta(arena, &h),
+            None => describe::kinetic_energy(arena, &notation, &kinetic),
+            Some(_) => describe::kinetic_energy_of_momenta(arena, &notation, &h),
         },
-        hamiltonian: describe::hamiltonian(arena, &h, &full_h, potential, &forces),
-        equations: describe::equations(arena, &h, &full_chart, &full_h, potential, &forces),
-        reduced: describe::system(arena, &reduction.system),
+        hamiltonian: describe::hamiltonian(arena, &notation, energy, potential, &forces),
+        equations: describe::equations(arena, &notation, energy, (&full_chart, &full_h), potential, &forces),
+        reduced: describe::system(arena, &notation, &reduction.system),
         left_out: describe::left_out(&h, &reduction, closed_form),
     };
 
@@ -132,7 +143,8 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         coefficients = Constants::new("c");
     }
     let asked = lattice::Asked { unitary, split, ratios };
-    let two_polar = two_polar.then(|| lattice::two_polar(arena, &h, potential, asked, &mut coefficients));
+    let two_polar =
+        two_polar.then(|| lattice::two_polar(arena, &notation, &h, potential, asked, &mut coefficients));
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
     let metric = match quantities.metric {
         true => Some(quantities::metric(arena, std::slice::from_ref(&kinetic), Some(&h), &mut coefficients)?),

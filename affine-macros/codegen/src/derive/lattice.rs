@@ -10,7 +10,7 @@ use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
-use crate::mechanics::describe::Formula;
+use crate::mechanics::describe::{Formula, Notation};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::{OnAxes, Potential};
 use crate::mechanics::two_polar::{self, Equations, Frames, Lattice, Pieces, Ratios, Stable, Variables};
@@ -56,6 +56,7 @@ pub(super) struct Asked {
 /// Derives it.
 pub(super) fn two_polar(
     arena: &mut Arena,
+    notation: &Notation,
     h: &Hamiltonian,
     potential: Option<&Potential>,
     asked: Asked,
@@ -63,7 +64,7 @@ pub(super) fn two_polar(
 ) -> TwoPolar {
     let lattice = Lattice::of(arena, h, asked.unitary);
     let mut equations = lattice.equations(arena, h);
-    let formulas = two_polar::formulas(arena, &equations, potential);
+    let formulas = two_polar::formulas(arena, notation, &equations, potential);
     let on_axes = potential.map(|u| u.on_axes(arena, &lattice));
     if let Some(on_axes) = &on_axes {
         equations.add(on_axes);

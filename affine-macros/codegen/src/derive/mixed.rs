@@ -8,11 +8,11 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 use crate::check::MixedForm;
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
-use crate::mechanics::describe::{self, Scope, closed_form};
+use crate::mechanics::describe::{self, Described, Notation, Scope, closed_form};
 use crate::mechanics::equations::{self, Load, System, gradient, hamilton};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::hessian::Hessian;
+use crate::mechanics::hessian::{self, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic};
 use crate::mechanics::loads::beside;
 use crate::mechanics::metric::Definitions;
@@ -354,7 +354,7 @@ impl Body<'_> {
             return None;
         }
         let commuting = reduce::commuting(arena, h, None, &Forces::default());
-        reduce::closed_form(arena, h, &commuting).map(|(form, _)| (form, true))
+        reduce::closed_form(h, &commuting).map(|(form, _)| (form, true))
     }
 
     fn formulas(
@@ -364,31 +364,46 @@ impl Body<'_> {
         reduction: &Reduction,
         closed: Option<(ClosedForm, bool)>,
     ) -> Formulas {
+        let energies = self.mixed.parts();
+        let blocks: &[hessian::NumericBlock] = match &self.inner {
+            Inner::Constant(_, h) => &h.numeric_blocks,
+            Inner::Varying(_) | Inner::Confined(_) => &[],
+        };
+        let described =
+            Described { energies: &energies, blocks, forces: self.forces, metrics: None, rebased: &[] };
+        let notation = &Notation::new(arena, &described);
+        let masses = &self.masses;
         let (internal, mut equations) = match &self.inner {
             Inner::Varying(_) => {
                 let names = ForceNames::of(chart, self.forces);
-                let mut list = mixed::internal_equations(self.mixed, &self.masses, self.potential, &names);
-                list.extend(mixed::centre_equations(&self.masses, self.potential, &names));
+                let mut list =
+                    mixed::internal_equations(arena, notation, self.mixed, masses, self.potential, &names);
+                list.extend(mixed::centre_equations(arena, notation, masses, self.potential, &names));
                 (mixed::internal_hamiltonian(), list)
             }
             Inner::Confined(internal) => {
                 let names = ForceNames::of(chart, self.forces);
-                let pulls = (self.masses.body.is_some(), self.potential.is_some());
-                let mut list = mixed::confined_equations(self.mixed, internal.group, pulls, &names);
-                list.extend(mixed::centre_equations(&self.masses, self.potential, &names));
+                let pulls = (masses, self.potential);
+                let mut list =
+                    mixed::confined_equations(arena, notation, self.mixed, internal.group, pulls, &names);
+                list.extend(mixed::centre_equations(arena, notation, masses, self.potential, &names));
                 (mixed::confined_hamiltonian(), list)
             }
-            Inner::Constant(_, h) => {
-                let system = describe::system(arena, &reduction.system);
-                (describe::hamiltonian(arena, h, &h.internal(), None, &Forces::default()), system)
+            Inner::Constant(kinetic, h) => {
+                let system = describe::system(arena, notation, &reduction.system);
+                let energy = (&**h, &**kinetic);
+                let none = Forces::default();
+                (describe::hamiltonian(arena, notation, energy, None, &none), system)
             }
         };
-        let hamiltonian = mixed::hamiltonian(arena, internal, &self.masses, self.potential, self.forces);
+        let hamiltonian = mixed::hamiltonian(arena, notation, internal, masses, self.potential, self.forces);
         let reduced = equations.clone();
         if matches!(self.inner, Inner::Constant(..)) {
-            equations = self.systems(arena, chart).map_or_else(Vec::new, |s| describe::system(arena, &s[0]));
+            equations = self
+                .systems(arena, chart)
+                .map_or_else(Vec::new, |s| describe::system(arena, notation, &s[0]));
         }
-        equations.extend(self.forces.formulas(arena));
+        equations.extend(self.forces.formulas(arena, notation));
         let mut left_out = Vec::new();
         if self.masses.are_none() {
             left_out.push(Scope::Model.without("x and p: the model has no translation"));
@@ -402,7 +417,7 @@ impl Body<'_> {
         }
         left_out.extend(closed.map(|_| closed_form(true)));
         Formulas {
-            kinetic_energy: mixed::energy(arena, self.mixed),
+            kinetic_energy: mixed::energy(arena, notation, self.mixed),
             hamiltonian,
             equations,
             reduced,

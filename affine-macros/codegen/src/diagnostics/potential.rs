@@ -70,10 +70,10 @@ pub enum PotentialMistake {
         /// The form: `x[1]`, `norm(x)`.
         form: String,
     },
-    /// `abs(...)` of what changes its sign.
+    /// `abs(...)` of what changes its sign, or the root of a square.
     NotSmooth {
-        /// Its argument.
-        argument: String,
+        /// The form: `abs(q)`.
+        written: String,
     },
     /// A root, a logarithm or a quotient where two stretches coincide.
     Coincidence {
@@ -191,9 +191,9 @@ impl PotentialMistake {
                     "add `space_translation = m` or `body_translation = m` to `kinetic(...)`, or remove `{form}`"
                 ),
             ),
-            Self::NotSmooth { argument } => text(
-                format!("`abs({argument})` is not smooth where its argument is zero"),
-                "the force is the derivative of the potential, and it jumps there; `sqrt(a^2)` is the same function",
+            Self::NotSmooth { written } => text(
+                format!("`{written}` is not smooth where its argument is zero"),
+                "the force is the derivative of the potential, and it jumps there; `abs(a)` and `sqrt(a^2)` are the same function",
                 "use a smooth function, as in `sqrt(a^2 + b^2)` with a constant b, or a power, as in `a^2` or \
                  `abs(a)^2`",
             ),

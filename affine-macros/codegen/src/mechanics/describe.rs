@@ -3,89 +3,113 @@
 
 mod equations;
 mod hamiltonian;
+mod inertia;
 mod known_forms;
 mod left_out;
 mod system;
 
 use crate::algebra::arena::Node;
-use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::kinetic::{Coefficient, Frame, Kinetic, Term, TermKind};
-use crate::mechanics::notation::{field_latex, is_number, latex, matrix_field, plain};
+use crate::mechanics::notation::MatrixName;
 
+pub use super::notation::{Described, Formula, Notation};
 pub use equations::equations;
 pub use hamiltonian::{hamiltonian, kinetic_energy_of_momenta};
 pub use left_out::{LeftOut, Scope, closed_form, left_out};
 pub use system::system;
 
-/// A formula in both notations.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Formula {
-    /// Plain text.
-    pub text: String,
-    /// LaTeX.
-    pub latex: String,
-}
-
-/// A sum under construction.
+/// The right-hand side of a formula under construction.
+#[derive(Default)]
 pub(super) struct Sum {
     text: String,
     latex: String,
 }
 
 impl Sum {
-    pub(super) fn new(left: &str, left_latex: &str) -> Self {
-        Self { text: format!("{left} ="), latex: format!("{left_latex} =") }
-    }
-
-    /// Adds `coefficient * body`, with the sign in front.
-    pub(super) fn add(&mut self, arena: &mut Arena, coefficient: &Polynomial, body: (&str, &str)) {
+    /// Adds `coefficient * body`, with the sign in front; the coefficient alone where there is no body.
+    pub(super) fn add(
+        &mut self,
+        arena: &mut Arena,
+        notation: &Notation,
+        coefficient: &Polynomial,
+        body: (&str, &str),
+    ) {
         if coefficient.is_zero() {
             return;
         }
         let negative = coefficient.terms().all(|(_, c)| c.is_negative());
-        let first = self.text.ends_with('=');
-        let sign = match (negative, first) {
-            (true, true) => " -",
-            (true, false) => " - ",
-            (false, true) => " ",
-            (false, false) => " + ",
-        };
         let size = if negative { coefficient.scaled(&Rational::MINUS_ONE) } else { coefficient.clone() };
         let factor = size.expression(arena);
         let one = arena.as_constant(factor).is_some_and(Rational::is_one);
-        self.text.push_str(sign);
-        self.latex.push_str(sign);
-        if !one {
-            let (text, latex) = (plain(arena, factor), latex(arena, factor));
-            let bracket = matches!(arena.node(factor), Node::Sum(_, terms) if terms.len() > 1);
-            self.text += &if bracket { format!("({text}) ") } else { format!("{text} ") };
-            self.latex += &if bracket { format!("\\left({latex}\\right) ") } else { format!("{latex}\\, ") };
-        }
-        self.text.push_str(body.0);
-        self.latex.push_str(body.1);
+        let bracket = matches!(arena.node(factor), Node::Sum(_, terms) if terms.len() > 1);
+        let Formula { text, latex } = notation.formula(arena, factor);
+        let (text, latex) = match (one, bracket) {
+            _ if body.0.is_empty() => (text, latex),
+            (true, _) => (String::new(), String::new()),
+            (false, true) => (format!("({text}) "), format!("\\left({latex}\\right) ")),
+            (false, false) => (format!("{text} "), format!("{latex}\\, ")),
+        };
+        self.push(negative, &format!("{text}{}", body.0), &format!("{latex}{}", body.1));
     }
 
-    pub(super) fn finish(mut self) -> Formula {
-        if self.text.ends_with('=') {
-            self.text.push_str(" 0");
-            self.latex.push_str(" 0");
+    /// Adds a summand or subtracts it.
+    pub(super) fn push(&mut self, negative: bool, text: &str, latex: &str) {
+        let sign = match (negative, self.text.is_empty()) {
+            (true, true) => "-",
+            (true, false) => " - ",
+            (false, true) => "",
+            (false, false) => " + ",
+        };
+        self.text += &format!("{sign}{text}");
+        self.latex += &format!("{sign}{latex}");
+    }
+
+    /// The sum.
+    pub(super) fn value(self) -> Formula {
+        match self.text.is_empty() {
+            true => Formula { text: "0".to_owned(), latex: "0".to_owned() },
+            false => Formula { text: self.text, latex: self.latex },
         }
-        Formula { text: self.text, latex: self.latex }
+    }
+
+    /// As what something is.
+    pub(super) fn of(self, left: &str, left_latex: &str) -> Formula {
+        self.value().of(left, left_latex)
+    }
+}
+
+impl Formula {
+    /// `left = self`.
+    pub(super) fn of(self, left: &str, left_latex: &str) -> Self {
+        let Self { text, latex } = self;
+        Self { text: format!("{left} = {text}"), latex: format!("{left_latex} = {latex}") }
     }
 }
 
 /// `T` as the sum of its terms.
-pub fn kinetic_energy(arena: &mut Arena, kinetic: &Kinetic) -> Formula {
-    let mut sum = Sum::new("T", "T");
+pub fn kinetic_energy(arena: &mut Arena, notation: &Notation, kinetic: &Kinetic) -> Formula {
+    let mut sum = Sum::default();
+    energy_terms(arena, notation, &mut sum, kinetic);
+    sum.of("T", "T").with(notation.matrices_in(&kinetic.terms))
+}
+
+/// Adds the terms of a kinetic energy.
+pub(super) fn energy_terms(arena: &mut Arena, notation: &Notation, sum: &mut Sum, kinetic: &Kinetic) {
     // With its weight the energy is that in phi_dot.
     let frame = if kinetic.is_weighted() { Frame::Flat } else { kinetic.frame };
-    quadratic_terms(arena, &mut sum, frame, &kinetic.terms);
-    sum.finish()
+    quadratic_terms(arena, notation, sum, frame, &kinetic.terms);
 }
 
 /// Adds the terms of a quadratic form in the velocity of `frame`.
-pub(super) fn quadratic_terms(arena: &mut Arena, sum: &mut Sum, frame: Frame, terms: &[Term]) {
+pub(super) fn quadratic_terms(
+    arena: &mut Arena,
+    notation: &Notation,
+    sum: &mut Sum,
+    frame: Frame,
+    terms: &[Term],
+) {
     let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
     let (o, o_latex) = match frame {
         Frame::Body => ("Omega_hat", "\\hat\\Omega"),
@@ -109,37 +133,28 @@ pub(super) fn quadratic_terms(arena: &mut Arena, sum: &mut Sum, frame: Frame, te
             (_, Coefficient::Scalar(c)) => {
                 (*c, (format!("tr({o} {o}^T)"), format!("\\operatorname{{tr}}({o_latex}{o_latex}^T)")))
             }
-            (kind, Coefficient::Matrix(j)) if !kind.is_tensor() => {
-                let (j, j_latex) = matrix_name(arena, j, "J");
-                let one = arena.constant(Rational::ONE);
-                (
-                    one,
-                    (
-                        format!("tr({o} {j} {o}^T)"),
-                        format!("\\operatorname{{tr}}({o_latex} {j_latex} {o_latex}^T)"),
-                    ),
-                )
-            }
-            (_, Coefficient::Matrix(k)) => {
-                let (k, k_latex) = matrix_name(arena, k, "K");
-                let text = format!("{k}[(A,B),(C,D)] {o}[A,B] {o}[C,D]");
-                let latex = format!("{k_latex}_{{(AB)(CD)}}\\,{o_latex}_{{AB}}{o_latex}_{{CD}}");
-                (arena.constant(Rational::ONE), (text, latex))
+            (kind, Coefficient::Matrix(matrix)) => {
+                let name = notation.matrix_name(arena, &matrix.0);
+                let form = on_matrix(kind, &name, (o, o_latex));
+                (arena.constant(Rational::ONE), form)
             }
         };
         let weight = Polynomial::normal_form(arena, coefficient).scaled(&half);
-        sum.add(arena, &weight, (&text, &latex));
+        sum.add(arena, notation, &weight, (&text, &latex));
     }
 }
 
-/// The name of the field that a matrix is, in text and LaTeX, or its letter.
-fn matrix_name(arena: &Arena, matrix: &Matrix, letter: &str) -> (String, String) {
-    let name = |e: &Expr| Some(matrix_field(arena.name(*e)?)?.0.to_owned());
-    let field = name(&matrix.0[0][0])
-        .filter(|field| matrix.0.iter().flatten().all(|entry| name(entry).as_ref() == Some(field)));
-    match field.filter(|field| !is_number(field)) {
-        Some(field) => (field.clone(), field_latex(&field)),
-        None => (letter.to_owned(), letter.to_owned()),
+/// `tr(O J O^T)`, or `K[(A,B),(C,D)] O[A,B] O[C,D]`.
+fn on_matrix(kind: TermKind, name: &MatrixName, (o, o_latex): (&str, &str)) -> (String, String) {
+    let (j, j_latex) = (&name.text, &name.latex);
+    match kind.is_tensor() {
+        false => {
+            (format!("tr({o} {j} {o}^T)"), format!("\\operatorname{{tr}}({o_latex} {j_latex} {o_latex}^T)"))
+        }
+        true => (
+            format!("{j}[(A,B),(C,D)] {o}[A,B] {o}[C,D]"),
+            format!("{}_{{(AB)(CD)}}\\,{o_latex}_{{AB}}{o_latex}_{{CD}}", name.indexed()),
+        ),
     }
 }
 

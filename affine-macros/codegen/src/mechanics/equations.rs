@@ -214,15 +214,25 @@ impl System {
         self
     }
 
-    /// Every symbol that a definition, a call or a rate uses.
-    fn symbols(&self, arena: &Arena) -> FxHashSet<Expr> {
+    /// Definitions, arguments of calls, rates.
+    fn polynomials(&self) -> impl Iterator<Item = &Polynomial> {
         let shared = self.shared.iter().map(|(_, p)| p);
-        let used = shared
+        shared
             .chain(self.kernels.iter().flat_map(Kernel::inputs))
             .chain(self.rates.iter().map(|(_, _, p)| p))
-            .chain(self.work.iter().map(|(_, p)| p));
+            .chain(self.work.iter().map(|(_, p)| p))
+    }
+
+    /// The number of definitions, arguments and rates that use a symbol.
+    #[must_use]
+    pub fn mentions(&self, arena: &Arena, symbol: Expr) -> usize {
+        self.polynomials().filter(|p| p.any_symbol(arena, &mut |s| s == symbol)).count()
+    }
+
+    /// Every symbol that a definition, a call or a rate uses.
+    fn symbols(&self, arena: &Arena) -> FxHashSet<Expr> {
         let mut found = FxHashSet::default();
-        for polynomial in used {
+        for polynomial in self.polynomials() {
             polynomial.any_symbol(arena, &mut |symbol| {
                 found.insert(symbol);
                 false

@@ -5,13 +5,14 @@ use crate::algebra::{Arena, Expr, Rational};
 use super::charts::{Chart, Linear, Momentum};
 use super::conserved::Candidate;
 use super::custom::{Custom, On, Role};
-use super::describe::{Formula, Sum, quadratic_terms};
+use super::describe::{Formula, Notation, Sum, quadratic_terms};
 use super::dissipation::Dissipation;
 use super::equations::Load;
 use super::hamiltonian::{Hamiltonian, Isotropic};
 use super::kinetic::Frame;
 use super::metric::Definitions;
 use super::mixed;
+use super::notation::field_index;
 use super::potential::TIME;
 use super::shared::CentreVelocity;
 
@@ -132,13 +133,13 @@ impl Forces {
     }
 
     /// What defines them, and the balance of energy.
-    pub fn formulas(&self, arena: &mut Arena) -> Vec<Formula> {
+    pub fn formulas(&self, arena: &mut Arena, notation: &Notation) -> Vec<Formula> {
         let mut list = Vec::new();
         let mut power: Vec<(String, String)> = Vec::new();
         if let Some(dissipation) = &self.dissipation {
-            let mut sum = Sum::new("R", "R");
+            let mut sum = Sum::default();
             for part in &dissipation.parts {
-                quadratic_terms(arena, &mut sum, part.form.frame, &part.form.terms);
+                quadratic_terms(arena, notation, &mut sum, part.form.frame, &part.form.terms);
             }
             let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
             for (frame, coefficient) in &dissipation.centre {
@@ -146,9 +147,10 @@ impl Forces {
                     Frame::Body => ("|phi^-1 dx/dt|^2", "|\\varphi^{-1}\\dot x|^2"),
                     _ => ("|dx/dt|^2", "|\\dot x|^2"),
                 };
-                sum.add(arena, &coefficient.scaled(&half), body);
+                sum.add(arena, notation, &coefficient.scaled(&half), body);
             }
-            list.push(sum.finish());
+            let terms = dissipation.parts.iter().flat_map(|part| &part.form.terms);
+            list.push(sum.of("R", "R").with(notation.matrices_in(terms)));
             power.push(("-2 R".to_owned(), "-2 R".to_owned()));
         }
         for custom in &self.customs {
@@ -202,8 +204,8 @@ fn symbols(custom: &Custom) -> (String, String) {
         Role::Force { on: On::Body, .. } => ("Q_hat", "\\hat Q"),
         Role::Force { on: On::Centre, .. } => ("F", "F"),
     };
-    let name = &custom.name;
-    (format!("{stem}[{name}]"), format!("{latex}_{{\\mathit{{{}}}}}", name.replace('_', "\\_")))
+    let [name, index] = field_index(&custom.name);
+    (format!("{stem}[{name}]"), format!("{latex}_{{{index}}}"))
 }
 
 /// What a field adds to the forces on the linear and the affine momentum of a chart.

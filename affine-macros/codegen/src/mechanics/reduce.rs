@@ -69,24 +69,19 @@ pub enum ClosedForm {
     Straight,
 }
 
-/// The closed form of the geodesics, and whether it needs `p = 0`.
-pub fn closed_form(arena: &mut Arena, h: &Hamiltonian, moving: &[Commuting]) -> Option<(ClosedForm, bool)> {
+/// The closed form of the geodesics, and whether it needs `p = 0`; `moving` is what can be split off.
+#[must_use]
+pub fn closed_form(h: &Hamiltonian, moving: &[Commuting]) -> Option<(ClosedForm, bool)> {
+    // The translational energy is quadratic in p: at p = 0 its flow stands still.
     let at_rest = h.translation.is_some() && !moving.iter().any(|c| matches!(c, Commuting::Drift(_)));
-    if h.frame == Frame::Flat {
+    let form = match h.frame {
         // The multiplier of a constraint bends the line.
-        return h.constraint.is_none().then_some((ClosedForm::Straight, at_rest));
-    }
-    let iso = h.isotropic.as_ref()?;
-    // The translational energy is quadratic in p: at p = 0 its flow stands still, and only the internal pieces have
-    // to commute.
-    let forces = Forces::default();
-    let resting =
-        at_rest.then(|| commuting(arena, &Hamiltonian { translation: None, ..h.clone() }, None, &forces));
-    let pieces = resting.as_deref().unwrap_or(moving);
-    if !iso.skew.is_zero() && pieces.iter().all(|c| matches!(c, Commuting::Drift(_))) {
-        return None;
-    }
-    Some((if h.frame == Frame::Body { ClosedForm::Body } else { ClosedForm::Space }, at_rest))
+        Frame::Flat => h.constraint.is_none().then_some(ClosedForm::Straight)?,
+        // The Casimirs commute with the rotation that the skew part of the energy makes.
+        Frame::Body => h.isotropic.as_ref().map(|_| ClosedForm::Body)?,
+        Frame::Space => h.isotropic.as_ref().map(|_| ClosedForm::Space)?,
+    };
+    Some((form, at_rest))
 }
 
 /// The chart of the model's own frame, `p` spatial.
@@ -132,8 +127,8 @@ pub fn commuting(
             });
         }
     }
+    // |p|^2 commutes with all that holds neither x nor p, as the internal energy does not.
     if let Some((Frame::Space, inverse_mass)) = &h.translation
-        && poisson(&chart, &translation, &h.internal()).is_zero()
         && potential.is_none_or(|u| !u.moves_the_centre())
         && forces.leave_the_centre()
     {
@@ -143,7 +138,7 @@ pub fn commuting(
 }
 
 /// Every chart in which the rest of `H` is a polynomial, reduced; `rotations` tells whether those of space leave `H`
-/// unchanged, `halves` asks for the chart of the energy itself, with a momentum for each position.
+/// unchanged, `halves` asks of an energy that has no other chart than its own for a momentum for each position.
 pub fn candidates(
     arena: &mut Arena,
     h: &Hamiltonian,
@@ -158,7 +153,7 @@ pub fn candidates(
     let turn = linear.is_some() && rotations;
     let mut momenta = vec![Momentum::of(h.frame)];
     for other in [Momentum::Body, Momentum::Space, Momentum::Total] {
-        if !halves && !momenta.contains(&other) && (other != Momentum::Total || linear.is_some()) {
+        if !momenta.contains(&other) && (other != Momentum::Total || linear.is_some()) {
             momenta.push(other);
         }
     }
@@ -390,4 +385,25 @@ pub(super) fn gauge(chart: &Chart, turned: bool, layout: Layout) -> Vec<Expr> {
         }
     }
     zero
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Turning space makes an entry of `I(O)` vanish, and none of a momentum of another chart.
+    #[test]
+    fn the_gauge_is_that_of_the_total_momentum() {
+        let mut arena = Arena::new();
+        let mut entries = |momentum, dim, layout| {
+            let chart = Chart::new(&mut arena, dim, momentum, Some(Linear::Space));
+            gauge(&chart, true, layout).into_iter().filter(|zero| !chart.p.contains(zero)).count()
+        };
+        for momentum in [Momentum::Body, Momentum::Space, Momentum::Canonical] {
+            assert_eq!(entries(momentum, 3, Layout::Constant), 0);
+        }
+        assert_eq!(entries(Momentum::Total, 3, Layout::Constant), 1);
+        assert_eq!(entries(Momentum::Total, 3, Layout::Entries), 0);
+        assert_eq!(entries(Momentum::Total, 2, Layout::Constant), 0);
+    }
 }

@@ -1,9 +1,11 @@
-//! Everything between a specification and its programs, in exact rational arithmetic: nothing here has a tolerance.
+//! Everything between a specification and its programs, in exact rational arithmetic or modulo a prime: nothing here has a
+//! tolerance.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod brackets;
 mod conservation;
 mod derivation;
+mod expansion;
 mod expressions;
 mod fields;
 mod inertia;

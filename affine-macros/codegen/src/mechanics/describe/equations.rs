@@ -1,24 +1,25 @@
 //! Affine velocity and Hamilton's equations, by matrices where a known form holds.
 
 use super::hamiltonian::trace_coefficient;
+use super::inertia::inertial;
 use super::known_forms::known_forms;
-use super::{Formula, Sum, momentum_names, velocity_names};
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use super::{Formula, Notation, Sum, momentum_names, velocity_names};
+use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::equations::{Form, gradient, rate, velocities};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::notation::{latex, plain};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::potential::Potential;
 
 /// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
 /// A potential adds its generalised force, named.
 pub fn equations(
     arena: &mut Arena,
-    h: &Hamiltonian,
-    chart: &Chart,
-    full: &Polynomial,
+    notation: &Notation,
+    (h, kinetic): (&Hamiltonian, &Kinetic),
+    (chart, full): (&Chart, &Polynomial),
     potential: Option<&Potential>,
     forces: &Forces,
 ) -> Vec<Formula> {
@@ -26,88 +27,117 @@ pub fn equations(
     let slopes = gradient(chart, full);
     // A tensor's velocity stays a symbol: written out, nothing in its commutators cancels.
     let form = if h.is_tensor() { Form::ThroughVelocity } else { Form::Expanded };
-    let known = known_forms(h, chart, &velocity, form);
+    let known = known_forms(arena, notation, h, chart, &velocity, form);
     // For the canonical momentum the velocity is the rate of phi itself.
     let mut list = match chart.momentum {
         Momentum::Canonical => Vec::new(),
-        _ => vec![affine_velocity(arena, h, chart)],
+        _ => vec![affine_velocity(arena, notation, (h, kinetic), chart)],
     };
-    let groups: [(&str, &str, Vec<Coordinate>); 4] = [
-        ("dx/dt", "\\dot x", (0..chart.x.len()).map(Coordinate::X).collect()),
-        ("dphi/dt", "\\dot\\varphi", pairs(chart.dim, Coordinate::Phi)),
-        (
-            if chart.linear == Some(Linear::Body) { "dp_hat/dt" } else { "dp/dt" },
-            if chart.linear == Some(Linear::Body) { "\\dot{\\hat p}" } else { "\\dot p" },
-            (0..chart.p.len()).map(Coordinate::P).collect(),
-        ),
-        (momentum_names(chart.momentum).2, momentum_names(chart.momentum).3, pairs(chart.dim, Coordinate::M)),
-    ];
-    let names = force_names(h, chart, potential, forces);
-    for (left, left_latex, coordinates) in groups.into_iter().filter(|(_, _, c)| !c.is_empty()) {
+    let names = force_names(arena, notation, h, chart, potential, forces);
+    let mut written: Vec<Polynomial> = Vec::new();
+    for group in groups(chart) {
         let derived: Vec<Polynomial> =
-            coordinates.iter().map(|z| rate(chart, &slopes, &velocity, form, *z)).collect();
-        let known = known.iter().find(|k| {
-            k.components.len() == derived.len() && k.components.iter().zip(&derived).all(|(a, b)| a == b)
-        });
-        let force = match coordinates[0] {
+            group.coordinates.iter().map(|z| rate(chart, &slopes, &velocity, form, *z)).collect();
+        let matches =
+            |known: &Formula, components: &Vec<Polynomial>| (*components == derived).then(|| known.clone());
+        let known = known.iter().find_map(|k| matches(&k.value, &k.components));
+        let known = match (known, &group.coordinates[0], chart.momentum) {
+            (Some(known), Coordinate::Phi(..), Momentum::Canonical) => {
+                let inertial = inertial(arena, notation, h, kinetic).filter(|found| found.is_on_rows());
+                Some(inertial.map_or(known, |inertial| inertial.velocity[1].clone()))
+            }
+            (known, ..) => known,
+        };
+        let force = match group.coordinates[0] {
             Coordinate::P(_) => names[0].as_ref(),
             Coordinate::M(..) => names[1].as_ref(),
             Coordinate::X(_) | Coordinate::Phi(..) | Coordinate::Carried(_) => None,
         };
-        match (known, force) {
-            (Some(k), None) => list.push(Formula {
-                text: format!("{left} = {}", k.text),
-                latex: format!("{left_latex} = {}", k.latex),
-            }),
-            (Some(k), Some((name, name_latex, ..))) => {
-                let with = |kinetic: &str, force: &str| match kinetic {
-                    "0" => force.to_owned(),
-                    _ => format!("{kinetic} + {force}"),
-                };
-                list.push(Formula {
-                    text: format!("{left} = {}", with(&k.text, name)),
-                    latex: format!("{left_latex} = {}", with(&k.latex, name_latex)),
-                });
+        match known {
+            Some(known) => list.push(group.rate(known, force)),
+            None => {
+                list.extend(group.rates(arena, notation, chart, &derived, force));
+                written.extend(derived);
             }
-            (None, Some((name, name_latex, ..))) => {
-                list.extend(coordinates.iter().zip(&derived).map(|(z, p)| {
-                    let symbol = chart.symbol(*z);
-                    let form = p.expression(arena);
-                    let index = index_of(arena, symbol);
-                    Formula {
-                        text: format!(
-                            "d{}/dt = {} + {name}_{index}",
-                            plain(arena, symbol),
-                            plain(arena, form)
-                        ),
-                        latex: format!(
-                            "\\dot{{{}}} = {} + {name_latex}_{{{index}}}",
-                            latex(arena, symbol),
-                            latex(arena, form)
-                        ),
-                    }
-                }));
-            }
-            (None, None) => list.extend(coordinates.iter().zip(&derived).map(|(z, p)| {
-                let symbol = chart.symbol(*z);
-                let form = p.expression(arena);
-                Formula {
-                    text: format!("d{}/dt = {}", plain(arena, symbol), plain(arena, form)),
-                    latex: format!("\\dot{{{}}} = {}", latex(arena, symbol), latex(arena, form)),
-                }
-            })),
         }
     }
     for (name, name_latex, definition) in names.into_iter().flatten() {
-        list.push(Formula {
-            text: format!("{name} = {}", definition.text),
-            latex: format!("{name_latex} = {}", definition.latex),
-        });
+        list.push(definition.of(name, name_latex));
     }
-    list.extend(forces.formulas(arena));
+    list.extend(notation.definitions(arena, written.iter()));
+    list.extend(forces.formulas(arena, notation));
     match h.constraint {
         Some(group) => under_constraint(h, group, list),
         None => list,
+    }
+}
+
+/// Coordinates that one matrix or vector equation is for.
+struct Group {
+    /// Their rate, in text and LaTeX.
+    left: (&'static str, &'static str),
+    coordinates: Vec<Coordinate>,
+}
+
+/// The groups of a chart that are not empty.
+fn groups(chart: &Chart) -> Vec<Group> {
+    let (_, _, rate, rate_latex) = momentum_names(chart.momentum);
+    let linear = match chart.linear {
+        Some(Linear::Body) => ("dp_hat/dt", "\\dot{\\hat p}"),
+        _ => ("dp/dt", "\\dot p"),
+    };
+    let all = [
+        (("dx/dt", "\\dot x"), (0..chart.x.len()).map(Coordinate::X).collect()),
+        (("dphi/dt", "\\dot\\varphi"), pairs(chart.dim, Coordinate::Phi)),
+        (linear, (0..chart.p.len()).map(Coordinate::P).collect()),
+        ((rate, rate_latex), pairs(chart.dim, Coordinate::M)),
+    ];
+    let group =
+        |(left, coordinates): ((&'static str, &'static str), Vec<Coordinate>)| Group { left, coordinates };
+    all.map(group).into_iter().filter(|group| !group.coordinates.is_empty()).collect()
+}
+
+impl Group {
+    /// The equation of all of them, with the force by name.
+    fn rate(&self, known: Formula, force: Option<&ForceName>) -> Formula {
+        let (left, left_latex) = self.left;
+        let Some((name, name_latex, _)) = force else { return known.of(left, left_latex) };
+        let with = |kinetic: String, force: &str| match kinetic.as_str() {
+            "0" => force.to_owned(),
+            _ => format!("{kinetic} + {force}"),
+        };
+        let known = Formula { text: with(known.text, name), latex: with(known.latex, name_latex) };
+        known.of(left, left_latex)
+    }
+
+    /// The equations of each of them.
+    fn rates(
+        &self,
+        arena: &mut Arena,
+        notation: &Notation,
+        chart: &Chart,
+        derived: &[Polynomial],
+        force: Option<&ForceName>,
+    ) -> Vec<Formula> {
+        let mut list = Vec::new();
+        for (z, rate) in self.coordinates.iter().zip(derived) {
+            let left = notation.formula(arena, chart.symbol(*z));
+            let Formula { text, latex } = notation.polynomial(arena, rate);
+            let index = match z {
+                Coordinate::M(a, b) | Coordinate::Phi(a, b) => format!("{}{}", a + 1, b + 1),
+                Coordinate::X(i) | Coordinate::P(i) => format!("{}", i + 1),
+                Coordinate::Carried(_) => String::new(),
+            };
+            let (text, latex) = match force {
+                None => (text, latex),
+                Some((name, name_latex, _)) => {
+                    (format!("{text} + {name}_{index}"), format!("{latex} + {name_latex}_{{{index}}}"))
+                }
+            };
+            let right = Formula { text, latex };
+            list.push(right.of(&format!("d{}/dt", left.text), &format!("\\dot{{{}}}", left.latex)));
+        }
+        list
     }
 }
 
@@ -127,8 +157,8 @@ fn under_constraint(h: &Hamiltonian, group: Constraint, mut list: Vec<Formula>) 
             let (text, latex) = if text == "0" { ("", "") } else { (text, latex) };
             let plus = if text.is_empty() { "" } else { " + " };
             *formula = Formula {
-                text: format!("{left}{text}{plus}lambda phi^-1"),
-                latex: format!("{left_latex}{latex}{plus}\\lambda\\,\\varphi^{{-1}}"),
+                text: format!("{left}{text}{plus}Lambda phi^-1"),
+                latex: format!("{left_latex}{latex}{plus}\\Lambda\\,\\varphi^{{-1}}"),
             };
         // [X, O] of a momentum that is projected and a velocity in the algebra is projected already.
         } else if text.contains(" + ") || text.contains(" - ") || !text.contains('[') && text != "0" {
@@ -140,7 +170,10 @@ fn under_constraint(h: &Hamiltonian, group: Constraint, mut list: Vec<Formula>) 
         }
     }
     let (text, latex) = match (h.confined().is_none(), projects) {
-        (true, _) => ("lambda: the multiplier of det phi = 1, left to the method", "\\det\\varphi = 1"),
+        (true, _) => (
+            "det phi = 1, with the multiplier Lambda",
+            "\\det\\varphi = 1\\text{, with the multiplier }\\Lambda",
+        ),
         (false, true) => group.projection(),
         (false, false) => return list,
     };
@@ -152,6 +185,8 @@ fn under_constraint(h: &Hamiltonian, group: Constraint, mut list: Vec<Formula>) 
 type ForceName = (&'static str, &'static str, Formula);
 
 fn force_names(
+    arena: &mut Arena,
+    notation: &Notation,
     h: &Hamiltonian,
     chart: &Chart,
     potential: Option<&Potential>,
@@ -175,7 +210,13 @@ fn force_names(
     let mut on_affine: Vec<(String, String)> = Vec::new();
     let owned = |(text, latex): (&str, &str)| (text.to_owned(), latex.to_owned());
     on_linear.extend(moves.then(|| owned(of_linear)));
-    on_affine.extend(h.weight.as_ref().map(|_| owned(("2/n T_int 1", "\\tfrac{2}{n} T_{int}\\,1"))));
+    if h.weight.is_some() {
+        let share = i64::try_from(h.dim).ok().and_then(|n| Rational::ratio(2, n)).unwrap_or(Rational::ONE);
+        let mut sum = Sum::default();
+        sum.add(arena, notation, &Polynomial::constant(share), ("T_int 1", "T_{\\mathrm{int}}\\,1"));
+        let Formula { text, latex } = sum.value();
+        on_affine.push((text, latex));
+    }
     on_affine.extend(potential.map(|_| owned(of_affine)));
     forces.name_on(chart, &mut on_linear, &mut on_affine);
     let joined = |(name, latex): (&'static str, &'static str), parts: Vec<(String, String)>| {
@@ -191,38 +232,36 @@ fn force_names(
     [joined(linear, on_linear), joined(affine, on_affine)]
 }
 
-/// The index of a component: `12` of `pi_12`.
-fn index_of(arena: &Arena, symbol: Expr) -> String {
-    let name = arena.name(symbol).unwrap_or_default();
-    name.rsplit('_').next().unwrap_or_default().to_owned()
-}
-
 /// The inverse Legendre transformation.
-fn affine_velocity(arena: &mut Arena, h: &Hamiltonian, chart: &Chart) -> Formula {
+fn affine_velocity(
+    arena: &mut Arena,
+    notation: &Notation,
+    (h, kinetic): (&Hamiltonian, &Kinetic),
+    chart: &Chart,
+) -> Formula {
     let (x, x_latex, ..) = momentum_names(chart.momentum);
     let (omega, omega_latex) = velocity_names(chart.momentum);
-    let mut sum = Sum::new(omega, omega_latex);
-    match &h.isotropic {
-        Some(iso) => {
-            sum.add(arena, &iso.casimir2, (x, x_latex));
-            sum.add(
-                arena,
-                &trace_coefficient(h, iso),
-                (&format!("tr({x}) 1"), &format!("\\operatorname{{tr}}({x_latex})\\,1")),
-            );
-            sum.add(
-                arena,
-                &iso.skew.scaled(&Rational::MINUS_ONE),
-                (&format!("({x} - {x}^T)"), &format!("({x_latex} - {x_latex}^T)")),
-            );
-            sum.add(arena, &iso.casimir3, (&format!("{x}^2"), &format!("{x_latex}^2")));
-            sum.finish()
+    let Some(iso) = &h.isotropic else {
+        if let Some(inertial) = inertial(arena, notation, h, kinetic) {
+            let [left, right] = inertial.velocity;
+            return right.of(&left.text, &left.latex);
         }
-        None => Formula {
+        return Formula {
             text: format!("{omega} = (dH/d{x})^T"),
             latex: format!("{omega_latex} = (\\partial H/\\partial {x_latex})^T"),
-        },
-    }
+        };
+    };
+    let mut sum = Sum::default();
+    let mut add = |coefficient: &Polynomial, text: &str, latex: &str| {
+        sum.add(arena, notation, coefficient, (text, latex));
+    };
+    add(&iso.casimir2, x, x_latex);
+    let trace = (format!("tr({x}) 1"), format!("\\operatorname{{tr}}({x_latex})\\,1"));
+    add(&trace_coefficient(h, iso), &trace.0, &trace.1);
+    let skew = (format!("({x} - {x}^T)"), format!("({x_latex} - {x_latex}^T)"));
+    add(&iso.skew.scaled(&Rational::MINUS_ONE), &skew.0, &skew.1);
+    add(&iso.casimir3, &format!("{x}^2"), &format!("{x_latex}^2"));
+    sum.of(omega, omega_latex)
 }
 
 fn pairs(n: usize, make: fn(usize, usize) -> Coordinate) -> Vec<Coordinate> {

@@ -1,8 +1,8 @@
 //! Matrix forms that the derived components are compared with.
 
-use super::{momentum_names, velocity_names};
-use crate::algebra::ring::{difference, outer, product, times, transpose};
-use crate::algebra::{Expr, Polynomial};
+use super::{Formula, Notation, Sum, momentum_names, velocity_names};
+use crate::algebra::ring::{Square, difference, outer, product, times, transpose};
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Linear};
 use crate::mechanics::equations::Form;
 use crate::mechanics::hamiltonian::Hamiltonian;
@@ -10,13 +10,14 @@ use crate::mechanics::kinetic::Frame;
 
 /// A matrix or vector formula with its components.
 pub(super) struct Known {
-    pub(super) text: String,
-    pub(super) latex: String,
+    pub(super) value: Formula,
     pub(super) components: Vec<Polynomial>,
 }
 
 /// Balance laws of section 4 and (3.1), as candidates to compare the derived equations with.
 pub(super) fn known_forms(
+    arena: &mut Arena,
+    notation: &Notation,
     h: &Hamiltonian,
     chart: &Chart,
     velocity: &[Vec<(Expr, Polynomial)>],
@@ -40,7 +41,7 @@ pub(super) fn known_forms(
     let (omega, omega_latex) = velocity_names(chart.momentum);
     let mut known = Vec::new();
     let mut add = |text: String, latex: String, components: Vec<Polynomial>| {
-        known.push(Known { text, latex, components });
+        known.push(Known { value: Formula { text, latex }, components });
     };
     add("0".into(), "0".into(), vec![Polynomial::zero(); n]);
     add("0".into(), "0".into(), vec![Polynomial::zero(); n * n]);
@@ -53,34 +54,66 @@ pub(super) fn known_forms(
     add(format!("[{x}, {omega}]"), format!("[{x_latex}, {omega_latex}]"), body_commutator.concat());
     add(format!("[{omega}, {x}]"), format!("[{omega_latex}, {x_latex}]"), space_commutator.concat());
     if let Some((frame, inverse_mass)) = &h.translation {
-        let comoving = chart.linear == Some(Linear::Body);
-        let ph: Vec<Polynomial> = if comoving { p.clone() } else { times(&transpose(&phi), &p) };
-        let name = if comoving { ("p_hat", "\\hat p") } else { ("phi^T p", "\\varphi^T p") };
-        let scaled =
-            |v: Vec<Polynomial>| -> Vec<Polynomial> { v.iter().map(|c| c.mul(inverse_mass)).collect() };
-        add("p / m".into(), "p / m".into(), scaled(p.clone()));
-        add(format!("phi {} / m", name.0), format!("\\varphi {} / m", name.1), scaled(times(&phi, &ph)));
-        add(format!("{omega}^T p_hat"), format!("{omega_latex}^T \\hat p"), times(&transpose(&o), &p));
-        if *frame == Frame::Body {
-            let thrust = outer(&scaled(ph.clone()), &ph);
-            add(
-                format!("[{x}, {omega}] - {0} {0}^T / m", bracketed(name.0)),
-                format!("[{x_latex}, {omega_latex}] - {0} {0}^T / m", bracketed(name.1)),
-                difference(&body_commutator, &thrust).concat(),
-            );
-            let spatial = outer(&scaled(times(&phi, &ph)), &p);
-            add(
-                format!("[{omega}, {x}] - phi phi^T p p^T / m"),
-                format!("[{omega_latex}, {x_latex}] - \\varphi\\varphi^T p\\,p^T / m"),
-                difference(&space_commutator, &spatial).concat(),
-            );
-            let flat = difference(&vec![vec![Polynomial::zero(); n]; n], &outer(&scaled(ph), &p));
-            add("-phi^T p p^T / m".into(), "-\\varphi^T p\\,p^T / m".into(), flat.concat());
-        }
+        known.extend(translation(arena, notation, chart, (*frame, inverse_mass), [&phi, &m, &o], &p));
     }
     known
 }
 
-fn bracketed(name: &str) -> String {
-    if name.contains("^T") { format!("({name})") } else { name.to_owned() }
+/// Those that the energy `|p_hat|^2/(2 m)` or `|p|^2/(2 m)` of the centre of mass has.
+fn translation(
+    arena: &mut Arena,
+    notation: &Notation,
+    chart: &Chart,
+    (frame, inverse_mass): (Frame, &Polynomial),
+    [phi, m, o]: [&Square<Polynomial>; 3],
+    p: &[Polynomial],
+) -> Vec<Known> {
+    let n = chart.dim;
+    let (x, x_latex, ..) = momentum_names(chart.momentum);
+    let (omega, omega_latex) = velocity_names(chart.momentum);
+    let comoving = chart.linear == Some(Linear::Body);
+    let ph: Vec<Polynomial> = if comoving { p.to_vec() } else { times(&transpose(phi), p) };
+    let scaled = |v: &[Polynomial]| -> Vec<Polynomial> { v.iter().map(|c| c.mul(inverse_mass)).collect() };
+    // rest + coefficient * body
+    let mut sum = |rest: (&str, &str), weight: &Polynomial, body: (&str, &str)| {
+        let mut sum = Sum::default();
+        if !rest.0.is_empty() {
+            sum.push(false, rest.0, rest.1);
+        }
+        sum.add(arena, notation, weight, body);
+        sum.value()
+    };
+    let (one, none) = (Polynomial::constant(Rational::ONE), ("", ""));
+    let minus = inverse_mass.scaled(&Rational::MINUS_ONE);
+    let phi_p =
+        if comoving { ("phi p_hat", "\\varphi \\hat p") } else { ("phi phi^T p", "\\varphi \\varphi^T p") };
+    let turned = (format!("{omega}^T p_hat"), format!("{omega_latex}^T \\hat p"));
+    let mut list = vec![
+        Known { value: sum(none, inverse_mass, ("p", "p")), components: scaled(p) },
+        Known { value: sum(none, inverse_mass, phi_p), components: scaled(&times(phi, &ph)) },
+        Known { value: sum(none, &one, (&turned.0, &turned.1)), components: times(&transpose(o), p) },
+    ];
+    if frame == Frame::Body {
+        let (xo, ox) = (product(m, o), product(o, m));
+        let in_body = (format!("[{x}, {omega}]"), format!("[{x_latex}, {omega_latex}]"));
+        let in_space = (format!("[{omega}, {x}]"), format!("[{omega_latex}, {x_latex}]"));
+        let thrust = match comoving {
+            true => ("p_hat p_hat^T", "\\hat p \\hat p^T"),
+            false => ("(phi^T p) (phi^T p)^T", "(\\varphi^T p) (\\varphi^T p)^T"),
+        };
+        let zero = vec![vec![Polynomial::zero(); n]; n];
+        let body = difference(&difference(&xo, &ox), &outer(&scaled(&ph), &ph));
+        let space = difference(&difference(&ox, &xo), &outer(&scaled(&times(phi, &ph)), p));
+        let flat = difference(&zero, &outer(&scaled(&ph), p));
+        let spatial = ("phi phi^T p p^T", "\\varphi\\varphi^T p\\,p^T");
+        list.extend([
+            Known { value: sum((&in_body.0, &in_body.1), &minus, thrust), components: body.concat() },
+            Known { value: sum((&in_space.0, &in_space.1), &minus, spatial), components: space.concat() },
+            Known {
+                value: sum(none, &minus, ("phi^T p p^T", "\\varphi^T p\\,p^T")),
+                components: flat.concat(),
+            },
+        ]);
+    }
+    list
 }

@@ -45,10 +45,10 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
     list.extend(reduction.commuting.iter().map(|piece| {
         Scope::Reduction.without(match piece {
             Commuting::Vorticity(_) => {
-                "the |Vort|^2 part of H: it commutes with the rest and is applied exactly, phi -> phi exp(-t Vort/mu)"
+                "the |Vort|^2/(2 mu) of H: it commutes with the rest and is applied exactly, phi -> phi exp(-t Vort/mu)"
             }
             Commuting::Spin(_) => {
-                "the |S|^2 part of H: it commutes with the rest and is applied exactly, phi -> exp(-t S/mu) phi"
+                "the |S|^2/(2 mu) of H: it commutes with the rest and is applied exactly, phi -> exp(-t S/mu) phi"
             }
             Commuting::Drift(_) => "x and p: the centre of mass moves freely, x = x0 + t p/m",
         })

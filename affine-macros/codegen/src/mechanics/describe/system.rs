@@ -1,35 +1,99 @@
 //! Systems component by component.
 
-use super::Formula;
+use rustc_hash::FxHashSet;
+
+use super::{Formula, Notation};
+use crate::algebra::kernel::Callee;
 use crate::algebra::{Arena, Expr, Polynomial};
+use crate::mechanics::charts::Coordinate;
 use crate::mechanics::equations::System;
-use crate::mechanics::notation::{latex, plain};
+
+/// A quantity of a system and what it is, or its rate.
+struct Line {
+    symbol: Expr,
+    value: Polynomial,
+    is_rate: bool,
+}
 
 /// Shared quantities and rates of a system, component by component; what is a rate itself is written there.
-pub fn system(arena: &mut Arena, system: &System) -> Vec<Formula> {
-    let value_of_rate = |rate: &Polynomial| {
-        system.shared.iter().find(|(s, _)| *rate == Polynomial::atom(*s)).map(|(_, value)| value.clone())
+pub fn system(arena: &mut Arena, notation: &Notation, system: &System) -> Vec<Formula> {
+    let is_rate = |s: Expr| {
+        let is_it = |rate: &Polynomial| *rate == Polynomial::atom(s);
+        let of = system.rates.iter().find(|(.., rate)| is_it(rate)).map(|(z, ..)| *z);
+        // A velocity is the rate of a place by its name; of anything else the name may be needed.
+        let uses = system.mentions(arena, s);
+        of.is_some_and(|z| matches!(z, Coordinate::X(_) | Coordinate::Phi(..)) || uses == 1)
     };
-    let is_rate = |s: Expr| system.rates.iter().any(|(_, _, rate)| *rate == Polynomial::atom(s));
-    let shared = system.shared.iter().filter(|(s, _)| !is_rate(*s)).map(|(s, p)| (*s, p.clone(), false));
-    let rates =
-        system.rates.iter().map(|(_, s, p)| (*s, value_of_rate(p).unwrap_or_else(|| p.clone()), true));
-    let work = system.work.iter().map(|(s, p)| (*s, p.clone(), true));
-    let equations: Vec<(Expr, Polynomial, bool)> = shared.chain(rates).chain(work).collect();
-    equations
-        .into_iter()
-        .map(|(symbol, p, rate)| {
-            let form = p.expression(arena);
-            let (name, name_latex) = (plain(arena, symbol), latex(arena, symbol));
-            let (left, left_latex) = if rate {
-                (format!("d{name}/dt"), format!("\\dot{{{name_latex}}}"))
-            } else {
-                (name, name_latex)
-            };
-            Formula {
-                text: format!("{left} = {}", plain(arena, form)),
-                latex: format!("{left_latex} = {}", latex(arena, form)),
-            }
-        })
-        .collect()
+    let (rates, shared): (Vec<_>, Vec<_>) = system.shared.iter().partition(|(s, _)| is_rate(*s));
+    let value = |rate: &Polynomial| {
+        let found = rates.iter().find(|(s, _)| *rate == Polynomial::atom(*s));
+        found.map_or_else(|| rate.clone(), |(_, value)| value.clone())
+    };
+    let line = |symbol: Expr, value: Polynomial, is_rate: bool| Line { symbol, value, is_rate };
+    let shared = shared.into_iter().map(|(s, p)| line(*s, p.clone(), false));
+    let rates = system.rates.iter().map(|(_, s, p)| line(*s, value(p), true));
+    let work = system.work.iter().map(|(s, p)| line(*s, p.clone(), true));
+    let lines = shown(arena, notation, shared.chain(rates).chain(work).collect());
+    let mut list = notation.definitions(arena, lines.iter().map(|line| &line.value));
+    if system.kernels.iter().any(|kernel| kernel.callee == Callee::Stretches) {
+        list.push(principal_axes());
+    }
+    list.extend(lines.iter().map(|line| line.formula(arena, notation)));
+    list
+}
+
+/// The lines that formulas show: what has no name of its own is written where it stands, and of a quantity that is known
+/// its powers are too.
+fn shown(arena: &mut Arena, notation: &Notation, lines: Vec<Line>) -> Vec<Line> {
+    let (hidden, mut lines): (Vec<Line>, Vec<Line>) =
+        lines.into_iter().partition(|line| notation.is_written_out(arena, line.symbol));
+    for line in hidden.iter().rev() {
+        let value = |atom: Expr| (atom == line.symbol).then(|| line.value.clone());
+        lines.iter_mut().for_each(|other| other.value = other.value.substitute(&value));
+    }
+    let mut known: FxHashSet<Expr> =
+        lines.iter().filter(|line| line.is_rate).map(|line| notation.base(arena, line.symbol)).collect();
+    lines.retain(|line| line.is_rate || known.insert(notation.base(arena, line.symbol)));
+    loop {
+        let mut used = FxHashSet::default();
+        for line in &lines {
+            line.value.any_symbol(arena, &mut |symbol| {
+                used.insert(symbol);
+                false
+            });
+        }
+        let used: FxHashSet<Expr> = used.into_iter().map(|symbol| notation.base(arena, symbol)).collect();
+        let count = lines.len();
+        lines.retain(|line| line.is_rate || used.contains(&notation.base(arena, line.symbol)));
+        if lines.len() == count {
+            return lines;
+        }
+    }
+}
+
+impl Line {
+    fn formula(&self, arena: &mut Arena, notation: &Notation) -> Formula {
+        let (base, exponent) = notation.power(arena, self.symbol);
+        let value = self.value.expression(arena);
+        let (left, value) = match (self.is_rate, exponent) {
+            // 1/D = 1/x says that D = x; a definition is not zero.
+            (false, -1) => (base, arena.pow(value, -1).unwrap_or(value)),
+            _ => (self.symbol, value),
+        };
+        let right = notation.formula(arena, value);
+        let Formula { text, latex } = notation.formula(arena, left);
+        match (self.is_rate, exponent) {
+            (false, _) => right.of(&text, &latex),
+            (true, 1) => right.of(&format!("d{text}/dt"), &format!("\\dot{{{latex}}}")),
+            (true, _) => right.of(&format!("d({text})/dt"), &format!("\\frac{{d}}{{dt}} {latex}")),
+        }
+    }
+}
+
+/// What the stretches and the principal axes are.
+fn principal_axes() -> Formula {
+    Formula {
+        text: "G e_a = Q_a^2 e_a, |e_a| = 1, f_a = phi e_a".to_owned(),
+        latex: "G e_{a} = Q_{a}^{2} e_{a},\\quad |e_{a}| = 1,\\quad f_{a} = \\varphi e_{a}".to_owned(),
+    }
 }

@@ -1,12 +1,11 @@
 //! A mixed energy and its equations as formulas.
 
-use crate::algebra::Arena;
+use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::describe::{Formula, kinetic_energy};
+use crate::mechanics::describe::{Formula, Notation, Sum, energy_terms};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::kinetic::Frame;
-use crate::mechanics::notation::{latex, plain};
 use crate::mechanics::potential::Potential;
 
 use super::{Masses, Mixed};
@@ -49,43 +48,34 @@ fn joined(summands: Vec<String>) -> String {
 }
 
 /// `T` as the sum of its terms, frame after frame.
-pub fn energy(arena: &mut Arena, mixed: &Mixed) -> Formula {
-    let mut sum = formula("T =", "T =");
-    for part in mixed.parts() {
-        let Formula { text, latex } = kinetic_energy(arena, &part);
-        for (sum, part) in [(&mut sum.text, text), (&mut sum.latex, latex)] {
-            let part = part.trim_start_matches("T = ");
-            *sum += &match (sum.ends_with('='), part.strip_prefix('-')) {
-                (true, _) => format!(" {part}"),
-                (false, Some(rest)) => format!(" - {rest}"),
-                (false, None) => format!(" + {part}"),
-            };
-        }
-    }
-    sum
+pub fn energy(arena: &mut Arena, notation: &Notation, mixed: &Mixed) -> Formula {
+    let (mut sum, parts) = (Sum::default(), mixed.parts());
+    parts.iter().for_each(|part| energy_terms(arena, notation, &mut sum, part));
+    sum.of("T", "T").with(notation.matrices_in(parts.iter().flat_map(|part| &part.terms)))
 }
 
 /// `H` through the velocities.
 pub fn hamiltonian(
-    arena: &Arena,
+    arena: &mut Arena,
+    notation: &Notation,
     internal: Formula,
     masses: &Masses,
     potential: Option<&Potential>,
     forces: &Forces,
 ) -> Formula {
     let mut sum = internal;
+    let mut add = |text: &str, latex: &str| {
+        sum.text += &format!(" + {text}");
+        sum.latex += &format!(" + {latex}");
+    };
     if !masses.are_none() {
-        sum.text += " + 1/2 p^T dx/dt";
-        sum.latex += " + \\frac{1}{2} p^T\\dot x";
+        add("1/2 p^T dx/dt", "\\frac{1}{2} p^T\\dot x");
     }
     if let Some(u) = potential {
-        sum.text += &format!(" + {}", plain(arena, u.energy));
-        sum.latex += &format!(" + {}", latex(arena, u.energy));
+        let Formula { text, latex } = notation.formula(arena, u.energy);
+        add(&text, &latex);
     }
-    for u in forces.potentials() {
-        sum.text += &format!(" + {}", u.text);
-        sum.latex += &format!(" + {}", u.latex);
-    }
+    forces.potentials().iter().for_each(|u| add(&u.text, &u.latex));
     sum
 }
 
@@ -98,6 +88,8 @@ pub fn internal_hamiltonian() -> Formula {
 /// The Legendre transformation and the balance of `Pi`, in the parts that the energy has.
 #[must_use]
 pub fn internal_equations(
+    arena: &mut Arena,
+    notation: &Notation,
     mixed: &Mixed,
     masses: &Masses,
     potential: Option<&Potential>,
@@ -110,30 +102,33 @@ pub fn internal_equations(
     if has(Frame::Body) {
         momenta.push((
             "Sigma_hat = (dT_body/dOmega_hat)^T",
-            "\\hat\\Sigma = (\\partial T_{body}/\\partial\\hat\\Omega)^T",
+            "\\hat\\Sigma = (\\partial T_{\\mathrm{body}}/\\partial\\hat\\Omega)^T",
         ));
         parts.push(("Sigma_hat phi^-1", "\\hat\\Sigma\\varphi^{-1}"));
         rate.push(("- Omega_hat Sigma_hat phi^-1".into(), "- \\hat\\Omega\\hat\\Sigma\\varphi^{-1}".into()));
     }
     if has(Frame::Space) {
-        momenta.push(("Sigma = (dT_space/dOmega)^T", "\\Sigma = (\\partial T_{space}/\\partial\\Omega)^T"));
+        momenta.push((
+            "Sigma = (dT_space/dOmega)^T",
+            "\\Sigma = (\\partial T_{\\mathrm{space}}/\\partial\\Omega)^T",
+        ));
         parts.push(("phi^-1 Sigma", "\\varphi^{-1}\\Sigma"));
         rate.push(("- phi^-1 Sigma Omega".into(), "- \\varphi^{-1}\\Sigma\\,\\Omega".into()));
     }
     if has(Frame::Flat) {
-        parts.push(("(dT_flat/dphi_dot)^T", "(\\partial T_{flat}/\\partial\\dot\\varphi)^T"));
+        parts.push(("(dT_flat/dphi_dot)^T", "(\\partial T_{\\mathrm{flat}}/\\partial\\dot\\varphi)^T"));
     }
     if masses.body.is_some() {
-        rate.push((
-            "- phi^-1 dx/dt (p - m dx/dt)^T"
-                .replace(" - m dx/dt", if masses.are_mixed() { " - m dx/dt" } else { "" }),
-            if masses.are_mixed() {
-                "- \\varphi^{-1}\\dot x (p - m\\dot x)^T"
-            } else {
-                "- \\varphi^{-1}\\dot x\\,p^T"
-            }
-            .into(),
-        ));
+        let mut sum = Sum::default();
+        sum.push(false, "p", "p");
+        let space = space_mass(arena, masses).scaled(&Rational::MINUS_ONE);
+        sum.add(arena, notation, &space, ("dx/dt", "\\dot x"));
+        let Formula { text, latex } = sum.value();
+        let (text, latex) = match masses.are_mixed() {
+            true => (format!("({text})^T"), format!("({latex})^T")),
+            false => ("p^T".to_owned(), "\\,p^T".to_owned()),
+        };
+        rate.push((format!("- phi^-1 dx/dt {text}"), format!("- \\varphi^{{-1}}\\dot x {latex}")));
     }
     if potential.is_some() {
         rate.push(("+ N".into(), "+ N".into()));
@@ -141,10 +136,7 @@ pub fn internal_equations(
     rate.extend(names.on_affine.iter().map(|(text, latex)| (signed(text), signed(latex))));
     let mut list: Vec<Formula> = momenta.into_iter().map(|(text, latex)| formula(text, latex)).collect();
     list.push(formula(
-        format!(
-            "Pi = {}, solved for dphi/dt by L D L^T",
-            parts.iter().map(|p| p.0).collect::<Vec<_>>().join(" + ")
-        ),
+        format!("Pi = {}, solved for dphi/dt", parts.iter().map(|p| p.0).collect::<Vec<_>>().join(" + ")),
         format!("\\Pi = {}", parts.iter().map(|p| p.1).collect::<Vec<_>>().join(" + ")),
     ));
     let (text, tex): (Vec<String>, Vec<String>) = rate.into_iter().unzip();
@@ -161,13 +153,14 @@ pub fn confined_hamiltonian() -> Formula {
     formula("H = 1/2 tr(Sigma_hat Omega_hat)", "H = \\frac{1}{2}\\operatorname{tr}(\\hat\\Sigma\\hat\\Omega)")
 }
 
-/// The Legendre transformation on a group and the balance of `Sigma_hat`, in the parts that the energy has; `pulls` tells
-/// whether the centre of mass and a potential act on it.
+/// The Legendre transformation on a group and the balance of `Sigma_hat`, in the parts that the energy has.
 #[must_use]
 pub fn confined_equations(
+    arena: &mut Arena,
+    notation: &Notation,
     mixed: &Mixed,
     group: Constraint,
-    (centre, potential): (bool, bool),
+    (masses, potential): (&Masses, Option<&Potential>),
     names: &ForceNames,
 ) -> Vec<Formula> {
     let has = |frame: Frame| mixed.internal.iter().any(|part| part.frame == frame);
@@ -175,28 +168,34 @@ pub fn confined_equations(
     let mut parts: Vec<(&str, &str)> = Vec::new();
     let mut rate: Vec<(String, String)> = Vec::new();
     if has(Frame::Body) {
-        momenta
-            .push(formula("X = (dT_body/dOmega_hat)^T", "X = (\\partial T_{body}/\\partial\\hat\\Omega)^T"));
+        momenta.push(formula(
+            "X = (dT_body/dOmega_hat)^T",
+            "X = (\\partial T_{\\mathrm{body}}/\\partial\\hat\\Omega)^T",
+        ));
         parts.push(("X", "X"));
         rate.push(("+ [X, Omega_hat]".into(), "+ [X, \\hat\\Omega]".into()));
     }
     if has(Frame::Space) {
         let text = "Y = phi^-1 (dT_space/dOmega)^T phi";
-        let latex = "Y = \\varphi^{-1}(\\partial T_{space}/\\partial\\Omega)^T\\varphi";
+        let latex = "Y = \\varphi^{-1}(\\partial T_{\\mathrm{space}}/\\partial\\Omega)^T\\varphi";
         momenta.push(formula(text, latex));
         parts.push(("Y", "Y"));
     }
     if has(Frame::Flat) {
         let text = "Z = (dT_flat/dphi_dot)^T phi";
-        let latex = "Z = (\\partial T_{flat}/\\partial\\dot\\varphi)^T\\varphi";
+        let latex = "Z = (\\partial T_{\\mathrm{flat}}/\\partial\\dot\\varphi)^T\\varphi";
         momenta.push(formula(text, latex));
         parts.push(("Z", "Z"));
         rate.push(("+ Z Omega_hat".into(), "+ Z\\hat\\Omega".into()));
     }
-    if centre {
-        rate.push(("- m v_hat v_hat^T".into(), "- m \\hat v\\hat v^T".into()));
+    if let Some(mass) = masses.body {
+        let mut sum = Sum::default();
+        let mass = Polynomial::normal_form(arena, mass).scaled(&Rational::MINUS_ONE);
+        sum.add(arena, notation, &mass, ("v_hat v_hat^T", "\\hat v\\hat v^T"));
+        let Formula { text, latex } = sum.value();
+        rate.push((signed(&text), signed(&latex)));
     }
-    if potential {
+    if potential.is_some() {
         rate.push(("+ Q_hat".into(), "+ \\hat Q".into()));
     }
     rate.extend(names.on_affine.iter().map(|(text, latex)| (signed(text), signed(latex))));
@@ -205,7 +204,7 @@ pub fn confined_equations(
     };
     let mut list = momenta;
     list.push(formula(
-        format!("Sigma_hat = P ({}), solved for Omega_hat by L D L^T", sum(|p| p.0)),
+        format!("Sigma_hat = P ({}), solved for Omega_hat", sum(|p| p.0)),
         format!("\\hat\\Sigma = P ({})", sum(|p| p.1)),
     ));
     list.push(formula("dphi/dt = phi Omega_hat", "\\dot\\varphi = \\varphi\\hat\\Omega"));
@@ -219,7 +218,7 @@ pub fn confined_equations(
     ));
     let (text, latex) = group.projection();
     list.push(formula(text, latex));
-    if potential {
+    if potential.is_some() {
         list.push(formula(
             "Q_hat = -(dU/dphi)^T phi",
             "\\hat Q = -(\\partial U/\\partial\\varphi)^T\\varphi",
@@ -228,18 +227,48 @@ pub fn confined_equations(
     list
 }
 
+/// The mass of the energy `m/2 |x_dot|^2`.
+fn space_mass(arena: &mut Arena, masses: &Masses) -> Polynomial {
+    masses.space.map_or_else(Polynomial::zero, |mass| Polynomial::normal_form(arena, mass))
+}
+
+/// The velocity of the centre of mass; `None` where it does not move.
+fn centre_velocity(arena: &mut Arena, notation: &Notation, masses: &Masses) -> Option<Formula> {
+    let (body, space) = ("phi phi^T p", "\\varphi\\varphi^T p");
+    let mut sum = Sum::default();
+    let (mass, of) = match (masses.body, masses.space) {
+        (None, None) => return None,
+        (Some(mass), None) => (mass, (body, space)),
+        (None, Some(mass)) => (mass, ("p", "p")),
+        (Some(mass), Some(_)) => {
+            let (space, body) = (space_mass(arena, masses), Polynomial::normal_form(arena, mass));
+            sum.add(arena, notation, &space, ("G", "G"));
+            // A multiple of the identity.
+            sum.add(arena, notation, &body, ("", ""));
+            let Formula { text, latex } = sum.value();
+            return Some(formula(
+                format!("dx/dt = phi ({text})^-1 phi^T p"),
+                format!("\\dot x = \\varphi ({latex})^{{-1}}\\varphi^T p"),
+            ));
+        }
+    };
+    // A mass is not zero.
+    let inverse = arena.pow(mass, -1).unwrap_or(mass);
+    let inverse = Polynomial::normal_form(arena, inverse);
+    sum.add(arena, notation, &inverse, of);
+    Some(sum.of("dx/dt", "\\dot x"))
+}
+
 /// The velocity of the centre of mass and the balance of `p`.
 #[must_use]
-pub fn centre_equations(masses: &Masses, potential: Option<&Potential>, names: &ForceNames) -> Vec<Formula> {
-    let velocity = match (masses.body.is_some(), masses.space.is_some()) {
-        (false, false) => return Vec::new(),
-        (true, false) => formula("dx/dt = phi phi^T p / m", "\\dot x = \\varphi\\varphi^T p / m"),
-        (false, true) => formula("dx/dt = p / m", "\\dot x = p / m"),
-        (true, true) => formula(
-            "dx/dt = phi (m_body 1 + m_space G)^-1 phi^T p",
-            "\\dot x = \\varphi (m_b 1 + m_s G)^{-1}\\varphi^T p",
-        ),
-    };
+pub fn centre_equations(
+    arena: &mut Arena,
+    notation: &Notation,
+    masses: &Masses,
+    potential: Option<&Potential>,
+    names: &ForceNames,
+) -> Vec<Formula> {
+    let Some(velocity) = centre_velocity(arena, notation, masses) else { return Vec::new() };
     let mut forces: Vec<(String, String)> = Vec::new();
     if potential.is_some_and(Potential::moves_the_centre) {
         forces.push(("- dU/dx".into(), "- \\partial U/\\partial x".into()));

@@ -1,0 +1,135 @@
+//! The energy of one matrix that is known when the model is prepared: `1/2 tr(X^T J^-1 X)`.
+
+use super::{Formula, Notation, momentum_names, velocity_names};
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::mechanics::charts::Momentum;
+use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::kinetic::{Coefficient, Kinetic};
+use crate::mechanics::notation::MatrixName;
+
+/// Energy and velocity through the inverse of a matrix.
+pub(super) struct Inertial {
+    /// `1/2 tr(X^T J^-1 X)`.
+    pub(super) energy: Formula,
+    /// `O = X^T J^-1`, both sides.
+    pub(super) velocity: [Formula; 2],
+    /// Entry by entry, since the matrix is one of pairs of indices?
+    on_pairs: bool,
+}
+
+impl Inertial {
+    /// Is the velocity a product of matrices?
+    pub(super) fn is_on_rows(&self) -> bool {
+        !self.on_pairs
+    }
+}
+
+/// The energy through the inverse of the matrix of its one term, where that has no more than entries of which the inverse
+/// needs numbers and numbers; compared entry by entry with the velocity that was derived.
+pub(super) fn inertial(
+    arena: &mut Arena,
+    notation: &Notation,
+    h: &Hamiltonian,
+    kinetic: &Kinetic,
+) -> Option<Inertial> {
+    if h.numeric_blocks.is_empty() || h.confined().is_some() || h.weight.is_some() {
+        return None;
+    }
+    let [(place, _)] = kinetic.internal.as_slice() else { return None };
+    let term = &kinetic.terms[*place];
+    let Coefficient::Matrix(matrix) = &term.value else { return None };
+    let name = notation.matrix_name(arena, &matrix.0);
+    let tensor = term.kind.is_tensor();
+    let inverse = if tensor { whole_inverse(h) } else { inverse_on_rows(h)? };
+    is_inverse(arena, notation, (&name, &matrix.0), &inverse).then(|| {
+        let momentum = Momentum::of(h.frame);
+        if tensor { on_pairs(&name.inverse(), momentum) } else { on_rows(&name.inverse(), momentum) }
+    })
+}
+
+/// `dO_k/dX_l` of entries row-major, `l` transposed.
+fn whole_inverse(h: &Hamiltonian) -> Vec<Vec<Polynomial>> {
+    let n = h.dim;
+    let entry = |k: usize, l: usize| h.velocity[k / n][k % n].derivative(h.momentum.0[l % n][l / n]);
+    (0..n * n).map(|k| (0..n * n).map(|l| entry(k, l)).collect()).collect()
+}
+
+/// `J^-1` of `O = X^T J^-1`, where every row of `O` has the same.
+fn inverse_on_rows(h: &Hamiltonian) -> Option<Vec<Vec<Polynomial>>> {
+    let n = h.dim;
+    let whole = whole_inverse(h);
+    let inverse: Vec<Vec<Polynomial>> = whole[..n].iter().map(|row| row[..n].to_vec()).collect();
+    let fits = |k: usize, l: usize| match k / n == l / n {
+        true => whole[k][l] == inverse[k % n][l % n],
+        false => whole[k][l].is_zero(),
+    };
+    (0..n * n).all(|k| (0..n * n).all(|l| fits(k, l))).then_some(inverse)
+}
+
+/// Is it the inverse of the matrix: its entries by name, or numbers and reciprocals whose product with the matrix is 1?
+fn is_inverse(
+    arena: &mut Arena,
+    notation: &Notation,
+    (name, matrix): (&MatrixName, &[Vec<Expr>]),
+    inverse: &[Vec<Polynomial>],
+) -> bool {
+    let places = || (0..matrix.len()).flat_map(|i| (0..matrix.len()).map(move |j| (i, j)));
+    let named = |i: usize, j: usize| {
+        let mut terms = inverse[i][j].terms();
+        let alone = terms.len() == 1;
+        let atom = terms.next().filter(|(monomial, c)| alone && monomial.len() == 1 && c.is_one());
+        atom.is_some_and(|(monomial, _)| notation.is_inverse_entry(monomial[0], name, (i + 1, j + 1)))
+    };
+    let by_name: Vec<bool> = (0..matrix.len()).map(|i| (0..matrix.len()).any(|j| named(i, j))).collect();
+    places().all(|(i, j)| match (by_name[i], by_name[j]) {
+        (true, true) => named(i, j) || inverse[i][j].is_zero(),
+        (true, false) | (false, true) => inverse[i][j].is_zero(),
+        (false, false) => {
+            let zero = arena.constant(Rational::ZERO);
+            let product = (0..matrix.len()).fold(zero, |sum, k| {
+                let factor = inverse[k][j].expression(arena);
+                let term = arena.mul(matrix[i][k], factor);
+                arena.add(sum, term)
+            });
+            let expected = if i == j { Rational::ONE } else { Rational::ZERO };
+            Polynomial::normal_form(arena, product) == Polynomial::constant(expected)
+        }
+    })
+}
+
+/// `1/2 tr(X^T J^-1 X)` and `O = X^T J^-1`.
+fn on_rows(inverse: &MatrixName, momentum: Momentum) -> Inertial {
+    let MatrixName { text: j, latex: j_latex, .. } = inverse;
+    let (x, x_latex, ..) = momentum_names(momentum);
+    let (o, o_latex) = velocity_names(momentum);
+    Inertial {
+        energy: Formula {
+            text: format!("1/2 tr({x}^T {j} {x})"),
+            latex: format!("\\frac{{1}}{{2}}\\, \\operatorname{{tr}}({x_latex}^T {j_latex} {x_latex})"),
+        },
+        velocity: [
+            Formula { text: o.to_owned(), latex: o_latex.to_owned() },
+            Formula { text: format!("{x}^T {j}"), latex: format!("{x_latex}^T {j_latex}") },
+        ],
+        on_pairs: false,
+    }
+}
+
+/// `1/2 K^-1[(A,B),(C,D)] X[B,A] X[D,C]` and `O[A,B] = K^-1[(A,B),(C,D)] X[D,C]`.
+fn on_pairs(inverse: &MatrixName, momentum: Momentum) -> Inertial {
+    let k = format!("{}[(A,B),(C,D)]", inverse.text);
+    let k_latex = format!("{}_{{(AB)(CD)}}", inverse.indexed());
+    let (x, x_latex, ..) = momentum_names(momentum);
+    let (o, o_latex) = velocity_names(momentum);
+    Inertial {
+        energy: Formula {
+            text: format!("1/2 {k} {x}[B,A] {x}[D,C]"),
+            latex: format!("\\frac{{1}}{{2}}\\, {k_latex}\\,{x_latex}_{{BA}}{x_latex}_{{DC}}"),
+        },
+        velocity: [
+            Formula { text: format!("{o}[A,B]"), latex: format!("{o_latex}_{{AB}}") },
+            Formula { text: format!("{k} {x}[D,C]"), latex: format!("{k_latex}\\,{x_latex}_{{DC}}") },
+        ],
+        on_pairs: true,
+    }
+}

@@ -1,0 +1,272 @@
+//! Matrices of coefficients: their names, their entries and those of their inverses.
+
+use super::{Formula, Notation, field};
+use crate::algebra::text::Written;
+use crate::algebra::{Arena, Expr, Polynomial};
+use crate::mechanics::forces::Forces;
+use crate::mechanics::kinetic::{Coefficient, Frame, Kinetic, Term};
+use crate::mechanics::metrics::{Rebased, Source};
+
+/// A matrix by name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::mechanics) struct MatrixName {
+    pub(in crate::mechanics) text: String,
+    pub(in crate::mechanics) latex: String,
+    /// Can an index be set at the LaTeX?
+    pub(super) letter: bool,
+}
+
+impl MatrixName {
+    pub(super) fn new(text: impl Into<String>, latex: impl Into<String>, letter: bool) -> Self {
+        Self { text: text.into(), latex: latex.into(), letter }
+    }
+
+    /// The LaTeX to which an index is set.
+    pub(in crate::mechanics) fn indexed(&self) -> String {
+        if self.letter { self.latex.clone() } else { format!("({})", self.latex) }
+    }
+
+    /// Text and LaTeX of an entry, indices from 1.
+    pub(super) fn entry(&self, row: usize, column: usize) -> [Written; 2] {
+        [
+            Written::letter(format!("{}[{row},{column}]", self.text)),
+            Written::letter(format!("{}_{{{row}{column}}}", self.indexed())),
+        ]
+    }
+
+    /// The inverse.
+    #[must_use]
+    pub(in crate::mechanics) fn inverse(&self) -> Self {
+        Self {
+            text: format!("{}^-1", self.text),
+            latex: format!("{}^{{-1}}", self.latex),
+            letter: self.letter,
+        }
+    }
+
+    /// Text and LaTeX of an entry of the inverse.
+    pub(super) fn inverse_entry(&self, row: usize, column: usize) -> [Written; 2] {
+        self.inverse().entry(row, column).map(|Written { body, .. }| Written::raised(body))
+    }
+}
+
+/// A matrix of a quadratic form under its name.
+#[derive(Clone, Debug)]
+pub(super) struct Named {
+    pub(super) rows: Vec<Vec<Expr>>,
+    pub(super) name: MatrixName,
+    /// What it is, where it is no field.
+    pub(super) definition: Option<Formula>,
+    /// What its symbols seem to be entries of, where `prepare()` carries it to orthonormal bases.
+    pub(super) carried: Option<String>,
+}
+
+/// What a matrix is a coefficient of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Energy,
+    Friction,
+}
+
+/// The field of which all these are the entries.
+pub(super) fn field_of<'a>(arena: &'a Arena, rows: &[Vec<Expr>]) -> Option<&'a str> {
+    let name = |e: &Expr| Some(entry_of_field(arena.name(*e)?)?.0);
+    let field = name(rows.first()?.first()?)?;
+    rows.iter().flatten().all(|entry| name(entry) == Some(field)).then_some(field)
+}
+
+/// Field, row and column of the symbol of an entry of a matrix.
+pub(super) fn entry_of_field(symbol: &str) -> Option<(&str, usize, usize)> {
+    let (field, places) = symbol.strip_prefix("self.")?.strip_suffix(']')?.split_once('[')?;
+    let (row, column) = places.split_once(',')?;
+    Some((field, row.parse().ok()?, column.parse().ok()?))
+}
+
+impl Notation<'_> {
+    /// Names for the matrices of all forms.
+    pub(super) fn name_matrices(&mut self, arena: &mut Arena, energies: &[Kinetic], forces: &Forces) {
+        let friction = forces.dissipation.iter().flat_map(|dissipation| &dissipation.parts);
+        let forms: Vec<(Form, &Kinetic)> = energies
+            .iter()
+            .map(|energy| (Form::Energy, energy))
+            .chain(friction.map(|part| (Form::Friction, &part.form)))
+            .collect();
+        let all: Vec<(Form, &Term, &Vec<Vec<Expr>>)> = forms
+            .iter()
+            .flat_map(|(form, kinetic)| kinetic.terms.iter().map(move |term| (*form, term)))
+            .filter_map(|(form, term)| match &term.value {
+                Coefficient::Matrix(matrix) => Some((form, term, &matrix.0)),
+                Coefficient::Scalar(_) => None,
+            })
+            .collect();
+        for (form, term, rows) in &all {
+            let alone = !all.iter().any(|(other, another, matrix)| {
+                other == form
+                    && another.kind.is_tensor() == term.kind.is_tensor()
+                    && matrix != rows
+                    && field_of(arena, &self.as_given(arena, matrix)).is_none()
+            });
+            if self.matrix(rows).is_none() {
+                let named = self.named(arena, (*form, alone), term, rows);
+                self.matrices.push(named);
+            }
+        }
+    }
+
+    fn matrix(&self, rows: &[Vec<Expr>]) -> Option<&Named> {
+        self.matrices.iter().find(|named| named.rows == rows)
+    }
+
+    /// The name of the matrix of a term; of one that has none its rows.
+    pub(in crate::mechanics) fn matrix_name(&self, arena: &mut Arena, rows: &[Vec<Expr>]) -> MatrixName {
+        if let Some(named) = self.matrix(rows) {
+            return named.name.clone();
+        }
+        let Formula { text, latex } = self.literal(arena, rows);
+        MatrixName { text, latex, letter: false }
+    }
+
+    /// What the matrices of terms are, where they are no fields.
+    pub(in crate::mechanics) fn matrices_in<'t>(
+        &self,
+        terms: impl IntoIterator<Item = &'t Term>,
+    ) -> Vec<Formula> {
+        let mut list: Vec<Formula> = Vec::new();
+        for term in terms {
+            let Coefficient::Matrix(matrix) = &term.value else { continue };
+            let definition = self.matrix(&matrix.0).and_then(|named| named.definition.as_ref());
+            list.extend(definition.filter(|definition| !list.contains(definition)).cloned());
+        }
+        list
+    }
+
+    /// The matrix that `prepare()` carries to orthonormal bases, where it is one.
+    fn carried(&self, arena: &Arena, rows: &[Vec<Expr>]) -> Option<&'_ Rebased> {
+        let name = |e: &Expr| Some(entry_of_field(arena.name(*e)?)?.0);
+        let name = rows.iter().flatten().find_map(name)?;
+        self.rebased.iter().find(|matrix| matrix.name == name)
+    }
+
+    /// Its rows as the user gave them.
+    fn as_given(&self, arena: &Arena, rows: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
+        match self.carried(arena, rows).map(|matrix| &matrix.source) {
+            Some(Source::Form(_, entries)) => entries.chunks(rows.len()).map(<[Expr]>::to_vec).collect(),
+            _ => rows.to_vec(),
+        }
+    }
+
+    fn named(
+        &self,
+        arena: &mut Arena,
+        (form, alone): (Form, bool),
+        term: &Term,
+        rows: &[Vec<Expr>],
+    ) -> Named {
+        let given = self.as_given(arena, rows);
+        let carried = self.carried(arena, rows).map(|matrix| matrix.name.clone());
+        if let Some(name) = field_of(arena, &given) {
+            let name = field::matrix(name);
+            return Named { rows: rows.to_vec(), name, definition: None, carried };
+        }
+        let frame = match term.kind.internal_frame() {
+            _ if alone => None,
+            Some(Frame::Body) => Some("body"),
+            Some(Frame::Space) => Some("space"),
+            Some(Frame::Flat) => Some("flat"),
+            None => None,
+        };
+        let letter = if term.kind.is_tensor() { "K" } else { "J" };
+        let name = match (form, frame) {
+            (Form::Energy, None) => MatrixName::new(letter, letter, true),
+            (Form::Energy, Some(frame)) => MatrixName::new(
+                format!("{letter}_{frame}"),
+                format!("{letter}_{{\\mathrm{{{frame}}}}}"),
+                false,
+            ),
+            (Form::Friction, None) => {
+                MatrixName::new(format!("{letter}_R"), format!("{letter}_{{R}}"), false)
+            }
+            (Form::Friction, Some(frame)) => {
+                let latex = format!("{letter}_{{R,\\mathrm{{{frame}}}}}");
+                MatrixName::new(format!("{letter}_R_{frame}"), latex, false)
+            }
+        };
+        let Formula { text, latex } = self.literal(arena, &given);
+        let (bases, bases_latex) = match carried {
+            Some(_) => (" in the given bases", "\\text{ in the given bases}"),
+            None => ("", ""),
+        };
+        let definition = Formula {
+            text: format!("{} = {text}{bases}", name.text),
+            latex: format!("{} = {latex}{bases_latex}", name.latex),
+        };
+        Named { rows: rows.to_vec(), name, definition: Some(definition), carried }
+    }
+
+    /// The rows of a matrix, or a field, or its diagonal.
+    pub(super) fn literal(&self, arena: &mut Arena, rows: &[Vec<Expr>]) -> Formula {
+        if let Some(name) = field_of(arena, rows) {
+            let MatrixName { text, latex, .. } = field::matrix(name);
+            return Formula { text, latex };
+        }
+        let zero = |e: &Expr| arena.as_constant(*e).is_some_and(|value| value.is_zero());
+        let is_diagonal = rows
+            .iter()
+            .enumerate()
+            .all(|(i, row)| row.iter().enumerate().all(|(j, entry)| i == j || zero(entry)));
+        let mut written = |entries: &[Expr]| -> (Vec<String>, Vec<String>) {
+            entries.iter().map(|e| self.formula(arena, *e)).map(|f| (f.text, f.latex)).unzip()
+        };
+        if is_diagonal {
+            let diagonal: Vec<Expr> = rows.iter().enumerate().map(|(i, row)| row[i]).collect();
+            let (texts, formulas) = written(&diagonal);
+            return Formula {
+                text: format!("diag({})", texts.join(", ")),
+                latex: format!("\\operatorname{{diag}}\\left({}\\right)", formulas.join(", ")),
+            };
+        }
+        let (texts, formulas): (Vec<String>, Vec<String>) = rows
+            .iter()
+            .map(|row| written(row))
+            .map(|(texts, formulas)| (format!("[{}]", texts.join(", ")), formulas.join(" & ")))
+            .unzip();
+        Formula {
+            text: format!("[{}]", texts.join(", ")),
+            latex: format!("\\begin{{pmatrix}} {} \\end{{pmatrix}}", formulas.join(" \\\\ ")),
+        }
+    }
+
+    /// The matrix of which this symmetric block is the part on some rows that the others do not mix with, and these rows.
+    pub(super) fn containing(
+        &self,
+        arena: &mut Arena,
+        block: &[Vec<Polynomial>],
+    ) -> Option<(&Named, Vec<usize>)> {
+        self.matrices.iter().find_map(|named| {
+            let matrix: Vec<Vec<Polynomial>> = named
+                .rows
+                .iter()
+                .map(|row| row.iter().map(|e| Polynomial::normal_form(arena, *e)).collect())
+                .collect();
+            Some((named, rows_of(&matrix, block)?))
+        })
+    }
+}
+
+/// The rows on which a matrix is a block, in the order of the block.
+fn rows_of(matrix: &[Vec<Polynomial>], block: &[Vec<Polynomial>]) -> Option<Vec<usize>> {
+    let rows = continued(matrix, block, &[])?;
+    let apart = |r: usize| rows.contains(&r) || rows.iter().all(|s| matrix[r][*s].is_zero());
+    (0..matrix.len()).all(apart).then_some(rows)
+}
+
+/// These rows and those that come after them.
+fn continued(matrix: &[Vec<Polynomial>], block: &[Vec<Polynomial>], rows: &[usize]) -> Option<Vec<usize>> {
+    let Some(values) = block.get(rows.len()) else { return Some(rows.to_vec()) };
+    let fits = |r: &usize| {
+        !rows.contains(r)
+            && matrix[*r][*r] == values[rows.len()]
+            && rows.iter().zip(values).all(|(s, value)| matrix[*r][*s] == *value)
+    };
+    (0..matrix.len()).filter(fits).find_map(|r| continued(matrix, block, &[rows, &[r]].concat()))
+}
