@@ -1,10 +1,12 @@
 //! Simulations: from a start to output times, with everything that can stop them.
 
+mod accumulation;
 mod checkpoint;
 mod closed_form;
 mod collapse;
 mod conservation;
 mod csv;
+mod departure;
 mod ensemble;
 mod event;
 mod fingerprint;
@@ -25,6 +27,7 @@ mod round_trip;
 mod run;
 mod settings;
 mod signature;
+mod standing;
 mod stepper;
 mod stiffness;
 mod trajectory;

@@ -1,10 +1,12 @@
 //! A trajectory in closed form: no steps, exact up to rounding.
 
 use super::Method;
+use super::conservation::larger;
 use super::follow::WITHIN_A_STEP;
 use super::halt::Reason;
 use super::mechanics::Course;
 use super::recorder::Recorder;
+use super::watcher::{At, Sampling};
 use crate::geodesic::{Geodesic, Motion};
 use crate::kinematics::LogDeterminant;
 use crate::state::Phase;
@@ -12,6 +14,9 @@ use crate::state::Phase;
 /// Part of the way to a collapse within which an event that follows belongs to it: times of a collapse and of the zero of
 /// an event have errors of their own.
 const PAST_A_COLLAPSE: f64 = 1e-8;
+
+/// Stretches of a run in closed form between whose ends events are looked at, where the motion asks for no more.
+const STRETCHES: f64 = 100.0;
 
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// The closed form at the output times.
@@ -39,7 +44,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         };
         // Events behind a collapse do not happen; the collapse may be one.
         let last_event = collapse.map(|end| end + PAST_A_COLLAPSE * (end - t0));
-        self.begin_closed_form(t0, &at);
+        self.begin_closed_form(t0, rate, &at);
         self.trajectory.statistics = self.place.cost();
         let mut outputs = 0;
         loop {
@@ -47,7 +52,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             let until = due.unwrap_or(t_end);
             let until = last_event.filter(|last| is_behind(until, *last)).unwrap_or(until);
             resolved(until)?;
-            if self.meet(until, WITHIN_A_STEP, &mut |t| Ok((at(t), 0.0)))? {
+            if self.meet_between(until, rate, outputs, &mut |t| Ok((at(t), 0.0)))? {
                 return Ok(());
             }
             let Some(t) = due else { break };
@@ -57,10 +62,40 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 self.record(t, (at(t), 0.0))?;
             }
             outputs += 1;
-            self.place.passed(vec![t.to_bits()]);
+            self.passed(vec![t.to_bits()]);
             self.report(t, outputs)?;
         }
         stands(t_end)?;
         self.reach(t_end, (at(t_end), 0.0))
+    }
+
+    /// The events on the way from one output to the next, in stretches of a few samples each, after which the run may be
+    /// interrupted; whether the motion does not go straight on.
+    fn meet_between(
+        &mut self,
+        until: f64,
+        rate: f64,
+        outputs: u64,
+        at: &mut At<'_, P>,
+    ) -> Result<bool, Reason> {
+        let sampling = Sampling { parts: WITHIN_A_STEP, rate };
+        let longest = (self.t_end - self.origin).abs() / STRETCHES;
+        while self.has_events() && self.watcher.t() != until {
+            let (t, left) = (self.watcher.t(), until - self.watcher.t());
+            let stretches = larger(
+                (left.abs() / longest).round(),
+                self.watcher.parts_to(until) / f64::from(WITHIN_A_STEP),
+            );
+            let end = t + left / stretches;
+            let end = if stretches > 1.0 && end != t { end } else { until };
+            if self.meet(end, sampling, at)? {
+                return Ok(true);
+            }
+            if end != until {
+                self.passed(vec![end.to_bits()]);
+                self.report(end, outputs)?;
+            }
+        }
+        Ok(false)
     }
 }

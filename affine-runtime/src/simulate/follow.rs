@@ -8,11 +8,12 @@ use super::output::Schedule;
 use super::point::{check, is_clearly_positive};
 use super::recorder::Recorder;
 use super::signature::Signature;
+use super::watcher::Sampling;
 use crate::frames::Matrix;
 use crate::integrate::Statistics;
 use crate::state::Phase;
 
-/// Equal parts of a step at whose ends events are looked at.
+/// Equal parts of a step at whose ends events are looked at, where its length follows the error.
 pub(super) const WITHIN_A_STEP: u32 = 4;
 
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
@@ -51,7 +52,8 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let mut moment = passes_through_zero(model.description())
             .then(|| Moment::of(model, (motion.t(), &motion.reached().0)));
         let is_watched = self.progress.is_some() || self.is_watched();
-        let parts = if self.trajectory.computation.asked.step().is_some() { 1 } else { WITHIN_A_STEP };
+        let equal = self.trajectory.computation.asked.step().is_some();
+        let sampling = Sampling { parts: if equal { 1 } else { WITHIN_A_STEP }, rate: 0.0 };
         while !motion.is_finished() {
             let steps = cost + motion.statistics().steps;
             if steps >= self.max_steps {
@@ -74,7 +76,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 Err(Reason::Placement { t, .. }) => t,
                 _ => t,
             };
-            if self.pass_through(motion, until, parts)? {
+            if self.pass_through(motion, until, sampling)? {
                 return Ok(());
             }
             oriented?;
@@ -108,14 +110,19 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     }
 
     /// The events and the outputs of a step that has been taken, up to a time; whether the motion does not go straight on.
-    fn pass_through(&mut self, motion: &mut dyn Motion<P>, until: f64, parts: u32) -> Result<bool, Reason> {
+    fn pass_through(
+        &mut self,
+        motion: &mut dyn Motion<P>,
+        until: f64,
+        sampling: Sampling,
+    ) -> Result<bool, Reason> {
         let t = motion.t();
         let (computation, model) = (self.trajectory.computation, self.trajectory.description.name);
         let mut at = |due: f64| match due == t {
             true => Ok(motion.reached()),
             false => motion.between(due).map_err(|failure| computation.reason(failure, model)),
         };
-        if self.meet(until, parts, &mut at)? {
+        if self.meet(until, sampling, &mut at)? {
             return Ok(true);
         }
         self.record_through(until, &mut at)?;

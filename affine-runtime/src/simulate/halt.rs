@@ -95,6 +95,17 @@ pub enum Reason {
         /// The time.
         t: f64,
     },
+    /// The changes of an event accumulate: they follow one another in intervals that shrink to nothing, as the bounces of a ball
+    /// that loses a part of its velocity do, or a change leaves the function at zero with no rate, and from there it would go
+    /// through at once, as under a ball at rest. No motion between events leads beyond that time.
+    Accumulation {
+        /// Name of the event.
+        event: &'static str,
+        /// The time at which they accumulate; the last of them is at most 6e-8 of the time since they began to shrink before.
+        t: f64,
+        /// How often the event has changed the point.
+        count: u64,
+    },
     /// The point that an event should have been changed to is none.
     Change {
         /// Name of the event.
@@ -367,6 +378,12 @@ impl fmt::Display for Reason {
                 f,
                 "the function of the event `{event}` is NaN at t = {t}: it has a sign at every phase point of the run; \
                  give it a number where it is undefined, a constant where the event cannot happen"
+            ),
+            Reason::Accumulation { event, t, count } => write!(
+                f,
+                "the event `{event}` has changed the point {count} times, and accumulates at t = {t}: changes in intervals \
+                 that shrink to nothing, or one that leaves the motion at rest where the event happens; stop the run \
+                 there, or go on from there with a motion that stays in contact"
             ),
             Reason::Change { event } => {
                 write!(f, "the event `{event}` should change the phase point, and its function gave an error")

@@ -133,7 +133,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             origin: t0,
             t_end,
             backward: t_end < t0,
-            place: Place::starting(None, (Statistics::default(), 0.0)),
+            place: Place::starting(Vec::new(), (Statistics::default(), 0.0)),
             is_lost: false,
             turn: None,
         };
@@ -176,18 +176,25 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let mut changes = 0;
         loop {
             self.leg(from, recorder)?;
-            let Some(Turn::Changed { t, point, event, work }) = recorder.turn.take() else { return Ok(()) };
+            let Some(Turn::Changed { t, point, work, accumulation }) = recorder.turn.take() else {
+                return Ok(());
+            };
             check(t, &point)?;
-            changes += 1;
-            if changes > recorder.max_steps {
-                return Err(Reason::StepLimit { limit: recorder.max_steps });
-            }
             *from = (t, point);
             recorder.trajectory.end = *from;
             recorder.trajectory.energies.work_at_end = work;
             recorder.trajectory.computation.at_rest &= point.p().iter().all(|p| *p == 0.0);
             let cost = recorder.trajectory.statistics;
-            recorder.place = Place::starting(Some(event), (cost, work));
+            let events = recorder.watcher.memory().to_vec();
+            recorder.place = Place::starting(events, (cost, work));
+            if let Some(reason) = accumulation {
+                return Err(reason);
+            }
+            changes += 1;
+            if changes > recorder.max_steps {
+                return Err(Reason::StepLimit { limit: recorder.max_steps });
+            }
+            recorder.report(t, cost.steps)?;
         }
     }
 
