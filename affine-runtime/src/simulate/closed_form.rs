@@ -46,13 +46,13 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let last_event = collapse.map(|end| end + PAST_A_COLLAPSE * (end - t0));
         self.begin_closed_form(t0, rate, &at);
         self.trajectory.statistics = self.place.cost();
-        let mut outputs = 0;
+        self.steps = 0;
         loop {
             let due = self.schedule.peek();
             let until = due.unwrap_or(t_end);
             let until = last_event.filter(|last| is_behind(until, *last)).unwrap_or(until);
             resolved(until)?;
-            if self.meet_between(until, rate, outputs, &mut |t| Ok((at(t), 0.0)))? {
+            if self.meet_between(until, rate, &mut |t| Ok((at(t), 0.0)))? {
                 return Ok(());
             }
             let Some(t) = due else { break };
@@ -61,9 +61,9 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             if self.schedule.take_through(t, self.backward).is_some() {
                 self.record(t, (at(t), 0.0))?;
             }
-            outputs += 1;
+            self.steps += 1;
             self.passed(vec![t.to_bits()]);
-            self.report(t, outputs)?;
+            self.report(t)?;
         }
         stands(t_end)?;
         self.reach(t_end, (at(t_end), 0.0))
@@ -71,13 +71,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
 
     /// The events on the way from one output to the next, in stretches of a few samples each, after which the run may be
     /// interrupted; whether the motion does not go straight on.
-    fn meet_between(
-        &mut self,
-        until: f64,
-        rate: f64,
-        outputs: u64,
-        at: &mut At<'_, P>,
-    ) -> Result<bool, Reason> {
+    fn meet_between(&mut self, until: f64, rate: f64, at: &mut At<'_, P>) -> Result<bool, Reason> {
         let sampling = Sampling { parts: WITHIN_A_STEP, rate };
         let longest = (self.t_end - self.origin).abs() / STRETCHES;
         while self.has_events() && self.watcher.t() != until {
@@ -93,7 +87,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             }
             if end != until {
                 self.passed(vec![end.to_bits()]);
-                self.report(end, outputs)?;
+                self.report(end)?;
             }
         }
         Ok(false)

@@ -99,3 +99,116 @@ fn roughness<E>(f: &mut impl FnMut(f64) -> Result<f64, E>, t0: f64, s: f64) -> R
     }
     Ok(values.windows(2).fold(0.0, |most, pair| larger(most, (pair[1] - pair[0]).abs())))
 }
+
+#[cfg(test)]
+mod tests {
+    use core::convert::Infallible;
+
+    use super::{Departure, departure};
+    use crate::simulate::standing::Side::{self, Negative, Positive};
+
+    /// From `f(t0)`, with the number of values that it took.
+    fn leaving(f: impl Fn(f64) -> f64, t0: f64, end: f64) -> (Option<Departure>, u32) {
+        let mut calls = 0;
+        let counted = |t: f64| {
+            calls += 1;
+            Ok::<f64, Infallible>(f(t))
+        };
+        let left = departure(counted, (t0, f(t0)), end);
+        (left.unwrap_or_else(|never| match never {}), calls)
+    }
+
+    const ENDS: [(f64, f64); 5] = [(0.0, 1.0), (0.0, -1e-3), (0.7, 1.0), (-3.0, -4.5), (1e3, 1.5e3)];
+
+    #[test]
+    fn linear_departures_have_their_rate() {
+        for (t0, end) in ENDS {
+            for rate in [1.0, -1.0, 1e-8, -1e8] {
+                let (left, calls) = leaving(|t| rate * (t - t0) * (1.0 + (t - t0)), t0, end);
+                let left = left.unwrap();
+                let side = if rate * (end - t0) > 0.0 { Positive } else { Negative };
+                assert_eq!((left.side, Side::of(left.value)), (side, Some(side)), "{t0} {end} {rate}");
+                assert!((left.rate.unwrap() / f64::abs(rate) - 1.0).abs() < 1e-3, "{left:?}");
+                assert!(
+                    (left.t - t0) * (end - left.t) > 0.0 && (left.t - t0).abs() < 1e-9 * t0.abs().max(1.0)
+                );
+                assert!(calls < 16, "{calls}");
+            }
+        }
+    }
+
+    #[test]
+    fn higher_powers_have_none() {
+        for (t0, end) in ENDS {
+            for power in [2, 3, 4] {
+                for sign in [1.0, -1.0] {
+                    let (left, calls) = leaving(|t| sign * (t - t0).powi(power), t0, end);
+                    let left = left.unwrap();
+                    assert_eq!(left.rate, None, "{t0} {end} {power}");
+                    assert_eq!(Some(left.side), Side::of(sign * (end - t0).powi(power)));
+                    assert!(calls < 60, "{calls}");
+                }
+            }
+        }
+    }
+
+    /// Up at a rate and down again, from just below: found as long as it comes above zero.
+    #[test]
+    fn flights_that_come_back() {
+        for (t0, end) in [(0.0, 1.0), (0.45, 3.0), (0.0, -1.0)] {
+            let sign = f64::signum(end - t0);
+            for rate in [1.0, 1e-3, 1e-6, 1e-9] {
+                let flight = |residual: f64| {
+                    move |t: f64| residual + rate * sign * (t - t0) - 5.0 * (t - t0) * (t - t0)
+                };
+                for residual in [0.0, 1e-3 * rate * rate, -1e-3 * rate * rate] {
+                    let left = leaving(flight(residual), t0, end).0.unwrap();
+                    assert_eq!(left.side, Positive, "{t0} {rate} {residual}");
+                    assert!(left.value > 0.0 && sign * (left.t - t0) < 0.2 * rate, "{left:?}");
+                }
+                // A peak of rate^2/20 that does not reach zero.
+                let left = leaving(flight(-0.1 * rate * rate), t0, end).0.unwrap();
+                assert_eq!((left.side, left.rate), (Negative, None), "{t0} {rate}");
+            }
+        }
+    }
+
+    /// Values that are rounded to a quantum have no rate in its range.
+    #[test]
+    fn rounding_is_no_motion() {
+        let quantum = 1e-10;
+        let rounded = |value: f64| (value / quantum).round() * quantum;
+        let left = leaving(|t| rounded(-5.0 * t * t), 0.0, 1.0).0.unwrap();
+        assert_eq!((left.side, left.rate), (Negative, None));
+        let left = leaving(|t| rounded(1e-3 * t - 5.0 * t * t), 0.0, 1.0).0.unwrap();
+        assert_eq!(left.side, Positive, "up to 5e-8");
+        let left = leaving(|t| rounded(1e-5 * t - 5.0 * t * t), 0.0, 1.0).0.unwrap();
+        assert_eq!((left.side, left.rate), (Negative, None), "up to 5e-12");
+        let left = leaving(|t| rounded(-t), 0.0, 1.0).0.unwrap();
+        assert!(left.side == Negative && (left.rate.unwrap() - 1.0).abs() < 0.2, "{left:?}");
+        // Noise of a function that stays, and of one that goes.
+        let noise = |t: f64| 1e-15 * (f64::from((t.to_bits() % 1009) as u32) / 504.5 - 1.0);
+        for end in [1.0, -0.3, 1e-3] {
+            assert_eq!(leaving(|t| if t == 0.0 { 0.0 } else { noise(t) }, 0.0, end).0, None, "{end}");
+            let left = leaving(|t| noise(t) - 5.0 * t * t, 0.0, end).0.unwrap();
+            assert_eq!((left.side, left.rate), (Negative, None), "{end}");
+        }
+        assert_eq!(leaving(|_| 0.0, 0.3, 1.0).0, None);
+        assert_eq!(leaving(|_| -1e-17, 0.3, 1.0).0, None);
+    }
+
+    #[test]
+    fn jumps_and_what_is_no_number() {
+        for value in [-1.0, f64::NEG_INFINITY, 1e-300] {
+            let left = leaving(|t| if t == 0.0 { 0.0 } else { value }, 0.0, 1.0).0.unwrap();
+            assert_eq!((Some(left.side), left.rate), (Side::of(value), Some(f64::INFINITY)), "{value}");
+        }
+        // Where the function has begun to go is not asked.
+        let late = leaving(|t| if t < 0.9 { 0.0 } else { -1.0 }, 0.0, 1.0).0.unwrap();
+        assert_eq!(late.side, Negative);
+        assert_eq!(leaving(|t| if t == 0.0 { 0.0 } else { f64::NAN }, 0.0, 1.0).0, None);
+        // No times in between.
+        assert_eq!(leaving(|t| t - 1.0, 1.0, 1.0 + 8.0 * f64::EPSILON).0, None);
+        assert_eq!(leaving(|t| t - 1.0, 1.0, 1.0).0, None);
+    }
+}

@@ -21,9 +21,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     pub(super) fn follow(&mut self, motion: &mut dyn Motion<P>) -> Result<(), Reason> {
         let outcome = self.step_through(motion).map_err(|reason| match reason {
             Reason::Placement { determinant, t } => {
-                let good = motion.kept_at().unwrap_or(self.trajectory.end.0);
-                let stands = |t| motion.between(t).is_ok_and(|(point, _)| check(t, &point).is_ok());
-                Reason::Placement { determinant, t: first_failure(good, t, stands) }
+                Reason::Placement { determinant, t: self.collapse(motion, t) }
             }
             other => other,
         });
@@ -55,8 +53,8 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let equal = self.trajectory.computation.asked.step().is_some();
         let sampling = Sampling { parts: if equal { 1 } else { WITHIN_A_STEP }, rate: 0.0 };
         while !motion.is_finished() {
-            let steps = cost + motion.statistics().steps;
-            if steps >= self.max_steps {
+            self.steps = cost + motion.statistics().steps;
+            if self.steps >= self.max_steps {
                 self.pass(motion);
                 return Err(Reason::StepLimit { limit: self.max_steps });
             }
@@ -73,7 +71,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 None => Ok(()),
             };
             let until = match oriented {
-                Err(Reason::Placement { t, .. }) => t,
+                Err(Reason::Placement { t, .. }) => self.collapse(motion, t),
                 _ => t,
             };
             if self.pass_through(motion, until, sampling)? {
@@ -92,9 +90,16 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             if is_watched {
                 self.pass(motion);
             }
-            self.report(t, steps + 1)?;
+            self.steps += 1;
+            self.report(t)?;
         }
         Ok(())
+    }
+
+    /// When a body collapses that has collapsed at a time within the step.
+    fn collapse(&self, motion: &mut dyn Motion<P>, t: f64) -> f64 {
+        let good = motion.kept_at().unwrap_or(self.trajectory.end.0);
+        first_failure(good, t, |t| motion.between(t).is_ok_and(|(point, _)| check(t, &point).is_ok()))
     }
 
     /// Refuses a step from a moment on in which the orientation is lost; the moment becomes that of its end.

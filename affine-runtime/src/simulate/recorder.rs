@@ -17,6 +17,9 @@ use crate::error::Error;
 use crate::integrate::{Failure, norm};
 use crate::state::Phase;
 
+/// Samples of a step after which it tells how far it has come.
+const SAMPLES_UNHEARD: u32 = 1 << 10;
+
 /// What is recorded of a run, and how far it has come.
 pub(super) struct Recorder<'r, 'a, const N: usize, P> {
     pub(super) model: &'a dyn Mechanics<N, P>,
@@ -34,6 +37,8 @@ pub(super) struct Recorder<'r, 'a, const N: usize, P> {
     pub(super) t_end: f64,
     /// The run goes backward in time.
     pub(super) backward: bool,
+    /// Accepted steps so far, or outputs of a closed form.
+    pub(super) steps: u64,
     pub(super) place: Place,
     /// The integrator's state cannot be kept.
     pub(super) is_lost: bool,
@@ -125,8 +130,8 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     }
 
     /// Tells how far the run has come.
-    pub(super) fn report(&mut self, t: f64, steps: u64) -> Result<(), Reason> {
-        let progress = Progress { t0: self.origin, t, t_end: self.t_end, steps };
+    pub(super) fn report(&mut self, t: f64) -> Result<(), Reason> {
+        let progress = Progress { t0: self.origin, t, t_end: self.t_end, steps: self.steps };
         match &mut self.progress {
             Some(watch) => go_on(watch(&progress), Callback::Progress),
             None => Ok(()),
@@ -142,7 +147,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     pub(super) fn meet(&mut self, end: f64, sampling: Sampling, at: &mut At<'_, P>) -> Result<bool, Reason> {
         let (start, model) = (self.watcher.t(), self.model);
         let rate = |point: &P| larger(sampling.rate, turning(model, point));
-        let mut count = 0;
+        let (mut count, mut samples) = (0, 0_u32);
         while self.has_events() && self.watcher.t() != end {
             let sample = self.watcher.next(start, end, sampling);
             for met in self.watcher.look(sample, rate, at)? {
@@ -158,6 +163,10 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 }
             }
             self.watcher.pass();
+            samples += 1;
+            if samples.is_multiple_of(SAMPLES_UNHEARD) {
+                self.report(sample)?;
+            }
         }
         Ok(false)
     }

@@ -132,6 +132,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             max_steps,
             origin: t0,
             t_end,
+            steps: 0,
             backward: t_end < t0,
             place: Place::starting(Vec::new(), (Statistics::default(), 0.0)),
             is_lost: false,
@@ -194,7 +195,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             if changes > recorder.max_steps {
                 return Err(Reason::StepLimit { limit: recorder.max_steps });
             }
-            recorder.report(t, cost.steps)?;
+            recorder.report(t)?;
         }
     }
 
