@@ -242,3 +242,31 @@ fn interrupted_samples_give_the_same_bits() {
         assert_eq!(events, expected.events());
     }
 }
+
+/// A single step of hundreds of turns tells how far it has come, and is ended and gone on with within.
+#[test]
+fn long_steps_are_interrupted_and_gone_on_with() {
+    let case = &CASES[0];
+    let method = Method::AdaptiveSplitting { order: None };
+    let whole = || Simulation::new(&Disc, start(case)).until(3.0).output([3.0]).method(method).event(zero());
+    let expected = whole().run().unwrap();
+    assert!(expected.statistics().steps < 5, "{}", expected.statistics().steps);
+    assert_eq!(expected.events().len(), 954);
+    let mut calls = 0;
+    let halt = whole()
+        .progress(|progress| {
+            calls += 1;
+            if calls == 5 {
+                assert!(progress.fraction() < 1.0)
+            }
+            if calls == 5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })
+        .run()
+        .unwrap_err();
+    let first = halt.trajectory;
+    let rest = whole().resume(first.checkpoint().unwrap()).run().unwrap();
+    assert!(first.events().len() > 100 && rest.events().len() > 100, "{}", first.events().len());
+    let events: Vec<_> = first.events().iter().chain(rest.events()).copied().collect();
+    assert_eq!(events, expected.events());
+    assert_eq!(rest.end(), expected.end());
+}

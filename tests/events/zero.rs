@@ -112,3 +112,21 @@ fn a_change_that_corrects_the_contact() {
         }
     }
 }
+
+/// A ball thrown up from the floor that is back on it at a time at which samples are taken, in numbers that are exact.
+#[test]
+fn a_flight_that_ends_at_a_sample() {
+    let clock = |_: f64, point: &Point| {
+        let t = point.x()[0];
+        t * (1.0 - t)
+    };
+    for until in [1.0, 2.0, 4.0, 8.0] {
+        for method in [Method::ClosedForm, Method::RungeKutta8, Method::Gauss { stages: 2, step: 0.25 }] {
+            let event = Event::new("floor", clock).falling();
+            let run =
+                Simulation::new(&Puck, puck([0.0, 1.0], [1.0, 0.0])).method(method).until(until).event(event);
+            let times: Vec<f64> = run.run().unwrap().events().iter().map(|event| event.t).collect();
+            assert!(times.len() == 1 && (times[0] - 1.0).abs() < 1e-12, "{method:?} {until}: {times:?}");
+        }
+    }
+}

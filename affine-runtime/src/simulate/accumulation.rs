@@ -71,6 +71,7 @@ impl Changes {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 
@@ -88,7 +89,7 @@ mod tests {
     #[test]
     fn intervals_in_a_geometric_sequence() {
         for part in [0.001, 0.01, 0.1, 0.5, 0.9, 0.99] {
-            for (t0, first) in [(0.0, 1.0), (3.0, 0.2), (-2.0, -1e-3)] {
+            for (t0, first) in [(0.0, 1.0), (3.0, 0.2), (-2.0, -1e-3), (5.0, -0.2)] {
                 let exact = t0 + first / (1.0 - part);
                 let (limit, count) = accumulated(bounces(t0, first, part)).unwrap();
                 assert!((limit - exact).abs() < 1e-9 * (exact - t0).abs(), "{part} {first}: {limit} {exact}");
@@ -111,6 +112,27 @@ mod tests {
         assert_eq!(accumulated(close), None);
     }
 
+    /// Three quotients of about one size, whatever was before.
+    #[test]
+    fn quotients_agree_before_it_is_told() {
+        let times = |intervals: &[f64]| -> Vec<f64> {
+            let mut t = 0.0;
+            let later = |d: &f64| {
+                t += d;
+                t
+            };
+            intervals.iter().map(later).collect()
+        };
+        let count = |intervals: &[f64]| accumulated(times(intervals)).map(|(_, count)| count);
+        // One of 4e-9 between quotients of 1/2.
+        assert_eq!(count(&[0.0, 1.0, 0.5, 0.25, 1e-9, 5e-10, 2.5e-10]), None);
+        assert_eq!(count(&[0.0, 1.0, 0.5, 0.25, 1e-9, 5e-10, 2.5e-10, 1.25e-10]), Some(8));
+        // Of the equal intervals before the last one alone is a part of the sequence, which 2^-24 of the double of it ends.
+        let mut long = vec![1.0; 100];
+        long.extend((1..40).map(|k| 0.5_f64.powi(k)));
+        assert_eq!(count(&long), Some(100 + 24));
+    }
+
     /// Each time the function jumps over zero the sequence begins anew.
     #[test]
     fn jumps_do_not_accumulate() {
@@ -127,5 +149,8 @@ mod tests {
         assert_eq!(accumulated(core::iter::repeat_n(0.7, 64)), None);
         assert_eq!(accumulated(core::iter::repeat_n(0.7, 65)), Some((0.7, 65)));
         assert_eq!(accumulated(core::iter::repeat(0.0)), Some((0.0, 65)));
+        // Times that differ by two roundings.
+        let close = |k: u32| 1000.0 + f64::from(k) * 2.0 * f64::EPSILON * 512.0;
+        assert_eq!(accumulated((0..100).map(close)), Some((close(64), 65)));
     }
 }

@@ -62,7 +62,7 @@ pub(super) fn departure<E>(
         always = always.filter(|always| Some(*always) == side);
         going = match going {
             Some((toward, _)) if side == Some(Side::opposite(toward)) => Some((toward.opposite(), None)),
-            None => before.filter(|(_, before)| grows(*before, change)).and_then(|(from, before)| {
+            None => before.filter(|(_, before)| Side::of(*before) == side).and_then(|(from, before)| {
                 let is_linear = change.abs() < before.abs() * (s / from).powf(LINEAR);
                 Some((side?, is_linear.then(|| (before / from).abs())))
             }),
@@ -85,11 +85,6 @@ pub(super) fn departure<E>(
     }
 }
 
-/// A change goes on to the same side.
-fn grows(before: f64, change: f64) -> bool {
-    Side::of(before) == Side::of(change) && change.abs() >= before.abs()
-}
-
 /// Largest difference between neighbours of four values close together: the rounding of the function, unless its motion is
 /// larger.
 fn roughness<E>(f: &mut impl FnMut(f64) -> Result<f64, E>, t0: f64, s: f64) -> Result<f64, E> {
@@ -101,6 +96,7 @@ fn roughness<E>(f: &mut impl FnMut(f64) -> Result<f64, E>, t0: f64, s: f64) -> R
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use core::convert::Infallible;
 
@@ -112,13 +108,15 @@ mod tests {
         let mut calls = 0;
         let counted = |t: f64| {
             calls += 1;
+            assert!((t - t0) * (end - t) >= 0.0 && t != t0, "{t} is not on the way from {t0} to {end}");
             Ok::<f64, Infallible>(f(t))
         };
         let left = departure(counted, (t0, f(t0)), end);
         (left.unwrap_or_else(|never| match never {}), calls)
     }
 
-    const ENDS: [(f64, f64); 5] = [(0.0, 1.0), (0.0, -1e-3), (0.7, 1.0), (-3.0, -4.5), (1e3, 1.5e3)];
+    const ENDS: [(f64, f64); 6] =
+        [(0.0, 1.0), (0.0, -1e-3), (0.7, 1.0), (-3.0, -4.5), (1e3, 1.5e3), (1e6, 1e6 + 1.0)];
 
     #[test]
     fn linear_departures_have_their_rate() {

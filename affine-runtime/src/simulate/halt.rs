@@ -95,13 +95,14 @@ pub enum Reason {
         /// The time.
         t: f64,
     },
-    /// The changes of an event accumulate: they follow one another in intervals that shrink to nothing, as the bounces of a ball
-    /// that loses a part of its velocity do, or a change leaves the function at zero with no rate, and from there it would go
-    /// through at once, as under a ball at rest. No motion between events leads beyond that time.
+    /// The changes of an event accumulate, and no motion leads beyond that time: they follow one another in intervals that
+    /// shrink to nothing, as the bounces of a ball do that keeps a part of its velocity, or a change takes the rate of the
+    /// function away at zero, through which it would go at once, as that of a ball at rest on a floor.
     Accumulation {
         /// Name of the event.
         event: &'static str,
-        /// The time at which they accumulate; the last of them is at most 6e-8 of the time since they began to shrink before.
+        /// The time at which they accumulate. The run ends with the last change before, when what is left is less than 6e-8 of
+        /// the time since the intervals began to shrink, or bounces are lost in the rounding of the function.
         t: f64,
         /// How often the event has changed the point.
         count: u64,
@@ -381,9 +382,9 @@ impl fmt::Display for Reason {
             ),
             Reason::Accumulation { event, t, count } => write!(
                 f,
-                "the event `{event}` has changed the point {count} times, and accumulates at t = {t}: changes in intervals \
-                 that shrink to nothing, or one that leaves the motion at rest where the event happens; stop the run \
-                 there, or go on from there with a motion that stays in contact"
+                "the changes of the event `{event}`, {count} of them, accumulate at t = {t}: they follow one another ever \
+                 faster, or the last one left the motion at rest where the event happens; let the event stop the run, or \
+                 go on from its end with a model of the motion in contact"
             ),
             Reason::Change { event } => {
                 write!(f, "the event `{event}` should change the phase point, and its function gave an error")

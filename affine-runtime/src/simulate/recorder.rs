@@ -162,6 +162,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                     return Ok(true);
                 }
             }
+            self.watcher.rest()?;
             self.watcher.pass();
             samples += 1;
             if samples.is_multiple_of(SAMPLES_UNHEARD) {
@@ -206,7 +207,9 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                     self.record_step(t, (point, work))?;
                 }
                 self.trajectory.events.push(occurrence);
-                let accumulation = self.watcher.change(met, &changed);
+                // A point that is none ends the run before its next step.
+                let is_point = check(t, &changed).is_ok();
+                let accumulation = if is_point { self.watcher.change(met, &changed) } else { None };
                 // Behind the end of the run there is none to tell of.
                 let (end, backward) = (self.t_end, self.backward);
                 let accumulation = accumulation

@@ -3,7 +3,7 @@
 use super::accumulation::Changes;
 use super::conservation::larger;
 use super::departure::departure;
-use super::event::{Direction, Event};
+use super::event::{Action, Direction, Event};
 use super::halt::Reason;
 use super::motion::WithWork;
 use super::point::check;
@@ -13,8 +13,9 @@ use crate::state::Phase;
 
 /// What the body may turn, in radians, or its log-stretches change by between two samples.
 const TURN: f64 = 0.5;
-/// Part of the values on both sides of a change of sign that is zero where the sign has changed.
-const AT_ZERO: f64 = 1e-6;
+/// Part of the values on both sides of a change of sign that is zero where the sign has changed: a function that jumps is not
+/// there.
+const AT_ZERO: f64 = 1e-3;
 /// Part of these values that rounding may make of zero.
 const ROUNDED: f64 = 1e-12;
 /// Part of the rate at which a function came to zero that is no rate at which it goes on.
@@ -35,6 +36,13 @@ pub(super) struct Met<P> {
     pub(super) rate: f64,
     pub(super) point: P,
     pub(super) work: f64,
+}
+
+/// Where and on which side the way of a function through a part begins.
+struct Way {
+    /// Time and value.
+    begin: (f64, f64),
+    from: Side,
 }
 
 /// Where samples are taken.
@@ -63,13 +71,15 @@ pub(super) struct Watcher<'a, const N: usize, P> {
     end: Sample,
     /// Events that are still at zero at the end of the part.
     stays: Vec<bool>,
+    /// An event whose change has left its function at rest at zero: [`Reason::Accumulation`].
+    rests: Option<Reason>,
 }
 
 impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
     pub(super) fn new(events: Vec<Event<'a, N, P>>) -> Self {
         let nowhere = || Sample { t: f64::NAN, values: vec![f64::NAN; events.len()], rate: 0.0 };
         let (begin, end, stays) = (nowhere(), nowhere(), vec![false; events.len()]);
-        Self { memory: Vec::new(), begin, end, stays, events }
+        Self { memory: Vec::new(), begin, end, stays, rests: None, events }
     }
 
     pub(super) fn is_idle(&self) -> bool {
@@ -88,7 +98,7 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
 
     /// Begins at a point, at the start of a run without a memory.
     pub(super) fn begin(&mut self, t: f64, point: &P, rate: f64, memory: &[Memory]) {
-        let values: Vec<f64> = self.events.iter().map(|event| (event.function)(t, point)).collect();
+        let values: Vec<f64> = self.events.iter().map(|event| event.at(t, point)).collect();
         self.memory = match memory {
             [] => self.events.iter().zip(&values).map(|(event, value)| event.first(*value)).collect(),
             _ => memory.to_vec(),
@@ -114,8 +124,7 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
     /// All that happens on the way to a sample, in the order of the run.
     ///
     /// # Errors
-    /// Those of `at`; [`Reason::Event`] for a function that is no number; [`Reason::Accumulation`] for an event whose change
-    /// has left its function at rest at zero.
+    /// Those of `at`; [`Reason::Event`] for a function that is no number.
     pub(super) fn look(
         &mut self,
         t: f64,
@@ -128,7 +137,7 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
         for index in 0..self.events.len() {
             let value = self.events[index].value(t, &point)?;
             self.end.values[index] = value;
-            let Some((begin, from)) = self.begin_of(index, at, &mut met)? else { continue };
+            let Some(Way { begin, from }) = self.way(index, at, &mut met)? else { continue };
             let event = &self.events[index];
             // Zero has been reached, a number that is none has not.
             if value.is_nan() || Side::of(value) == Some(from) || !event.counts(from.opposite()) {
@@ -137,30 +146,43 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
             let function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point));
             let time = root(function, begin, (t, value))?;
             let middle = begin.0 + 0.5 * (time - begin.0);
-            let (before, _) = at(middle)?;
-            let rate = (event.value(middle, &before)? / (time - middle)).abs();
+            let rate = match event.action {
+                Action::Change(_) => (event.value(middle, &at(middle)?.0)? / (time - middle)).abs(),
+                Action::Record | Action::Stop => 0.0,
+            };
             self.insert(&mut met, (index, time, from.opposite(), rate), at)?;
+        }
+        if self.rests.is_some() {
+            met.retain(|met| met.t == self.begin.t);
         }
         Ok(met)
     }
 
-    /// Where and on which side the way of an event through the part begins; `None` where no change of sign can follow. One
-    /// that begins at zero may happen there.
-    fn begin_of(
+    /// Where the run ends after all that happens on the way to the sample: an event that would happen again at once.
+    pub(super) fn rest(&mut self) -> Result<(), Reason> {
+        self.rests.take().map_or(Ok(()), Err)
+    }
+
+    /// The way of an event through the part; `None` where no change of sign can follow. One that begins at zero may happen
+    /// there.
+    fn way(
         &mut self,
         index: usize,
         at: &mut At<'_, P>,
         met: &mut Vec<Met<P>>,
-    ) -> Result<Option<((f64, f64), Side)>, Reason> {
+    ) -> Result<Option<Way>, Reason> {
         let (event, memory) = (&self.events[index], &mut self.memory[index]);
         let begin = (self.begin.t, self.begin.values[index]);
         let (from, changed) = match memory.standing {
-            Standing::On(side) => return Ok(Some((begin, side))),
+            Standing::On(from) => return Ok(Some(Way { begin, from })),
             Standing::Open => return Ok(None),
             Standing::Leaving { from, changed } => (from, changed.map(f64::from_bits)),
         };
-        let function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point));
-        let left = departure(function, begin, self.end.t)?;
+        let mut function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point));
+        // One that rests is not looked at as closely as one that may move.
+        let middle = begin.0 + 0.5 * (self.end.t - begin.0);
+        let is_still = self.end.values[index] == begin.1 && function(middle)? == begin.1;
+        let left = if is_still { None } else { departure(function, begin, self.end.t)? };
         self.stays[index] = left.is_none();
         let Some(left) = left else { return Ok(None) };
         let is_beyond = left.side != from;
@@ -169,14 +191,15 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
             && left.rate.is_none_or(|rate| rate < AT_REST * came)
         {
             let (event, count) = (event.name, memory.changes.count);
-            return Err(Reason::Accumulation { event, t: begin.0, count });
+            self.rests = Some(Reason::Accumulation { event, t: begin.0, count });
+            return Ok(None);
         }
         if is_beyond && changed.is_none() && event.counts(left.side) {
             self.insert(met, (index, begin.0, left.side, left.rate.unwrap_or(0.0)), at)?;
         } else {
             memory.standing = Standing::On(left.side);
         }
-        Ok(Some(((left.t, left.value), left.side)))
+        Ok(Some(Way { begin: (left.t, left.value), from: left.side }))
     }
 
     /// Puts one of few events in its place, after those of the same time.
@@ -215,8 +238,9 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
     /// change of its sign.
     pub(super) fn change(&mut self, met: &Met<P>, changed: &P) -> Option<(f64, u64)> {
         let mut accumulation = None;
+        self.rests = None;
         for (index, event) in self.events.iter().enumerate() {
-            let [before, after] = [&met.point, changed].map(|point| (event.function)(met.t, point));
+            let [before, after] = [&met.point, changed].map(|point| event.at(met.t, point));
             let size = larger(self.begin.values[index].abs(), self.end.values[index].abs());
             let was_at_zero = before.abs() <= AT_ZERO * size;
             let Memory { standing, changes } = &mut self.memory[index];
@@ -241,9 +265,14 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
 }
 
 impl<const N: usize, P: Phase<N>> Event<'_, N, P> {
-    /// What it is at a point, unless that is none: the run finds out for itself.
+    /// Its function.
+    fn at(&self, t: f64, point: &P) -> f64 {
+        (self.function)(t, point)
+    }
+
+    /// What that is at a point, unless the point is none: the run finds out for itself.
     fn value(&self, t: f64, point: &P) -> Result<f64, Reason> {
-        let value = (self.function)(t, point);
+        let value = self.at(t, point);
         if value.is_nan() && check(t, point).is_ok() {
             return Err(Reason::Event { event: self.name, t });
         }

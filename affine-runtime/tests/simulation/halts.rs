@@ -117,6 +117,24 @@ fn collapse_at_a_step_without_output() {
     assert!(matches!(last.stop.reason, Reason::Placement { t: at, .. } if (at - t).abs() < 1e-9), "{last}");
 }
 
+/// Backward in time too the end is the last good step, an output or not.
+#[test]
+fn the_end_of_a_halted_run_is_its_last_step() {
+    for sign in [1.0, -1.0] {
+        let start = planar::start(-sign);
+        let simulation = || Simulation::new(&Planar::OTHERWISE, start).until(2.0 * sign).tolerance(1e-12);
+        let every = simulation().run().unwrap_err();
+        for output in [vec![], vec![0.3 * sign]] {
+            let halt = simulation().output(output.clone()).run().unwrap_err();
+            assert_eq!(halt.trajectory.times(), output);
+            assert_eq!(halt.trajectory.end(), every.trajectory.end());
+            assert_eq!(halt.stop, every.stop);
+        }
+        let last = every.trajectory.times().last().copied();
+        assert_eq!((last, every.stop.t.signum()), (Some(every.stop.t), sign));
+    }
+}
+
 /// What happens in a step after the orientation is lost does not.
 #[test]
 fn nothing_happens_after_a_collapse() {
