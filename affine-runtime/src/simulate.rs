@@ -1,11 +1,13 @@
 //! Simulations: from a start to output times, with everything that can stop them.
 
+mod accumulation;
 mod checkpoint;
 mod closed_form;
 mod collapse;
 mod conservation;
 #[cfg(feature = "csv")]
 mod csv;
+mod departure;
 mod domain;
 mod ensemble;
 mod event;
@@ -27,6 +29,7 @@ mod round_trip;
 mod run;
 mod settings;
 mod signature;
+mod standing;
 mod stepper;
 mod stiffness;
 mod trajectory;
@@ -167,7 +170,7 @@ pub struct Progress {
     pub t: f64,
     /// Time to reach.
     pub t_end: f64,
-    /// Accepted steps so far; output times so far for a closed form.
+    /// Accepted steps so far; output times so far for a closed form, since an event has changed the point.
     pub steps: u64,
 }
 
@@ -279,7 +282,9 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
         self
     }
 
-    /// Called after every accepted step (every output of a closed form); `ControlFlow::Break(())` ends the run.
+    /// Called after every accepted step (every output of a closed form), and on the way after every few samples of a closed
+    /// form for [`Event`]s, every thousand samples of a step, and every change of the point; `ControlFlow::Break(())` ends the
+    /// run.
     #[must_use]
     pub fn progress(mut self, callback: impl FnMut(&Progress) -> ControlFlow<()> + 'a) -> Self {
         self.settings.progress = Some(Box::new(callback));
@@ -294,7 +299,7 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     }
 
     /// An event to look for, in addition to those named before. Events at one time happen in the order of their
-    /// statements; a change of the point leaves out those after it.
+    /// statements; after a change of the point those happen that still do from there.
     #[must_use]
     pub fn event(mut self, event: Event<'a, N, M::Point<f64>>) -> Self {
         self.settings.events.push(event);

@@ -1,5 +1,6 @@
 //! Where a run was interrupted, as numbers from which it goes on with the same bits.
 
+use super::standing::Memory;
 use crate::integrate::Statistics;
 use crate::integrate::tape::Tape;
 use crate::state::Phase;
@@ -22,8 +23,8 @@ pub struct Checkpoint {
 pub(super) struct Place {
     /// Bits of the time and of the point from which the integration started: the start, or where an event changed it.
     pub(super) from: Vec<u64>,
-    /// Index of that event.
-    pub(super) changed_by: Option<usize>,
+    /// What is known of the events where it goes on.
+    pub(super) events: Vec<Memory>,
     /// Bits of the cost before.
     pub(super) cost: [u64; 3],
     /// Bits of the work before.
@@ -42,9 +43,9 @@ pub(super) struct Place {
 
 impl Place {
     /// At the start of an integration. Where that is is written down when it is asked for, by [`from`](Self::from).
-    pub(super) fn starting(changed_by: Option<usize>, (cost, work): (Statistics, f64)) -> Self {
+    pub(super) fn starting(events: Vec<Memory>, (cost, work): (Statistics, f64)) -> Self {
         let cost = [cost.steps, cost.rejected, cost.evaluations];
-        Self { changed_by, cost, work: work.to_bits(), ..Self::default() }
+        Self { events, cost, work: work.to_bits(), ..Self::default() }
     }
 
     /// With the time and the point from which the integration started.
@@ -64,8 +65,9 @@ impl Place {
     }
 
     /// A step is done with.
-    pub(super) fn passed(&mut self, integrator: Vec<u64>) {
+    pub(super) fn passed(&mut self, integrator: Vec<u64>, events: &[Memory]) {
         (self.integrator, self.met, self.recorded) = (integrator, 0, false);
+        self.events = events.to_vec();
     }
 
     /// How large they have been.

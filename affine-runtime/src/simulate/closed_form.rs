@@ -6,13 +6,18 @@ use super::follow::WITHIN_A_STEP;
 use super::halt::Reason;
 use super::mechanics::Course;
 use super::recorder::Recorder;
+use super::watcher::{At, Sampling};
 use crate::geodesic::{Geodesic, Motion};
+use crate::integrate::larger;
 use crate::kinematics::LogDeterminant;
 use crate::state::Phase;
 
 /// Part of the way to a collapse within which an event that follows belongs to it: times of a collapse and of the zero of
 /// an event have errors of their own.
 const PAST_A_COLLAPSE: f64 = 1e-8;
+
+/// Stretches of a run in closed form between whose ends events are looked at, where the motion asks for no more.
+const STRETCHES: f64 = 100.0;
 
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// The closed form at the output times.
@@ -45,15 +50,15 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         };
         // Events behind a collapse do not happen; the collapse may be one.
         let last_event = collapse.map(|end| end + PAST_A_COLLAPSE * (end - t0));
-        self.begin_closed_form(t0, &at);
+        self.begin_closed_form(t0, rate, &at);
         self.trajectory.statistics = self.place.cost();
-        let mut outputs = 0;
+        self.steps = 0;
         loop {
             let due = self.schedule.peek();
             let until = due.unwrap_or(t_end);
             let until = last_event.filter(|last| is_behind(until, *last)).unwrap_or(until);
             resolved(until)?;
-            if self.meet(until, WITHIN_A_STEP, &mut |t| Ok((at(t), 0.0)))? {
+            if self.meet_between(until, rate, &mut |t| Ok((at(t), 0.0)))? {
                 return Ok(());
             }
             let Some(t) = due else { break };
@@ -62,11 +67,35 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             if self.schedule.take_through(t, self.backward).is_some() {
                 self.record(t, (at(t), 0.0))?;
             }
-            outputs += 1;
-            self.place.passed(vec![t.to_bits()]);
-            self.report(t, outputs)?;
+            self.steps += 1;
+            self.passed(vec![t.to_bits()]);
+            self.report(t)?;
         }
         stands(t_end)?;
         self.reach(t_end, (at(t_end), 0.0))
+    }
+
+    /// The events on the way from one output to the next, in stretches of a few samples each, after which the run may be
+    /// interrupted; whether the motion does not go straight on.
+    fn meet_between(&mut self, until: f64, rate: f64, at: &mut At<'_, P>) -> Result<bool, Reason> {
+        let sampling = Sampling { parts: WITHIN_A_STEP, rate };
+        let longest = (self.t_end - self.origin).abs() / STRETCHES;
+        while self.has_events() && self.watcher.t() != until {
+            let (t, left) = (self.watcher.t(), until - self.watcher.t());
+            let stretches = larger(
+                (left.abs() / longest).round(),
+                self.watcher.parts_to(until) / f64::from(WITHIN_A_STEP),
+            );
+            let end = t + left / stretches;
+            let end = if stretches > 1.0 && end != t { end } else { until };
+            if self.meet(end, sampling, at)? {
+                return Ok(true);
+            }
+            if end != until {
+                self.passed(vec![end.to_bits()]);
+                self.report(end)?;
+            }
+        }
+        Ok(false)
     }
 }

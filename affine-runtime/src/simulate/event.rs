@@ -36,13 +36,37 @@ type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
 /// # Ok::<(), affine_runtime::Error>(())
 /// ```
 ///
-/// Found are changes of sign between samples of the function: at both ends of every step and at three times within it,
-/// at the ends alone for methods of equal steps, and with a closed form at outputs and at three times between two of
-/// them. An even number of roots between two samples is not seen. The time is then located on the dense output of the
-/// step to the rounding of times: it has the error of the dense output over the rate of the function. The event is at
-/// the first floating-point time found at which the sign has changed. A function that is zero or not a number at the
-/// start is looked at from the next sample on; one that is not a number later, at a phase point that is one, ends the
-/// run, [`Reason::Event`](super::Reason::Event).
+/// # What is found
+///
+/// Changes of sign between samples of the function. Samples are taken at the ends of every step, at three times within it
+/// where steps follow the error, and so close together that `|phi_dot| dt <= |phi|/2`; with a closed form at outputs, at 400
+/// times in all at least, and so that [`rate`](crate::geodesic::Geodesic::rate)` dt <= 1/2`, whatever the outputs: the body
+/// turns by half a radian at most, and its log-stretches change by a half, from one sample to the next. Of a level of `phi`
+/// or of its stretches all crossings are found that are further apart than that, by every method, in both directions of time,
+/// and in their order. Not guaranteed: an even number of roots closer together, two crossings of a level that is only just
+/// reached among them; a function of the time, or of the centre, that changes faster than the placement and the steps; fast
+/// oscillations of small amplitude, of a stiff dilatation, that adaptive splitting passes over. A run in closed form costs
+/// two samples or more for each radian, of one evaluation of the motion each; they take no memory, and
+/// [`progress`](super::Simulation::progress) is called after every few of them.
+///
+/// The time is located on the dense output of the step to the rounding of times: it has the error of the dense output over the
+/// rate of the function. The event is at the first floating-point time found at which the sign has changed.
+///
+/// # Zero
+///
+/// A function that is zero where the run starts, or where a change has put the point, is decided by where it goes: an event in
+/// one direction happens there if the function goes to the other side in that direction, be it at rest or not; in either
+/// direction, if it has come from one side and goes to the other, of which at the start of a run nothing is known. Of several
+/// events at one time the first that changes the point is followed by the others that still happen from the changed point.
+/// A change that makes a function jump over zero is no event.
+///
+/// An event that [changes](Self::change) the point does not meet itself: its function turns back, or goes on through zero as
+/// the change lets it. If the change takes its rate away and the function would go through zero nonetheless, as that of a
+/// ball which stays on a floor, or if it happens ever faster, as bounces with a part of the velocity do, the run ends there,
+/// [`Reason::Accumulation`](super::Reason::Accumulation).
+///
+/// A function that is not a number at the start is looked at from the next sample on; one that is not a number later, at a
+/// phase point that is one, ends the run, [`Reason::Event`](super::Reason::Event).
 pub struct Event<'a, const N: usize, P> {
     pub(super) name: &'static str,
     pub(super) function: Function<'a, P>,
@@ -157,7 +181,8 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
     }
 
     /// The motion goes on from another point: that is reduced anew, and the integration starts again, or the closed form
-    /// where the new point has one. An error of `change` ends the run.
+    /// where the new point has one. An error of `change` ends the run. At a wall `change` turns the rate of the function round;
+    /// one that leaves it at rest there ends the run, [`Reason::Accumulation`](super::Reason::Accumulation).
     #[must_use]
     pub fn change(self, change: impl Fn(f64, &P) -> Result<P> + 'a) -> Self {
         Self { action: Action::Change(Box::new(change)), ..self }

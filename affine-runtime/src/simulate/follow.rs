@@ -9,11 +9,12 @@ use super::output::Schedule;
 use super::point::{check, is_clearly_positive};
 use super::recorder::Recorder;
 use super::signature::Signature;
+use super::watcher::Sampling;
 use crate::frames::Matrix;
 use crate::integrate::Statistics;
 use crate::state::Phase;
 
-/// Equal parts of a step at whose ends events are looked at.
+/// Equal parts of a step at whose ends events are looked at, where its length follows the error.
 pub(super) const WITHIN_A_STEP: u32 = 4;
 
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
@@ -22,12 +23,9 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let since = self.trajectory.end.0;
         let outcome = self.step_through(motion, since).map_err(|reason| match reason {
             Reason::Placement { determinant, rate: None, t } => {
-                let (good, rate) = match motion.kept() {
-                    Some((good, (point, _))) => (good, rate_of_determinant(self.model, &point)),
-                    None => (since, rate_of_determinant(self.model, &self.trajectory.end.1)),
-                };
-                let stands = |t| motion.between(t).is_ok_and(|(point, _)| check(t, &point).is_ok());
-                Reason::Placement { determinant, rate: Some(rate), t: first_failure(good, t, stands) }
+                let good = motion.kept().map_or(self.trajectory.end.1, |(_, (point, _))| point);
+                let rate = Some(rate_of_determinant(self.model, &good));
+                Reason::Placement { determinant, rate, t: self.collapse(motion, t) }
             }
             other => other,
         });
@@ -57,10 +55,11 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             .then(|| Moment::of(model, (motion.t(), &motion.reached().0)));
         let mut domain = Domain::at(model, (motion.t(), &motion.reached().0))?;
         let is_watched = self.progress.is_some() || self.is_watched();
-        let parts = if self.trajectory.computation.asked.step().is_some() { 1 } else { WITHIN_A_STEP };
+        let equal = self.trajectory.computation.asked.step().is_some();
+        let sampling = Sampling { parts: if equal { 1 } else { WITHIN_A_STEP }, rate: 0.0 };
         while !motion.is_finished() {
-            let steps = cost + motion.statistics().steps;
-            if steps >= self.max_steps {
+            self.steps = cost + motion.statistics().steps;
+            if self.steps >= self.max_steps {
                 self.pass(motion);
                 return Err(Reason::StepLimit { limit: self.max_steps });
             }
@@ -90,10 +89,11 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 None => oriented,
             };
             let until = match stands {
-                Err(Reason::Placement { t, .. } | Reason::Domain { t, .. }) => t,
+                Err(Reason::Placement { t, .. }) => self.collapse(motion, t),
+                Err(Reason::Domain { t, .. }) => t,
                 _ => t,
             };
-            if self.pass_through(motion, until, parts)? {
+            if self.pass_through(motion, until, sampling)? {
                 return Ok(());
             }
             stands?;
@@ -109,9 +109,16 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             if is_watched {
                 self.pass(motion);
             }
-            self.report(t, steps + 1)?;
+            self.steps += 1;
+            self.report(t)?;
         }
         Ok(())
+    }
+
+    /// When a body collapses that has collapsed at a time within the step.
+    fn collapse(&self, motion: &mut dyn Motion<P>, t: f64) -> f64 {
+        let good = motion.kept_at().unwrap_or(self.trajectory.end.0);
+        first_failure(good, t, |t| motion.between(t).is_ok_and(|(point, _)| check(t, &point).is_ok()))
     }
 
     /// Refuses a step from a moment on in which the orientation is lost; the moment becomes that of its end.
@@ -127,14 +134,19 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     }
 
     /// The events and the outputs of a step that has been taken, up to a time; whether the motion does not go straight on.
-    fn pass_through(&mut self, motion: &mut dyn Motion<P>, until: f64, parts: u32) -> Result<bool, Reason> {
+    fn pass_through(
+        &mut self,
+        motion: &mut dyn Motion<P>,
+        until: f64,
+        sampling: Sampling,
+    ) -> Result<bool, Reason> {
         let t = motion.t();
         let (computation, model) = (self.trajectory.computation, self.trajectory.description.name);
         let mut at = |due: f64| match due == t {
             true => Ok(motion.reached()),
             false => motion.between(due).map_err(|failure| computation.reason(failure, model)),
         };
-        if self.meet(until, parts, &mut at)? {
+        if self.meet(until, sampling, &mut at)? {
             return Ok(true);
         }
         self.record_through(until, &mut at)?;

@@ -6,7 +6,6 @@ use super::trajectory::Trajectory;
 use crate::error::{Error, debug_as_displayed};
 use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER};
 use crate::model::{Bound, Guard};
-use crate::state::Phase;
 
 /// A run that did not reach its end: the stop, and the trajectory up to there.
 #[derive(Clone, PartialEq)]
@@ -123,6 +122,18 @@ pub enum Reason {
         event: &'static str,
         /// The time.
         t: f64,
+    },
+    /// The changes of an event accumulate, and no motion leads beyond that time: they follow one another in intervals that
+    /// shrink to nothing, as the bounces of a ball do that keeps a part of its velocity, or a change takes the rate of the
+    /// function away at zero, through which it would go at once, as that of a ball at rest on a floor.
+    Accumulation {
+        /// Name of the event.
+        event: &'static str,
+        /// The time at which they accumulate. The run ends with the last change before, when what is left is less than 6e-8 of
+        /// the time since the intervals began to shrink, or bounces are lost in the rounding of the function.
+        t: f64,
+        /// How often the event has changed the point.
+        count: u64,
     },
     /// The point that an event should have been changed to is none.
     Change {
@@ -421,6 +432,12 @@ impl fmt::Display for Reason {
                 f,
                 "the function of the event `{event}` is NaN at t = {t}: it has a sign at every phase point of the run; \
                  give it a number where it is undefined, a constant where the event cannot happen"
+            ),
+            Reason::Accumulation { event, t, count } => write!(
+                f,
+                "the changes of the event `{event}`, {count} of them, accumulate at t = {t}: they follow one another ever \
+                 faster, or the last one left the motion at rest where the event happens; let the event stop the run, or \
+                 go on from its end with a model of the motion in contact"
             ),
             Reason::Change { event } => {
                 write!(f, "the event `{event}` should change the phase point, and its function gave an error")

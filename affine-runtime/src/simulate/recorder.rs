@@ -9,13 +9,17 @@ use super::motion::{Motion, WithWork};
 use super::output::{Schedule, without_steps};
 use super::point::{check, energy_scale, go_on};
 use super::range::in_range;
+use super::standing::Side;
 use super::trajectory::Trajectory;
-use super::watcher::{Met, Watcher};
+use super::watcher::{At, Met, Sampling, Watcher};
 use super::witness::Witness;
 use super::{Observe, Progress, Watch};
 use crate::error::Error;
-use crate::integrate::{Failure, larger};
+use crate::integrate::{Failure, larger, norm};
 use crate::state::Phase;
+
+/// Samples of a step after which it tells how far it has come.
+const SAMPLES_UNHEARD: u32 = 1 << 10;
 
 /// What is recorded of a run, and how far it has come.
 pub(super) struct Recorder<'r, 'a, const N: usize, P> {
@@ -34,6 +38,8 @@ pub(super) struct Recorder<'r, 'a, const N: usize, P> {
     pub(super) t_end: f64,
     /// The run goes backward in time.
     pub(super) backward: bool,
+    /// Accepted steps so far, or outputs of a closed form.
+    pub(super) steps: u64,
     pub(super) place: Place,
     /// The energy since the integration started.
     pub(super) witness: Option<Witness>,
@@ -48,13 +54,19 @@ pub(super) enum Turn<P> {
     /// It ends.
     Stopped,
     /// It goes on from another point.
-    Changed { t: f64, point: P, event: usize, work: f64 },
+    Changed {
+        t: f64,
+        point: P,
+        work: f64,
+        /// Its changes accumulate: that is where the run ends.
+        accumulation: Option<Reason>,
+    },
 }
 
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Records the start of an integration where it is an output.
     pub(super) fn begin(&mut self, t0: f64, start: &P) -> Result<(), Reason> {
-        self.watcher.begin(t0, start, self.place.changed_by);
+        self.watcher.begin(t0, start, turning(self.model, start), &self.place.events);
         if !self.place.integrator.is_empty() {
             return Ok(());
         }
@@ -67,7 +79,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     }
 
     /// Begins or goes on with a closed form, with output times of its own where none were asked for.
-    pub(super) fn begin_closed_form(&mut self, t0: f64, at: &dyn Fn(f64) -> P) {
+    pub(super) fn begin_closed_form(&mut self, t0: f64, rate: f64, at: &dyn Fn(f64) -> P) {
         if self.schedule == Schedule::Steps {
             self.schedule = without_steps(self.origin, self.t_end);
             self.schedule.resume(self.place.outputs);
@@ -75,7 +87,8 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         }
         let reached = self.place.integrator.first();
         let begin = reached.map_or(t0, |bits| f64::from_bits(*bits));
-        self.watcher.begin(begin, &at(begin), self.place.changed_by.filter(|_| reached.is_none()));
+        let point = at(begin);
+        self.watcher.begin(begin, &point, larger(rate, turning(self.model, &point)), &self.place.events);
     }
 
     /// Events are looked for, within steps.
@@ -99,11 +112,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         motion.exchange(&mut Bits::Read(self.place.integrator.iter()));
         let t = motion.t();
         let (point, work) = motion.reached();
-        self.watcher.begin(
-            t,
-            &point,
-            self.place.changed_by.filter(|_| self.place.from.first() == Some(&t.to_bits())),
-        );
+        self.watcher.begin(t, &point, turning(self.model, &point), &self.place.events);
         self.trajectory.end = (t, point);
         self.trajectory.energies.work_at_end = self.place.work() + work;
     }
@@ -114,13 +123,18 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let mut tape = Bits::Written(Vec::new());
         motion.exchange(&mut tape);
         if let Bits::Written(bits) = tape {
-            self.place.passed(bits);
+            self.passed(bits);
         }
     }
 
+    /// The state of the integrator after a step, or the time in closed form, from which the run can go on.
+    pub(super) fn passed(&mut self, integrator: Vec<u64>) {
+        self.place.passed(integrator, self.watcher.memory());
+    }
+
     /// Tells how far the run has come.
-    pub(super) fn report(&mut self, t: f64, steps: u64) -> Result<(), Reason> {
-        let progress = Progress { t0: self.origin, t, t_end: self.t_end, steps };
+    pub(super) fn report(&mut self, t: f64) -> Result<(), Reason> {
+        let progress = Progress { t0: self.origin, t, t_end: self.t_end, steps: self.steps };
         match &mut self.progress {
             Some(watch) => go_on(watch(&progress), Callback::Progress),
             None => Ok(()),
@@ -132,36 +146,44 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         self.trajectory.computation.reason(failure, self.trajectory.description.name)
     }
 
-    /// The events on the way to `t` with the outputs before them; whether the motion does not go straight on there.
-    pub(super) fn meet(
-        &mut self,
-        t: f64,
-        parts: u32,
-        at: &mut dyn FnMut(f64) -> Result<WithWork<P>, Reason>,
-    ) -> Result<bool, Reason> {
-        if self.watcher.is_idle() {
-            return Ok(false);
-        }
-        let met = self.watcher.advance(t, parts, at)?;
-        for (index, met) in met.into_iter().enumerate().skip(self.place.met) {
-            self.record_through(met.t, at)?;
-            self.happen(index + 1, met)?;
-            if self.turn.is_some() {
-                return Ok(true);
+    /// The events on the way to `end` with the outputs before them; whether the motion does not go straight on there.
+    pub(super) fn meet(&mut self, end: f64, sampling: Sampling, at: &mut At<'_, P>) -> Result<bool, Reason> {
+        let (start, model) = (self.watcher.t(), self.model);
+        let rate = |point: &P| larger(sampling.rate, turning(model, point));
+        let (mut count, mut samples) = (0, 0_u32);
+        while self.has_events() && self.watcher.t() != end {
+            let sample = self.watcher.next(start, end, sampling);
+            for met in self.watcher.look(sample, rate, at)? {
+                count += 1;
+                self.watcher.happened(&met);
+                // Those before had happened when the run was interrupted.
+                if count > self.place.met {
+                    self.record_through(met.t, at)?;
+                    self.happen(count, &met)?;
+                }
+                if self.turn.is_some() {
+                    return Ok(true);
+                }
+            }
+            self.watcher.rest()?;
+            self.watcher.pass();
+            samples += 1;
+            if samples.is_multiple_of(SAMPLES_UNHEARD) {
+                self.report(sample)?;
             }
         }
         Ok(false)
     }
 
     /// An event that is the `count`th of its step happens. A change is not done with before the point is recorded.
-    fn happen(&mut self, count: usize, met: Met<P>) -> Result<(), Reason> {
-        let Met { t, point, work, rising, event: index } = met;
-        let event = &self.watcher.events[index];
+    fn happen(&mut self, count: usize, met: &Met<P>) -> Result<(), Reason> {
+        let Met { t, point, work, to, .. } = *met;
+        let event = &self.watcher.events[met.event];
         let name = event.name;
         if !point.is_finite() {
             return Err(Reason::NotFinite);
         }
-        let occurrence = Occurrence { name, t, point, rising };
+        let occurrence = Occurrence { name, t, point, rising: to == Side::Positive };
         match &event.action {
             Action::Record => {
                 self.trajectory.events.push(occurrence);
@@ -191,19 +213,23 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                     self.record_step(t, (point, work))?;
                 }
                 self.trajectory.events.push(occurrence);
-                self.turn =
-                    Some(Turn::Changed { t, point: changed, event: index, work: self.place.work() + work });
+                // A point that is none ends the run before its next step.
+                let is_point = check(t, &changed).is_ok();
+                let accumulation = if is_point { self.watcher.change(met, &changed) } else { None };
+                // Behind the end of the run there is none to tell of.
+                let (end, backward) = (self.t_end, self.backward);
+                let accumulation = accumulation
+                    .filter(|(t, _)| if backward { *t > end } else { *t < end })
+                    .map(|(t, count)| Reason::Accumulation { event: name, t, count });
+                let work = self.place.work() + work;
+                self.turn = Some(Turn::Changed { t, point: changed, work, accumulation });
                 Ok(())
             }
         }
     }
 
     /// Records the outputs that are due up to a time.
-    pub(super) fn record_through(
-        &mut self,
-        t: f64,
-        at: &mut dyn FnMut(f64) -> Result<WithWork<P>, Reason>,
-    ) -> Result<(), Reason> {
+    pub(super) fn record_through(&mut self, t: f64, at: &mut At<'_, P>) -> Result<(), Reason> {
         while let Some(due) = self.schedule.take_through(t, self.backward) {
             self.record(due, at(due)?)?;
         }
@@ -290,4 +316,10 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             None => Ok(()),
         }
     }
+}
+
+/// `|phi_dot|/|phi|`: what the body turns by, in radians, and its log-stretches change by in a unit of time.
+fn turning<const N: usize, P: Phase<N>>(model: &dyn Mechanics<N, P>, point: &P) -> f64 {
+    let rate = norm(model.velocity(point).phi_dot.as_slice()) / norm(point.phi().as_slice());
+    if rate.is_nan() { 0.0 } else { rate }
 }

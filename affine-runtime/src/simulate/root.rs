@@ -90,6 +90,22 @@ mod tests {
         }
     }
 
+    /// Where bisection takes some 53 values; near a start that is almost a root, at a root of third order and at a jump it takes more.
+    #[test]
+    fn smooth_functions_take_few_values() {
+        let calls = [
+            located(libm::sin, 3.0, 3.5).1,
+            located(libm::sin, 0.1, 6.0).1,
+            located(|t| libm::exp(t) - 3.0, -2.0, 3.0).1,
+            located(|t| 1.0 - 5.0 * t * t, 0.0, 0.7).1,
+            located(|t| t * t * t - 2.0 * t - 5.0, 3.0, 2.0).1,
+            located(|t| 1e-3 * t - 5.0 * t * t, 1e-9, 1.0).1,
+            located(|t| (t - 1.0) * (t - 1.0) * (t - 1.0), 0.0, 3.0).1,
+            located(|t| if t < 0.3 { -1.0 } else { 1.0 }, -1.0, 2.0).1,
+        ];
+        assert_eq!(calls, [8, 11, 7, 7, 8, 19, 53, 56]);
+    }
+
     #[test]
     fn flat_steep_and_broken_functions() {
         let (t, _) = located(|t| (t - 1.0) * (t - 1.0) * (t - 1.0), 0.0, 3.0);

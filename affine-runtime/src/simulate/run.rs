@@ -133,8 +133,9 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             max_steps,
             origin: t0,
             t_end,
+            steps: 0,
             backward: t_end < t0,
-            place: Place::starting(None, (Statistics::default(), 0.0)),
+            place: Place::starting(Vec::new(), (Statistics::default(), 0.0)),
             witness: None,
             is_lost: false,
             turn: None,
@@ -178,22 +179,27 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let mut changes = 0;
         loop {
             self.leg(from, recorder)?;
-            let (t, point, event, work) = match recorder.turn.take() {
-                Some(Turn::Changed { t, point, event, work }) => (t, point, event, work),
+            let (t, point, work, accumulation) = match recorder.turn.take() {
+                Some(Turn::Changed { t, point, work, accumulation }) => (t, point, work, accumulation),
                 Some(Turn::Stopped) => return Ok(()),
                 None => return recorder.arrive(),
             };
             check(t, &point)?;
-            changes += 1;
-            if changes > recorder.max_steps {
-                return Err(Reason::StepLimit { limit: recorder.max_steps });
-            }
             *from = (t, point);
             recorder.trajectory.end = *from;
             recorder.trajectory.energies.work_at_end = work;
             recorder.trajectory.computation.at_rest &= point.p().iter().all(|p| *p == 0.0);
             let cost = recorder.trajectory.statistics;
-            recorder.place = Place::starting(Some(event), (cost, work));
+            let events = recorder.watcher.memory().to_vec();
+            recorder.place = Place::starting(events, (cost, work));
+            if let Some(reason) = accumulation {
+                return Err(reason);
+            }
+            changes += 1;
+            if changes > recorder.max_steps {
+                return Err(Reason::StepLimit { limit: recorder.max_steps });
+            }
+            recorder.report(t)?;
         }
     }
 

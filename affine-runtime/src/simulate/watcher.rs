@@ -1,117 +1,305 @@
-//! Changes of sign within a step.
+//! Changes of sign between samples.
 
-use super::event::{Direction, Event};
+use super::accumulation::Changes;
+use super::departure::departure;
+use super::event::{Action, Direction, Event};
 use super::halt::Reason;
 use super::motion::WithWork;
 use super::point::check;
 use super::root::root;
+use super::standing::{Memory, Side, Standing};
+use crate::integrate::larger;
 use crate::state::Phase;
 
+/// What the body may turn, in radians, or its log-stretches change by between two samples.
+const TURN: f64 = 0.5;
+/// Part of the values on both sides of a change of sign that is zero where the sign has changed: a function that jumps is not
+/// there.
+const AT_ZERO: f64 = 1e-3;
+/// Part of these values that rounding may make of zero.
+const ROUNDED: f64 = 1e-12;
+/// Part of the rate at which a function came to zero that is no rate at which it goes on.
+const AT_REST: f64 = 1e-6;
+
+/// The phase point at a time, and the work.
+pub(super) type At<'m, P> = dyn FnMut(f64) -> Result<WithWork<P>, Reason> + 'm;
+
 /// A change of sign that counts.
+#[derive(Clone, Copy)]
 pub(super) struct Met<P> {
     pub(super) t: f64,
     /// Index of the event.
     pub(super) event: usize,
-    pub(super) rising: bool,
+    /// The side to which the function goes.
+    pub(super) to: Side,
+    /// About how fast.
+    pub(super) rate: f64,
     pub(super) point: P,
     pub(super) work: f64,
 }
 
-/// The events of a run, with their values where the next step begins.
-pub(super) struct Watcher<'a, const N: usize, P> {
-    pub(super) events: Vec<Event<'a, N, P>>,
+/// Where and on which side the way of a function through a part begins.
+struct Way {
+    /// Time and value.
+    begin: (f64, f64),
+    from: Side,
+}
+
+/// Where samples are taken.
+#[derive(Clone, Copy)]
+pub(super) struct Sampling {
+    /// At the ends of at least so many equal parts.
+    pub(super) parts: u32,
+    /// What angles and log-stretches change by in a unit of time, at least; the velocity is looked at besides.
+    pub(super) rate: f64,
+}
+
+/// The values of all events at a time.
+struct Sample {
     t: f64,
     values: Vec<f64>,
+    /// What angles and log-stretches change by in a unit of time.
+    rate: f64,
+}
+
+/// The events of a run between two samples.
+pub(super) struct Watcher<'a, const N: usize, P> {
+    pub(super) events: Vec<Event<'a, N, P>>,
+    /// What is known of them at the sample where the part begins, and of those that have happened within it.
+    memory: Vec<Memory>,
+    begin: Sample,
+    end: Sample,
+    /// Events that are still at zero at the end of the part.
+    stays: Vec<bool>,
+    /// An event whose change has left its function at rest at zero: [`Reason::Accumulation`].
+    rests: Option<Reason>,
 }
 
 impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
     pub(super) fn new(events: Vec<Event<'a, N, P>>) -> Self {
-        Self { values: vec![f64::NAN; events.len()], t: f64::NAN, events }
+        let nowhere = || Sample { t: f64::NAN, values: vec![f64::NAN; events.len()], rate: 0.0 };
+        let (begin, end, stays) = (nowhere(), nowhere(), vec![false; events.len()]);
+        Self { memory: Vec::new(), begin, end, stays, rests: None, events }
     }
 
     pub(super) fn is_idle(&self) -> bool {
         self.events.is_empty()
     }
 
-    /// Begins at a point; the event that led there is looked at from the next sample on, since rounding decides on which
-    /// side of it the point is.
-    pub(super) fn begin(&mut self, t: f64, point: &P, changed_by: Option<usize>) {
-        self.t = t;
-        self.values = self.events.iter().map(|event| (event.function)(t, point)).collect();
-        if let Some(value) = changed_by.and_then(|event| self.values.get_mut(event)) {
-            *value = 0.0;
-        }
+    /// The time up to which all that happens is known.
+    pub(super) fn t(&self) -> f64 {
+        self.begin.t
     }
 
-    /// All that happens on the way to `t_end`, in the order of the run, from samples at the ends of equal parts of it.
+    /// What a run that goes on from there has to know.
+    pub(super) fn memory(&self) -> &[Memory] {
+        &self.memory
+    }
+
+    /// Begins at a point, at the start of a run without a memory.
+    pub(super) fn begin(&mut self, t: f64, point: &P, rate: f64, memory: &[Memory]) {
+        let values: Vec<f64> = self.events.iter().map(|event| event.at(t, point)).collect();
+        self.memory = match memory {
+            [] => self.events.iter().zip(&values).map(|(event, value)| event.first(*value)).collect(),
+            _ => memory.to_vec(),
+        };
+        self.begin = Sample { t, values, rate };
+    }
+
+    /// The number of parts of at most the length that samples allow, on the way to a time.
+    pub(super) fn parts_to(&self, end: f64) -> f64 {
+        ((end - self.begin.t).abs() * self.begin.rate / TURN).ceil()
+    }
+
+    /// The time of the next sample on the way to the end of a stretch from `start`.
+    pub(super) fn next(&self, start: f64, end: f64, sampling: Sampling) -> f64 {
+        let left = end - self.begin.t;
+        let parts = (f64::from(sampling.parts) * left / (end - start)).round();
+        let parts = larger(parts, self.parts_to(end));
+        let t = self.begin.t + left / parts;
+        // Also where times are as close as their rounding.
+        if parts <= 1.0 || t == self.begin.t { end } else { t }
+    }
+
+    /// All that happens on the way to a sample, in the order of the run.
     ///
     /// # Errors
-    /// Those of `at`, which gives the phase point at a time on the way, and the work.
-    pub(super) fn advance(
+    /// Those of `at`; [`Reason::Event`] for a function that is no number.
+    pub(super) fn look(
         &mut self,
-        t_end: f64,
-        parts: u32,
-        at: &mut dyn FnMut(f64) -> Result<WithWork<P>, Reason>,
+        t: f64,
+        rate: impl Fn(&P) -> f64,
+        at: &mut At<'_, P>,
     ) -> Result<Vec<Met<P>>, Reason> {
+        let (point, _) = at(t)?;
+        (self.end.t, self.end.rate) = (t, rate(&point));
         let mut met = Vec::new();
-        let begin = self.t;
-        if t_end == begin {
-            return Ok(met);
-        }
-        let sign = if t_end < begin { -1.0 } else { 1.0 };
-        for part in 1..=parts {
-            let t = match part == parts {
-                true => t_end,
-                false => begin + (t_end - begin) * (f64::from(part) / f64::from(parts)),
-            };
-            let (point, _) = at(t)?;
-            let first = met.len();
-            for (index, event) in self.events.iter().enumerate() {
-                let (before, value) = (self.values[index], event.value(t, &point)?);
-                self.values[index] = value;
-                let Some(rising) = crossing(before, value).filter(|rising| event.counts(*rising)) else {
-                    continue;
-                };
-                let function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point));
-                let time = root(function, (self.t, before), (t, value))?;
-                let (point, work) = at(time)?;
-                // One of few: put in its place, after those of the same time.
-                let is_before = |other: &Met<P>| sign * other.t <= sign * time;
-                let place = first + met[first..].partition_point(is_before);
-                met.insert(place, Met { t: time, event: index, rising, point, work });
+        for index in 0..self.events.len() {
+            let value = self.events[index].value(t, &point)?;
+            self.end.values[index] = value;
+            let Some(Way { begin, from }) = self.way(index, at, &mut met)? else { continue };
+            let event = &self.events[index];
+            // Zero has been reached, a number that is none has not.
+            if value.is_nan() || Side::of(value) == Some(from) || !event.counts(from.opposite()) {
+                continue;
             }
-            self.t = t;
+            let function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point));
+            let time = root(function, begin, (t, value))?;
+            let middle = begin.0 + 0.5 * (time - begin.0);
+            let rate = match event.action {
+                Action::Change(_) => (event.value(middle, &at(middle)?.0)? / (time - middle)).abs(),
+                Action::Record | Action::Stop => 0.0,
+            };
+            self.insert(&mut met, (index, time, from.opposite(), rate), at)?;
+        }
+        if self.rests.is_some() {
+            met.retain(|met| met.t == self.begin.t);
         }
         Ok(met)
+    }
+
+    /// Where the run ends after all that happens on the way to the sample: an event that would happen again at once.
+    pub(super) fn rest(&mut self) -> Result<(), Reason> {
+        self.rests.take().map_or(Ok(()), Err)
+    }
+
+    /// The way of an event through the part; `None` where no change of sign can follow. One that begins at zero may happen
+    /// there.
+    fn way(
+        &mut self,
+        index: usize,
+        at: &mut At<'_, P>,
+        met: &mut Vec<Met<P>>,
+    ) -> Result<Option<Way>, Reason> {
+        let (event, memory) = (&self.events[index], &mut self.memory[index]);
+        let begin = (self.begin.t, self.begin.values[index]);
+        let (from, changed) = match memory.standing {
+            Standing::On(from) => return Ok(Some(Way { begin, from })),
+            Standing::Open => return Ok(None),
+            Standing::Leaving { from, changed } => (from, changed.map(f64::from_bits)),
+        };
+        let mut function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point));
+        // One that rests is not looked at as closely as one that may move.
+        let middle = begin.0 + 0.5 * (self.end.t - begin.0);
+        let is_still = self.end.values[index] == begin.1 && function(middle)? == begin.1;
+        let left = if is_still { None } else { departure(function, begin, self.end.t)? };
+        self.stays[index] = left.is_none();
+        let Some(left) = left else { return Ok(None) };
+        let is_beyond = left.side != from;
+        if let Some(came) = changed
+            && is_beyond
+            && left.rate.is_none_or(|rate| rate < AT_REST * came)
+        {
+            let (event, count) = (event.name, memory.changes.count);
+            self.rests = Some(Reason::Accumulation { event, t: begin.0, count });
+            return Ok(None);
+        }
+        if is_beyond && changed.is_none() && event.counts(left.side) {
+            self.insert(met, (index, begin.0, left.side, left.rate.unwrap_or(0.0)), at)?;
+        } else {
+            memory.standing = Standing::On(left.side);
+        }
+        Ok(Some(Way { begin: (left.t, left.value), from: left.side }))
+    }
+
+    /// Puts one of few events in its place, after those of the same time.
+    fn insert(
+        &self,
+        met: &mut Vec<Met<P>>,
+        (event, t, to, rate): (usize, f64, Side, f64),
+        at: &mut At<'_, P>,
+    ) -> Result<(), Reason> {
+        let (point, work) = at(t)?;
+        let sign = if self.end.t < self.begin.t { -1.0 } else { 1.0 };
+        let place = met.partition_point(|other: &Met<P>| sign * other.t <= sign * t);
+        met.insert(place, Met { t, event, to, rate, point, work });
+        Ok(())
+    }
+
+    /// An event has happened.
+    pub(super) fn happened(&mut self, met: &Met<P>) {
+        self.memory[met.event].standing = Standing::On(met.to);
+    }
+
+    /// The next part begins where this one ends.
+    pub(super) fn pass(&mut self) {
+        for (index, memory) in self.memory.iter_mut().enumerate() {
+            if !core::mem::take(&mut self.stays[index]) {
+                memory.standing = Standing::of(self.end.values[index]);
+            }
+        }
+        core::mem::swap(&mut self.begin, &mut self.end);
+    }
+
+    /// An event has changed the point: what is known of all of them where the next integration begins is noted, and the time
+    /// returned at which its changes accumulate, if they do, with their number.
+    ///
+    /// A function that has come to zero at that time, or is zero now, is decided by where it goes from there; a jump is no
+    /// change of its sign.
+    pub(super) fn change(&mut self, met: &Met<P>, changed: &P) -> Option<(f64, u64)> {
+        let mut accumulation = None;
+        self.rests = None;
+        for (index, event) in self.events.iter().enumerate() {
+            let [before, after] = [&met.point, changed].map(|point| event.at(met.t, point));
+            let size = larger(self.begin.values[index].abs(), self.end.values[index].abs());
+            let was_at_zero = before.abs() <= AT_ZERO * size;
+            let Memory { standing, changes } = &mut self.memory[index];
+            let (mut side, mut rate) = (standing.side(), None);
+            if index == met.event {
+                (side, rate) = (Some(met.to.opposite()), Some(met.rate.to_bits()));
+                accumulation = changes.happen(met.t, was_at_zero).map(|t| (t, changes.count));
+            }
+            // It has come to zero at this very time, and the change has left it there.
+            let has_come = was_at_zero && side.is_some_and(|side| Side::of(before) != Some(side));
+            let is_left = after.abs() <= larger(2.0 * before.abs(), ROUNDED * size);
+            let from = if was_at_zero { side } else { event.start().or(side) };
+            *standing = match from {
+                Some(from) if has_come && is_left || after == 0.0 => {
+                    Standing::Leaving { from, changed: rate }
+                }
+                _ => Standing::of(after),
+            };
+        }
+        accumulation
     }
 }
 
 impl<const N: usize, P: Phase<N>> Event<'_, N, P> {
-    /// What it is at a point, unless that is none: the run finds out for itself.
+    /// Its function.
+    fn at(&self, t: f64, point: &P) -> f64 {
+        (self.function)(t, point)
+    }
+
+    /// What that is at a point, unless the point is none: the run finds out for itself.
     fn value(&self, t: f64, point: &P) -> Result<f64, Reason> {
-        let value = (self.function)(t, point);
+        let value = self.at(t, point);
         if value.is_nan() && check(t, point).is_ok() {
             return Err(Reason::Event { event: self.name, t });
         }
         Ok(value)
     }
 
-    fn counts(&self, rising: bool) -> bool {
+    fn counts(&self, to: Side) -> bool {
         match self.direction {
-            Direction::Rising => rising,
-            Direction::Falling => !rising,
+            Direction::Rising => to == Side::Positive,
+            Direction::Falling => to == Side::Negative,
             Direction::Any => true,
         }
     }
-}
 
-/// Whether the sign changes, and how.
-fn crossing(before: f64, value: f64) -> Option<bool> {
-    if before < 0.0 && value >= 0.0 {
-        Some(true)
-    } else if before > 0.0 && value <= 0.0 {
-        Some(false)
-    } else {
-        None
+    /// The side to which zero counts where nothing is known of before.
+    fn start(&self) -> Option<Side> {
+        match self.direction {
+            Direction::Rising => Some(Side::Negative),
+            Direction::Falling => Some(Side::Positive),
+            Direction::Any => None,
+        }
+    }
+
+    /// What is known at the start of a run.
+    fn first(&self, value: f64) -> Memory {
+        let leaving = self.start().filter(|_| value == 0.0);
+        let standing = leaving.map_or(Standing::of(value), |from| Standing::Leaving { from, changed: None });
+        Memory { standing, changes: Changes::default() }
     }
 }

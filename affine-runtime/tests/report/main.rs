@@ -39,7 +39,7 @@ fn missile() -> WorkPrecision<'static, 3, DrunkMissile> {
 
 /// Runs into the singularity of its force.
 fn doomed() -> WorkPrecisionReport {
-    let model = Planar::<true> { spring: 0.0, singular_at: Some(0.5) };
+    let model = Planar::<true> { spring: 0.0, singular_at: Some(0.5), is_weighed: false };
     let start = planar::start(0.1);
     WorkPrecision::new(&model, start, 1.0).against(start).tolerances([1e-6, 1e-9]).run().unwrap()
 }
@@ -150,7 +150,7 @@ fn runs_that_stop_keep_their_rows() {
 
 #[test]
 fn what_makes_no_sense_is_refused() {
-    let model = Planar::<true> { spring: 0.0, singular_at: Some(0.5) };
+    let model = Planar::<true> { spring: 0.0, singular_at: Some(0.5), is_weighed: false };
     let without = WorkPrecision::new(&model, planar::start(0.1), 1.0).run().unwrap_err();
     assert_eq!(without, Error::NoReference { model: "Planar" });
     assert!(without.to_string().contains(".against("));

@@ -58,7 +58,7 @@ fn without_a_reference_one_is_computed() {
 
 #[test]
 fn a_motion_that_ends_on_the_way_has_no_reference() {
-    let model = Planar::<true> { spring: 0.0, singular_at: Some(0.5) };
+    let model = Planar::<true> { spring: 0.0, singular_at: Some(0.5), is_weighed: false };
     let none = reference_solution(&model, &planar::start(0.1), (0.0, 1.0));
     assert_eq!(none, Err(Error::NoReference { model: "Planar" }));
 }

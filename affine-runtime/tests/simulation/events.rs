@@ -75,6 +75,48 @@ fn several_in_one_step_come_in_order_and_between_outputs() {
     }
 }
 
+/// Two levels on both sides of where phi11 and phi22 meet, crossed between the same samples.
+#[test]
+fn events_of_one_sample_come_in_the_order_of_the_run() {
+    let level = |name, value: f64| {
+        Event::new(name, move |_, point: &Disc| point.phi()[(0, 0)] - point.phi()[(1, 1)] - value)
+    };
+    let end = *swinging().until(1.2).run().unwrap().end().1;
+    for method in METHODS {
+        for stated in [["low", "high"], ["high", "low"]] {
+            let [one, other] = stated.map(|name| level(name, if name == "low" { -1e-4 } else { 1e-4 }));
+            let there = swinging().until(1.2).method(method).event(one).event(other).run().unwrap();
+            let names = |run: &affine_runtime::Trajectory<2, Disc>| -> Vec<_> {
+                run.events().iter().map(|event| (event.name, event.rising)).collect()
+            };
+            assert_eq!(names(&there), [("low", true), ("high", true)], "{method:?}");
+            let [one, other] = stated.map(|name| level(name, if name == "low" { -1e-4 } else { 1e-4 }));
+            let back = Simulation::new(&Planar::SPRING, end).from(1.2).until(0.0).tolerance(1e-15);
+            let back = back.method(method).event(one).event(other).run().unwrap();
+            assert_eq!(names(&back), [("high", false), ("low", false)], "{method:?}");
+            for (there, back) in there.events().iter().zip(back.events().iter().rev()) {
+                assert!((there.t - back.t).abs() < TIME, "{method:?}: {} and {}", there.t, back.t);
+            }
+        }
+    }
+}
+
+/// A change that moves the point by a rounding, to the side from which the function has come.
+#[test]
+fn a_change_by_rounding_does_not_meet_itself() {
+    for method in METHODS {
+        for by in [-1e-15, -1e-16, 0.0, 1e-16, 1e-15] {
+            let shift = move |_: f64, p: &Disc| {
+                let mut phi = *p.phi();
+                phi[(0, 0)] += by;
+                Ok(point(phi, p.pi(), Pinned))
+            };
+            let run = swinging().until(1.2).method(method).event(meeting().change(shift)).run().unwrap();
+            assert_eq!(run.events().len(), 1, "{method:?} {by:e}");
+        }
+    }
+}
+
 #[test]
 fn directions_are_those_of_the_run() {
     let exact = (0.5_f64 / 0.7).atan();

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 use affine_runtime::__private::point;
 use affine_runtime::frames::{Matrix, TwoPoint};
-use affine_runtime::simulate::{Callback, Method, Reason, Setting, Stop};
+use affine_runtime::simulate::{Callback, Event, Method, Reason, Setting, Stop};
 use affine_runtime::state::{Phase, Pinned};
 use affine_runtime::{Error, Simulation};
 
@@ -92,10 +92,116 @@ fn collapse_between_outputs_is_seen_at_the_steps() {
     assert!(halt.trajectory.end().1.phi().determinant() > 0.0);
 }
 
+/// A spring that turns the body without deforming it, `phi = [cos t, -sin t; sin t, cos t]`.
+fn turning() -> Disc {
+    point(Matrix::<2>::identity(), TwoPoint(Matrix::<2>::new(0.0, 1.0, -1.0, 0.0)), Pinned)
+}
+
+/// Steps without output are looked at all the same, whatever the momentum is.
+#[test]
+fn collapse_at_a_step_without_output() {
+    // det phi = (cos t - sin t)(1.5 cos t - 0.2 sin t) + ..., negative from 0.79 to 1.48 and from 3.9 to 4.6.
+    let run = |until: f64, every: bool| {
+        let simulation =
+            Simulation::new(&Planar::OTHERWISE, planar::start(-1.0)).until(until).tolerance(1e-12);
+        if every { simulation.run() } else { simulation.output([until]).run() }
+    };
+    let (seen, unseen) = (run(2.0, true).unwrap_err(), run(2.0, false).unwrap_err());
+    let Reason::Placement { determinant, t, .. } = unseen.stop.reason else { panic!("{unseen}") };
+    assert!(determinant < 0.0 && (0.7..1.0).contains(&t), "{unseen}");
+    assert_eq!(unseen.stop, seen.stop, "as with an output at every step");
+    assert!(unseen.trajectory.is_empty() && unseen.trajectory.end() == seen.trajectory.end());
+    assert!(unseen.trajectory.end().1.phi().determinant() > 0.0);
+    // The end of the run itself.
+    let last = run(1.0, false).unwrap_err();
+    assert!(matches!(last.stop.reason, Reason::Placement { t: at, .. } if (at - t).abs() < 1e-9), "{last}");
+}
+
+/// Backward in time too the end is the last good step, an output or not.
+#[test]
+fn the_end_of_a_halted_run_is_its_last_step() {
+    for sign in [1.0, -1.0] {
+        let start = planar::start(-sign);
+        let simulation = || Simulation::new(&Planar::OTHERWISE, start).until(2.0 * sign).tolerance(1e-12);
+        let every = simulation().run().unwrap_err();
+        for output in [vec![], vec![0.3 * sign]] {
+            let halt = simulation().output(output.clone()).run().unwrap_err();
+            assert_eq!(halt.trajectory.times(), output);
+            assert_eq!(halt.trajectory.end(), every.trajectory.end());
+            assert_eq!(halt.stop, every.stop);
+        }
+        let last = every.trajectory.times().last().copied();
+        assert_eq!((last, every.stop.t.signum()), (Some(every.stop.t), sign));
+    }
+}
+
+/// What happens in a step after the orientation is lost does not.
+#[test]
+fn nothing_happens_after_a_collapse() {
+    let exact = {
+        // The exact motion is phi(0) cos t + phi_dot(0) sin t.
+        let determinant = |t: f64| {
+            let (c, s) = (t.cos(), t.sin());
+            (c - s) * (1.5 * c - 0.2 * s) - 0.2 * c * 0.1 * s
+        };
+        let (mut good, mut bad) = (0.5, 1.0);
+        while bad - good > 1e-15 {
+            let middle = 0.5 * (good + bad);
+            *(if determinant(middle) > 0.0 { &mut good } else { &mut bad }) = middle;
+        }
+        bad
+    };
+    let at = |name, t0: f64| Event::new(name, move |t, _: &Disc| t - t0);
+    let steps = [(Method::Gauss { stages: 6, step: 1.0 }, 1e-9), (Method::RungeKutta8, 1e-2)];
+    for (method, right) in steps {
+        let halt = Simulation::new(&Planar::SPRING, planar::start(-1.0))
+            .until(4.0)
+            .tolerance(1e-3)
+            .method(method)
+            .event(at("before", exact - 0.03))
+            .event(at("after", exact + 0.03))
+            .run()
+            .unwrap_err();
+        let Reason::Placement { t, .. } = halt.stop.reason else { panic!("{method:?}: {halt}") };
+        assert!((t - exact).abs() < right, "{method:?}: {t} and {exact}");
+        let names: Vec<&str> = halt.trajectory.events().iter().map(|event| event.name).collect();
+        assert_eq!(names, ["before"], "{method:?}");
+    }
+}
+
+/// A mass matrix that changes its signature ends the run with the step, and one that degenerates where no step leads on.
+#[test]
+fn degenerate_mass_matrices() {
+    let model = Planar { is_weighed: true, ..Planar::SPRING };
+    let quarter = core::f64::consts::FRAC_PI_2;
+    for method in [Method::RungeKutta8, Method::Gauss { stages: 3, step: 0.1 }] {
+        let halt =
+            Simulation::new(&model, turning()).until(4.0).tolerance(1e-10).method(method).run().unwrap_err();
+        let Reason::Degenerate { weakest, t } = halt.stop.reason else { panic!("{method:?}: {halt}") };
+        assert!(halt.stop.t < quarter && t > quarter && t - halt.stop.t < 1.0, "{method:?}: {halt}");
+        assert!((weakest - t.cos().abs()).abs() < 1e-6, "{method:?}: {weakest} at {t}");
+        let whole = Simulation::new(&Planar::SPRING, turning()).until(4.0).tolerance(1e-10).method(method);
+        assert_eq!(whole.run().unwrap().end().0, 4.0);
+    }
+    // phi22 = 1 - (1 - d) t is d where the force is infinite.
+    let singular = Planar { singular_at: Some(1.0), is_weighed: true, ..Planar::FREE };
+    for (pivot, is_named) in [(1e-6, true), (1e-3, false)] {
+        let momentum = TwoPoint(Matrix::<2>::new(0.0, 0.0, 0.0, pivot - 1.0));
+        let start = point(Matrix::<2>::identity(), momentum, Pinned);
+        let halt = Simulation::new(&singular, start).until(2.0).run().unwrap_err();
+        match halt.stop.reason {
+            Reason::Degenerate { weakest, t } => {
+                assert!(is_named && (weakest - pivot).abs() < 1e-9 && (t - 1.0).abs() < 1e-9, "{halt}");
+            }
+            reason => assert!(!is_named && matches!(reason, Reason::StepUnderflow { .. }), "{halt}"),
+        }
+    }
+}
+
 #[test]
 fn singular_force_stops_with_the_step() {
     // Pi_11 = 1/(1 - t) - 1 + Pi_11(0): no step passes t = 1.
-    let model = Planar::<true> { spring: 0.0, singular_at: Some(1.0) };
+    let model = Planar::<true> { spring: 0.0, singular_at: Some(1.0), is_weighed: false };
     let halt = Simulation::new(&model, planar::start(0.5)).until(2.0).tolerance(1e-10).run().unwrap_err();
     assert_eq!(halt.stop.reason, Reason::StepUnderflow { tolerance: 1e-10 });
     let (t, end) = halt.trajectory.end();
@@ -137,7 +243,7 @@ fn starts_that_are_no_phase_points() {
 #[test]
 fn overflow_is_not_finite() {
     // The force at the start is infinite.
-    let model = Planar::<true> { spring: 0.0, singular_at: Some(0.0) };
+    let model = Planar::<true> { spring: 0.0, singular_at: Some(0.0), is_weighed: false };
     let halt = Simulation::new(&model, planar::start(0.5)).until(1.0).run().unwrap_err();
     assert_eq!(halt.stop.reason, Reason::NotFinite);
     assert_eq!(halt.trajectory.times(), [0.0], "the start is good");

@@ -38,7 +38,7 @@ fn at_rest_more_is_conserved() {
 #[test]
 fn a_drift_is_what_it_is() {
     // A driven body does not keep its energy: Pi_11(t) = Pi_11(0) + 1/(40 - t) - 1/40, and only that changes.
-    let model = Planar::<false> { spring: 0.0, singular_at: Some(40.0) };
+    let model = Planar { singular_at: Some(40.0), ..Planar::FREE };
     let start = planar::start(0.5);
     let run = Simulation::new(&model, start).until(5.0).every(1.0).tolerance(1e-12).run().unwrap();
     let drift = *run.conservation().of(Conserved::Energy).unwrap();
@@ -54,7 +54,7 @@ fn a_drift_is_what_it_is() {
 
 #[test]
 fn the_end_counts_although_it_is_no_output() {
-    let model = Planar::<false> { spring: 0.0, singular_at: Some(40.0) };
+    let model = Planar { singular_at: Some(40.0), ..Planar::FREE };
     let at = |times: &[f64]| {
         let simulation = Simulation::new(&model, planar::start(0.5)).until(5.0).tolerance(1e-12);
         simulation.output(times.iter().copied()).run().unwrap().conservation()

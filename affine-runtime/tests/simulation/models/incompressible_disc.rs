@@ -14,7 +14,7 @@ impl Model<2> for IncompressibleDisc {
     const DESCRIPTION: Description = Description {
         name: "IncompressibleDisc",
         constraint: Some(Constraint::Isochoric),
-        ..Planar::<false>::DESCRIPTION
+        ..<Planar>::DESCRIPTION
     };
 
     type Point<T: Real> = Disc<T>;

@@ -5,32 +5,39 @@
 use affine_runtime::__private::point as point_of;
 use affine_runtime::frames::{Canonical, Matrix, TwoPoint, Vector};
 use affine_runtime::geodesic::{Geodesic, Motion};
-use affine_runtime::model::{Conserved, Description, Group, Model, Velocity};
+use affine_runtime::model::{Conserved, Description, Group, Model, Regularity, Velocity};
 use affine_runtime::scalar::{Real, Scalar};
 use affine_runtime::state::{Phase, PhasePoint, Pinned};
 
 use super::{description, matrix, write};
 
 /// `H = (|Pi|^2 + k |phi|^2)/2`, with a force that turns infinite at the time `singular_at`. A driven body does not say that it
-/// keeps its energy.
-pub(crate) struct Planar<const DRIVEN: bool = false> {
+/// keeps its energy. Where `is_weighed`, it says that its mass matrix has the pivot `phi22`, and where not `IN_PI`, that its
+/// momentum is another than that of a flat metric.
+pub(crate) struct Planar<const DRIVEN: bool = false, const IN_PI: bool = true> {
     pub(crate) spring: f64,
     pub(crate) singular_at: Option<f64>,
+    pub(crate) is_weighed: bool,
 }
 
 pub(crate) type Disc<T = f64> = PhasePoint<2, Canonical, Pinned, T>;
 
 const GROUPS: &[Group] = &[Group { name: "phi", len: 4 }, Group { name: "Pi", len: 4 }];
+const OTHER_GROUPS: &[Group] = &[Group { name: "phi", len: 4 }, Group { name: "Sigma", len: 4 }];
 
 impl Planar {
-    pub(crate) const FREE: Self = Self { spring: 0.0, singular_at: None };
-    pub(crate) const SPRING: Self = Self { spring: 1.0, singular_at: None };
+    pub(crate) const FREE: Self = Self { spring: 0.0, singular_at: None, is_weighed: false };
+    pub(crate) const SPRING: Self = Self { spring: 1.0, singular_at: None, is_weighed: false };
 }
 
-impl<const DRIVEN: bool> Model<2> for Planar<DRIVEN> {
+impl Planar<false, false> {
+    pub(crate) const OTHERWISE: Self = Self { spring: 1.0, singular_at: None, is_weighed: false };
+}
+
+impl<const DRIVEN: bool, const IN_PI: bool> Model<2> for Planar<DRIVEN, IN_PI> {
     const DESCRIPTION: Description = {
         let mut text = description("Planar");
-        text.full = GROUPS;
+        text.full = if IN_PI { GROUPS } else { OTHER_GROUPS };
         text.reduced = GROUPS;
         text.conserved = match DRIVEN {
             false => &[Conserved::Energy, Conserved::Spin, Conserved::Vorticity],
@@ -56,6 +63,11 @@ impl<const DRIVEN: bool> Model<2> for Planar<DRIVEN> {
     fn hamiltonian<T: Real>(&self, _t: T, point: &Disc<T>) -> T {
         let (phi, pi) = (point.phi(), point.pi().0.0);
         (pi.dot(&pi) + phi.dot(phi) * T::constant(self.spring, 0.0)) * T::constant(0.5, 0.0)
+    }
+
+    fn regularity(&self, phi: &Matrix<2>) -> Option<Regularity> {
+        let pivot = phi[(1, 1)];
+        self.is_weighed.then(|| Regularity { negative: usize::from(pivot < 0.0), weakest: pivot.abs() })
     }
 
     fn flatten<T: Real>(&self, point: &Disc<T>) -> [T; 8] {

@@ -1,0 +1,68 @@
+//! On which side of zero the function of an event stands, from one sample to the next.
+
+use super::accumulation::Changes;
+
+/// A side of zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) enum Side {
+    Negative,
+    Positive,
+}
+
+impl Side {
+    /// Where a value lies; `None` for zero and for what is no number.
+    pub(super) fn of(value: f64) -> Option<Self> {
+        match value {
+            _ if value < 0.0 => Some(Self::Negative),
+            _ if value > 0.0 => Some(Self::Positive),
+            _ => None,
+        }
+    }
+
+    pub(super) fn opposite(self) -> Self {
+        match self {
+            Self::Negative => Self::Positive,
+            Self::Positive => Self::Negative,
+        }
+    }
+}
+
+/// Where the function of an event stands at a sample, as far as changes of its sign go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) enum Standing {
+    /// On a side.
+    On(Side),
+    /// At zero, or no number: to whichever side it goes, that is no change of its sign.
+    Open,
+    /// At zero, coming from a side: its sign changes if it leaves for the other one.
+    Leaving {
+        from: Side,
+        /// Bits of the rate at which it came, where its own change has left it there.
+        changed: Option<u64>,
+    },
+}
+
+impl Standing {
+    /// At a sample where nothing but the value is known.
+    pub(super) fn of(value: f64) -> Self {
+        Side::of(value).map_or(Self::Open, Self::On)
+    }
+
+    /// The side on which it is, or from which it comes.
+    pub(super) fn side(self) -> Option<Side> {
+        match self {
+            Self::On(side) | Self::Leaving { from: side, .. } => Some(side),
+            Self::Open => None,
+        }
+    }
+}
+
+/// What is remembered of an event.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Memory {
+    pub(super) standing: Standing,
+    pub(super) changes: Changes,
+}

@@ -1,0 +1,8 @@
+//! Events where they are easily missed: many of them, several at one time, and contacts.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod contact;
+mod corner;
+mod models;
+mod rotation;
+mod zero;
