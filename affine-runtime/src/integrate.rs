@@ -20,7 +20,7 @@ pub mod taylor;
 mod widest;
 
 #[cfg(feature = "std")]
-pub(crate) use equal_steps::step_count;
+pub(crate) use equal_steps::{parts, step_count};
 pub use error_norm::ErrorNorm;
 pub(crate) use error_norm::norm;
 #[cfg(feature = "std")]
