@@ -2,4 +2,5 @@
 //! than steps, and what all that costs.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod collocation;
 mod frames;
