@@ -99,7 +99,7 @@ fn solution_is_of_order_8_and_dense_output_of_order_7() {
 fn errors_and_costs_follow_the_tolerance() {
     // Errors on the way grow with the solution, which varies by exp(10).
     let expected =
-        [(1e-3, (21, 4, 298)), (1e-6, (35, 4, 466)), (1e-9, (78, 10, 1048)), (1e-12, (178, 13, 2281))];
+        [(1e-3, (16, 4, 238)), (1e-6, (31, 4, 418)), (1e-9, (75, 8, 990)), (1e-12, (175, 11, 2223))];
     for (tolerance, (steps, rejected, evaluations)) in expected {
         let mut run = RungeKutta8::new(four, FOUR, (0.0, four_exact(0.0)), 3.0, tolerance).unwrap();
         while !run.is_finished() {

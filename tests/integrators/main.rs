@@ -4,3 +4,4 @@
 
 mod collocation;
 mod frames;
+mod rest;
