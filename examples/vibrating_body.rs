@@ -42,7 +42,7 @@ fn main() -> affine_runtime::Result<()> {
 
     let reference = reference()?;
     let Some((&(_, start), rest)) = reference.split_first() else { return Ok(()) };
-    let Some(&(t_end, _)) = rest.last() else { return Ok(()) };
+    let Some(&(t_end, end)) = rest.last() else { return Ok(()) };
     let run = Simulation::new(&VibratingBody, start)
         .until(t_end)
         .tolerance(1e-14)
@@ -57,6 +57,8 @@ fn main() -> affine_runtime::Result<()> {
     }
     println!("\n{}", run.conservation());
 
+    over_tolerances(start, (t_end, end))?;
+
     println!("Gauss collocation, 3 stages, a fixed step\n");
     let method = Method::Gauss { stages: 3, step: 0.05 };
     let symplectic = Simulation::new(&VibratingBody, start).until(t_end).every(0.5).method(method).run()?;
@@ -67,6 +69,27 @@ fn main() -> affine_runtime::Result<()> {
     picture.save_csv(output.join("vibrating_body.csv"))?;
     picture.save_svg(output.join("vibrating_body.svg"))?;
     println!("written to output/: vibrating_body.csv, vibrating_body.svg");
+    Ok(())
+}
+
+/// What is left in the end of the tolerance that each step keeps: that is the method's.
+fn over_tolerances(start: Point, (t_end, exact): (f64, Point)) -> affine_runtime::Result<()> {
+    println!("error of phi at t = {t_end} over the tolerance, Runge-Kutta of orders 8 and 5:");
+    for k in [2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12] {
+        let tolerance = 10f64.powi(-k);
+        let error = |method: Method| {
+            let run = Simulation::new(&VibratingBody, start).until(t_end).tolerance(tolerance);
+            let run = run.method(method).output([]).run()?;
+            let error = (run.end().1.phi() - exact.phi()).norm() / exact.phi().norm();
+            affine_runtime::Result::Ok(error / tolerance)
+        };
+        println!(
+            "  {tolerance:.0e}  {:6.1} {:6.0}",
+            error(Method::RungeKutta8)?,
+            error(Method::RungeKutta5)?
+        );
+    }
+    println!();
     Ok(())
 }
 

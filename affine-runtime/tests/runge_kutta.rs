@@ -108,7 +108,11 @@ fn errors_and_costs_follow_the_tolerance() {
         assert_eq!(run.t(), 3.0);
         let error = distance(run.y(), &four_exact(3.0));
         assert!(error < 1e3 * tolerance, "{tolerance:e}: {error:e}");
-        assert_eq!(run.statistics(), Statistics { steps, rejected, evaluations }, "{tolerance:e}");
+        assert_eq!(
+            run.statistics(),
+            Statistics { steps, rejected, evaluations, ..Statistics::default() },
+            "{tolerance:e}"
+        );
     }
 }
 
@@ -145,7 +149,7 @@ fn nothing_to_do_costs_one_evaluation() {
     let mut run = RungeKutta8::new(pair, PAIR, (2.0, pair_exact(2.0)), 2.0, 1e-9).unwrap();
     run.advance().unwrap();
     assert_eq!((run.t(), *run.y()), (2.0, pair_exact(2.0)));
-    assert_eq!(run.statistics(), Statistics { steps: 0, rejected: 0, evaluations: 1 });
+    assert_eq!(run.statistics(), Statistics { evaluations: 1, ..Statistics::default() });
 }
 
 #[test]

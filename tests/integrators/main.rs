@@ -3,5 +3,6 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod collocation;
+mod counts;
 mod frames;
 mod rest;

@@ -25,7 +25,7 @@ pub(super) struct Place {
     /// Index of that event.
     pub(super) changed_by: Option<usize>,
     /// Bits of the cost before.
-    pub(super) cost: [u64; 3],
+    pub(super) cost: [u64; 5],
     /// Bits of the work before.
     pub(super) work: u64,
     /// State of the integrator, or the time reached in closed form; empty where it has not begun.
@@ -41,8 +41,21 @@ pub(super) struct Place {
 impl Place {
     /// At the start of an integration. Where that is is written down when it is asked for, by [`from`](Self::from).
     pub(super) fn starting(changed_by: Option<usize>, (cost, work): (Statistics, f64)) -> Self {
-        let cost = [cost.steps, cost.rejected, cost.evaluations];
-        Self { changed_by, cost, work: work.to_bits(), ..Self::default() }
+        let mut place = Self { changed_by, work: work.to_bits(), ..Self::default() };
+        place.set_cost(cost);
+        place
+    }
+
+    /// Counts evaluations that are spent before the integration begins; where it has begun they have been counted.
+    pub(super) fn spend(&mut self, evaluations: u64) {
+        if self.integrator.is_empty() {
+            self.set_cost(self.cost().and(Statistics { evaluations, ..Statistics::default() }));
+        }
+    }
+
+    fn set_cost(&mut self, cost: Statistics) {
+        let Statistics { steps, rejected, evaluations, series, series_worth } = cost;
+        self.cost = [steps, rejected, evaluations, series, series_worth];
     }
 
     /// With the time and the point from which the integration started.
@@ -73,8 +86,8 @@ impl Place {
 
     /// The cost before.
     pub(super) fn cost(&self) -> Statistics {
-        let [steps, rejected, evaluations] = self.cost;
-        Statistics { steps, rejected, evaluations }
+        let [steps, rejected, evaluations, series, series_worth] = self.cost;
+        Statistics { steps, rejected, evaluations, series, series_worth }
     }
 }
 

@@ -9,7 +9,6 @@ use super::point::{check, is_clearly_positive};
 use super::recorder::Recorder;
 use super::signature::Signature;
 use crate::frames::Matrix;
-use crate::integrate::Statistics;
 use crate::state::Phase;
 
 /// Equal parts of a step at whose ends events are looked at.
@@ -27,7 +26,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             other => other,
         });
         let trajectory = &mut *self.trajectory;
-        trajectory.statistics = sum(self.place.cost(), motion.statistics());
+        trajectory.statistics = self.place.cost().and(motion.statistics());
         trajectory.computation.residual = motion.residual();
         let end = trajectory.end.0;
         let is_later = |t: f64| if self.backward { t < end } else { t > end };
@@ -120,14 +119,5 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         }
         self.record_through(until, &mut at)?;
         Ok(false)
-    }
-}
-
-/// Costs one after the other.
-fn sum(before: Statistics, after: Statistics) -> Statistics {
-    Statistics {
-        steps: before.steps + after.steps,
-        rejected: before.rejected + after.rejected,
-        evaluations: before.evaluations + after.evaluations,
     }
 }

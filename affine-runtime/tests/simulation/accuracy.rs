@@ -49,7 +49,7 @@ fn body(t: f64, tolerance: f64) -> Trajectory<3, Body3> {
 
 /// Steps and evaluations of a run without rejections.
 fn accepted((steps, evaluations): (u64, u64)) -> Statistics {
-    Statistics { steps, rejected: 0, evaluations }
+    Statistics { steps, evaluations, ..Statistics::default() }
 }
 
 #[test]

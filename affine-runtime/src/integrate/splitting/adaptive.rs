@@ -150,9 +150,9 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> AdaptiveSplitting<S, C, P> {
         }
     }
 
-    /// A first step of a length is within the tolerance.
+    /// A first step of a length is within the tolerance; it is counted, and not taken.
     #[cfg(feature = "std")]
-    pub(crate) fn allows(mut self, length: f64) -> bool {
+    pub(crate) fn allows(&mut self, length: f64) -> bool {
         let (t, _) = self.end;
         let (_, difference) = self.attempt(t + length.copysign(self.t_end - t));
         self.error(difference) <= 1.0
@@ -268,7 +268,7 @@ fn is_of_rounding((tried, difference): (f64, f64), (length, before): (f64, f64))
 }
 
 /// Evaluations of [`fastest`].
-const EVALUATIONS: u64 = 4;
+pub(crate) const EVALUATIONS: u64 = 4;
 /// Changes that slopes are compared over, relative to the state: half of the digits.
 const SMALL: f64 = 1e-8;
 
