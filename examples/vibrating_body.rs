@@ -42,7 +42,7 @@ fn main() -> affine_runtime::Result<()> {
 
     let reference = reference()?;
     let Some((&(_, start), rest)) = reference.split_first() else { return Ok(()) };
-    let Some(&(t_end, _)) = rest.last() else { return Ok(()) };
+    let Some(&(t_end, end)) = rest.last() else { return Ok(()) };
     let run = Simulation::new(&VibratingBody, start)
         .until(t_end)
         .tolerance(1e-14)
@@ -51,11 +51,12 @@ fn main() -> affine_runtime::Result<()> {
     print!("{}", run.why());
     println!("\nrelative error against the 45-digit reference, norm-wise:");
     for ((t, exact), (_, point)) in rest.iter().zip(run.iter()) {
-        let (s, r) = (point.sigma_hat().0.0, exact.sigma_hat().0.0);
-        let phi = (point.phi() - exact.phi()).norm() / exact.phi().norm();
-        println!("  t = {t:<4} phi {phi:.1e}, Sigma_hat {:.1e}", (s - r).norm() / r.norm());
+        let [phi, spin] = errors(point, exact);
+        println!("  t = {t:<4} phi {phi:.1e}, Sigma_hat {spin:.1e}");
     }
     println!("\n{}", run.conservation());
+
+    over_tolerances(start, (t_end, end))?;
 
     println!("Gauss collocation, 3 stages, a fixed step\n");
     let method = Method::Gauss { stages: 3, step: 0.05 };
@@ -67,6 +68,35 @@ fn main() -> affine_runtime::Result<()> {
     picture.save_csv(output.join("vibrating_body.csv"))?;
     picture.save_svg(output.join("vibrating_body.svg"))?;
     println!("written to output/: vibrating_body.csv, vibrating_body.svg");
+    Ok(())
+}
+
+/// Relative errors of `phi` and `Sigma_hat`.
+fn errors(point: &Point, exact: &Point) -> [f64; 2] {
+    let (s, r) = (point.sigma_hat().0.0, exact.sigma_hat().0.0);
+    [(point.phi() - exact.phi()).norm() / exact.phi().norm(), (s - r).norm() / r.norm()]
+}
+
+/// What is left in the end of the tolerance that each step keeps: that is the method's.
+fn over_tolerances(start: Point, (t_end, exact): (f64, Point)) -> affine_runtime::Result<()> {
+    println!(
+        "larger error of phi and Sigma_hat at t = {t_end} over the tolerance, Runge-Kutta of orders 8 and 5:"
+    );
+    for k in [2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12] {
+        let tolerance = 10f64.powi(-k);
+        let error = |method: Method| {
+            let run = Simulation::new(&VibratingBody, start).until(t_end).tolerance(tolerance);
+            let run = run.method(method).output([]).run()?;
+            let [phi, spin] = errors(run.end().1, &exact);
+            affine_runtime::Result::Ok(phi.max(spin) / tolerance)
+        };
+        println!(
+            "  {tolerance:.0e}  {:6.1} {:6.0}",
+            error(Method::RungeKutta8)?,
+            error(Method::RungeKutta5)?
+        );
+    }
+    println!();
     Ok(())
 }
 

@@ -20,7 +20,7 @@ pub mod taylor;
 mod widest;
 
 #[cfg(feature = "std")]
-pub(crate) use equal_steps::step_count;
+pub(crate) use equal_steps::{parts, step_count};
 pub use error_norm::ErrorNorm;
 pub(crate) use error_norm::norm;
 #[cfg(feature = "std")]
@@ -116,13 +116,49 @@ crate::error::debug_as_displayed!([] Failure);
 
 impl core::error::Error for Failure {}
 
-/// What an integration cost.
+/// What an integration cost. All that it asked of the equations is counted: for accepted and rejected steps, for outputs
+/// and events between them, at the start, and for the trial of a method that the automatic choice takes or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Statistics {
     /// Accepted steps.
     pub steps: u64,
     /// Rejected steps.
     pub rejected: u64,
-    /// Evaluations of the right-hand side.
+    /// Evaluations of the right-hand side; of the force alone by [`RungeKuttaNystrom`], and flows of the last piece, which
+    /// is that of the potential, by [`Splitting`] and [`AdaptiveSplitting`].
     pub evaluations: u64,
+    /// Taylor series, by [`Taylor`]: sets of as many coefficients as the order.
+    pub series: u64,
+    /// Evaluations that these are worth, `p (p + 1)/2` for each series of order `p`. Not counted but derived from counts of
+    /// operations, and an upper bound: so many products of coefficients make up a series of a product, where an evaluation
+    /// takes one; a sum, and a multiple, takes `p`. By run time a series is worth less, for its products are taken several at
+    /// once.
+    pub series_worth: u64,
+}
+
+impl Statistics {
+    /// Evaluations, and those that Taylor series are [worth](Self::series_worth): what methods can be compared by that take
+    /// both.
+    #[must_use]
+    pub fn equivalent_evaluations(&self) -> u64 {
+        self.evaluations + self.series_worth
+    }
+
+    /// Taylor series of an order, beside what was counted.
+    fn with_series(self, order: usize) -> Self {
+        let order = order as u64;
+        Self { series: self.series + 1, series_worth: self.series_worth + order * (order + 1) / 2, ..self }
+    }
+
+    /// Costs one after the other.
+    #[cfg(feature = "std")]
+    pub(crate) fn and(self, after: Self) -> Self {
+        Self {
+            steps: self.steps + after.steps,
+            rejected: self.rejected + after.rejected,
+            evaluations: self.evaluations + after.evaluations,
+            series: self.series + after.series,
+            series_worth: self.series_worth + after.series_worth,
+        }
+    }
 }

@@ -11,7 +11,9 @@
 //!   from elsewhere, else the closed form where the model has one, else the [`reference_solution`]. An error far below
 //!   the reference's own is meaningless; the report cannot know how good the reference is.
 //! - **Steps, rejected steps, evaluations** of the right-hand side. They do not depend on the machine and repeat
-//!   exactly: compare methods with the same right-hand side by them.
+//!   exactly: compare methods with the same right-hand side by them. Taylor series are not counted in these but in series;
+//!   the table shows the evaluations that they are worth with a `~`, since that is derived from operations, see
+//!   [`Statistics::series_worth`](crate::integrate::Statistics::series_worth).
 //! - **Run time** from phase point to phase point: reduction, integration, the check of every accepted state, the
 //!   energy at both ends. It is the median of the repeats, by the monotonic clock, after one run that is not
 //!   timed. No output on the way is asked for.

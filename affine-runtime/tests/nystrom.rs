@@ -84,7 +84,7 @@ fn errors_and_costs_follow_the_tolerance() {
         for (tolerance, steps) in rows {
             let run = run(method, (0.0, 6.0), tolerance);
             let error = distance(&Coupled.renewed(run.y()), &exact(6.0));
-            let Statistics { steps: taken, rejected, evaluations } = run.statistics();
+            let Statistics { steps: taken, rejected, evaluations, .. } = run.statistics();
             assert!(error < 10.0 * tolerance, "{tolerance:e}: {error:e}");
             assert!(taken <= steps, "{tolerance:e}: {taken} steps, {rejected} rejected");
             // The force at the start is that of the first step.
@@ -141,7 +141,7 @@ fn nothing_to_do_costs_one_evaluation() {
         let mut run = started(method, (2.0, 2.0), 1e-9);
         run.advance().unwrap();
         assert_eq!((run.t(), *run.y()), (2.0, exact(2.0)));
-        assert_eq!(run.statistics(), Statistics { steps: 0, rejected: 0, evaluations: 1 });
+        assert_eq!(run.statistics(), Statistics { evaluations: 1, ..Statistics::default() });
     }
 }
 

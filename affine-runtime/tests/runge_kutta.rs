@@ -99,7 +99,7 @@ fn solution_is_of_order_8_and_dense_output_of_order_7() {
 fn errors_and_costs_follow_the_tolerance() {
     // Errors on the way grow with the solution, which varies by exp(10).
     let expected =
-        [(1e-3, (21, 4, 298)), (1e-6, (35, 4, 466)), (1e-9, (78, 10, 1048)), (1e-12, (178, 13, 2281))];
+        [(1e-3, (16, 4, 238)), (1e-6, (31, 4, 418)), (1e-9, (75, 8, 990)), (1e-12, (175, 11, 2223))];
     for (tolerance, (steps, rejected, evaluations)) in expected {
         let mut run = RungeKutta8::new(four, FOUR, (0.0, four_exact(0.0)), 3.0, tolerance).unwrap();
         while !run.is_finished() {
@@ -108,7 +108,11 @@ fn errors_and_costs_follow_the_tolerance() {
         assert_eq!(run.t(), 3.0);
         let error = distance(run.y(), &four_exact(3.0));
         assert!(error < 1e3 * tolerance, "{tolerance:e}: {error:e}");
-        assert_eq!(run.statistics(), Statistics { steps, rejected, evaluations }, "{tolerance:e}");
+        assert_eq!(
+            run.statistics(),
+            Statistics { steps, rejected, evaluations, ..Statistics::default() },
+            "{tolerance:e}"
+        );
     }
 }
 
@@ -145,7 +149,7 @@ fn nothing_to_do_costs_one_evaluation() {
     let mut run = RungeKutta8::new(pair, PAIR, (2.0, pair_exact(2.0)), 2.0, 1e-9).unwrap();
     run.advance().unwrap();
     assert_eq!((run.t(), *run.y()), (2.0, pair_exact(2.0)));
-    assert_eq!(run.statistics(), Statistics { steps: 0, rejected: 0, evaluations: 1 });
+    assert_eq!(run.statistics(), Statistics { evaluations: 1, ..Statistics::default() });
 }
 
 #[test]

@@ -4,6 +4,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use affine_runtime::capability::InLanes;
+use affine_runtime::integrate::Statistics;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
 
@@ -32,11 +33,16 @@ pub(crate) struct Motion<'a, M: InLanes<3>> {
 pub(crate) struct Curve {
     /// What it is called.
     pub(crate) name: String,
-    /// Error of `phi`, and evaluations.
+    /// Error of `phi`, and evaluations, or what Taylor series are worth of them.
     pub(crate) evaluations: Vec<(f64, f64)>,
+    /// The most evaluations that were counted, without Taylor series.
+    most_counted: u64,
     /// Error of `phi`, and seconds.
     pub(crate) seconds: Vec<(f64, f64)>,
 }
+
+/// Error of `phi`, cost, and seconds.
+type Measured = (f64, Statistics, f64);
 
 /// The methods on one problem.
 pub(crate) struct Curves {
@@ -55,7 +61,7 @@ impl<M: InLanes<3>> Motion<'_, M> {
     /// Those of settings. A run that stops on its way is left out.
     pub(crate) fn curves(&self) -> affine_runtime::Result<Curves> {
         let automatic = self.over_tolerances("automatic", Method::Automatic)?;
-        let most = HOPELESS * automatic.evaluations.iter().map(|(_, n)| *n as u64).max().unwrap_or(0);
+        let most = HOPELESS * automatic.most_counted;
         let mut splitting = Vec::new();
         for order in ORDERS {
             let name = format!("splitting {order}");
@@ -94,7 +100,8 @@ impl<M: InLanes<3>> Motion<'_, M> {
             let steps = 2f64.powf(0.5 * f64::from(k)).round();
             let measured = self.measured(method(self.t_end / steps), 1e-9)?;
             curve.add(measured);
-            let (error, evaluations) = measured.map_or((f64::INFINITY, steps as u64), |(e, n, _)| (e, n));
+            let (error, evaluations) =
+                measured.map_or((f64::INFINITY, steps as u64), |(e, cost, _)| (e, cost.evaluations));
             idle = if error < least { 0 } else { idle + 1 };
             least = least.min(error);
             if evaluations > most || (least < NEAR_ROUNDING && idle == 2) {
@@ -104,8 +111,8 @@ impl<M: InLanes<3>> Motion<'_, M> {
         Ok(curve)
     }
 
-    /// Error, evaluations and seconds, the median of the repeats; `None` for a run that stops.
-    fn measured(&self, method: Method, tolerance: f64) -> affine_runtime::Result<Option<(f64, u64, f64)>> {
+    /// Error, cost and seconds, the median of the repeats; `None` for a run that stops.
+    fn measured(&self, method: Method, tolerance: f64) -> affine_runtime::Result<Option<Measured>> {
         let ([start, exact], (repeats, cap)) = (self.ends, self.repeats);
         let (mut seconds, mut found, begun) = (Vec::new(), None, Instant::now());
         while seconds.is_empty() || (seconds.len() < repeats && begun.elapsed() < cap) {
@@ -116,25 +123,26 @@ impl<M: InLanes<3>> Motion<'_, M> {
             match run {
                 Ok(run) => {
                     let error = (run.end().1.phi() - exact.phi()).norm() / exact.phi().norm();
-                    found = Some((error, run.statistics().evaluations));
+                    found = Some((error, run.statistics()));
                 }
                 Err(halt) if matches!(halt.stop.reason, Reason::Setting(_)) => return Err(halt.into()),
                 Err(_) => return Ok(None),
             }
         }
         seconds.sort_by(f64::total_cmp);
-        Ok(found.map(|(error, evaluations)| (error, evaluations, seconds[seconds.len() / 2])))
+        Ok(found.map(|(error, cost)| (error, cost, seconds[seconds.len() / 2])))
     }
 }
 
 impl Curve {
     fn new(name: String) -> Self {
-        Self { name, evaluations: Vec::new(), seconds: Vec::new() }
+        Self { name, evaluations: Vec::new(), most_counted: 0, seconds: Vec::new() }
     }
 
-    fn add(&mut self, measured: Option<(f64, u64, f64)>) {
-        if let Some((error, evaluations, seconds)) = measured {
-            self.evaluations.push((error, evaluations as f64));
+    fn add(&mut self, measured: Option<Measured>) {
+        if let Some((error, cost, seconds)) = measured {
+            self.evaluations.push((error, cost.equivalent_evaluations() as f64));
+            self.most_counted = self.most_counted.max(cost.evaluations);
             self.seconds.push((error, seconds));
         }
     }

@@ -45,7 +45,8 @@ impl Visitor for Symplectic {
         }
         let motion = Motion { model, ends, t_end, repeats: (7, Duration::from_millis(20)) };
         let Curves { automatic, splitting, gauss } = motion.curves()?;
-        // Its evaluations are those of the equations, as for Gauss collocation; a Taylor series counts as one.
+        // Its evaluations are those of the equations, as for Gauss collocation; a Taylor series has none, and counts as what
+        // its products are worth.
         let explicit = motion.over_tolerances("Runge-Kutta 8", Method::RungeKutta8)?;
         println!(
             "{name}: evaluations, and run time over that of the automatic choice, at equal errors of phi"

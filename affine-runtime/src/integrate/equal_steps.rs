@@ -4,9 +4,9 @@ use super::Failure;
 #[cfg(feature = "std")]
 use super::tape::Tape;
 
-/// Steps are equal and none is longer than asked for; a length that divides the interval up to this many roundings
-/// is taken as it is.
-const ROUNDINGS: f64 = 8.0;
+/// Parts are equal and none is longer than asked for; a length that divides the interval up to this many roundings
+/// of its ends, of itself and of the quotient is taken as it is.
+const ROUNDINGS: f64 = 4.0;
 /// More steps than numbers that a double counts exactly.
 const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 
@@ -139,13 +139,71 @@ pub(crate) fn step_count(t0: f64, t_end: f64, step: f64) -> Option<u64> {
     if span == 0.0 && step > 0.0 {
         return Some(0);
     }
-    let exact = span / step;
-    if !(step > 0.0 && exact < MOST_STEPS && step > 4.0 * f64::EPSILON * latest) {
+    if !(step > 0.0 && span / step < MOST_STEPS && step > 4.0 * f64::EPSILON * latest) {
         return None;
     }
-    let whole = libm::round(exact);
-    let near = (exact - whole).abs() <= ROUNDINGS * f64::EPSILON * exact;
-    let count = if near { whole } else { libm::ceil(exact) };
+    let count = parts(t0, t_end, step);
     // One step where it is longer than the interval, infinite steps included.
     Some(if count > 1.0 { count as u64 } else { 1 })
+}
+
+/// `ceil(|t_end - t0|/part)`, and the nearest whole number where rounding alone may have made it another.
+///
+/// Times are numbers: of `from(k dt)` and `until((k + 1) dt)` each is rounded, by as much more than `dt` itself as it is
+/// larger.
+pub(crate) fn parts(t0: f64, t_end: f64, part: f64) -> f64 {
+    let span = (t_end - t0).abs();
+    let exact = span / part;
+    let whole = libm::round(exact);
+    let roundings = ROUNDINGS * f64::EPSILON * ((t0.abs() + t_end.abs()) / part + exact);
+    if (exact - whole).abs() <= roundings { whole } else { libm::ceil(exact) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::step_count;
+
+    #[test]
+    fn frames_have_the_steps_that_they_are_divided_into() {
+        for frames_a_second in [24.0, 30.0, 60.0, 144.0, 1000.0] {
+            for offset in [0.0, 0.1, -5e3, 1e4 + 0.7] {
+                for steps in 1..=9_u32 {
+                    let dt = 1.0 / frames_a_second;
+                    let step = dt / f64::from(steps);
+                    for frame in 0..2000 {
+                        let [begin, end] = [0, 1].map(|k| offset + f64::from(frame + k) * dt);
+                        assert_eq!(
+                            step_count(begin, end, step),
+                            Some(u64::from(steps)),
+                            "{begin} {end} {step}"
+                        );
+                        assert_eq!(step_count(end, begin, step), Some(u64::from(steps)), "backward");
+                    }
+                }
+            }
+        }
+        // Times that are summed.
+        let (dt, mut t) = (1.0 / 60.0, 0.0);
+        for _ in 0..10_000 {
+            let next = t + dt;
+            assert_eq!(step_count(t, next, 0.25 * dt), Some(4), "{t}");
+            t = next;
+        }
+    }
+
+    #[test]
+    fn no_step_is_longer_than_asked_for() {
+        assert_eq!(step_count(0.0, 1.0, 0.3), Some(4));
+        assert_eq!(
+            step_count(0.0, 1.0, 1.0 / (4.0 + 1e-12)),
+            Some(5),
+            "a difference that is none of rounding"
+        );
+        assert_eq!(step_count(1e4, 1e4 + 1.0, 1.0 / (4.0 + 1e-9)), Some(5));
+        assert_eq!(step_count(0.0, 1.0, f64::INFINITY), Some(1));
+        assert_eq!(step_count(2.0, 2.0, 0.1), Some(0));
+        for step in [0.0, -1.0, f64::NAN, 1e-17] {
+            assert_eq!(step_count(0.0, 1.0, step), None, "{step}");
+        }
+    }
 }

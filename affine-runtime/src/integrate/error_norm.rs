@@ -126,6 +126,29 @@ impl ErrorNorm {
         self.largest(f64::INFINITY, before, after, |range| norm(&value[range]))
     }
 
+    /// The largest rate at which a group changes by its size, where a momentum may be zero: what changes it moves the
+    /// placement by its own size in `sqrt(mu_g/|g'|)`. Infinite where something else is zero and moves.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn rate_from_rest(&self, state: &[f64], slope: &[f64]) -> f64 {
+        let mut fastest = 0.0;
+        let mut start = 0;
+        for (k, group) in self.groups.iter().enumerate() {
+            let range = start..start + group.len;
+            start = range.end;
+            let (measure, value) = (self.measure(k, group), norm(&slope[range.clone()]));
+            if measure == Measure::Nothing || value == 0.0 {
+                continue;
+            }
+            let size = self.scale(measure, range, state, state);
+            let inertia = self.inertia.get(k).copied().unwrap_or(0.0);
+            let rate = if size > 0.0 { value / size } else { Scalar::sqrt(value / inertia) };
+            // A NaN is kept.
+            fastest = if rate <= fastest { fastest } else { rate };
+        }
+        fastest
+    }
+
     /// [`ErrorNorm::extent`].
     #[inline(never)]
     fn reach(&self, configuration: Range<usize>, y: &[f64]) -> f64 {

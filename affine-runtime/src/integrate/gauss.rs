@@ -163,7 +163,11 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
     /// Cost so far, with that of [`at`](Self::at). No step is rejected.
     #[must_use]
     pub fn statistics(&self) -> Statistics {
-        Statistics { steps: self.steps.taken(), rejected: 0, evaluations: self.equations.evaluations }
+        Statistics {
+            steps: self.steps.taken(),
+            evaluations: self.equations.evaluations,
+            ..Statistics::default()
+        }
     }
 
     /// Length of the steps, negative backward in time.

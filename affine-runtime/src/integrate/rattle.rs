@@ -165,7 +165,7 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
     /// Cost so far, with that of [`at`](Self::at). No step is rejected.
     #[must_use]
     pub fn statistics(&self) -> Statistics {
-        Statistics { steps: self.steps.taken(), rejected: 0, evaluations: self.evaluations }
+        Statistics { steps: self.steps.taken(), evaluations: self.evaluations, ..Statistics::default() }
     }
 
     /// Largest `|det phi - 1|` that the iteration left, relative to the products in the determinant.

@@ -46,7 +46,8 @@ pub type RungeKutta8<S, F, C = Flat, L = S> = RungeKutta<DormandPrince853, S, F,
 /// The method of Dormand and Prince of order 5, the usual baseline.
 ///
 /// The estimated error is the difference to the embedded solution of order 4, of order `h^5`. Cost: 6 evaluations per
-/// step, accepted or rejected; the dense output is free.
+/// step, accepted or rejected; the dense output is free. At one tolerance it errs some tens of times more than order 8, see
+/// [`Method::RungeKutta5`](../enum.Method.html#variant.RungeKutta5).
 pub type RungeKutta5<S, F, C = Flat, L = S> = RungeKutta<DormandPrince54, S, F, C, L>;
 
 /// Adaptive integration of `y' = f(t, y)` from `t0` to `t_end`, in either direction of time, by an embedded explicit

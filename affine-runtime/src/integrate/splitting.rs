@@ -6,9 +6,9 @@ mod coefficients;
 mod dilated;
 mod growth;
 
-#[cfg(feature = "std")]
-pub(crate) use adaptive::fastest;
 pub use adaptive::{AdaptiveSplitting, ORDER};
+#[cfg(feature = "std")]
+pub(crate) use adaptive::{EVALUATIONS as EVALUATIONS_OF_FASTEST, fastest};
 pub use coefficients::Sweeps;
 pub use dilated::dilated;
 pub use growth::{accumulate, conjugated, elongation, growth, left_product, right_product, turning};
@@ -136,7 +136,7 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
     /// Cost so far, with that of [`at`](Self::at). No step is rejected.
     #[must_use]
     pub fn statistics(&self) -> Statistics {
-        Statistics { steps: self.steps.taken(), rejected: 0, evaluations: self.evaluations }
+        Statistics { steps: self.steps.taken(), evaluations: self.evaluations, ..Statistics::default() }
     }
 
     fn composed(&mut self, t: f64, begin: Sum<S>, h: f64) -> Sum<S> {

@@ -120,10 +120,27 @@ pub(crate) fn shortest(t: f64, t_end: f64) -> f64 {
     16.0 * f64::EPSILON * if size > f64::EPSILON * span { size } else { f64::EPSILON * span }
 }
 
+/// Length of the step over which slopes are compared at the start: a hundredth of the time in which the fastest group changes
+/// by itself. Momenta that are zero have no such time, and are held against what they are on the way to, `at_rest`; what
+/// does not move at all may stay so for all of the interval. Where something else that is zero begins to move there is no
+/// rate to go by.
+#[inline(always)]
+pub(crate) fn trial(first: f64, span: f64, at_rest: impl FnOnce() -> f64) -> f64 {
+    let rate = if first == f64::INFINITY { at_rest() } else { first };
+    let length = 0.01 / rate;
+    if length < span.abs() && length > 0.0 {
+        length
+    } else if length >= span.abs() {
+        span.abs()
+    } else {
+        1e-6 * span.abs()
+    }
+}
+
 /// Length of the first step, after Hairer, Norsett, Wanner, section II.4, with rates in place of their
 /// derivatives so that it scales with the unit of time: from `r = max(|y'|/|y|, sqrt(|y''|/|y|))` by groups,
 /// `h = (c tolerance)^(1/k)/r` for an error of order `h^k`, `c =` [`FIRST_ERROR`]. Costs one evaluation of `f`, for `y''` as
-/// a difference.
+/// a difference over a [`trial`] step.
 pub(crate) fn first_step<S: StateVector<f64>>(
     f: &impl Fn(f64, &S) -> S,
     error_norm: &ErrorNorm,
@@ -133,8 +150,8 @@ pub(crate) fn first_step<S: StateVector<f64>>(
 ) -> f64 {
     let first = error_norm.over_size(y.as_ref(), slope.as_ref());
     let within = |h: f64| if h < span.abs() { h } else { span.abs() };
-    // Nothing moves, or something that is zero moves: no rate to go by.
-    let trial = if first > 0.0 && first.is_finite() { within(0.01 / first) } else { 1e-6 * span.abs() };
+    let at_rest = || error_norm.rate_from_rest(y.as_ref(), slope.as_ref());
+    let trial = trial(first, span, at_rest);
     let signed = trial.copysign(span);
     let (mut end, mut change) = (*y, S::zeros());
     for (y, slope) in end.as_mut().iter_mut().zip(slope.as_ref()) {

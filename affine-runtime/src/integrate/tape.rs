@@ -39,5 +39,7 @@ pub(crate) trait Tape {
         self.bits(&mut statistics.steps);
         self.bits(&mut statistics.rejected);
         self.bits(&mut statistics.evaluations);
+        self.bits(&mut statistics.series);
+        self.bits(&mut statistics.series_worth);
     }
 }

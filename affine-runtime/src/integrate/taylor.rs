@@ -67,8 +67,8 @@ pub trait Series<S, C> {
 ///
 /// The polynomial is the dense output. Steps are summed with compensation.
 ///
-/// Cost: one set of coefficients per step, counted as an evaluation; at the start one for each component of a
-/// momentum and one more, of order 1.
+/// Cost: one set of coefficients per step, which [`Statistics`] count as a series; at the start one evaluation for each
+/// component of a momentum and one more.
 #[derive(Clone)]
 pub struct Taylor<S, C, R: Series<S, C>> {
     series: R,
@@ -224,7 +224,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         let coefficients = &mut self.coefficients[..=self.order];
         let rows = &mut self.rows.0[..self.order];
         self.series.coefficients_on(vectors, (self.t, self.unit), &self.constants, coefficients, rows);
-        self.statistics.evaluations += 1;
+        self.statistics = self.statistics.with_series(self.order);
     }
 
     /// The last coefficients are neither lost nor infinite; a motion that is a polynomial of low order has none.

@@ -10,7 +10,7 @@ use crate::error::Result;
 
 impl WorkPrecisionReport {
     /// The rows as comma-separated values, below a line of names: `model`, `method`, `tolerance`, `error_...` for
-    /// each quantity, `steps`, `rejected`, `evaluations`, `seconds`, `repeats`, `energy_drift`, `above_tolerance`, `stopped`.
+    /// each quantity, `steps`, `rejected`, `evaluations`, `series`, `equivalent_evaluations`, `seconds`, `repeats`, `energy_drift`, `above_tolerance`, `stopped`.
     ///
     /// Numbers are the shortest decimals that read back as the same doubles. A field is empty where there is
     /// nothing to say: the tolerance of a closed form, the energy drift of a model that does not conserve energy,
@@ -19,10 +19,19 @@ impl WorkPrecisionReport {
     pub fn to_csv(&self) -> String {
         let mut head = vec!["model".to_owned(), "method".to_owned(), "tolerance".to_owned()];
         head.extend(self.quantities().iter().map(|quantity| format!("error_{quantity}")));
-        let rest =
-            ["steps", "rejected", "evaluations", "seconds", "repeats", "energy_drift", "above_tolerance"];
+        let rest = [
+            "steps",
+            "rejected",
+            "evaluations",
+            "series",
+            "equivalent_evaluations",
+            "seconds",
+            "repeats",
+            "energy_drift",
+            "above_tolerance",
+            "stopped",
+        ];
         head.extend(rest.map(str::to_owned));
-        head.push("stopped".to_owned());
         csv_lines(core::iter::once(head).chain(self.rows().iter().map(|row| self.fields(row))))
     }
 
@@ -41,8 +50,10 @@ impl WorkPrecisionReport {
             Ok(measured) => {
                 fields.extend(measured.errors.iter().map(|&error| exponential(Some(error))));
                 let statistics = measured.statistics;
-                let counts = [statistics.steps, statistics.rejected, statistics.evaluations];
+                let counts =
+                    [statistics.steps, statistics.rejected, statistics.evaluations, statistics.series];
                 fields.extend(counts.map(|count| count.to_string()));
+                fields.push(statistics.equivalent_evaluations().to_string());
                 fields.push(exponential(Some(measured.run_time.as_secs_f64())));
                 fields.push(measured.repeats.to_string());
                 fields.push(exponential(measured.energy_drift));
@@ -50,7 +61,7 @@ impl WorkPrecisionReport {
                 fields.push(String::new());
             }
             Err(stop) => {
-                fields.extend(vec![String::new(); self.quantities().len() + 7]);
+                fields.extend(vec![String::new(); self.quantities().len() + 9]);
                 fields.push(stop.to_string());
             }
         }
@@ -121,7 +132,10 @@ impl WorkPrecisionReport {
 fn cells(measured: &Measurement) -> Vec<String> {
     let mut cells: Vec<String> = measured.errors.iter().map(|&error| short(error, 2)).collect();
     let statistics = measured.statistics;
-    cells.extend([statistics.steps, statistics.rejected, statistics.evaluations].map(|n| n.to_string()));
+    cells.extend([statistics.steps, statistics.rejected].map(|n| n.to_string()));
+    // Derived where there are series, and no count.
+    let derived = if statistics.series > 0 { "~" } else { "" };
+    cells.push(format!("{derived}{}", statistics.equivalent_evaluations()));
     cells.push(in_units(measured.run_time));
     cells.push(measured.energy_drift.map_or_else(dash, |drift| short(drift, 1)));
     cells.push(measured.above_tolerance.map_or_else(dash, |share| format!("{:.0} %", 100.0 * share)));

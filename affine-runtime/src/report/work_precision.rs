@@ -288,7 +288,7 @@ pub struct Measurement {
     /// Relative error at the end of each of the report's quantities, `|a - b|/|b|` in the Euclidean (Frobenius)
     /// norm with `b` the reference; infinite where `b` vanishes and `a` does not.
     pub errors: Vec<f64>,
-    /// Steps, rejected steps and evaluations.
+    /// Steps, rejected steps, evaluations and series.
     pub statistics: Statistics,
     /// Median of the repeats.
     pub run_time: Duration,

@@ -26,7 +26,7 @@ pub(super) struct Place {
     /// What is known of the events where it goes on.
     pub(super) events: Vec<Memory>,
     /// Bits of the cost before.
-    pub(super) cost: [u64; 3],
+    pub(super) cost: [u64; 5],
     /// Bits of the work before.
     pub(super) work: u64,
     /// Bits of the largest `|T| + |U|` met since then.
@@ -44,8 +44,21 @@ pub(super) struct Place {
 impl Place {
     /// At the start of an integration. Where that is is written down when it is asked for, by [`from`](Self::from).
     pub(super) fn starting(events: Vec<Memory>, (cost, work): (Statistics, f64)) -> Self {
-        let cost = [cost.steps, cost.rejected, cost.evaluations];
-        Self { events, cost, work: work.to_bits(), ..Self::default() }
+        let mut place = Self { events, work: work.to_bits(), ..Self::default() };
+        place.set_cost(cost);
+        place
+    }
+
+    /// Counts evaluations that are spent before the integration begins; where it has begun they have been counted.
+    pub(super) fn spend(&mut self, evaluations: u64) {
+        if self.integrator.is_empty() {
+            self.set_cost(self.cost().and(Statistics { evaluations, ..Statistics::default() }));
+        }
+    }
+
+    fn set_cost(&mut self, cost: Statistics) {
+        let Statistics { steps, rejected, evaluations, series, series_worth } = cost;
+        self.cost = [steps, rejected, evaluations, series, series_worth];
     }
 
     /// With the time and the point from which the integration started.
@@ -87,8 +100,8 @@ impl Place {
 
     /// The cost before.
     pub(super) fn cost(&self) -> Statistics {
-        let [steps, rejected, evaluations] = self.cost;
-        Statistics { steps, rejected, evaluations }
+        let [steps, rejected, evaluations, series, series_worth] = self.cost;
+        Statistics { steps, rejected, evaluations, series, series_worth }
     }
 }
 

@@ -11,7 +11,6 @@ use super::recorder::Recorder;
 use super::signature::Signature;
 use super::watcher::Sampling;
 use crate::frames::Matrix;
-use crate::integrate::Statistics;
 use crate::state::Phase;
 
 /// Equal parts of a step at whose ends events are looked at, where its length follows the error.
@@ -30,7 +29,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             other => other,
         });
         let trajectory = &mut *self.trajectory;
-        trajectory.statistics = sum(self.place.cost(), motion.statistics());
+        trajectory.statistics = self.place.cost().and(motion.statistics());
         trajectory.computation.residual = motion.residual();
         let end = trajectory.end.0;
         let is_later = |t: f64| if self.backward { t < end } else { t > end };
@@ -151,14 +150,5 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         }
         self.record_through(until, &mut at)?;
         Ok(false)
-    }
-}
-
-/// Costs one after the other.
-fn sum(before: Statistics, after: Statistics) -> Statistics {
-    Statistics {
-        steps: before.steps + after.steps,
-        rejected: before.rejected + after.rejected,
-        evaluations: before.evaluations + after.evaluations,
     }
 }

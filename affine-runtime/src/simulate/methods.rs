@@ -9,7 +9,7 @@ use super::motion::{Expanded, Expansion};
 use super::range::in_range;
 use super::recorder::Recorder;
 use super::stepper::{Explicit, Stepper};
-use super::stiffness::{PiecesOf, adaptive, stiffness};
+use super::stiffness::{PiecesOf, Trial, adaptive, stiffness};
 use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 use crate::capability::is_emitted;
 use crate::integrate::gauss::Tableau as Collocation;
@@ -101,10 +101,11 @@ fn chosen<const N: usize, M: Model<N>>(
     let in_reach = const { !carries_dilatation(&M::DESCRIPTION) }
         || in_range(course.t0, model.orthonormal(course.start).phi()).is_ok();
     let by_halves = !recorder.has_events() && in_reach;
-    let stiffness = match course.method {
+    let Trial { radians: stiffness, evaluations } = match course.method {
         Method::Automatic if by_halves => stiffness(model, model.splitting(), course),
-        _ => None,
+        _ => Trial::default(),
     };
+    recorder.place.spend(evaluations);
     recorder.trajectory.computation.stiffness = stiffness;
     let method = match course.method {
         Method::Automatic if model.second_order().is_some() && by_halves => {
@@ -303,6 +304,7 @@ fn with_reaction<const N: usize, M: Model<N>, const NAMED: bool>(
     let start = model.flatten(course.start);
     let reaction = Reaction::<N>::of(groups, &free, (course.t0, &start));
     let reaction = reaction.map_err(|failure| recorder.reason(failure))?;
+    recorder.place.spend(reaction.evaluations());
     let equations = |t: f64, full: &M::Full<f64>| reaction.rates(&free, t, full);
     let expand = |_: f64, full: &M::Full<f64>| model.unflatten(&reaction.with_momentum(full));
     let state = (groups, const { Layout::of(M::DESCRIPTION.full, N) }, reaction.with_velocity(&start));

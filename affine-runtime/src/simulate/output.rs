@@ -1,6 +1,7 @@
 //! Output times.
 
 use super::halt::Setting;
+use crate::integrate::parts;
 
 /// More outputs than that are taken for a slip of the pen.
 const MOST_OUTPUTS: f64 = 1e8;
@@ -67,13 +68,10 @@ fn equidistant(t0: f64, t_end: f64, dt: f64) -> Result<Schedule, Setting> {
     if !(dt.is_finite() && dt > 0.0) || (dt <= 4.0 * resolution && span > 0.0) || span / dt > MOST_OUTPUTS {
         return Err(Setting::OutputSpacing { dt, t0, t_end });
     }
-    // The interval counts as a multiple of dt where rounding of the times and of dt may have spoilt it: no output
-    // next to the end, which is an output anyway.
-    let intervals = span / dt;
-    let whole = intervals.round();
-    let slack = 4.0 * (resolution / dt + f64::EPSILON * intervals);
-    let count = if (intervals - whole).abs() <= slack { whole } else { intervals.ceil() };
-    Ok(Schedule::Equidistant { t0, dt: dt.copysign(t_end - t0), t_end, next: 0, count: count as u64 })
+    // Of an interval that rounding alone keeps from being a multiple of dt there is no output next to the end, which is an
+    // output anyway.
+    let count = parts(t0, t_end, dt) as u64;
+    Ok(Schedule::Equidistant { t0, dt: dt.copysign(t_end - t0), t_end, next: 0, count })
 }
 
 fn listed(t0: f64, t_end: f64, times: &[f64]) -> Result<Schedule, Setting> {

@@ -2,7 +2,7 @@
 
 use super::mechanics::Course;
 use crate::capability::is_emitted;
-use crate::integrate::splitting::{Pieces, fastest};
+use crate::integrate::splitting::{EVALUATIONS_OF_FASTEST, Pieces, fastest};
 use crate::integrate::{AdaptiveSplitting, Failure};
 use crate::model::Model;
 
@@ -39,25 +39,36 @@ pub(super) fn adaptive<const N: usize, M: Model<N>, R: PiecesOf<N, M>>(
     AdaptiveSplitting::new((pieces, constants), order, equations, (t0, reduced), t_end, tolerance)
 }
 
-/// How many radians of the fastest motion steps by pieces can be long, where that is worth while: where one of the pieces has
-/// a stiff motion in closed form, and the tolerance lets a first step pass over several turns of it. What the trial takes, one
-/// step and as many evaluations as a start, is not counted as cost of the run.
+/// What a trial has shown.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Trial {
+    /// How many radians of the fastest motion steps by pieces can be long, where that is worth while.
+    pub(super) radians: Option<f64>,
+    /// What it took: a step, and as many evaluations as a start.
+    pub(super) evaluations: u64,
+}
+
+/// Whether steps by pieces are worth while: where one of the pieces has a stiff motion in closed form, and the tolerance lets
+/// a first step pass over several turns of it.
 pub(super) fn stiffness<const N: usize, M: Model<N>, R: PiecesOf<N, M>>(
     model: &M,
     pieces: Option<R>,
     course: &Course<'_, M::Point<f64>>,
-) -> Option<f64> {
+) -> Trial {
     if const { !(is_emitted::<R>() && R::DILATES) } {
-        return None;
+        return Trial::default();
     }
     let (reduced, constants) = model.reduce(course.t0, course.start);
     let closed =
         |t: f64, reduced: &M::Reduced<f64>| model.reduced_equations(t, &constants, &model.renewed(reduced));
     let radians = STIFF * libm::pow(course.tolerance, 0.125);
     let length = radians / fastest(&closed, (course.t0, &reduced));
+    let looked = Trial { radians: None, evaluations: EVALUATIONS_OF_FASTEST };
     if length * WORTH_A_TRIAL > (course.t_end - course.t0).abs() {
-        return None;
+        return looked;
     }
-    let integration = adaptive(model, pieces?, None, (reduced, constants), course)?.ok()?;
-    integration.allows(length).then_some(radians)
+    let begun = pieces.and_then(|pieces| adaptive(model, pieces, None, (reduced, constants), course));
+    let Some(Ok(mut integration)) = begun else { return looked };
+    let radians = integration.allows(length).then_some(radians);
+    Trial { radians, evaluations: looked.evaluations + integration.statistics().evaluations }
 }

@@ -197,7 +197,7 @@ fn csv_reads_back() {
     assert_eq!(
         lines.next().unwrap(),
         "model,method,tolerance,error_x,error_phi,error_p_hat,error_Sigma_hat,steps,rejected,evaluations,\
-         seconds,repeats,energy_drift,above_tolerance,stopped"
+         series,equivalent_evaluations,seconds,repeats,energy_drift,above_tolerance,stopped"
     );
     for row in report.rows() {
         let fields: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -209,11 +209,13 @@ fn csv_reads_back() {
         assert_eq!(fields[7].parse(), Ok(measured.statistics.steps));
         assert_eq!(fields[8].parse(), Ok(measured.statistics.rejected));
         assert_eq!(fields[9].parse(), Ok(measured.statistics.evaluations));
-        assert_eq!(number(10), measured.run_time.as_secs_f64());
-        assert_eq!(fields[11].parse(), Ok(measured.repeats));
-        assert_eq!(Some(number(12)), measured.energy_drift);
-        assert_eq!(fields[13].parse().ok(), measured.above_tolerance);
-        assert_eq!((fields[14], fields.len()), ("", 15));
+        assert_eq!(fields[10].parse(), Ok(measured.statistics.series));
+        assert_eq!(fields[11].parse(), Ok(measured.statistics.equivalent_evaluations()));
+        assert_eq!(number(12), measured.run_time.as_secs_f64());
+        assert_eq!(fields[13].parse(), Ok(measured.repeats));
+        assert_eq!(Some(number(14)), measured.energy_drift);
+        assert_eq!(fields[15].parse().ok(), measured.above_tolerance);
+        assert_eq!((fields[16], fields.len()), ("", 17));
     }
     assert_eq!(lines.next(), None);
 }

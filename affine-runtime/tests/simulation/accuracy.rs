@@ -49,7 +49,7 @@ fn body(t: f64, tolerance: f64) -> Trajectory<3, Body3> {
 
 /// Steps and evaluations of a run without rejections.
 fn accepted((steps, evaluations): (u64, u64)) -> Statistics {
-    Statistics { steps, rejected: 0, evaluations }
+    Statistics { steps, evaluations, ..Statistics::default() }
 }
 
 #[test]
@@ -85,6 +85,24 @@ fn error_is_proportional_to_the_tolerance() {
     }
     // The finest one: what rounding leaves.
     assert!(missile_error(missile(t, 1e-15).end().1, &state) < 1e-14);
+}
+
+/// What the description of [`Method::RungeKutta5`] says; tolerance, and errors of orders 8 and 5 over it.
+#[test]
+fn order_5_leaves_more_of_a_tolerance_than_order_8() {
+    let (t, state) = reference::VIBRATING_BODY[1];
+    assert_eq!(t, 50.0);
+    for tolerance in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11] {
+        let [eighth, fifth] = [Method::RungeKutta8, Method::RungeKutta5].map(|method| {
+            let model = VibratingBody::BENCHMARK;
+            let run = Simulation::new(&model, vibrating_body::start()).until(t).tolerance(tolerance);
+            let run = run.method(method).output([]).run().unwrap();
+            body_error(run.end().1, &state) / tolerance
+        });
+        println!("{tolerance:e}: {eighth:.1} {fifth:.1}");
+        assert!((2.0..8.0).contains(&eighth), "{tolerance:e}: {eighth}");
+        assert!((20.0..250.0).contains(&fifth), "{tolerance:e}: {fifth}");
+    }
 }
 
 #[test]

@@ -105,7 +105,7 @@ fn stiff_bodies_take_newton_and_evaluations_are_counted() {
     };
     let run = run(gauss(3, 0.01));
     assert!(run.computation().residual.unwrap() < 1e-9);
-    assert_eq!(run.statistics(), Statistics { steps: 100, rejected: 0, evaluations: 4627 });
+    assert_eq!(run.statistics(), Statistics { steps: 100, evaluations: 4627, ..Statistics::default() });
 }
 
 #[test]

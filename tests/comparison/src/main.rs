@@ -119,7 +119,7 @@ impl Visitor for Comparison {
                 name,
                 row.tolerance,
                 error,
-                measured.statistics.evaluations,
+                measured.statistics.equivalent_evaluations(),
                 measured.run_time,
             );
         }

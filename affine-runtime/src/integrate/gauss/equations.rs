@@ -62,6 +62,14 @@ pub(super) struct Solution<S> {
     pub(super) residual: f64,
 }
 
+/// A correction: its largest magnitude in each component; over the largest component of state and increments its size, and
+/// that of the defect that it corrects.
+struct Corrected<S> {
+    change: S,
+    size: f64,
+    residual: f64,
+}
+
 /// The equations have no solution that could be found; the least residual or correction met, infinite where nothing was
 /// finite.
 pub(super) struct Unsolved {
@@ -167,21 +175,9 @@ impl<S: StateVector<f64>> Equations<S> {
             self.differentiate(f, start, &increments);
         }
         for _ in 0..MOST_CORRECTIONS {
-            if !self.newton.prepare(start.h) {
-                break;
-            }
-            let images = self.images(f, start, &increments);
-            let defects = self.difference(&images, &increments);
-            let correction = self.newton.correction(&defects);
-            for (increment, correction) in increments.iter_mut().zip(&correction) {
-                add(increment, correction);
-            }
-            let residual = self.relative(&self.largest(&defects), start.y, &increments);
-            let change = self.largest(&correction);
-            let size = self.relative(&change, start.y, &increments);
-            if !size.is_finite() || !residual.is_finite() {
-                break;
-            }
+            let Some(Corrected { change, size, residual }) = self.correct(f, start, &mut increments) else {
+                return Err(Unsolved { residual: least });
+            };
             // Beside increments that grow without bounds any defect is small.
             let open = if size > residual { size } else { residual };
             least = if open < least { open } else { least };
@@ -193,7 +189,59 @@ impl<S: StateVector<f64>> Equations<S> {
             }
             last = size;
         }
+        if last <= SOLVED { self.refined(f, start, increments) } else { Err(Unsolved { residual: least }) }
+    }
+
+    /// Increments that all corrections have brought within [`SOLVED`], and of which some component still gains: slowly, by
+    /// a Jacobian of other increments, or since what rounding leaves is random, and among many components there is often
+    /// one whose correction is the least so far. By the Jacobian at the increments themselves all but rounding is gone
+    /// with the first correction, and a component whose correction does not shrink has come to it.
+    fn refined<F: Fn(f64, &S) -> S, C: Coordinates<S>>(
+        &mut self,
+        f: &Field<'_, S, F, C>,
+        start: Start<'_, S>,
+        reached: Increments<S>,
+    ) -> Result<Solution<S>, Unsolved> {
+        let mut increments = reached;
+        let mut descent = Descent::new();
+        let mut least = f64::INFINITY;
+        self.differentiate(f, start, &increments);
+        for _ in 0..MOST_CORRECTIONS {
+            let Some(Corrected { change, size, residual }) = self.correct(f, start, &mut increments) else {
+                break;
+            };
+            least = if size < least { size } else { least };
+            descent.settle(&change, NO_GAIN);
+            if size > SOLVED {
+                break;
+            }
+            if descent.is_settled() {
+                return Ok(Solution { increments, residual });
+            }
+        }
         Err(Unsolved { residual: least })
+    }
+
+    /// One correction of the increments; `None` where there is none that is finite.
+    fn correct<F: Fn(f64, &S) -> S, C: Coordinates<S>>(
+        &mut self,
+        f: &Field<'_, S, F, C>,
+        start: Start<'_, S>,
+        increments: &mut Increments<S>,
+    ) -> Option<Corrected<S>> {
+        if !self.newton.prepare(start.h) {
+            return None;
+        }
+        let images = self.images(f, start, increments);
+        let defects = self.difference(&images, increments);
+        let correction = self.newton.correction(&defects);
+        for (increment, correction) in increments.iter_mut().zip(&correction) {
+            add(increment, correction);
+        }
+        let residual = self.relative(&self.largest(&defects), start.y, increments);
+        let change = self.largest(&correction);
+        let size = self.relative(&change, start.y, increments);
+        (size.is_finite() && residual.is_finite()).then_some(Corrected { change, size, residual })
     }
 
     /// The Jacobian half-way through the step, by the increments.
@@ -275,6 +323,18 @@ impl<S: StateVector<f64>> Descent<S> {
             }
         }
         goes_on
+    }
+
+    /// Notes changes: a component that does not gain has come to rounding, whatever its later changes are.
+    fn settle(&mut self, change: &S, part: f64) {
+        for (least, change) in self.least.as_mut().iter_mut().zip(change.as_ref()) {
+            *least = if *change < part * *least { *change } else { 0.0 };
+        }
+    }
+
+    /// Every component has come to rounding.
+    fn is_settled(&self) -> bool {
+        self.least.as_ref().iter().all(|least| *least == 0.0)
     }
 }
 

@@ -33,6 +33,12 @@ impl<const N: usize> Reaction<N> {
         Ok(Self { layout: Layout::of(groups, f, (t, y))? })
     }
 
+    /// Evaluations of the free equations that looking at them took.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.layout.evaluations()
+    }
+
     /// The state with `Oh` in the place of `Pi`.
     #[must_use]
     pub fn with_velocity<S: StateVector<f64>>(&self, state: &S) -> S {

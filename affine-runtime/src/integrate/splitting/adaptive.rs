@@ -18,6 +18,9 @@ pub const ORDER: usize = 4;
 /// The error of two halves is their difference to the whole over `2^p - 1`, where steps resolve the motion. Steps that pass
 /// over many turns of a stiff dilatation do not, and what is gained by halving them is that of order 2 at best.
 const GAIN_BY_HALVING: f64 = 3.0;
+/// Differences up to this part of the state may be what the flows of a whole step and of two halves round differently: they
+/// are some dozens, of a few roundings each.
+const ROUNDING: f64 = 256.0 * f64::EPSILON;
 /// A first step tries so many times what the fastest motion takes to turn by a radian.
 const FIRST: f64 = 1e3;
 
@@ -33,6 +36,11 @@ const FIRST: f64 = 1e3;
 /// by not resolving it is part of the estimate, and is no power of the step: steps whose halves fall upon the same phase of a
 /// fast motion err more than longer ones do, and changes of their lengths get by these.
 ///
+/// Flows round the state, by the more the larger the momenta are that cancel in them, and shorter steps do not round less.
+/// Where a shorter step has a difference of a few roundings that is not smaller in proportion, it is accepted, and from then
+/// on twice that difference is: a tolerance next to rounding is met as far as rounding allows, and changes nothing from
+/// 2e-14 on.
+///
 /// Cost: three steps of the composition for a step, of which [`Statistics`] count the flows of the last piece; at the start
 /// one evaluation for each component of a momentum, and a few more.
 #[derive(Clone)]
@@ -42,6 +50,8 @@ pub struct AdaptiveSplitting<S, C, P> {
     sweeps: Sweeps,
     error_norm: ErrorNorm,
     tolerance: f64,
+    /// The difference that steps may have by rounding alone, as far as it has been seen.
+    rounding: f64,
     controller: Controller,
     begin: (f64, Sum<S>),
     end: (f64, Sum<S>),
@@ -86,6 +96,7 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> AdaptiveSplitting<S, C, P> {
             sweeps,
             error_norm,
             tolerance,
+            rounding: 0.0,
             controller: Controller::of(sweeps.order() as f64 + 1.0, 1.0),
             begin: start,
             end: start,
@@ -112,13 +123,19 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> AdaptiveSplitting<S, C, P> {
 
     fn accepted(&mut self) -> Result<(), Failure> {
         let (t, _) = self.end;
+        let mut longer = (f64::INFINITY, 0.0);
         loop {
             let until = next_time(t, self.length, self.t_end);
             if until == t {
                 return Err(Failure::StepUnderflow);
             }
-            let (reached, error) = self.attempt(until);
+            let (reached, difference) = self.attempt(until);
             let tried = (until - t).abs();
+            if is_of_rounding((tried, difference), longer) {
+                self.rounding = 2.0 * difference;
+            }
+            longer = (tried, difference);
+            let error = self.error(difference);
             if error <= 1.0 {
                 (self.begin, self.end) = (self.end, (until, reached));
                 self.statistics.steps += 1;
@@ -133,15 +150,22 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> AdaptiveSplitting<S, C, P> {
         }
     }
 
-    /// A first step of a length is within the tolerance.
+    /// A first step of a length is within the tolerance; it is counted, and not taken.
     #[cfg(feature = "std")]
-    pub(crate) fn allows(mut self, length: f64) -> bool {
+    pub(crate) fn allows(&mut self, length: f64) -> bool {
         let (t, _) = self.end;
-        self.attempt(t + length.copysign(self.t_end - t)).1 <= 1.0
+        let (_, difference) = self.attempt(t + length.copysign(self.t_end - t));
+        self.error(difference) <= 1.0
     }
 
-    /// The state after two halves of a step to a time, and its error relative to the tolerance; NaN where something is not
-    /// finite.
+    /// The error of a step relative to what it may be.
+    fn error(&self, difference: f64) -> f64 {
+        let allowed = GAIN_BY_HALVING * self.tolerance;
+        difference / if self.rounding > allowed { self.rounding } else { allowed }
+    }
+
+    /// The state after two halves of a step to a time, and its difference to that after the whole step; NaN where something
+    /// is not finite.
     fn attempt(&mut self, until: f64) -> (Sum<S>, f64) {
         let (t, start) = self.end;
         let h = until - t;
@@ -153,9 +177,8 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> AdaptiveSplitting<S, C, P> {
             *difference -= value;
         }
         let of_group = |range| norm(&difference.as_ref()[range]);
-        let error = self.error_norm.largest(h.abs(), before, after, of_group);
-        let error = error / (GAIN_BY_HALVING * self.tolerance);
-        (reached, if is_finite(&reached.value) { error } else { f64::NAN })
+        let relative = self.error_norm.largest(h.abs(), before, after, of_group);
+        (reached, if is_finite(&reached.value) { relative } else { f64::NAN })
     }
 
     fn in_halves(&mut self, t: f64, start: Sum<S>, h: f64) -> Sum<S> {
@@ -188,6 +211,7 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> AdaptiveSplitting<S, C, P> {
         tape.number(&mut self.end.0);
         tape.sum(&mut self.end.1);
         tape.number(&mut self.length);
+        tape.number(&mut self.rounding);
         self.controller.exchange(tape);
         tape.statistics(&mut self.statistics);
         self.begin = self.end;
@@ -237,8 +261,14 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> fmt::Debug for AdaptiveSplitting<S
     }
 }
 
+/// A step has about the difference that a longer one from the same state had: what a composition errs by falls with the
+/// third power of the length at least, rounding does not.
+fn is_of_rounding((tried, difference): (f64, f64), (length, before): (f64, f64)) -> bool {
+    difference <= ROUNDING && difference * length > before * tried && before > 0.0
+}
+
 /// Evaluations of [`fastest`].
-const EVALUATIONS: u64 = 4;
+pub(crate) const EVALUATIONS: u64 = 4;
 /// Changes that slopes are compared over, relative to the state: half of the digits.
 const SMALL: f64 = 1e-8;
 

@@ -145,8 +145,8 @@ impl Field for Number {
             }
             Function::Tan => Some(self.apply(Function::Sin)? * self.apply(Function::Cos)?.inverse()),
             Function::InverseCbrt => Some(self.apply(Function::Cbrt)?.inverse()),
-            // Of what is no power of D there is none.
-            Function::Cbrt | Function::Abs => None,
+            // Of what is no power of D there is none, and residues have no sign.
+            Function::Cbrt | Function::Abs | Function::Sign => None,
         })
     }
 }

@@ -7,7 +7,7 @@ use crate::integrate::error_norm::NormInLanes;
 use crate::integrate::in_lanes::Equations;
 use crate::integrate::roughly::{exp, ln};
 use crate::integrate::runge_kutta::{DormandPrince853, Pair};
-use crate::integrate::step_size::FIRST_ERROR;
+use crate::integrate::step_size::{FIRST_ERROR, trial as length_of_trial};
 use crate::lanes::Lanes;
 use crate::model::StateVector;
 
@@ -70,9 +70,12 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Beginning<'_, T, S, F> {
         let within = |h: f64| if h < span.abs() { h } else { span.abs() };
         let (mut trial, mut signed) = (T::zero(), T::zero());
         for lane in 0..T::LANES {
-            let first = first.lane(lane);
-            let moves = first > 0.0 && first.is_finite();
-            let length = if moves { within(0.01 / first) } else { 1e-6 * span.abs() };
+            let at_rest = || {
+                let [y, slope] =
+                    [y, slope].map(|v| v.as_ref().iter().map(|v| v.lane(lane)).collect::<Vec<_>>());
+                norm.lane(lane).rate_from_rest(&y, &slope)
+            };
+            let length = length_of_trial(first.lane(lane), span, at_rest);
             trial.set_lane(lane, length);
             signed.set_lane(lane, length.copysign(span));
         }
