@@ -109,7 +109,7 @@ impl Force<3> for Ground {
     type Form = Translation;
     fn force<T: Scalar>(&self, motion: &Motion<3, T>) -> Vector<3, T> {
         let mut depth = T::zero();
-        pressed(motion, |_, of_corner| depth = depth + of_corner);
+        pressed(motion, |_, of_corner| depth += of_corner);
         let upward = T::constant(self.stiffness, 0.0) * depth - T::constant(9.81, 0.0);
         Vector::<3, T>::from_fn(|i, _| if i == 2 { upward } else { T::zero() })
     }
@@ -128,7 +128,7 @@ impl Force<3> for Moments {
         let stiffness = T::constant(self.stiffness, 0.0);
         pressed(motion, |arm, depth| {
             for (moment, arm) in moments.iter_mut().zip(arm) {
-                *moment = *moment + arm * stiffness * depth;
+                *moment += arm * stiffness * depth;
             }
         });
         Matrix::<3, T>::from_fn(|i, j| if j == 2 { moments[i] } else { T::zero() })
