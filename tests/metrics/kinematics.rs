@@ -168,3 +168,43 @@ fn pictures_show_the_body_in_orthonormal_bases() {
     assert_eq!(stretched::Body.orthonormal(first.end().1).phi(), second.end().1.phi());
     assert!(first.to_svg().unwrap() == second.to_svg().unwrap());
 }
+
+/// Levels of the stretches and of the determinant are found where `eta^-1 phi^T g phi` has them, in steps and in closed form.
+#[test]
+fn events_ask_for_the_metrics_of_the_model() {
+    #[affine_model(
+        dim = 2,
+        metrics(space = [[4, 0.5], [0.5, 1]], body = [[1, -0.4], [-0.4, 3]]),
+        kinetic(casimir2 = 0.2, body_inertia = 1)
+    )]
+    struct Body;
+    let g = Matrix::<2>::new(4.0, 0.5, 0.5, 1.0);
+    let eta = Matrix::<2>::new(1.0, -0.4, -0.4, 3.0);
+    /// The squares of the largest and the smallest stretch, and of the determinant.
+    fn squares(eta: &Matrix<2>, g: &Matrix<2>, phi: &Matrix<2>) -> [f64; 3] {
+        let mixed = eta.try_inverse().unwrap() * phi.transpose() * g * phi;
+        let (half, det) = (0.5 * mixed.trace(), mixed.determinant());
+        let root = (half * half - det).sqrt();
+        [half + root, half - root, det]
+    }
+    let start = Body
+        .at_momentum(Matrix::<2>::new(1.3, 0.2, 0.1, 0.8), Comoving(Matrix::<2>::new(0.3, 0.5, -0.9, -0.5)))
+        .unwrap();
+    for method in [Method::Automatic, Method::RungeKutta8, Method::Gauss { stages: 3, step: 1e-2 }] {
+        let simulation = || Simulation::new(&Body, start).until(0.4).method(method).tolerance(1e-12);
+        let ends = simulation().run().unwrap();
+        let [before, after] = [&start, ends.end().1].map(|point| squares(&eta, &g, point.phi()));
+        let levels: Vec<f64> = before.iter().zip(&after).map(|(a, b)| (0.5 * (a + b)).sqrt()).collect();
+        let events = [
+            Event::largest_stretch(levels[0]),
+            Event::smallest_stretch(levels[1]),
+            Event::determinant(levels[2]),
+        ];
+        for (k, event) in events.into_iter().enumerate() {
+            let stopped = simulation().event(event.stop()).run().unwrap();
+            assert!(stopped.stopped_by().is_some(), "{method:?}: {:?} to {:?}", before, after);
+            let there = squares(&eta, &g, stopped.end().1.phi())[k].sqrt();
+            assert!((there - levels[k]).abs() < 1e-11 * levels[k], "{method:?}: {there} {}", levels[k]);
+        }
+    }
+}

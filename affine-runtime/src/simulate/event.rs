@@ -4,10 +4,13 @@ use core::fmt;
 
 use crate::decompose::log_stretches;
 use crate::error::Result;
+use crate::frames::Matrix;
 use crate::kinematics::LogDeterminant;
+use crate::metrics::Bases;
 use crate::state::Phase;
 
-type Function<'a, P> = Box<dyn Fn(f64, &P) -> f64 + 'a>;
+/// Of time and point; what is looked at in orthonormal bases asks for those of the model.
+type Function<'a, const N: usize, P> = Box<dyn Fn(f64, &P, Option<&Bases<N>>) -> f64 + 'a>;
 type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
 
 /// Something that happens where a function of time and phase point, continuous along the motion, changes its sign.
@@ -69,7 +72,7 @@ type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
 /// phase point that is one, ends the run, [`Reason::Event`](super::Reason::Event).
 pub struct Event<'a, const N: usize, P> {
     pub(super) name: &'static str,
-    pub(super) function: Function<'a, P>,
+    pub(super) function: Function<'a, N, P>,
     pub(super) direction: Direction,
     pub(super) action: Action<'a, P>,
     /// An index that no phase point of this dimension has.
@@ -112,6 +115,10 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
     /// The event that `function` changes its sign in either direction, to be recorded.
     #[must_use]
     pub fn new(name: &'static str, function: impl Fn(f64, &P) -> f64 + 'a) -> Self {
+        Self::of(name, move |t, point, _| function(t, point))
+    }
+
+    fn of(name: &'static str, function: impl Fn(f64, &P, Option<&Bases<N>>) -> f64 + 'a) -> Self {
         Self {
             name,
             function: Box::new(function),
@@ -121,20 +128,25 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
         }
     }
 
-    /// `det phi = value`. With the value 0 the collapse of a body that no potential protects: a run that stops there ends
+    /// A function of the placement in orthonormal bases.
+    fn of_placement(name: &'static str, function: impl Fn(&Matrix<N>) -> f64 + 'a) -> Self {
+        Self::of(name, move |_, point, bases| function(point.in_orthonormal(bases).phi()))
+    }
+
+    /// `det phi = value`, in orthonormal bases of the model's metrics. With the value 0 the collapse of a body that no potential protects: a run that stops there ends
     /// at a phase point without inverse.
     #[must_use]
     pub fn determinant(value: f64) -> Self {
-        Self::new("det phi", move |_, point| LogDeterminant::of(point.phi()).to_f64() - value)
+        Self::of_placement("det phi", move |phi| LogDeterminant::of(phi).to_f64() - value)
     }
 
-    /// `max_a Q_a = value`, by logarithms.
+    /// `max_a Q_a = value`, by logarithms, with the model's metrics.
     #[must_use]
     pub fn largest_stretch(value: f64) -> Self {
         Self::stretch("largest stretch", value, |a, b| if a >= b { a } else { b })
     }
 
-    /// `min_a Q_a = value`, by logarithms.
+    /// `min_a Q_a = value`, by logarithms, with the model's metrics.
     #[must_use]
     pub fn smallest_stretch(value: f64) -> Self {
         Self::stretch("smallest stretch", value, |a, b| if a <= b { a } else { b })
@@ -142,8 +154,8 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
 
     fn stretch(name: &'static str, value: f64, choice: fn(f64, f64) -> f64) -> Self {
         let logarithm = libm::log(value);
-        Self::new(name, move |_, point| {
-            log_stretches(point.phi()).into_iter().reduce(choice).unwrap_or(f64::NAN) - logarithm
+        Self::of_placement(name, move |phi| {
+            log_stretches(phi).into_iter().reduce(choice).unwrap_or(f64::NAN) - logarithm
         })
     }
 

@@ -129,7 +129,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             schedule,
             progress: self.settings.progress.take(),
             observe: self.settings.observe.take(),
-            watcher: Watcher::new(core::mem::take(&mut self.settings.events)),
+            watcher: Watcher::new(core::mem::take(&mut self.settings.events), self.model.bases()),
             max_steps,
             origin: t0,
             t_end,

@@ -9,6 +9,7 @@ use super::point::check;
 use super::root::root;
 use super::standing::{Memory, Side, Standing};
 use crate::integrate::larger;
+use crate::metrics::Bases;
 use crate::state::Phase;
 
 /// What the body may turn, in radians, or its log-stretches change by between two samples.
@@ -65,6 +66,8 @@ struct Sample {
 /// The events of a run between two samples.
 pub(super) struct Watcher<'a, const N: usize, P> {
     pub(super) events: Vec<Event<'a, N, P>>,
+    /// Those of the model's metrics.
+    bases: Option<Bases<N>>,
     /// What is known of them at the sample where the part begins, and of those that have happened within it.
     memory: Vec<Memory>,
     begin: Sample,
@@ -76,10 +79,10 @@ pub(super) struct Watcher<'a, const N: usize, P> {
 }
 
 impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
-    pub(super) fn new(events: Vec<Event<'a, N, P>>) -> Self {
+    pub(super) fn new(events: Vec<Event<'a, N, P>>, bases: Option<Bases<N>>) -> Self {
         let nowhere = || Sample { t: f64::NAN, values: vec![f64::NAN; events.len()], rate: 0.0 };
         let (begin, end, stays) = (nowhere(), nowhere(), vec![false; events.len()]);
-        Self { memory: Vec::new(), begin, end, stays, rests: None, events }
+        Self { memory: Vec::new(), begin, end, stays, rests: None, events, bases }
     }
 
     pub(super) fn is_idle(&self) -> bool {
@@ -98,7 +101,8 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
 
     /// Begins at a point, at the start of a run without a memory.
     pub(super) fn begin(&mut self, t: f64, point: &P, rate: f64, memory: &[Memory]) {
-        let values: Vec<f64> = self.events.iter().map(|event| event.at(t, point)).collect();
+        let bases = self.bases.as_ref();
+        let values: Vec<f64> = self.events.iter().map(|event| event.at(t, point, bases)).collect();
         self.memory = match memory {
             [] => self.events.iter().zip(&values).map(|(event, value)| event.first(*value)).collect(),
             _ => memory.to_vec(),
@@ -131,11 +135,13 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
         rate: impl Fn(&P) -> f64,
         at: &mut At<'_, P>,
     ) -> Result<Vec<Met<P>>, Reason> {
+        let bases = self.bases;
+        let bases = bases.as_ref();
         let (point, _) = at(t)?;
         (self.end.t, self.end.rate) = (t, rate(&point));
         let mut met = Vec::new();
         for index in 0..self.events.len() {
-            let value = self.events[index].value(t, &point)?;
+            let value = self.events[index].value(t, &point, bases)?;
             self.end.values[index] = value;
             let Some(Way { begin, from }) = self.way(index, at, &mut met)? else { continue };
             let event = &self.events[index];
@@ -143,11 +149,11 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
             if value.is_nan() || Side::of(value) == Some(from) || !event.counts(from.opposite()) {
                 continue;
             }
-            let function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point));
+            let function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point, bases));
             let time = root(function, begin, (t, value))?;
             let middle = begin.0 + 0.5 * (time - begin.0);
             let rate = match event.action {
-                Action::Change(_) => (event.value(middle, &at(middle)?.0)? / (time - middle)).abs(),
+                Action::Change(_) => (event.value(middle, &at(middle)?.0, bases)? / (time - middle)).abs(),
                 Action::Record | Action::Stop => 0.0,
             };
             self.insert(&mut met, (index, time, from.opposite(), rate), at)?;
@@ -171,6 +177,7 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
         at: &mut At<'_, P>,
         met: &mut Vec<Met<P>>,
     ) -> Result<Option<Way>, Reason> {
+        let bases = self.bases.as_ref();
         let (event, memory) = (&self.events[index], &mut self.memory[index]);
         let begin = (self.begin.t, self.begin.values[index]);
         let (from, changed) = match memory.standing {
@@ -178,7 +185,7 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
             Standing::Open => return Ok(None),
             Standing::Leaving { from, changed } => (from, changed.map(f64::from_bits)),
         };
-        let mut function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point));
+        let mut function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point, bases));
         // One that rests is not looked at as closely as one that may move.
         let middle = begin.0 + 0.5 * (self.end.t - begin.0);
         let is_still = self.end.values[index] == begin.1 && function(middle)? == begin.1;
@@ -237,10 +244,11 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
     /// A function that has come to zero at that time, or is zero now, is decided by where it goes from there; a jump is no
     /// change of its sign.
     pub(super) fn change(&mut self, met: &Met<P>, changed: &P) -> Option<(f64, u64)> {
+        let bases = self.bases.as_ref();
         let mut accumulation = None;
         self.rests = None;
         for (index, event) in self.events.iter().enumerate() {
-            let [before, after] = [&met.point, changed].map(|point| event.at(met.t, point));
+            let [before, after] = [&met.point, changed].map(|point| event.at(met.t, point, bases));
             let size = larger(self.begin.values[index].abs(), self.end.values[index].abs());
             let was_at_zero = before.abs() <= AT_ZERO * size;
             let Memory { standing, changes } = &mut self.memory[index];
@@ -266,13 +274,13 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
 
 impl<const N: usize, P: Phase<N>> Event<'_, N, P> {
     /// Its function.
-    fn at(&self, t: f64, point: &P) -> f64 {
-        (self.function)(t, point)
+    fn at(&self, t: f64, point: &P, bases: Option<&Bases<N>>) -> f64 {
+        (self.function)(t, point, bases)
     }
 
     /// What that is at a point, unless the point is none: the run finds out for itself.
-    fn value(&self, t: f64, point: &P) -> Result<f64, Reason> {
-        let value = self.at(t, point);
+    fn value(&self, t: f64, point: &P, bases: Option<&Bases<N>>) -> Result<f64, Reason> {
+        let value = self.at(t, point, bases);
         if value.is_nan() && check(t, point).is_ok() {
             return Err(Reason::Event { event: self.name, t });
         }

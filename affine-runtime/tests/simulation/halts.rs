@@ -184,7 +184,7 @@ fn degenerate_mass_matrices() {
         assert_eq!(whole.run().unwrap().end().0, 4.0);
     }
     // phi22 = 1 - (1 - d) t is d where the force is infinite.
-    let singular = Planar { singular_at: Some(1.0), is_weighed: true, ..Planar::FREE };
+    let singular = Planar::<true> { spring: 0.0, singular_at: Some(1.0), is_weighed: true };
     for (pivot, is_named) in [(1e-6, true), (1e-3, false)] {
         let momentum = TwoPoint(Matrix::<2>::new(0.0, 0.0, 0.0, pivot - 1.0));
         let start = point(Matrix::<2>::identity(), momentum, Pinned);
