@@ -49,7 +49,8 @@ pub trait Model<const N: usize> {
         T::zero()
     }
 
-    /// The values of the functions of [`Description::domain`], one after the other.
+    /// The values of the functions of [`Description::domain`], one after the other, and of the angles of
+    /// [`Description::angles`] after them.
     fn domain(&self, _t: f64, _point: &Self::Point<f64>, _each: &mut dyn FnMut(f64)) {}
 
     /// The point as a plain array.
@@ -273,6 +274,8 @@ pub struct Description {
     pub constraint: Option<Constraint>,
     /// Functions of the state that keep their sign where the potential has a value; empty where that is everywhere.
     pub domain: &'static [Guard],
+    /// Parts of the potential with an angle that the time turns, as written: `cos(w*t)`. [`Model::domain`] gives the angles.
+    pub angles: &'static [&'static str],
     /// What was taken out of the state.
     pub left_out: &'static [LeftOut],
 }

@@ -12,7 +12,8 @@ use affine_runtime::simulate::Reason;
 const ORDERS: [usize; 4] = [2, 4, 6, 8];
 /// Numbers of stages of Gauss collocation, all there are.
 const STAGES: [usize; 4] = [2, 3, 4, 6];
-/// Steps are no longer shortened once they take this many times the evaluations of any automatic run.
+/// Steps are no longer shortened once two lengths in turn take this many times the evaluations of any automatic run: few steps
+/// that are far too long may take many corrections.
 const HOPELESS: u64 = 8;
 /// The error below which two lengths in turn that gain nothing tell that rounding is reached.
 const NEAR_ROUNDING: f64 = 1e-11;
@@ -95,7 +96,7 @@ impl<M: InLanes<3>> Motion<'_, M> {
         method: impl Fn(f64) -> Method,
     ) -> affine_runtime::Result<Curve> {
         let mut curve = Curve::new(name);
-        let (mut least, mut idle) = (f64::INFINITY, 0);
+        let (mut least, mut idle, mut costly) = (f64::INFINITY, 0, 0);
         for k in 4.. {
             let steps = 2f64.powf(0.5 * f64::from(k)).round();
             let measured = self.measured(method(self.t_end / steps), 1e-9)?;
@@ -104,7 +105,8 @@ impl<M: InLanes<3>> Motion<'_, M> {
                 measured.map_or((f64::INFINITY, steps as u64), |(e, cost, _)| (e, cost.evaluations));
             idle = if error < least { 0 } else { idle + 1 };
             least = least.min(error);
-            if evaluations > most || (least < NEAR_ROUNDING && idle == 2) {
+            costly = if evaluations > most { costly + 1 } else { 0 };
+            if costly == 2 || (least < NEAR_ROUNDING && idle == 2) {
                 break;
             }
         }

@@ -25,3 +25,4 @@ mod tolerances;
 mod confined;
 mod damped;
 mod driven;
+mod near_degenerate;

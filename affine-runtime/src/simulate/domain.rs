@@ -1,11 +1,13 @@
-//! Whether a motion stays where its potential has a value.
+//! Whether a motion stays where its potential has a value, and its steps see what the time does to it.
+
+use core::f64::consts::TAU;
 
 use super::collapse::first_failure;
 use super::halt::Reason;
 use super::mechanics::Mechanics;
 use super::motion::Motion;
 use crate::integrate::{Failure, norm};
-use crate::model::{Bound, Guard};
+use crate::model::{Bound, Description, Guard};
 use crate::state::Phase;
 
 /// Part of the way that a state goes by its own size, by which the rates of the functions are found as differences: half of
@@ -120,8 +122,24 @@ impl Guard {
     }
 }
 
+/// The largest part of a turn that an angle of the potential makes by the time alone, with that part of the potential.
+pub(super) fn turns<const N: usize, P: Phase<N>>(
+    model: &dyn Mechanics<N, P>,
+    point: &P,
+    (begin, end): (f64, f64),
+) -> Option<(&'static str, f64)> {
+    let Description { domain, angles, .. } = model.description();
+    if angles.is_empty() {
+        return None;
+    }
+    let [before, after] = [begin, end].map(|t| values(model, (t, point)));
+    let angles = angles.iter().zip(after.iter().zip(&before).skip(domain.len()));
+    let turned = angles.map(|(part, (after, before))| (*part, (after - before).abs() / TAU));
+    turned.reduce(|most, next| if next.1 > most.1 { next } else { most })
+}
+
 fn values<const N: usize, P: Phase<N>>(model: &dyn Mechanics<N, P>, (t, point): (f64, &P)) -> Vec<f64> {
-    let mut values = Vec::with_capacity(model.description().domain.len());
+    let mut values = Vec::with_capacity(model.description().domain.len() + model.description().angles.len());
     model.domain(t, point, &mut |value| values.push(value));
     values
 }

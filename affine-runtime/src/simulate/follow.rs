@@ -1,7 +1,7 @@
 //! Steps to the end of an integration, with output, events and callbacks on the way.
 
 use super::collapse::{failing, first_failure, rate_of_determinant};
-use super::domain::Domain;
+use super::domain::{Domain, turns};
 use super::halt::Reason;
 use super::motion::Motion;
 use super::orientation::{Moment, keeps_orientation, passes_through_zero};
@@ -62,6 +62,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 self.pass(motion);
                 return Err(Reason::StepLimit { limit: self.max_steps });
             }
+            let begin = motion.t();
             if let Err(failure) = motion.advance() {
                 let (t, (point, _)) = (motion.t(), motion.reached());
                 let degenerate = signature.failing(regularity(motion), t);
@@ -74,6 +75,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                     .unwrap_or_else(|| self.reason(failure)));
             }
             let t = motion.t();
+            self.turned((begin, t));
             if signature.may_change() {
                 signature.kept(regularity(motion), t)?;
             }
@@ -112,6 +114,15 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             self.report(t)?;
         }
         Ok(())
+    }
+
+    /// Keeps the step in which the time turns an angle of the potential furthest.
+    fn turned(&mut self, step: (f64, f64)) {
+        let turned = turns(self.model, &self.trajectory.end.1, step);
+        let most = &mut self.trajectory.computation.turns;
+        if turned.is_some_and(|(_, turns)| most.is_none_or(|(_, most)| turns > most)) {
+            *most = turned;
+        }
     }
 
     /// When a body collapses that has collapsed at a time within the step.

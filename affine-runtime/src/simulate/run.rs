@@ -10,7 +10,7 @@ use super::recorder::{Recorder, Turn};
 use super::settings::{Plan, Settings};
 use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;
-use super::{Method, Simulation};
+use super::{Method, NEAR_DEGENERATE, Simulation};
 use crate::integrate::Statistics;
 use crate::model::{Model, StateVector};
 use crate::state::Phase;
@@ -103,7 +103,8 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             computation: Computation {
                 asked: self.settings.plan.method,
                 method: Method::RungeKutta8,
-                tolerance: self.settings.plan.tolerance,
+                tolerance: self.tolerance(),
+                tolerance_asked: self.settings.plan.tolerance,
                 closed_form_exists: false,
                 no_whirl: false,
                 at_rest: start.p().iter().all(|p| *p == 0.0),
@@ -112,8 +113,16 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                 condition: self.model.condition(start.phi()),
                 residual: None,
                 energy_defect: 0.0,
+                turns: None,
             },
         }
+    }
+
+    /// An error of the placement decides whether a motion that passes near a degenerate mass matrix meets it.
+    fn tolerance(&self) -> f64 {
+        let Plan { tolerance, .. } = self.settings.plan;
+        let may_degenerate = self.model.regularity(self.settings.start.phi()).is_some();
+        if may_degenerate && tolerance > NEAR_DEGENERATE { NEAR_DEGENERATE } else { tolerance }
     }
 
     fn drive(&mut self, trajectory: &mut Trajectory<N, P>) -> Result<(), Reason> {
@@ -206,7 +215,8 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     /// The motion from a point to the end, or to an event that changes it.
     fn leg(&self, from: &(f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
         let (t0, start) = (from.0, &from.1);
-        let Plan { method, tolerance, .. } = self.settings.plan;
+        let Plan { method, .. } = self.settings.plan;
+        let tolerance = recorder.trajectory.computation.tolerance;
         let course = Course { t0, start, t_end: recorder.t_end, method, tolerance };
         let geodesic = self.model.geodesic(t0, start);
         recorder.trajectory.computation.closed_form_exists = geodesic.is_some();

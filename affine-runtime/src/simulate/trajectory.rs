@@ -36,8 +36,11 @@ pub struct Computation {
     pub asked: Method,
     /// What ran: never [`Method::Automatic`].
     pub method: Method,
-    /// Tolerance of the integration.
+    /// Tolerance of the integration: what was asked for, or [`NEAR_DEGENERATE`](super::NEAR_DEGENERATE) where that is smaller and
+    /// the mass matrix may degenerate on the way.
     pub tolerance: f64,
+    /// What was asked for.
+    pub tolerance_asked: f64,
     /// The start has a closed form.
     pub closed_form_exists: bool,
     /// The skew factor of the closed form drops out: no vorticity (body frame) or no spin (space frame).
@@ -58,6 +61,9 @@ pub struct Computation {
     /// is more than 1e4 tolerances and more than an error of ten tolerances in the placement is worth; 0 elsewhere, and where the
     /// energy is neither conserved nor balanced by a work. An event that changes the point starts it anew.
     pub energy_defect: f64,
+    /// The largest part of a turn that an angle of the potential, such as `w*t` in `cos(w*t)`, makes by the time alone within one
+    /// step, with that part of the potential; `None` where there is no such angle, and in a run that takes no steps.
+    pub turns: Option<(&'static str, f64)>,
 }
 
 impl Computation {

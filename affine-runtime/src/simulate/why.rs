@@ -239,6 +239,31 @@ impl Why {
         }
     }
 
+    /// What the run asked of itself beyond what it was asked.
+    fn tolerance(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Computation { method, tolerance, tolerance_asked, .. } = self.computation;
+        if tolerance == tolerance_asked || method.step().is_some() || method == Method::ClosedForm {
+            return Ok(());
+        }
+        writeln!(
+            f,
+            "a tolerance of {tolerance:e} in place of {tolerance_asked:e}: the mass matrix may degenerate at some placements, and \
+             larger errors lead motions onto them that only pass near"
+        )
+    }
+
+    /// Whether the steps see what the time does.
+    fn turns(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.computation.turns {
+            Some((part, turns)) if turns > 1.0 => writeln!(
+                f,
+                "`{part}` makes {turns:.1} turns within one step: what changes faster than the steps is seen at a few points of its \
+                 periods, and the error of its mean adds up; compare with a smaller tolerance, or with equal steps that resolve it"
+            ),
+            _ => Ok(()),
+        }
+    }
+
     /// What the energy says of the run, where that is nothing good.
     fn energy(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Computation { method, tolerance, energy_defect, .. } = self.computation;
@@ -297,6 +322,8 @@ impl fmt::Display for Why {
             writeln!(f, "left out of the model: {}", left_out.what)?;
         }
         self.scene(f)?;
+        self.tolerance(f)?;
+        self.turns(f)?;
         self.energy(f)
     }
 }

@@ -69,7 +69,8 @@ fn points(report: &mut StabilityReport) -> affine_runtime::Result<()> {
 }
 
 fn fields(report: &mut StabilityReport) {
-    for (i, words) in [(f64::NAN, "ill-posed"), (f64::INFINITY, "ill-posed"), (0.2, "I - A"), (-0.2, "I + A")]
+    for (i, words) in
+        [(f64::NAN, "`i` is NaN"), (f64::INFINITY, "`i` is inf"), (0.2, "I - A"), (-0.2, "I + A")]
     {
         let named = scene("body-metric", 2, format!("I = {i}, A = 0.2"), "prepare()", Oracle::Documentation);
         report.case(named, Demand::Refused(words), || Disc { i }.prepare().map(|_| (0.0, 0)));

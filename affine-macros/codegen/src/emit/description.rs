@@ -137,6 +137,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         quote!(#rt::LeftOut { what: #what, scope: #rt::Scope::#scope })
     });
     let domain = super::domain::guards(context);
+    let angles = super::domain::angles(context);
     let signature = match model.signature {
         Some((p, q)) => {
             let (p, q) = (number(p), number(q));
@@ -182,6 +183,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
             reduced_operations: #reduced_operations,
             constraint: #constraint,
             domain: #domain,
+            angles: #angles,
             left_out: &[#(#left_out),*],
         }
     }

@@ -1,16 +1,19 @@
-//! Where a potential has a value, read off what the user wrote: arguments of logarithms and roots, and divisors.
+//! Where a potential has a value, read off what the user wrote: arguments of logarithms and roots, and divisors; and angles
+//! that the time turns.
 
 use crate::algebra::{Arena, Expr, Function};
 use crate::check::constant;
-use crate::mechanics::potential::{Bound, Guard};
+use crate::mechanics::potential::{Bound, Guard, TIME};
 use crate::spec::{Expression, ExpressionKind};
 
 use super::potential::{Reading, difference_of, is_positive, value};
 
-/// The guards of an energy, in the order of its parts; those that hold everywhere are left out.
+/// The guards of an energy, in the order of its parts, angles last; those that hold everywhere are left out.
 pub(super) fn guards(arena: &mut Arena, n: usize, energy: &Expression, given: bool) -> Vec<Guard> {
     let mut guards = Guards { arena, n, given, found: Vec::new() };
     guards.read(energy, None);
+    // Angles come last.
+    guards.found.sort_by_key(|guard| guard.bound == Bound::Angle);
     guards.found
 }
 
@@ -57,6 +60,9 @@ impl Guards<'_> {
             }
             _ => {}
         }
+        if let ExpressionKind::Call(Function::Sin | Function::Cos | Function::Tan, argument) = &part.kind {
+            self.turn(part, argument, difference);
+        }
         part.operands().into_iter().for_each(|operand| self.read(operand, difference));
     }
 
@@ -72,6 +78,17 @@ impl Guards<'_> {
             | ExpressionKind::Divide(a, _)
             | ExpressionKind::Call(Function::Abs, a) => self.divide(part, a, difference),
             _ => self.keep(part, divisor, Bound::NotZero, difference),
+        }
+    }
+
+    /// The argument of a periodic function, where it contains the time.
+    fn turn(&mut self, part: &Expression, argument: &Expression, difference: Option<Expr>) {
+        let Some(value) = self.value(argument, difference) else { return };
+        let time = self.arena.symbol(TIME);
+        let is_known = self.found.iter().any(|guard| guard.value == value && guard.bound == Bound::Angle);
+        if !is_known && self.arena.any_symbol(value, &mut |symbol| symbol == time) {
+            let (part, argument) = (part.to_string(), argument.to_string());
+            self.found.push(Guard { part, argument, bound: Bound::Angle, value });
         }
     }
 
@@ -91,7 +108,10 @@ impl Guards<'_> {
         let sign = self.arena.sign(value, &is_positive);
         // What has one sign everywhere does not change it on the way, though it may vanish at a point.
         let holds = sign.is_some_and(|sign| !sign.negative || bound == Bound::NotZero);
-        let says_as_much = |guard: &Guard| bound == Bound::NotZero || guard.bound == bound;
+        let says_as_much = |guard: &Guard| match guard.bound {
+            Bound::Angle => false,
+            known => bound == Bound::NotZero || known == bound,
+        };
         let is_known = self.found.iter().any(|guard| guard.value == value && says_as_much(guard));
         if !holds && !is_known && super::moves(self.arena, value) {
             self.found.push(Guard { part: part.to_string(), argument, bound, value });

@@ -1,4 +1,5 @@
-//! Where a potential has a value: functions of the placement, of `x` and of the time that keep their sign.
+//! What a run looks at in a potential: functions of the placement, of `x` and of the time that keep their sign where it has a
+//! value, and angles that the time turns.
 
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
@@ -8,12 +9,12 @@ use crate::mechanics::metric::Definitions;
 use super::Potential;
 use super::restriction::restricted;
 
-/// A part of a potential that has a value only where a function of the state keeps its sign.
+/// A part of a potential that has a value only where a function of the state keeps its sign, or that the time turns.
 #[derive(Clone, Debug)]
 pub struct Guard {
     /// The part as written: `ln(q)`, `1/x[1]`.
     pub part: String,
-    /// What has to keep its sign, as written: `q`, `x[1]`.
+    /// The function, as written: `q`, `x[1]`.
     pub argument: String,
     /// Which signs it may have.
     pub bound: Bound,
@@ -30,6 +31,8 @@ pub enum Bound {
     NotNegative,
     /// The sign that it has at the start: a divisor.
     NotZero,
+    /// Any, but steps have to see it change: the argument of a periodic function that contains the time.
+    Angle,
 }
 
 impl Bound {
@@ -38,6 +41,7 @@ impl Bound {
             Self::Positive => !value.is_zero() && !value.is_negative(),
             Self::NotNegative => !value.is_negative(),
             Self::NotZero => !value.is_zero(),
+            Self::Angle => true,
         }
     }
 }
