@@ -25,7 +25,6 @@ pub use error_norm::ErrorNorm;
 pub(crate) use error_norm::norm;
 #[cfg(feature = "std")]
 pub(crate) use error_norm::sum_of_squares;
-#[cfg(feature = "std")]
 pub(crate) use finite::larger;
 pub use gauss::Gauss;
 pub use nystrom::RungeKuttaNystrom;

@@ -9,6 +9,7 @@ pub(crate) use in_lanes::{NormInLanes, Squares};
 
 use core::ops::Range;
 
+use super::larger;
 use crate::model::{Group, StateVector, TANGENT, WORK};
 use crate::scalar::Scalar;
 
@@ -284,9 +285,7 @@ pub(crate) fn norm(components: &[f64]) -> f64 {
 /// The same of numbers whose squares leave the range; NaN where one is.
 #[cold]
 fn scaled_norm(components: impl Iterator<Item = f64> + Clone) -> f64 {
-    let larger =
-        |largest: f64, v: f64| if v.abs() <= largest || largest.is_nan() { largest } else { v.abs() };
-    let largest = components.clone().fold(0.0, larger);
+    let largest = components.clone().map(Scalar::abs).fold(0.0, larger);
     if largest == 0.0 || !largest.is_finite() {
         return largest;
     }

@@ -17,7 +17,6 @@ pub(crate) fn is_finite<S: StateVector<f64>>(y: &S) -> bool {
 }
 
 /// The larger of two numbers; NaN where one is, which `f64::max` would drop.
-#[cfg(feature = "std")]
 #[inline(always)]
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }
@@ -26,7 +25,6 @@ pub(crate) fn larger(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::is_finite;
-    #[cfg(feature = "std")]
     use super::larger;
 
     #[cfg(feature = "std")]

@@ -20,7 +20,7 @@ use super::step_size::{first_step, shortest};
 #[cfg(feature = "std")]
 use super::tape::Tape;
 use super::widest::{Work, roomiest};
-use super::{Failure, Statistics, sound};
+use super::{Failure, Statistics, larger, sound};
 use crate::model::{Group, StateVector};
 use crate::scalar::Scalar;
 
@@ -235,10 +235,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         if USUAL_SQUARES.contains(&(last + before)) {
             return true;
         }
-        let largest = |k: usize| {
-            let sizes = self.coefficients[k].as_ref().iter();
-            sizes.fold(0.0, |largest: f64, v| if v.abs() <= largest { largest } else { v.abs() })
-        };
+        let largest = |k: usize| self.coefficients[k].as_ref().iter().map(|v| v.abs()).fold(0.0, larger);
         let last = largest(self.order) + largest(self.order - 1);
         IN_RANGE.contains(&last) || last < 1.0 && (2..=3).all(|k| largest(k) == 0.0)
     }

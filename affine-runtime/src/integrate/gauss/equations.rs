@@ -2,6 +2,7 @@
 
 use super::coefficients::{MOST_STAGES, Tableau};
 use super::newton::Newton;
+use crate::integrate::larger;
 use crate::integrate::lie::{Coordinates, Sum};
 use crate::model::StateVector;
 use crate::scalar::Scalar;
@@ -370,8 +371,7 @@ impl<S: StateVector<f64>> Equations<S> {
         let mut largest = S::zeros();
         for change in changes.iter().take(self.tableau.stages()) {
             for (largest, value) in largest.as_mut().iter_mut().zip(change.as_ref()) {
-                let value = Scalar::abs(*value);
-                *largest = if value <= *largest { *largest } else { value };
+                *largest = larger(*largest, Scalar::abs(*value));
             }
         }
         largest
@@ -379,12 +379,7 @@ impl<S: StateVector<f64>> Equations<S> {
 
     /// Largest component of `change` over the largest of state and increments; zero where nothing changes.
     fn relative(&self, change: &S, y: &S, increments: &Increments<S>) -> f64 {
-        let largest = |v: &S| {
-            v.as_ref().iter().fold(0.0, |largest: f64, value| {
-                let value = Scalar::abs(*value);
-                if value <= largest { largest } else { value }
-            })
-        };
+        let largest = |v: &S| v.as_ref().iter().map(|value| Scalar::abs(*value)).fold(0.0, larger);
         let change = largest(change);
         let scale = largest(y) + largest(&self.largest(increments));
         if change == 0.0 { 0.0 } else { change / scale }

@@ -3,8 +3,10 @@
 
 use super::Pair;
 use crate::integrate::error_norm::{ErrorNorm, IN_RANGE, sum_of_squares};
+use crate::integrate::larger;
 use crate::integrate::taylor::Vectors;
 use crate::integrate::widest::{Work, widest};
+use crate::scalar::Scalar;
 
 /// An attempted step.
 #[derive(Clone, Copy, Debug)]
@@ -48,11 +50,7 @@ impl<F: Fn((f64, f64)) -> f64> Work for Largest<'_, '_, F> {
 /// The error estimate of a group whose squares leave the range of numbers; NaN where one of its components is.
 #[cold]
 fn scaled_error(slopes: [&[f64]; 2], error: &impl Fn((f64, f64)) -> f64) -> f64 {
-    let all = slopes.into_iter().flatten();
-    let larger = |largest: f64, v: &f64| {
-        if v.abs() <= largest || largest.is_nan() { largest } else { v.abs() }
-    };
-    let largest = all.fold(0.0, larger);
+    let largest = slopes.into_iter().flatten().map(|v| Scalar::abs(*v)).fold(0.0, larger);
     if largest == 0.0 || !largest.is_finite() {
         return largest;
     }
