@@ -120,7 +120,7 @@ impl<const N: usize> Form<N> for Translation {
 }
 
 /// A force that is said to be gyroscopic and has power.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct HasPower<const N: usize> {
     /// Where.
     pub motion: Motion<N>,
@@ -139,6 +139,8 @@ impl<const N: usize> fmt::Display for HasPower<N> {
         )
     }
 }
+
+crate::error::debug_as_displayed!([const N: usize] HasPower<N>);
 
 impl<const N: usize> core::error::Error for HasPower<N> {}
 

@@ -74,7 +74,7 @@ pub trait Potential<const N: usize> {
 }
 
 /// A potential that is not what it says.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Unsound<const N: usize> {
     /// It changes under a rotation of its class, or of `x` although it has no position.
@@ -116,6 +116,8 @@ impl<const N: usize> fmt::Display for Unsound<N> {
         }
     }
 }
+
+crate::error::debug_as_displayed!([const N: usize] Unsound<N>);
 
 impl<const N: usize> core::error::Error for Unsound<N> {}
 

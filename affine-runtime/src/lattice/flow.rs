@@ -43,7 +43,7 @@ pub struct LatticeFlow<'a, const N: usize, M: TwoPolarForm<N>> {
 }
 
 /// Why a motion stopped, and where.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct LatticeStop<const N: usize> {
     /// Time of the last good state.
     pub t: f64,
@@ -303,5 +303,7 @@ impl fmt::Display for StopReason {
         }
     }
 }
+
+crate::error::debug_as_displayed!([const N: usize] LatticeStop<N>);
 
 impl<const N: usize> core::error::Error for LatticeStop<N> {}

@@ -303,3 +303,21 @@ fn question_mark_gives_the_crates_error() {
     }
     assert_eq!(boxed().unwrap_err().to_string(), main().unwrap_err().to_string());
 }
+
+/// What `main() -> Result` prints of a run of ten thousand outputs is one sentence, and the trajectory beside it a line or two.
+#[test]
+fn what_is_printed_of_a_failure_is_read() {
+    let outputs = (0..10_000).map(|k| f64::from(k) * 1e-4);
+    let collapsing = Simulation::new(&Planar::FREE, planar::start(-2.0)).until(1.0).output(outputs);
+    let halt = collapsing.run().unwrap_err();
+    assert!(halt.trajectory.times().len() > 4000, "{}", halt.trajectory.times().len());
+    assert!(halt.to_string().starts_with("stopped at t = "), "{halt}");
+    let shown = [format!("{halt:?}"), format!("{:?}", halt.stop), format!("{:?}", halt.stop.reason)];
+    let read = [halt.to_string(), halt.stop.to_string(), halt.stop.reason.to_string()];
+    assert_eq!(shown, read);
+    assert!(read.iter().all(|text| text.len() < 500), "{read:?}");
+    let trajectory = format!("{:?}", halt.trajectory);
+    assert!(trajectory.len() < 2000, "{} letters", trajectory.len());
+    let error = affine_runtime::Error::from(halt);
+    assert_eq!(format!("{error:?}"), error.to_string());
+}
