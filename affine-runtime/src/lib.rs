@@ -9,7 +9,8 @@
 //!                                Pi        = (dT/dphi_dot)^T               conjugate to phi
 //! ```
 //!
-//! Space and body carry the identity metric; `^T` is the plain transpose. Spatial, co-moving and two-point
+//! Space and body carry the identity metric, or that of `metrics(...)`, of which a phase point is read in orthonormal bases,
+//! [`Model::orthonormal`]; there `^T` is the plain transpose. Spatial, co-moving and two-point
 //! quantities, velocities and momenta are different types (see [`frames`] and [`kinematics`]): a formula that
 //! mixes them does not compile. Equation numbers are those of Slawianowski et al., *Affine symmetry in mechanics
 //! of collective and internal modes, Part I*.
