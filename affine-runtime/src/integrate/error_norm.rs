@@ -144,8 +144,7 @@ impl ErrorNorm {
             let size = self.scale(measure, range, state, state);
             let inertia = self.inertia.get(k).copied().unwrap_or(0.0);
             let rate = if size > 0.0 { value / size } else { Scalar::sqrt(value / inertia) };
-            // A NaN is kept.
-            fastest = if rate <= fastest { fastest } else { rate };
+            fastest = larger(fastest, rate);
         }
         fastest
     }

@@ -170,3 +170,141 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.
     within(if length < 100.0 * trial { length } else { 100.0 * trial })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Controller, LARGEST_CUT, LARGEST_GROWTH, SAFETY, first_step, next_time, shortest, trial};
+    use crate::integrate::ErrorNorm;
+    use crate::model::Group;
+
+    const ORDER: f64 = 8.0;
+
+    fn controller() -> Controller {
+        Controller::of(ORDER, 1.0)
+    }
+
+    fn near(found: f64, expected: f64) -> bool {
+        (found - expected).abs() <= 1e-3 * expected.abs()
+    }
+
+    #[test]
+    fn what_is_not_finite_cuts_most() {
+        for error in [f64::NAN, f64::INFINITY, f64::MAX, 1e30] {
+            assert_eq!(controller().reject(error), LARGEST_CUT, "{error}");
+        }
+    }
+
+    /// `h (S error^(-1/k))`, shorter than before in any case.
+    #[test]
+    fn rejected_steps_are_cut_by_their_error() {
+        for error in [2.0_f64, 10.0, 1e3] {
+            let factor = controller().reject(error);
+            assert!(near(factor, SAFETY * error.powf(-1.0 / ORDER)), "{error}: {factor}");
+        }
+        assert!(near(controller().reject(1.0 + 1e-9), SAFETY));
+        // An estimate that is small where a step has been rejected for another reason does not lengthen it.
+        assert!(near(controller().reject(1e-20), SAFETY));
+    }
+
+    #[test]
+    fn a_step_after_a_rejected_one_does_not_grow() {
+        let mut controller = controller();
+        controller.reject(2.0);
+        assert!(controller.accept(1e-20) <= 1.0);
+        assert_eq!(controller.accept(1e-20), LARGEST_GROWTH, "the one after it may");
+    }
+
+    #[test]
+    fn errors_that_grow_shorten_steps_before_they_are_too_large() {
+        let after = |errors: [f64; 2]| {
+            let mut controller = controller();
+            controller.accept(errors[0]);
+            controller.accept(errors[1])
+        };
+        let (growing, steady, falling) = (after([0.01, 0.1]), after([0.1, 0.1]), after([0.5, 0.1]));
+        assert!(growing < steady && steady < falling, "{growing} {steady} {falling}");
+        // S error^(-(I + P)/k) previous^(P/k)
+        assert!(near(growing, 0.9 * 0.1_f64.powf(-1.1 / ORDER) * 0.01_f64.powf(0.3 / ORDER)), "{growing}");
+        assert_eq!(controller().accept(0.0), LARGEST_GROWTH);
+        // A rejected step is no trend.
+        let mut once = controller();
+        once.accept(0.1);
+        let mut twice = once;
+        twice.reject(5.0);
+        assert_eq!(once.previous, twice.previous);
+    }
+
+    /// An error counts as many times as the margin says, with a trend from what is too small to tell of one.
+    #[test]
+    fn margins_multiply_the_error() {
+        let error = 0.4_f64.ln();
+        let expected = SAFETY * ((0.3 * (-9.0 - error) - 0.8 * error) / ORDER).exp();
+        for (margin, error) in [(4.0, 0.1), (1.0, 0.4)] {
+            let found = Controller::of(ORDER, margin).accept(error);
+            assert!(near(found, expected), "{found} {expected}");
+        }
+    }
+
+    /// Two equal steps where one and a short rest would do.
+    #[test]
+    fn the_last_two_steps_are_equal() {
+        for sign in [1.0, -1.0] {
+            let end = 3.0 * sign;
+            assert_eq!(next_time(0.0, 1.0, end), sign);
+            assert_eq!(next_time(sign, 1.5, end), 2.0 * sign);
+            assert_eq!(next_time(sign, 2.0, end), end);
+            assert_eq!(next_time(sign, 1.99, end), end, "a hundredth is no step");
+            assert_eq!(next_time(sign, 1.9, end), 2.0 * sign);
+            assert_eq!(next_time(sign, 1.0, end), 2.0 * sign);
+        }
+    }
+
+    #[test]
+    fn roundings_of_times() {
+        assert_eq!(shortest(4.0, 5.0), 64.0 * f64::EPSILON);
+        assert_eq!(shortest(-4.0, 5.0), 64.0 * f64::EPSILON);
+        assert_eq!(shortest(0.0, 2.0), 32.0 * f64::EPSILON * f64::EPSILON);
+    }
+
+    #[test]
+    fn trials_by_what_is_known_of_the_rate() {
+        assert_eq!(trial(2.0, 1.0, || f64::NAN), 0.005);
+        assert_eq!(trial(0.001, -1.0, || f64::NAN), 1.0);
+        assert_eq!(trial(f64::INFINITY, 1.0, || 4.0), 0.0025);
+        assert_eq!(trial(f64::INFINITY, 1.0, || 0.0), 1.0);
+        assert_eq!(trial(f64::INFINITY, 8.0, || f64::INFINITY), 8e-6);
+        assert_eq!(trial(f64::NAN, 8.0, || 1.0), 8e-6);
+    }
+
+    /// `y' = -w y`: `(10 eps)^(1/k)/w`, in any unit of time, and never beyond what the trial says.
+    #[test]
+    fn first_steps() {
+        const GROUPS: &[Group] = &[Group { name: "Sigma", len: 2 }];
+        let norm = ErrorNorm::new(GROUPS);
+        for w in [1e-6, 1.0, 1e9] {
+            let f = |_: f64, y: &[f64; 2]| y.map(|v| -w * v);
+            let y = [1.0, 2.0];
+            let length = |tolerance: f64, span: f64| {
+                first_step(&f, &norm, (0.0, &y, &f(0.0, &y)), span, (tolerance, ORDER))
+            };
+            for tolerance in [1e-12_f64, 1e-9, 1e-4] {
+                let expected = (10.0 * tolerance).powf(1.0 / ORDER) / w;
+                let found = length(tolerance, 1e3 / w);
+                assert!((found - expected).abs() < 0.02 * expected, "{found:e} {expected:e}");
+                assert!(near(length(tolerance, -1e3 / w), found));
+            }
+            assert!(length(0.9, 1e3 / w) <= 1.0001 / w);
+            assert_eq!(length(1e-9, 1e-3 / w), 1e-3 / w);
+        }
+        // A rate that grows at once: the second derivative decides.
+        let jump = |t: f64, _: &[f64; 2]| [1e4 * t, 0.0];
+        let y = [1.0, 1.0];
+        let found = first_step(&jump, &norm, (0.0, &y, &[0.0; 2]), 10.0, (1e-9, ORDER));
+        let rate = (1e4 / 2.0_f64.sqrt()).sqrt();
+        assert!((found * rate / 0.1 - 1.0).abs() < 0.1, "{found:e}");
+        // What is no number has the shortest start there is.
+        let lost = |_: f64, _: &[f64; 2]| [f64::NAN; 2];
+        let found = first_step(&lost, &norm, (0.0, &y, &[1.0; 2]), 10.0, (1e-9, ORDER));
+        assert!(found > 0.0 && found <= 10.0, "{found}");
+    }
+}
