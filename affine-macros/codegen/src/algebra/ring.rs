@@ -9,6 +9,8 @@ use super::residue::Residue;
 pub trait Ring: Clone {
     /// 0.
     fn zero() -> Self;
+    /// A number.
+    fn number(value: &Rational) -> Self;
     /// Not proved to be different from 0?
     fn vanishes(&self) -> bool;
     /// Adds `weight * a * b`.
@@ -20,6 +22,9 @@ pub trait Ring: Clone {
 impl Ring for Polynomial {
     fn zero() -> Self {
         Polynomial::zero()
+    }
+    fn number(value: &Rational) -> Self {
+        Polynomial::constant(value.clone())
     }
     fn vanishes(&self) -> bool {
         self.is_zero()
@@ -35,6 +40,9 @@ impl Ring for Polynomial {
 impl Ring for Residue {
     fn zero() -> Self {
         Residue::ZERO
+    }
+    fn number(value: &Rational) -> Self {
+        Residue::from_rational(value)
     }
     fn vanishes(&self) -> bool {
         !self.is_nonzero()

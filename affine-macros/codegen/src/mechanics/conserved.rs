@@ -146,7 +146,7 @@ fn still(arena: &Arena, chart: &Chart, h: &Polynomial, candidates: Vec<Candidate
     if let Some(group) = chart.confined {
         slopes.extend(weight::slopes(arena, chart, h));
         let mut list = candidates;
-        for point in GroupPoint::all(arena, chart, group) {
+        for point in GroupPoint::all(arena, chart, Some(group)) {
             let value = |p: &Polynomial| -> Residue { point.evaluate(arena, p) };
             let flow = Flow::new(chart, &slopes, &value);
             list.retain(|c| flow.bracket(*c).iter().all(Ring::vanishes));

@@ -1,4 +1,5 @@
-//! Points of the constraint groups modulo a prime: what holds on a group need not hold as a polynomial identity.
+//! Points of `GL(n)` and of the constraint groups modulo a prime: what holds on a group need not hold as a polynomial identity,
+//! and an identity need not be multiplied out to be seen.
 //!
 //! A rational function that does not vanish on the group vanishes at a random point of it with a chance of its degree
 //! over `2^61` (Schwartz, J. ACM 27 (1980) 701; the groups are rational varieties), at [`POINTS`] points with that to
@@ -25,25 +26,33 @@ pub(super) struct GroupPoint {
 }
 
 impl GroupPoint {
-    /// The points that decide about a chart of a confined motion.
-    pub(super) fn all(arena: &Arena, chart: &Chart, group: Constraint) -> Vec<Self> {
+    /// The points that decide about a chart of a motion, on the group of its constraint where it has one.
+    pub(super) fn all(arena: &Arena, chart: &Chart, group: Option<Constraint>) -> Vec<Self> {
         (0..POINTS).map(|seed| Self::new(arena, chart, group, seed)).collect()
     }
 
-    fn new(arena: &Arena, chart: &Chart, group: Constraint, seed: usize) -> Self {
+    fn new(arena: &Arena, chart: &Chart, group: Option<Constraint>, seed: usize) -> Self {
         let mut point = Self { seed, values: HashMap::new() };
         let scale = match group {
-            Constraint::Conformal => point.value("scale"),
-            Constraint::Isochoric | Constraint::Rigid => Residue::from_rational(&Rational::ONE),
+            None | Some(Constraint::Conformal) => point.value("scale"),
+            Some(Constraint::Isochoric | Constraint::Rigid) => Residue::from_rational(&Rational::ONE),
         };
         let phi = match group {
-            Constraint::Isochoric => unimodular(&point.sample(arena, &chart.phi)),
-            Constraint::Rigid | Constraint::Conformal => {
+            // det phi = D^n
+            None => {
+                let mut phi = unimodular(&point.sample(arena, &chart.phi));
+                let det = (1..chart.dim).fold(scale, |power, _| power.mul(&scale));
+                phi[0].iter_mut().for_each(|entry| *entry = entry.mul(&det));
+                phi
+            }
+            Some(Constraint::Isochoric) => unimodular(&point.sample(arena, &chart.phi)),
+            Some(Constraint::Rigid | Constraint::Conformal) => {
                 let rotation = cayley(&Constraint::Rigid.projected(&point.sample(arena, &chart.phi)));
                 scaled(&rotation, scale)
             }
         };
-        let momentum = group.projected(&point.sample(arena, &chart.m));
+        let momentum = point.sample(arena, &chart.m);
+        let momentum = group.map_or_else(|| momentum.clone(), |group| group.projected(&momentum));
         for (symbols, values) in [(&chart.phi, phi), (&chart.m, momentum)] {
             for (symbol, value) in symbols.0.iter().flatten().zip(values.concat()) {
                 point.values.insert(arena.name(*symbol).unwrap_or_default().to_owned(), value);
@@ -67,10 +76,11 @@ impl GroupPoint {
         group: Constraint,
         seed: usize,
     ) -> HashMap<String, Residue> {
-        Self::new(arena, chart, group, seed).values
+        Self::new(arena, chart, Some(group), seed).values
     }
 
-    fn value(&self, name: &str) -> Residue {
+    /// The value of a symbol.
+    pub(super) fn value(&self, name: &str) -> Residue {
         let known = self.values.get(name).copied();
         known.unwrap_or_else(|| Residue::sample(&format!("{} at point {}", name, self.seed)))
     }

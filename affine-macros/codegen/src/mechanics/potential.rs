@@ -51,7 +51,7 @@ impl Potential {
     /// The potential `energy`, an expression in base functions, parameters and numbers.
     pub fn new(arena: &mut Arena, dim: usize, energy: Expr) -> Self {
         let slopes = Self::slopes(arena, dim, energy);
-        let invariance = Evidence::identities(arena, dim, &slopes);
+        let invariance = Evidence::new(arena, dim, &slopes, None);
         let time = Self::time_in(arena, energy);
         Self { dim, energy, slopes, time, invariance, domain: Vec::new() }
     }
@@ -66,7 +66,7 @@ impl Potential {
         let energy = restricted(arena, dim, energy, group)?;
         let domain = domain::confined(arena, dim, domain, group)?;
         let slopes = Self::slopes(arena, dim, energy);
-        let invariance = Evidence::on_the_group(arena, dim, &slopes, group);
+        let invariance = Evidence::new(arena, dim, &slopes, Some(group));
         let time = Self::time_in(arena, energy);
         Some(Self { dim, energy, slopes, time, invariance, domain })
     }

@@ -31,7 +31,7 @@ impl Dissipation {
         let mut list = candidates.to_vec();
         list.retain(|c| *c != Candidate::Energy);
         if let Some(group) = chart.confined {
-            for point in GroupPoint::all(arena, chart, group) {
+            for point in GroupPoint::all(arena, chart, Some(group)) {
                 let value = |p: &Polynomial| -> Residue { point.evaluate(arena, p) };
                 let flow = Flow::vertical(chart, self.push(chart, h, &value), &value);
                 list.retain(|c| flow.leaves(*c));

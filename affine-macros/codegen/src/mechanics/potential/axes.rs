@@ -1,12 +1,10 @@
 //! Isotropic potentials on the principal axes: `phi = L D R^T` has the potential of `D`.
 
 use crate::algebra::arena::Node;
-use crate::algebra::ring::Square;
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::mechanics::symmetry::Side;
 use crate::mechanics::two_polar::{Lattice, Variables};
 
-use super::invariance::Evidence;
 use super::rewriting::{about_undeformed, through_dilatation};
 use super::{Base, Potential, is_parameter};
 
@@ -27,14 +25,8 @@ impl Potential {
     /// The first rotation that changes the potential: its side and plane, axes from 1.
     #[must_use]
     pub fn anisotropy(&self) -> Option<(Side, (usize, usize))> {
-        // The evidence of a constraint is another; the two-polar form has none.
-        let Evidence::Identities(invariance) = &self.invariance else { return None };
-        let turns = |square: &Square<Polynomial>| {
-            let planes = (0..self.dim).flat_map(|a| (a + 1..self.dim).map(move |b| (a, b)));
-            planes.into_iter().find(|(a, b)| square[*a][*b] != square[*b][*a]).map(|(a, b)| (a + 1, b + 1))
-        };
-        let space = turns(&invariance.space).map(|plane| (Side::Space, plane));
-        space.or_else(|| turns(&invariance.body).map(|plane| (Side::Body, plane)))
+        let turned = |side| self.invariance.changed_by(side).map(|(a, b)| (side, (a + 1, b + 1)));
+        turned(Side::Space).or_else(|| turned(Side::Body))
     }
 
     /// Does it depend on `q = ln(det phi)/n` alone?

@@ -41,7 +41,12 @@ impl Base {
 
     /// Its symbol in expressions.
     pub fn symbol(self, arena: &mut Arena) -> Expr {
-        arena.symbol(&match self {
+        arena.symbol(&self.name())
+    }
+
+    /// The name of that symbol.
+    pub(super) fn name(self) -> String {
+        match self {
             Self::MeanLogStretch => "q".to_owned(),
             Self::LogStretch(a) => format!("q_{}", a + 1),
             Self::Trace => "trace_1".to_owned(),
@@ -50,7 +55,7 @@ impl Base {
             Self::Finger(i, j) => format!("finger_{}{}", i.min(j) + 1, i.max(j) + 1),
             Self::Placement(i, a) => format!("phi_{}{}", i + 1, a + 1),
             Self::Position(i) => format!("x_{}", i + 1),
-        })
+        }
     }
 
     /// The number that its slope is multiplied by in a force, taken into the slope.

@@ -1,16 +1,18 @@
 //! What a potential leaves conserved: its derivatives along the generators of the group.
 
+use crate::algebra::evaluate::{Field, evaluate};
 use crate::algebra::residue::Residue;
 use crate::algebra::ring::{Ring, Square, deviator, skew, sum, table};
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Rational};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::group_point::GroupPoint;
+use crate::mechanics::symmetry::Side;
 
 use super::principal::Principal;
 use super::rewriting::through_dilatation;
-use super::tensors::{Along, Tensors, definitions, direction, finger, green, placement};
+use super::tensors::{Along, Tensors, direction, finger, green};
 use super::{Base, Potential};
 
 impl Potential {
@@ -21,123 +23,113 @@ impl Potential {
         if candidate == Candidate::Energy {
             return !self.depends_on_time();
         }
-        match &self.invariance {
-            Evidence::Identities(one) => one.keeps(candidate),
-            Evidence::OnTheGroup(points) => points.iter().all(|point| point.keeps(candidate)),
-        }
+        self.invariance.keeps(candidate)
     }
 }
 
-/// What shows that derivatives vanish.
+/// Derivatives of `U` along the generators, at a point modulo a prime.
 #[derive(Clone, Debug)]
-pub(super) enum Evidence {
-    /// They are zero as polynomials.
-    Identities(Invariance<Polynomial>),
-    /// They are zero at random points of the group of a constraint, projected for it.
-    OnTheGroup(Vec<Invariance<Residue>>),
+struct AtAPoint {
+    space: Square<Residue>,
+    body: Square<Residue>,
+    centre: Vec<Residue>,
+    orbital: Square<Residue>,
 }
+
+/// What shows which derivatives vanish: points of `GL(n)`, or of the group of a constraint, for which they are projected.
+#[derive(Clone, Debug)]
+pub(super) struct Evidence(Vec<AtAPoint>);
 
 impl Evidence {
-    pub(super) fn identities(arena: &mut Arena, n: usize, slopes: &[(Base, Expr)]) -> Self {
-        Self::Identities(Invariance::new(arena, n, slopes))
-    }
-
-    pub(super) fn on_the_group(
+    pub(super) fn new(
         arena: &mut Arena,
         n: usize,
         slopes: &[(Base, Expr)],
-        group: Constraint,
+        group: Option<Constraint>,
     ) -> Self {
-        let mut through = Vec::new();
-        for (base, slope) in slopes {
-            through.push((*base, through_dilatation(arena, *slope)));
-        }
-        let chart = chart(arena, n);
-        let symbolic = Invariance::new(arena, n, &through);
+        let slopes: Vec<(Base, Expr)> =
+            slopes.iter().map(|(base, slope)| (*base, through_dilatation(arena, *slope))).collect();
+        let chart = Chart::new(arena, n, Momentum::Body, Some(Linear::Space));
         let points = GroupPoint::all(arena, &chart, group);
         let at = |point: &GroupPoint| {
-            let value = |p: &Polynomial| point.evaluate(arena, p);
-            let values = |m: &Square<Polynomial>| table(n, |a, b| value(&m[a][b]));
-            Invariance {
-                space: group.projected(&values(&symbolic.space)),
-                body: group.projected(&values(&symbolic.body)),
-                centre: symbolic.centre.iter().map(value).collect(),
-                orbital: values(&symbolic.orbital),
+            let at = AtAPoint::new(arena, n, &slopes, point);
+            match group {
+                None => at,
+                Some(group) => {
+                    AtAPoint { space: group.projected(&at.space), body: group.projected(&at.body), ..at }
+                }
             }
         };
-        Self::OnTheGroup(points.iter().map(at).collect())
+        Self(points.iter().map(at).collect())
+    }
+
+    fn keeps(&self, candidate: Candidate) -> bool {
+        self.0.iter().all(|point| point.keeps(candidate))
     }
 
     /// Do the derivatives with respect to the placement vanish?
     pub(super) fn moves_no_placement(&self) -> bool {
-        match self {
-            Self::Identities(one) => one.keeps(Candidate::AffineSpin),
-            Self::OnTheGroup(points) => points.iter().all(|point| point.keeps(Candidate::AffineSpin)),
-        }
+        self.keeps(Candidate::AffineSpin)
+    }
+
+    /// The first rotation, of space or body, along which the energy changes; its plane.
+    pub(super) fn changed_by(&self, side: Side) -> Option<(usize, usize)> {
+        let n = self.0.first()?.space.len();
+        let turns = |point: &AtAPoint, (a, b): (usize, usize)| {
+            let generators = if side == Side::Space { &point.space } else { &point.body };
+            generators[a][b] != generators[b][a]
+        };
+        let mut planes = (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b)));
+        planes.find(|plane| self.0.iter().any(|point| turns(point, *plane)))
     }
 }
 
-/// Derivatives of `U` along the generators, as polynomials in `phi`, `x` and functions.
-#[derive(Clone, Debug)]
-pub(super) struct Invariance<R> {
-    pub(super) space: Square<R>,
-    pub(super) body: Square<R>,
-    centre: Vec<R>,
-    orbital: Square<R>,
-}
-
-/// The chart whose placement and position the derivatives are written in.
-fn chart(arena: &mut Arena, n: usize) -> Chart {
-    Chart::new(arena, n, Momentum::Body, Some(Linear::Space))
-}
-
-impl Invariance<Polynomial> {
-    fn new(arena: &mut Arena, n: usize, slopes: &[(Base, Expr)]) -> Self {
-        let chart = chart(arena, n);
-        let phi = placement(&chart);
+impl AtAPoint {
+    fn new(arena: &Arena, n: usize, slopes: &[(Base, Expr)], point: &GroupPoint) -> Self {
+        let phi = table(n, |i, a| point.value(&format!("phi_{}{}", i + 1, a + 1)));
         let (green, finger) = (table(n, |a, b| green(&phi, a, b)), table(n, |i, j| finger(&phi, i, j)));
-        let definitions = definitions(arena, n, &chart);
-        let value =
-            |atom: Expr| definitions.iter().find(|(symbol, _)| *symbol == atom).map(|(_, p)| p.clone());
-        let slopes: Vec<(Base, Polynomial)> = slopes
+        let principal = Principal::on_unit_axes(n, |a, k| point.value(&format!("axis_{}{}", a + 1, k + 1)));
+        let tensors = Tensors { phi, green, finger, cofactors: Vec::new(), principal };
+        let mut known = tensors.values();
+        for k in 1..=n {
+            let inverse = point.value(&format!("stretch_{k}")).recip().unwrap_or(Residue::UNKNOWN);
+            known.insert(format!("inverse_stretch_{k}"), inverse);
+        }
+        let value = |name: &str| Some(known.get(name).copied().unwrap_or_else(|| point.value(name)));
+        let slopes: Vec<(Base, Residue)> = slopes
             .iter()
             .map(|(base, slope)| {
-                // Traces are sums of entries of tensors, tensors are polynomials in phi.
-                let form = Polynomial::normal_form(arena, *slope).substitute(&value).substitute(&value);
-                (*base, form.scaled(&base.weight(n)))
+                let slope = evaluate(arena, *slope, &value).unwrap_or(Residue::UNKNOWN);
+                (*base, slope.mul(&Residue::from_rational(&base.weight(n))))
             })
             .collect();
-        let principal = Principal::on_unit_axes(arena, n);
-        let tensors = Tensors { phi, green, finger, cofactors: Vec::new(), principal };
         let along = |along: Along| {
             table(n, |a, b| {
-                let mut sum = Polynomial::zero();
+                let mut sum = Residue::ZERO;
                 for (base, slope) in &slopes {
-                    sum.add_product(slope, &direction(*base, along, &tensors, a, b), &Rational::ONE);
+                    sum.plus_product(slope, &direction(*base, along, &tensors, a, b), &Rational::ONE);
                 }
                 sum
             })
         };
         let position = |i: usize| {
             let found = slopes.iter().find(|(base, _)| *base == Base::Position(i));
-            found.map_or_else(Polynomial::zero, |(_, slope)| slope.clone())
+            found.map_or(Residue::ZERO, |(_, slope)| *slope)
         };
         Self {
             space: along(Along::Space),
             body: along(Along::Body),
             centre: (0..n).map(position).collect(),
-            orbital: table(n, |i, j| Polynomial::atom(chart.x[i]).mul(&position(j))),
+            orbital: table(n, |i, j| point.value(&format!("x_{}", i + 1)).mul(&position(j))),
         }
     }
-}
 
-impl<R: Ring> Invariance<R> {
-    fn total(&self) -> Square<R> {
+    fn total(&self) -> Square<Residue> {
         sum(&self.orbital, &self.space)
     }
 
     fn keeps(&self, candidate: Candidate) -> bool {
-        let vanish = |list: &[R]| list.iter().all(Ring::vanishes);
+        let vanish = |list: &[Residue]| list.iter().all(Ring::vanishes);
         match candidate {
             Candidate::Energy => true,
             Candidate::LinearMomentum | Candidate::ComovingLinearMomentum => vanish(&self.centre),
@@ -156,7 +148,7 @@ impl<R: Ring> Invariance<R> {
             Candidate::Spin | Candidate::SpinNorm => vanish(&skew(&self.space)),
             Candidate::Vorticity | Candidate::VorticityNorm => vanish(&skew(&self.body)),
             Candidate::Casimir1 => {
-                let mut trace = R::zero();
+                let mut trace = Residue::ZERO;
                 self.space.iter().enumerate().for_each(|(i, row)| trace.plus(&row[i], &Rational::ONE));
                 trace.vanishes()
             }

@@ -145,7 +145,7 @@ impl Potential {
     }
 
     /// The tensors of `Psi`.
-    fn unit_tensors(&self, arena: &mut Arena) -> Tensors {
+    fn unit_tensors(&self, arena: &mut Arena) -> Tensors<Polynomial> {
         let n = self.dim;
         let mut symbols = |base: fn(usize, usize) -> Base| -> Square<Polynomial> {
             (0..n).map(|a| (0..n).map(|b| Polynomial::atom(base(a, b).unit(arena))).collect()).collect()
@@ -157,7 +157,7 @@ impl Potential {
         Tensors { phi, green, finger, cofactors, principal: Principal::new(arena, n) }
     }
 
-    fn tensors(&self, arena: &mut Arena, chart: &Chart) -> Tensors {
+    fn tensors(&self, arena: &mut Arena, chart: &Chart) -> Tensors<Polynomial> {
         let n = self.dim;
         let mut symbols = |base: fn(usize, usize) -> Base| -> Square<Polynomial> {
             (0..n).map(|a| (0..n).map(|b| Polynomial::atom(base(a, b).symbol(arena))).collect()).collect()

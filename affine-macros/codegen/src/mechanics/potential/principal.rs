@@ -1,7 +1,7 @@
 //! Stretches and principal axes: `phi R = L diag(Q)`, `L` and `R` rotations.
 
 use crate::algebra::kernel::{Callee, Group};
-use crate::algebra::ring::{Square, table};
+use crate::algebra::ring::{Ring, Square, table};
 use crate::algebra::{Arena, Expr, Function, Kernel, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 
@@ -10,16 +10,16 @@ use super::tensors::{Along, placement};
 
 /// Products of the entries of principal axes, in which the derivatives of log-stretches are written: with column `k` of `R`
 /// and of `L` written `R_k` and `L_k`, `dq_k = R_k . Oh R_k = L_k . Om L_k`.
-pub(super) struct Principal {
+pub(super) struct Principal<R> {
     /// `R_Ak R_Bk`, an array for each `k`.
-    body: Vec<Square<Polynomial>>,
+    body: Vec<Square<R>>,
     /// `Q_k^2 L_ik L_jk`.
-    space: Vec<Square<Polynomial>>,
+    space: Vec<Square<R>>,
     /// `Q_k L_ik R_Ak`.
-    placement: Vec<Square<Polynomial>>,
+    placement: Vec<Square<R>>,
 }
 
-impl Principal {
+impl Principal<Polynomial> {
     /// Through what the kernel returns: `R`, and `W = phi R` with `L_k = W_k/Q_k`.
     pub(super) fn new(arena: &mut Arena, n: usize) -> Self {
         let axis = table(n, |a, k| format!("axis_{}{}", a + 1, k + 1));
@@ -39,21 +39,29 @@ impl Principal {
             placement: each(&|k, i, a| vec![stretched[i][k], axis[a][k]]),
         }
     }
+}
 
-    /// Through axes of which only their length is known: `R_nk^2 = 1 - R_1k^2 - ...`, so that traces are exact. `L` is as
-    /// good as `R` for what depends on one of them.
-    pub(super) fn on_unit_axes(arena: &mut Arena, n: usize) -> Self {
-        let mut body = Self::new(arena, n).body;
-        for axes in &mut body {
-            let mut last = Polynomial::constant(Rational::ONE);
-            (0..n - 1).for_each(|a| last.add_scaled(&axes[a][a], &Rational::MINUS_ONE));
-            axes[n - 1][n - 1] = last;
-        }
+impl<R: Ring> Principal<R> {
+    /// With values for the components of axes of which only their length is known: `R_nk^2 = 1 - R_1k^2 - ...`, so that
+    /// traces are exact. `L` is as good as `R` for what depends on one of them.
+    pub(super) fn on_unit_axes(n: usize, component: impl Fn(usize, usize) -> R) -> Self {
+        let axes = |k: usize| {
+            let mut products = table(n, |a, b| {
+                let mut product = R::zero();
+                product.plus_product(&component(a, k), &component(b, k), &Rational::ONE);
+                product
+            });
+            let mut last = R::number(&Rational::ONE);
+            (0..n - 1).for_each(|a| last.plus(&products[a][a], &Rational::MINUS_ONE));
+            products[n - 1][n - 1] = last;
+            products
+        };
+        let body: Vec<_> = (0..n).map(axes).collect();
         Self { space: body.clone(), body, placement: Vec::new() }
     }
 
     /// Derivative of `q_k`, times `Q_k^2` unless it is along the body.
-    pub(super) fn direction(&self, k: usize, along: Along, a: usize, b: usize) -> Polynomial {
+    pub(super) fn direction(&self, k: usize, along: Along, a: usize, b: usize) -> R {
         match along {
             Along::Body => self.body[k][a][b].clone(),
             Along::Space => self.space[k][a][b].clone(),

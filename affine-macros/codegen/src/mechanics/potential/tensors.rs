@@ -1,21 +1,42 @@
 //! Deformation tensors in a chart, and the derivatives of the base functions along the group.
 
-use crate::algebra::ring::{Square, adjugate};
+use std::collections::HashMap;
+
+use crate::algebra::ring::{Ring, Square, adjugate};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 
 use super::base::Base;
 use super::principal::Principal;
 
-/// Deformation tensors as symbols or as polynomials in `phi`, whichever the purpose asks for.
-pub(super) struct Tensors {
-    pub(super) phi: Square<Polynomial>,
-    pub(super) green: Square<Polynomial>,
-    pub(super) finger: Square<Polynomial>,
+/// Deformation tensors as symbols or as numbers, whichever the purpose asks for.
+pub(super) struct Tensors<R> {
+    pub(super) phi: Square<R>,
+    pub(super) green: Square<R>,
+    pub(super) finger: Square<R>,
     /// `d(det phi)/dphi`; only the canonical chart needs it.
-    pub(super) cofactors: Square<Polynomial>,
+    pub(super) cofactors: Square<R>,
     /// Stretches and principal axes; only single stretches need them.
-    pub(super) principal: Principal,
+    pub(super) principal: Principal<R>,
+}
+
+impl<R: Ring> Tensors<R> {
+    /// The values of tensors and traces by the names of their symbols.
+    pub(super) fn values(&self) -> HashMap<String, R> {
+        let n = self.phi.len();
+        let mut values = HashMap::new();
+        let (mut trace, mut of_square) = (R::zero(), R::zero());
+        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+            of_square.plus_product(&self.green[a][b], &self.green[a][b], &Rational::ONE);
+            if a == b {
+                trace.plus(&self.green[a][b], &Rational::ONE);
+            }
+            values.insert(Base::Green(a, b).name(), self.green[a][b].clone());
+            values.insert(Base::Finger(a, b).name(), self.finger[a][b].clone());
+        }
+        values.extend([(Base::Trace.name(), trace), (Base::TraceOfSquare.name(), of_square)]);
+        values
+    }
 }
 
 /// The directions of a derivative: the entries of an affine momentum.
@@ -56,14 +77,19 @@ pub(super) fn definitions(arena: &mut Arena, n: usize, chart: &Chart) -> Vec<(Ex
 }
 
 /// The derivative of a base function, divided by the number that its slope carries.
-pub(super) fn direction(base: Base, along: Along, tensors: &Tensors, a: usize, b: usize) -> Polynomial {
-    let one = |holds: bool| Polynomial::constant(if holds { Rational::ONE } else { Rational::ZERO });
+pub(super) fn direction<R: Ring>(base: Base, along: Along, tensors: &Tensors<R>, a: usize, b: usize) -> R {
+    let one = |holds: bool| R::number(if holds { &Rational::ONE } else { &Rational::ZERO });
     let Tensors { phi, green, finger, cofactors, principal } = tensors;
-    let mut sum = Polynomial::zero();
-    let mut add = |holds: bool, value: &Polynomial| {
+    let mut sum = R::zero();
+    let mut add = |holds: bool, value: &R| {
         if holds {
-            sum.add_scaled(value, &Rational::ONE);
+            sum.plus(value, &Rational::ONE);
         }
+    };
+    let times = |a: &R, b: &R| {
+        let mut product = R::zero();
+        product.plus_product(a, b, &Rational::ONE);
+        product
     };
     match (base, along) {
         (Base::Position(_), _) => {}
@@ -82,16 +108,16 @@ pub(super) fn direction(base: Base, along: Along, tensors: &Tensors, a: usize, b
         }
         // d(phi_kC phi_kD)/dphi_jA phi_iA = phi_iC phi_jD + phi_jC phi_iD
         (Base::Green(c, d), Along::Space) => {
-            add(true, &phi[a][c].mul(&phi[b][d]));
-            add(true, &phi[b][c].mul(&phi[a][d]));
+            add(true, &times(&phi[a][c], &phi[b][d]));
+            add(true, &times(&phi[b][c], &phi[a][d]));
         }
         (Base::Green(c, d), Along::Placement) => {
             add(b == c, &phi[a][d]);
             add(b == d, &phi[a][c]);
         }
         (Base::Finger(i, j), Along::Body) => {
-            add(true, &phi[i][b].mul(&phi[j][a]));
-            add(true, &phi[i][a].mul(&phi[j][b]));
+            add(true, &times(&phi[i][b], &phi[j][a]));
+            add(true, &times(&phi[i][a], &phi[j][b]));
         }
         (Base::Finger(k, l), Along::Space) => {
             add(b == k, &finger[a][l]);
@@ -108,10 +134,10 @@ pub(super) fn direction(base: Base, along: Along, tensors: &Tensors, a: usize, b
     sum
 }
 
-fn entry_of_product(left: &Square<Polynomial>, right: &Square<Polynomial>, a: usize, b: usize) -> Polynomial {
-    let mut sum = Polynomial::zero();
+fn entry_of_product<R: Ring>(left: &Square<R>, right: &Square<R>, a: usize, b: usize) -> R {
+    let mut sum = R::zero();
     for (k, row) in right.iter().enumerate() {
-        sum.add_product(&left[a][k], &row[b], &Rational::ONE);
+        sum.plus_product(&left[a][k], &row[b], &Rational::ONE);
     }
     sum
 }
@@ -126,14 +152,14 @@ pub(super) fn placement(chart: &Chart) -> Square<Polynomial> {
     chart.phi.0.iter().map(|row| row.iter().map(|e| Polynomial::atom(*e)).collect()).collect()
 }
 
-pub(super) fn green(phi: &Square<Polynomial>, a: usize, b: usize) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    phi.iter().for_each(|row| sum.add_product(&row[a], &row[b], &Rational::ONE));
+pub(super) fn green<R: Ring>(phi: &Square<R>, a: usize, b: usize) -> R {
+    let mut sum = R::zero();
+    phi.iter().for_each(|row| sum.plus_product(&row[a], &row[b], &Rational::ONE));
     sum
 }
 
-pub(super) fn finger(phi: &Square<Polynomial>, i: usize, j: usize) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    phi[i].iter().zip(&phi[j]).for_each(|(left, right)| sum.add_product(left, right, &Rational::ONE));
+pub(super) fn finger<R: Ring>(phi: &Square<R>, i: usize, j: usize) -> R {
+    let mut sum = R::zero();
+    phi[i].iter().zip(&phi[j]).for_each(|(left, right)| sum.plus_product(left, right, &Rational::ONE));
     sum
 }
