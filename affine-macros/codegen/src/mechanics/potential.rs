@@ -16,6 +16,7 @@ mod restriction;
 mod rewriting;
 mod scaled;
 pub mod stretches;
+mod sums;
 mod tensors;
 
 use crate::algebra::{Arena, Expr, Polynomial};

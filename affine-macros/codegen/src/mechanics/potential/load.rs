@@ -9,6 +9,7 @@ use super::base::Base;
 use super::principal::{self, Principal};
 use super::rewriting::through_dilatation;
 use super::scaled::{self, scaled_bases};
+use super::sums::Sums;
 use super::tensors::{Along, Tensors, cofactors, definitions, direction, placement};
 use super::{Potential, is_parameter};
 
@@ -76,12 +77,15 @@ impl Potential {
         load: &mut Load,
     ) -> Vec<(Base, Polynomial)> {
         let mut weighted: Vec<(Base, Polynomial)> = Vec::new();
+        let mut sums = Sums::default();
         for (base, slope) in &self.slopes {
             let form = through_dilatation(arena, *slope);
             let form = match steep {
                 true => self.of_unit(arena, form, base.degree() - i32::from(base.is_moved(along))),
-                false => Polynomial::normal_form(arena, form),
+                false => form,
             };
+            let form = sums.named(arena, form);
+            let form = normal_form(arena, form, steep);
             let form = form.scaled(&base.weight(self.dim));
             let form = match (base, along) {
                 (Base::LogStretch(_), Along::Body) => form,
@@ -102,6 +106,9 @@ impl Potential {
                 slope = Polynomial::atom(swelling);
             }
             weighted.push((*base, slope));
+        }
+        for (symbol, sum) in sums.known() {
+            load.shared.push((*symbol, normal_form(arena, *sum, steep)));
         }
         weighted
     }
@@ -131,7 +138,7 @@ impl Potential {
     }
 
     /// `D^degree` times an expression in `D`, `1/D` and base functions, through `Psi`.
-    fn of_unit(&self, arena: &mut Arena, form: Expr, degree: i32) -> Polynomial {
+    fn of_unit(&self, arena: &mut Arena, form: Expr, degree: i32) -> Expr {
         let [d, inverse_d] = ["dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
         let reciprocal = arena.pow(d, -1).unwrap_or(d);
         let mut values = scaled_bases(arena, self.dim, d);
@@ -139,9 +146,7 @@ impl Potential {
         let value = |symbol: Expr| values.iter().find(|(known, _)| *known == symbol).map(|(_, value)| *value);
         // Powers of D are not zero.
         let form = arena.substitute(form, &value).unwrap_or(form);
-        let form = arena.product(&[(form, 1), (d, degree)]).unwrap_or(form);
-        let named = |atom: Expr| (atom == reciprocal).then(|| Polynomial::atom(inverse_d));
-        scaled::collected(arena, form, d).substitute(&named)
+        arena.product(&[(form, 1), (d, degree)]).unwrap_or(form)
     }
 
     /// The tensors of `Psi`.
@@ -210,6 +215,17 @@ impl Potential {
             (q, Polynomial::term(vec![logarithm], nth)),
         ]
     }
+}
+
+/// The normal form of a part of a slope, with `1/D` as an atom; without products of `D` and `1/D` where it is steep.
+fn normal_form(arena: &mut Arena, form: Expr, steep: bool) -> Polynomial {
+    if !steep {
+        return Polynomial::normal_form(arena, form);
+    }
+    let [d, inverse_d] = ["dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
+    let reciprocal = arena.pow(d, -1).unwrap_or(d);
+    let named = |atom: Expr| (atom == reciprocal).then(|| Polynomial::atom(inverse_d));
+    scaled::collected(arena, form, d).substitute(&named)
 }
 
 /// `Q_tr`, or `phi^T Q_tr` beside `p_hat`; the slopes carry the sign.

@@ -1,0 +1,45 @@
+//! Energies that users of such software write, at placements from large stretches down to hardly strained ones, against forces
+//! of 40 digits.
+//!
+//! `S` is what one rounding in every entry of `phi` does to a force, `sum |d2U/dphi dphi| |phi|`.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod energies;
+mod table;
+
+use table::{Energy, Row};
+
+/// `|error| <= BOUND eps (|S| + |F|)`: a natural matrix formula needs 0.7 at most.
+const BOUND: f64 = 4.0;
+
+#[test]
+fn forces_within_the_rounding_of_the_placement() {
+    let energies = energies::all();
+    assert_eq!(energies.len(), 39);
+    let mut missed = Vec::new();
+    for Energy { name, rows, .. } in &energies {
+        assert_eq!(rows.len(), 6, "{name}");
+        for Row { at, error, size, sensitivity, .. } in rows {
+            let ratio = error / (f64::EPSILON * (sensitivity + size));
+            if ratio.is_nan() || ratio > BOUND {
+                missed.push(format!("{name} at {at}: {ratio:.1e}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{missed:#?}");
+}
+
+/// Operations, and the worst errors in `eps (|S| + |F|)` and in `eps (near + |F|)`, where `near` is `S` with `|phi - 1|` for
+/// `|phi|`: `cargo test --test potentials figures -- --nocapture`.
+#[test]
+fn figures() {
+    for Energy { name, operations, rows } in energies::all() {
+        let worst = |part: fn(&Row) -> f64, strained: bool| {
+            let rows = rows.iter().filter(|row| !strained || row.at != "large");
+            rows.map(|row| row.error / (f64::EPSILON * (part(row) + row.size))).fold(0.0, f64::max)
+        };
+        let (first, second) = (worst(|row| row.sensitivity, false), worst(|row| row.near, true));
+        println!("{name:14} {operations:>24} {first:9.1e} {second:9.1e}");
+        assert!(first.is_finite());
+    }
+}
