@@ -6,9 +6,11 @@ use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::equations::Load;
 
 use super::base::Base;
+use super::excess::{self, through_excess};
 use super::principal::{self, Principal};
 use super::rewriting::through_dilatation;
 use super::scaled::{self, scaled_bases};
+use super::second::{self, through_second_invariant};
 use super::sums::Sums;
 use super::tensors::{Along, Tensors, cofactors, definitions, direction, placement};
 use super::{Potential, is_parameter};
@@ -34,9 +36,13 @@ impl Potential {
         };
         let weighted = self.weighted(arena, chart, (along, steep), &mut load);
         load.shared.extend(definitions(arena, self.dim, chart));
+        if self.dim == 3 {
+            load.shared.push(second::definition(arena, chart));
+        }
         if steep {
             let inverse = arena.symbol("inverse_dilatation");
             load.shared.extend(scaled::definitions(arena, chart, inverse));
+            load.shared.extend(excess::definitions(arena, self.dim));
         }
         load.shared.extend(cofactors(arena, chart));
         load.shared.extend(self.dilatation(arena, chart));
@@ -77,7 +83,8 @@ impl Potential {
         load: &mut Load,
     ) -> Vec<(Base, Polynomial)> {
         let mut weighted: Vec<(Base, Polynomial)> = Vec::new();
-        let mut sums = Sums::default();
+        // The slopes by the sums: where all of the force vanishes with one, its digits are those of the force.
+        let (mut sums, mut forms) = (Sums::default(), Vec::new());
         for (base, slope) in &self.slopes {
             let form = through_dilatation(arena, *slope);
             let form = match steep {
@@ -86,6 +93,7 @@ impl Potential {
             };
             let form = sums.named(arena, form);
             let form = normal_form(arena, form, steep);
+            forms.push(form.clone());
             let form = form.scaled(&base.weight(self.dim));
             let form = match (base, along) {
                 (Base::LogStretch(_), Along::Body) => form,
@@ -108,7 +116,11 @@ impl Potential {
             weighted.push((*base, slope));
         }
         for (symbol, sum) in sums.known() {
-            load.shared.push((*symbol, normal_form(arena, *sum, steep)));
+            let mut form = normal_form(arena, *sum, steep);
+            if steep && forms.iter().all(|form| form.terms().all(|(monomial, _)| monomial.contains(symbol))) {
+                form = through_excess(arena, self.dim, &form);
+            }
+            load.shared.push((*symbol, form));
         }
         weighted
     }
@@ -220,7 +232,8 @@ impl Potential {
 /// The normal form of a part of a slope, with `1/D` as an atom; without products of `D` and `1/D` where it is steep.
 fn normal_form(arena: &mut Arena, form: Expr, steep: bool) -> Polynomial {
     if !steep {
-        return Polynomial::normal_form(arena, form);
+        let form = Polynomial::normal_form(arena, form);
+        return through_second_invariant(arena, &form);
     }
     let [d, inverse_d] = ["dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
     let reciprocal = arena.pow(d, -1).unwrap_or(d);
