@@ -35,7 +35,7 @@ type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
 ///     .event(Event::new("top", |_, point: &Point| point.p()[1]).falling())
 ///     .run()?;
 /// let events: Vec<_> = run.events().iter().map(|event| (event.name, (event.t / 2.0f64.sqrt()).round())).collect();
-/// assert_eq!(events, [("x", 1.0), ("top", 2.0), ("x", 3.0)]);
+/// assert_eq!(events, [("top", 0.0), ("x", 1.0), ("top", 2.0), ("x", 3.0)]);
 /// # Ok::<(), affine_runtime::Error>(())
 /// ```
 ///
