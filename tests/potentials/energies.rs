@@ -5,7 +5,8 @@ use crate::table::{Energy, of};
 /// Energies by the names of the table.
 macro_rules! energies {
     ($($name:ident: ($dim:literal, $kinetic:tt, $($potential:tt)*));* $(;)?) => {
-        $(mod $name {
+        $(#[allow(dead_code)]
+        mod $name {
             use affine_runtime::prelude::*;
             #[affine_model(dim = $dim, kinetic $kinetic, potential = $($potential)*)]
             pub(super) struct Body;
