@@ -77,7 +77,10 @@ impl<const N: usize, T: Real> Translation<N, T> for NotPrepared {
 /// Stops the compilation of whatever calls it: of what is compiled for some `U`, not of this crate.
 #[allow(clippy::panic, reason = "evaluated by the compiler alone: the panic is the error message")]
 const fn unprepared<U, T>() -> T {
-    panic!("a struct with fields becomes a model by `.prepare()?`")
+    // Not known before there is some `U`: what is the same for all of them the compiler may evaluate at once.
+    let is_some_type = size_of::<U>() < usize::MAX;
+    assert!(!is_some_type, "a struct with fields becomes a model by `.prepare()?`");
+    unreachable!()
 }
 
 impl<const N: usize, U: Unprepared<N>> Model<N> for U {
