@@ -74,56 +74,59 @@ impl<const N: usize, T: Real> Translation<N, T> for NotPrepared {
     }
 }
 
-/// Stops the compilation of whatever calls it.
+/// Stops the compilation of whatever calls it: of what is compiled for some `U`, not of this crate.
 #[allow(clippy::panic, reason = "evaluated by the compiler alone: the panic is the error message")]
-const fn unprepared<T>() -> T {
-    panic!("a struct with fields becomes a model by `.prepare()?`")
+const fn unprepared<U, T>() -> T {
+    // Not known before there is some `U`: what is the same for all of them the compiler may evaluate at once.
+    let is_some_type = size_of::<U>() < usize::MAX;
+    assert!(!is_some_type, "a struct with fields becomes a model by `.prepare()?`");
+    unreachable!()
 }
 
 impl<const N: usize, U: Unprepared<N>> Model<N> for U {
-    const DESCRIPTION: Description = unprepared();
+    const DESCRIPTION: Description = unprepared::<U, _>();
     type Point<T: Real> = PhasePoint<N, Body, NotPrepared, T>;
     type Reduced<T: Scalar> = [T; 0];
     type Constants<T: Scalar> = ();
     type Full<T: Scalar> = [T; 0];
 
     fn velocity<T: Real>(&self, _: &Self::Point<T>) -> Velocity<N, T> {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
     fn kinetic_energy<T: Real>(&self, _: &Matrix<N, T>, _: &Velocity<N, T>) -> T {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
     fn hamiltonian<T: Real>(&self, _: T, _: &Self::Point<T>) -> T {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
     fn flatten<T: Real>(&self, _: &Self::Point<T>) -> [T; 0] {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
     fn unflatten<T: Real>(&self, _: &[T; 0]) -> Self::Point<T> {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
     fn hamilton_equations<T: Scalar>(&self, _: T, _: &[T; 0]) -> [T; 0] {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
     fn reduce<T: Real>(&self, _: T, _: &Self::Point<T>) -> ([T; 0], ()) {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
     fn reduced_equations<T: Scalar>(&self, _: T, (): &(), _: &[T; 0]) -> [T; 0] {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
     fn expand<T: Real>(&self, _: T, (): &(), _: &[T; 0]) -> Self::Point<T> {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
     fn regularity(&self, _: &Matrix<N>) -> Option<Regularity> {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
     fn bases(&self) -> Option<Bases<N>> {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
     fn domain(&self, _: f64, _: &Self::Point<f64>, _: &mut dyn FnMut(f64)) {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
     fn geodesic(&self, _: f64, _: &Self::Point<f64>) -> Option<Geodesic<N>> {
-        const { unprepared() }
+        const { unprepared::<U, _>() }
     }
 }
