@@ -147,7 +147,7 @@ pub const SYMBOLS: &[Symbol] = &[
     of("push_#", "N_R_#", "N_{R,#}", "the part of N that R has in other frames than that of the chart"),
     of("drag_centre_#", "F_R_#", "F_{R,#}", "the force of R on the centre of mass"),
     // The response of a potential: Q_hat = beta_0 1 + beta_1 G + beta_2 G^2 and its like.
-    of("sum_#", "zeta_#", "\\zeta_{#}", "sums that the potential raises to a power"),
+    of("raised_#", "zeta_#", "\\zeta_{#}", "sums that the potential raises to a power"),
     of("pressure", "beta_0", "\\beta_{0}", "the response to q, -1/n dU/dq"),
     of(
         "stress_#",

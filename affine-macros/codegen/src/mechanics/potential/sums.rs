@@ -56,7 +56,7 @@ impl Sums {
         if !raised.contains(&expr) || !matches!(arena.node(rebuilt), Node::Sum(..)) {
             return rebuilt;
         }
-        let symbol = arena.symbol(&format!("sum_{}", self.known.len() + 1));
+        let symbol = arena.symbol(&format!("raised_{}", self.known.len() + 1));
         self.known.push((symbol, rebuilt));
         symbol
     }
