@@ -79,13 +79,20 @@ pub fn straight_line(
         .chain(scaled)
         .chain(batch.shared.iter().map(|(symbol, _)| *symbol).zip(shared_forms.iter().cloned()))
         .collect();
-    let mut builder = Builder::new();
-    define(arena, &mut builder, open, calls);
-    for ((name, _), form) in batch.results.iter().zip(result_forms) {
-        let value = factored(arena, form);
-        builder.output(arena, name, value);
+    let mut built = |mut builder: Builder| {
+        define(arena, &mut builder, open.clone(), calls.clone());
+        for ((name, _), form) in batch.results.iter().zip(result_forms) {
+            let value = factored(arena, form);
+            builder.output(arena, name, value);
+        }
+        (builder.has_powers(), with_inverse_roots(&builder.finish()))
+    };
+    let (has_powers, program) = built(Builder::new());
+    if !has_powers {
+        return program;
     }
-    with_inverse_roots(&builder.finish())
+    let (_, stepping) = built(Builder::stepping_through_powers());
+    if stepping.operations().weight() <= program.operations().weight() { stepping } else { program }
 }
 
 /// Definitions and calls in an order in which each uses only what is there already.

@@ -9,12 +9,19 @@ use crate::algebra::{Arena, Expr, Rational};
 use super::call::Call;
 use super::{Op, Program, Value};
 
+/// Powers from this one on are made of squares: those below take as many products either way.
+const SQUARED: u32 = 4;
+
 /// Builds a program expression by expression.
 #[derive(Debug, Default)]
 pub struct Builder {
     program: Program,
     known: FxHashMap<Op, Value>,
     lowered: FxHashMap<Expr, Value>,
+    /// Every power is made from the one before, which pays where all of them are needed.
+    steps_through_powers: bool,
+    /// There is a power for which that makes a difference.
+    has_powers: bool,
 }
 
 impl Builder {
@@ -22,6 +29,18 @@ impl Builder {
     #[must_use]
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// An empty program whose powers are made one from the other.
+    #[must_use]
+    pub fn stepping_through_powers() -> Self {
+        Self { steps_through_powers: true, ..Self::default() }
+    }
+
+    /// Is there a power that is made of other powers than the one before?
+    #[must_use]
+    pub fn has_powers(&self) -> bool {
+        self.has_powers
     }
 
     /// Computes `value` once and reads `symbol` from it from here on.
@@ -132,6 +151,27 @@ impl Builder {
         sum.unwrap_or_else(|| self.constant(&Rational::ZERO))
     }
 
+    /// By few products: of a power by a power where the exponent has a small divisor, else of the power before by the base.
+    fn power(&mut self, base: Value, exponent: u32) -> Value {
+        if exponent < 2 {
+            return base;
+        }
+        match [2, 3, 5].into_iter().find(|divisor| exponent.is_multiple_of(*divisor)) {
+            Some(2) => {
+                let half = self.power(base, exponent / 2);
+                self.commutative(Op::Mul, half, half)
+            }
+            Some(divisor) if divisor < exponent => {
+                let part = self.power(base, exponent / divisor);
+                self.power(part, divisor)
+            }
+            _ => {
+                let before = self.power(base, exponent - 1);
+                self.commutative(Op::Mul, before, base)
+            }
+        }
+    }
+
     fn product(&mut self, arena: &Arena, factors: &[(Expr, i32)]) -> Value {
         let mut above: Option<Value> = None;
         let mut below: Option<Value> = None;
@@ -139,10 +179,17 @@ impl Builder {
             let base = self.lower(arena, base);
             let side = if exponent > 0 { &mut above } else { &mut below };
             let mut product = *side;
-            for _ in 0..exponent.unsigned_abs() {
+            let (factor, times) = match exponent.unsigned_abs() {
+                power if power < SQUARED || self.steps_through_powers => (base, power),
+                power => {
+                    self.has_powers = true;
+                    (self.power(base, power), 1)
+                }
+            };
+            for _ in 0..times {
                 product = Some(match product {
-                    None => base,
-                    Some(p) => self.commutative(Op::Mul, p, base),
+                    None => factor,
+                    Some(p) => self.commutative(Op::Mul, p, factor),
                 });
             }
             *side = product;

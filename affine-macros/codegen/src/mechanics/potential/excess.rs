@@ -5,10 +5,8 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::Base;
 
-/// The symbol of `tr(G/D^2) - n`.
-fn symbol(arena: &mut Arena) -> Expr {
-    arena.symbol("isochoric_excess")
-}
+/// Name of the symbol of `tr(G/D^2) - n`.
+pub(super) const NAME: &str = "isochoric_excess";
 
 /// A sum in which the trace of `G/D^2` is counted from `n`, through what that is near the undeformed state.
 pub(super) fn through_excess(arena: &mut Arena, n: usize, form: &Polynomial) -> Polynomial {
@@ -26,7 +24,7 @@ pub(super) fn through_excess(arena: &mut Arena, n: usize, form: &Polynomial) -> 
     let mut result = form.clone();
     result.add_term(vec![trace], &-&slope);
     result.add_term(Vec::new(), &-&constant);
-    result.add_term(vec![symbol(arena)], &slope);
+    result.add_term(vec![arena.symbol(NAME)], &slope);
     result
 }
 
@@ -70,6 +68,6 @@ pub(super) fn definitions(arena: &mut Arena, n: usize) -> Vec<(Expr, Polynomial)
     let below = arena.linear(&powers);
     // A sum of squares and one.
     let reciprocal = arena.pow(below, -1).unwrap_or(below);
-    list.push((symbol(arena), above.mul(&Polynomial::atom(reciprocal))));
+    list.push((arena.symbol(NAME), above.mul(&Polynomial::atom(reciprocal))));
     list
 }

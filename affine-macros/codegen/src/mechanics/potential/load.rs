@@ -36,13 +36,19 @@ impl Potential {
         };
         let weighted = self.weighted(arena, chart, (along, steep), &mut load);
         load.shared.extend(definitions(arena, self.dim, chart));
-        if self.dim == 3 {
+        let named = |name: &str| {
+            load.shared.iter().any(|(_, form)| form.any_symbol(arena, &mut |s| arena.name(s) == Some(name)))
+        };
+        let (takes_second, takes_excess) = (named(second::NAME), named(excess::NAME));
+        if takes_second {
             load.shared.push(second::definition(arena, chart));
         }
         if steep {
             let inverse = arena.symbol("inverse_dilatation");
             load.shared.extend(scaled::definitions(arena, chart, inverse));
-            load.shared.extend(excess::definitions(arena, self.dim));
+            if takes_excess {
+                load.shared.extend(excess::definitions(arena, self.dim));
+            }
         }
         load.shared.extend(cofactors(arena, chart));
         load.shared.extend(self.dilatation(arena, chart));

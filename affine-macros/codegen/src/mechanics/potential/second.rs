@@ -6,7 +6,7 @@ use crate::mechanics::charts::{Chart, Momentum};
 use super::Base;
 
 /// Name of the symbol of `I2`.
-const SECOND: &str = "second_invariant";
+pub(super) const NAME: &str = "second_invariant";
 
 /// The polynomial with `2 I2` for `(tr G)^2 - tr G^2`, where it stands with one factor.
 pub(super) fn through_second_invariant(arena: &mut Arena, form: &Polynomial) -> Polynomial {
@@ -19,7 +19,7 @@ pub(super) fn through_second_invariant(arena: &mut Arena, form: &Polynomial) -> 
         let partner = partner.terms().next().map(|(monomial, _)| monomial.clone()).unwrap_or_default();
         let opposite = form.terms().any(|(other, k)| *other == partner && *k == -c);
         if opposite {
-            let second = arena.symbol(SECOND);
+            let second = arena.symbol(NAME);
             result.add_term(monomial.clone(), &-c);
             result.add_term(partner, c);
             result.add_term(with(second), &(c + c));
@@ -48,5 +48,5 @@ pub(super) fn definition(arena: &mut Arena, chart: &Chart) -> (Expr, Polynomial)
         sum.add_term(vec![aa, bb], &Rational::ONE);
         sum.add_term(vec![ab, ab], &Rational::MINUS_ONE);
     }
-    (arena.symbol(SECOND), sum)
+    (arena.symbol(NAME), sum)
 }
