@@ -12,6 +12,10 @@ macro_rules! energies {
             pub(super) struct Body;
         })*
 
+        /// Name, dimension and text of each.
+        pub(crate) const TEXTS: &[(&str, usize, &str)] =
+            &[$((stringify!($name), $dim, stringify!($($potential)*))),*];
+
         /// All of them.
         pub(crate) fn all() -> Vec<Energy> {
             vec![$(of::<$dim, $name::Body>(stringify!($name), &$name::Body)),*]

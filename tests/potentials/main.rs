@@ -43,3 +43,26 @@ fn figures() {
         assert!(first.is_finite());
     }
 }
+
+/// An expansion forms no more than so many products of terms, counted where a clock would scatter.
+const WORK: u64 = 25_000;
+
+#[test]
+fn expansions_multiply_little_out() {
+    let product = |n: usize, potential: &str| {
+        let centre = if potential.contains('x') { ", space_translation = 1" } else { "" };
+        let args = format!("dim = {n}, kinetic(dalembert = 1{centre}), potential = {potential}");
+        let before = affine_codegen::algebra::work::products();
+        let tokens = affine_codegen::expand(args.parse().unwrap(), "struct Body;".parse().unwrap());
+        assert!(!tokens.to_string().contains("compile_error"), "{args}");
+        affine_codegen::algebra::work::products() - before
+    };
+    let more =
+        ["(tr(G)-3)^12", "(I2-3)^4", "(tr(G)*exp(-2*q)-3)^6", "(tr(G*G*G)-3)^3", "(G[1,1]-1)^9*tr(G*G)"];
+    let table = energies::TEXTS.iter().map(|(name, n, text)| (*name, *n, *text));
+    for (name, n, text) in table.chain(more.map(|text| (text, 3, text))) {
+        let work = product(n, text);
+        println!("{name:20} {work}");
+        assert!(work < WORK, "{name}: {work}");
+    }
+}

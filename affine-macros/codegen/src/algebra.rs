@@ -18,6 +18,7 @@ pub mod ring;
 pub mod root;
 pub mod substitute;
 pub mod text;
+pub mod work;
 
 pub use arena::{Arena, Expr};
 pub use function::Function;

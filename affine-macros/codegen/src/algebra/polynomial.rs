@@ -8,6 +8,10 @@ use std::cmp::Ordering;
 use super::arena::{Arena, Expr, Node};
 use super::function::Function;
 use super::rational::Rational;
+use super::work;
+
+/// Products of so many terms are sorted once, instead of put one by one where they belong.
+const COLLECTED: usize = 64;
 
 /// A product of atoms, sorted, a power repeated.
 pub type Monomial = Vec<Expr>;
@@ -176,11 +180,42 @@ impl Polynomial {
 
     /// Adds `left * right`.
     pub fn add_product(&mut self, left: &Self, right: &Self, weight: &Rational) {
+        let count = left.terms.len() * right.terms.len();
+        work::add(count);
+        let mut products = Vec::with_capacity(if count < COLLECTED { 0 } else { count });
         for (m1, c1) in &left.terms {
             let c1 = c1 * weight;
             for (m2, c2) in &right.terms {
-                self.add_term(merged(m1, m2), &(&c1 * c2));
+                match count < COLLECTED {
+                    true => self.add_term(merged(m1, m2), &(&c1 * c2)),
+                    false => products.push((merged(m1, m2), &c1 * c2)),
+                }
             }
+        }
+        self.collect(products);
+    }
+
+    /// Adds many terms at once.
+    fn collect(&mut self, mut terms: Vec<(Monomial, Rational)>) {
+        if terms.is_empty() {
+            return;
+        }
+        terms.append(&mut self.terms);
+        terms.sort_by(|(a, _), (b, _)| compared(a, b));
+        for (monomial, c) in terms {
+            match self.terms.last_mut() {
+                Some((last, sum)) if *last == monomial => *sum = &*sum + &c,
+                last => {
+                    let cancelled = last.is_some_and(|(_, sum)| sum.is_zero());
+                    if cancelled {
+                        self.terms.pop();
+                    }
+                    self.terms.push((monomial, c));
+                }
+            }
+        }
+        if self.terms.last().is_some_and(|(_, sum)| sum.is_zero()) {
+            self.terms.pop();
         }
     }
 

@@ -347,11 +347,34 @@ fn operations_by_hand() {
     let minus = arena.neg(x);
     assert_eq!(count(&arena, minus), Operations::default());
     assert_eq!(count(&arena, y), Operations::default());
-    // x^4 by three products; x^-2 as 1/(x x).
-    let power = arena.pow(x, 4).unwrap();
-    assert_eq!(count(&arena, power), Operations { mul: 3, add: 0, div: 0, ..Operations::default() });
+    // x^3 by two products, x^4 by squares, x^15 as (x^3)^5 or (x^5)^3, x^-2 as 1/(x x).
+    for (exponent, mul) in
+        [(2, 1), (3, 2), (4, 2), (6, 3), (7, 4), (8, 3), (15, 5), (16, 4), (30, 6), (49, 7)]
+    {
+        let power = arena.pow(x, exponent).unwrap();
+        let found = count(&arena, power);
+        assert_eq!(found, Operations { mul, ..Operations::default() }, "x^{exponent}");
+    }
     let power = arena.pow(x, -2).unwrap();
     assert_eq!(count(&arena, power), Operations { mul: 1, add: 0, div: 1, ..Operations::default() });
+}
+
+/// Powers by few products and one from the other: the same values, exactly.
+#[test]
+fn powers_are_what_they_are() {
+    for exponent in 1..=50 {
+        let mut arena = Arena::new();
+        let [x, y] = ["x", "y"].map(|name| arena.symbol(name));
+        let power = arena.product(&[(x, exponent), (y, -exponent)]).unwrap();
+        for mut builder in [Builder::new(), Builder::stepping_through_powers()] {
+            builder.output(&arena, "value", power);
+            let (three, half) = (Rational::from(3), Rational::ratio(1, 2).unwrap());
+            let input = |name: &str| Some(if name == "x" { three.clone() } else { half.clone() });
+            let found = builder.finish().run(&input);
+            let expected = (0..exponent).fold(Rational::ONE, |value, _| &value * &Rational::from(6));
+            assert_eq!(found, Some(vec![expected]), "x^{exponent}/y^{exponent}");
+        }
+    }
 }
 
 /// Equal subexpressions are computed once, whichever result asks first.
