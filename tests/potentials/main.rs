@@ -66,3 +66,26 @@ fn expansions_multiply_little_out() {
         assert!(work < WORK, "{name}: {work}");
     }
 }
+
+/// Phrases of textbooks are the same energies as those that are written by `q`.
+#[test]
+fn phrases_mean_what_they_say() {
+    let tokens = |n: usize, potential: &str| {
+        let args = format!("dim = {n}, kinetic(dalembert = 1), potential = {potential}");
+        let tokens = affine_codegen::expand(args.parse().unwrap(), "struct Body;".parse().unwrap());
+        assert!(!tokens.to_string().contains("compile_error"), "{args}");
+        tokens.to_string()
+    };
+    for (n, phrase, plain) in [
+        (3, "0.5*(tr(G)*det^(-2/3) - 3)", "0.5*(tr(G)*exp(-2*q) - 3)"),
+        (3, "tr(G)*I3^(-1/3)", "tr(G)*exp(-2*q)"),
+        (2, "tr(G)*I2^(-1/2)", "tr(G)*exp(-2*q)"),
+        (3, "D^0.5*tr(G)", "exp(q/2)*tr(G)"),
+        (3, "tr(G^2) - 2*tr(G)", "tr(G*G) - 2*tr(G)"),
+        (3, "tr(G^3*Ct^2)", "tr(G*G*G*Ct*Ct)"),
+        (2, "Q1^1.3 + Q2^1.3", "exp(1.3*q1) + exp(1.3*q2)"),
+        (3, "pairs(d^2) + Q1^1.3 + Q2^1.3 + Q3^1.3", "pairs(d^2) + exp(1.3*q1) + exp(1.3*q2) + exp(1.3*q3)"),
+    ] {
+        assert_eq!(tokens(n, phrase), tokens(n, plain), "{phrase}");
+    }
+}

@@ -1,6 +1,6 @@
 use affine_runtime::affine_model;
 
-#[affine_model(dim = 3, kinetic(casimir2 = 1), potential = det^(-2/3)*tr(G))]
+#[affine_model(dim = 3, kinetic(casimir2 = 1), potential = tr(G)^(-2/3))]
 struct Model;
 
 fn main() {}

@@ -5,14 +5,14 @@ use super::identity::vanishes;
 use super::size::summands;
 use crate::algebra::{Function, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, ExpressionMistake, PotentialMistake, Reported};
-use crate::spec::{Expression, ExpressionKind, Operator, Spec};
+use crate::spec::{Expression, ExpressionKind, Operator, Spec, numbered};
 
 /// The largest degree of a potential. Its functions are not multiplied out, so it may be higher than that of a
 /// coefficient; `(sigma/r)^12` has degree 24.
 const LARGEST_POTENTIAL_DEGREE: u64 = 64;
 
 /// Where an expression stands.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum Place {
     Coefficient,
     Potential,
@@ -75,9 +75,19 @@ fn degree(expression: &Expression, place: Place, n: usize, found: &mut Diagnosti
     degree_is_bounded(expression, degree, place, found)
 }
 
+/// Is the base positive, and a function of logarithmic stretches: `det`, `D`, `I2` for n = 2, `I3`, `Q1`?
+fn is_exponential(base: &Expression, n: usize) -> bool {
+    let ExpressionKind::Symbol(name) = &base.kind else { return false };
+    let name = name.to_string();
+    ["det", "D"].contains(&name.as_str())
+        || name == format!("I{n}")
+        || matches!(numbered(&name), Some(('Q', _)))
+}
+
 /// Integer exponents. The inverse of the kinetic energy is derived in rational functions of the coefficients,
 /// and an exponent that is known only at run time would leave its degree open. In a potential a power with any
-/// other exponent exists only for a positive base, as a logarithm or a root, and is to be written as one.
+/// other exponent exists only for a positive base: one that is positive whatever the body does, such as `det`, or a logarithm or
+/// a root, to be written as one.
 fn exponent_is_integer(
     base: &Expression,
     exponent: &Expression,
@@ -89,6 +99,10 @@ fn exponent_is_integer(
         return Ok(power);
     }
     let value = constant(exponent, n);
+    if place == Place::Potential && value.as_ref().is_some_and(|k| !k.is_integer()) && is_exponential(base, n)
+    {
+        return Ok(1);
+    }
     let mistake: Diagnostic = match (value.as_ref().filter(|value| value.is_integer()), place) {
         (Some(power), _) => ExpressionMistake::Degree {
             degree: power.to_i64().map_or(u64::MAX, i64::unsigned_abs),

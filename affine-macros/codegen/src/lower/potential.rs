@@ -88,7 +88,16 @@ pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Readin
         }
         ExpressionKind::Power(a, exponent) => {
             let a = of(arena, a)?;
-            arena.pow(a, i32::try_from(constant(exponent, n)?.to_i64()?).ok()?)
+            let exponent = constant(exponent, n)?;
+            match (exponent.to_i64().and_then(|k| i32::try_from(k).ok()), arena.node(a)) {
+                (Some(k), _) => arena.pow(a, k),
+                // exp(u)^k = exp(k u): of det, D, I_n and stretches, which are positive.
+                (None, &Node::Function(Function::Exp, logarithm)) => {
+                    let logarithm = arena.scale(logarithm, &exponent);
+                    Some(arena.apply(Function::Exp, logarithm))
+                }
+                (None, _) => None,
+            }
         }
         ExpressionKind::Call(function, a) => {
             let a = of(arena, a)?;

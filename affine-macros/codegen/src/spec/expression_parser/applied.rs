@@ -108,8 +108,10 @@ impl Parser<'_> {
     fn trace(&mut self, group: &Group) -> Result<ExpressionKind, Reported> {
         let inside = unwrapped(group.stream().into_iter().collect());
         let factors = inside.split(|token| matches!(token, TokenTree::Punct(star) if star.as_char() == '*'));
-        let named: Option<Vec<MatrixName>> = factors.map(matrix).collect();
-        let Some(factors) = named else { return Err(self.malformed("tr", group)) };
+        let named: Option<Vec<(MatrixName, usize)>> = factors.map(power_of_matrix).collect();
+        let Some(named) = named else { return Err(self.malformed("tr", group)) };
+        let factors: Vec<MatrixName> =
+            named.into_iter().flat_map(|(name, power)| core::iter::repeat_n(name, power)).collect();
         for _ in 1..factors.len() {
             self.count(self.last)?;
         }
@@ -156,10 +158,20 @@ impl Parser<'_> {
     }
 }
 
-/// One factor of a trace.
-fn matrix(factor: &[TokenTree]) -> Option<MatrixName> {
+/// The highest power of a matrix in a trace: that of a number in a potential.
+const LARGEST_POWER: usize = 16;
+
+/// One factor of a trace, `G` or `G^2`.
+fn power_of_matrix(factor: &[TokenTree]) -> Option<(MatrixName, usize)> {
     match unwrapped(factor.to_vec()).as_slice() {
-        [TokenTree::Ident(name)] => MatrixName::named(&name.to_string()),
+        [TokenTree::Ident(name)] => Some((MatrixName::named(&name.to_string())?, 1)),
+        [TokenTree::Ident(name), TokenTree::Punct(power), exponent @ TokenTree::Literal(_)]
+            if power.as_char() == '^' =>
+        {
+            let exponent: usize = describe(exponent).trim_matches('`').parse().ok()?;
+            let matrix = MatrixName::named(&name.to_string())?;
+            (1..=LARGEST_POWER).contains(&exponent).then_some((matrix, exponent))
+        }
         _ => None,
     }
 }
