@@ -3,7 +3,7 @@
 use rustc_hash::FxHashSet;
 
 use crate::algebra::bind::Constants;
-use crate::algebra::factor::{complete_sums, factored, scale_atoms};
+use crate::algebra::factor::{First, complete_sums, factored, number_of_all, scale_atoms};
 use crate::algebra::{Arena, Expr, Kernel, Polynomial};
 use crate::ir::Program;
 use crate::ir::build::Builder;
@@ -79,28 +79,46 @@ pub fn straight_line(
         .chain(scaled)
         .chain(batch.shared.iter().map(|(symbol, _)| *symbol).zip(shared_forms.iter().cloned()))
         .collect();
-    let mut built = |mut builder: Builder| {
-        define(arena, &mut builder, open.clone(), calls.clone());
+    let mut built = |mut builder: Builder, first: First| {
+        define(arena, &mut builder, (open.clone(), calls.clone()), first);
         for ((name, _), form) in batch.results.iter().zip(result_forms) {
-            let value = factored(arena, form);
+            let value = factored(arena, form, first);
             builder.output(arena, name, value);
         }
         (builder.has_powers(), with_inverse_roots(&builder.finish()))
     };
-    let (has_powers, program) = built(Builder::new());
-    if !has_powers {
-        return program;
+    let has_numbers =
+        open.iter().map(|(_, form)| form).chain(result_forms).any(|p| number_of_all(p).is_some());
+    let (has_powers, program) = built(Builder::new(), First::Atom);
+    let mut ways = Vec::new();
+    if has_powers {
+        ways.push(built(Builder::stepping_through_powers(), First::Atom).1);
     }
-    let (_, stepping) = built(Builder::stepping_through_powers());
-    if stepping.operations().weight() <= program.operations().weight() { stepping } else { program }
+    ways.push(program);
+    if has_numbers {
+        ways.push(built(Builder::new(), First::Number).1);
+    }
+    shortest(ways)
+}
+
+/// The shortest of some programs, the first of several.
+fn shortest(programs: Vec<Program>) -> Program {
+    let mut programs = programs.into_iter();
+    let first = programs.next().unwrap_or_default();
+    programs.fold(
+        first,
+        |best, other| {
+            if other.operations().weight() < best.operations().weight() { other } else { best }
+        },
+    )
 }
 
 /// Definitions and calls in an order in which each uses only what is there already.
 fn define(
     arena: &mut Arena,
     builder: &mut Builder,
-    mut open: Vec<(Expr, Polynomial)>,
-    mut calls: Vec<Kernel>,
+    (mut open, mut calls): (Vec<(Expr, Polynomial)>, Vec<Kernel>),
+    first: First,
 ) {
     let mut pending: FxHashSet<Expr> = open.iter().map(|(symbol, _)| *symbol).collect();
     pending.extend(calls.iter().flat_map(Kernel::outputs));
@@ -108,13 +126,13 @@ fn define(
         let known = |p: &Polynomial| !p.any_symbol(arena, &mut |s| pending.contains(&s));
         if let Some(ready) = open.iter().position(|(_, p)| known(p)) {
             let (symbol, polynomial) = open.remove(ready);
-            let value = factored(arena, &polynomial);
+            let value = factored(arena, &polynomial, first);
             builder.define(arena, symbol, value);
             pending.remove(&symbol);
         } else if let Some(ready) = calls.iter().position(|call| call.inputs().all(known)) {
             let call = calls.remove(ready);
             let arguments: Vec<_> =
-                call.arguments.iter().map(|group| group.map(|p| factored(arena, p))).collect();
+                call.arguments.iter().map(|group| group.map(|p| factored(arena, p, first))).collect();
             builder.call(arena, call.callee, &arguments, &call.results);
             for symbol in call.outputs() {
                 pending.remove(&symbol);

@@ -175,8 +175,33 @@ fn replace_scaled(
     result
 }
 
+/// Which factor is taken out of a polynomial first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum First {
+    /// The most frequent atom.
+    Atom,
+    /// A number that all terms have.
+    Number,
+}
+
+/// A number other than one that all terms of a polynomial have, two or more.
+#[must_use]
+pub fn number_of_all(polynomial: &Polynomial) -> Option<Rational> {
+    let mut terms = polynomial.terms();
+    let number = terms.next()?.1.abs();
+    let is_shared = terms.len() > 0 && terms.all(|(_, c)| c.abs() == number);
+    (is_shared && !number.is_one()).then_some(number)
+}
+
 /// A factored expression of a polynomial: nested by the most frequent atom, then by common numbers.
-pub fn factored(arena: &mut Arena, polynomial: &Polynomial) -> Expr {
+pub fn factored(arena: &mut Arena, polynomial: &Polynomial, first: First) -> Expr {
+    if first == First::Number
+        && let Some(number) = number_of_all(polynomial)
+        && let Some(inverse) = number.recip()
+    {
+        let times = |arena: &mut Arena, inner| arena.scale(inner, &number);
+        return distribute(arena, times, (&polynomial.scaled(&inverse), &Polynomial::zero()), first);
+    }
     let frequent = most_frequent(polynomial.terms().map(|(m, _)| m)).filter(|(_, count)| *count > 1);
     if let Some((atom, _)) = frequent {
         let (mut quotient, mut rest) = (Polynomial::zero(), Polynomial::zero());
@@ -190,7 +215,7 @@ pub fn factored(arena: &mut Arena, polynomial: &Polynomial) -> Expr {
                 None => rest.add_term(monomial.clone(), c),
             }
         }
-        return distribute(arena, |arena, inner| arena.mul(atom, inner), &quotient, &rest);
+        return distribute(arena, |arena, inner| arena.mul(atom, inner), (&quotient, &rest), first);
     }
     if let Some(number) = common_number(polynomial) {
         let (mut quotient, mut rest) = (Polynomial::zero(), Polynomial::zero());
@@ -202,7 +227,7 @@ pub fn factored(arena: &mut Arena, polynomial: &Polynomial) -> Expr {
                 rest.add_term(monomial.clone(), c);
             }
         }
-        return distribute(arena, |arena, inner| arena.scale(inner, &number), &quotient, &rest);
+        return distribute(arena, |arena, inner| arena.scale(inner, &number), (&quotient, &rest), first);
     }
     polynomial.expression(arena)
 }
@@ -211,14 +236,14 @@ pub fn factored(arena: &mut Arena, polynomial: &Polynomial) -> Expr {
 fn distribute(
     arena: &mut Arena,
     times: impl Fn(&mut Arena, Expr) -> Expr,
-    quotient: &Polynomial,
-    rest: &Polynomial,
+    (quotient, rest): (&Polynomial, &Polynomial),
+    first: First,
 ) -> Expr {
     let negative = quotient.terms().next().is_some_and(|(_, c)| c.is_negative());
     let sign = if negative { Rational::MINUS_ONE } else { Rational::ONE };
-    let inner = factored(arena, &quotient.scaled(&sign));
+    let inner = factored(arena, &quotient.scaled(&sign), first);
     let product = times(arena, inner);
-    let rest = factored(arena, rest);
+    let rest = factored(arena, rest, first);
     arena.linear(&[(product, sign), (rest, Rational::ONE)])
 }
 

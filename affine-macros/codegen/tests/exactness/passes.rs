@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use affine_codegen::algebra::bind::Constants;
 use affine_codegen::algebra::evaluate::evaluate_polynomial;
-use affine_codegen::algebra::factor::{complete_sums, factored, scale_atoms};
+use affine_codegen::algebra::factor::{First, complete_sums, factored, scale_atoms};
 use affine_codegen::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use affine_codegen::ir::build::Builder;
 use affine_codegen::ir::count::Operations;
@@ -194,7 +194,10 @@ fn completing_sums_shortens_programs() {
     let mut shorter = 0;
     for _ in 0..20 {
         let mut system = nearly_shared(&mut random);
-        let before = lowered(&mut system.arena, &system.polynomials, factored).operations().weight();
+        let before =
+            lowered(&mut system.arena, &system.polynomials, |arena, form| factored(arena, form, First::Atom))
+                .operations()
+                .weight();
         let results = system.polynomials.iter().enumerate().map(|(k, p)| (format!("y{k}"), p.clone()));
         let batch = Batch { results: results.collect(), ..Batch::default() };
         let names = varying(&system);
@@ -216,12 +219,16 @@ fn factoring_keeps_the_value_and_saves_multiplications() {
         for k in 0..system.polynomials.len() {
             let polynomial = [system.polynomials[k].clone()];
             let plain = lowered(&mut system.arena, &polynomial, |arena, p| p.expression(arena));
-            let short = lowered(&mut system.arena, &polynomial, factored);
-            well_formed(&short);
             assert_eq!(outputs(&plain, &system.point), [expected[k].clone()]);
-            assert_eq!(outputs(&short, &system.point), [expected[k].clone()]);
-            let (plain, short) = (plain.operations(), short.operations());
-            assert!(short.add <= plain.add && short.weight() <= plain.weight(), "{plain:?} {short:?}");
+            let plain = plain.operations();
+            for first in [First::Atom, First::Number] {
+                let factored = |arena: &mut Arena, form: &Polynomial| factored(arena, form, first);
+                let short = lowered(&mut system.arena, &polynomial, factored);
+                well_formed(&short);
+                assert_eq!(outputs(&short, &system.point), [expected[k].clone()]);
+                let short = short.operations();
+                assert!(short.add <= plain.add && short.weight() <= plain.weight(), "{plain:?} {short:?}");
+            }
         }
     }
 }
@@ -339,7 +346,7 @@ fn operations_by_hand() {
     assert_eq!(count(&arena, plain), Operations { mul: 5, add: 3, div: 1, ..Operations::default() });
     let mut form = Polynomial::term(vec![x, y], Rational::from(2));
     form.add_term(vec![x, z], &Rational::ONE);
-    let short = factored(&mut arena, &form);
+    let short = factored(&mut arena, &form, First::Atom);
     // 2 y, x (...); one sum.
     assert_eq!(count(&arena, short), Operations { mul: 2, add: 1, div: 0, ..Operations::default() });
     assert_eq!(Operations { mul: 5, add: 3, div: 1, ..Operations::default() }.weight(), 16);
