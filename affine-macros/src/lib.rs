@@ -94,8 +94,9 @@ use proc_macro::TokenStream;
 /// constraint, which `affine_runtime::variation::Variation` integrates.
 ///
 /// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
-/// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)`, their entries `G[1,2]`, with
-/// translation `x[1]` and `norm(x)`, the time `t`, and the functions `exp ln sqrt abs sin cos tan sinh cosh tanh`. It is
+/// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)` or `tr(G^2)`, their entries `G[1,2]`, with
+/// translation `x[1]` and `norm(x)`, the time `t`, and the functions `exp ln sqrt abs sin cos tan sinh cosh tanh`. Exponents are
+/// whole numbers, and fractions of `det`, `D`, `In` and single stretches, which are positive: `tr(G)*det^(-2/3)`. It is
 /// differentiated symbolically.
 ///
 /// The log-stretches `q1..qn`, the stretches `Q1..Qn = exp(q1)..exp(qn)` (singular values of `phi`), and
