@@ -4,6 +4,7 @@
 //! `S` is what one rounding in every entry of `phi` does to a force, `sum |d2U/dphi dphi| |phi|`.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod charts;
 mod energies;
 mod table;
 

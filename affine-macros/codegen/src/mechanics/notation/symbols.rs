@@ -87,7 +87,7 @@ pub const SYMBOLS: &[Symbol] = &[
     of("finger_#", "Ct_#", "\\tilde C_{#}", "entries of phi phi^T"),
     applied(of("trace_1", "tr(G)", "\\operatorname{tr}G", "the trace of G")),
     applied(of("trace_2", "tr(G^2)", "\\operatorname{tr}G^2", "the trace of G^2")),
-    of("second_invariant", "I2", "I_{2}", "the second invariant tr cof G"),
+    of("second_invariant", "I2", "I_{2}", "the second invariant ((tr G)^2 - tr G^2)/2"),
     of("isochoric_excess", "w_bar", "\\bar w", "tr(G/D^2) - n"),
     of("mean_square", "tau", "\\tau", "the n-th part of tr(G/D^2)"),
     of(

@@ -5,27 +5,26 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::Base;
 
-/// Name of the symbol of `tr(G/D^2) - n`.
-pub(super) const NAME: &str = "isochoric_excess";
+/// The symbol of `tr(G/D^2) - n`.
+fn symbol(arena: &mut Arena) -> Expr {
+    arena.symbol("isochoric_excess")
+}
 
-/// A sum in which the trace of `G/D^2` is counted from `n`, through what that is near the undeformed state.
-pub(super) fn through_excess(arena: &mut Arena, n: usize, form: &Polynomial) -> Polynomial {
+/// A sum in which the trace of `G/D^2` is counted from `n`, through that difference as one quantity; `None` for any other sum.
+pub(super) fn through_excess(arena: &mut Arena, n: usize, form: &Polynomial) -> Option<Polynomial> {
     let trace = Base::Trace.unit(arena);
     let coefficient =
         |monomial: &[Expr]| form.terms().find(|(m, _)| m.as_slice() == monomial).map(|(_, c)| c);
-    let (Some(slope), Some(constant)) = (coefficient(&[trace]), coefficient(&[])) else {
-        return form.clone();
-    };
-    let size = Rational::from(i64::try_from(n).unwrap_or(1));
+    let (slope, constant) = (coefficient(&[trace])?, coefficient(&[])?);
+    let size = Rational::from(i64::try_from(n).ok()?);
     if *constant != -&(slope * &size) {
-        return form.clone();
+        return None;
     }
-    let (slope, constant) = (slope.clone(), constant.clone());
     let mut result = form.clone();
-    result.add_term(vec![trace], &-&slope);
-    result.add_term(Vec::new(), &-&constant);
-    result.add_term(vec![arena.symbol(NAME)], &slope);
-    result
+    result.add_term(vec![trace], &-slope);
+    result.add_term(Vec::new(), &-constant);
+    result.add_term(vec![symbol(arena)], slope);
+    Some(result)
 }
 
 /// With `tau = tr(G/D^2)/n` and the deviator `B = G/D^2 - tau 1`, from `det(G/D^2) = 1`:
@@ -68,6 +67,6 @@ pub(super) fn definitions(arena: &mut Arena, n: usize) -> Vec<(Expr, Polynomial)
     let below = arena.linear(&powers);
     // A sum of squares and one.
     let reciprocal = arena.pow(below, -1).unwrap_or(below);
-    list.push((arena.symbol(NAME), above.mul(&Polynomial::atom(reciprocal))));
+    list.push((symbol(arena), above.mul(&Polynomial::atom(reciprocal))));
     list
 }

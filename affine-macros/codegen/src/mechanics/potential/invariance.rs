@@ -99,7 +99,9 @@ impl AtAPoint {
         let slopes: Vec<(Base, Residue)> = slopes
             .iter()
             .map(|(base, slope)| {
-                let slope = evaluate(arena, *slope, &value).unwrap_or(Residue::UNKNOWN);
+                // What has no value is not taken for zero: nothing is conserved beside it.
+                let slope = evaluate(arena, *slope, &value);
+                let slope = slope.unwrap_or_else(|| point.value(&format!("slope of {}", base.name())));
                 (*base, slope.mul(&Residue::from_rational(&base.weight(n))))
             })
             .collect();

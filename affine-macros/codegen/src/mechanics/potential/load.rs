@@ -36,19 +36,9 @@ impl Potential {
         };
         let weighted = self.weighted(arena, chart, (along, steep), &mut load);
         load.shared.extend(definitions(arena, self.dim, chart));
-        let named = |name: &str| {
-            load.shared.iter().any(|(_, form)| form.any_symbol(arena, &mut |s| arena.name(s) == Some(name)))
-        };
-        let (takes_second, takes_excess) = (named(second::NAME), named(excess::NAME));
-        if takes_second {
-            load.shared.push(second::definition(arena, chart));
-        }
         if steep {
             let inverse = arena.symbol("inverse_dilatation");
             load.shared.extend(scaled::definitions(arena, chart, inverse));
-            if takes_excess {
-                load.shared.extend(excess::definitions(arena, self.dim));
-            }
         }
         load.shared.extend(cofactors(arena, chart));
         load.shared.extend(self.dilatation(arena, chart));
@@ -98,7 +88,7 @@ impl Potential {
                 false => form,
             };
             let form = sums.named(arena, form);
-            let form = normal_form(arena, form, steep);
+            let form = normal_form(arena, form, (chart, steep), load);
             forms.push(form.clone());
             let form = form.scaled(&base.weight(self.dim));
             let form = match (base, along) {
@@ -122,9 +112,14 @@ impl Potential {
             weighted.push((*base, slope));
         }
         for (symbol, sum) in sums.known() {
-            let mut form = normal_form(arena, *sum, steep);
-            if steep && forms.iter().all(|form| form.terms().all(|(monomial, _)| monomial.contains(symbol))) {
-                form = through_excess(arena, self.dim, &form);
+            let mut form = normal_form(arena, *sum, (chart, steep), load);
+            let is_factor = |form: &Polynomial| form.terms().all(|(monomial, _)| monomial.contains(symbol));
+            if steep
+                && forms.iter().all(is_factor)
+                && let Some(counted) = through_excess(arena, self.dim, &form)
+            {
+                form = counted;
+                share(load, excess::definitions(arena, self.dim));
             }
             load.shared.push((*symbol, form));
         }
@@ -235,11 +230,23 @@ impl Potential {
     }
 }
 
-/// The normal form of a part of a slope, with `1/D` as an atom; without products of `D` and `1/D` where it is steep.
-fn normal_form(arena: &mut Arena, form: Expr, steep: bool) -> Polynomial {
+/// Shares quantities that are not shared yet.
+fn share(load: &mut Load, definitions: Vec<(Expr, Polynomial)>) {
+    for (symbol, definition) in definitions {
+        if load.shared.iter().all(|(known, _)| *known != symbol) {
+            load.shared.push((symbol, definition));
+        }
+    }
+}
+
+/// The normal form of a part of a slope: with `1/D` as an atom, and without products of `D` and `1/D` where it is steep; elsewhere
+/// through the second invariant, which it shares.
+fn normal_form(arena: &mut Arena, form: Expr, (chart, steep): (&Chart, bool), load: &mut Load) -> Polynomial {
     if !steep {
         let form = Polynomial::normal_form(arena, form);
-        return through_second_invariant(arena, &form);
+        let Some(shorter) = through_second_invariant(arena, &form) else { return form };
+        share(load, vec![second::definition(arena, chart)]);
+        return shorter;
     }
     let [d, inverse_d] = ["dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
     let reciprocal = arena.pow(d, -1).unwrap_or(d);

@@ -1,17 +1,19 @@
-//! `I2 = ((tr G)^2 - tr G^2)/2 = tr cof G`, n = 3: the difference of the squares loses digits where one stretch is long.
+//! `I2 = ((tr G)^2 - tr G^2)/2`, the sum of the principal minors of two rows, `det G` for n = 2: the difference of the squares loses digits where one stretch is long.
 
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 
 use super::Base;
 
-/// Name of the symbol of `I2`.
-pub(super) const NAME: &str = "second_invariant";
+/// The symbol of `I2`.
+fn symbol(arena: &mut Arena) -> Expr {
+    arena.symbol("second_invariant")
+}
 
-/// The polynomial with `2 I2` for `(tr G)^2 - tr G^2`, where it stands with one factor.
-pub(super) fn through_second_invariant(arena: &mut Arena, form: &Polynomial) -> Polynomial {
+/// The polynomial with `2 I2` for `(tr G)^2 - tr G^2`, wherever that stands in it with one factor; `None` where it does not.
+pub(super) fn through_second_invariant(arena: &mut Arena, form: &Polynomial) -> Option<Polynomial> {
     let [trace, of_square] = [Base::Trace, Base::TraceOfSquare].map(|base| base.symbol(arena));
-    let mut result = form.clone();
+    let mut result = None;
     for (monomial, c) in form.terms() {
         let Some(rest) = without(monomial, &[trace, trace]) else { continue };
         let with = |atom: Expr| [rest.as_slice(), &[atom]].concat();
@@ -19,7 +21,8 @@ pub(super) fn through_second_invariant(arena: &mut Arena, form: &Polynomial) -> 
         let partner = partner.terms().next().map(|(monomial, _)| monomial.clone()).unwrap_or_default();
         let opposite = form.terms().any(|(other, k)| *other == partner && *k == -c);
         if opposite {
-            let second = arena.symbol(NAME);
+            let second = symbol(arena);
+            let result = result.get_or_insert_with(|| form.clone());
             result.add_term(monomial.clone(), &-c);
             result.add_term(partner, c);
             result.add_term(with(second), &(c + c));
@@ -43,10 +46,11 @@ pub(super) fn definition(arena: &mut Arena, chart: &Chart) -> (Expr, Polynomial)
     let spatial = matches!(chart.momentum, Momentum::Space | Momentum::Total);
     let base: fn(usize, usize) -> Base = if spatial { Base::Finger } else { Base::Green };
     let mut sum = Polynomial::zero();
-    for (a, b) in [(0, 1), (0, 2), (1, 2)] {
+    let n = chart.dim;
+    for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
         let [aa, bb, ab] = [base(a, a), base(b, b), base(a, b)].map(|base| base.symbol(arena));
         sum.add_term(vec![aa, bb], &Rational::ONE);
         sum.add_term(vec![ab, ab], &Rational::MINUS_ONE);
     }
-    (arena.symbol(NAME), sum)
+    (symbol(arena), sum)
 }
