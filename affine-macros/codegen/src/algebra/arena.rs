@@ -199,6 +199,7 @@ impl Arena {
                 | Function::Sinh
                 | Function::Tan
                 | Function::Tanh
+                | Function::Asinh
                 | Function::Sign
                 | Function::Cbrt
                 | Function::InverseCbrt

@@ -283,7 +283,8 @@ impl Polynomial {
         result
     }
 
-    fn atoms(&self) -> impl Iterator<Item = &Expr> {
+    /// The atoms of all terms, as often as they stand there.
+    pub fn atoms(&self) -> impl Iterator<Item = &Expr> {
         self.terms.iter().flat_map(|(monomial, _)| monomial)
     }
 

@@ -4,7 +4,7 @@ use super::domain::domain;
 use super::model::{Formulas, Model, VelocitySide};
 use super::prepared::{coefficient_program, conditions, damping, numeric_blocks};
 use super::programs::{Asked, Reduced, best_reduction, full_chart, full_equations, power_batch};
-use super::{ChangeOfBases, lattice, quantities, stated};
+use super::{ChangeOfBases, lattice, quantities, stated, ways};
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::check::{Form, eigenvalues, signature};
@@ -49,8 +49,10 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         quantities,
         ..
     } = form;
-    let potential = potential.as_ref();
     let arena = &mut arena;
+    let momenta = [Momentum::of(kinetic.frame), Momentum::Body, Momentum::Space];
+    let potential = potential.map(|u| ways::written(arena, &u, kinetic.dim, &momenta));
+    let potential = potential.as_ref();
     let cubic = stated.as_ref().filter(|stated| stated.is_cubic());
     let h = match cubic {
         None => Hamiltonian::new(arena, &kinetic, &hessian)?,

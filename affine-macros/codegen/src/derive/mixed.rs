@@ -24,7 +24,7 @@ use crate::optimise::Batch;
 
 use super::prepared::{coefficient_program, damping};
 use super::programs::{Pieces, Reduced, batch, shortest, shortest_reduction};
-use super::{Formulas, Model, VelocitySide, quantities};
+use super::{Formulas, Model, VelocitySide, quantities, ways};
 
 /// The internal motion: of one frame, or of several.
 enum Inner {
@@ -52,6 +52,8 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
     let arena = &mut arena;
     let inner = Inner::new(arena, &mixed, hessian.as_ref())?;
     let masses = Masses::of(&mixed);
+    let momenta = [Momentum::of(inner.frame()), Momentum::Body, Momentum::Space];
+    let potential = potential.map(|u| ways::written(arena, &u, mixed.dim, &momenta));
     let body = Body { inner, masses, potential: potential.as_ref(), forces: &forces, mixed: &mixed };
     let mut coefficients = Constants::new("c");
     let chart = body.chart(arena, true);
