@@ -16,7 +16,7 @@ pub struct Batch {
     pub shared: Vec<(Expr, Polynomial)>,
     /// Calls of runtime functions, whose results are shared quantities too.
     pub kernels: Vec<Kernel>,
-    /// Results.
+    /// The polynomials of the results, by name.
     pub results: Vec<(String, Polynomial)>,
 }
 

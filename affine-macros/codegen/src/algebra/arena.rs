@@ -16,7 +16,7 @@ pub struct Expr(u32);
 /// The root of an expression.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
-    /// A number.
+    /// An exact number.
     Constant(Rational),
     /// A named indeterminate.
     Symbol(String),
@@ -59,7 +59,7 @@ impl Arena {
         fresh
     }
 
-    /// A number.
+    /// The expression of an exact number.
     pub fn constant(&mut self, value: Rational) -> Expr {
         self.intern(Node::Constant(value))
     }

@@ -11,11 +11,14 @@ const MOST_SUMMANDS: u64 = 512;
 /// An upper bound of the number of summands, of the expression and of everything inside its functions.
 ///
 /// # Errors
-/// Reported on the smallest part that has more than a build has time for.
+/// Reported on the first smallest part that has more than a build has time for.
 pub(super) fn summands(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result<u64, Reported> {
-    let counts: Vec<_> =
-        expression.operands().into_iter().map(|operand| summands(operand, n, found)).collect();
-    let counts: Vec<u64> = counts.into_iter().collect::<Result<_, _>>()?;
+    // The first part that is too large ends it: those that a trace was expanded to have the same place.
+    let counts: Vec<u64> = expression
+        .operands()
+        .into_iter()
+        .map(|operand| summands(operand, n, found))
+        .collect::<Result<_, _>>()?;
     let count = match (&expression.kind, counts.as_slice()) {
         (ExpressionKind::Add(..) | ExpressionKind::Subtract(..), [left, right]) => {
             left.saturating_add(*right)

@@ -23,7 +23,7 @@ use crate::mechanics::reduce;
 use crate::mechanics::weight::Weight;
 use crate::optimise::{Batch, straight_line};
 
-/// Derives it.
+/// Derives the model of an energy whose mass matrix is constant in one frame.
 pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
     let signature = match require_positive || form.kinetic.is_dalembert() {
         // `prepare()` refuses anything else.

@@ -24,7 +24,7 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// Both.
+    /// The operations of both counts together.
     #[must_use]
     fn with(self, other: Self) -> Self {
         Self {

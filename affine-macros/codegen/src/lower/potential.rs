@@ -104,6 +104,10 @@ pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Readin
             Some(applied(arena, *function, a))
         }
         ExpressionKind::Trace(factors) => trace(arena, n, factors),
+        ExpressionKind::InverseTrace(_) => {
+            let [above, below] = [n.checked_sub(1)?, n].map(|k| symbol(arena, n, &format!("I{k}")));
+            arena.div(above?, below?)
+        }
         ExpressionKind::Entry(matrix, row, column) => {
             Some(component(arena, entry(*matrix, row.checked_sub(1)?, column.checked_sub(1)?)))
         }

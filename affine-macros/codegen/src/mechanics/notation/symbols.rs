@@ -13,7 +13,7 @@ pub struct Symbol {
     pub latex: &'static str,
     /// Where the LaTeX takes brackets.
     shape: Shape,
-    /// What it is.
+    /// Its meaning, in words.
     pub meaning: &'static str,
 }
 

@@ -17,7 +17,7 @@ pub struct OnAxes {
     pub forces: Vec<Polynomial>,
     /// `U`, counted from the undeformed state.
     pub energy: Polynomial,
-    /// What it shares.
+    /// What the energy shares.
     pub energy_shared: Vec<(Expr, Polynomial)>,
 }
 
