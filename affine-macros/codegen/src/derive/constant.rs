@@ -50,14 +50,13 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         ..
     } = form;
     let arena = &mut arena;
-    let momenta = [Momentum::of(kinetic.frame), Momentum::Body, Momentum::Space];
-    let potential = potential.map(|u| ways::written(arena, &u, kinetic.dim, &momenta));
-    let potential = potential.as_ref();
     let cubic = stated.as_ref().filter(|stated| stated.is_cubic());
     let h = match cubic {
         None => Hamiltonian::new(arena, &kinetic, &hessian)?,
         Some(stated) => stated.hamiltonian(arena),
     };
+    let potential = potential.map(|u| ways::written(arena, &u, h.dim, &h.momenta()));
+    let potential = potential.as_ref();
     let own = reduce::own_chart(arena, &h);
     let own_h = reduce::own_hamiltonian(&h, &own);
     let mut coefficients = Constants::new("c");
@@ -94,7 +93,7 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         },
         hamiltonian: describe::hamiltonian(arena, &notation, energy, potential, &forces),
         equations: describe::equations(arena, &notation, energy, (&full_chart, &full_h), potential, &forces),
-        reduced: describe::system(arena, &notation, &reduction.system),
+        reduced: describe::system(arena, &notation, reduction.printed()),
         left_out: describe::left_out(&h, &reduction, closed_form),
     };
 

@@ -68,6 +68,9 @@ impl Place {
 /// The potential with the best way of writing its forces beside each affine momentum.
 pub(super) fn written(arena: &mut Arena, potential: &Potential, n: usize, momenta: &[Momentum]) -> Potential {
     momenta.iter().fold(potential.clone(), |potential, momentum| {
+        if potential.is_written(*momentum) {
+            return potential;
+        }
         let chart = Chart::new(arena, n, *momentum, Some(Linear::Space));
         let ways = potential.writings(arena, &chart);
         let drafts: Vec<Draft> =

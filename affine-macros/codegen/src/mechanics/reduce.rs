@@ -54,6 +54,8 @@ pub struct Reduction {
     pub carried: Vec<Carried>,
     /// The equations of the state variables.
     pub system: System,
+    /// The same as they are printed, where the forces are computed in another form.
+    pub printed: Option<System>,
     /// State variables: group name and symbols.
     pub states: Vec<(&'static str, Vec<Expr>)>,
 }
@@ -219,6 +221,7 @@ fn separated(
                 separation,
                 carried: Vec::new(),
                 system,
+                printed: None,
                 states,
             })
         })
@@ -239,20 +242,18 @@ fn take_constants(system: &mut System) -> Vec<Expr> {
 }
 
 /// A system whose affine momentum is state, reduced: `p` leaves it where it is conserved, and space is turned on
-/// demand.
+/// demand; beside it the same as it is printed.
 pub fn reduced(
     arena: &Arena,
     chart: Chart,
     commuting: Vec<Commuting>,
     turn: bool,
-    system: System,
+    (system, printed): (System, System),
 ) -> Reduction {
     let (loads, plain) = (Vec::new(), Vec::new());
-    Plan { chart, commuting, turn, loads, plain, multiplier: false, halves: false }.state_only(
-        arena,
-        system,
-        Layout::Entries,
-    )
+    let plan = Plan { chart, commuting, turn, loads, plain, multiplier: false, halves: false };
+    let printed = plan.state_only(arena, printed, Layout::Entries).system;
+    Reduction { printed: Some(printed), ..plan.state_only(arena, system, Layout::Entries) }
 }
 
 /// What is known about a reduction before its equations are.
@@ -268,6 +269,14 @@ struct Plan {
     multiplier: bool,
     /// Is there to be a momentum for each position, conserved or not?
     halves: bool,
+}
+
+impl Reduction {
+    /// The equations as they are printed.
+    #[must_use]
+    pub fn printed(&self) -> &System {
+        self.printed.as_ref().unwrap_or(&self.system)
+    }
 }
 
 impl Plan {
@@ -295,7 +304,9 @@ impl Plan {
             let alone = rootless.as_ref().is_some_and(|rootless| rootless.inverts);
             reductions.extend(rootless.map(|rootless| self.state_only(arena, rootless.system, layout)));
             if !alone {
-                reductions.push(self.state_only(arena, loaded(system, &self.loads), layout));
+                let printed = self.state_only(arena, plain, layout).system;
+                let reduction = self.state_only(arena, loaded(system, &self.loads), layout);
+                reductions.push(Reduction { printed: Some(printed), ..reduction });
             }
         }
         reductions
@@ -329,6 +340,7 @@ impl Plan {
             separation: None,
             carried,
             system,
+            printed: None,
             states,
         }
     }

@@ -26,7 +26,14 @@ impl Draft<'_> {
         };
         let n = self.chart.dim;
         for (base, slope) in slopes {
-            if matches!(base, Base::Trace | Base::TraceOfSquare | Base::Green(..) | Base::MeanLogStretch) {
+            if matches!(
+                base,
+                Base::Trace
+                    | Base::TraceOfSquare
+                    | Base::TraceOfCube
+                    | Base::Green(..)
+                    | Base::MeanLogStretch
+            ) {
                 continue;
             }
             for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
@@ -40,7 +47,7 @@ impl Draft<'_> {
         transpose(&force)
     }
 
-    /// `phi (a + b G + E) + v cof`, `E` from single entries of `G`.
+    /// `phi (a + b G + c G^2 + E) + v cof`, `E` from single entries of `G`.
     fn stress(
         &mut self,
         arena: &mut Arena,
@@ -49,11 +56,13 @@ impl Draft<'_> {
     ) -> Square<Polynomial> {
         let first = self.named(arena, &Base::Trace.slope_name(), &of(slopes, Base::Trace));
         let second = self.named(arena, &Base::TraceOfSquare.slope_name(), &of(slopes, Base::TraceOfSquare));
+        let third = self.named(arena, &Base::TraceOfCube.slope_name(), &of(slopes, Base::TraceOfCube));
         let mut stress = self.of_entries(arena, slopes);
         for (a, row) in stress.iter_mut().enumerate() {
             row[a].add_scaled(&first, &Rational::ONE);
             for (b, entry) in row.iter_mut().enumerate() {
                 entry.add_product(&second, &tensors.green[a][b], &Rational::ONE);
+                entry.add_product(&third, &tensors.squares[0][a][b], &Rational::ONE);
             }
         }
         let mut force = self.times_stress(arena, &tensors.phi, &stress);

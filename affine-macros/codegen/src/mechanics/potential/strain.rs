@@ -151,7 +151,7 @@ impl Strains {
             let column = (self.green[a], Base::Green(a, a), squares(&|i| self.phi[i][a].clone()));
             let row = (self.finger[a], Base::Finger(a, a), squares(&|i| self.phi[a][i].clone()));
             for (symbol, base, beside) in [column, row] {
-                let shared = arena.symbol(&format!("{}_beside", base.name()));
+                let shared = arena.symbol(&format!("beside_{}", base.name()));
                 list.push((shared, beside));
                 let with = |of: &Polynomial| {
                     let mut sum = of.clone();
@@ -197,7 +197,7 @@ impl Strains {
             list.push((self.cofactor_excess[a], excess));
         }
         let [excess, excess_d, beside] =
-            ["excess_det", "excess_dilatation", "det_beside"].map(|name| arena.symbol(name));
+            ["excess_det", "excess_dilatation", "beside_det"].map(|name| arena.symbol(name));
         let adjugate = adjugate(&self.phi);
         let cofactor = |b: usize| match self.canonical {
             true => Polynomial::atom(self.cofactors[0][b]),
@@ -286,7 +286,7 @@ impl Strains {
             };
             let mut squares = Polynomial::term(vec![difference, sum], Rational::ONE);
             for (index, sign) in [(a, Rational::ONE), (b, Rational::MINUS_ONE)] {
-                let beside = arena.symbol(&format!("{}_beside", base(index, index).name()));
+                let beside = arena.symbol(&format!("beside_{}", base(index, index).name()));
                 squares.add_term(vec![beside], &sign);
             }
             list.extend([

@@ -13,7 +13,7 @@ use super::principal::Principal;
 use super::rewriting::through_dilatation;
 use super::scaled::{self, scaled_bases};
 use super::strain::Strains;
-use super::tensors::{Tensors, cofactors, definitions, placement};
+use super::tensors::{Tensors, cofactors, definitions, placement, squares};
 use super::undeformed::{Counted, Undeformed};
 use super::volume::Volume;
 
@@ -43,7 +43,8 @@ impl Potential {
     /// The ways in which its forces in a chart may be written.
     pub fn writings(&self, arena: &mut Arena, chart: &Chart) -> Vec<Writing> {
         let mut list = vec![Writing::Plain];
-        if chart.confined.is_none() && !self.has_single_stretches() {
+        let has_cube = self.slopes.iter().any(|(base, _)| *base == Base::TraceOfCube);
+        if chart.confined.is_none() && !self.has_single_stretches() && !has_cube {
             list.extend([Writing::Differences, Writing::Deviators]);
         }
         if chart.confined.is_none() && self.is_steep(arena) {
@@ -55,9 +56,14 @@ impl Potential {
     /// The same potential with a way of writing its forces beside a momentum.
     #[must_use]
     pub fn written(mut self, momentum: Momentum, writing: Writing) -> Self {
-        self.writings.retain(|(known, _)| *known != momentum);
         self.writings.push((momentum, writing));
         self
+    }
+
+    /// Was a way chosen beside this momentum?
+    #[must_use]
+    pub fn is_written(&self, momentum: Momentum) -> bool {
+        self.writings.iter().any(|(known, _)| *known == momentum)
     }
 
     /// The same potential with its forces written plainly.
@@ -293,6 +299,7 @@ impl Means {
         let cofactors = Matrix::symbols(arena, "cofactor", n).0;
         let cofactors =
             cofactors.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
-        Tensors { phi, green, finger, cofactors, principal: Principal::new(arena, n) }
+        let squares = squares(arena, n, if unit { "unit_" } else { "" });
+        Tensors { phi, green, finger, squares, cofactors, principal: Principal::new(arena, n) }
     }
 }
