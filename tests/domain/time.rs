@@ -74,7 +74,7 @@ fn a_drive_faster_than_the_steps_is_named() {
     let run = |w: f64, method: Method| {
         let model = Driven { h: 0.3, w }.prepare().unwrap();
         let start = model.at_velocity(phi, phi_dot).unwrap();
-        Simulation::new(&model, start).until(5.0).tolerance(1e-3).method(method).run()
+        Simulation::new(&model, start).until(3.0).tolerance(1e-3).method(method).run()
     };
     let methods = [
         Method::Automatic,

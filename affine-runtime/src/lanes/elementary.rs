@@ -146,8 +146,9 @@ pub(crate) fn asinh(x: f64) -> f64 {
     let size = x.abs();
     let square = size * size;
     let less = size + square / (1.0 + (1.0 + square).sqrt());
-    // Beyond the square root of the largest number `2 |x|` is as good.
-    ln_1p(if size < 1e150 { less } else { size + size }).copysign(x)
+    // Where the square would be out of range, `ln(2 |x|)` is as good.
+    let (of, more) = if size < 1e150 { (less, 0.0) } else { (size, core::f64::consts::LN_2) };
+    (ln_1p(of) + more).copysign(x)
 }
 
 /// `2^18`, whose cube brings subnormal numbers up and the largest, whose root cubed may be too large, down.

@@ -4,7 +4,8 @@ use super::domain::domain;
 use super::model::{Formulas, Model, VelocitySide};
 use super::prepared::{coefficient_program, conditions, damping, numeric_blocks};
 use super::programs::{Asked, Reduced, best_reduction, full_chart, full_equations, power_batch};
-use super::{ChangeOfBases, lattice, quantities, stated, ways};
+use super::ways::Ways;
+use super::{ChangeOfBases, lattice, quantities, stated};
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::check::{Form, eigenvalues, signature};
@@ -55,8 +56,9 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         None => Hamiltonian::new(arena, &kinetic, &hessian)?,
         Some(stated) => stated.hamiltonian(arena),
     };
-    let potential = potential.map(|u| ways::written(arena, &u, h.dim, &h.momenta()));
-    let potential = potential.as_ref();
+    let ways = potential.map(|u| Ways::new(arena, &u, h.dim, &h.momenta()));
+    let at_points = ways.as_ref().map(|ways| &ways.at_points);
+    let potential = ways.as_ref().map(|ways| &ways.along_motions);
     let own = reduce::own_chart(arena, &h);
     let own_h = reduce::own_hamiltonian(&h, &own);
     let mut coefficients = Constants::new("c");
@@ -70,7 +72,7 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
     };
 
     let (full_chart, full_h) = full_chart(arena, &h);
-    let full = full_equations(arena, &h, &full_chart, &full_h, potential, &forces, &mut coefficients);
+    let full = full_equations(arena, &h, &full_chart, &full_h, at_points, &forces, &mut coefficients);
     let Reduced { reduction, equations: reduced, pieces, trajectory, fixed } = {
         let asked = (rotations, Asked { split, nystrom });
         best_reduction(arena, &h, potential, &forces, asked, &mut coefficients)?

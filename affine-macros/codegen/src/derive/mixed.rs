@@ -24,7 +24,8 @@ use crate::optimise::Batch;
 
 use super::prepared::{coefficient_program, damping};
 use super::programs::{Pieces, Reduced, batch, shortest, shortest_reduction};
-use super::{Formulas, Model, VelocitySide, quantities, ways};
+use super::ways::Ways;
+use super::{Formulas, Model, VelocitySide, quantities};
 
 /// The internal motion: of one frame, or of several.
 enum Inner {
@@ -53,11 +54,13 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
     let inner = Inner::new(arena, &mixed, hessian.as_ref())?;
     let masses = Masses::of(&mixed);
     let momenta = [Momentum::of(inner.frame())];
-    let potential = potential.map(|u| ways::written(arena, &u, mixed.dim, &momenta));
-    let body = Body { inner, masses, potential: potential.as_ref(), forces: &forces, mixed: &mixed };
+    let written = potential.map(|u| Ways::new(arena, &u, mixed.dim, &momenta));
+    let potential = written.as_ref().map(|ways| &ways.along_motions);
+    let body = Body { inner, masses, potential, forces: &forces, mixed: &mixed };
     let mut coefficients = Constants::new("c");
     let chart = body.chart(arena, true);
-    let systems = body.systems(arena, &chart)?;
+    let at_points = written.as_ref().map(|ways| &ways.at_points);
+    let systems = body.systems_under(arena, &chart, at_points)?;
     // The plain array has no place for the work.
     let workless = |system: &System| System { work: None, ..system.clone() };
     let ways: Vec<Batch> =
@@ -116,7 +119,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
         conserved,
         conserved_at_rest,
         signature,
-        has_forces: potential.is_some() || !forces.is_empty(),
+        has_forces: body.potential.is_some() || !forces.is_empty(),
         groups: (space_group, body_group),
         metrics: None,
         two_polar: None,

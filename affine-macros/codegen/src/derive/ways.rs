@@ -1,4 +1,7 @@
 //! The way in which the forces of a potential are written: the shortest of those that lose no digits.
+//!
+//! At a given point a force may be as good as the difference of `phi` from 1 allows. Along a motion `phi` is rounded itself, and
+//! a force need not be better than that.
 
 use crate::algebra::bind::Constants;
 use crate::algebra::evaluate::evaluate;
@@ -9,8 +12,9 @@ use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::potential::{Potential, Writing};
 use crate::optimise::{Batch, straight_line};
 
-/// A way may lose so many times what the best one loses where a body may be at rest, and so many times far from there.
-const AS_GOOD: [f64; 2] = [3.0, 100.0];
+/// A way may lose so much, and so many times what the best one loses, where a body may be at rest and far from there. The bounds
+/// are sums over all operations; errors are a tenth of them.
+const AS_GOOD: [f64; 2] = [10.0, 100.0];
 
 /// Where the ways are compared: `1 + strain R` near the undeformed state, `A diag(stretches) A^T` with `A = 1 + strain R` elsewhere.
 struct Place {
@@ -43,15 +47,20 @@ const PLACES: [Place; 9] = [
 const DIRECTION: [[f64; 3]; 3] = [[43.0, 17.0, 91.0], [29.0, 31.0, 87.0], [-83.0, 37.0, -61.0]];
 
 impl Place {
-    /// `phi_ia` in dimension `n`, and its size as rounding sees it: near the undeformed state the difference from it.
-    fn placement(&self, n: usize, i: usize, a: usize) -> (f64, f64) {
-        let unit = |i: usize, a: usize| f64::from(u8::from(i == a));
+    /// `phi_ia` in dimension `n`.
+    fn placement(&self, n: usize, i: usize, a: usize) -> f64 {
         let side = |i: usize, a: usize| unit(i, a) + self.strain * DIRECTION[i][a] / 100.0;
-        if !self.is_far() {
-            return (side(i, a), (side(i, a) - unit(i, a)).abs());
+        match self.is_far() {
+            true => (0..n).map(|k| side(i, k) * self.stretches[k] * side(a, k)).sum(),
+            false => side(i, a),
         }
-        let value: f64 = (0..n).map(|k| side(i, k) * self.stretches[k] * side(a, k)).sum();
-        (value, value.abs())
+    }
+
+    /// Its size as rounding sees it: where a body is `near` the undeformed state and `phi - 1` is exact, that of the difference.
+    fn size(&self, n: usize, (i, a): (usize, usize), near: bool) -> f64 {
+        let value = self.placement(n, i, a);
+        let from = if near && self.strain < 0.1 { unit(i, a) } else { 0.0 };
+        (value - from).abs()
     }
 
     /// Is a body there far from rest?
@@ -65,29 +74,51 @@ impl Place {
     }
 }
 
-/// The potential with the best way of writing its forces beside each affine momentum.
-pub(super) fn written(arena: &mut Arena, potential: &Potential, n: usize, momenta: &[Momentum]) -> Potential {
-    momenta.iter().fold(potential.clone(), |potential, momentum| {
-        if potential.is_written(*momentum) {
-            return potential;
+/// The unit matrix.
+fn unit(i: usize, a: usize) -> f64 {
+    f64::from(u8::from(i == a))
+}
+
+/// A potential with the best ways of writing its forces, at given points and along motions.
+pub(super) struct Ways {
+    pub(super) at_points: Potential,
+    pub(super) along_motions: Potential,
+}
+
+impl Ways {
+    /// Those beside the given affine momenta.
+    pub(super) fn new(arena: &mut Arena, potential: &Potential, n: usize, momenta: &[Momentum]) -> Self {
+        let mut ways = Self { at_points: potential.clone(), along_motions: potential.clone() };
+        for (k, momentum) in momenta.iter().enumerate() {
+            if momenta[..k].contains(momentum) {
+                continue;
+            }
+            let chart = Chart::new(arena, n, *momentum, Some(Linear::Space));
+            let drafts: Vec<Draft> = potential
+                .writings(arena, &chart)
+                .into_iter()
+                .map(|writing| Draft::new(arena, potential, &chart, writing))
+                .collect();
+            let chosen = |of: Potential, near: bool| match best(&drafts, near) {
+                Some(writing) => of.written(*momentum, writing),
+                None => of,
+            };
+            ways = Self {
+                at_points: chosen(ways.at_points, true),
+                along_motions: chosen(ways.along_motions, false),
+            };
         }
-        let chart = Chart::new(arena, n, *momentum, Some(Linear::Space));
-        let ways = potential.writings(arena, &chart);
-        let drafts: Vec<Draft> =
-            ways.into_iter().map(|writing| Draft::new(arena, &potential, &chart, writing)).collect();
-        match best(&drafts) {
-            Some(writing) => potential.written(*momentum, writing),
-            None => potential,
-        }
-    })
+        ways
+    }
 }
 
 /// Forces in one way of writing.
 struct Draft {
     writing: Writing,
     weight: usize,
-    /// What is lost at each place, in units of what the rounding of the placement does; infinite where there is no value.
-    losses: Vec<f64>,
+    /// What is lost at each place, in units of what the rounding of `phi` does, and of what that of `phi - 1` does where it is
+    /// small; infinite where there is no value.
+    losses: Vec<[f64; 2]>,
 }
 
 impl Draft {
@@ -116,34 +147,37 @@ impl Draft {
 }
 
 /// The lightest of those that are nowhere worse than the best there.
-fn best(drafts: &[Draft]) -> Option<Writing> {
-    let least = |place: usize| drafts.iter().map(|draft| draft.losses[place]).fold(f64::INFINITY, f64::min);
-    let limit = |(k, place): (usize, &Place)| AS_GOOD[usize::from(place.is_far())] * least(k);
+fn best(drafts: &[Draft], near: bool) -> Option<Writing> {
+    let loss = |draft: &Draft, place: usize| draft.losses[place][usize::from(near)];
+    let least = |place: usize| drafts.iter().map(|draft| loss(draft, place)).fold(f64::INFINITY, f64::min);
+    let limit = |(k, place): (usize, &Place)| AS_GOOD[usize::from(place.is_far())] * least(k).max(1.0);
     let limits: Vec<f64> = PLACES.iter().enumerate().map(limit).collect();
-    let holds = |draft: &&Draft| draft.losses.iter().zip(&limits).all(|(loss, limit)| loss <= limit);
+    let holds = |draft: &&Draft| limits.iter().enumerate().all(|(place, limit)| loss(draft, place) <= *limit);
     drafts.iter().filter(holds).min_by_key(|draft| draft.weight).map(|draft| draft.writing)
 }
 
 /// What the program loses at a place.
-fn loss(program: &Program, place: &Place, n: usize, parameters: &[(String, f64)]) -> f64 {
+fn loss(program: &Program, place: &Place, n: usize, parameters: &[(String, f64)]) -> [f64; 2] {
     let entry = |name: &str| {
         let at = (0..n).flat_map(|i| (0..n).map(move |a| (i, a)));
         at.into_iter().find(|(i, a)| name == format!("phi_{}{}", i + 1, a + 1))
     };
     let input = |name: &str| {
         let known = parameters.iter().find(|(known, _)| known == name).map(|(_, value)| *value);
-        let placed = entry(name).map(|(i, a)| place.placement(n, i, a).0);
+        let placed = entry(name).map(|(i, a)| place.placement(n, i, a));
         // What a call provides has no value here.
         known.or(placed).or_else(|| (name == "t" || name.starts_with("x_")).then(|| sample(name)))
     };
-    let size = |name: &str| entry(name).map_or(0.0, |(i, a)| place.placement(n, i, a).1);
-    let Some(Rounding { results, own, of_inputs }) = program.rounding(&input, &size) else { return 0.0 };
     let norm = |list: &[f64]| list.iter().map(|value| value * value).sum::<f64>().sqrt();
-    if place.is_extreme() {
-        return if results.iter().all(|result| result.is_finite()) { 1.0 } else { f64::INFINITY };
-    }
-    let loss = norm(&own) / (norm(&of_inputs) + norm(&results));
-    if loss.is_nan() { f64::INFINITY } else { loss }
+    [false, true].map(|near| {
+        let size = |name: &str| entry(name).map_or(0.0, |(i, a)| place.size(n, (i, a), near));
+        let Some(Rounding { results, own, of_inputs }) = program.rounding(&input, &size) else { return 0.0 };
+        let loss = match place.is_extreme() {
+            true => results.iter().map(|result| result - result).sum(),
+            false => norm(&own) / (norm(&of_inputs) + norm(&results)),
+        };
+        if loss.is_nan() { f64::INFINITY } else { loss }
+    })
 }
 
 /// A value for a field, the position or the time, between 1/2 and 3/2.

@@ -39,7 +39,7 @@ impl Draft<'_> {
             for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
                 let entry = direction(*base, self.along, &tensors, i, a);
                 if !entry.is_zero() {
-                    let slope = self.named(arena, &base.slope_name(), slope);
+                    let slope = self.coefficient(arena, *base, slope);
                     force[i][a].add_product(&slope, &entry, &Rational::ONE);
                 }
             }
@@ -131,8 +131,7 @@ impl Draft<'_> {
         let mut matrix = self.empty();
         for (base, slope) in slopes {
             let Base::Green(c, d) = *base else { continue };
-            let counted = self.means.counted(arena, slope);
-            let slope = self.named(arena, &base.slope_name(), &counted);
+            let slope = self.coefficient(arena, *base, slope);
             matrix[c][d].add_scaled(&slope, &Rational::ONE);
             matrix[d][c].add_scaled(&slope, &Rational::ONE);
         }
@@ -237,8 +236,7 @@ impl Draft<'_> {
             for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
                 let entry = direction(*base, self.along, &tensors, a, b);
                 if !entry.is_zero() {
-                    let counted = self.means.counted(arena, slope);
-                    let slope = self.named(arena, &base.slope_name(), &counted);
+                    let slope = self.coefficient(arena, *base, slope);
                     force[a][b].add_product(&slope, &entry, &Rational::ONE);
                 }
             }

@@ -43,7 +43,10 @@ impl Potential {
             draft.load.kernels.push(kernel);
             draft.share(shared);
         }
-        let slopes = self.weighted(arena, &mut draft);
+        let mut slopes = self.weighted(arena, &mut draft);
+        if self.has_single_stretches() {
+            slopes = on_axes(chart.dim, slopes);
+        }
         let mut forces = draft.forces(arena, &slopes);
         if chart.momentum == Momentum::Total {
             for (base, slope) in &slopes {
@@ -86,17 +89,23 @@ impl Potential {
             let is_factor = slopes.iter().all(|(_, slope)| slope.terms().all(|(m, _)| m.contains(symbol)));
             draft.raised(arena, (*symbol, form), is_factor);
         }
-        let weighted = slopes.into_iter().map(|(base, form)| {
-            let form = form.scaled(&base.weight(self.dim));
-            let form = match (base, draft.along) {
-                (Base::LogStretch(_), Along::Body) => form,
-                (Base::LogStretch(k), _) => form.mul(&principal::inverse_square(arena, k)),
-                _ => form,
-            };
-            (base, form)
-        });
-        weighted.collect()
+        slopes.into_iter().map(|(base, form)| (base, form.scaled(&base.weight(self.dim)))).collect()
     }
+}
+
+/// The slope by `q` as a part of those by all `q_a`: the unit matrix is the sum of the projections on the axes.
+fn on_axes(n: usize, slopes: Vec<(Base, Polynomial)>) -> Vec<(Base, Polynomial)> {
+    let (mean, mut rest): (Vec<_>, Vec<_>) =
+        slopes.into_iter().partition(|(base, _)| *base == Base::MeanLogStretch);
+    for (_, slope) in mean {
+        for axis in (0..n).map(Base::LogStretch) {
+            match rest.iter_mut().find(|(base, _)| *base == axis) {
+                Some((_, own)) => own.add_scaled(&slope, &Rational::ONE),
+                None => rest.push((axis, slope.clone())),
+            }
+        }
+    }
+    rest
 }
 
 impl Draft<'_> {
@@ -117,6 +126,18 @@ impl Draft<'_> {
         let symbol = arena.symbol(name);
         self.share(vec![(symbol, form.clone())]);
         Polynomial::atom(symbol)
+    }
+
+    /// The coefficient that a slope is in a force.
+    pub(super) fn coefficient(&mut self, arena: &mut Arena, base: Base, slope: &Polynomial) -> Polynomial {
+        let counted = self.means.counted(arena, slope);
+        let form = match (base, self.along) {
+            (Base::LogStretch(k), Along::Space | Along::Placement) => {
+                counted.mul(&principal::inverse_square(arena, k))
+            }
+            _ => counted,
+        };
+        self.named(arena, &base.slope_name(), &form)
     }
 
     /// The normal form of a part of a slope.

@@ -192,9 +192,7 @@ impl Strains {
     fn volumes(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
         for a in 0..self.n {
             list.push((self.asymmetry[a], self.cofactor_difference(arena, a)));
-            let mut excess = Polynomial::atom(self.asymmetry[a]);
-            excess.add_term(vec![self.excess[a]], &Rational::ONE);
-            list.push((self.cofactor_excess[a], excess));
+            list.push((self.cofactor_excess[a], self.cofactor_excess(a)));
         }
         let [excess, excess_d, beside] =
             ["excess_det", "excess_dilatation", "beside_det"].map(|name| arena.symbol(name));
@@ -231,6 +229,17 @@ impl Strains {
         let nth = i64::try_from(self.n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
         let logarithm = arena.apply(Function::Asinh, argument);
         list.push((Base::MeanLogStretch.symbol(arena), Polynomial::term(vec![logarithm], nth)));
+    }
+
+    /// `cof_aa - 1 = h_b phi_cc + h_c - ..`, in the plane `h_c`.
+    fn cofactor_excess(&self, a: usize) -> Polynomial {
+        let c = if a == 0 { 1 } else { a - 1 };
+        let mut change = Polynomial::atom(self.excess[c]);
+        for b in (0..self.n).filter(|b| *b != a && *b != c) {
+            change.add_product(&Polynomial::atom(self.excess[b]), &self.phi[c][c], &Rational::ONE);
+            change.add_product(&self.phi[b][c], &self.phi[c][b], &Rational::MINUS_ONE);
+        }
+        change
     }
 
     /// `cof_aa - phi_aa = h_b phi_cc + (phi_cc - phi_aa) - ..`, in the plane `phi_cc - phi_aa`; the difference in brackets has

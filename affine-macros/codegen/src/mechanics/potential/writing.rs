@@ -42,12 +42,14 @@ pub(super) enum Means {
 impl Potential {
     /// The ways in which its forces in a chart may be written.
     pub fn writings(&self, arena: &mut Arena, chart: &Chart) -> Vec<Writing> {
+        if chart.confined.is_some() || self.has_single_stretches() {
+            return vec![Writing::Plain];
+        }
         let mut list = vec![Writing::Plain];
-        let has_cube = self.slopes.iter().any(|(base, _)| *base == Base::TraceOfCube);
-        if chart.confined.is_none() && !self.has_single_stretches() && !has_cube {
+        if self.slopes.iter().all(|(base, _)| *base != Base::TraceOfCube) {
             list.extend([Writing::Differences, Writing::Deviators]);
         }
-        if chart.confined.is_none() && self.is_steep(arena) {
+        if self.is_steep(arena) {
             list.push(Writing::Isochoric);
         }
         list
