@@ -66,7 +66,7 @@ fn drunk_missile() {
     assert!(reduced.0 + reduced.1 <= 67);
 }
 
-/// Problems P2 and P3: one root and one division besides in the equations of
+/// Problems P2 and P3: one root and two divisions in the equations of
 /// `(phi, Sigma_hat)` and `(phi, Pi)`, none in the reduced ones.
 #[test]
 fn potentials() {
@@ -82,16 +82,17 @@ fn potentials() {
         potential = hyperbolic_dilatation(10) + neo_hookean(0.5)
     )]
     struct Elastic;
-    let once = |o: Operations| assert_eq!((o.div, o.sqrt, o.exp, o.ln), (1, 1, 0, 0));
+    // The second division is that of `D - 1 = (det - 1)/(D^2 + D + 1)`, which keeps digits near the undeformed state.
+    let once = |o: Operations| assert_eq!((o.div, o.sqrt, o.exp, o.ln), (2, 1, 0, 0));
     once(Vibrating::DESCRIPTION.full_operations);
     let reduced = Vibrating::DESCRIPTION.reduced_operations;
     assert_eq!((reduced.div, reduced.sqrt, reduced.exp, reduced.ln), (0, 0, 0, 0));
     once(Elastic::DESCRIPTION.full_operations);
     let counted = counts::<3, Vibrating>(&Vibrating, &sample::<3, Vibrating>(&Vibrating));
-    assert_eq!(counted, [(99, 77), (51, 41)]);
+    assert_eq!(counted, [(102, 89), (51, 41)]);
     let counted = counts::<3, Elastic>(&Elastic, &sample::<3, Elastic>(&Elastic));
-    // Psi = phi/D before its cofactors: seven multiplications more, so that det phi is not formed.
-    assert_eq!(counted, [(62, 30), (82, 38)]);
+    // Full: `G - 1` and `det - 1` beside `G` and `det`. Reduced: `Psi = phi/D` before its cofactors, so that det phi is not formed.
+    assert_eq!(counted, [(75, 55), (80, 38)]);
 }
 
 /// Single stretches cost twelve rotations of columns, whichever chart; what is symmetric in even powers costs none.
