@@ -47,17 +47,17 @@ fn forces_within_the_rounding_of_the_strain() {
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
-/// Operations, and the worst errors in `eps (|S| + |F|)` and in `eps (near + |F|)`, where `near` is `S` with `|phi - 1|` for
+/// Operations at a point and along a motion, and the worst errors in `eps (|S| + |F|)` and in `eps (near + |F|)`, where `near` is `S` with `|phi - 1|` for
 /// `|phi|`: `cargo test --test potentials figures -- --nocapture`.
 #[test]
 fn figures() {
-    for Energy { name, operations, rows } in energies::all() {
+    for Energy { name, operations, reduced, rows } in energies::all() {
         let worst = |part: fn(&Row) -> f64, strained: bool| {
             let rows = rows.iter().filter(|row| !strained || row.at != "large");
             rows.map(|row| row.error / (f64::EPSILON * (part(row) + row.size))).fold(0.0, f64::max)
         };
         let (first, second) = (worst(|row| row.sensitivity, false), worst(|row| row.near, true));
-        println!("{name:14} {operations:>24} {first:9.1e} {second:9.1e}");
+        println!("{name:14} {operations:>24} {reduced:>24} {first:9.1e} {second:9.1e}");
         assert!(first.is_finite());
     }
 }

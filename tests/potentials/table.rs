@@ -6,8 +6,10 @@ use affine_runtime::prelude::*;
 /// A model beside the table.
 pub(crate) struct Energy {
     pub(crate) name: &'static str,
-    /// Of the full equations.
+    /// Of the full equations, at a point.
     pub(crate) operations: String,
+    /// Of the reduced equations, along a motion.
+    pub(crate) reduced: String,
     pub(crate) rows: Vec<Row>,
 }
 
@@ -81,5 +83,7 @@ pub(crate) fn of<const N: usize, M: Model<N>>(name: &'static str, model: &M) -> 
             near: cells[9].parse().unwrap(),
         }
     });
-    Energy { name, operations: counted(&description.full_operations), rows: rows.collect() }
+    let [operations, reduced] =
+        [description.full_operations, description.reduced_operations].map(|operations| counted(&operations));
+    Energy { name, operations, reduced, rows: rows.collect() }
 }

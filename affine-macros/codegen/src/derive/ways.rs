@@ -31,7 +31,7 @@ const fn stretched(stretches: [f64; 3]) -> Place {
 }
 
 /// From hardly strained to far away.
-const PLACES: [Place; 9] = [
+const PLACES: [Place; 11] = [
     strained(1e-6),
     strained(1e-4),
     strained(1e-2),
@@ -41,6 +41,8 @@ const PLACES: [Place; 9] = [
     stretched([0.1; 3]),
     stretched([1e40; 3]),
     stretched([1e-40; 3]),
+    stretched([1e130; 3]),
+    stretched([1e-130; 3]),
 ];
 
 /// Entries of no particular kind, in units of 1/100.
@@ -68,11 +70,30 @@ impl Place {
         self.stretches != [1.0; 3]
     }
 
-    /// Beyond these only the range of numbers matters.
-    fn is_extreme(&self) -> bool {
-        self.stretches.iter().any(|stretch| !(1e-3..1e3).contains(stretch))
+    /// What is asked of a force there.
+    fn reach(&self) -> Reach {
+        let within = |size: f64| self.stretches.iter().all(|s| (1.0 / size..size).contains(s));
+        match (within(1e3), within(1e100)) {
+            (true, _) => Reach::Ordinary,
+            (_, true) => Reach::Far,
+            _ => Reach::Extreme,
+        }
     }
 }
+
+/// How far from the undeformed state a placement is.
+#[derive(Clone, Copy)]
+enum Reach {
+    /// Digits matter.
+    Ordinary,
+    /// A force has a value.
+    Far,
+    /// A force along a motion has a value.
+    Extreme,
+}
+
+/// What counts as lost where a force is zero.
+const UNDERFLOW: f64 = 1e6;
 
 /// The unit matrix.
 fn unit(i: usize, a: usize) -> f64 {
@@ -172,11 +193,21 @@ fn loss(program: &Program, place: &Place, n: usize, parameters: &[(String, f64)]
     [false, true].map(|near| {
         let size = |name: &str| entry(name).map_or(0.0, |(i, a)| place.size(n, (i, a), near));
         let Some(Rounding { results, own, of_inputs }) = program.rounding(&input, &size) else { return 0.0 };
-        let loss = match place.is_extreme() {
-            true => results.iter().map(|result| result - result).sum(),
-            false => norm(&own) / (norm(&of_inputs) + norm(&results)),
-        };
-        if loss.is_nan() { f64::INFINITY } else { loss }
+        let size = results.iter().fold(0.0, |size: f64, result| size.max(result.abs()));
+        let is_finite = results.iter().all(|result| result.is_finite());
+        match place.reach() {
+            Reach::Ordinary if is_finite => norm(&own) / (norm(&of_inputs) + norm(&results)),
+            Reach::Extreme if near => 1.0,
+            // Nothing but the range of numbers: a force that is zero may have left it below.
+            _ if is_finite => {
+                if size > 0.0 {
+                    1.0
+                } else {
+                    UNDERFLOW
+                }
+            }
+            _ => f64::INFINITY,
+        }
     })
 }
 

@@ -11,7 +11,9 @@ use crate::mechanics::weight::SQUARE;
 pub(super) fn inverts_the_placement(arena: &mut Arena, chart: &Chart, tidied: &System) -> bool {
     let inverse = Matrix::symbols(arena, "phi_inverse", chart.dim).0.concat();
     let takes = |symbol: Expr| tidied.shared.iter().any(|(known, _)| *known == symbol);
-    let over_det = takes(arena.symbol("inverse_det")) && chart.momentum == Momentum::Canonical;
+    // On a flat body negative powers of the determinant stand beside cofactors.
+    let powers = ["inverse_det", "inverse_dilatation"].map(|name| arena.symbol(name));
+    let over_det = powers.into_iter().any(takes) && chart.momentum == Momentum::Canonical;
     over_det || inverse.into_iter().any(takes)
 }
 

@@ -66,14 +66,25 @@ impl Draft<'_> {
             }
         }
         let mut force = self.times_stress(arena, &tensors.phi, &stress);
-        let swelling = self.means.over_det(&of(slopes, Base::MeanLogStretch));
-        let swelling = self.named(arena, "swelling", &swelling);
+        let swelling = self.swelling(arena, &of(slopes, Base::MeanLogStretch));
         for (row, cofactors) in force.iter_mut().zip(&tensors.cofactors) {
             for (entry, cofactor) in row.iter_mut().zip(cofactors) {
                 entry.add_product(&swelling, cofactor, &Rational::ONE);
             }
         }
         force
+    }
+
+    /// What stands before the cofactors: a function of the volume in lowest powers; what has tensors in it is formed first, for
+    /// its powers of `D` keep these in the range of numbers, and then divided by `det`.
+    fn swelling(&mut self, arena: &mut Arena, slope: &Polynomial) -> Polynomial {
+        let over = self.means.over_det(slope);
+        if self.means.is_of_volume(arena, slope) {
+            return self.named(arena, "swelling", &over);
+        }
+        let pressure = self.named(arena, &Base::MeanLogStretch.slope_name(), slope);
+        let inverse_det = Polynomial::atom(arena.symbol("inverse_det"));
+        self.named(arena, "swelling", &pressure.mul(&inverse_det))
     }
 
     /// The same with `G = 1 + M` on the diagonal, and there `s phi + v cof = (s + v) phi + v (cof - phi)`: what cancels is one

@@ -6,7 +6,6 @@ use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::equations::Load;
 
-use super::Potential;
 use super::base::Base;
 use super::excess::{Isochoric, mean_square};
 use super::principal::Principal;
@@ -16,6 +15,7 @@ use super::strain::Strains;
 use super::tensors::{Tensors, cofactors, definitions, placement, squares};
 use super::undeformed::{Counted, Undeformed};
 use super::volume::Volume;
+use super::{Potential, is_parameter};
 
 /// A way of writing the forces of a potential.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -159,6 +159,15 @@ impl Means {
         let volume = self.volume();
         let over = slope.mul(&Polynomial::atom(volume.inverse_det));
         if let Self::Unit { .. } = self { over } else { volume.reduced(&over) }
+    }
+
+    /// Is it a function of the volume and of parameters alone?
+    pub(super) fn is_of_volume(&self, arena: &Arena, form: &Polynomial) -> bool {
+        let Volume { det, inverse_det, d, inverse_d, .. } = self.volume();
+        let known = [det, inverse_det, d, inverse_d];
+        !form.any_symbol(arena, &mut |s| {
+            !(known.contains(&s) || arena.name(s) == Some("q") || is_parameter(arena, s))
+        })
     }
 
     /// `G/D^2`, where that is at hand.
