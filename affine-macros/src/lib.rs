@@ -93,11 +93,22 @@ use proc_macro::TokenStream;
 /// Runge-Kutta-Nystrom steps of orders 8 and 12; `emit(tangent)` adds the variational equations of motions without a
 /// constraint, which `affine_runtime::variation::Variation` integrates.
 ///
-/// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces of
-/// products of `G = phi^T phi`, `Ct = phi phi^T` and `phi` such as `tr(G*G)` or `tr(G^2)`, their entries `G[1,2]`, with
-/// translation `x[1]` and `norm(x)`, the time `t`, and the functions `exp ln sqrt abs sin cos tan sinh cosh tanh`. Exponents are
-/// whole numbers, and fractions of `det`, `D`, `In` and single stretches, which are positive: `tr(G)*det^(-2/3)`. It is
-/// differentiated symbolically.
+/// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces, the
+/// entries of `G = phi^T phi`, `Ct = phi phi^T` and `phi`, such as `G[1,2]`, with translation `x[1]` and `norm(x)`, the time `t`,
+/// and the functions `exp ln sqrt abs sin cos tan sinh cosh tanh`; `log(u)` is `ln(u)`, `log1p(u)` is `ln(1 + u)` and `expm1(u)`
+/// is `exp(u) - 1`. Exponents are whole numbers, and fractions of `det`, `D`, `In` and single stretches, which are positive:
+/// `tr(G)*det^(-2/3)`. It is differentiated symbolically.
+///
+/// A trace is taken of a polynomial in `G`, `Ct` and `phi`, where a number stands for that multiple of the identity, so that
+/// `tr(1) = n`, and is expanded to traces of products:
+///
+/// | trace | the same |
+/// |---|---|
+/// | `tr(G^2)` | `tr(G*G)` |
+/// | `tr((G - 1)*(G - 1))`, `tr((G - 1)^2)` | `tr(G*G) - 2*tr(G) + n` |
+/// | `tr(2*G*G - 3*G + 1)` | `2*tr(G*G) - 3*tr(G) + n` |
+/// | `tr((G - tr(G)/n)^2)` | `tr(G*G) - tr(G)^2/n` |
+/// | `tr(G^-1)`, `tr(Ct^-1)` | `I1/I2 = tr(G)/det^2` for n = 2, `I2/I3` for n = 3 |
 ///
 /// The log-stretches `q1..qn`, the stretches `Q1..Qn = exp(q1)..exp(qn)` (singular values of `phi`), and
 /// `pairs(f(d))`, the sum of an even `f(q_a - q_b)` over `a < b`, make isotropic potentials. Exchanging two stretches must

@@ -120,6 +120,7 @@ impl Scalar for Counting {
         sinh counts exp;
         cosh counts exp;
         tanh counts exp;
+        asinh counts ln;
         ln counts ln;
         ln_1p counts ln;
         sin counts exp;

@@ -150,6 +150,10 @@ impl<T: Scalar> Scalar for Dual<T> {
         let tanh = self.value.tanh();
         self.chain(tanh, T::one() - tanh * tanh)
     }
+    fn asinh(self) -> Self {
+        let value = self.value.asinh();
+        self.chain(value, T::one() / value.cosh())
+    }
     fn abs(self) -> Self {
         self.chain(self.value.abs(), T::one().copysign(self.value))
     }

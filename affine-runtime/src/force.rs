@@ -122,7 +122,7 @@ impl<const N: usize> Form<N> for Translation {
 /// A force that is said to be gyroscopic and has power.
 #[derive(Clone, Copy, PartialEq)]
 pub struct HasPower<const N: usize> {
-    /// Where.
+    /// The time, placement and velocities at which it has power.
     pub motion: Motion<N>,
     /// The power there.
     pub power: f64,

@@ -151,7 +151,23 @@ impl<S: Real, const LANES: usize> Scalar for Several<S, LANES> {
         self.with(sign, S::copysign)
     }
 
-    elementary!(sqrt, abs, cbrt, inverse_cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh);
+    elementary!(
+        sqrt,
+        abs,
+        cbrt,
+        inverse_cbrt,
+        exp,
+        exp_m1,
+        ln,
+        ln_1p,
+        sin,
+        cos,
+        tan,
+        sinh,
+        cosh,
+        tanh,
+        asinh
+    );
 }
 
 impl<S: Real, const LANES: usize> Zero for Several<S, LANES> {

@@ -69,7 +69,7 @@ pub enum Variables {
 /// What a potential on the lattice depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PotentialClass {
-    /// There is none.
+    /// There is no potential.
     None,
     /// `q = ln(det phi)/n` alone: the shear moves as without it.
     Dilatation,

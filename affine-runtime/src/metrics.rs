@@ -33,7 +33,7 @@ pub struct Bases<const N: usize, T: Scalar = f64> {
 }
 
 impl<const N: usize, T: Real> Bases<N, T> {
-    /// The way back.
+    /// The change of bases in the other direction.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self {

@@ -79,7 +79,7 @@ pub trait Potential<const N: usize> {
 pub enum Unsound<const N: usize> {
     /// It changes under a rotation of its class, or of `x` although it has no position.
     Class {
-        /// Where.
+        /// The place at which the energy changes.
         place: Place<N>,
         /// The class.
         class: Class,
@@ -88,7 +88,7 @@ pub enum Unsound<const N: usize> {
     },
     /// A derivative is not that of the energy.
     Slope {
-        /// Where.
+        /// The place at which the derivative is wrong.
         place: Place<N>,
         /// By which coordinate: `x[1]`, `phi[1,2]` as its indices from 1, the second 0 for `x`.
         coordinate: (usize, usize),

@@ -85,6 +85,13 @@ pub trait Scalar:
     /// Hyperbolic tangent.
     #[must_use]
     fn tanh(self) -> Self;
+    /// Inverse hyperbolic sine, `ln(x + sqrt(1 + x^2))` without cancellation.
+    #[must_use]
+    fn asinh(self) -> Self {
+        let (size, one) = (self.abs(), Self::one());
+        let square = size * size;
+        (size + square / (one + (one + square).sqrt())).ln_1p().copysign(self)
+    }
     /// Absolute value.
     #[must_use]
     fn abs(self) -> Self;
@@ -197,6 +204,7 @@ primitive!(
     sinh = libm::sinh,
     cosh = libm::cosh,
     tanh = libm::tanh,
+    asinh = libm::asinh,
     abs = f64::abs
 );
 primitive!(
@@ -214,6 +222,7 @@ primitive!(
     sinh = libm::sinhf,
     cosh = libm::coshf,
     tanh = libm::tanhf,
+    asinh = libm::asinhf,
     abs = f32::abs
 );
 

@@ -46,7 +46,7 @@ fn figures() {
 }
 
 /// An expansion forms no more than so many products of terms, counted where a clock would scatter.
-const WORK: u64 = 25_000;
+const WORK: u64 = 50_000;
 
 #[test]
 fn expansions_multiply_little_out() {
@@ -77,6 +77,7 @@ fn phrases_mean_what_they_say() {
         assert!(!tokens.to_string().contains("compile_error"), "{args}");
         tokens.to_string()
     };
+    let mut others = Vec::new();
     for (n, phrase, plain) in [
         (3, "0.5*(tr(G)*det^(-2/3) - 3)", "0.5*(tr(G)*exp(-2*q) - 3)"),
         (3, "tr(G)*I3^(-1/3)", "tr(G)*exp(-2*q)"),
@@ -85,8 +86,31 @@ fn phrases_mean_what_they_say() {
         (3, "tr(G^2) - 2*tr(G)", "tr(G*G) - 2*tr(G)"),
         (3, "tr(G^3*Ct^2)", "tr(G*G*G*Ct*Ct)"),
         (2, "Q1^1.3 + Q2^1.3", "exp(1.3*q1) + exp(1.3*q2)"),
+        (3, "log(det)^2 + log1p(q^2)", "ln(det)^2 + ln(1 + q^2)"),
+        (2, "expm1(q^2)*2 + log1p(tr(G))", "2*(exp(q^2) - 1) + ln(1 + tr(G))"),
+        (2, "tr(G^-1)", "I1/I2"),
+        (3, "tr(G^-1)", "I2/I3"),
+        (2, "q^2 + tr(Ct^-1)", "q^2 + tr(Ct)/I2"),
+        (3, "tr(2*Ct^-1 - 3)*tr(G)", "(2*I2/I3 - 9)*tr(G)"),
+        (3, "tr((G-1)*(G-1))", "tr(G*G) - 2*tr(G) + n"),
+        (2, "tr((G - 1)^2)", "tr(G*G) - 2*tr(G) + n"),
+        (3, "0.7*tr((G - 1)^2)", "orthogonality(0.7)"),
+        (3, "0.3/2*(tr(G - 1)/2)^2 + 0.2*tr((G - 1)^2)/4", "saint_venant_kirchhoff(0.3, 0.2)"),
+        (3, "tr((G - 1)^3)", "tr(G*G*G) - 3*tr(G*G) + 3*tr(G) - n"),
+        (2, "tr(2*G*G - 3*G + 1)", "2*tr(G*G) - 3*tr(G) + n"),
+        (3, "tr((Ct - 1)*(Ct - 1))", "tr(Ct*Ct) - 2*tr(Ct) + n"),
+        (3, "tr((G - 1)*(Ct - 1))", "tr(G*Ct) - tr(G) - tr(Ct) + n"),
+        (3, "tr((phi - 1)^2)", "tr(phi*phi) - 2*tr(phi) + n"),
+        (3, "tr(1)*q^2", "n*q^2"),
+        (3, "tr(G*(Ct*Ct^-1 + G^0))/2", "tr(G)"),
+        (3, "tr((G - tr(G)/n)^2)", "tr(G*G) - tr(G)^2/3"),
+        (2, "tr((G - 1/3)^2/2)", "tr(G*G)/2 - tr(G)/3 + 1/9"),
+        (2, "tr(-(sin(t) - G)*G)", "-sin(t)*tr(G) + tr(G*G)"),
         (3, "pairs(d^2) + Q1^1.3 + Q2^1.3 + Q3^1.3", "pairs(d^2) + exp(1.3*q1) + exp(1.3*q2) + exp(1.3*q3)"),
     ] {
-        assert_eq!(tokens(n, phrase), tokens(n, plain), "{phrase}");
+        if tokens(n, phrase) != tokens(n, plain) {
+            others.push(format!("{phrase} is not {plain}"));
+        }
     }
+    assert!(others.is_empty(), "{others:#?}");
 }

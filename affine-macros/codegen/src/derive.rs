@@ -12,6 +12,7 @@ mod quantities;
 pub mod second_order;
 pub mod splitting;
 mod stated;
+mod ways;
 mod written;
 
 use crate::check::Energy;

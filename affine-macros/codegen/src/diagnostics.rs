@@ -27,7 +27,7 @@ pub use form::{Directions, FormMistake};
 pub use kind::Diagnostic;
 pub use metric::MetricMistake;
 pub use notation::NotationMistake;
-pub use potential::PotentialMistake;
+pub use potential::{PotentialMistake, TracedPart};
 pub use term::TermMistake;
 
 /// A stretch of the user's source, from the first to the last token.

@@ -174,6 +174,7 @@ pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<
         }
         ExpressionKind::Call(..)
         | ExpressionKind::Trace(_)
+        | ExpressionKind::InverseTrace(_)
         | ExpressionKind::Entry(..)
         | ExpressionKind::Component(_)
         | ExpressionKind::Norm

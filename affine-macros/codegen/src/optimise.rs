@@ -6,7 +6,7 @@ use crate::algebra::bind::Constants;
 use crate::algebra::factor::{First, complete_sums, factored, number_of_all, scale_atoms};
 use crate::algebra::{Arena, Expr, Kernel, Polynomial};
 use crate::ir::Program;
-use crate::ir::build::Builder;
+use crate::ir::build::{Builder, Ways};
 use crate::ir::inverse_root::with_inverse_roots;
 
 /// Named polynomials in the order of their results, with quantities they share.
@@ -16,7 +16,7 @@ pub struct Batch {
     pub shared: Vec<(Expr, Polynomial)>,
     /// Calls of runtime functions, whose results are shared quantities too.
     pub kernels: Vec<Kernel>,
-    /// Results.
+    /// The polynomials of the results, by name.
     pub results: Vec<(String, Polynomial)>,
 }
 
@@ -91,8 +91,14 @@ pub fn straight_line(
         open.iter().map(|(_, form)| form).chain(result_forms).any(|p| number_of_all(p).is_some());
     let (has_powers, program) = built(Builder::new(), First::Atom);
     let mut ways = Vec::new();
+    let steps_through_powers = Ways { steps_through_powers: true, ..Ways::default() };
     if has_powers {
-        ways.push(built(Builder::stepping_through_powers(), First::Atom).1);
+        ways.push(built(Builder::by(steps_through_powers), First::Atom).1);
+    }
+    if program.operations().div > 1 {
+        let inverts = Ways { inverts_divisors: true, ..Ways::default() };
+        ways.push(built(Builder::by(inverts), First::Atom).1);
+        ways.push(built(Builder::by(Ways { inverts_divisors: true, ..steps_through_powers }), First::Atom).1);
     }
     ways.push(program);
     if has_numbers {

@@ -12,6 +12,7 @@ mod momentum_side;
 mod named_potentials;
 mod names;
 mod symbol;
+pub(crate) mod textbook;
 mod value;
 
 use proc_macro2::TokenStream;
@@ -33,9 +34,9 @@ pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
 /// Something with its place in the source.
 #[derive(Clone, Copy, Debug)]
 pub struct Spanned<T> {
-    /// The thing.
+    /// What the user wrote, read.
     pub value: T,
-    /// Its place.
+    /// Its place in the source.
     pub span: Region,
 }
 

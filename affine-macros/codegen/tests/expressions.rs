@@ -39,6 +39,7 @@ fn grouped(expression: &Expression) -> String {
         ExpressionKind::Trace(factors) => {
             format!("tr({})", factors.iter().map(|factor| factor.name()).collect::<Vec<_>>().join("*"))
         }
+        ExpressionKind::InverseTrace(matrix) => format!("tr({}^-1)", matrix.name()),
         ExpressionKind::Entry(matrix, row, column) => format!("{}[{row},{column}]", matrix.name()),
         ExpressionKind::Component(index) => format!("x[{index}]"),
         ExpressionKind::Norm => "norm(x)".to_owned(),
@@ -206,6 +207,28 @@ fn named_potentials_are_their_formulas() {
 }
 
 #[test]
+fn traces_are_sums_of_traces_of_products() {
+    let cases = [
+        ("tr((G))", "tr(G)"),
+        ("tr(G^3*Ct^2)", "tr(G*G*G*Ct*Ct)"),
+        ("tr((G - 1)*(G - 1))", "tr(G*G) - 2*tr(G) + n"),
+        ("tr((G - 1)^3)", "tr(G*G*G) - 3*tr(G*G) + 3*tr(G) - n"),
+        ("tr(1 - G)", "n - tr(G)"),
+        ("tr(-G/4 - 1/4)", "-(0.25*tr(G)) - 0.25*n"),
+        ("tr((G + Ct)*G)", "tr(G*G) + tr(Ct*G)"),
+        ("tr(a*(b*G + 1)*Ct)", "a*b*tr(G*Ct) + a*tr(Ct)"),
+        ("tr((G - a)*(G + a))", "tr(G*G) + 0*a*tr(G) - a*a*n"),
+        ("tr(G/a)", "1/a*tr(G)"),
+        ("tr(2*G^-1*Ct*Ct^-1 + G*G^-1)", "2*tr(G^-1) + n"),
+        ("tr(G^0)", "n"),
+        ("tr(tr(G)*Ct)", "tr(G)*tr(Ct)"),
+    ];
+    for (source, expected) in cases {
+        assert_eq!(grouped(&potential(source)), grouped(&potential(expected)), "{source}");
+    }
+}
+
+#[test]
 fn every_named_potential_uses_each_parameter_once() {
     for named in NAMED_POTENTIALS {
         let marks: Vec<String> = (0..named.parameters.len()).map(|k| format!("mark{k}")).collect();
@@ -242,7 +265,10 @@ fn long_and_deep_expressions_are_refused_not_overflowed() {
     let named = format!("{}1{}", "gas(".repeat(400), ")".repeat(400));
     let trace = format!("tr({})", vec!["G"; 5000].join("*"));
     let many = vec!["orthogonality(1)"; 60].join("+");
-    for source in [calls, named, trace, many] {
+    let product = format!("tr({})", ["(G + Ct + phi + a)"; 4].join("*"));
+    let words = "tr((G + Ct)^6)".to_owned();
+    let sums = format!("tr({})", (0..100).map(|k| format!("a{k}*G")).collect::<Vec<_>>().join("+"));
+    for source in [calls, named, trace, many, product, words, sums] {
         let rejected = try_potential(&source).map(|_| ()).expect_err("a refusal");
         assert!(matches!(
             rejected.diagnostics().next(),
@@ -282,6 +308,8 @@ fn any_potential() -> impl Strategy<Value = Expression> {
     let leaf = prop_oneof![
         any_expression(0..1),
         prop::collection::vec(matrix.clone(), 1..4).prop_map(|factors| here(ExpressionKind::Trace(factors))),
+        prop::sample::select(vec![MatrixName::Green, MatrixName::Finger])
+            .prop_map(|matrix| here(ExpressionKind::InverseTrace(matrix))),
         (matrix, 1_usize..4, 1_usize..4).prop_map(|(m, i, j)| here(ExpressionKind::Entry(m, i, j))),
         (1_usize..4).prop_map(|index| here(ExpressionKind::Component(index))),
         Just(()).prop_map(|()| here(ExpressionKind::Norm)),

@@ -51,13 +51,13 @@ pub struct ErrorNorm {
 /// What a group is measured against.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Measure {
-    /// Its size.
+    /// The size of the group.
     Size,
-    /// Its size, and that of the placement.
+    /// The size of the group, and that of the placement.
     Position,
-    /// 1.
+    /// Against 1.
     One,
-    /// It is not.
+    /// The group is not measured.
     Nothing,
 }
 

@@ -9,14 +9,14 @@ pub(crate) trait Tape {
     /// Keeps 64 bits, or replaces them by those that were kept.
     fn bits(&mut self, bits: &mut u64);
 
-    /// A number.
+    /// Keeps a number by its bits, or replaces it.
     fn number(&mut self, number: &mut f64) {
         let mut bits = number.to_bits();
         self.bits(&mut bits);
         *number = f64::from_bits(bits);
     }
 
-    /// A choice.
+    /// Keeps a choice as a number, or replaces it.
     fn flag(&mut self, flag: &mut bool) {
         let mut bits = u64::from(*flag);
         self.bits(&mut bits);
@@ -34,7 +34,7 @@ pub(crate) trait Tape {
         self.state(&mut sum.carry);
     }
 
-    /// Counts.
+    /// The counts of steps and evaluations.
     fn statistics(&mut self, statistics: &mut Statistics) {
         self.bits(&mut statistics.steps);
         self.bits(&mut statistics.rejected);

@@ -8,7 +8,7 @@ use super::taylor::{Portable, Vectors};
 
 /// What is worth compiling twice. Only what is inlined into `run` is.
 pub(crate) trait Work {
-    /// What comes out.
+    /// The result of the work.
     type Output;
     /// Does it; to be `#[inline(always)]`.
     fn run(self, vectors: impl Vectors) -> Self::Output;

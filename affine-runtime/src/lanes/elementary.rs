@@ -140,6 +140,16 @@ pub(crate) fn ln_1p(x: f64) -> f64 {
     if x == 0.0 { x } else { value }
 }
 
+/// `arsinh x`.
+#[inline(always)]
+pub(crate) fn asinh(x: f64) -> f64 {
+    let size = x.abs();
+    let square = size * size;
+    let less = size + square / (1.0 + (1.0 + square).sqrt());
+    // Beyond the square root of the largest number `2 |x|` is as good.
+    ln_1p(if size < 1e150 { less } else { size + size }).copysign(x)
+}
+
 /// `2^18`, whose cube brings subnormal numbers up and the largest, whose root cubed may be too large, down.
 const SCALE: f64 = 262_144.0;
 const CUBE: f64 = SCALE * SCALE * SCALE;

@@ -10,7 +10,7 @@ use crate::scalar::{Real, Scalar};
 /// Largest error of a fast elementary function in units of the last place of its value, where that is a normal number.
 pub const FAST_ULP: f64 = 2.5;
 
-/// A double whose `cbrt`, `inverse_cbrt`, `exp`, `exp_m1`, `ln`, `ln_1p`, `sinh`, `cosh` and `tanh` have no branches, so that
+/// A double whose `cbrt`, `inverse_cbrt`, `exp`, `exp_m1`, `ln`, `ln_1p`, `sinh`, `cosh`, `tanh` and `asinh` have no branches, so that
 /// a loop over many becomes vector instructions, and are right to [`FAST_ULP`] units of the last place. All else is as
 /// [`f64`] has it.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -54,7 +54,8 @@ impl Scalar for Fast {
         ln_1p = elementary::ln_1p,
         sinh = elementary::sinh,
         cosh = elementary::cosh,
-        tanh = elementary::tanh
+        tanh = elementary::tanh,
+        asinh = elementary::asinh
     );
 }
 

@@ -49,7 +49,7 @@ pub struct LatticeStop<const N: usize> {
     pub t: f64,
     /// The last good state.
     pub lattice: Lattice<N>,
-    /// What happened.
+    /// Why the motion stopped.
     pub reason: StopReason,
 }
 

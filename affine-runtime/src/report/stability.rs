@@ -49,10 +49,10 @@ pub enum Demand {
     HeldOrRefused(f64),
 }
 
-/// What came out.
+/// How a case ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
-    /// It ran.
+    /// The case ran to its end.
     Ran {
         /// Error against the oracle.
         error: f64,
@@ -70,7 +70,7 @@ pub enum Verdict {
     Held,
     /// Refused, as demanded or allowed.
     Refused,
-    /// Neither.
+    /// Neither as accurate as demanded, nor refused where that is allowed.
     FellShort,
 }
 
@@ -103,7 +103,7 @@ pub struct StabilityCase {
     pub oracle: Oracle,
     /// What is demanded.
     pub demand: Demand,
-    /// What came out.
+    /// How the case ended.
     pub finding: Finding,
 }
 

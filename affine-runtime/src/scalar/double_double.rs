@@ -75,6 +75,13 @@ impl Scalar for Quad {
         let less = (-(Scalar::abs(self) + Scalar::abs(self))).exp_m1();
         (-less / (less + Quad::from(2.0))).copysign(self)
     }
+    fn asinh(self) -> Self {
+        let value = Quad::from(libm::asinh(self.0));
+        if value.0 == 0.0 || !value.0.is_finite() {
+            return value;
+        }
+        value - (Scalar::sinh(value) - self) / Scalar::cosh(value)
+    }
     fn abs(self) -> Self {
         Quad::abs(self)
     }

@@ -20,7 +20,7 @@ pub(super) struct Departure {
     pub(super) side: Side,
     /// A time just after, at which it is on that side.
     pub(super) t: f64,
-    /// Its value there.
+    /// The value of the function at that time.
     pub(super) value: f64,
     /// The size of its rate at the beginning; `None` where that vanishes.
     pub(super) rate: Option<f64>,

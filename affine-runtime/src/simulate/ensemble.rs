@@ -4,13 +4,14 @@ mod bodies;
 
 use core::fmt;
 
-use super::halt::{Setting, Stop};
+use super::halt::Stop;
 use super::layout::placement_in;
 use super::mechanics::Moving;
 use super::methods::automatic;
 use super::motion::WithWork;
 use super::orientation::passes_through_zero;
 use super::point::is_clearly_positive;
+use super::setting::Setting;
 use super::settings::Plan;
 use super::witness::Witness;
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};

@@ -86,7 +86,7 @@ pub enum Direction {
     Rising,
     /// From positive to negative.
     Falling,
-    /// Either.
+    /// From either sign to the other.
     #[default]
     Any,
 }
@@ -168,7 +168,7 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
         Self { out_of_range: Some(i).filter(|i| !(1..=N).contains(i)), ..event }
     }
 
-    /// With another name.
+    /// The same event with another name.
     #[must_use]
     pub fn named(self, name: &'static str) -> Self {
         Self { name, ..self }

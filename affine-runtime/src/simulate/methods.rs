@@ -1,6 +1,6 @@
 //! The integrators, each begun on the state that it steps.
 
-use super::halt::{Reason, Setting};
+use super::halt::Reason;
 use super::layout::{
     Layout, carries_dilatation, has_multiplier, is_canonical, is_second_order, moves_on_group, placement_in,
 };
@@ -8,6 +8,7 @@ use super::mechanics::Course;
 use super::motion::{Expanded, Expansion};
 use super::range::in_range;
 use super::recorder::Recorder;
+use super::setting::Setting;
 use super::stepper::{Explicit, Stepper};
 use super::stiffness::{PiecesOf, Trial, adaptive, stiffness};
 use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};

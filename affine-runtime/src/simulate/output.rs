@@ -1,6 +1,6 @@
 //! Output times.
 
-use super::halt::Setting;
+use super::setting::Setting;
 use crate::integrate::parts;
 
 /// More outputs than that are taken for a slip of the pen.
@@ -15,7 +15,7 @@ pub(super) enum Output {
     Steps,
     /// At equidistant times, and at the end.
     Every(f64),
-    /// At these times.
+    /// Outputs at the times of a list.
     At(Vec<f64>),
 }
 

@@ -51,7 +51,7 @@ pub(super) struct Recorder<'r, 'a, const N: usize, P> {
 
 /// Where a run does not go straight on.
 pub(super) enum Turn<P> {
-    /// It ends.
+    /// The run ends at the event.
     Stopped,
     /// It goes on from another point.
     Changed {

@@ -2,11 +2,12 @@
 
 use super::checkpoint::{Checkpoint, Place};
 use super::fingerprint::fingerprint;
-use super::halt::{Halt, Outcome, Reason, Setting, Stop};
+use super::halt::{Halt, Outcome, Reason, Stop};
 use super::layout::total;
 use super::mechanics::{Course, Mechanics};
 use super::point::{check, energy_scale};
 use super::recorder::{Recorder, Turn};
+use super::setting::Setting;
 use super::settings::{Plan, Settings};
 use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;

@@ -2,8 +2,8 @@
 
 use super::checkpoint::Checkpoint;
 use super::event::Event;
-use super::halt::Setting;
 use super::output::{Output, Schedule};
+use super::setting::Setting;
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Observe, Watch};
 use crate::integrate::gauss::Tableau;
 use crate::integrate::rattle::Composition;

@@ -32,7 +32,7 @@ impl Side {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) enum Standing {
-    /// On a side.
+    /// On a side of zero.
     On(Side),
     /// At zero, or no number: to whichever side it goes, that is no change of its sign.
     Open,

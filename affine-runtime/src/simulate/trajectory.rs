@@ -62,7 +62,8 @@ pub struct Computation {
     /// energy is neither conserved nor balanced by a work. An event that changes the point starts it anew.
     pub energy_defect: f64,
     /// The largest part of a turn that an angle of the potential, such as `w*t` in `cos(w*t)`, makes by the time alone within one
-    /// step, with that part of the potential; `None` where there is no such angle, and in a run that takes no steps.
+    /// step, with that part of the potential; `None` where there is no such angle, and in a run that takes no steps. A resumed run
+    /// knows only the steps of its own part.
     pub turns: Option<(&'static str, f64)>,
 }
 

@@ -33,7 +33,7 @@ pub(super) struct Met<P> {
     pub(super) event: usize,
     /// The side to which the function goes.
     pub(super) to: Side,
-    /// About how fast.
+    /// The size of its rate, about.
     pub(super) rate: f64,
     pub(super) point: P,
     pub(super) work: f64,

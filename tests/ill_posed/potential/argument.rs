@@ -1,6 +1,6 @@
 use affine_runtime::affine_model;
 
-#[affine_model(dim = 3, kinetic(casimir2 = 1), potential = tr(G + Ct))]
+#[affine_model(dim = 3, kinetic(casimir2 = 1), potential = norm(G))]
 struct Model;
 
 fn main() {}

@@ -16,7 +16,7 @@ pub struct Expr(u32);
 /// The root of an expression.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
-    /// A number.
+    /// An exact number.
     Constant(Rational),
     /// A named indeterminate.
     Symbol(String),
@@ -59,7 +59,7 @@ impl Arena {
         fresh
     }
 
-    /// A number.
+    /// The expression of an exact number.
     pub fn constant(&mut self, value: Rational) -> Expr {
         self.intern(Node::Constant(value))
     }
@@ -199,6 +199,7 @@ impl Arena {
                 | Function::Sinh
                 | Function::Tan
                 | Function::Tanh
+                | Function::Asinh
                 | Function::Sign
                 | Function::Cbrt
                 | Function::InverseCbrt

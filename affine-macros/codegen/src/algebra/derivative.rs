@@ -50,6 +50,12 @@ impl Arena {
             Function::Exp => value,
             Function::ExpM1 => self.apply(Function::Exp, argument),
             Function::Ln => reciprocal(self, argument, -1, (1, 1)),
+            Function::Asinh => {
+                let square = self.mul(argument, argument);
+                let sum = self.add(one, square);
+                let root = self.apply(Function::Sqrt, sum);
+                self.pow(root, -1).unwrap_or(root)
+            }
             Function::Sqrt => reciprocal(self, value, -1, (1, 2)),
             Function::Cbrt => reciprocal(self, value, -2, (1, 3)),
             Function::InverseCbrt => reciprocal(self, value, 4, (-1, 3)),

@@ -67,6 +67,7 @@ impl Field for f64 {
             Function::Sinh => self.sinh(),
             Function::Cosh => self.cosh(),
             Function::Tanh => self.tanh(),
+            Function::Asinh => self.asinh(),
         })
     }
 }

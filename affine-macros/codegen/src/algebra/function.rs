@@ -31,6 +31,8 @@ pub enum Function {
     Cosh,
     /// Hyperbolic tangent.
     Tanh,
+    /// Inverse hyperbolic sine; for right-hand sides that know where it matters, not for specifications.
+    Asinh,
 }
 
 impl Function {
@@ -52,6 +54,7 @@ impl Function {
             Self::Sinh => "sinh",
             Self::Cosh => "cosh",
             Self::Tanh => "tanh",
+            Self::Asinh => "asinh",
         }
     }
 }

@@ -7,11 +7,11 @@ use super::polynomial::Polynomial;
 /// results nothing uses is left out.
 #[derive(Clone, Debug)]
 pub struct Kernel {
-    /// What is called.
+    /// The runtime function that is called.
     pub callee: Callee,
     /// What it reads: polynomials in the state, in shared quantities and in results of other calls.
     pub arguments: Vec<Group<Polynomial>>,
-    /// What it returns.
+    /// The symbols of its results, in groups.
     pub results: Vec<Group<Expr>>,
 }
 

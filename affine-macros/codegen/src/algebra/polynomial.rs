@@ -25,19 +25,19 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
-    /// 0.
+    /// The polynomial without terms, 0.
     #[must_use]
     pub fn zero() -> Self {
         Self::default()
     }
 
-    /// A number.
+    /// The constant polynomial of a number.
     #[must_use]
     pub fn constant(value: Rational) -> Self {
         Self::term(Vec::new(), value)
     }
 
-    /// An atom.
+    /// The polynomial of a single atom.
     #[must_use]
     pub fn atom(atom: Expr) -> Self {
         Self::term(vec![atom], Rational::ONE)
@@ -283,7 +283,8 @@ impl Polynomial {
         result
     }
 
-    fn atoms(&self) -> impl Iterator<Item = &Expr> {
+    /// The atoms of all terms, as often as they stand there.
+    pub fn atoms(&self) -> impl Iterator<Item = &Expr> {
         self.terms.iter().flat_map(|(monomial, _)| monomial)
     }
 

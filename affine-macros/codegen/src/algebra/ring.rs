@@ -7,9 +7,9 @@ use super::residue::Residue;
 
 /// A commutative ring.
 pub trait Ring: Clone {
-    /// 0.
+    /// The zero of the ring.
     fn zero() -> Self;
-    /// A number.
+    /// The ring element of an exact number.
     fn number(value: &Rational) -> Self;
     /// Not proved to be different from 0?
     fn vanishes(&self) -> bool;

@@ -8,7 +8,7 @@ use super::{Arena, Expr, Rational};
 /// A symbol as it is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// What is written.
+    /// The symbol without brackets.
     pub body: String,
     /// Where it takes brackets.
     pub shape: Shape,
@@ -26,7 +26,7 @@ pub enum Shape {
 }
 
 impl Written {
-    /// A letter.
+    /// A symbol that never takes brackets: a letter, with an index or without.
     #[must_use]
     pub fn letter(body: impl Into<String>) -> Self {
         Self { body: body.into(), shape: Shape::Letter }

@@ -69,6 +69,8 @@ fn degree(expression: &Expression, place: Place, n: usize, found: &mut Diagnosti
         }
         ExpressionKind::Multiply(..) => degrees.iter().sum(),
         ExpressionKind::Trace(factors) => u64::try_from(factors.len()).unwrap_or(u64::MAX),
+        // A quotient of two invariants.
+        ExpressionKind::InverseTrace(_) => 2,
         ExpressionKind::Call(..) | ExpressionKind::Pairs(_) => 1,
         _ => degrees.iter().copied().max().unwrap_or(1),
     };

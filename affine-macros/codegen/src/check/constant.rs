@@ -27,6 +27,7 @@ pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
         ExpressionKind::FieldEntry(..)
         | ExpressionKind::Call(..)
         | ExpressionKind::Trace(_)
+        | ExpressionKind::InverseTrace(_)
         | ExpressionKind::Entry(..)
         | ExpressionKind::Component(_)
         | ExpressionKind::Norm

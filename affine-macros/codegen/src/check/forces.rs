@@ -24,7 +24,7 @@ pub(super) fn stand_alone(spec: &Spec, found: &mut Diagnostics) {
 
 /// A part of a model that forces come from.
 struct Force {
-    /// As written.
+    /// The key or field that the force comes from, as written.
     name: String,
     span: Region,
     /// Does it act on an isochoric body as on a free one, whatever the multiplier?

@@ -27,15 +27,18 @@ const ONE: Summands = Summands { above: 1, below: 1, root: 1, inside: 1 };
 /// The expression, and everything inside its functions, has no more summands than a build has time for.
 ///
 /// # Errors
-/// Reported on the smallest part that has more.
+/// Reported on the first smallest part that has more.
 pub(super) fn summands(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result<(), Reported> {
     counted(expression, n, found).map(|_| ())
 }
 
 fn counted(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result<Summands, Reported> {
-    let counts: Vec<_> =
-        expression.operands().into_iter().map(|operand| counted(operand, n, found)).collect();
-    let counts: Vec<Summands> = counts.into_iter().collect::<Result<_, _>>()?;
+    // The first part that is too large ends it: those that a trace was expanded to have the same place.
+    let counts: Vec<Summands> = expression
+        .operands()
+        .into_iter()
+        .map(|operand| counted(operand, n, found))
+        .collect::<Result<_, _>>()?;
     let count = match (&expression.kind, counts.as_slice()) {
         (ExpressionKind::Add(..) | ExpressionKind::Subtract(..), [left, right]) => {
             Summands { above: left.above.saturating_add(right.above), ..ONE }

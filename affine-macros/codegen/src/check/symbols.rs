@@ -7,7 +7,7 @@ use quote::ToTokens;
 
 use crate::diagnostics::{Diagnostics, ExpressionMistake};
 use crate::spec::{
-    Expression, ExpressionKind, POTENTIAL_SYMBOLS, SYMBOLS, Spec, Symbol, application, nearest,
+    Expression, ExpressionKind, POTENTIAL_SYMBOLS, SYMBOLS, Spec, Symbol, application, nearest, textbook,
 };
 
 /// A field named as a symbol would make every expression with that name ambiguous to its reader, whichever of
@@ -75,7 +75,8 @@ fn unresolved(
             let nearest = application(&name)
                 .filter(|_| in_potential)
                 .or_else(|| nearest(&name, scope.iter().map(String::as_str)).map(str::to_owned));
-            Some(ExpressionMistake::UnknownSymbol { name, nearest, scope })
+            let familiar = textbook::quantity(&name).filter(|_| in_potential);
+            Some(ExpressionMistake::UnknownSymbol { name, nearest, familiar, scope })
         }
     }
 }

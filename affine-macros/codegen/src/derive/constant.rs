@@ -4,7 +4,7 @@ use super::domain::domain;
 use super::model::{Formulas, Model, VelocitySide};
 use super::prepared::{coefficient_program, conditions, damping, numeric_blocks};
 use super::programs::{Asked, Reduced, best_reduction, full_chart, full_equations, power_batch};
-use super::{ChangeOfBases, lattice, quantities, stated};
+use super::{ChangeOfBases, lattice, quantities, stated, ways};
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::check::{Form, eigenvalues, signature};
@@ -23,7 +23,7 @@ use crate::mechanics::reduce;
 use crate::mechanics::weight::Weight;
 use crate::optimise::{Batch, straight_line};
 
-/// Derives it.
+/// Derives the model of an energy whose mass matrix is constant in one frame.
 pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
     let signature = match require_positive || form.kinetic.is_dalembert() {
         // `prepare()` refuses anything else.
@@ -49,13 +49,14 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         quantities,
         ..
     } = form;
-    let potential = potential.as_ref();
     let arena = &mut arena;
     let cubic = stated.as_ref().filter(|stated| stated.is_cubic());
     let h = match cubic {
         None => Hamiltonian::new(arena, &kinetic, &hessian)?,
         Some(stated) => stated.hamiltonian(arena),
     };
+    let potential = potential.map(|u| ways::written(arena, &u, h.dim, &h.momenta()));
+    let potential = potential.as_ref();
     let own = reduce::own_chart(arena, &h);
     let own_h = reduce::own_hamiltonian(&h, &own);
     let mut coefficients = Constants::new("c");
@@ -92,7 +93,7 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         },
         hamiltonian: describe::hamiltonian(arena, &notation, energy, potential, &forces),
         equations: describe::equations(arena, &notation, energy, (&full_chart, &full_h), potential, &forces),
-        reduced: describe::system(arena, &notation, &reduction.system),
+        reduced: describe::system(arena, &notation, reduction.printed()),
         left_out: describe::left_out(&h, &reduction, closed_form),
     };
 

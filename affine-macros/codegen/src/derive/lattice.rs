@@ -53,7 +53,7 @@ pub(super) struct Asked {
     pub ratios: bool,
 }
 
-/// Derives it.
+/// Derives the programs of the lattice form.
 pub(super) fn two_polar(
     arena: &mut Arena,
     notation: &Notation,

@@ -9,7 +9,7 @@ use super::prepared::unbound;
 
 /// Where the bases come from in which the metrics are the identity. The equations do not know of them.
 pub enum ChangeOfBases {
-    /// From numbers.
+    /// The bases of metrics that are numbers.
     Known(Bases),
     /// From the fields, when the model is prepared.
     Prepared(Preparation),
@@ -39,7 +39,7 @@ pub struct Preparation {
 pub struct GivenMatrix {
     /// The name that they have for it.
     pub name: String,
-    /// What it is.
+    /// What it is made from.
     pub source: GivenSource,
 }
 

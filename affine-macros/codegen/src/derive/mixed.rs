@@ -24,7 +24,7 @@ use crate::optimise::Batch;
 
 use super::prepared::{coefficient_program, damping};
 use super::programs::{Pieces, Reduced, batch, shortest, shortest_reduction};
-use super::{Formulas, Model, VelocitySide, quantities};
+use super::{Formulas, Model, VelocitySide, quantities, ways};
 
 /// The internal motion: of one frame, or of several.
 enum Inner {
@@ -52,6 +52,8 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
     let arena = &mut arena;
     let inner = Inner::new(arena, &mixed, hessian.as_ref())?;
     let masses = Masses::of(&mixed);
+    let momenta = [Momentum::of(inner.frame())];
+    let potential = potential.map(|u| ways::written(arena, &u, mixed.dim, &momenta));
     let body = Body { inner, masses, potential: potential.as_ref(), forces: &forces, mixed: &mixed };
     let mut coefficients = Constants::new("c");
     let chart = body.chart(arena, true);
@@ -335,6 +337,8 @@ impl Body<'_> {
         let drift = self.drifts();
         let chart = self.chart(arena, drift.is_none());
         let systems = self.systems(arena, &chart)?;
+        let plain = self.potential.map(Potential::plainly);
+        let printed = self.systems_under(arena, &chart, plain.as_ref())?;
         let commuting = match drift {
             Some(mass) => {
                 let reciprocal = arena.pow(mass, -1)?;
@@ -343,8 +347,10 @@ impl Body<'_> {
             None => Vec::new(),
         };
         let turn = rotations && chart.linear.is_some();
-        let reduced = |system: System| reduce::reduced(arena, chart.clone(), commuting.clone(), turn, system);
-        Some(systems.into_iter().map(reduced).collect())
+        let reduced = |systems: (System, System)| {
+            reduce::reduced(arena, chart.clone(), commuting.clone(), turn, systems)
+        };
+        Some(systems.into_iter().zip(printed).map(reduced).collect())
     }
 
     /// Geodesics with `p = 0` are those of the internal motion.
@@ -390,7 +396,7 @@ impl Body<'_> {
                 (mixed::confined_hamiltonian(), list)
             }
             Inner::Constant(kinetic, h) => {
-                let system = describe::system(arena, notation, &reduction.system);
+                let system = describe::system(arena, notation, reduction.printed());
                 let energy = (&**h, &**kinetic);
                 let none = Forces::default();
                 (describe::hamiltonian(arena, notation, energy, None, &none), system)

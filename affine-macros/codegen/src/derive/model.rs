@@ -185,7 +185,7 @@ pub struct Condition {
     pub name: &'static str,
     /// Which velocities lose their momentum, or which momenta their velocity.
     pub directions: &'static str,
-    /// What it multiplies.
+    /// Is it a factor of velocities, or of momenta?
     pub relation: Relation,
     /// Must it be positive?
     pub positive: bool,
@@ -219,7 +219,7 @@ pub struct NumericBlock {
     pub inverse: Vec<String>,
     /// The velocities that it is written in: row-major places and weights.
     pub basis: Vec<Vec<(usize, Rational)>>,
-    /// Size.
+    /// Number of rows of the block.
     pub size: usize,
     /// Must it be positive definite?
     pub positive: bool,

@@ -38,16 +38,16 @@ pub struct PrincipalProgram {
 pub enum FlowProgram {
     /// State components and their constant rates.
     Shift {
-        /// What moves.
+        /// Names of the components that move at constant rates.
         moved: Vec<String>,
-        /// The rates.
+        /// Computes their rates.
         program: Program,
     },
     /// State components and their rises over the time `h`.
     Rise {
-        /// What moves.
+        /// Names of the components that rise.
         moved: Vec<String>,
-        /// The rises.
+        /// Computes their rises.
         program: Program,
     },
     /// An exponential on one side of the placement.

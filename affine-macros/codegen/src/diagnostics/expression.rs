@@ -73,6 +73,8 @@ pub enum ExpressionMistake {
         name: String,
         /// The name probably meant.
         nearest: Option<String>,
+        /// How a quantity with this name in textbooks is written here.
+        familiar: Option<&'static str>,
         /// The names in scope.
         scope: Vec<String>,
     },
@@ -140,7 +142,12 @@ impl ExpressionMistake {
             Self::UnexpectedToken { found, expected } => text(
                 format!("{found} where {expected} should stand"),
                 "expressions are made of decimal numbers, fields, `n`, the operators `+ - * / ^` and parentheses",
-                format!("put {expected} before it, or remove it; a product has its sign, as in `2*a`"),
+                match found.as_str() {
+                    "`:`" => "write `tr(A*B)` for the contraction of two symmetric tensors".to_owned(),
+                    _ => {
+                        format!("put {expected} before it, or remove it; a product has its sign, as in `2*a`")
+                    }
+                },
             ),
             Self::MissingOperand => text(
                 "an expression ends where a number, a field or `(` should stand",
@@ -204,11 +211,17 @@ impl ExpressionMistake {
                 "a matrix is an array of rows, and a row is an array of entries",
                 "write `[[a, b], [c, d]]`, or `diag(a, d)`",
             ),
-            Self::UnknownSymbol { name, nearest, scope } => text(
-                format!("there is no field or symbol `{name}`"),
-                format!("an expression can use {}", listed(scope)),
-                suggestion(nearest.as_deref(), &format!("add a field `{name}: f64`")),
-            ),
+            Self::UnknownSymbol { name, nearest, familiar, scope } => {
+                let field = format!("add a field `{name}: f64`");
+                text(
+                    format!("there is no field or symbol `{name}`"),
+                    format!("an expression can use {}", listed(scope)),
+                    match familiar {
+                        Some(familiar) => format!("{familiar}; or {field}"),
+                        None => suggestion(nearest.as_deref(), &field),
+                    },
+                )
+            }
             Self::FieldType { field, ty, is_matrix: true } => text(
                 format!("the field `{field}` has type `{ty}` and cannot stand in an expression"),
                 "an expression is a real number, and a field of matrix type stands alone, as in `body_inertia = j`",

@@ -92,12 +92,12 @@ pub enum NotationMistake {
     },
     /// A dimension other than the literals 2 and 3.
     Dimension {
-        /// What is written.
+        /// The dimension as it is written.
         found: String,
     },
     /// `crate = ...` is not a path.
     RuntimePath {
-        /// What is written.
+        /// The value of `crate` as it is written.
         found: String,
     },
     /// An enum, union or tuple struct.

@@ -26,17 +26,24 @@ pub enum PotentialMistake {
         /// How many arguments there are.
         found: usize,
     },
-    /// Something in `tr(...)` or `norm(...)` that has no trace or norm.
+    /// Something in `norm(...)` other than `x`.
     Argument {
-        /// `tr` or `norm`.
-        name: &'static str,
         /// What stands in the brackets.
         found: String,
     },
+    /// A part of a trace that is no polynomial in matrices, or a transpose anywhere.
+    Traced {
+        /// The part.
+        written: String,
+        /// What is wrong with it.
+        part: TracedPart,
+    },
     /// `a[1]` for an `a` without indices.
     NotIndexed {
-        /// The name.
+        /// The name before the brackets.
         name: String,
+        /// How a quantity with this name in textbooks is written here.
+        familiar: Option<&'static str>,
     },
     /// `G[1]`, `x[i]`: other than the literal indices due.
     Indices {
@@ -118,10 +125,63 @@ pub enum PotentialMistake {
     },
 }
 
+/// What stands in a trace and is no polynomial in matrices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TracedPart {
+    /// `sqrt(G)`.
+    Function,
+    /// `1/G`.
+    Divisor,
+    /// `phi^T`.
+    Transpose,
+    /// `G^0.5`.
+    Exponent,
+    /// `G^-2`, `(G - 1)^-1`, `phi^-1`, or `G^-1` beside other factors.
+    Inverse,
+}
+
+impl TracedPart {
+    fn text(self, written: &str) -> Text {
+        const WHY: &str = "the trace is taken of sums, products and whole powers of `G`, `Ct` and `phi`, where a number stands \
+                           for that multiple of the identity";
+        match self {
+            Self::Function => text(
+                format!("`{written}` is a function of a matrix"),
+                WHY,
+                "write the sum over the stretches: tr(ln(G)) is `2*ln(det)`; for n = 2 tr(ln(G)^2) is `4*(q1^2 + q2^2)` and tr(sqrt(G)) \
+                 is `Q1 + Q2`",
+            ),
+            Self::Divisor => text(
+                format!("the divisor `{written}` is a matrix"),
+                WHY,
+                "divide by a number; an inverse is a power, as in `tr(G^-1)`",
+            ),
+            Self::Transpose => text(
+                format!("`{written}` is a transpose, which has no notation here"),
+                "`G = phi^T phi` and `Ct = phi phi^T` are the products of the placement, the deformation gradient, with its transpose",
+                "write `G` for `phi^T*phi` and `Ct` for `phi*phi^T`",
+            ),
+            Self::Exponent => text(
+                format!("the exponent of `{written}` is not a whole number in digits, of at most 16"),
+                WHY,
+                "write a digit, as in `G^2`; tr(G^a) is `Q1^(2*a) + Q2^(2*a)` for n = 2, for a number `a`",
+            ),
+            Self::Inverse => text(
+                format!("`{written}` has an inverse other than `G^-1` or `Ct^-1` by itself"),
+                "tr(G^-1) is a function of the invariants, `I1/I2` for n = 2 and `I2/I3` for n = 3; products with an inverse are \
+                 not expanded",
+                "write `tr(G^-1)` as a summand or factor; tr(G^-2) is `tr(G^-1)^2 - 2/I2` for n = 2 and `tr(G^-1)^2 - 2*I1/I3` \
+                 for n = 3",
+            ),
+        }
+    }
+}
+
 names! { PotentialMistake
     UnknownFunction => "unknown-function",
     ArgumentCount => "argument-count",
     Argument => "argument",
+    Traced => "traced",
     NotIndexed => "not-indexed",
     Indices => "indices",
     IndexRange => "index-range",
@@ -152,22 +212,17 @@ impl PotentialMistake {
                 format!("`{name}` takes {}", arguments(parameters.len())),
                 format!("write `{name}({})`", parameters.join(", ")),
             ),
-            Self::Argument { name, found } => match *name {
-                "norm" => text(
-                    format!("`norm({found})` is not defined"),
-                    "the norm is that of the place of the centre, `x`",
-                    "write `norm(x)`; that of the placement is `sqrt(tr(G))`",
-                ),
-                _ => text(
-                    format!("`{name}({found})` is not defined"),
-                    "the trace is taken of one of the matrices `G`, `Ct` and `phi`, or of a product with `*`",
-                    "write `tr(G)`, `tr(G*G)`, ...; sums and factors stand outside, as in `tr(G*G) - 2*tr(G) + n`",
-                ),
-            },
-            Self::NotIndexed { name } => text(
+            Self::Argument { found } => text(
+                format!("`norm({found})` is not defined"),
+                "the norm is that of the place of the centre, `x`",
+                "write `norm(x)`; the norm of a matrix is the root of a trace, `sqrt(tr(G))` that of `phi` and `sqrt(tr(G^2))` \
+                 that of `G`",
+            ),
+            Self::Traced { written, part } => part.text(written),
+            Self::NotIndexed { name, familiar } => text(
                 format!("`{name}` has no indices"),
                 "the matrices `G`, `Ct` and `phi` have entries, as in `G[1,2]`, and `x` has coordinates, as in `x[1]`",
-                "index one of these, or remove the brackets; a field holds one number",
+                familiar.unwrap_or("index one of these, or remove the brackets; a field holds one number"),
             ),
             Self::Indices { written, indices, example } => text(
                 format!("`{written}` does not name one number"),

@@ -10,7 +10,7 @@ pub enum TermMistake {
     TermShape {
         /// The term.
         term: &'static str,
-        /// What is written.
+        /// The shape of the value that is written.
         found: &'static str,
         /// What the term takes.
         takes: String,

@@ -12,14 +12,22 @@ use super::{Op, Program, Value};
 /// Powers from this one on are made of squares: those below take as many products either way.
 const SQUARED: u32 = 4;
 
+/// Ways of computing that are shorter for some programs.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ways {
+    /// Every power is made from the one before, which pays where all of them are needed.
+    pub steps_through_powers: bool,
+    /// A divisor is inverted once and multiplied with, which pays where several things are divided by it.
+    pub inverts_divisors: bool,
+}
+
 /// Builds a program expression by expression.
 #[derive(Debug, Default)]
 pub struct Builder {
     program: Program,
     known: FxHashMap<Op, Value>,
     lowered: FxHashMap<Expr, Value>,
-    /// Every power is made from the one before, which pays where all of them are needed.
-    steps_through_powers: bool,
+    ways: Ways,
     /// There is a power for which that makes a difference.
     has_powers: bool,
 }
@@ -31,10 +39,10 @@ impl Builder {
         Self::default()
     }
 
-    /// An empty program whose powers are made one from the other.
+    /// An empty program that is computed in some of these ways.
     #[must_use]
-    pub fn stepping_through_powers() -> Self {
-        Self { steps_through_powers: true, ..Self::default() }
+    pub fn by(ways: Ways) -> Self {
+        Self { ways, ..Self::default() }
     }
 
     /// Is there a power that is made of other powers than the one before?
@@ -176,11 +184,16 @@ impl Builder {
         let mut above: Option<Value> = None;
         let mut below: Option<Value> = None;
         for &(base, exponent) in factors {
-            let base = self.lower(arena, base);
-            let side = if exponent > 0 { &mut above } else { &mut below };
+            let mut base = self.lower(arena, base);
+            if exponent < 0 && self.ways.inverts_divisors {
+                let one = self.constant(&Rational::ONE);
+                base = self.step(Op::Div(one, base));
+            }
+            let is_factor = exponent > 0 || self.ways.inverts_divisors;
+            let side = if is_factor { &mut above } else { &mut below };
             let mut product = *side;
             let (factor, times) = match exponent.unsigned_abs() {
-                power if power < SQUARED || self.steps_through_powers => (base, power),
+                power if power < SQUARED || self.ways.steps_through_powers => (base, power),
                 power => {
                     self.has_powers = true;
                     (self.power(base, power), 1)

@@ -7,9 +7,9 @@ use super::Value;
 /// A call. It happens before the first step that reads one of its results; every argument is an earlier step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Call {
-    /// What is called.
+    /// The runtime function that is called.
     pub callee: Callee,
-    /// What it reads.
+    /// The arguments: earlier values, in groups.
     pub arguments: Vec<Group<Value>>,
     /// Names of the inputs that it provides.
     pub results: Vec<Group<String>>,

@@ -24,7 +24,7 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// Both.
+    /// The operations of both counts together.
     #[must_use]
     fn with(self, other: Self) -> Self {
         Self {
@@ -59,7 +59,7 @@ impl Program {
                     count.sqrt += 1;
                     count.div += 1;
                 }
-                Op::Call(Function::Ln, _) => count.ln += 1,
+                Op::Call(Function::Ln | Function::Asinh, _) => count.ln += 1,
                 Op::Call(..) => count.exp += 1,
                 Op::Add(..) | Op::Sub(..) => count.add += 1,
                 Op::Mul(..) => count.mul += 1,

@@ -26,7 +26,7 @@ pub enum Lane {
     Free,
     /// `-0`, which adds nothing.
     MinusZero,
-    /// A value.
+    /// A value with its own sign.
     Of(Value),
     /// A value with the other sign.
     Minus(Value),

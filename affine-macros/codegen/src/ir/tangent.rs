@@ -124,6 +124,13 @@ impl Builder {
                 self.step(Op::Mul(change, slope))
             }
             Function::Ln => self.step(Op::Div(change, a)),
+            Function::Asinh => {
+                let one = self.step(Op::Constant(Rational::ONE));
+                let square = self.step(Op::Mul(a, a));
+                let sum = self.step(Op::Add(one, square));
+                let root = self.step(Op::Call(Function::Sqrt, sum));
+                self.step(Op::Div(change, root))
+            }
             Function::Sqrt => {
                 let twice = self.step(Op::Add(value, value));
                 self.step(Op::Div(change, twice))

@@ -77,9 +77,9 @@ pub struct Column {
 /// One multiplication of vectors in a convolution: `sum += left_j right_(k-j)`. Squares and others have sums apart.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pass {
-    /// Which sum.
+    /// Index of the sum that it adds to.
     pub sum: usize,
-    /// Subtract instead.
+    /// Is the product subtracted?
     pub negative: bool,
     /// First slot of the left vector.
     pub left: usize,
@@ -109,9 +109,9 @@ pub enum Factor {
 pub struct Place {
     /// In the full ones, or the inner ones.
     pub full: bool,
-    /// Which sum.
+    /// Index of the sum among these.
     pub sum: usize,
-    /// Which lane.
+    /// Index of the lane in that sum.
     pub lane: usize,
 }
 

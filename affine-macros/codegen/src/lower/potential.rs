@@ -104,6 +104,10 @@ pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Readin
             Some(applied(arena, *function, a))
         }
         ExpressionKind::Trace(factors) => trace(arena, n, factors),
+        ExpressionKind::InverseTrace(_) => {
+            let [above, below] = [n.checked_sub(1)?, n].map(|k| symbol(arena, n, &format!("I{k}")));
+            arena.div(above?, below?)
+        }
         ExpressionKind::Entry(matrix, row, column) => {
             Some(component(arena, entry(*matrix, row.checked_sub(1)?, column.checked_sub(1)?)))
         }
@@ -150,7 +154,7 @@ fn applied(arena: &mut Arena, function: Function, argument: Expr) -> Expr {
 pub(super) fn is_positive(name: &str) -> bool {
     let name = name.strip_prefix(components::GIVEN).unwrap_or(name);
     let diagonal = |entry: &str| matches!(entry, "11" | "22" | "33");
-    ["trace_1", "trace_2"].contains(&name)
+    ["trace_1", "trace_2", "trace_3"].contains(&name)
         || name.strip_prefix("green_").or_else(|| name.strip_prefix("finger_")).is_some_and(diagonal)
 }
 
@@ -195,13 +199,14 @@ fn entry(matrix: MatrixName, row: usize, column: usize) -> Base {
     }
 }
 
-/// `tr G = tr Ct` and `tr G^2 = tr Ct^2` are base functions; other products are written out.
+/// `tr G = tr Ct` and likewise of squares and cubes are base functions; other products are written out.
 fn trace(arena: &mut Arena, n: usize, factors: &[MatrixName]) -> Option<Expr> {
     let first = *factors.first()?;
     if first != MatrixName::Placement && factors.iter().all(|factor| *factor == first) {
         match factors.len() {
             1 => return Some(Base::Trace.symbol(arena)),
             2 => return Some(Base::TraceOfSquare.symbol(arena)),
+            3 => return Some(Base::TraceOfCube.symbol(arena)),
             _ => {}
         }
     }

@@ -68,7 +68,9 @@ pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: 
     let tidied = system.clone().tidied(arena);
     let symbols = Carried::ALL.map(|carried| carried.symbol(arena));
     let [takes_r, takes_q] = symbols.map(|symbol| tidied.shared.iter().any(|(known, _)| *known == symbol));
-    let inverts = inverts_the_placement(arena, &tidied);
+    let inverts = inverts_the_placement(arena, chart, &tidied);
+    let inverse_det = arena.symbol("inverse_det");
+    let takes_r = takes_r || tidied.shared.iter().any(|(known, _)| *known == inverse_det);
     if !(takes_r || takes_q || inverts) {
         return None;
     }

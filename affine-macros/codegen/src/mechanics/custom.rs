@@ -58,7 +58,7 @@ pub enum On {
 /// Rotations that leave a potential unchanged, `U(A phi B) = U(phi)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
-    /// All.
+    /// All rotations of space and body: a function of the stretches.
     Isotropic,
     /// Those of space: a function of `G`.
     Green,

@@ -66,7 +66,7 @@ impl Sum {
         self.latex += &format!("{sign}{latex}");
     }
 
-    /// The sum.
+    /// The finished sum; `0` without summands.
     pub(super) fn value(self) -> Formula {
         match self.text.is_empty() {
             true => Formula { text: "0".to_owned(), latex: "0".to_owned() },

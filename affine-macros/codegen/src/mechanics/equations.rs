@@ -143,10 +143,14 @@ impl System {
     /// Replaces atoms by polynomials in every definition and every rate.
     #[must_use]
     pub fn substitute(&self, value: &impl Fn(Expr) -> Option<Polynomial>) -> Self {
-        let each = |p: &Polynomial| p.substitute(value);
+        self.mapped(&mut |p| p.substitute(value))
+    }
+
+    /// The system with other forms of the same polynomials.
+    pub fn mapped(&self, each: &mut impl FnMut(&Polynomial) -> Polynomial) -> Self {
         Self {
             shared: self.shared.iter().map(|(s, p)| (*s, each(p))).collect(),
-            kernels: self.kernels.iter().map(|kernel| kernel.with_arguments(each)).collect(),
+            kernels: self.kernels.iter().map(|kernel| kernel.with_arguments(&mut *each)).collect(),
             rates: self.rates.iter().map(|(z, s, p)| (*z, *s, each(p))).collect(),
             work: self.work.as_ref().map(|(s, p)| (*s, each(p))),
         }

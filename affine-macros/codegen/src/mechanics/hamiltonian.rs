@@ -148,6 +148,15 @@ impl Hamiltonian {
         }
     }
 
+    /// The affine momenta in which it is a polynomial, each for one frame.
+    #[must_use]
+    pub fn momenta(&self) -> Vec<Momentum> {
+        match self.isotropic {
+            Some(_) => vec![Momentum::of(self.frame), Momentum::Body, Momentum::Space],
+            None => vec![Momentum::of(self.frame)],
+        }
+    }
+
     /// The translational energy in a chart.
     #[must_use]
     pub fn translation_in(&self, chart: &Chart) -> Polynomial {

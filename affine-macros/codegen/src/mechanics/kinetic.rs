@@ -8,7 +8,7 @@ use super::metrics::Congruent;
 /// A term of the kinetic energy and its coefficient.
 #[derive(Clone, Debug)]
 pub struct Term {
-    /// Which form.
+    /// The quadratic form that the coefficient multiplies.
     pub kind: TermKind,
     /// Its coefficient or coefficients.
     pub value: Coefficient,

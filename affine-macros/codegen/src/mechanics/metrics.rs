@@ -31,9 +31,9 @@ pub struct Bases {
 /// double-double otherwise.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Factor {
-    /// Row after row.
+    /// The factor, row after row.
     pub matrix: Vec<Vec<Rational>>,
-    /// Likewise.
+    /// The inverse of the factor, row after row.
     pub inverse: Vec<Vec<Rational>>,
     /// The rational basis that it normalises.
     pub axes: Axes,

@@ -3,6 +3,7 @@
 //! `U` is an expression in [base functions](Base) whose derivatives along the left and right action are known; the
 //! chain rule does the rest. `Q_hat = -(dU/dphi)^T phi`, `Q = -phi (dU/dphi)^T`, `Q_tr = -dU/dx` (section 3).
 
+mod assembly;
 mod at_a_point;
 mod axes;
 mod base;
@@ -17,12 +18,17 @@ mod restriction;
 mod rewriting;
 mod scaled;
 mod second;
+mod strain;
 pub mod stretches;
 mod sums;
 mod tensors;
+mod undeformed;
+mod volume;
+mod writing;
 
 use crate::algebra::{Arena, Expr, Polynomial};
 
+use super::charts::Momentum;
 use super::conserved::Candidate;
 use super::constraint::Constraint;
 pub use axes::OnAxes;
@@ -31,6 +37,8 @@ pub use domain::{Bound, Guard};
 use invariance::Evidence;
 use restriction::restricted;
 use rewriting::through_dilatation;
+use volume::Volume;
+pub use writing::Writing;
 
 /// A potential.
 #[derive(Clone, Debug)]
@@ -42,6 +50,8 @@ pub struct Potential {
     time: Option<Expr>,
     invariance: Evidence,
     domain: Vec<Guard>,
+    /// How its forces are written beside a momentum.
+    writings: Vec<(Momentum, Writing)>,
 }
 
 /// Name of the symbol of `D = exp(q)`.
@@ -56,7 +66,7 @@ impl Potential {
         let slopes = Self::slopes(arena, dim, energy);
         let invariance = Evidence::new(arena, dim, &slopes, None);
         let time = Self::time_in(arena, energy);
-        Self { dim, energy, slopes, time, invariance, domain: Vec::new() }
+        Self { dim, energy, slopes, time, invariance, domain: Vec::new(), writings: Vec::new() }
     }
 
     /// The potential on the group of a constraint, within its domain; `None` where it has no value there.
@@ -71,7 +81,7 @@ impl Potential {
         let slopes = Self::slopes(arena, dim, energy);
         let invariance = Evidence::new(arena, dim, &slopes, Some(group));
         let time = Self::time_in(arena, energy);
-        Some(Self { dim, energy, slopes, time, invariance, domain })
+        Some(Self { dim, energy, slopes, time, invariance, domain, writings: Vec::new() })
     }
 
     /// Does it change along no velocity that the constraint leaves free?
@@ -120,7 +130,7 @@ impl Potential {
     pub fn drive(&self, arena: &mut Arena) -> Option<Polynomial> {
         let slope = arena.derivative(self.energy, self.time?);
         let form = through_dilatation(arena, slope);
-        Some(Polynomial::normal_form(arena, form))
+        Some(Volume::new(arena, self.dim).collected(arena, form))
     }
 
     /// Does it depend on the position of the centre of mass?

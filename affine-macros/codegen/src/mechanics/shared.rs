@@ -9,7 +9,7 @@ use super::kinetic::Frame;
 /// How the velocity of the centre of mass is known.
 #[derive(Clone, Debug)]
 pub enum CentreVelocity {
-    /// It stands still.
+    /// The centre stands still.
     Fixed,
     /// From its momentum in the frame of the mass, by `1/m`.
     PerMass(Frame, Polynomial),

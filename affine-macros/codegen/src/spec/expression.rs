@@ -11,9 +11,9 @@ use crate::diagnostics::Region;
 /// An expression; `Display` writes it with the fewest parentheses, and reading that gives it back.
 #[derive(Clone, Debug)]
 pub struct Expression {
-    /// What it is.
+    /// The outermost form, with its operands.
     pub kind: ExpressionKind,
-    /// Its place.
+    /// The place of the whole expression in the source.
     pub span: Region,
 }
 
@@ -43,6 +43,8 @@ pub enum ExpressionKind {
     Call(Function, Box<Expression>),
     /// `tr(G*Ct)`: the trace of a product, factor by factor.
     Trace(Vec<MatrixName>),
+    /// `tr(G^-1) = tr(Ct^-1) = e_(n-1)/e_n`, in the invariants of `G`.
+    InverseTrace(MatrixName),
     /// `G[1,2]`: row and column.
     Entry(MatrixName, usize, usize),
     /// `x[3]`: a coordinate of the centre.
@@ -127,6 +129,7 @@ impl Expression {
             | ExpressionKind::Symbol(_)
             | ExpressionKind::FieldEntry(..)
             | ExpressionKind::Trace(_)
+            | ExpressionKind::InverseTrace(_)
             | ExpressionKind::Entry(..)
             | ExpressionKind::Component(_)
             | ExpressionKind::Norm => Vec::new(),
@@ -148,6 +151,7 @@ impl Expression {
             | ExpressionKind::FieldEntry(..)
             | ExpressionKind::Call(..)
             | ExpressionKind::Trace(_)
+            | ExpressionKind::InverseTrace(_)
             | ExpressionKind::Entry(..)
             | ExpressionKind::Component(_)
             | ExpressionKind::Norm
@@ -191,6 +195,7 @@ impl Expression {
                 let names: Vec<&str> = factors.iter().map(|factor| factor.name()).collect();
                 write!(f, "tr({})", names.join("*"))?;
             }
+            ExpressionKind::InverseTrace(matrix) => write!(f, "tr({}^-1)", matrix.name())?,
             ExpressionKind::Entry(matrix, row, column) => write!(f, "{}[{row},{column}]", matrix.name())?,
             ExpressionKind::Component(index) => write!(f, "x[{index}]")?,
             ExpressionKind::Norm => f.write_str("norm(x)")?,

@@ -15,10 +15,11 @@
 
 mod applied;
 mod rust_notation;
+mod trace;
 
 pub(crate) use applied::application;
 
-use proc_macro2::{Delimiter, Group, Ident, Literal, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, Literal, Spacing, TokenTree};
 
 use super::entries::describe;
 use super::{Expression, ExpressionKind, Operator};
@@ -124,7 +125,13 @@ impl<'p> Parser<'p> {
         }
         match self.operator(&[('^', Operator::Power)])? {
             None => Ok(base),
-            Some(power) => Ok(power.apply(base, self.deeper(Self::sign)?)),
+            Some(power) => {
+                let exponent = self.deeper(Self::sign)?;
+                if matches!(self.language, Language::Potential(_)) {
+                    self.no_transpose(&base, &exponent)?;
+                }
+                Ok(power.apply(base, exponent))
+            }
         }
     }
 
@@ -166,7 +173,9 @@ impl<'p> Parser<'p> {
     /// A name; brackets directly after it apply a function or an index.
     fn symbol(&mut self, name: Ident) -> Result<Expression, Reported> {
         let span = Region::from(name.span());
-        if matches!(self.tokens.peek(), Some(TokenTree::Punct(colon)) if colon.as_char() == ':') {
+        if matches!(self.tokens.peek(), Some(TokenTree::Punct(colon))
+            if colon.as_char() == ':' && colon.spacing() == Spacing::Joint)
+        {
             return Err(self.path(span, name.to_string()));
         }
         let brackets = self.tokens.next_if(|token| {
@@ -183,13 +192,28 @@ impl<'p> Parser<'p> {
                     .found
                     .report(span, ExpressionMistake::FunctionCall { name: name.to_string() }));
             }
-            (Language::Potential(bound), None) => bound.iter().find(|(parameter, _)| name == parameter),
+            (Language::Potential(bound), None) => {
+                self.has_brackets(&name)?;
+                bound.iter().find(|(parameter, _)| name == parameter)
+            }
             (Language::Coefficient, None) => None,
         };
         Ok(bound.map_or_else(
             || Expression { kind: ExpressionKind::Symbol(name.clone()), span },
             |(_, value)| value.clone(),
         ))
+    }
+
+    /// The argument of a function stands in brackets, and not behind a space, as in `tr G`.
+    fn has_brackets(&mut self, name: &Ident) -> Result<(), Reported> {
+        let is_argument = |token: &TokenTree| matches!(token, TokenTree::Ident(_) | TokenTree::Literal(_));
+        if application(&name.to_string()).is_none() {
+            return Ok(());
+        }
+        match self.tokens.next_if(is_argument) {
+            Some(argument) => Err(self.unexpected(&argument, "`(`")),
+            None => Ok(()),
+        }
     }
 
     fn number(&mut self, literal: &Literal) -> Result<Expression, Reported> {

@@ -118,7 +118,7 @@ impl Tableau {
         }
     };
 
-    /// Order.
+    /// Order of the method.
     #[must_use]
     pub fn order(&self) -> u32 {
         self.order

@@ -60,7 +60,7 @@ pub trait Field<S, C, L: StateVector<f64>> {
     /// Coordinates, or a rate of them, as they are stored.
     fn stored(&self, z: &S) -> L;
 
-    /// And back.
+    /// Coordinates, or a rate of them, from what is stored.
     fn read(&self, stored: &L) -> S;
 
     /// `z'` as a function of time and of coordinates around `base`.

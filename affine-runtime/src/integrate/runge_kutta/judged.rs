@@ -12,7 +12,7 @@ use crate::scalar::Scalar;
 #[derive(Clone, Copy, Debug)]
 pub struct Judged<'s> {
     pub(super) error_norm: &'s ErrorNorm,
-    /// Of the step.
+    /// Length of the step.
     pub(super) length: f64,
     /// Where it begins and ends.
     pub(super) states: [&'s [f64]; 2],

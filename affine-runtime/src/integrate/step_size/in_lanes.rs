@@ -24,7 +24,7 @@ pub(crate) struct Clocks<T> {
 
 /// What becomes of a lane by a step, as the number in its lane.
 pub(crate) mod fate {
-    /// It goes on.
+    /// The lane goes on with another step.
     pub(crate) const UNDER_WAY: f64 = 0.0;
     /// It has come to the end.
     pub(crate) const ARRIVED: f64 = 1.0;

@@ -13,7 +13,7 @@ pub struct PiecePrograms {
     pub nystrom: bool,
 }
 
-/// One of them.
+/// A piece of a lattice, with its exact flow.
 pub struct PieceProgram {
     /// What it is, as text.
     pub name: String,

@@ -8,9 +8,11 @@ use crate::mechanics::equations::System;
 use crate::mechanics::weight::SQUARE;
 
 /// Do the forces take the inverse of `phi`?
-pub(super) fn inverts_the_placement(arena: &mut Arena, tidied: &System) -> bool {
-    let inverse_det = arena.symbol("inverse_det");
-    tidied.shared.iter().any(|(symbol, _)| *symbol == inverse_det)
+pub(super) fn inverts_the_placement(arena: &mut Arena, chart: &Chart, tidied: &System) -> bool {
+    let inverse = Matrix::symbols(arena, "phi_inverse", chart.dim).0.concat();
+    let takes = |symbol: Expr| tidied.shared.iter().any(|(known, _)| *known == symbol);
+    let over_det = takes(arena.symbol("inverse_det")) && chart.momentum == Momentum::Canonical;
+    over_det || inverse.into_iter().any(takes)
 }
 
 /// The system without `det phi`, `r` being state.
@@ -29,13 +31,83 @@ pub(super) fn without_the_determinant(
     }
 }
 
+/// Powers of `D` in place of those of `det phi`, and `cof Psi = r^(n-1) cof phi` in place of `cof phi`.
+struct Powers {
+    n: usize,
+    /// Symbols with the powers of `D` that they stand for; kept themselves where they are more than that.
+    weights: Vec<(Expr, i32, bool)>,
+    d: Expr,
+    r: Expr,
+}
+
+impl Powers {
+    fn new(arena: &mut Arena, chart: &Chart, r: Expr, isochoric: bool) -> Self {
+        let n = i32::try_from(chart.dim).unwrap_or(3);
+        let [det, inverse_det, d, swelling] =
+            ["det", "inverse_det", "dilatation", "swelling"].map(|name| arena.symbol(name));
+        let mut weights = vec![(det, n, false), (inverse_det, -n, false), (d, 1, false), (r, -1, false)];
+        if isochoric {
+            let cofactors = Matrix::symbols(arena, "cofactor", chart.dim).0.concat();
+            weights.extend(cofactors.into_iter().map(|cofactor| (cofactor, n - 1, true)));
+            // The factor of the cofactors takes their powers of D over.
+            weights.push((swelling, 1 - n, true));
+        }
+        Self { n: chart.dim, weights, d, r }
+    }
+
+    /// The polynomial with `weight` more powers of `D`.
+    fn of(&self, arena: &mut Arena, form: &Polynomial, weight: i32) -> Polynomial {
+        let mut result = Polynomial::zero();
+        for (monomial, c) in form.terms() {
+            let (mut power, mut kept) = (weight, Vec::with_capacity(monomial.len()));
+            for atom in monomial {
+                match self.weights.iter().find(|(symbol, ..)| symbol == atom) {
+                    Some((_, weight, stays)) => {
+                        power += weight;
+                        kept.extend(stays.then_some(*atom));
+                    }
+                    None => kept.push(self.inside(arena, *atom)),
+                }
+            }
+            let factor = if power > 0 { self.d } else { self.r };
+            kept.extend(vec![factor; usize::try_from(power.unsigned_abs()).unwrap_or(0)]);
+            result.add_term(kept, c);
+        }
+        result
+    }
+
+    /// The same for what a function or a reciprocal is of.
+    fn inside(&self, arena: &mut Arena, atom: Expr) -> Expr {
+        if arena.name(atom).is_some() {
+            return atom;
+        }
+        let n = i32::try_from(self.n).unwrap_or(3);
+        let powers = [(self.d, n), (self.r, n)].map(|(of, k)| arena.pow(of, k).unwrap_or(of));
+        let values = [(self.weights[0].0, powers[0]), (self.weights[1].0, powers[1])];
+        let value = |symbol: Expr| values.iter().find(|(known, _)| *known == symbol).map(|(_, power)| *power);
+        // Powers of D are not zero.
+        arena.substitute(atom, &value).unwrap_or(atom)
+    }
+
+    fn of_system(&self, arena: &mut Arena, system: &System) -> System {
+        let mut result = system.mapped(&mut |form| self.of(arena, form, 0));
+        for ((symbol, form), (_, before)) in result.shared.iter_mut().zip(&system.shared) {
+            let known = self.weights.iter().find(|(known, _, stays)| known == symbol && *stays);
+            if let Some((_, weight, _)) = known {
+                *form = self.of(arena, before, -weight);
+            }
+        }
+        result
+    }
+}
+
 /// The system with `D = r D^2`, where `D^2` is the determinant with one row of `Psi` in place of that of `phi`: two
 /// multiplications more than `r^2 det phi`. In the plane `D = r det phi` has the range of `D^2` as it stands.
 fn through_the_square(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> System {
     let [det, dilatation, square] = ["det", "dilatation", SQUARE].map(|name| arena.symbol(name));
     let psi = Matrix::symbols(arena, "psi", chart.dim).0;
     let adjugate = adjugate(&atoms(&chart.phi.0));
-    let mut system = system.clone();
+    let mut system = Powers::new(arena, chart, r, false).of_system(arena, system);
     system.shared.retain(|(symbol, _)| *symbol != det && *symbol != dilatation);
     let mut expanded = Polynomial::zero();
     for a in 0..chart.dim {
@@ -47,8 +119,7 @@ fn through_the_square(arena: &mut Arena, chart: &Chart, system: &System, r: Expr
     system
 }
 
-/// The system with `cof Psi` for the cofactors and `r` for `1/det phi`: products of the two are what they were, since
-/// `cof Psi = r^(n-1) cof phi`.
+/// The system with `cof Psi` for the cofactors and powers of `D` and `r` for those of `det phi`.
 fn through_the_isochoric_part(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> System {
     let n = chart.dim;
     let psi = Matrix::symbols(arena, "psi", n).0;
@@ -57,8 +128,7 @@ fn through_the_isochoric_part(arena: &mut Arena, chart: &Chart, system: &System,
     let inverse = Matrix::symbols(arena, "phi_inverse", n).0;
     let names = ["det", "inverse_det", "dilatation"].map(|name| arena.symbol(name));
     let [det, inverse_det, dilatation] = names;
-    let value = |atom: Expr| (atom == inverse_det).then(|| Polynomial::atom(r));
-    let mut system = system.substitute(&value);
+    let mut system = Powers::new(arena, chart, r, true).of_system(arena, system);
     let inverts = system.shared.iter().any(|(symbol, _)| *symbol == inverse[0][0]);
     let redefined = [cofactors.concat(), inverse.concat(), vec![det, inverse_det, dilatation]].concat();
     system.shared.retain(|(symbol, _)| !redefined.contains(symbol));

@@ -32,7 +32,7 @@ pub struct Congruent {
 pub struct Rebased {
     /// The field that its symbols seem to be entries of; a number, which no field of the user's is.
     pub name: String,
-    /// What it is.
+    /// What `prepare()` makes it from.
     pub source: Source,
 }
 
@@ -307,7 +307,7 @@ impl Exponents {
         self.add(1, entry % self.n, -1);
     }
 
-    /// Divides by it.
+    /// Divides by the `w` of an entry of the velocity.
     fn divide(&mut self, entry: usize) {
         self.add(0, entry / self.n, -1);
         self.add(1, entry % self.n, 1);

@@ -24,6 +24,7 @@ fn applied(function: Function, argument: &str) -> String {
         Function::Sqrt => format!("\\sqrt{{{argument}}}"),
         Function::Cbrt => format!("\\sqrt[3]{{{argument}}}"),
         Function::InverseCbrt => format!("\\frac{{1}}{{\\sqrt[3]{{{argument}}}}}"),
+        Function::Asinh => format!("\\operatorname{{arsinh}}{}", bracketed(argument)),
         Function::ExpM1 => bracketed(&format!("\\exp{} - 1", bracketed(argument))),
         Function::Abs => format!("\\left|{argument}\\right|"),
         Function::Sign => format!("\\operatorname{{sgn}}{}", bracketed(argument)),

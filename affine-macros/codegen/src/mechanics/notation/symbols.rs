@@ -13,7 +13,7 @@ pub struct Symbol {
     pub latex: &'static str,
     /// Where the LaTeX takes brackets.
     shape: Shape,
-    /// What it is.
+    /// Its meaning, in words.
     pub meaning: &'static str,
 }
 
@@ -87,16 +87,19 @@ pub const SYMBOLS: &[Symbol] = &[
     of("finger_#", "Ct_#", "\\tilde C_{#}", "entries of phi phi^T"),
     applied(of("trace_1", "tr(G)", "\\operatorname{tr}G", "the trace of G")),
     applied(of("trace_2", "tr(G^2)", "\\operatorname{tr}G^2", "the trace of G^2")),
+    applied(of("trace_3", "tr(G^3)", "\\operatorname{tr}G^3", "the trace of G^3")),
+    of("green_square_#", "G2_#", "[G^2]_{#}", "entries of G^2"),
+    of("finger_square_#", "Ct2_#", "[\\tilde C^2]_{#}", "entries of Ct^2"),
     of("second_invariant", "I2", "I_{2}", "the second invariant ((tr G)^2 - tr G^2)/2"),
     of("isochoric_excess", "w_bar", "\\bar w", "tr(G/D^2) - n"),
     of("mean_square", "tau", "\\tau", "the n-th part of tr(G/D^2)"),
     of(
-        "deviator_square",
-        "tr(B^2)",
-        "\\operatorname{tr}B^2",
+        "isochoric_deviator_squared",
+        "tr(B_bar^2)",
+        "\\operatorname{tr}\\bar B^2",
         "the trace of the square of the deviator of G/D^2",
     ),
-    of("deviator_#", "B_#", "B_{#}", "entries of that deviator on the diagonal"),
+    of("isochoric_deviator_#", "B_bar_#", "\\bar B_{#}", "entries of that deviator"),
     applied(of("det", "det", "\\det\\varphi", "the determinant of phi")),
     of("dilatation", "D", "D", "the mean stretch det^(1/n)"),
     of("q", "q", "q", "the mean logarithmic stretch ln D"),
@@ -111,6 +114,9 @@ pub const SYMBOLS: &[Symbol] = &[
     of("unit_finger_#", "Ct_bar_#", "\\bar{\\tilde C}_{#}", "entries of Ct/D^2"),
     applied(of("unit_trace_1", "tr(G_bar)", "\\operatorname{tr}\\bar G", "the trace of G/D^2")),
     applied(of("unit_trace_2", "tr(G_bar^2)", "\\operatorname{tr}\\bar G^2", "the trace of its square")),
+    applied(of("unit_trace_3", "tr(G_bar^3)", "\\operatorname{tr}\\bar G^3", "the trace of its cube")),
+    of("unit_green_square_#", "G2_bar_#", "[\\bar G^2]_{#}", "entries of the square of G/D^2"),
+    of("unit_finger_square_#", "Ct2_bar_#", "[\\bar{\\tilde C}^2]_{#}", "entries of the square of Ct/D^2"),
     whole("G_bar", "\\bar G", "the Green deformation tensor of phi/D"),
     of("psi_#", "Psi_#", "\\Psi_{#}", "entries of phi/D"),
     of(
@@ -153,8 +159,9 @@ pub const SYMBOLS: &[Symbol] = &[
         "stress_#",
         "beta_#",
         "\\beta_{#}",
-        "the response to tr(G) and tr(G^2), -2 and -4 times the slope of U",
+        "the response to tr(G), tr(G^2) and tr(G^3), -2, -4 and -6 times the slope of U",
     ),
+    of("piola_#", "PK_#", "\\mathsf{S}_{#}", "entries of the second Piola-Kirchhoff tensor, as in the force"),
     of("slope_green_#", "beta_G_#", "\\beta_{G_{#}}", "the response to an entry of G"),
     of("slope_finger_#", "beta_Ct_#", "\\beta_{\\tilde C_{#}}", "the response to an entry of Ct"),
     of("slope_phi_#", "beta_phi_#", "\\beta_{\\varphi_{#}}", "the response to an entry of phi"),
@@ -205,7 +212,7 @@ const WRITTEN_OUT: &[&str] = &["swelling"];
 
 /// Functions that formulas call by name.
 pub const FUNCTIONS: &[&str] =
-    &["tr", "exp", "ln", "sqrt", "cbrt", "abs", "sin", "cos", "tan", "sinh", "cosh", "tanh", "diag"];
+    &["tr", "exp", "ln", "sqrt", "cbrt", "abs", "sin", "cos", "tan", "sinh", "cosh", "tanh", "asinh", "diag"];
 
 /// What stands for the `#` of a template in a name: the indices, or nothing where the template has none.
 fn index<'a>(template: &str, name: &'a str) -> Option<&'a str> {

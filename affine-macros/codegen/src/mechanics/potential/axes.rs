@@ -17,7 +17,7 @@ pub struct OnAxes {
     pub forces: Vec<Polynomial>,
     /// `U`, counted from the undeformed state.
     pub energy: Polynomial,
-    /// What it shares.
+    /// What the energy shares.
     pub energy_shared: Vec<(Expr, Polynomial)>,
 }
 
@@ -105,6 +105,7 @@ fn along_axis(
         Base::LogStretch(k) if k == a => power(0, 1),
         Base::Trace => power(2, 1),
         Base::TraceOfSquare => power(4, 1),
+        Base::TraceOfCube => power(6, 1),
         Base::Green(c, d) | Base::Finger(c, d) if c == a && d == a => power(2, 2),
         Base::Placement(c, d) if c == a && d == a => power(1, 1),
         Base::LogStretch(_)
@@ -120,7 +121,8 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
     let n = lattice.dim;
     let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
     let mut list = Vec::new();
-    let (mut trace, mut of_square) = (Polynomial::zero(), Polynomial::zero());
+    let (mut trace, mut of_square, mut of_cube) =
+        (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
     for (a, stretch) in stretches.iter().enumerate() {
         let inverse = arena.symbol(&format!("inverse_stretch_{}", a + 1));
         // A symbol is not the number zero.
@@ -129,6 +131,7 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
         list.push((square, Polynomial::term(vec![*stretch, *stretch], Rational::ONE)));
         trace.add_term(vec![square], &Rational::ONE);
         of_square.add_term(vec![square, square], &Rational::ONE);
+        of_cube.add_term(vec![square, square, square], &Rational::ONE);
         for base in [Base::Green(a, a), Base::Finger(a, a)] {
             list.push((base.symbol(arena), Polynomial::atom(square)));
         }
@@ -136,6 +139,7 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
     }
     list.push((Base::Trace.symbol(arena), trace));
     list.push((Base::TraceOfSquare.symbol(arena), of_square));
+    list.push((Base::TraceOfCube.symbol(arena), of_cube));
     let [q, d, inverse_d] = ["q", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
     match lattice.variables {
         // U(n) has no potentials.
@@ -166,14 +170,15 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
     list
 }
 
-/// `tr G = n + sum f_a`, `tr G^2 = n + sum f_a (2 + f_a)` with `f_a = Q_a^2 - 1` free of cancellation near `Q_a = 1`.
+/// `tr G = n + sum f_a`, `tr G^2 = n + sum f_a (2 + f_a)`, `tr G^3` likewise with `f_a = Q_a^2 - 1` free of cancellation near `Q_a = 1`.
 fn counted_from_undeformed(
     arena: &mut Arena,
     lattice: &Lattice,
     shared: &mut Vec<(Expr, Polynomial)>,
 ) -> Vec<(Expr, Polynomial)> {
     let n = Rational::from(i64::try_from(lattice.dim).unwrap_or(1));
-    let (mut trace, mut of_square) = (Polynomial::constant(n.clone()), Polynomial::constant(n));
+    let (mut trace, mut of_square, mut of_cube) =
+        (Polynomial::constant(n.clone()), Polynomial::constant(n.clone()), Polynomial::constant(n));
     let mut list = Vec::new();
     for (a, place) in lattice.q.iter().enumerate() {
         let strain = arena.symbol(&format!("strain_{}", a + 1));
@@ -197,6 +202,9 @@ fn counted_from_undeformed(
         trace.add_term(vec![strain], &Rational::ONE);
         of_square.add_term(vec![strain], &Rational::from(2));
         of_square.add_term(vec![strain, strain], &Rational::ONE);
+        of_cube.add_term(vec![strain], &Rational::from(3));
+        of_cube.add_term(vec![strain, strain], &Rational::from(3));
+        of_cube.add_term(vec![strain, strain, strain], &Rational::ONE);
         let mut square = Polynomial::constant(Rational::ONE);
         square.add_term(vec![strain], &Rational::ONE);
         for base in [Base::Green(a, a), Base::Finger(a, a)] {
@@ -205,6 +213,7 @@ fn counted_from_undeformed(
     }
     list.push((Base::Trace.symbol(arena), trace));
     list.push((Base::TraceOfSquare.symbol(arena), of_square));
+    list.push((Base::TraceOfCube.symbol(arena), of_cube));
     list
 }
 

@@ -15,6 +15,8 @@ pub enum Base {
     Trace,
     /// `tr G^2 = tr Ct^2`
     TraceOfSquare,
+    /// `tr G^3 = tr Ct^3`
+    TraceOfCube,
     /// `G_AB`, `A <= B`
     Green(usize, usize),
     /// `Ct_ij`, `i <= j`
@@ -30,7 +32,7 @@ impl Base {
     pub(super) fn all(n: usize) -> Vec<Self> {
         let pairs = || (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)));
         let upper = || pairs().filter(|(a, b)| a <= b);
-        let mut list = vec![Self::MeanLogStretch, Self::Trace, Self::TraceOfSquare];
+        let mut list = vec![Self::MeanLogStretch, Self::Trace, Self::TraceOfSquare, Self::TraceOfCube];
         list.extend((0..n).map(Self::LogStretch));
         list.extend(upper().map(|(a, b)| Self::Green(a, b)));
         list.extend(upper().map(|(i, j)| Self::Finger(i, j)));
@@ -51,6 +53,7 @@ impl Base {
             Self::LogStretch(a) => format!("q_{}", a + 1),
             Self::Trace => "trace_1".to_owned(),
             Self::TraceOfSquare => "trace_2".to_owned(),
+            Self::TraceOfCube => "trace_3".to_owned(),
             Self::Green(a, b) => format!("green_{}{}", a.min(b) + 1, a.max(b) + 1),
             Self::Finger(i, j) => format!("finger_{}{}", i.min(j) + 1, i.max(j) + 1),
             Self::Placement(i, a) => format!("phi_{}{}", i + 1, a + 1),
@@ -64,6 +67,7 @@ impl Base {
             Self::MeanLogStretch => i64::try_from(n).ok().and_then(|n| Rational::ratio(-1, n)),
             Self::Trace => Some(Rational::from(-2)),
             Self::TraceOfSquare => Some(Rational::from(-4)),
+            Self::TraceOfCube => Some(Rational::from(-6)),
             _ => Some(Rational::MINUS_ONE),
         };
         number.unwrap_or(Rational::MINUS_ONE)
@@ -81,6 +85,7 @@ impl Base {
             Self::LogStretch(a) => format!("tension_{}", a + 1),
             Self::Trace => "stress_1".to_owned(),
             Self::TraceOfSquare => "stress_2".to_owned(),
+            Self::TraceOfCube => "stress_3".to_owned(),
             Self::Green(a, b) => format!("slope_green_{}{}", a + 1, b + 1),
             Self::Finger(i, j) => format!("slope_finger_{}{}", i + 1, j + 1),
             Self::Placement(i, a) => format!("slope_phi_{}{}", i + 1, a + 1),

@@ -21,6 +21,7 @@ impl Potential {
                     slope.add_product(&partial, &symbol, &Rational::from(2));
                 }
                 Base::TraceOfSquare => slope.add_product(&partial, &symbol, &Rational::from(4)),
+                Base::TraceOfCube => slope.add_product(&partial, &symbol, &Rational::from(6)),
                 Base::Placement(..) => slope.add_product(&partial, &symbol, &Rational::ONE),
                 // The centre of mass stays where it is.
                 Base::Position(_) => {}

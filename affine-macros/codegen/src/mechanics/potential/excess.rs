@@ -3,70 +3,82 @@
 use crate::algebra::ring::{Ring, Square, adjugate};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
-use super::Base;
-
 /// The symbol of `tr(G/D^2) - n`.
 fn symbol(arena: &mut Arena) -> Expr {
     arena.symbol("isochoric_excess")
 }
 
-/// A sum in which the trace of `G/D^2` is counted from `n`, through that difference as one quantity; `None` for any other sum.
-pub(super) fn through_excess(arena: &mut Arena, n: usize, form: &Polynomial) -> Option<Polynomial> {
-    let trace = Base::Trace.unit(arena);
-    let coefficient =
-        |monomial: &[Expr]| form.terms().find(|(m, _)| m.as_slice() == monomial).map(|(_, c)| c);
-    let (slope, constant) = (coefficient(&[trace])?, coefficient(&[])?);
-    let size = Rational::from(i64::try_from(n).ok()?);
-    if *constant != -&(slope * &size) {
-        return None;
-    }
-    let mut result = form.clone();
-    result.add_term(vec![trace], &-slope);
-    result.add_term(Vec::new(), &-constant);
-    result.add_term(vec![symbol(arena)], slope);
-    Some(result)
+/// `G/D^2` as a way of writing has it.
+pub(super) struct Isochoric {
+    /// Its trace, a product of atoms.
+    pub(super) trace: Vec<Expr>,
+    /// Its deviator.
+    pub(super) deviator: Square<Polynomial>,
 }
 
-/// With `tau = tr(G/D^2)/n` and the deviator `B = G/D^2 - tau 1`, from `det(G/D^2) = 1`:
-///
-/// ```text
-/// n = 2   tau^2 - 1 = tr(B^2)/2                     n (tau - 1) = tr(B^2)/(tau + 1)
-/// n = 3   tau^3 - 1 = tau tr(B^2)/2 - det B         n (tau - 1) = 3 (tau tr(B^2)/2 - det B)/(tau^2 + tau + 1)
-/// ```
-pub(super) fn definitions(arena: &mut Arena, n: usize) -> Vec<(Expr, Polynomial)> {
-    let trace = Base::Trace.unit(arena);
-    let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
-    let (mean, mut list) = (arena.symbol("mean_square"), Vec::new());
-    list.push((mean, Polynomial::term(vec![trace], nth)));
-    let mut deviator: Square<Polynomial> = vec![vec![Polynomial::zero(); n]; n];
-    let mut square = Polynomial::zero();
-    for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
-        let green = Base::Green(a, b).unit(arena);
-        let mut entry = green;
-        if a == b {
-            entry = arena.symbol(&format!("deviator_{}{}", a + 1, b + 1));
-            let mut value = Polynomial::atom(green);
-            value.add_term(vec![mean], &Rational::MINUS_ONE);
-            list.push((entry, value));
+impl Isochoric {
+    /// A sum in which the trace is counted from `n`, through that difference as one quantity; `None` for any other sum.
+    pub(super) fn through_excess(&self, arena: &mut Arena, form: &Polynomial) -> Option<Polynomial> {
+        let coefficient = |wanted: &Polynomial| {
+            let monomial = wanted.terms().next().map(|(monomial, _)| monomial.clone())?;
+            form.terms().find(|(m, _)| **m == monomial).map(|(_, c)| c)
+        };
+        let (trace, one) =
+            (Polynomial::term(self.trace.clone(), Rational::ONE), Polynomial::constant(Rational::ONE));
+        let (slope, constant) = (coefficient(&trace)?, coefficient(&one)?);
+        let size = Rational::from(i64::try_from(self.deviator.len()).ok()?);
+        if *constant != -&(slope * &size) {
+            return None;
         }
-        deviator[a][b] = Polynomial::atom(entry);
-        square.add_term(vec![entry, entry], &Rational::ONE);
+        let mut result = form.clone();
+        result.add_scaled(&trace, &-slope);
+        result.add_scaled(&one, &-constant);
+        result.add_term(vec![symbol(arena)], slope);
+        Some(result)
     }
-    let of_square = arena.symbol("deviator_square");
-    list.push((of_square, square));
-    let one = arena.constant(Rational::ONE);
-    let mut powers = vec![(one, Rational::ONE), (mean, Rational::ONE)];
-    let mut above = Polynomial::atom(of_square);
-    if n == 3 {
-        powers.extend(arena.product(&[(mean, 2)]).map(|square| (square, Rational::ONE)));
-        above = Polynomial::term(vec![mean, of_square], Rational::ratio(3, 2).unwrap_or(Rational::ONE));
-        for (entry, row) in deviator[0].iter().zip(adjugate(&deviator)) {
-            above.plus_product(entry, &row[0], &Rational::from(-3));
+
+    /// With `tau = tr(G/D^2)/n` and the deviator `B = G/D^2 - tau 1`, from `det(G/D^2) = 1`:
+    ///
+    /// ```text
+    /// n = 2   tau^2 - 1 = tr(B^2)/2                     n (tau - 1) = tr(B^2)/(tau + 1)
+    /// n = 3   tau^3 - 1 = tau tr(B^2)/2 - det B         n (tau - 1) = 3 (tau tr(B^2)/2 - det B)/(tau^2 + tau + 1)
+    /// ```
+    pub(super) fn definitions(&self, arena: &mut Arena) -> Vec<(Expr, Polynomial)> {
+        let n = self.deviator.len();
+        let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+        let (mean, mut list) = (mean_square(arena), Vec::new());
+        list.push((mean, Polynomial::term(self.trace.clone(), nth)));
+        let mut deviator: Square<Polynomial> = vec![vec![Polynomial::zero(); n]; n];
+        let mut square = Polynomial::zero();
+        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+            let entry = arena.symbol(&format!("isochoric_deviator_{}{}", a.min(b) + 1, a.max(b) + 1));
+            if a <= b {
+                list.push((entry, self.deviator[a][b].clone()));
+            }
+            deviator[a][b] = Polynomial::atom(entry);
+            square.add_term(vec![entry, entry], &Rational::ONE);
         }
+        let of_square = arena.symbol("isochoric_deviator_squared");
+        list.push((of_square, square));
+        let one = arena.constant(Rational::ONE);
+        let mut powers = vec![(one, Rational::ONE), (mean, Rational::ONE)];
+        let mut above = Polynomial::atom(of_square);
+        if n == 3 {
+            powers.extend(arena.product(&[(mean, 2)]).map(|square| (square, Rational::ONE)));
+            above = Polynomial::term(vec![mean, of_square], Rational::ratio(3, 2).unwrap_or(Rational::ONE));
+            for (entry, row) in deviator[0].iter().zip(adjugate(&deviator)) {
+                above.plus_product(entry, &row[0], &Rational::from(-3));
+            }
+        }
+        let below = arena.linear(&powers);
+        // A sum of squares and one.
+        let reciprocal = arena.pow(below, -1).unwrap_or(below);
+        list.push((symbol(arena), above.mul(&Polynomial::atom(reciprocal))));
+        list
     }
-    let below = arena.linear(&powers);
-    // A sum of squares and one.
-    let reciprocal = arena.pow(below, -1).unwrap_or(below);
-    list.push((symbol(arena), above.mul(&Polynomial::atom(reciprocal))));
-    list
+}
+
+/// The symbol of `tr(G/D^2)/n`.
+pub(super) fn mean_square(arena: &mut Arena) -> Expr {
+    arena.symbol("mean_square")
 }

@@ -2,7 +2,7 @@
 
 use crate::algebra::evaluate::{Field, evaluate};
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Ring, Square, deviator, skew, sum, table};
+use crate::algebra::ring::{Ring, Square, deviator, product, skew, sum, table};
 use crate::algebra::{Arena, Expr, Rational};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
@@ -89,7 +89,8 @@ impl AtAPoint {
         let phi = table(n, |i, a| point.value(&format!("phi_{}{}", i + 1, a + 1)));
         let (green, finger) = (table(n, |a, b| green(&phi, a, b)), table(n, |i, j| finger(&phi, i, j)));
         let principal = Principal::on_unit_axes(n, |a, k| point.value(&format!("axis_{}{}", a + 1, k + 1)));
-        let tensors = Tensors { phi, green, finger, cofactors: Vec::new(), principal };
+        let squares = [product(&green, &green), product(&finger, &finger)];
+        let tensors = Tensors { phi, green, finger, squares, cofactors: Vec::new(), principal };
         let mut known = tensors.values();
         for k in 1..=n {
             let inverse = point.value(&format!("stretch_{k}")).recip().unwrap_or(Residue::UNKNOWN);

@@ -22,6 +22,7 @@ pub(super) fn restricted(arena: &mut Arena, dim: usize, energy: Expr, group: Con
             (Base::LogStretch(_), _) => q,
             (Base::Trace, _) => multiple(arena, q, 2, &n),
             (Base::TraceOfSquare, _) => multiple(arena, q, 4, &n),
+            (Base::TraceOfCube, _) => multiple(arena, q, 6, &n),
             (Base::Green(a, b) | Base::Finger(a, b), _) => {
                 multiple(arena, q, 2, &Rational::from(i64::from(a == b)))
             }

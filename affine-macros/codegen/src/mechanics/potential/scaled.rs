@@ -2,11 +2,12 @@
 //! what is of degree 0 the powers cancel before they leave the range of numbers.
 
 use crate::algebra::arena::Node;
+use crate::algebra::ring::Square;
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 
 use super::base::Base;
-use super::tensors::{finger, green};
+use super::tensors::{definitions_of_square, finger, green, squares};
 
 impl Base {
     /// The power of `D` in it.
@@ -16,6 +17,7 @@ impl Base {
             Self::Placement(..) => 1,
             Self::Trace | Self::Green(..) | Self::Finger(..) => 2,
             Self::TraceOfSquare => 4,
+            Self::TraceOfCube => 6,
         }
     }
 
@@ -118,7 +120,16 @@ pub(super) fn definitions(arena: &mut Arena, chart: &Chart, inverse: Expr) -> Ve
     }
     let psi: Vec<Vec<Polynomial>> =
         psi.0.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
-    let (mut trace, mut of_square) = (Polynomial::zero(), Polynomial::zero());
+    let squares = squares(arena, n, "unit_");
+    for (base, square) in [Base::Green as fn(usize, usize) -> Base, Base::Finger].into_iter().zip(&squares) {
+        let tensor: Square<Polynomial> = {
+            let mut symbol = |a, b| Polynomial::atom(base(a, b).unit(arena));
+            (0..n).map(|a| (0..n).map(|b| symbol(a, b)).collect()).collect()
+        };
+        list.extend(definitions_of_square(&tensor, square));
+    }
+    let (mut trace, mut of_square, mut of_cube) =
+        (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
     for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
         let [of_green, of_finger] = [Base::Green(a, b), Base::Finger(a, b)].map(|base| base.unit(arena));
         if a <= b {
@@ -126,12 +137,14 @@ pub(super) fn definitions(arena: &mut Arena, chart: &Chart, inverse: Expr) -> Ve
             list.push((of_finger, finger(&psi, a, b)));
         }
         of_square.add_term(vec![of_green, of_green], &Rational::ONE);
+        of_cube.add_product(&Polynomial::atom(of_green), &squares[0][a][b], &Rational::ONE);
         if a == b {
             trace.add_term(vec![of_green], &Rational::ONE);
         }
     }
     list.push((Base::Trace.unit(arena), trace));
     list.push((Base::TraceOfSquare.unit(arena), of_square));
+    list.push((Base::TraceOfCube.unit(arena), of_cube));
     list
 }
 

@@ -40,12 +40,13 @@ pub fn exchanged(arena: &mut Arena, n: usize, energy: Expr, a: usize, b: usize) 
     })
 }
 
-/// Does a function vanish wherever two stretches, counted from 0, coincide? `q`, `tr G` and `tr G^2` are what they are in
+/// Does a function vanish wherever two stretches, counted from 0, coincide? `q` and the traces of `G` are what they are in
 /// terms of the stretches.
 pub fn vanishes_at_coincidence(arena: &mut Arena, n: usize, function: Expr, a: usize, b: usize) -> bool {
     let q = symbols(arena, n);
-    let [mean, trace, of_square] =
-        [Base::MeanLogStretch, Base::Trace, Base::TraceOfSquare].map(|base| base.symbol(arena));
+    let [mean, trace, of_square, of_cube] =
+        [Base::MeanLogStretch, Base::Trace, Base::TraceOfSquare, Base::TraceOfCube]
+            .map(|base| base.symbol(arena));
     let stretches: Vec<Expr> = (0..n).map(|c| if c == b { q[a] } else { q[c] }).collect();
     let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
     let sum = |arena: &mut Arena, power: i64| {
@@ -58,13 +59,14 @@ pub fn vanishes_at_coincidence(arena: &mut Arena, n: usize, function: Expr, a: u
             .collect();
         arena.linear(&terms)
     };
-    let traces = [sum(arena, 2), sum(arena, 4)];
+    let traces = [sum(arena, 2), sum(arena, 4), sum(arena, 6)];
     let means: Vec<(Expr, Rational)> = stretches.iter().map(|q| (*q, nth.clone())).collect();
     let means = arena.linear(&means);
     let at_coincidence = arena.substitute(function, &|symbol| match symbol {
         _ if symbol == mean => Some(means),
         _ if symbol == trace => Some(traces[0]),
         _ if symbol == of_square => Some(traces[1]),
+        _ if symbol == of_cube => Some(traces[2]),
         _ if symbol == q[b] => Some(q[a]),
         _ => None,
     });

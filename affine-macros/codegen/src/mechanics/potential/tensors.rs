@@ -14,6 +14,8 @@ pub(super) struct Tensors<R> {
     pub(super) phi: Square<R>,
     pub(super) green: Square<R>,
     pub(super) finger: Square<R>,
+    /// `G^2` and `Ct^2`; only `tr G^3` needs them.
+    pub(super) squares: [Square<R>; 2],
     /// `d(det phi)/dphi`; only the canonical chart needs it.
     pub(super) cofactors: Square<R>,
     /// Stretches and principal axes; only single stretches need them.
@@ -25,9 +27,10 @@ impl<R: Ring> Tensors<R> {
     pub(super) fn values(&self) -> HashMap<String, R> {
         let n = self.phi.len();
         let mut values = HashMap::new();
-        let (mut trace, mut of_square) = (R::zero(), R::zero());
+        let (mut trace, mut of_square, mut of_cube) = (R::zero(), R::zero(), R::zero());
         for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
             of_square.plus_product(&self.green[a][b], &self.green[a][b], &Rational::ONE);
+            of_cube.plus_product(&self.green[a][b], &self.squares[0][a][b], &Rational::ONE);
             if a == b {
                 trace.plus(&self.green[a][b], &Rational::ONE);
             }
@@ -35,6 +38,7 @@ impl<R: Ring> Tensors<R> {
             values.insert(Base::Finger(a, b).name(), self.finger[a][b].clone());
         }
         values.extend([(Base::Trace.name(), trace), (Base::TraceOfSquare.name(), of_square)]);
+        values.insert(Base::TraceOfCube.name(), of_cube);
         values
     }
 }
@@ -63,23 +67,58 @@ pub(super) fn definitions(arena: &mut Arena, n: usize, chart: &Chart) -> Vec<(Ex
         let base = if spatial { Base::Finger(a, b) } else { Base::Green(a, b) };
         Polynomial::atom(base.symbol(arena))
     };
-    let (mut trace, mut of_square) = (Polynomial::zero(), Polynomial::zero());
+    let squares = squares(arena, n, "");
+    for (base, of) in [(Base::Green as fn(usize, usize) -> Base, 0), (Base::Finger, 1)] {
+        let tensor: Square<Polynomial> = {
+            let mut symbol = |a, b| Polynomial::atom(base(a, b).symbol(arena));
+            (0..n).map(|a| (0..n).map(|b| symbol(a, b)).collect()).collect()
+        };
+        list.extend(definitions_of_square(&tensor, &squares[of]));
+    }
+    let (mut trace, mut of_square, mut of_cube) =
+        (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
     for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
         let value = entry(arena, a, b);
         of_square.add_product(&value, &value, &Rational::ONE);
+        of_cube.add_product(&value, &squares[usize::from(spatial)][a][b], &Rational::ONE);
         if a == b {
             trace.add_scaled(&value, &Rational::ONE);
         }
     }
     list.push((Base::Trace.symbol(arena), trace));
     list.push((Base::TraceOfSquare.symbol(arena), of_square));
+    list.push((Base::TraceOfCube.symbol(arena), of_cube));
     list
+}
+
+/// The entries of `G^2` and `Ct^2` as symbols, of the tensors of a kind.
+pub(super) fn squares(arena: &mut Arena, n: usize, kind: &str) -> [Square<Polynomial>; 2] {
+    ["green_square", "finger_square"].map(|stem| {
+        let mut entry =
+            |a: usize, b: usize| arena.symbol(&format!("{kind}{stem}_{}{}", a.min(b) + 1, a.max(b) + 1));
+        (0..n).map(|a| (0..n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
+    })
+}
+
+/// What these symbols stand for.
+pub(super) fn definitions_of_square(
+    tensor: &Square<Polynomial>,
+    square: &Square<Polynomial>,
+) -> Vec<(Expr, Polynomial)> {
+    let n = tensor.len();
+    let pairs = (0..n).flat_map(|a| (a..n).map(move |b| (a, b)));
+    let defined = pairs.filter_map(|(a, b)| {
+        let symbol = square[a][b].atoms().next().copied()?;
+        Some((symbol, entry_of_product(tensor, tensor, a, b)))
+    });
+    defined.collect()
 }
 
 /// The derivative of a base function, divided by the number that its slope carries.
 pub(super) fn direction<R: Ring>(base: Base, along: Along, tensors: &Tensors<R>, a: usize, b: usize) -> R {
     let one = |holds: bool| R::number(if holds { &Rational::ONE } else { &Rational::ZERO });
-    let Tensors { phi, green, finger, cofactors, principal } = tensors;
+    let Tensors { phi, green, finger, squares: [green_square, finger_square], cofactors, principal } =
+        tensors;
     let mut sum = R::zero();
     let mut add = |holds: bool, value: &R| {
         if holds {
@@ -102,6 +141,9 @@ pub(super) fn direction<R: Ring>(base: Base, along: Along, tensors: &Tensors<R>,
         (Base::TraceOfSquare, Along::Body) => return entry_of_product(green, green, a, b),
         (Base::TraceOfSquare, Along::Space) => return entry_of_product(finger, finger, a, b),
         (Base::TraceOfSquare, Along::Placement) => return entry_of_product(phi, green, a, b),
+        (Base::TraceOfCube, Along::Body) => return entry_of_product(green, green_square, a, b),
+        (Base::TraceOfCube, Along::Space) => return entry_of_product(finger, finger_square, a, b),
+        (Base::TraceOfCube, Along::Placement) => return entry_of_product(phi, green_square, a, b),
         (Base::Green(c, d), Along::Body) => {
             add(a == c, &green[b][d]);
             add(a == d, &green[b][c]);

@@ -42,7 +42,7 @@ pub(super) struct Square {
     form: Polynomial,
     /// `l` of the projection of any affine spin.
     on_all: Polynomial,
-    /// As text.
+    /// `l` as text.
     name: String,
 }
 

@@ -48,7 +48,7 @@ pub struct Piece {
 pub struct Turn {
     /// `w`.
     pub angular: Polynomial,
-    /// Planes.
+    /// The planes `(z, y)` that turn with it.
     pub planes: Vec<(Expr, Expr)>,
 }
 

@@ -3,13 +3,14 @@
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 
 use super::{Language, Parser};
-use crate::algebra::Function;
+use crate::algebra::{Function, Rational};
 use crate::diagnostics::{ExpressionMistake, PotentialMistake, Region, Reported};
 use crate::spec::custom;
 use crate::spec::entries::{Piece, describe, pieces, shortened, unwrapped};
 use crate::spec::named_potentials::{NAMED_POTENTIALS, NamedPotential};
 use crate::spec::names::{Named, nearest};
-use crate::spec::{Expression, ExpressionKind, MatrixName};
+use crate::spec::textbook;
+use crate::spec::{Expression, ExpressionKind, MatrixName, Operator};
 
 /// The functions of a potential. `cbrt` is not among them: a power with an exponent of 1/3 is stated through
 /// its logarithm, which shows that the base must be positive.
@@ -25,6 +26,9 @@ pub(super) const FUNCTIONS: [Function; 10] = [
     Function::Cosh,
     Function::Tanh,
 ];
+
+/// Functions that stand for an expression in others.
+const PHRASES: [&str; 3] = ["log", "log1p", "expm1"];
 
 /// The forms that are applied like functions.
 const FORMS: [&str; 3] = ["tr", "norm", "pairs"];
@@ -43,17 +47,25 @@ impl Parser<'_> {
             return Ok(Expression { kind, span });
         }
         let kind = match text.as_str() {
-            "tr" => self.trace(group)?,
+            "tr" => self.trace(group, span)?,
             "norm" => self.norm(group)?,
+            "log" => call(Function::Ln, self.argument("log", group, span)?),
+            "log1p" => {
+                let argument = self.argument("log1p", group, span)?;
+                call(Function::Ln, Operator::Add.apply(one(argument.span), argument))
+            }
+            "expm1" => {
+                let argument = self.argument("expm1", group, span)?;
+                let exponential = Expression { span: argument.span, kind: call(Function::Exp, argument) };
+                Operator::Subtract.apply(exponential, one(span)).kind
+            }
             "pairs" => ExpressionKind::Pairs(Box::new(self.argument("pairs", group, span)?)),
             "custom" => {
                 let mistake = custom::within_an_expression();
                 return Err(self.found.report(name.span(), mistake));
             }
             _ => match FUNCTIONS.into_iter().find(|function| function.name() == text) {
-                Some(function) => {
-                    ExpressionKind::Call(function, Box::new(self.argument(function.name(), group, span)?))
-                }
+                Some(function) => call(function, self.argument(function.name(), group, span)?),
                 None => return Err(self.found.report(name.span(), unknown(&text))),
             },
         };
@@ -61,8 +73,17 @@ impl Parser<'_> {
     }
 
     /// The only argument of a function.
-    fn argument(&mut self, name: &'static str, group: &Group, span: Region) -> Result<Expression, Reported> {
-        let parameters = if name == "pairs" { &["f(d)"] } else { &["a"] };
+    pub(super) fn argument(
+        &mut self,
+        name: &'static str,
+        group: &Group,
+        span: Region,
+    ) -> Result<Expression, Reported> {
+        let parameters = match name {
+            "pairs" => &["f(d)"],
+            "tr" => &["G"],
+            _ => &["a"],
+        };
         let mut arguments = self.arguments(name, parameters, group, span)?;
         // There are as many arguments as parameters.
         arguments.pop().ok_or_else(|| self.found.report(span, ExpressionMistake::MissingOperand))
@@ -104,32 +125,16 @@ impl Parser<'_> {
         self.inner(placed(formula, name).into_iter().collect(), span, Language::Potential(&bound))
     }
 
-    /// `tr(A*B*...)`.
-    fn trace(&mut self, group: &Group) -> Result<ExpressionKind, Reported> {
-        let inside = unwrapped(group.stream().into_iter().collect());
-        let factors = inside.split(|token| matches!(token, TokenTree::Punct(star) if star.as_char() == '*'));
-        let named: Option<Vec<(MatrixName, usize)>> = factors.map(power_of_matrix).collect();
-        let Some(named) = named else { return Err(self.malformed("tr", group)) };
-        let factors: Vec<MatrixName> =
-            named.into_iter().flat_map(|(name, power)| core::iter::repeat_n(name, power)).collect();
-        for _ in 1..factors.len() {
-            self.count(self.last)?;
-        }
-        Ok(ExpressionKind::Trace(factors))
-    }
-
     /// `norm(x)`.
     fn norm(&mut self, group: &Group) -> Result<ExpressionKind, Reported> {
         match unwrapped(group.stream().into_iter().collect()).as_slice() {
             [TokenTree::Ident(name)] if name == "x" => Ok(ExpressionKind::Norm),
-            _ => Err(self.malformed("norm", group)),
+            _ => {
+                let found = shortened(&group.stream().to_string());
+                let at = Region { start: group.span_open(), end: group.span_close() };
+                Err(self.found.report(at, PotentialMistake::Argument { found }))
+            }
         }
-    }
-
-    fn malformed(&mut self, name: &'static str, group: &Group) -> Reported {
-        let found = shortened(&group.stream().to_string());
-        let at = Region { start: group.span_open(), end: group.span_close() };
-        self.found.report(at, PotentialMistake::Argument { name, found })
     }
 
     /// `G[1,2]`, `x[3]`.
@@ -153,27 +158,22 @@ impl Parser<'_> {
                 };
                 Err(self.found.report(span, PotentialMistake::Indices { written, indices, example }))
             }
-            _ => Err(self.found.report(at, PotentialMistake::NotIndexed { name: shortened(name) })),
+            _ => {
+                let is_function = application(name).is_some();
+                let familiar = textbook::quantity(name)
+                    .or(is_function.then_some("write round brackets, as in `tr(G)` or `ln(a)`"));
+                Err(self.found.report(at, PotentialMistake::NotIndexed { name: shortened(name), familiar }))
+            }
         }
     }
 }
 
-/// The highest power of a matrix in a trace: that of a number in a potential.
-const LARGEST_POWER: usize = 16;
+fn call(function: Function, argument: Expression) -> ExpressionKind {
+    ExpressionKind::Call(function, Box::new(argument))
+}
 
-/// One factor of a trace, `G` or `G^2`.
-fn power_of_matrix(factor: &[TokenTree]) -> Option<(MatrixName, usize)> {
-    match unwrapped(factor.to_vec()).as_slice() {
-        [TokenTree::Ident(name)] => Some((MatrixName::named(&name.to_string())?, 1)),
-        [TokenTree::Ident(name), TokenTree::Punct(power), exponent @ TokenTree::Literal(_)]
-            if power.as_char() == '^' =>
-        {
-            let exponent: usize = describe(exponent).trim_matches('`').parse().ok()?;
-            let matrix = MatrixName::named(&name.to_string())?;
-            (1..=LARGEST_POWER).contains(&exponent).then_some((matrix, exponent))
-        }
-        _ => None,
-    }
+fn one(span: Region) -> Expression {
+    Expression { kind: ExpressionKind::Number(Rational::ONE), span }
 }
 
 /// A whole number without sign.
@@ -187,31 +187,28 @@ fn index(piece: Piece) -> Option<usize> {
 /// How a name is applied, if it is that of a function or of a potential: `neo_hookean(c)`, `sinh(a)`.
 pub(crate) fn application(name: &str) -> Option<String> {
     let potential = NAMED_POTENTIALS.iter().find(|potential| potential.name == name);
-    let function = FUNCTIONS.into_iter().find(|function| function.name() == name);
+    let is_function = PHRASES.contains(&name) || FUNCTIONS.iter().any(|function| function.name() == name);
     potential
         .map(|potential| format!("{name}({})", potential.parameters.join(", ")))
-        .or_else(|| function.map(|_| format!("{name}(a)")))
+        .or_else(|| is_function.then(|| format!("{name}(a)")))
+        .or_else(|| (name == "tr").then(|| "tr(G)".to_owned()))
 }
-
-/// What functions of other languages are here.
-const FAMILIAR: [(&[&str], &str); 5] = [
-    (&["log"], "write `ln(..)`, the natural logarithm"),
-    (&["trace", "Tr"], "write `tr(..)`"),
-    (&["pow", "powi", "powf"], "write `a^b`, with `^` for powers"),
-    (&["det"], "write `det` alone for det phi; det G = det Ct is `det^2`"),
-    (&["cbrt"], "write `exp(ln(a)/3)`, of what is positive; the cube root of det phi is `D` for n = 3"),
-];
 
 fn unknown(name: &str) -> PotentialMistake {
     let known: Vec<&'static str> = FUNCTIONS
         .into_iter()
         .map(Function::name)
+        .chain(PHRASES)
         .chain(FORMS)
         .chain(NAMED_POTENTIALS.iter().map(|potential| potential.name))
         .collect();
     let nearest = nearest(name, known.iter().copied());
-    let familiar = FAMILIAR.iter().find(|(names, _)| names.contains(&name)).map(|(_, instead)| *instead);
-    PotentialMistake::UnknownFunction { name: shortened(name), nearest, familiar, known }
+    PotentialMistake::UnknownFunction {
+        name: shortened(name),
+        nearest,
+        familiar: textbook::function(name),
+        known,
+    }
 }
 
 /// The tokens at another place.

@@ -7,7 +7,7 @@ use super::{Language, Parser, exact};
 use crate::algebra::Rational;
 use crate::diagnostics::{ExpressionMistake, Region, Reported};
 use crate::spec::entries::shortened;
-use crate::spec::{Expression, ExpressionKind, Operator};
+use crate::spec::{Expression, ExpressionKind, Operator, textbook};
 
 impl Parser<'_> {
     /// What follows a dot behind an operand.
@@ -28,7 +28,11 @@ impl Parser<'_> {
             _ if matches!(&operand.kind, ExpressionKind::Symbol(symbol) if symbol == "self") => {
                 (operand.span.to(name.span()), format!("self.{name}"), format!("write `{name}`"))
             }
-            _ => (dot.to(name.span()), format!(".{name}"), "write a field of the struct alone".to_owned()),
+            _ => {
+                let familiar = (name == "T").then(|| textbook::quantity("T")).flatten();
+                let instead = familiar.unwrap_or("write a field of the struct alone");
+                (dot.to(name.span()), format!(".{name}"), instead.to_owned())
+            }
         };
         self.found.report(at, ExpressionMistake::RustNotation { written: shortened(&written), instead })
     }
@@ -58,9 +62,9 @@ impl Parser<'_> {
                 let value = placed(ExpressionKind::Call(function, Box::new(operand.clone())));
                 format!("write `{value}`")
             }
-            (_, Language::Potential(_), None) => {
-                "functions stand before their argument, as in `sqrt(a)`".to_owned()
-            }
+            (_, Language::Potential(_), None) => textbook::function(&method)
+                .unwrap_or("functions stand before their argument, as in `sqrt(a)`")
+                .to_owned(),
             (_, Language::Coefficient, _) => "compute the value beforehand and keep it in a field".to_owned(),
         }
     }

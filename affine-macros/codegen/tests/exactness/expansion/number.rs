@@ -146,7 +146,7 @@ impl Field for Number {
             Function::Tan => Some(self.apply(Function::Sin)? * self.apply(Function::Cos)?.inverse()),
             Function::InverseCbrt => Some(self.apply(Function::Cbrt)?.inverse()),
             // Of what is no power of D there is none, and residues have no sign.
-            Function::Cbrt | Function::Abs | Function::Sign => None,
+            Function::Cbrt | Function::Abs | Function::Sign | Function::Asinh => None,
         })
     }
 }
@@ -186,6 +186,9 @@ impl Stretches {
         let mut learn = |logarithm: Number, value: Number| {
             known.insert((Function::Exp, logarithm), value);
             known.insert((Function::Ln, value), logarithm);
+            // arsinh((x - 1/x)/2) = ln x
+            let argument = (value - value.inverse()) * Number::integer(2).inverse();
+            known.insert((Function::Asinh, argument), logarithm);
         };
         powers(self.mean_logarithm, self.mean, 12).into_iter().for_each(|(q, d)| learn(q, d));
         if single {

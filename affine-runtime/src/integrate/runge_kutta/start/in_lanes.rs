@@ -41,7 +41,7 @@ struct Begun<T, S> {
 
 struct Beginning<'a, T, S, F> {
     f: &'a F,
-    /// In every lane.
+    /// The time at the start, in every lane.
     at_start: T,
     t0: f64,
     y0: &'a S,

@@ -1,0 +1,248 @@
+//! The forces on the affine momentum, put together from the slopes of a potential.
+
+use crate::algebra::ring::{Square, table, transpose};
+use crate::algebra::{Arena, Polynomial, Rational};
+
+use super::base::Base;
+use super::load::Draft;
+use super::tensors::{Tensors, direction};
+use super::writing::Means;
+
+/// Slopes with their weights.
+type Slopes<'a> = &'a [(Base, Polynomial)];
+
+fn of(slopes: Slopes, wanted: Base) -> Polynomial {
+    slopes.iter().find(|(base, _)| *base == wanted).map_or_else(Polynomial::zero, |(_, slope)| slope.clone())
+}
+
+impl Draft<'_> {
+    /// On `Pi`: `F = phi S + v cof + ..` with the second Piola-Kirchhoff tensor `S`, a symmetric matrix.
+    pub(super) fn on_placement(&mut self, arena: &mut Arena, slopes: Slopes) -> Square<Polynomial> {
+        let tensors = self.means.tensors(arena, self.chart);
+        let mut force = match self.means {
+            Means::Strains { deviates: true, .. } => self.stress_pulled_back(arena, slopes, &tensors),
+            Means::Strains { .. } => self.stress_from_strains(arena, slopes, &tensors),
+            _ => self.stress(arena, slopes, &tensors),
+        };
+        let n = self.chart.dim;
+        for (base, slope) in slopes {
+            if matches!(
+                base,
+                Base::Trace
+                    | Base::TraceOfSquare
+                    | Base::TraceOfCube
+                    | Base::Green(..)
+                    | Base::MeanLogStretch
+            ) {
+                continue;
+            }
+            for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
+                let entry = direction(*base, self.along, &tensors, i, a);
+                if !entry.is_zero() {
+                    let slope = self.named(arena, &base.slope_name(), slope);
+                    force[i][a].add_product(&slope, &entry, &Rational::ONE);
+                }
+            }
+        }
+        transpose(&force)
+    }
+
+    /// `phi (a + b G + c G^2 + E) + v cof`, `E` from single entries of `G`.
+    fn stress(
+        &mut self,
+        arena: &mut Arena,
+        slopes: Slopes,
+        tensors: &Tensors<Polynomial>,
+    ) -> Square<Polynomial> {
+        let first = self.named(arena, &Base::Trace.slope_name(), &of(slopes, Base::Trace));
+        let second = self.named(arena, &Base::TraceOfSquare.slope_name(), &of(slopes, Base::TraceOfSquare));
+        let third = self.named(arena, &Base::TraceOfCube.slope_name(), &of(slopes, Base::TraceOfCube));
+        let mut stress = self.of_entries(arena, slopes);
+        for (a, row) in stress.iter_mut().enumerate() {
+            row[a].add_scaled(&first, &Rational::ONE);
+            for (b, entry) in row.iter_mut().enumerate() {
+                entry.add_product(&second, &tensors.green[a][b], &Rational::ONE);
+                entry.add_product(&third, &tensors.squares[0][a][b], &Rational::ONE);
+            }
+        }
+        let mut force = self.times_stress(arena, &tensors.phi, &stress);
+        let swelling = self.means.over_det(&of(slopes, Base::MeanLogStretch));
+        let swelling = self.named(arena, "swelling", &swelling);
+        for (row, cofactors) in force.iter_mut().zip(&tensors.cofactors) {
+            for (entry, cofactor) in row.iter_mut().zip(cofactors) {
+                entry.add_product(&swelling, cofactor, &Rational::ONE);
+            }
+        }
+        force
+    }
+
+    /// The same with `G = 1 + M` on the diagonal, and there `s phi + v cof = (s + v) phi + v (cof - phi)`: what cancels is one
+    /// coefficient, and neither large nor small bodies lose by it.
+    fn stress_from_strains(
+        &mut self,
+        arena: &mut Arena,
+        slopes: Slopes,
+        tensors: &Tensors<Polynomial>,
+    ) -> Square<Polynomial> {
+        let n = self.chart.dim;
+        let (first, second) = (of(slopes, Base::Trace), of(slopes, Base::TraceOfSquare));
+        let mut along = first;
+        along.add_scaled(&second, &Rational::ONE);
+        let swelling = self.means.over_det(&of(slopes, Base::MeanLogStretch));
+        let mut joint = along.clone();
+        joint.add_scaled(&swelling, &Rational::ONE);
+        let splits = !swelling.is_zero() && !along.is_zero();
+        let second = self.named(arena, &Base::TraceOfSquare.slope_name(), &second);
+        let mut stress = self.of_entries(arena, slopes);
+        let counted = self.means.counted(arena, &along);
+        let own = self.named(arena, "stress", &counted);
+        let Means::Strains { strains, .. } = &self.means else { return stress };
+        for (a, row) in stress.iter_mut().enumerate() {
+            for (b, entry) in row.iter_mut().enumerate() {
+                entry.add_product(&second, &strains.strain(arena, a, b), &Rational::ONE);
+            }
+            if !splits {
+                row[a].add_scaled(&own, &Rational::ONE);
+            }
+        }
+        let mut force = self.times_stress(arena, &tensors.phi, &stress);
+        let counted = self.means.counted(arena, &swelling);
+        let volume = self.named(arena, "swelling", &counted);
+        let offset = self.means.counted(arena, &joint);
+        let offset = if splits { self.named(arena, "offset", &offset) } else { Polynomial::zero() };
+        let Means::Strains { strains, .. } = &self.means else { return force };
+        for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
+            let entry = &mut force[i][a];
+            if splits && i == a {
+                entry.add_product(&offset, &tensors.phi[a][a], &Rational::ONE);
+                entry.add_product(&volume, &strains.asymmetry(a), &Rational::ONE);
+                continue;
+            }
+            if splits {
+                entry.add_product(&own, &tensors.phi[i][a], &Rational::ONE);
+            }
+            entry.add_product(&volume, &tensors.cofactors[i][a], &Rational::ONE);
+        }
+        force
+    }
+
+    /// The symmetric matrix of the slopes by single entries of `G`.
+    fn of_entries(&mut self, arena: &mut Arena, slopes: Slopes) -> Square<Polynomial> {
+        let mut matrix = self.empty();
+        for (base, slope) in slopes {
+            let Base::Green(c, d) = *base else { continue };
+            let counted = self.means.counted(arena, slope);
+            let slope = self.named(arena, &base.slope_name(), &counted);
+            matrix[c][d].add_scaled(&slope, &Rational::ONE);
+            matrix[d][c].add_scaled(&slope, &Rational::ONE);
+        }
+        matrix
+    }
+
+    /// `phi S`; entries of `S` that are more than a symbol are shared.
+    fn times_stress(
+        &mut self,
+        arena: &mut Arena,
+        phi: &Square<Polynomial>,
+        stress: &Square<Polynomial>,
+    ) -> Square<Polynomial> {
+        let n = self.chart.dim;
+        let mut force = self.empty();
+        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+            let (c, d) = (a.min(b), a.max(b));
+            let form = &stress[c][d];
+            let bare = form.terms().all(|(monomial, k)| monomial.len() == 1 && k.abs().is_one());
+            let entry = match form.terms().len() {
+                0 => continue,
+                1 if bare => form.clone(),
+                _ => self.named(arena, &format!("piola_{}{}", c + 1, d + 1), form),
+            };
+            for (row, of_phi) in force.iter_mut().zip(phi) {
+                row[b].add_product(&of_phi[a], &entry, &Rational::ONE);
+            }
+        }
+        force
+    }
+
+    /// `cof (c + k B + b B^2)/det + phi E` with the deviator `B` of `G`.
+    fn stress_pulled_back(
+        &mut self,
+        arena: &mut Arena,
+        slopes: Slopes,
+        tensors: &Tensors<Polynomial>,
+    ) -> Square<Polynomial> {
+        let over: Vec<(Base, Polynomial)> = slopes
+            .iter()
+            .filter(|(base, _)| matches!(base, Base::Trace | Base::TraceOfSquare | Base::MeanLogStretch))
+            .map(|(base, slope)| (*base, self.means.over_det(slope)))
+            .collect();
+        let stress = self.about_the_mean(arena, &over);
+        let mut force = self.times_stress(arena, &tensors.cofactors, &stress);
+        let entries = self.of_entries(arena, slopes);
+        for (row, of_phi) in force.iter_mut().zip(&tensors.phi) {
+            for (b, entry) in row.iter_mut().enumerate() {
+                for (phi, stress) in of_phi.iter().zip(&entries) {
+                    entry.add_product(phi, &stress[b], &Rational::ONE);
+                }
+            }
+        }
+        force
+    }
+
+    /// `v + a G + b G^2 = c + k X + b X^2` with `X = G - m`, where the mean `m` is `tr(G)/n` or 1: `k = a + 2 b m`; `Ct` for `G`
+    /// where the chart reads that.
+    fn about_the_mean(&mut self, arena: &mut Arena, slopes: Slopes) -> Square<Polynomial> {
+        let n = self.chart.dim;
+        let [v, a, b] = [Base::MeanLogStretch, Base::Trace, Base::TraceOfSquare].map(|base| of(slopes, base));
+        let offset = self.means.offset(arena, [&v, &a, &b]);
+        let offset = self.named(arena, "offset", &offset);
+        let Means::Strains { strains, deviates, .. } = &self.means else { return self.empty() };
+        let mut mean = Polynomial::constant(Rational::ONE);
+        let mut about = table(n, |_, _| Polynomial::zero());
+        if *deviates {
+            mean = Polynomial::atom(arena.symbol("mean_square_stretch"));
+            about = strains.deviator(arena);
+        } else {
+            for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+                about[i][j] = strains.strain(arena, i, j);
+            }
+        }
+        let mut along = a;
+        along.add_product(&b, &mean, &Rational::from(2));
+        let along = self.named(arena, "stress", &along);
+        let second = self.named(arena, &Base::TraceOfSquare.slope_name(), &b);
+        let mut stress = self.empty();
+        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+            stress[a][b].add_product(&along, &about[a][b], &Rational::ONE);
+            let mut square = Polynomial::zero();
+            (0..n).for_each(|c| square.add_product(&about[a][c], &about[c][b], &Rational::ONE));
+            stress[a][b].add_product(&second, &square, &Rational::ONE);
+            if a == b {
+                stress[a][b].add_scaled(&offset, &Rational::ONE);
+            }
+        }
+        stress
+    }
+
+    /// On affine spins: the slopes along the group.
+    pub(super) fn on_spin(&mut self, arena: &mut Arena, slopes: Slopes) -> Square<Polynomial> {
+        let n = self.chart.dim;
+        let tensors = self.means.tensors(arena, self.chart);
+        let counts = matches!(self.means, Means::Strains { .. });
+        let mut force = if counts { self.about_the_mean(arena, slopes) } else { self.empty() };
+        for (base, slope) in slopes {
+            if counts && matches!(base, Base::Trace | Base::TraceOfSquare | Base::MeanLogStretch) {
+                continue;
+            }
+            for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+                let entry = direction(*base, self.along, &tensors, a, b);
+                if !entry.is_zero() {
+                    let counted = self.means.counted(arena, slope);
+                    let slope = self.named(arena, &base.slope_name(), &counted);
+                    force[a][b].add_product(&slope, &entry, &Rational::ONE);
+                }
+            }
+        }
+        force
+    }
+}

@@ -1,0 +1,347 @@
+//! Strains and their invariants through `phi - 1`, a difference without rounding near the undeformed state.
+//!
+//! Entries beside the diagonal are small there as they are. On the diagonal, with `h = phi_aa - 1`,
+//! `G_aa - 1 = h (1 + phi_aa) + ..`, `cof_aa - 1 = h_b phi_cc + h_c - ..` and `det - 1 = h_1 + (cof_11 - 1) phi_11 + ..`.
+
+use crate::algebra::ring::{Square, adjugate};
+use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
+use crate::mechanics::charts::{Chart, Momentum};
+
+use super::Base;
+use super::tensors::placement;
+use super::undeformed::{Counted, Undeformed};
+use super::volume::Volume;
+
+/// Quantities of a chart, counted from the undeformed state.
+pub(super) struct Strains {
+    n: usize,
+    phi: Square<Polynomial>,
+    volume: Volume,
+    /// `phi_aa - 1`
+    excess: Vec<Expr>,
+    /// `G_aa - 1`
+    green: Vec<Expr>,
+    /// `Ct_aa - 1`
+    finger: Vec<Expr>,
+    /// `cof_aa - phi_aa`
+    asymmetry: Vec<Expr>,
+    /// `cof_aa - 1`, and the cofactors.
+    cofactor_excess: Vec<Expr>,
+    cofactors: Square<Expr>,
+    /// Does the chart read `Ct`, or `G`?
+    spatial: bool,
+    /// Are the cofactors wanted as such?
+    canonical: bool,
+}
+
+impl Strains {
+    pub(super) fn new(arena: &mut Arena, chart: &Chart, volume: Volume) -> Self {
+        let n = chart.dim;
+        let mut diagonal =
+            |stem: &str| -> Vec<Expr> { (1..=n).map(|a| arena.symbol(&format!("{stem}_{a}"))).collect() };
+        let [excess, green, finger, asymmetry, cofactor_excess] =
+            ["excess", "strain_on_axis", "spatial_strain_on_axis", "cofactor_difference", "cofactor_excess"]
+                .map(&mut diagonal);
+        let cofactors = Matrix::symbols(arena, "cofactor", n).0;
+        Self {
+            n,
+            phi: placement(chart),
+            volume,
+            excess,
+            green,
+            finger,
+            asymmetry,
+            cofactor_excess,
+            cofactors,
+            spatial: matches!(chart.momentum, Momentum::Space | Momentum::Total),
+            canonical: chart.momentum == Momentum::Canonical,
+        }
+    }
+
+    /// What is known of all symbols, those first whose changes cost least.
+    pub(super) fn known(&self, arena: &mut Arena) -> Undeformed {
+        let n = i64::try_from(self.n).unwrap_or(3);
+        let atom = Polynomial::atom;
+        let mut list = Vec::new();
+        let mut tensor = |arena: &mut Arena, base: fn(usize, usize) -> Base, diagonal: &[Expr]| {
+            for (a, b) in (0..self.n).flat_map(|a| (0..self.n).map(move |b| (a, b))) {
+                let symbol = base(a, b).symbol(arena);
+                list.push((
+                    symbol,
+                    if a == b {
+                        Counted::from(1, atom(diagonal[a]))
+                    } else {
+                        Counted::vanishing(atom(symbol))
+                    },
+                ));
+            }
+        };
+        tensor(arena, Base::Green, &self.green);
+        tensor(arena, Base::Finger, &self.finger);
+        tensor(arena, Base::Placement, &self.excess);
+        for (a, row) in self.cofactors.iter().enumerate() {
+            for (b, symbol) in row.iter().enumerate() {
+                let change = if a == b { self.cofactor_excess[a] } else { *symbol };
+                list.push((*symbol, Counted::from(i64::from(a == b), atom(change))));
+            }
+        }
+        let [first, of_square, minors] =
+            ["strain_1", "strain_2", "strain_minors"].map(|name| arena.symbol(name));
+        list.push((Base::Trace.symbol(arena), Counted::from(n, atom(first))));
+        list.push((Base::TraceOfSquare.symbol(arena), Counted::from(n, atom(of_square))));
+        let nth = Rational::ratio(1, n).unwrap_or(Rational::ONE);
+        list.push((
+            arena.symbol("mean_square_stretch"),
+            Counted::from(1, Polynomial::term(vec![first], nth)),
+        ));
+        for small in self.deviator(arena).concat().iter().flat_map(Polynomial::atoms) {
+            list.push((*small, Counted::vanishing(atom(*small))));
+        }
+        let squared = arena.symbol("deviator_squared");
+        list.push((squared, Counted::vanishing(atom(squared))));
+        let mut second = atom(minors);
+        second.add_term(vec![first], &Rational::from(n - 1));
+        list.push((arena.symbol("second_invariant"), Counted::from(n * (n - 1) / 2, second)));
+        for log in (0..self.n).map(Base::LogStretch).chain([Base::MeanLogStretch]) {
+            let symbol = log.symbol(arena);
+            list.push((symbol, Counted::vanishing(atom(symbol))));
+        }
+        let Volume { det, inverse_det, d, inverse_d, .. } = self.volume;
+        let [excess_det, excess_d] = ["excess_det", "excess_dilatation"].map(|name| arena.symbol(name));
+        let minus = Rational::MINUS_ONE;
+        list.push((det, Counted::from(1, atom(excess_det))));
+        list.push((
+            inverse_det,
+            Counted::from(1, Polynomial::term(vec![excess_det, inverse_det], minus.clone())),
+        ));
+        let last = vec![
+            (d, Counted::from(1, atom(excess_d))),
+            (inverse_d, Counted::from(1, Polynomial::term(vec![excess_d, inverse_d], minus))),
+        ];
+        Undeformed::new(list, last)
+    }
+
+    /// Definitions of these symbols, and of others through them; what is not used goes later.
+    pub(super) fn definitions(&self, arena: &mut Arena) -> Vec<(Expr, Polynomial)> {
+        let mut list = Vec::new();
+        for (a, excess) in self.excess.iter().enumerate() {
+            list.push((*excess, plus(self.phi[a][a].clone(), -1)));
+        }
+        self.tensors(arena, &mut list);
+        self.deviators(arena, &mut list);
+        self.invariants(arena, &mut list);
+        self.volumes(arena, &mut list);
+        list
+    }
+
+    /// The entries on the diagonals of `G` and `Ct`.
+    fn tensors(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
+        for a in 0..self.n {
+            let own = &self.phi[a][a];
+            let mut strain = Polynomial::atom(self.excess[a]).mul(own);
+            strain.add_term(vec![self.excess[a]], &Rational::ONE);
+            let whole = own.mul(own);
+            let squares = |entry: &dyn Fn(usize) -> Polynomial| {
+                let mut sum = Polynomial::zero();
+                for i in (0..self.n).filter(|i| *i != a) {
+                    sum.add_product(&entry(i), &entry(i), &Rational::ONE);
+                }
+                sum
+            };
+            let column = (self.green[a], Base::Green(a, a), squares(&|i| self.phi[i][a].clone()));
+            let row = (self.finger[a], Base::Finger(a, a), squares(&|i| self.phi[a][i].clone()));
+            for (symbol, base, beside) in [column, row] {
+                let shared = arena.symbol(&format!("beside_{}", base.name()));
+                list.push((shared, beside));
+                let with = |of: &Polynomial| {
+                    let mut sum = of.clone();
+                    sum.add_term(vec![shared], &Rational::ONE);
+                    sum
+                };
+                list.push((symbol, with(&strain)));
+                list.push((base.symbol(arena), with(&whole)));
+            }
+        }
+    }
+
+    /// Traces, of `G` or of `Ct`.
+    fn invariants(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
+        let [first, of_square, minors] =
+            ["strain_1", "strain_2", "strain_minors"].map(|name| arena.symbol(name));
+        let (mut sum, mut squares, mut products) =
+            (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
+        let strain = if self.spatial { &self.finger } else { &self.green };
+        for a in 0..self.n {
+            sum.add_term(vec![strain[a]], &Rational::ONE);
+            let whole = if self.spatial { Base::Finger(a, a) } else { Base::Green(a, a) }.symbol(arena);
+            squares.add_term(vec![strain[a], whole], &Rational::ONE);
+            squares.add_term(vec![strain[a]], &Rational::ONE);
+            for b in a + 1..self.n {
+                let beside = if self.spatial { Base::Finger(a, b) } else { Base::Green(a, b) }.symbol(arena);
+                squares.add_term(vec![beside, beside], &Rational::from(2));
+                products.add_term(vec![strain[a], strain[b]], &Rational::ONE);
+                products.add_term(vec![beside, beside], &Rational::MINUS_ONE);
+            }
+        }
+        list.push((first, sum));
+        list.push((of_square, squares));
+        list.push((minors, products));
+    }
+
+    /// Cofactors, determinant, its logarithm and root.
+    fn volumes(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
+        for a in 0..self.n {
+            list.push((self.asymmetry[a], self.cofactor_difference(arena, a)));
+            let mut excess = Polynomial::atom(self.asymmetry[a]);
+            excess.add_term(vec![self.excess[a]], &Rational::ONE);
+            list.push((self.cofactor_excess[a], excess));
+        }
+        let [excess, excess_d, beside] =
+            ["excess_det", "excess_dilatation", "beside_det"].map(|name| arena.symbol(name));
+        let adjugate = adjugate(&self.phi);
+        let cofactor = |b: usize| match self.canonical {
+            true => Polynomial::atom(self.cofactors[0][b]),
+            false => adjugate[b][0].clone(),
+        };
+        let mut others = Polynomial::zero();
+        (1..self.n).for_each(|b| others.add_product(&self.phi[0][b], &cofactor(b), &Rational::ONE));
+        list.push((beside, others));
+        let mut change = Polynomial::atom(self.excess[0]);
+        change.add_product(&Polynomial::atom(self.cofactor_excess[0]), &self.phi[0][0], &Rational::ONE);
+        change.add_term(vec![beside], &Rational::ONE);
+        list.push((excess, change));
+        let Volume { det, inverse_det, d, .. } = self.volume;
+        let mut whole = self.phi[0][0].mul(&cofactor(0));
+        whole.add_term(vec![beside], &Rational::ONE);
+        list.push((det, whole));
+        let one = arena.constant(Rational::ONE);
+        let mut powers = vec![(one, Rational::ONE), (d, Rational::ONE)];
+        if self.n == 3 {
+            powers.extend(arena.pow(d, 2).map(|square| (square, Rational::ONE)));
+        }
+        let below = arena.linear(&powers);
+        // A sum of powers of D and one.
+        let reciprocal = arena.pow(below, -1).unwrap_or(below);
+        list.push((excess_d, Polynomial::term(vec![excess, reciprocal], Rational::ONE)));
+        // ln det = arsinh((det - 1/det)/2) = arsinh(((det - 1) + (det - 1)/det)/2)
+        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        let mut argument = Polynomial::term(vec![excess], half.clone());
+        argument.add_term(vec![excess, inverse_det], &half);
+        let argument = argument.expression(arena);
+        let nth = i64::try_from(self.n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+        let logarithm = arena.apply(Function::Asinh, argument);
+        list.push((Base::MeanLogStretch.symbol(arena), Polynomial::term(vec![logarithm], nth)));
+    }
+
+    /// `cof_aa - phi_aa = h_b phi_cc + (phi_cc - phi_aa) - ..`, in the plane `phi_cc - phi_aa`; the difference in brackets has
+    /// no rounding near the undeformed state.
+    fn cofactor_difference(&self, arena: &mut Arena, a: usize) -> Polynomial {
+        let c = if a == 0 { 1 } else { a - 1 };
+        let (difference, sign) = difference(arena, c, a);
+        let mut change = Polynomial::term(vec![difference], sign);
+        for b in (0..self.n).filter(|b| *b != a && *b != c) {
+            change.add_product(&Polynomial::atom(self.excess[b]), &self.phi[c][c], &Rational::ONE);
+            change.add_product(&self.phi[b][c], &self.phi[c][b], &Rational::MINUS_ONE);
+        }
+        change
+    }
+
+    /// `G - 1`, or `Ct - 1` where the chart reads that.
+    pub(super) fn strain(&self, arena: &mut Arena, a: usize, b: usize) -> Polynomial {
+        let (diagonal, base): (_, fn(usize, usize) -> Base) =
+            if self.spatial { (&self.finger, Base::Finger) } else { (&self.green, Base::Green) };
+        Polynomial::atom(if a == b { diagonal[a] } else { base(a, b).symbol(arena) })
+    }
+
+    /// `cof_aa - phi_aa`.
+    pub(super) fn asymmetry(&self, a: usize) -> Polynomial {
+        Polynomial::atom(self.asymmetry[a])
+    }
+
+    /// The deviator of `G`, or of `Ct` where the chart reads that.
+    pub(super) fn deviator(&self, arena: &mut Arena) -> Square<Polynomial> {
+        let mut entry =
+            |a: usize, b: usize| arena.symbol(&format!("deviator_{}{}", a.min(b) + 1, a.max(b) + 1));
+        (0..self.n).map(|a| (0..self.n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
+    }
+
+    /// Its entries, on the diagonal through differences of squares, and the trace of its square.
+    fn deviators(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
+        let n = self.n;
+        let base: fn(usize, usize) -> Base = if self.spatial { Base::Finger } else { Base::Green };
+        let whole = i64::try_from(n).unwrap_or(3);
+        let part = |number: usize| {
+            Rational::ratio(i64::try_from(number).unwrap_or(0), whole).unwrap_or(Rational::ONE)
+        };
+        let mut diagonal = vec![Polynomial::zero(); n];
+        for a in 0..n - 1 {
+            let b = a + 1;
+            let mut symbol = |stem: &str| arena.symbol(&format!("{stem}_{}{}", a + 1, b + 1));
+            let [sum, of_squares] = ["phi_sum", "square_difference"].map(&mut symbol);
+            let (difference, _) = difference(arena, a, b);
+            let combined = |sign: Rational| {
+                let mut value = self.phi[a][a].clone();
+                value.add_scaled(&self.phi[b][b], &sign);
+                value
+            };
+            let mut squares = Polynomial::term(vec![difference, sum], Rational::ONE);
+            for (index, sign) in [(a, Rational::ONE), (b, Rational::MINUS_ONE)] {
+                let beside = arena.symbol(&format!("beside_{}", base(index, index).name()));
+                squares.add_term(vec![beside], &sign);
+            }
+            list.extend([
+                (difference, combined(Rational::MINUS_ONE)),
+                (sum, combined(Rational::ONE)),
+                (of_squares, squares),
+            ]);
+            // G_kk - tr(G)/n = sum_a w_ka (G_aa - G_bb), w_ka = (n - a)/n for k <= a and -a/n for k > a, counted from 1
+            for (k, entry) in diagonal.iter_mut().enumerate() {
+                let weight = if k <= a { part(n - b) } else { -&part(b) };
+                entry.add_term(vec![of_squares], &weight);
+            }
+        }
+        let symbols = self.deviator(arena);
+        let mut square = Polynomial::zero();
+        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+            square.add_product(&symbols[a][b], &symbols[a][b], &Rational::ONE);
+            let entry = if a == b { diagonal[a].clone() } else { Polynomial::atom(base(a, b).symbol(arena)) };
+            let symbol = symbols[a][b].terms().next().and_then(|(monomial, _)| monomial.first().copied());
+            list.extend(symbol.filter(|_| a <= b).map(|symbol| (symbol, entry)));
+        }
+        list.push((arena.symbol("deviator_squared"), square));
+        let mean = Polynomial::term(vec![Base::Trace.symbol(arena)], part(1));
+        list.push((arena.symbol("mean_square_stretch"), mean));
+    }
+
+    /// The polynomial with invariants through the mean and the deviator: those of dilatations cancel exactly.
+    pub(super) fn through_deviator(&self, arena: &mut Arena, form: &Polynomial) -> Polynomial {
+        let n = i64::try_from(self.n).unwrap_or(3);
+        let [mean, square, second] =
+            ["mean_square_stretch", "deviator_squared", "second_invariant"].map(|name| arena.symbol(name));
+        let half = Rational::ratio(-1, 2).unwrap_or(Rational::ONE);
+        let sum = |of_mean: Rational, of_square: Rational| {
+            let mut sum = Polynomial::term(vec![mean, mean], of_mean);
+            sum.add_term(vec![square], &of_square);
+            sum
+        };
+        let values = [
+            (Base::Trace.symbol(arena), Polynomial::term(vec![mean], Rational::from(n))),
+            (Base::TraceOfSquare.symbol(arena), sum(Rational::from(n), Rational::ONE)),
+            (second, sum(Rational::from(n * (n - 1) / 2), half)),
+        ];
+        form.substitute(&|atom| {
+            values.iter().find(|(known, _)| *known == atom).map(|(_, value)| value.clone())
+        })
+    }
+}
+
+/// The symbol of the difference of two neighbours on the diagonal of `phi`, and its sign.
+fn difference(arena: &mut Arena, a: usize, b: usize) -> (Expr, Rational) {
+    let symbol = arena.symbol(&format!("phi_difference_{}{}", a.min(b) + 1, a.max(b) + 1));
+    (symbol, if a < b { Rational::ONE } else { Rational::MINUS_ONE })
+}
+
+fn plus(mut of: Polynomial, number: i64) -> Polynomial {
+    of.add_term(Vec::new(), &Rational::from(number));
+    of
+}

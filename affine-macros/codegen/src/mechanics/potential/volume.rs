@@ -1,0 +1,172 @@
+//! Powers of `D = det^(1/n)` through `det`, `1/det` and `1/D`: `D^n = det`, and a root only where a fractional power of `det` is
+//! asked for.
+
+use crate::algebra::arena::Node;
+use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
+
+use crate::algebra::ring::adjugate;
+use crate::mechanics::charts::{Chart, Momentum};
+
+use super::Base;
+use super::scaled::collected;
+use super::tensors::placement;
+
+/// The symbols of one volume.
+#[derive(Clone, Copy)]
+pub(super) struct Volume {
+    n: i32,
+    pub(super) det: Expr,
+    pub(super) inverse_det: Expr,
+    pub(super) d: Expr,
+    pub(super) inverse_d: Expr,
+}
+
+impl Volume {
+    pub(super) fn new(arena: &mut Arena, n: usize) -> Self {
+        let [det, inverse_det, d, inverse_d] =
+            ["det", "inverse_det", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
+        Self { n: i32::try_from(n).unwrap_or(3), det, inverse_det, d, inverse_d }
+    }
+
+    /// The dimension of space.
+    pub(super) fn dim(&self) -> usize {
+        usize::try_from(self.n).unwrap_or(3)
+    }
+
+    /// The normal form of an expression in powers of `D` and `1/D`.
+    pub(super) fn collected(&self, arena: &mut Arena, expr: Expr) -> Polynomial {
+        let reciprocal = arena.pow(self.d, -1).unwrap_or(self.d);
+        let inverse_d = self.inverse_d;
+        // Powers of D are not zero.
+        let expr = arena.substitute(expr, &|s| (s == inverse_d).then_some(reciprocal)).unwrap_or(expr);
+        let form = collected(arena, expr, self.d);
+        let mut result = Polynomial::zero();
+        for (monomial, c) in form.terms() {
+            let monomial = monomial.iter().map(|atom| if *atom == reciprocal { inverse_d } else { *atom });
+            let factors: Vec<Expr> = monomial.map(|atom| self.inside(arena, atom)).collect();
+            result.add_term(factors, c);
+        }
+        self.reduced(&result)
+    }
+
+    /// The same for the arguments of functions and the divisors in an atom.
+    fn inside(&self, arena: &mut Arena, atom: Expr) -> Expr {
+        match arena.node(atom).clone() {
+            Node::Function(function, argument) => {
+                let argument = self.rebuilt(arena, argument);
+                arena.apply(function, argument)
+            }
+            Node::Product(_) | Node::Sum(..) => self.rebuilt(arena, atom),
+            Node::Constant(_) | Node::Symbol(_) => atom,
+        }
+    }
+
+    fn rebuilt(&self, arena: &mut Arena, expr: Expr) -> Expr {
+        match arena.node(expr).clone() {
+            Node::Symbol(_) if expr == self.d => self.power(arena, 1).unwrap_or(expr),
+            Node::Constant(_) | Node::Symbol(_) => expr,
+            Node::Function(..) => self.inside(arena, expr),
+            Node::Sum(constant, terms) => {
+                let mut summands = vec![(arena.constant(constant), Rational::ONE)];
+                for (term, c) in terms {
+                    summands.push((self.rebuilt(arena, term), c));
+                }
+                arena.linear(&summands)
+            }
+            Node::Product(factors) => {
+                let mut product = Vec::with_capacity(factors.len());
+                for (base, exponent) in factors {
+                    let power = if base == self.d { self.power(arena, exponent) } else { None };
+                    match power {
+                        Some(power) => product.push((power, 1)),
+                        None => product.push((self.rebuilt(arena, base), exponent)),
+                    }
+                }
+                // The bases keep their values, and were not the number zero.
+                arena.product(&product).unwrap_or(expr)
+            }
+        }
+    }
+
+    /// `D^exponent`.
+    fn power(&self, arena: &mut Arena, exponent: i32) -> Option<Expr> {
+        let factors: Vec<(Expr, i32)> = self.factors(exponent).into_iter().map(|atom| (atom, 1)).collect();
+        arena.product(&factors)
+    }
+
+    /// The atoms of `D^exponent`.
+    fn factors(&self, exponent: i32) -> Vec<Expr> {
+        let Self { n, det, inverse_det, inverse_d, .. } = *self;
+        let (whole, rest) = match exponent {
+            // D^k = det^m (1/D)^(n m - k)
+            1.. => ((det, exponent.div_euclid(n) + i32::from(exponent % n != 0)), (-exponent).rem_euclid(n)),
+            _ => ((inverse_det, -exponent / n), -exponent % n),
+        };
+        let times = |count: i32| usize::try_from(count).unwrap_or(0);
+        let mut atoms = vec![whole.0; times(whole.1)];
+        atoms.extend(vec![inverse_d; times(rest)]);
+        atoms
+    }
+
+    /// The polynomial with each power of `D` in one form.
+    pub(super) fn reduced(&self, form: &Polynomial) -> Polynomial {
+        let mut result = Polynomial::zero();
+        for (monomial, c) in form.terms() {
+            let mut exponent = 0;
+            let mut kept = Vec::with_capacity(monomial.len());
+            for atom in monomial {
+                match *atom {
+                    a if a == self.det => exponent += self.n,
+                    a if a == self.inverse_det => exponent -= self.n,
+                    a if a == self.d => exponent += 1,
+                    a if a == self.inverse_d => exponent -= 1,
+                    other => kept.push(other),
+                }
+            }
+            kept.extend(self.factors(exponent));
+            result.add_term(kept, c);
+        }
+        result
+    }
+
+    /// `det`, `1/D`, `D`, `1/det` and `q`, with one root where there is any.
+    pub(super) fn definitions(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        uses_root: bool,
+    ) -> Vec<(Expr, Polynomial)> {
+        let n = chart.dim;
+        let Self { det, inverse_det, d, inverse_d, .. } = *self;
+        let root = arena.apply(if n == 2 { Function::Sqrt } else { Function::Cbrt }, det);
+        let logarithm = arena.apply(Function::Ln, det);
+        let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+        // Symbols and functions of symbols are not the number zero.
+        let reciprocal = |arena: &mut Arena, of: Expr| Polynomial::atom(arena.pow(of, -1).unwrap_or(of));
+        let inverse = match uses_root {
+            true => Polynomial::term(vec![inverse_d; n], Rational::ONE),
+            false => reciprocal(arena, det),
+        };
+        // The forces on Pi contain the cofactors themselves; elsewhere the determinant alone is needed.
+        let first_row: Vec<Polynomial> = match chart.momentum {
+            Momentum::Canonical => {
+                let cofactors = Matrix::symbols(arena, "cofactor", n);
+                cofactors.0[0].iter().map(|cofactor| Polynomial::atom(*cofactor)).collect()
+            }
+            _ => adjugate(&placement(chart)).iter().map(|row| row[0].clone()).collect(),
+        };
+        let mut determinant = Polynomial::zero();
+        for (entry, cofactor) in chart.phi.0[0].iter().zip(first_row) {
+            determinant.add_product(&Polynomial::atom(*entry), &cofactor, &Rational::ONE);
+        }
+        let mut product = vec![inverse_d; n - 1];
+        product.push(det);
+        vec![
+            (det, determinant),
+            (inverse_d, reciprocal(arena, root)),
+            (d, Polynomial::term(product, Rational::ONE)),
+            (inverse_det, inverse),
+            (Base::MeanLogStretch.symbol(arena), Polynomial::term(vec![logarithm], nth)),
+        ]
+    }
+}

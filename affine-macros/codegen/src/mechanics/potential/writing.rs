@@ -1,0 +1,305 @@
+//! Ways of writing one and the same force, of which the generator takes the shortest among those that lose no digits.
+
+use crate::algebra::arena::Node;
+use crate::algebra::ring::{Square, table};
+use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
+use crate::mechanics::charts::{Chart, Momentum};
+use crate::mechanics::equations::Load;
+
+use super::Potential;
+use super::base::Base;
+use super::excess::{Isochoric, mean_square};
+use super::principal::Principal;
+use super::rewriting::through_dilatation;
+use super::scaled::{self, scaled_bases};
+use super::strain::Strains;
+use super::tensors::{Tensors, cofactors, definitions, placement, squares};
+use super::undeformed::{Counted, Undeformed};
+use super::volume::Volume;
+
+/// A way of writing the forces of a potential.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Writing {
+    /// Through the tensors and invariants themselves.
+    #[default]
+    Plain,
+    /// Through `G - 1` or `Ct - 1`, on the diagonals of all through differences: nothing cancels near the undeformed state.
+    Differences,
+    /// Through the deviator of `G` or `Ct` and a mean that is counted from the undeformed state, on `Pi` as `phi^-T` times that:
+    /// nothing cancels near any dilatation.
+    Deviators,
+    /// Through `D` and the isochoric part `phi/D`, whose powers stay within the range of numbers where `phi` is extreme.
+    Isochoric,
+}
+
+/// What a way of writing works with.
+pub(super) enum Means {
+    Plain { volume: Volume },
+    Strains { volume: Volume, strains: Strains, undeformed: Undeformed, deviates: bool },
+    Unit { volume: Volume },
+}
+
+impl Potential {
+    /// The ways in which its forces in a chart may be written.
+    pub fn writings(&self, arena: &mut Arena, chart: &Chart) -> Vec<Writing> {
+        let mut list = vec![Writing::Plain];
+        let has_cube = self.slopes.iter().any(|(base, _)| *base == Base::TraceOfCube);
+        if chart.confined.is_none() && !self.has_single_stretches() && !has_cube {
+            list.extend([Writing::Differences, Writing::Deviators]);
+        }
+        if chart.confined.is_none() && self.is_steep(arena) {
+            list.push(Writing::Isochoric);
+        }
+        list
+    }
+
+    /// The same potential with a way of writing its forces beside a momentum.
+    #[must_use]
+    pub fn written(mut self, momentum: Momentum, writing: Writing) -> Self {
+        self.writings.push((momentum, writing));
+        self
+    }
+
+    /// Was a way chosen beside this momentum?
+    #[must_use]
+    pub fn is_written(&self, momentum: Momentum) -> bool {
+        self.writings.iter().any(|(known, _)| *known == momentum)
+    }
+
+    /// The same potential with its forces written plainly.
+    #[must_use]
+    pub fn plainly(&self) -> Self {
+        Self { writings: Vec::new(), ..self.clone() }
+    }
+
+    /// The way that was chosen for a chart.
+    pub(super) fn writing(&self, chart: &Chart) -> Writing {
+        let momentum = match chart.momentum {
+            // The same forces stand beside it.
+            Momentum::Total => Momentum::Space,
+            momentum => momentum,
+        };
+        let chosen = self.writings.iter().find(|(known, _)| *known == momentum);
+        match chart.confined {
+            None => chosen.map_or(Writing::Plain, |(_, writing)| *writing),
+            Some(_) => Writing::Plain,
+        }
+    }
+
+    /// Do tensors in the forces have powers of `D` beyond the third beside them? The product may be of degree 0, and `D^4`
+    /// leaves the range of numbers where `phi` does not.
+    fn is_steep(&self, arena: &mut Arena) -> bool {
+        self.slopes.iter().any(|(base, slope)| {
+            let form = through_dilatation(arena, *slope);
+            let form = Polynomial::normal_form(arena, form);
+            // By name: a symbol that is not needed would come into being.
+            let named = |atom: Expr, name: &str| arena.name(atom) == Some(name);
+            let power =
+                |monomial: &[Expr], name: &str| monomial.iter().filter(|atom| named(**atom, name)).count();
+            let is_tensor = |name: &str| {
+                ["trace_", "green_", "finger_", "phi_"].iter().any(|stem| name.starts_with(stem))
+            };
+            let of_tensors = |monomial: &[Expr]| {
+                let mut found = |symbol: Expr| arena.name(symbol).is_some_and(is_tensor);
+                base.degree() > 0 || monomial.iter().any(|atom| arena.any_symbol(*atom, &mut found))
+            };
+            let is_steep = |monomial: &[Expr]| {
+                ["dilatation", "inverse_dilatation"].iter().any(|name| power(monomial, name) > 2)
+            };
+            form.terms().any(|(monomial, _)| is_steep(monomial) && of_tensors(monomial))
+        })
+    }
+}
+
+impl Means {
+    pub(super) fn new(arena: &mut Arena, chart: &Chart, writing: Writing) -> Self {
+        let volume = Volume::new(arena, chart.dim);
+        match writing {
+            Writing::Plain => Self::Plain { volume },
+            Writing::Isochoric => Self::Unit { volume },
+            Writing::Differences | Writing::Deviators => {
+                let deviates = writing == Writing::Deviators;
+                let strains = Strains::new(arena, chart, volume);
+                let undeformed = strains.known(arena);
+                Self::Strains { volume, strains, undeformed, deviates }
+            }
+        }
+    }
+
+    fn volume(&self) -> Volume {
+        let (Self::Plain { volume } | Self::Strains { volume, .. } | Self::Unit { volume }) = self;
+        *volume
+    }
+
+    /// A slope before its sums are named; `moved` is the power of `D` in what it stands beside.
+    pub(super) fn prepared(&self, arena: &mut Arena, form: Expr, moved: i32) -> Expr {
+        let Self::Unit { volume } = self else { return form };
+        let reciprocal = arena.pow(volume.d, -1).unwrap_or(volume.d);
+        let mut values = scaled_bases(arena, volume.dim(), volume.d);
+        values.push((volume.inverse_d, reciprocal));
+        let value = |symbol: Expr| values.iter().find(|(known, _)| *known == symbol).map(|(_, value)| *value);
+        // Powers of D are not zero.
+        let form = arena.substitute(form, &value).unwrap_or(form);
+        arena.product(&[(form, 1), (volume.d, moved)]).unwrap_or(form)
+    }
+
+    /// The normal form of a part of a slope: without products of `D` and `1/D`.
+    pub(super) fn normal_form(&self, arena: &mut Arena, form: Expr) -> Polynomial {
+        let volume = self.volume();
+        let Self::Unit { .. } = self else { return volume.collected(arena, form) };
+        let reciprocal = arena.pow(volume.d, -1).unwrap_or(volume.d);
+        let named = |atom: Expr| (atom == reciprocal).then(|| Polynomial::atom(volume.inverse_d));
+        scaled::collected(arena, form, volume.d).substitute(&named)
+    }
+
+    /// A slope over the determinant.
+    pub(super) fn over_det(&self, slope: &Polynomial) -> Polynomial {
+        let volume = self.volume();
+        let over = slope.mul(&Polynomial::atom(volume.inverse_det));
+        if let Self::Unit { .. } = self { over } else { volume.reduced(&over) }
+    }
+
+    /// `G/D^2`, where that is at hand.
+    pub(super) fn isochoric(&self, arena: &mut Arena) -> Option<Isochoric> {
+        let n = self.volume().dim();
+        let mean = mean_square(arena);
+        match self {
+            Self::Plain { .. } => None,
+            Self::Unit { .. } => {
+                let trace = vec![Base::Trace.unit(arena)];
+                let mut deviator = table(n, |_, _| Polynomial::zero());
+                for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+                    deviator[a][b] = Polynomial::atom(Base::Green(a, b).unit(arena));
+                    if a == b {
+                        deviator[a][b].add_term(vec![mean], &Rational::MINUS_ONE);
+                    }
+                }
+                Some(Isochoric { trace, deviator })
+            }
+            Self::Strains { volume, strains, .. } => {
+                let trace = vec![Base::Trace.symbol(arena), volume.inverse_d, volume.inverse_d];
+                let squared = Polynomial::term(vec![volume.inverse_d; 2], Rational::ONE);
+                let mut deviator = strains.deviator(arena);
+                for entry in deviator.iter_mut().flatten() {
+                    *entry = entry.mul(&squared);
+                }
+                Some(Isochoric { trace, deviator })
+            }
+        }
+    }
+
+    /// A sum that is raised to a power, as it is to be computed; `counted` where all of the force vanishes with it.
+    pub(super) fn known(
+        &mut self,
+        arena: &mut Arena,
+        symbol: Expr,
+        form: Polynomial,
+        counted: bool,
+    ) -> Polynomial {
+        let Self::Strains { undeformed, .. } = self else { return form };
+        let parts = undeformed.of(arena, &form);
+        if parts.at_rest.is_zero() {
+            undeformed.know(symbol, Counted::vanishing(Polynomial::atom(symbol)));
+        } else {
+            undeformed.know(symbol, parts);
+        }
+        let small = undeformed.counted(arena, &form);
+        // One more division is not worth it where other terms hide the sum.
+        let excess = arena.symbol("excess_dilatation");
+        if counted || !small.any_symbol(arena, &mut |s| s == excess) { small } else { form }
+    }
+
+    /// What stands before the unit matrix: `v + a m + b m^2`, where the mean `m` of `G` is `tr(G)/n` or 1.
+    pub(super) fn offset(&mut self, arena: &mut Arena, [v, a, b]: [&Polynomial; 3]) -> Polynomial {
+        let Self::Strains { volume, strains, undeformed, deviates } = self else { return v.clone() };
+        let mut sum = v.clone();
+        let mean = match deviates {
+            true => Polynomial::atom(arena.symbol("mean_square_stretch")),
+            false => Polynomial::constant(Rational::ONE),
+        };
+        sum.add_product(a, &mean, &Rational::ONE);
+        sum.add_product(b, &mean.mul(&mean), &Rational::ONE);
+        if *deviates {
+            sum = strains.through_deviator(arena, &sum);
+        }
+        let sum = volume.reduced(&sum);
+        undeformed.counted(arena, &sum)
+    }
+
+    /// A coefficient of a force, with what cancels at the undeformed state taken apart.
+    pub(super) fn counted(&mut self, arena: &mut Arena, form: &Polynomial) -> Polynomial {
+        match self {
+            Self::Strains { undeformed, .. } => undeformed.counted(arena, form),
+            _ => form.clone(),
+        }
+    }
+
+    /// An exponential that is there less one too is one more than that.
+    pub(super) fn settle(&self, arena: &mut Arena, load: &mut Load) {
+        let Self::Strains { undeformed, .. } = self else { return };
+        let is_growth =
+            |arena: &Arena, atom: Expr| matches!(arena.node(atom), Node::Function(Function::ExpM1, _));
+        let forms = || {
+            load.shared.iter().chain([]).map(|(_, form)| form).chain(load.forces.iter().map(|(_, form)| form))
+        };
+        let mut values = Vec::new();
+        for (atom, counted) in undeformed.exponentials(arena) {
+            let growth = counted.change.terms().flat_map(|(monomial, _)| monomial.iter().copied());
+            let growth: Vec<Expr> = growth.filter(|atom| is_growth(arena, *atom)).collect();
+            if forms().any(|form| form.mentions(|atom| growth.contains(&atom))) {
+                let mut whole = counted.at_rest.clone();
+                whole.add_scaled(&counted.change, &Rational::ONE);
+                values.push((atom, whole));
+            }
+        }
+        if values.is_empty() {
+            return;
+        }
+        let value =
+            |atom: Expr| values.iter().find(|(known, _)| *known == atom).map(|(_, whole)| whole.clone());
+        for (_, form) in &mut load.shared {
+            *form = form.substitute(&value);
+        }
+        for (_, form) in &mut load.forces {
+            *form = form.substitute(&value);
+        }
+    }
+
+    /// Definitions of the tensors, the cofactors and the volume; what is not used goes later.
+    pub(super) fn definitions(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        uses_root: bool,
+    ) -> Vec<(Expr, Polynomial)> {
+        let volume = self.volume();
+        let mut list = match self {
+            Self::Strains { strains, .. } => strains.definitions(arena),
+            _ => Vec::new(),
+        };
+        list.extend(definitions(arena, chart.dim, chart));
+        if let Self::Unit { .. } = self {
+            list.extend(scaled::definitions(arena, chart, volume.inverse_d));
+        }
+        list.extend(cofactors(arena, chart));
+        list.extend(volume.definitions(arena, chart, uses_root));
+        list
+    }
+
+    /// The tensors that forces are written with.
+    pub(super) fn tensors(&self, arena: &mut Arena, chart: &Chart) -> Tensors<Polynomial> {
+        let n = chart.dim;
+        let unit = matches!(self, Self::Unit { .. });
+        let mut symbols = |base: fn(usize, usize) -> Base| -> Square<Polynomial> {
+            let mut entry = |a, b| if unit { base(a, b).unit(arena) } else { base(a, b).symbol(arena) };
+            (0..n).map(|a| (0..n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
+        };
+        let (green, finger) = (symbols(Base::Green), symbols(Base::Finger));
+        let phi = if unit { symbols(Base::Placement) } else { placement(chart) };
+        let cofactors = Matrix::symbols(arena, "cofactor", n).0;
+        let cofactors =
+            cofactors.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
+        let squares = squares(arena, n, if unit { "unit_" } else { "" });
+        Tensors { phi, green, finger, squares, cofactors, principal: Principal::new(arena, n) }
+    }
+}

@@ -1,0 +1,180 @@
+//! Polynomials in matrices: words with numbers and scalars before them.
+
+use proc_macro2::Ident;
+
+use crate::algebra::Rational;
+use crate::diagnostics::Region;
+use crate::spec::{Expression, ExpressionKind, MatrixName, Operator};
+
+/// Summands of a polynomial: textbooks have a handful, and the sixth power of a sum of two tensors has 64.
+const MOST_SUMMANDS: usize = 64;
+
+/// A matrix, or its inverse, as a factor.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) struct Letter {
+    pub(super) matrix: MatrixName,
+    pub(super) is_inverse: bool,
+}
+
+/// `number * scalars * word`.
+#[derive(Clone)]
+struct Summand {
+    number: Rational,
+    /// Their indices in the list of [`Scalars`], in order.
+    scalars: Vec<usize>,
+    word: Vec<Letter>,
+}
+
+/// A sum of words; numbers and scalars commute with matrices, which do not commute with each other.
+#[derive(Clone)]
+pub(super) struct Words {
+    summands: Vec<Summand>,
+    /// The degree in matrices, numbers and scalars, which bounds the length of words and the digits of numbers.
+    pub(super) degree: u64,
+}
+
+/// The parts of a trace that are no matrices, each once.
+#[derive(Default)]
+pub(super) struct Scalars(Vec<(String, Expression)>);
+
+impl Scalars {
+    /// The words of a scalar: the empty one, the identity, with the scalar before it.
+    pub(super) fn words(&mut self, scalar: &Expression) -> Words {
+        let text = scalar.to_string();
+        let known = self.0.iter().position(|(one, _)| *one == text);
+        let index = known.unwrap_or(self.0.len());
+        if known.is_none() {
+            self.0.push((text, scalar.clone()));
+        }
+        Words::one(Summand { number: Rational::ONE, scalars: vec![index], word: Vec::new() })
+    }
+
+    fn all<'a>(&'a self, indices: &'a [usize]) -> impl Iterator<Item = Expression> + 'a {
+        indices.iter().filter_map(|index| self.0.get(*index)).map(|(_, scalar)| scalar.clone())
+    }
+}
+
+impl Words {
+    fn one(summand: Summand) -> Self {
+        Self { summands: vec![summand], degree: 1 }
+    }
+
+    /// That multiple of the identity.
+    pub(super) fn number(number: Rational) -> Self {
+        Self::one(Summand { number, scalars: Vec::new(), word: Vec::new() })
+    }
+
+    /// A single letter.
+    pub(super) fn letter(letter: Letter) -> Self {
+        Self::one(Summand { number: Rational::ONE, scalars: Vec::new(), word: vec![letter] })
+    }
+
+    /// The letter, if there is nothing else.
+    pub(super) fn as_letter(&self) -> Option<Letter> {
+        match self.summands.as_slice() {
+            [Summand { number, scalars, word }] if *number == Rational::ONE && scalars.is_empty() => {
+                <[Letter; 1]>::try_from(word.as_slice()).ok().map(|[letter]| letter)
+            }
+            _ => None,
+        }
+    }
+
+    /// Every number times `factor`.
+    pub(super) fn scaled(mut self, factor: &Rational) -> Self {
+        self.summands.iter_mut().for_each(|summand| summand.number = &summand.number * factor);
+        self
+    }
+
+    /// The sum, or `None` where it has too many summands.
+    pub(super) fn sum(mut self, other: Self) -> Option<Self> {
+        self.degree = self.degree.max(other.degree);
+        other.summands.into_iter().for_each(|summand| self.add(summand));
+        self.bounded()
+    }
+
+    /// The product, or `None` where it has too many summands.
+    pub(super) fn product(&self, other: &Self) -> Option<Self> {
+        let degree = self.degree.saturating_add(other.degree);
+        let mut product = Self { summands: Vec::new(), degree };
+        for left in &self.summands {
+            other.summands.iter().for_each(|right| product.add(left.times(right)));
+            product = product.bounded()?;
+        }
+        Some(product)
+    }
+
+    fn bounded(self) -> Option<Self> {
+        (self.summands.len() <= MOST_SUMMANDS).then_some(self)
+    }
+
+    /// Adds a summand, to its like if there is one.
+    fn add(&mut self, summand: Summand) {
+        let alike = |one: &&mut Summand| one.scalars == summand.scalars && one.word == summand.word;
+        match self.summands.iter_mut().find(alike) {
+            Some(like) => like.number = &like.number + &summand.number,
+            None => self.summands.push(summand),
+        }
+    }
+
+    /// The trace, summand by summand; `None` where an inverse does not stand alone.
+    pub(super) fn trace(&self, scalars: &Scalars, span: Region) -> Option<Expression> {
+        let mut sum: Option<Expression> = None;
+        for summand in &self.summands {
+            let (sign, trace) = summand.trace(scalars, span)?;
+            sum = Some(match (sum, sign) {
+                (None, Operator::Subtract) => {
+                    Expression { kind: ExpressionKind::Negate(Box::new(trace)), span }
+                }
+                (None, _) => trace,
+                (Some(sum), sign) => sign.apply(sum, trace),
+            });
+        }
+        sum.map(|sum| Expression { kind: sum.kind, span })
+    }
+}
+
+impl Summand {
+    fn times(&self, other: &Self) -> Self {
+        let mut scalars = [self.scalars.as_slice(), &other.scalars].concat();
+        scalars.sort_unstable();
+        let mut word = self.word.clone();
+        for letter in &other.word {
+            let is_opposite =
+                |last: &Letter| last.matrix == letter.matrix && last.is_inverse != letter.is_inverse;
+            if word.last().is_some_and(is_opposite) {
+                word.pop();
+            } else {
+                word.push(*letter);
+            }
+        }
+        Self { number: &self.number * &other.number, scalars, word }
+    }
+
+    /// The trace without its sign, and the sign.
+    fn trace(&self, scalars: &Scalars, span: Region) -> Option<(Operator, Expression)> {
+        let place = |kind| Expression { kind, span };
+        let is_negative = self.number.is_negative();
+        let size = if is_negative { -&self.number } else { self.number.clone() };
+        let trace = place(trace_of_word(&self.word, span)?);
+        let mut factors: Vec<Expression> = Vec::new();
+        if size != Rational::ONE {
+            factors.push(place(ExpressionKind::Number(size)));
+        }
+        factors.extend(scalars.all(&self.scalars));
+        factors.push(trace);
+        let product = factors.into_iter().reduce(|left, right| Operator::Multiply.apply(left, right))?;
+        Some((if is_negative { Operator::Subtract } else { Operator::Add }, product))
+    }
+}
+
+/// `tr 1 = n`.
+fn trace_of_word(word: &[Letter], span: Region) -> Option<ExpressionKind> {
+    match word {
+        [] => Some(ExpressionKind::Symbol(Ident::new("n", span.start))),
+        [Letter { matrix, is_inverse: true }] => Some(ExpressionKind::InverseTrace(*matrix)),
+        letters => {
+            let matrix = |letter: &Letter| (!letter.is_inverse).then_some(letter.matrix);
+            letters.iter().map(matrix).collect::<Option<Vec<_>>>().map(ExpressionKind::Trace)
+        }
+    }
+}
