@@ -225,6 +225,11 @@ fn no_specification_stalls_a_build() {
         format!("1/{sum}^16"),
         format!("exp({sum}^16)"),
         format!("{sum}*{sum}*{sum}*{sum}*{sum}"),
+        // Functions that are undone.
+        format!("(abs({sum}^4)^2 + x[1])^2"),
+        format!("(sqrt({sum}^2 + 1)^8 + x[2])^2"),
+        format!("(ln(exp({sum}^3)) + exp(ln({sum}^3)))^4"),
+        format!("(1/(1/{sum}^3) + ({sum}^-3)^-1)^4"),
         "tr(G*Ct*phi*G*Ct*phi*G*Ct*phi*G*Ct*phi*G*Ct*phi*G*Ct*phi)".to_owned(),
         "pairs((exp(d) + exp(-d) + d + sin(d) + cos(d) + sinh(d) + cosh(d))^16)".to_owned(),
     ];

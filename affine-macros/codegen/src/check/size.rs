@@ -1,6 +1,7 @@
 //! How many summands an expression has once its products and powers are multiplied out.
 
 use super::constant::integer;
+use crate::algebra::Function;
 use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
 use crate::spec::{Expression, ExpressionKind};
 
@@ -8,46 +9,113 @@ use crate::spec::{Expression, ExpressionKind};
 /// tens of them. A power of a sum has `(m + k - 1) over k`, and one of degree 16 in seven variables 74613.
 const MOST_SUMMANDS: u64 = 512;
 
-/// An upper bound of the number of summands, of the expression and of everything inside its functions.
+/// Upper bounds of numbers of summands.
+#[derive(Clone, Copy)]
+struct Summands {
+    /// Of the value.
+    above: u64,
+    /// Of what it is the inverse of.
+    below: u64,
+    /// Of what it has a square root of as a factor.
+    root: u64,
+    /// Of what it is a function of.
+    inside: u64,
+}
+
+const ONE: Summands = Summands { above: 1, below: 1, root: 1, inside: 1 };
+
+/// The expression, and everything inside its functions, has no more summands than a build has time for.
 ///
 /// # Errors
-/// Reported on the first smallest part that has more than a build has time for.
-pub(super) fn summands(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result<u64, Reported> {
+/// Reported on the first smallest part that has more.
+pub(super) fn summands(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result<(), Reported> {
+    counted(expression, n, found).map(|_| ())
+}
+
+fn counted(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result<Summands, Reported> {
     // The first part that is too large ends it: those that a trace was expanded to have the same place.
-    let counts: Vec<u64> = expression
+    let counts: Vec<Summands> = expression
         .operands()
         .into_iter()
-        .map(|operand| summands(operand, n, found))
+        .map(|operand| counted(operand, n, found))
         .collect::<Result<_, _>>()?;
     let count = match (&expression.kind, counts.as_slice()) {
         (ExpressionKind::Add(..) | ExpressionKind::Subtract(..), [left, right]) => {
-            left.saturating_add(*right)
+            Summands { above: left.above.saturating_add(right.above), ..ONE }
         }
-        (ExpressionKind::Multiply(..), [left, right]) => left.saturating_mul(*right),
-        // The inverse of a sum is a symbol of its own.
-        (ExpressionKind::Negate(_) | ExpressionKind::Divide(..), [first, ..]) => *first,
-        (ExpressionKind::Power(_, exponent), [base, ..]) => match integer(exponent, n) {
-            Some(power @ 1..) => of_power(*base, u64::from(power.unsigned_abs())),
-            _ => 1,
-        },
+        (ExpressionKind::Multiply(..), [left, right]) => left.times(*right),
+        (ExpressionKind::Divide(..), [left, right]) => left.times(right.inverse()),
+        (ExpressionKind::Negate(_), [of]) => *of,
+        (ExpressionKind::Power(_, exponent), [base, ..]) => {
+            integer(exponent, n).map_or(ONE, |exponent| base.power(exponent))
+        }
+        (ExpressionKind::Call(function, argument), [of]) => of.applied(*function, argument),
         // A sum over the inner indices.
         (ExpressionKind::Trace(factors), _) => {
             let inner = u32::try_from(factors.len().saturating_sub(2)).unwrap_or(u32::MAX);
-            u64::try_from(n).unwrap_or(u64::MAX).saturating_pow(inner)
+            Summands { above: u64::try_from(n).unwrap_or(u64::MAX).saturating_pow(inner), ..ONE }
         }
-        _ => 1,
+        _ => ONE,
     };
-    if count <= MOST_SUMMANDS {
+    if count.above <= MOST_SUMMANDS {
         return Ok(count);
     }
     let limit = "512 summands when its products and powers are multiplied out";
     Err(found.report(expression.span, ExpressionMistake::ExpressionSize { limit }))
 }
 
+impl Summands {
+    fn times(self, other: Self) -> Self {
+        // sqrt(a) sqrt(a) = a
+        let shared = self.root.min(other.root);
+        Self {
+            above: self.above.saturating_mul(other.above).saturating_mul(shared),
+            below: self.below.saturating_mul(other.below),
+            root: self.root.max(other.root),
+            inside: 1,
+        }
+    }
+
+    /// The inverse of a sum is a symbol of its own, until it is inverted again.
+    fn inverse(self) -> Self {
+        Self { above: self.below, below: self.above, ..self }
+    }
+
+    fn power(self, exponent: i32) -> Self {
+        let base = if exponent < 0 { self.inverse() } else { self };
+        let exponent = u64::from(exponent.unsigned_abs());
+        let roots = of_power(self.root, exponent / 2);
+        Self {
+            above: of_power(base.above, exponent).saturating_mul(roots),
+            below: of_power(base.below, exponent),
+            root: if exponent % 2 == 1 { self.root } else { 1 },
+            inside: 1,
+        }
+    }
+
+    /// A function is a symbol of its own, until something undoes it.
+    fn applied(self, function: Function, argument: &Expression) -> Self {
+        let of = Self { inside: self.above, ..ONE };
+        let before = match argument.kind {
+            ExpressionKind::Call(function, _) => Some(function),
+            _ => None,
+        };
+        match (function, before) {
+            // Of what keeps its sign, and in even powers.
+            (Function::Abs, _) => self,
+            (Function::Exp, Some(Function::Ln)) | (Function::Ln, Some(Function::Exp)) => {
+                Self { above: self.inside, ..of }
+            }
+            (Function::Sqrt, _) => Self { root: self.above, ..of },
+            _ => of,
+        }
+    }
+}
+
 /// Monomials of degree `k` in `m` variables, `(m + k - 1) over k`.
 fn of_power(m: u64, k: u64) -> u64 {
     // Every factor but the last is divided out exactly: binomial coefficients of growing order.
-    (1..=k).fold(1, |count: u64, j| count.saturating_mul(m + j - 1) / j)
+    (1..=k).fold(1, |count: u64, j| count.saturating_mul(m.saturating_add(j - 1)) / j)
 }
 
 #[cfg(test)]
