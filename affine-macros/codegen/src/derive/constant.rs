@@ -95,7 +95,7 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         },
         hamiltonian: describe::hamiltonian(arena, &notation, energy, potential, &forces),
         equations: describe::equations(arena, &notation, energy, (&full_chart, &full_h), potential, &forces),
-        reduced: describe::system(arena, &notation, reduction.printed()),
+        reduced: describe::system(arena, &notation, &reduction.system),
         left_out: describe::left_out(&h, &reduction, closed_form),
     };
 

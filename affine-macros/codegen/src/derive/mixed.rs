@@ -340,8 +340,6 @@ impl Body<'_> {
         let drift = self.drifts();
         let chart = self.chart(arena, drift.is_none());
         let systems = self.systems(arena, &chart)?;
-        let plain = self.potential.map(Potential::plainly);
-        let printed = self.systems_under(arena, &chart, plain.as_ref())?;
         let commuting = match drift {
             Some(mass) => {
                 let reciprocal = arena.pow(mass, -1)?;
@@ -350,10 +348,8 @@ impl Body<'_> {
             None => Vec::new(),
         };
         let turn = rotations && chart.linear.is_some();
-        let reduced = |systems: (System, System)| {
-            reduce::reduced(arena, chart.clone(), commuting.clone(), turn, systems)
-        };
-        Some(systems.into_iter().zip(printed).map(reduced).collect())
+        let reduced = |system: System| reduce::reduced(arena, chart.clone(), commuting.clone(), turn, system);
+        Some(systems.into_iter().map(reduced).collect())
     }
 
     /// Geodesics with `p = 0` are those of the internal motion.
@@ -399,7 +395,7 @@ impl Body<'_> {
                 (mixed::confined_hamiltonian(), list)
             }
             Inner::Constant(kinetic, h) => {
-                let system = describe::system(arena, notation, reduction.printed());
+                let system = describe::system(arena, notation, &reduction.system);
                 let energy = (&**h, &**kinetic);
                 let none = Forces::default();
                 (describe::hamiltonian(arena, notation, energy, None, &none), system)

@@ -169,12 +169,19 @@ impl Draft {
 
 /// The lightest of those that are nowhere worse than the best there.
 fn best(drafts: &[Draft], near: bool) -> Option<Writing> {
+    // What is integrated may carry functions of `det phi`, and is written through its powers.
+    let drafts: Vec<&Draft> = drafts.iter().filter(|draft| near || !draft.writing.counts()).collect();
     let loss = |draft: &Draft, place: usize| draft.losses[place][usize::from(near)];
     let least = |place: usize| drafts.iter().map(|draft| loss(draft, place)).fold(f64::INFINITY, f64::min);
     let limit = |(k, place): (usize, &Place)| AS_GOOD[usize::from(place.is_far())] * least(k).max(1.0);
     let limits: Vec<f64> = PLACES.iter().enumerate().map(limit).collect();
-    let holds = |draft: &&Draft| limits.iter().enumerate().all(|(place, limit)| loss(draft, place) <= *limit);
-    drafts.iter().filter(holds).min_by_key(|draft| draft.weight).map(|draft| draft.writing)
+    let excess = |draft: &Draft| {
+        let over = limits.iter().enumerate().map(|(place, limit)| loss(draft, place) / limit);
+        over.filter(|over| !over.is_nan()).fold(0.0, f64::max)
+    };
+    let good = drafts.iter().filter(|draft| excess(draft) <= 1.0).min_by_key(|draft| draft.weight);
+    let least_bad = || drafts.iter().min_by(|a, b| excess(a).total_cmp(&excess(b)));
+    good.or_else(least_bad).map(|draft| draft.writing)
 }
 
 /// What the program loses at a place.

@@ -54,8 +54,6 @@ pub struct Reduction {
     pub carried: Vec<Carried>,
     /// The equations of the state variables.
     pub system: System,
-    /// The same as they are printed, where the forces are computed in another form.
-    pub printed: Option<System>,
     /// State variables: group name and symbols.
     pub states: Vec<(&'static str, Vec<Expr>)>,
 }
@@ -172,11 +170,9 @@ pub fn candidates(
             if linear.is_some() {
                 main.add_scaled(&h.translation_in(&chart), &Rational::ONE);
             }
-            let plainly = potential.map(Potential::plainly);
-            let plain = loads(arena, &chart, h, plainly.as_ref(), forces);
             let loads = loads(arena, &chart, h, potential, forces);
             let multiplier = h.constraint.is_some() && h.confined().is_none();
-            let plan = Plan { chart, commuting: commuting.clone(), turn, loads, plain, multiplier, halves };
+            let plan = Plan { chart, commuting: commuting.clone(), turn, loads, multiplier, halves };
             plan.reduced(arena, &main, h.is_tensor())
         })
         .collect();
@@ -206,7 +202,7 @@ fn separated(
     charts
         .into_iter()
         .filter_map(|chart| {
-            let load = of_potential(arena, &chart, &u.plainly(), forces);
+            let load = of_potential(arena, &chart, u, forces);
             let mut system = shear_system(arena, &chart, iso, &load)?;
             let fixed = take_constants(&mut system);
             let states = states(arena, "Psi", "O", &system);
@@ -221,7 +217,6 @@ fn separated(
                 separation,
                 carried: Vec::new(),
                 system,
-                printed: None,
                 states,
             })
         })
@@ -242,18 +237,19 @@ fn take_constants(system: &mut System) -> Vec<Expr> {
 }
 
 /// A system whose affine momentum is state, reduced: `p` leaves it where it is conserved, and space is turned on
-/// demand; beside it the same as it is printed.
+/// demand.
 pub fn reduced(
     arena: &Arena,
     chart: Chart,
     commuting: Vec<Commuting>,
     turn: bool,
-    (system, printed): (System, System),
+    system: System,
 ) -> Reduction {
-    let (loads, plain) = (Vec::new(), Vec::new());
-    let plan = Plan { chart, commuting, turn, loads, plain, multiplier: false, halves: false };
-    let printed = plan.state_only(arena, printed, Layout::Entries).system;
-    Reduction { printed: Some(printed), ..plan.state_only(arena, system, Layout::Entries) }
+    Plan { chart, commuting, turn, loads: Vec::new(), multiplier: false, halves: false }.state_only(
+        arena,
+        system,
+        Layout::Entries,
+    )
 }
 
 /// What is known about a reduction before its equations are.
@@ -263,20 +259,10 @@ struct Plan {
     turn: bool,
     /// The forces.
     loads: Vec<Load>,
-    /// The forces with the potential written plainly, for systems that carry functions of `det phi`.
-    plain: Vec<Load>,
     /// Does the multiplier of a constraint act besides? Then no affine momentum is taken for conserved.
     multiplier: bool,
     /// Is there to be a momentum for each position, conserved or not?
     halves: bool,
-}
-
-impl Reduction {
-    /// The equations as they are printed.
-    #[must_use]
-    pub fn printed(&self) -> &System {
-        self.printed.as_ref().unwrap_or(&self.system)
-    }
 }
 
 impl Plan {
@@ -284,32 +270,35 @@ impl Plan {
     /// written in both forms; those of a tensor, in which nothing cancels, only through the velocity.
     fn reduced(self, arena: &mut Arena, h: &Polynomial, tensor: bool) -> Vec<Reduction> {
         let mut layout = Layout::Entries;
-        let mut bare = Vec::new();
+        let mut systems = Vec::new();
         if !tensor {
-            let expanded = hamilton(arena, &self.chart, h, Form::Expanded);
+            let expanded = self.loaded(hamilton(arena, &self.chart, h, Form::Expanded));
             if !self.multiplier && !self.halves {
-                layout = conserved_layout(&loaded(expanded.clone(), &self.loads));
+                layout = conserved_layout(&expanded);
             }
-            bare.push(expanded);
+            systems.push(expanded);
         }
         if layout == Layout::Entries {
-            bare.push(hamilton(arena, &self.chart, h, Form::ThroughVelocity));
+            systems.push(self.loaded(hamilton(arena, &self.chart, h, Form::ThroughVelocity)));
         }
         let mut reductions = Vec::new();
-        for system in bare {
+        for system in systems {
             let free = !self.multiplier && self.chart.confined.is_none();
-            let plain = loaded(system.clone(), &self.plain);
-            let rootless = free.then(|| carrying_the_dilatation(arena, &self.chart, &plain)).flatten();
+            let rootless = free.then(|| carrying_the_dilatation(arena, &self.chart, &system)).flatten();
             // Forces with phi^-1 must not form det phi, however short their equations were with it.
             let alone = rootless.as_ref().is_some_and(|rootless| rootless.inverts);
             reductions.extend(rootless.map(|rootless| self.state_only(arena, rootless.system, layout)));
             if !alone {
-                let printed = self.state_only(arena, plain, layout).system;
-                let reduction = self.state_only(arena, loaded(system, &self.loads), layout);
-                reductions.push(Reduction { printed: Some(printed), ..reduction });
+                reductions.push(self.state_only(arena, system, layout));
             }
         }
         reductions
+    }
+
+    /// The equations with the forces.
+    fn loaded(&self, mut system: System) -> System {
+        self.loads.iter().for_each(|load| system.add(load));
+        system
     }
 
     fn state_only(&self, arena: &Arena, mut system: System, layout: Layout) -> Reduction {
@@ -340,7 +329,6 @@ impl Plan {
             separation: None,
             carried,
             system,
-            printed: None,
             states,
         }
     }
@@ -418,10 +406,4 @@ mod tests {
         assert_eq!(entries(Momentum::Total, 3, Layout::Entries), 0);
         assert_eq!(entries(Momentum::Total, 2, Layout::Constant), 0);
     }
-}
-
-/// The equations with the forces.
-fn loaded(mut system: System, loads: &[Load]) -> System {
-    loads.iter().for_each(|load| system.add(load));
-    system
 }

@@ -158,11 +158,6 @@ impl Writer<'_> {
             (Function::Exp, [m], _) => quote!(#u.fma(#y0, #m / order)),
             // u y' = u'
             (Function::Ln, [m], _) => quote!((#u - #m / order) * (#t::one() / #u0)),
-            // z y' = u', z = sqrt(1 + u^2)
-            (Function::Asinh, [m], Some(root)) => {
-                let z0 = self.of_order_zero(root);
-                quote!((#u - #m / order) * (#t::one() / #z0))
-            }
             // y^2 = u
             (Function::Sqrt, [m], _) => quote!((#u - #m) * (#t::one() / (#y0 + #y0))),
             // 3 u y' = y u'

@@ -11,13 +11,11 @@ pub(super) fn companion(function: Function) -> Option<Function> {
         Function::Cos => Some(Function::Sin),
         Function::Sinh => Some(Function::Cosh),
         Function::Cosh => Some(Function::Sinh),
-        Function::ExpM1 => Some(Function::Exp),
         _ => None,
     }
 }
 
-/// The program with the companion of each function behind it: `cos u` for `sin u`, `1 + y^2` for `y = tan u`, `sqrt(1 + u^2)` for
-/// `arsinh u`.
+/// The program with the companion of each function behind it: `cos u` for `sin u`, `1 + y^2` for `y = tan u`.
 pub(super) fn completed(program: &Program) -> Program {
     let mut result = Program::default();
     let mut place: Vec<Value> = Vec::with_capacity(program.steps.len());
@@ -33,11 +31,6 @@ pub(super) fn completed(program: &Program) -> Program {
             let square = push(&mut result, Op::Mul(value, value));
             let slope = if function == Function::Tan { Op::Add(one, square) } else { Op::Sub(one, square) };
             push(&mut result, slope);
-        } else if function == Function::Asinh {
-            let one = push(&mut result, Op::Constant(Rational::ONE));
-            let square = push(&mut result, Op::Mul(argument, argument));
-            let sum = push(&mut result, Op::Add(one, square));
-            push(&mut result, Op::Call(Function::Sqrt, sum));
         }
     }
     result.names = program.names.iter().map(|(v, n)| (place[*v], n.clone())).collect();
@@ -51,11 +44,6 @@ pub(super) fn companion_of(program: &Program, value: Value) -> Option<Value> {
     let position = |op: Op| program.steps.iter().position(|step| *step == op);
     if let Some(other) = companion(function) {
         return position(Op::Call(other, argument));
-    }
-    if function == Function::Asinh {
-        let one = position(Op::Constant(Rational::ONE))?;
-        let sum = position(Op::Add(one, position(Op::Mul(argument, argument))?))?;
-        return position(Op::Call(Function::Sqrt, sum));
     }
     let square = position(Op::Mul(value, value))?;
     program.steps.iter().position(|step| match *step {

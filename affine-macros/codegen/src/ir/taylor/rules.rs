@@ -187,7 +187,6 @@ impl Draft {
         let pairs = match (function, companion) {
             (Function::Exp, _) => vec![[Series::rate(argument), y]],
             (Function::Ln, _) => vec![[Series::rate(value), u]],
-            (Function::Asinh, Some(root)) => vec![[Series::rate(value), Series::of(root)]],
             (Function::Sqrt, _) => vec![[y, y]],
             (Function::Cbrt | Function::InverseCbrt, _) => vec![[u, y], [u, Series::rate(value)]],
             (_, Some(other)) => vec![[Series::rate(argument), Series::of(other)]],

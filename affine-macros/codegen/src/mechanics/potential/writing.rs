@@ -39,6 +39,14 @@ pub(super) enum Means {
     Unit { volume: Volume },
 }
 
+impl Writing {
+    /// Does it count from the undeformed state?
+    #[must_use]
+    pub fn counts(self) -> bool {
+        matches!(self, Self::Differences | Self::Deviators)
+    }
+}
+
 impl Potential {
     /// The ways in which its forces in a chart may be written.
     pub fn writings(&self, arena: &mut Arena, chart: &Chart) -> Vec<Writing> {
@@ -66,12 +74,6 @@ impl Potential {
     #[must_use]
     pub fn is_written(&self, momentum: Momentum) -> bool {
         self.writings.iter().any(|(known, _)| *known == momentum)
-    }
-
-    /// The same potential with its forces written plainly.
-    #[must_use]
-    pub fn plainly(&self) -> Self {
-        Self { writings: Vec::new(), ..self.clone() }
     }
 
     /// The way that was chosen for a chart.
