@@ -19,9 +19,9 @@ impl Draft<'_> {
     /// On `Pi`: `F = phi S + v cof + ..` with the second Piola-Kirchhoff tensor `S`, a symmetric matrix.
     pub(super) fn on_placement(&mut self, arena: &mut Arena, slopes: Slopes) -> Square<Polynomial> {
         let tensors = self.means.tensors(arena, self.chart);
-        let mut force = match self.means {
-            Means::Strains { deviates: true, .. } => self.stress_pulled_back(arena, slopes, &tensors),
-            Means::Strains { .. } => self.stress_from_strains(arena, slopes, &tensors),
+        let mut force = match &self.means {
+            Means::Strains(counting) if counting.deviates => self.stress_pulled_back(arena, slopes, &tensors),
+            Means::Strains(_) => self.stress_from_strains(arena, slopes, &tensors),
             _ => self.stress(arena, slopes, &tensors),
         };
         let n = self.chart.dim;
@@ -107,7 +107,8 @@ impl Draft<'_> {
         let mut stress = self.of_entries(arena, slopes);
         let counted = self.means.counted(arena, &along);
         let own = self.named(arena, "stress", &counted);
-        let Means::Strains { strains, .. } = &self.means else { return stress };
+        let Means::Strains(counting) = &self.means else { return stress };
+        let strains = &counting.strains;
         for (a, row) in stress.iter_mut().enumerate() {
             for (b, entry) in row.iter_mut().enumerate() {
                 entry.add_product(&second, &strains.strain(arena, a, b), &Rational::ONE);
@@ -121,7 +122,8 @@ impl Draft<'_> {
         let volume = self.named(arena, "swelling", &counted);
         let offset = self.means.counted(arena, &joint);
         let offset = if splits { self.named(arena, "offset", &offset) } else { Polynomial::zero() };
-        let Means::Strains { strains, .. } = &self.means else { return force };
+        let Means::Strains(counting) = &self.means else { return force };
+        let strains = &counting.strains;
         for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
             let entry = &mut force[i][a];
             if splits && i == a {
@@ -206,10 +208,11 @@ impl Draft<'_> {
         let [v, a, b] = [Base::MeanLogStretch, Base::Trace, Base::TraceOfSquare].map(|base| of(slopes, base));
         let offset = self.means.offset(arena, [&v, &a, &b]);
         let offset = self.named(arena, "offset", &offset);
-        let Means::Strains { strains, deviates, .. } = &self.means else { return self.empty() };
+        let Means::Strains(counting) = &self.means else { return self.empty() };
+        let strains = &counting.strains;
         let mut mean = Polynomial::constant(Rational::ONE);
         let mut about = table(n, |_, _| Polynomial::zero());
-        if *deviates {
+        if counting.deviates {
             mean = Polynomial::atom(arena.symbol("mean_square_stretch"));
             about = strains.deviator(arena);
         } else {
@@ -238,7 +241,7 @@ impl Draft<'_> {
     pub(super) fn on_spin(&mut self, arena: &mut Arena, slopes: Slopes) -> Square<Polynomial> {
         let n = self.chart.dim;
         let tensors = self.means.tensors(arena, self.chart);
-        let counts = matches!(self.means, Means::Strains { .. });
+        let counts = matches!(self.means, Means::Strains(_));
         let mut force = if counts { self.about_the_mean(arena, slopes) } else { self.empty() };
         for (base, slope) in slopes {
             if counts && matches!(base, Base::Trace | Base::TraceOfSquare | Base::MeanLogStretch) {

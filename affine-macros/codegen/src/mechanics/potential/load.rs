@@ -143,7 +143,7 @@ impl Draft<'_> {
     /// The normal form of a part of a slope.
     fn normal_form(&mut self, arena: &mut Arena, form: Expr) -> Polynomial {
         let form = self.means.normal_form(arena, form);
-        if matches!(self.means, Means::Unit { .. }) {
+        if matches!(self.means, Means::Unit(_)) {
             return form;
         }
         let Some(shorter) = through_second_invariant(arena, &form) else { return form };

@@ -34,9 +34,18 @@ pub enum Writing {
 
 /// What a way of writing works with.
 pub(super) enum Means {
-    Plain { volume: Volume },
-    Strains { volume: Volume, strains: Strains, undeformed: Undeformed, deviates: bool },
-    Unit { volume: Volume },
+    Plain(Volume),
+    Strains(Box<Counting>),
+    Unit(Volume),
+}
+
+/// What counting from the undeformed state takes.
+pub(super) struct Counting {
+    volume: Volume,
+    pub(super) strains: Strains,
+    undeformed: Undeformed,
+    /// From the mean of `G`, in place of 1?
+    pub(super) deviates: bool,
 }
 
 impl Writing {
@@ -119,25 +128,27 @@ impl Means {
     pub(super) fn new(arena: &mut Arena, chart: &Chart, writing: Writing) -> Self {
         let volume = Volume::new(arena, chart.dim);
         match writing {
-            Writing::Plain => Self::Plain { volume },
-            Writing::Isochoric => Self::Unit { volume },
+            Writing::Plain => Self::Plain(volume),
+            Writing::Isochoric => Self::Unit(volume),
             Writing::Differences | Writing::Deviators => {
                 let deviates = writing == Writing::Deviators;
                 let strains = Strains::new(arena, chart, volume);
                 let undeformed = strains.known(arena);
-                Self::Strains { volume, strains, undeformed, deviates }
+                Self::Strains(Box::new(Counting { volume, strains, undeformed, deviates }))
             }
         }
     }
 
     fn volume(&self) -> Volume {
-        let (Self::Plain { volume } | Self::Strains { volume, .. } | Self::Unit { volume }) = self;
-        *volume
+        match self {
+            Self::Plain(volume) | Self::Unit(volume) => *volume,
+            Self::Strains(counting) => counting.volume,
+        }
     }
 
     /// A slope before its sums are named; `moved` is the power of `D` in what it stands beside.
     pub(super) fn prepared(&self, arena: &mut Arena, form: Expr, moved: i32) -> Expr {
-        let Self::Unit { volume } = self else { return form };
+        let Self::Unit(volume) = self else { return form };
         let reciprocal = arena.pow(volume.d, -1).unwrap_or(volume.d);
         let mut values = scaled_bases(arena, volume.dim(), volume.d);
         values.push((volume.inverse_d, reciprocal));
@@ -150,7 +161,7 @@ impl Means {
     /// The normal form of a part of a slope: without products of `D` and `1/D`.
     pub(super) fn normal_form(&self, arena: &mut Arena, form: Expr) -> Polynomial {
         let volume = self.volume();
-        let Self::Unit { .. } = self else { return volume.collected(arena, form) };
+        let Self::Unit(_) = self else { return volume.collected(arena, form) };
         let reciprocal = arena.pow(volume.d, -1).unwrap_or(volume.d);
         let named = |atom: Expr| (atom == reciprocal).then(|| Polynomial::atom(volume.inverse_d));
         scaled::collected(arena, form, volume.d).substitute(&named)
@@ -160,7 +171,7 @@ impl Means {
     pub(super) fn over_det(&self, slope: &Polynomial) -> Polynomial {
         let volume = self.volume();
         let over = slope.mul(&Polynomial::atom(volume.inverse_det));
-        if let Self::Unit { .. } = self { over } else { volume.reduced(&over) }
+        if let Self::Unit(_) = self { over } else { volume.reduced(&over) }
     }
 
     /// Is it a function of the volume and of parameters alone?
@@ -177,8 +188,8 @@ impl Means {
         let n = self.volume().dim();
         let mean = mean_square(arena);
         match self {
-            Self::Plain { .. } => None,
-            Self::Unit { .. } => {
+            Self::Plain(_) => None,
+            Self::Unit(_) => {
                 let trace = vec![Base::Trace.unit(arena)];
                 let mut deviator = table(n, |_, _| Polynomial::zero());
                 for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
@@ -189,7 +200,8 @@ impl Means {
                 }
                 Some(Isochoric { trace, deviator })
             }
-            Self::Strains { volume, strains, .. } => {
+            Self::Strains(counting) => {
+                let Counting { volume, strains, .. } = &**counting;
                 let trace = vec![Base::Trace.symbol(arena), volume.inverse_d, volume.inverse_d];
                 let squared = Polynomial::term(vec![volume.inverse_d; 2], Rational::ONE);
                 let mut deviator = strains.deviator(arena);
@@ -209,7 +221,8 @@ impl Means {
         form: Polynomial,
         counted: bool,
     ) -> Polynomial {
-        let Self::Strains { undeformed, .. } = self else { return form };
+        let Self::Strains(counting) = self else { return form };
+        let undeformed = &mut counting.undeformed;
         let parts = undeformed.of(arena, &form);
         if parts.at_rest.is_zero() {
             undeformed.know(symbol, Counted::vanishing(Polynomial::atom(symbol)));
@@ -224,7 +237,8 @@ impl Means {
 
     /// What stands before the unit matrix: `v + a m + b m^2`, where the mean `m` of `G` is `tr(G)/n` or 1.
     pub(super) fn offset(&mut self, arena: &mut Arena, [v, a, b]: [&Polynomial; 3]) -> Polynomial {
-        let Self::Strains { volume, strains, undeformed, deviates } = self else { return v.clone() };
+        let Self::Strains(counting) = self else { return v.clone() };
+        let Counting { volume, strains, undeformed, deviates } = &mut **counting;
         let mut sum = v.clone();
         let mean = match deviates {
             true => Polynomial::atom(arena.symbol("mean_square_stretch")),
@@ -242,14 +256,15 @@ impl Means {
     /// A coefficient of a force, with what cancels at the undeformed state taken apart.
     pub(super) fn counted(&mut self, arena: &mut Arena, form: &Polynomial) -> Polynomial {
         match self {
-            Self::Strains { undeformed, .. } => undeformed.counted(arena, form),
+            Self::Strains(counting) => counting.undeformed.counted(arena, form),
             _ => form.clone(),
         }
     }
 
     /// An exponential that is there less one too is one more than that.
     pub(super) fn settle(&self, arena: &mut Arena, load: &mut Load) {
-        let Self::Strains { undeformed, .. } = self else { return };
+        let Self::Strains(counting) = self else { return };
+        let undeformed = &counting.undeformed;
         let is_growth =
             |arena: &Arena, atom: Expr| matches!(arena.node(atom), Node::Function(Function::ExpM1, _));
         let forms = || {
@@ -287,11 +302,11 @@ impl Means {
     ) -> Vec<(Expr, Polynomial)> {
         let volume = self.volume();
         let mut list = match self {
-            Self::Strains { strains, .. } => strains.definitions(arena),
+            Self::Strains(counting) => counting.strains.definitions(arena),
             _ => Vec::new(),
         };
         list.extend(definitions(arena, chart.dim, chart));
-        if let Self::Unit { .. } = self {
+        if let Self::Unit(_) = self {
             list.extend(scaled::definitions(arena, chart, volume.inverse_d));
         }
         list.extend(cofactors(arena, chart));
@@ -302,7 +317,7 @@ impl Means {
     /// The tensors that forces are written with.
     pub(super) fn tensors(&self, arena: &mut Arena, chart: &Chart) -> Tensors<Polynomial> {
         let n = chart.dim;
-        let unit = matches!(self, Self::Unit { .. });
+        let unit = matches!(self, Self::Unit(_));
         let mut symbols = |base: fn(usize, usize) -> Base| -> Square<Polynomial> {
             let mut entry = |a, b| if unit { base(a, b).unit(arena) } else { base(a, b).symbol(arena) };
             (0..n).map(|a| (0..n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
