@@ -200,8 +200,8 @@ impl System {
             }
             Some(value.clone())
         };
+        // Those that stand in a function as well stay there, and are idle elsewhere.
         self = self.substitute(&value);
-        self.shared.retain(|(s, _)| !trivial.iter().any(|(t, _)| t == s));
         loop {
             let used = self.symbols(arena);
             let used = |symbol: &Expr| used.contains(symbol);
