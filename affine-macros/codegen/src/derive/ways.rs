@@ -171,6 +171,10 @@ impl Draft {
 fn best(drafts: &[Draft], near: bool) -> Option<Writing> {
     // What is integrated may carry functions of `det phi`, and is written through its powers.
     let drafts: Vec<&Draft> = drafts.iter().filter(|draft| near || !draft.writing.counts()).collect();
+    // Powers of `D` that a motion carries leave the range of numbers later than those of a determinant, which is formed here.
+    if !near && drafts.iter().any(|draft| draft.writing == Writing::Isochoric) {
+        return Some(Writing::Isochoric);
+    }
     let loss = |draft: &Draft, place: usize| draft.losses[place][usize::from(near)];
     let least = |place: usize| drafts.iter().map(|draft| loss(draft, place)).fold(f64::INFINITY, f64::min);
     let limit = |(k, place): (usize, &Place)| AS_GOOD[usize::from(place.is_far())] * least(k).max(1.0);
