@@ -145,7 +145,7 @@ pub(crate) fn ln_1p(x: f64) -> f64 {
 pub(crate) fn asinh(x: f64) -> f64 {
     let size = x.abs();
     let square = size * size;
-    let less = size + square / (1.0 + (1.0 + square).sqrt());
+    let less = size + square / (1.0 + crate::scalar::Scalar::sqrt(1.0 + square));
     // Where the square would be out of range, `ln(2 |x|)` is as good.
     let (of, more) = if size < 1e150 { (less, 0.0) } else { (size, core::f64::consts::LN_2) };
     (ln_1p(of) + more).copysign(x)
