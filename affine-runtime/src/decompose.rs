@@ -6,5 +6,5 @@ mod stretches;
 mod two_polar;
 
 pub use exponential::{exponential, skew_exponential};
-pub use stretches::{log_stretches, principal_stretches};
+pub use stretches::{log_stretches, principal_log_stretches, principal_stretches};
 pub use two_polar::{Polar, TwoPolar, polar, two_polar};

@@ -13,7 +13,7 @@ pub use crate::custom::{
     potential_slopes, potential_slopes_in, spatial_force, spatial_force_in, translational_force,
     translational_force_in,
 };
-pub use crate::decompose::{log_stretches, principal_stretches, skew_exponential};
+pub use crate::decompose::{log_stretches, principal_log_stretches, principal_stretches, skew_exponential};
 pub use crate::dissipation::{semidefinite, semidefinite_form};
 pub use crate::dual::Dual;
 pub use crate::error::Result;

@@ -49,44 +49,102 @@ pub fn principal_stretches<const N: usize, T: Scalar>(
     (stretches, transposed(stretched), transposed(axes))
 }
 
-/// Log-stretches `q_a = ln Q_a` of a placement, in no order.
+/// The same with the log-stretches `q_a = ln Q_a` as second result, all with the digits that `phi - 1` has: of `phi = 1 + H`
+/// with a small `H` the errors of `q_a`, and of sums `R diag(f(q)) R^T` over the steepest `f'`, are a few units of rounding of
+/// `|H|`, elsewhere those of [`principal_stretches`].
 ///
-/// Error: a few units of rounding of the largest stretch, as in [`principal_stretches`]; for `phi = 1 + H` with a small
-/// `H`, of `|H|`: the eigenvalues `f` of `F = G - 1 = H + H^T + H^T H` are found by Jacobi's rotations, and
-/// `q = ln(1 + f)/2`.
+/// The columns of `H R` are rotated beside those of `phi R`. Angles come from `phi^T phi`, and near the undeformed state from
+/// `phi^T phi - 1 = H + H^T + H^T H`; both times a weight, since nothing is compared.
+#[inline]
 #[must_use]
-pub fn log_stretches<const N: usize, T: Real>(phi: &Matrix<N, T>) -> [T; N] {
-    let excess = phi - Matrix::<N, T>::identity();
-    if !excess.iter().all(|entry| entry.abs() <= T::from_f64(NEARLY_UNDEFORMED)) {
-        let rows = core::array::from_fn(|i| core::array::from_fn(|a| phi[(i, a)]));
-        return principal_stretches(rows).0.map(Scalar::ln);
-    }
-    let strain = excess + excess.transpose() + excess.tr_mul(&excess);
-    let mut strain: [[T; N]; N] = core::array::from_fn(|a| core::array::from_fn(|b| strain[(a, b)]));
+pub fn principal_log_stretches<const N: usize, T: Scalar>(
+    phi: [[T; N]; N],
+) -> ([T; N], [T; N], [[T; N]; N], [[T; N]; N]) {
+    let sum_of_squares = |sum: T, entry: &T| entry.fma(*entry, sum);
+    let square = phi.as_flattened().iter().fold(T::zero(), sum_of_squares);
+    let norm = square.sqrt();
+    let scale = T::one() / norm;
+    // `phi - 1` is not larger than this unit, small as a body may be.
+    let unit = T::one() / (square + T::constant(N as f64, 0.0)).sqrt();
+    let mut stretched: [[T; N]; N] = core::array::from_fn(|a| core::array::from_fn(|i| phi[i][a] * scale));
+    let mut axes: [[T; N]; N] =
+        core::array::from_fn(|a| core::array::from_fn(|b| if a == b { T::one() } else { T::zero() }));
+    let mut excess: [[T; N]; N] =
+        core::array::from_fn(|a| core::array::from_fn(|i| (phi[i][a] - axes[a][i]) * unit));
+    let weights = Weights {
+        strain: excess.as_flattened().iter().fold(T::zero(), sum_of_squares),
+        size: square * (unit * unit),
+        unit,
+    };
     for _ in 0..sweeps(N) {
         for a in 0..N {
             for b in a + 1..N {
-                diagonalise(&mut strain, a, b);
+                let angle = weights.angle([&stretched, &axes, &excess], a, b);
+                angle.rotate(&mut stretched, a, b);
+                angle.rotate(&mut axes, a, b);
+                angle.rotate(&mut excess, a, b);
             }
         }
     }
-    core::array::from_fn(|a| strain[a][a].ln_1p() * T::from_f64(0.5))
+    let stretches = core::array::from_fn(|a| dot(&stretched[a], &stretched[a]).sqrt() * norm);
+    let logarithms = core::array::from_fn(|a| {
+        // sinh q = (Q^2 - 1)/(2 Q)
+        let below = unit * (unit * stretches[a]);
+        (weights.rise(&axes[a], &excess[a]) / (below + below)).asinh()
+    });
+    let stretched = stretched.map(|column| column.map(|entry| entry * norm));
+    (stretches, logarithms, transposed(stretched), transposed(axes))
 }
 
-/// Rotates a symmetric matrix so that its entry at `(a, b)` vanishes.
-fn diagonalise<const N: usize, T: Real>(matrix: &mut [[T; N]; N], a: usize, b: usize) {
-    let double = matrix[a][b] + matrix[a][b];
-    if double == T::zero() {
-        return;
+/// How much `phi^T phi - 1` has a say in an angle, and how much `phi^T phi`: in the units of the latter, and their ratio is
+/// that of what rounding does to both.
+struct Weights<T> {
+    /// `|phi - 1|^2`, in units of `unit`.
+    strain: T,
+    /// `|phi|^2`, likewise.
+    size: T,
+    unit: T,
+}
+
+impl<T: Scalar> Weights<T> {
+    /// `Q_a^2 - 1` of a column, in units of `unit`.
+    fn rise<const N: usize>(&self, axis: &[T; N], excess: &[T; N]) -> T {
+        let along = dot(axis, excess) * self.unit;
+        dot(excess, excess) + (along + along)
     }
-    let angle = Angle::diagonalising(matrix[b][b] - matrix[a][a], double, double.abs());
-    angle.rotate(matrix, a, b);
-    *matrix = transposed(*matrix);
-    angle.rotate(matrix, a, b);
+
+    /// The smaller angle that makes two columns orthogonal.
+    fn angle<const N: usize>(
+        &self,
+        [stretched, axes, excess]: [&[[T; N]; N]; 3],
+        a: usize,
+        b: usize,
+    ) -> Angle<T> {
+        let (first, second) = (dot(&stretched[a], &stretched[a]), dot(&stretched[b], &stretched[b]));
+        let (left, right) = (self.rise(&axes[a], &excess[a]), self.rise(&axes[b], &excess[b]));
+        let both = first * second * self.size;
+        let share = T::one() / both.fma(self.size, self.strain);
+        let (far, near) = (self.strain * share, both * share);
+        let product = dot(&stretched[a], &stretched[b]);
+        let across = dot(&axes[a], &excess[b]) + dot(&axes[b], &excess[a]);
+        let across = across.fma(self.unit, dot(&excess[a], &excess[b]));
+        let half = far.fma(product, near * across);
+        Angle::diagonalising(
+            far.fma(second - first, near * (right - left)),
+            half + half,
+            far.fma(first + second, near * (left.abs() + right.abs())) + T::constant(NO_STRAIN, 0.0),
+        )
+    }
 }
 
-/// Entries of `phi - 1` up to which log-stretches are taken from the strain.
-const NEARLY_UNDEFORMED: f64 = 0.0625;
+/// Added to the sizes of strains, of which all may vanish: without a part in any other, for `f32` too.
+const NO_STRAIN: f64 = 1e-6;
+
+/// Log-stretches `q_a = ln Q_a` of a placement, in no order, with the errors of [`principal_log_stretches`].
+#[must_use]
+pub fn log_stretches<const N: usize, T: Real>(phi: &Matrix<N, T>) -> [T; N] {
+    principal_log_stretches(core::array::from_fn(|i| core::array::from_fn(|a| phi[(i, a)]))).1
+}
 
 /// Cosine and sine of a rotation of two columns.
 #[derive(Clone, Copy)]

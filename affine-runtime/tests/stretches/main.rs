@@ -4,7 +4,7 @@
 
 mod placements;
 
-use affine_runtime::decompose::{log_stretches, principal_stretches};
+use affine_runtime::decompose::{log_stretches, principal_log_stretches, principal_stretches};
 use affine_runtime::frames::Matrix;
 use affine_runtime::scalar::Scalar;
 use placements::{PLACEMENTS_2, PLACEMENTS_3};
@@ -60,6 +60,38 @@ fn kernel_is_accurate<const N: usize>(cases: &[Case<N>]) {
 fn functions_of_stretches() {
     kernel_is_accurate(&PLACEMENTS_2);
     kernel_is_accurate(&PLACEMENTS_3);
+}
+
+/// The kernel that counts from the undeformed body is as good far from it, and keeps the digits of `phi - 1` near it.
+fn kernel_keeps_the_digits_of_strains<const N: usize>(cases: &[Case<N>]) {
+    for case in cases {
+        let (stretches, q, stretched, axes) = principal_log_stretches(case.phi);
+        let largest = case.log_stretches[N - 1].exp();
+        for (i, k) in (0..N).flat_map(|i| (0..N).map(move |k| (i, k))) {
+            let image: f64 = (0..N).map(|a| case.phi[i][a] * axes[a][k]).sum();
+            assert!((image - stretched[i][k]).abs() <= ROUNDINGS * largest, "phi R");
+        }
+        for (stretch, log) in sorted(stretches).into_iter().zip(case.log_stretches) {
+            assert!((stretch - log.exp()).abs() <= ROUNDINGS * largest, "{stretches:?}");
+        }
+        let least = case.log_stretches[0].exp();
+        let square = |i: usize, a: usize| (case.phi[i][a] - f64::from(u8::from(i == a))).powi(2);
+        let strain = (0..N).flat_map(|i| (0..N).map(move |a| square(i, a))).sum::<f64>().sqrt();
+        let size = if strain < 0.05 { strain } else { largest / least };
+        let steepest = q.iter().fold(0.0, |most: f64, q| most.max(3.0 * q * q));
+        let tolerance = ROUNDINGS * size * steepest;
+        for (a, b) in (0..N).flat_map(|a| (0..N).map(move |b| (a, b))) {
+            let found: f64 = (0..N).map(|k| q[k].powi(3) * axes[a][k] * axes[b][k]).sum();
+            let error = (found - case.cubes[a][b]).abs();
+            assert!(error <= tolerance, "{error:e} of {tolerance:e} at {:?}", case.log_stretches);
+        }
+    }
+}
+
+#[test]
+fn functions_of_log_stretches() {
+    kernel_keeps_the_digits_of_strains(&PLACEMENTS_2);
+    kernel_keeps_the_digits_of_strains(&PLACEMENTS_3);
 }
 
 /// Near the undeformed body relative to the largest log-stretch, elsewhere to the condition of the placement.
@@ -120,6 +152,9 @@ fn sweeps_suffice<const N: usize>() {
         let (_, stretched, axes) = principal_stretches(phi);
         assert!(cosine(&stretched) <= 4.0 * f64::EPSILON, "{phi:?}: {:e}", cosine(&stretched));
         assert!(cosine(&axes) <= 8.0 * f64::EPSILON, "{phi:?}: {:e}", cosine(&axes));
+        let (.., stretched, axes) = principal_log_stretches(phi);
+        assert!(cosine(&stretched) <= 8.0 * f64::EPSILON, "{phi:?}: {:e}", cosine(&stretched));
+        assert!(cosine(&axes) <= 8.0 * f64::EPSILON, "{phi:?}: {:e}", cosine(&axes));
     }
 }
 
@@ -139,7 +174,13 @@ fn special_placements() {
             assert!((stretch / scale - 1.0).abs() <= ROUNDINGS, "{stretches:?}");
         }
         assert_eq!(axes, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+        let (_, logs, _, same) =
+            principal_log_stretches([[scale, 0.0, 0.0], [0.0, scale, 0.0], [0.0, 0.0, scale]]);
+        let error = logs.map(|log| (log - scale.ln()).abs()).into_iter().fold(0.0, f64::max);
+        assert!(error <= ROUNDINGS * scale.ln().abs(), "{logs:?}");
+        assert_eq!(axes, same);
     }
+    assert_eq!(principal_log_stretches([[1.0f32, 0.0], [0.0, 1.0]]).1, [0.0; 2]);
     let (stretches, ..) = principal_stretches([[1.0f32, 0.0], [0.0, 1.0]]);
     assert!(
         stretches.iter().all(|stretch| Scalar::abs(*stretch - 1.0) <= 4.0 * f32::EPSILON),

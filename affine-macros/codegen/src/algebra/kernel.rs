@@ -20,6 +20,8 @@ pub struct Kernel {
 pub enum Callee {
     /// Placement -> stretches and principal axes.
     Stretches,
+    /// The same with log-stretches, counted from the undeformed state.
+    LogStretches,
     /// `x, s -> (exp(x s) - 1)/s, (exp(-x s) - 1)/s`.
     Elongation,
     /// `x, k -> sinh(x sqrt k)/sqrt k, (cosh(x sqrt k) - 1)/k`.

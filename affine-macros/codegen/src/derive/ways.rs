@@ -140,6 +140,8 @@ struct Draft {
     /// What is lost at each place, in units of what the rounding of `phi` does, and of what that of `phi - 1` does where it is
     /// small; infinite where there is no value.
     losses: Vec<[f64; 2]>,
+    /// Has a call a part in it, whose rounding is not seen here?
+    calls: bool,
 }
 
 impl Draft {
@@ -163,17 +165,29 @@ impl Draft {
             })
             .collect();
         let losses = PLACES.iter().map(|place| loss(&program, place, chart.dim, &parameters)).collect();
-        Self { writing, weight: program.operations().weight(), losses }
+        Self { writing, weight: program.operations().weight(), losses, calls: !program.calls.is_empty() }
     }
 }
 
 /// The lightest of those that are nowhere worse than the best there.
 fn best(drafts: &[Draft], near: bool) -> Option<Writing> {
+    // Principal stretches that are counted from the undeformed state keep their digits there by construction.
+    if drafts.iter().any(|draft| draft.calls) {
+        return drafts.iter().map(|draft| draft.writing).find(|writing| writing.counts() == near);
+    }
     // What is integrated may carry functions of `det phi`, and is written through its powers.
     let drafts: Vec<&Draft> = drafts.iter().filter(|draft| near || !draft.writing.counts()).collect();
     // Powers of `D` that a motion carries leave the range of numbers later than those of a determinant, which is formed here.
     if !near && drafts.iter().any(|draft| draft.writing == Writing::Isochoric) {
         return Some(Writing::Isochoric);
+    }
+    for d in drafts.iter() {
+        eprintln!(
+            "{:?} {} {:?}",
+            d.writing,
+            d.weight,
+            d.losses.iter().map(|l| l[usize::from(near)]).collect::<Vec<_>>()
+        );
     }
     let loss = |draft: &Draft, place: usize| draft.losses[place][usize::from(near)];
     let least = |place: usize| drafts.iter().map(|draft| loss(draft, place)).fold(f64::INFINITY, f64::min);

@@ -17,6 +17,7 @@ pub(super) fn statement(
 ) -> TokenStream {
     let function = match callee {
         Callee::Stretches => quote!(#rt::principal_stretches),
+        Callee::LogStretches => quote!(#rt::principal_log_stretches),
         Callee::Elongation => quote!(#rt::elongation),
         Callee::Turn => quote!(#rt::turning),
         Callee::Custom(k, asked) => {

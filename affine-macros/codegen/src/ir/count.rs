@@ -101,5 +101,19 @@ fn kernel_operations(call: &Call) -> Operations {
                 ..Operations::default()
             }
         }
+        // With the columns of a third matrix, two of their products and a weight to each angle, and `arsinh` as logarithm.
+        Callee::LogStretches => {
+            let rotations = if n == 2 { 2 } else { 12 };
+            let Operations { mul, add, div, sqrt, .. } =
+                kernel_operations(&Call { callee: Callee::Stretches, ..call.clone() });
+            Operations {
+                mul: mul + 2 * n * n + 2 + n * (2 * n + 3) + rotations * (11 * n + 14),
+                add: add + n * n + n + 1 + n * 2 * n + rotations * (9 * n + 8),
+                div: div + 1 + n + rotations,
+                sqrt: sqrt + 1,
+                ln: n,
+                ..Operations::default()
+            }
+        }
     }
 }

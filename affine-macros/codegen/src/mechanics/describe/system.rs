@@ -35,7 +35,7 @@ pub fn system(arena: &mut Arena, notation: &Notation, system: &System) -> Vec<Fo
     let work = system.work.iter().map(|(s, p)| line(*s, p.clone(), true));
     let lines = shown(arena, notation, shared.chain(rates).chain(work).collect());
     let mut list = notation.definitions(arena, lines.iter().map(|line| &line.value));
-    if system.kernels.iter().any(|kernel| kernel.callee == Callee::Stretches) {
+    if system.kernels.iter().any(|kernel| matches!(kernel.callee, Callee::Stretches | Callee::LogStretches)) {
         list.push(principal_axes());
     }
     list.extend(lines.iter().map(|line| line.formula(arena, notation)));

@@ -103,6 +103,8 @@ pub const SYMBOLS: &[Symbol] = &[
     applied(of("det", "det", "\\det\\varphi", "the determinant of phi")),
     of("dilatation", "D", "D", "the mean stretch det^(1/n)"),
     of("q", "q", "q", "the mean logarithmic stretch ln D"),
+    of("inverse_tensor_#", "K_#", "K_{#}", "entries of the inverse of G, or of Ct"),
+    of("inverse_strain_#", "E_#", "E_{#}", "entries of 1 - G^-1, or of 1 - Ct^-1"),
     of("stretch_#", "Q_#", "Q_{#}", "the stretches, singular values of phi"),
     whole("Q_a", "Q_{a}", "one of them"),
     of("q_#", "q_#", "q_{#}", "the logarithmic stretches ln Q_a"),

@@ -6,7 +6,7 @@ use crate::algebra::{Arena, Polynomial, Rational};
 use super::base::Base;
 use super::load::Draft;
 use super::tensors::{Tensors, direction};
-use super::writing::Means;
+use super::writing::{Means, Writing};
 
 /// Slopes with their weights.
 type Slopes<'a> = &'a [(Base, Polynomial)];
@@ -20,8 +20,10 @@ impl Draft<'_> {
     pub(super) fn on_placement(&mut self, arena: &mut Arena, slopes: Slopes) -> Square<Polynomial> {
         let tensors = self.means.tensors(arena, self.chart);
         let mut force = match &self.means {
-            Means::Strains(counting) if counting.deviates => self.stress_pulled_back(arena, slopes, &tensors),
-            Means::Strains(_) => self.stress_from_strains(arena, slopes, &tensors),
+            Means::Strains(counting) if counting.writing == Writing::Differences => {
+                self.stress_from_strains(arena, slopes, &tensors)
+            }
+            Means::Strains(_) => self.stress_pulled_back(arena, slopes, &tensors),
             _ => self.stress(arena, slopes, &tensors),
         };
         let n = self.chart.dim;
@@ -206,13 +208,18 @@ impl Draft<'_> {
     fn about_the_mean(&mut self, arena: &mut Arena, slopes: Slopes) -> Square<Polynomial> {
         let n = self.chart.dim;
         let [v, a, b] = [Base::MeanLogStretch, Base::Trace, Base::TraceOfSquare].map(|base| of(slopes, base));
+        if let Means::Strains(counting) = &self.means
+            && counting.writing == Writing::Inverses
+        {
+            return self.about_the_inverse(arena, [&v, &a, &b]);
+        }
         let offset = self.means.offset(arena, [&v, &a, &b]);
         let offset = self.named(arena, "offset", &offset);
         let Means::Strains(counting) = &self.means else { return self.empty() };
         let strains = &counting.strains;
         let mut mean = Polynomial::constant(Rational::ONE);
         let mut about = table(n, |_, _| Polynomial::zero());
-        if counting.deviates {
+        if counting.writing == Writing::Deviators {
             mean = Polynomial::atom(arena.symbol("mean_square_stretch"));
             about = strains.deviator(arena);
         } else {
@@ -234,6 +241,27 @@ impl Draft<'_> {
                 stress[a][b].add_scaled(&offset, &Rational::ONE);
             }
         }
+        stress
+    }
+
+    /// `v + a G + b G^2` through `G^-1 (G - 1)`, a symmetric matrix.
+    fn about_the_inverse(&mut self, arena: &mut Arena, [v, a, b]: [&Polynomial; 3]) -> Square<Polynomial> {
+        let n = self.chart.dim;
+        let [offset, along, second] = self.means.about_the_inverse(arena, [v, a, b]);
+        let offset = self.named(arena, "offset", &offset);
+        let along = self.named(arena, "stress", &along);
+        let second = self.named(arena, &Base::TraceOfSquare.slope_name(), &second);
+        let Means::Strains(counting) = &self.means else { return self.empty() };
+        let (products, definitions) = counting.strains.times_inverse(arena);
+        let mut stress = self.empty();
+        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+            stress[a][b].add_product(&along, &counting.strains.strain(arena, a, b), &Rational::ONE);
+            stress[a][b].add_product(&second, &products[a][b], &Rational::MINUS_ONE);
+            if a == b {
+                stress[a][b].add_scaled(&offset, &Rational::ONE);
+            }
+        }
+        self.share(definitions);
         stress
     }
 

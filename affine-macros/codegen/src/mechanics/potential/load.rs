@@ -39,13 +39,13 @@ impl Potential {
         let means = Means::new(arena, chart, writing);
         let mut draft = Draft { chart, along, means, load: Load::default() };
         if self.has_single_stretches() {
-            let (kernel, shared) = principal::computed(arena, chart);
+            let (kernel, shared) = principal::computed(arena, chart, writing.counts());
             draft.load.kernels.push(kernel);
             draft.share(shared);
         }
         let mut slopes = self.weighted(arena, &mut draft);
         if self.has_single_stretches() {
-            slopes = on_axes(chart.dim, slopes);
+            slopes = on_axes(arena, chart.dim, slopes, writing.counts());
         }
         let mut forces = draft.forces(arena, &slopes);
         if chart.momentum == Momentum::Total {
@@ -93,15 +93,32 @@ impl Potential {
     }
 }
 
-/// The slope by `q` as a part of those by all `q_a`: the unit matrix is the sum of the projections on the axes.
-fn on_axes(n: usize, slopes: Vec<(Base, Polynomial)>) -> Vec<(Base, Polynomial)> {
-    let (mean, mut rest): (Vec<_>, Vec<_>) =
-        slopes.into_iter().partition(|(base, _)| *base == Base::MeanLogStretch);
-    for (_, slope) in mean {
-        for axis in (0..n).map(Base::LogStretch) {
+/// The slope by `q` as a part of those by all `q_a`: the unit matrix is the sum of the projections on the axes. Where all are
+/// to cancel `at_rest`, those by `tr G^k` too, `G^k` having `Q_a^2k` on the axes.
+fn on_axes(
+    arena: &mut Arena,
+    n: usize,
+    slopes: Vec<(Base, Polynomial)>,
+    at_rest: bool,
+) -> Vec<(Base, Polynomial)> {
+    let power = |base: &Base| match base {
+        Base::MeanLogStretch => Some(0),
+        Base::Trace if at_rest => Some(2),
+        Base::TraceOfSquare if at_rest => Some(4),
+        Base::TraceOfCube if at_rest => Some(6),
+        _ => None,
+    };
+    let (isotropic, mut rest): (Vec<_>, Vec<_>) =
+        slopes.into_iter().partition(|(base, _)| power(base).is_some());
+    for (base, slope) in isotropic {
+        for k in 0..n {
+            let stretch = principal::stretch(arena, k);
+            let projected = Polynomial::term(vec![stretch; power(&base).unwrap_or(0)], Rational::ONE);
+            let slope = slope.mul(&projected);
+            let axis = Base::LogStretch(k);
             match rest.iter_mut().find(|(base, _)| *base == axis) {
                 Some((_, own)) => own.add_scaled(&slope, &Rational::ONE),
-                None => rest.push((axis, slope.clone())),
+                None => rest.push((axis, slope)),
             }
         }
     }

@@ -70,8 +70,8 @@ impl<R: Ring> Principal<R> {
     }
 }
 
-/// The kernel, and what else follows from it: `1/Q_k` and `q_k = ln Q_k`.
-pub(super) fn computed(arena: &mut Arena, chart: &Chart) -> (Kernel, Vec<(Expr, Polynomial)>) {
+/// The kernel, and what else follows from it: `1/Q_k` and `q_k = ln Q_k`, or `q_k` as it `counts` from the undeformed state.
+pub(super) fn computed(arena: &mut Arena, chart: &Chart, counts: bool) -> (Kernel, Vec<(Expr, Polynomial)>) {
     let n = chart.dim;
     let mut rows = |stem: &str| -> Square<Expr> {
         let mut entry = |i: usize, k: usize| arena.symbol(&format!("{stem}_{}{}", i + 1, k + 1));
@@ -79,23 +79,30 @@ pub(super) fn computed(arena: &mut Arena, chart: &Chart) -> (Kernel, Vec<(Expr, 
     };
     let (stretched, axes) = (rows("stretched"), rows("axis"));
     let stretches: Vec<Expr> = (0..n).map(|k| stretch(arena, k)).collect();
+    let logarithms: Vec<Expr> = (0..n).map(|k| Base::LogStretch(k).symbol(arena)).collect();
+    let mut results = vec![Group::Vector(stretches.clone()), Group::Matrix(stretched), Group::Matrix(axes)];
+    if counts {
+        results.insert(1, Group::Vector(logarithms.clone()));
+    }
     let kernel = Kernel {
-        callee: Callee::Stretches,
+        callee: if counts { Callee::LogStretches } else { Callee::Stretches },
         arguments: vec![Group::Matrix(placement(chart))],
-        results: vec![Group::Vector(stretches.clone()), Group::Matrix(stretched), Group::Matrix(axes)],
+        results,
     };
     let mut shared = Vec::new();
-    for (k, stretch) in stretches.into_iter().enumerate() {
+    for (k, (stretch, logarithm)) in stretches.into_iter().zip(logarithms).enumerate() {
         let reciprocal = arena.pow(stretch, -1).unwrap_or(stretch);
-        let logarithm = arena.apply(Function::Ln, stretch);
         shared.push((inverse_stretch(arena, k), Polynomial::atom(reciprocal)));
-        shared.push((Base::LogStretch(k).symbol(arena), Polynomial::atom(logarithm)));
+        if !counts {
+            let value = arena.apply(Function::Ln, stretch);
+            shared.push((logarithm, Polynomial::atom(value)));
+        }
     }
     (kernel, shared)
 }
 
 /// `Q_k`
-fn stretch(arena: &mut Arena, k: usize) -> Expr {
+pub(super) fn stretch(arena: &mut Arena, k: usize) -> Expr {
     arena.symbol(&format!("stretch_{}", k + 1))
 }
 

@@ -6,7 +6,7 @@ use crate::mechanics::charts::{Chart, Momentum};
 use super::Base;
 
 /// The symbol of `I2`.
-fn symbol(arena: &mut Arena) -> Expr {
+pub(super) fn symbol(arena: &mut Arena) -> Expr {
     arena.symbol("second_invariant")
 }
 

@@ -8,6 +8,7 @@ use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 
 use super::Base;
+use super::principal;
 use super::tensors::placement;
 use super::undeformed::{Counted, Undeformed};
 use super::volume::Volume;
@@ -102,10 +103,14 @@ impl Strains {
         let mut second = atom(minors);
         second.add_term(vec![first], &Rational::from(n - 1));
         list.push((arena.symbol("second_invariant"), Counted::from(n * (n - 1) / 2, second)));
-        for log in (0..self.n).map(Base::LogStretch).chain([Base::MeanLogStretch]) {
-            let symbol = log.symbol(arena);
-            list.push((symbol, Counted::vanishing(atom(symbol))));
+        for k in 0..self.n {
+            let q = Base::LogStretch(k).symbol(arena);
+            list.push((q, Counted::vanishing(atom(q))));
+            let growth = arena.apply(Function::ExpM1, q);
+            list.push((principal::stretch(arena, k), Counted::from(1, atom(growth))));
         }
+        let q = Base::MeanLogStretch.symbol(arena);
+        list.push((q, Counted::vanishing(atom(q))));
         let Volume { det, inverse_det, d, inverse_d, .. } = self.volume;
         let [excess_det, excess_d] = ["excess_det", "excess_dilatation"].map(|name| arena.symbol(name));
         let minus = Rational::MINUS_ONE;
@@ -260,6 +265,40 @@ impl Strains {
         let (diagonal, base): (_, fn(usize, usize) -> Base) =
             if self.spatial { (&self.finger, Base::Finger) } else { (&self.green, Base::Green) };
         Polynomial::atom(if a == b { diagonal[a] } else { base(a, b).symbol(arena) })
+    }
+
+    /// `G^-1 (G - 1)`, or `Ct^-1 (Ct - 1)` where the chart reads that, as symbols with their definitions.
+    pub(super) fn times_inverse(&self, arena: &mut Arena) -> (Square<Polynomial>, Vec<(Expr, Polynomial)>) {
+        let n = self.n;
+        let base: fn(usize, usize) -> Base = if self.spatial { Base::Finger } else { Base::Green };
+        let mut symbols = |stem: &str| -> Square<Expr> {
+            let mut entry =
+                |a: usize, b: usize| arena.symbol(&format!("{stem}_{}{}", a.min(b) + 1, a.max(b) + 1));
+            (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect()
+        };
+        let (inverses, products) = (symbols("inverse_tensor"), symbols("inverse_strain"));
+        let mut entry = |a: usize, b: usize| Polynomial::atom(base(a, b).symbol(arena));
+        let tensor: Square<Polynomial> = (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect();
+        let adjugate = adjugate(&tensor);
+        let over = arena.symbol("inverse_det_squared");
+        let mut list = vec![(over, Polynomial::term(vec![self.volume.inverse_det; 2], Rational::ONE))];
+        for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
+            list.push((inverses[a][b], adjugate[a][b].mul(&Polynomial::atom(over))));
+        }
+        for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
+            let mut product = Polynomial::zero();
+            for k in 0..n {
+                product.add_product(
+                    &Polynomial::atom(inverses[a][k]),
+                    &self.strain(arena, k, b),
+                    &Rational::ONE,
+                );
+            }
+            list.push((products[a][b], product));
+        }
+        let products =
+            products.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
+        (products, list)
     }
 
     /// `cof_aa - phi_aa`.

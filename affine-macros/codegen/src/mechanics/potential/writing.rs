@@ -11,6 +11,7 @@ use super::excess::{Isochoric, mean_square};
 use super::principal::Principal;
 use super::rewriting::through_dilatation;
 use super::scaled::{self, scaled_bases};
+use super::second;
 use super::strain::Strains;
 use super::tensors::{Tensors, cofactors, definitions, placement, squares};
 use super::undeformed::{Counted, Undeformed};
@@ -28,6 +29,8 @@ pub enum Writing {
     /// Through the deviator of `G` or `Ct` and a mean that is counted from the undeformed state, on `Pi` as `phi^-T` times that:
     /// nothing cancels near any dilatation.
     Deviators,
+    /// Through `G^-1 (G - 1)`, in place of `G (tr(G) - G)`: energies of `I2` over powers of `det`, as `tr(G^-1)` is one.
+    Inverses,
     /// Through `D` and the isochoric part `phi/D`, whose powers stay within the range of numbers where `phi` is extreme.
     Isochoric,
 }
@@ -44,27 +47,30 @@ pub(super) struct Counting {
     volume: Volume,
     pub(super) strains: Strains,
     undeformed: Undeformed,
-    /// From the mean of `G`, in place of 1?
-    pub(super) deviates: bool,
+    pub(super) writing: Writing,
 }
 
 impl Writing {
     /// Does it count from the undeformed state?
     #[must_use]
     pub fn counts(self) -> bool {
-        matches!(self, Self::Differences | Self::Deviators)
+        matches!(self, Self::Differences | Self::Deviators | Self::Inverses)
     }
 }
 
 impl Potential {
     /// The ways in which its forces in a chart may be written.
     pub fn writings(&self, arena: &mut Arena, chart: &Chart) -> Vec<Writing> {
-        if chart.confined.is_some() || self.has_single_stretches() {
+        if chart.confined.is_some() {
             return vec![Writing::Plain];
+        }
+        if self.has_single_stretches() {
+            return vec![Writing::Plain, Writing::Differences];
         }
         let mut list = vec![Writing::Plain];
         if self.slopes.iter().all(|(base, _)| *base != Base::TraceOfCube) {
             list.extend([Writing::Differences, Writing::Deviators]);
+            list.extend(self.is_of_minors(arena).then_some(Writing::Inverses));
         }
         if self.is_steep(arena) {
             list.push(Writing::Isochoric);
@@ -99,6 +105,20 @@ impl Potential {
         }
     }
 
+    /// Is it a function of `I2` in which `tr G^2` has no part but that? `dU/d(tr G) = dU/dI1 + I1 dU/dI2` is then shorter
+    /// without the second term.
+    fn is_of_minors(&self, arena: &mut Arena) -> bool {
+        let mut slope = |wanted: Base| {
+            let form = self.slopes.iter().find(|(base, _)| *base == wanted).map(|(_, slope)| *slope)?;
+            let form = through_dilatation(arena, form);
+            Some(Polynomial::normal_form(arena, form).scaled(&wanted.weight(self.dim)))
+        };
+        let Some((first, second)) = slope(Base::Trace).zip(slope(Base::TraceOfSquare)) else { return false };
+        let mut without = first.clone();
+        without.add_product(&second, &Polynomial::atom(Base::Trace.symbol(arena)), &Rational::ONE);
+        self.dim == 3 && without.terms().len() < first.terms().len()
+    }
+
     /// Do tensors in the forces have powers of `D` beyond the third beside them? The product may be of degree 0, and `D^4`
     /// leaves the range of numbers where `phi` does not.
     fn is_steep(&self, arena: &mut Arena) -> bool {
@@ -130,11 +150,10 @@ impl Means {
         match writing {
             Writing::Plain => Self::Plain(volume),
             Writing::Isochoric => Self::Unit(volume),
-            Writing::Differences | Writing::Deviators => {
-                let deviates = writing == Writing::Deviators;
+            Writing::Differences | Writing::Deviators | Writing::Inverses => {
                 let strains = Strains::new(arena, chart, volume);
                 let undeformed = strains.known(arena);
-                Self::Strains(Box::new(Counting { volume, strains, undeformed, deviates }))
+                Self::Strains(Box::new(Counting { volume, strains, undeformed, writing }))
             }
         }
     }
@@ -238,19 +257,41 @@ impl Means {
     /// What stands before the unit matrix: `v + a m + b m^2`, where the mean `m` of `G` is `tr(G)/n` or 1.
     pub(super) fn offset(&mut self, arena: &mut Arena, [v, a, b]: [&Polynomial; 3]) -> Polynomial {
         let Self::Strains(counting) = self else { return v.clone() };
-        let Counting { volume, strains, undeformed, deviates } = &mut **counting;
+        let Counting { volume, strains, undeformed, writing } = &mut **counting;
         let mut sum = v.clone();
+        let deviates = *writing == Writing::Deviators;
         let mean = match deviates {
             true => Polynomial::atom(arena.symbol("mean_square_stretch")),
             false => Polynomial::constant(Rational::ONE),
         };
         sum.add_product(a, &mean, &Rational::ONE);
         sum.add_product(b, &mean.mul(&mean), &Rational::ONE);
-        if *deviates {
+        if deviates {
             sum = strains.through_deviator(arena, &sum);
         }
         let sum = volume.reduced(&sum);
         undeformed.counted(arena, &sum)
+    }
+
+    /// What stands before the unit matrix in `v + a G + b G^2 = c + (a + b tr G) (G - 1) - b det^2 G^-1 (G - 1)`, with the
+    /// other coefficients: `c = v + a + b tr G + b (det^2 - I2)`.
+    pub(super) fn about_the_inverse(
+        &mut self,
+        arena: &mut Arena,
+        [v, a, b]: [&Polynomial; 3],
+    ) -> [Polynomial; 3] {
+        let Self::Strains(counting) = self else { return [v, a, b].map(Clone::clone) };
+        let Counting { volume, undeformed, .. } = &mut **counting;
+        let mut along = a.clone();
+        along.add_product(b, &Polynomial::atom(Base::Trace.symbol(arena)), &Rational::ONE);
+        let square = Polynomial::term(vec![volume.det; 2], Rational::ONE);
+        let mut minors = square.clone();
+        minors.add_term(vec![second::symbol(arena)], &Rational::MINUS_ONE);
+        let mut sum = v.clone();
+        sum.add_scaled(&along, &Rational::ONE);
+        sum.add_product(b, &minors, &Rational::ONE);
+        let sum = volume.reduced(&sum);
+        [undeformed.counted(arena, &sum), along, volume.reduced(&b.mul(&square))]
     }
 
     /// A coefficient of a force, with what cancels at the undeformed state taken apart.

@@ -3,9 +3,9 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use affine_codegen::algebra::evaluate::evaluate_polynomial;
+use affine_codegen::algebra::evaluate::{Field, evaluate_polynomial};
 use affine_codegen::algebra::kernel::{Asked, Callee, Group};
-use affine_codegen::algebra::{Arena, Expr, Polynomial};
+use affine_codegen::algebra::{Arena, Expr, Function, Polynomial};
 use affine_codegen::ir::Program;
 use affine_codegen::mechanics::equations::System;
 
@@ -88,6 +88,13 @@ fn called(
         |entries: &[Number]| Table::constant(&entries.chunks(n).map(<[_]>::to_vec).collect::<Vec<_>>());
     match callee {
         Callee::Stretches => principal(&square(arguments), stretches),
+        Callee::LogStretches => {
+            let mut results = principal(&square(arguments), stretches)?;
+            let logarithms: Option<Vec<Number>> =
+                stretches.iter().map(|stretch| stretch.apply(Function::Ln)).collect();
+            results.splice(n..n, logarithms?);
+            Some(results)
+        }
         Callee::Custom(place, Asked::Slopes(class, moves)) => {
             let (t_and_x, phi) = arguments.split_at(1 + n);
             let place_and_time = if moves { t_and_x } else { &t_and_x[..1] };

@@ -51,7 +51,11 @@ impl Taken {
         }
         let pushed = reduction.states.iter().any(|(group, _)| *group == "p");
         let chart = Self::of(confined, &reduction.chart, reduction.layout);
-        let single = reduction.system.kernels.iter().any(|kernel| kernel.callee == Callee::Stretches);
+        let single = reduction
+            .system
+            .kernels
+            .iter()
+            .any(|kernel| matches!(kernel.callee, Callee::Stretches | Callee::LogStretches));
         Self { turned: reduction.turned, pushed, single, rotation, drift, dilatation, ..chart }
     }
 
