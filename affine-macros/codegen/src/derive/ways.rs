@@ -181,14 +181,6 @@ fn best(drafts: &[Draft], near: bool) -> Option<Writing> {
     if !near && drafts.iter().any(|draft| draft.writing == Writing::Isochoric) {
         return Some(Writing::Isochoric);
     }
-    for d in drafts.iter() {
-        eprintln!(
-            "{:?} {} {:?}",
-            d.writing,
-            d.weight,
-            d.losses.iter().map(|l| l[usize::from(near)]).collect::<Vec<_>>()
-        );
-    }
     let loss = |draft: &Draft, place: usize| draft.losses[place][usize::from(near)];
     let least = |place: usize| drafts.iter().map(|draft| loss(draft, place)).fold(f64::INFINITY, f64::min);
     let limit = |(k, place): (usize, &Place)| AS_GOOD[usize::from(place.is_far())] * least(k).max(1.0);
