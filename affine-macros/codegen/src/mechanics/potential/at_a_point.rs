@@ -2,33 +2,38 @@
 
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
+use crate::mechanics::metric::Definitions;
 
 use super::Potential;
 use super::base::Base;
 use super::rewriting::about_undeformed;
+use super::sums::Sums;
 use super::tensors::{definitions, green};
 
 impl Potential {
     /// `U` for evaluation at a point, with what it shares; `q` is an input. Near the undeformed state nothing
     /// cancels to first order: `exp(c q) = 1 + 2 sinh(c q/2)^2 + sinh(c q)`, `cosh` likewise, and the traces are
     /// counted from `n`, so that the constants go away exactly.
-    pub fn energy_at_a_point(
-        &self,
-        arena: &mut Arena,
-        chart: &Chart,
-    ) -> (Polynomial, Vec<(Expr, Polynomial)>) {
-        self.at_a_point(arena, chart, self.energy)
+    pub fn energy_at_a_point(&self, arena: &mut Arena, chart: &Chart) -> (Polynomial, Definitions) {
+        let (mut values, shared) = self.at_a_point(arena, chart, &[self.energy]);
+        (values.pop().unwrap_or_default(), shared)
     }
 
-    /// The same of any function of the placement, of `x` and of the time.
+    /// The same of any functions of the placement, of `x` and of the time.
     pub(super) fn at_a_point(
         &self,
         arena: &mut Arena,
         chart: &Chart,
-        value: Expr,
-    ) -> (Polynomial, Vec<(Expr, Polynomial)>) {
-        let shifted = about_undeformed(arena, value);
-        let form = Polynomial::normal_form(arena, shifted);
+        values: &[Expr],
+    ) -> (Vec<Polynomial>, Definitions) {
+        let mut sums = Sums::default();
+        let named: Vec<Expr> = values
+            .iter()
+            .map(|value| {
+                let shifted = about_undeformed(arena, *value);
+                sums.named(arena, shifted)
+            })
+            .collect();
         let n = Rational::from(i64::try_from(self.dim).unwrap_or(1));
         let mut shared = definitions(arena, self.dim, chart);
         let (excesses, strains) = strain_traces(arena, chart);
@@ -44,7 +49,9 @@ impl Potential {
             moved.push((base.symbol(arena), value));
         }
         let value = |atom: Expr| moved.iter().find(|(s, _)| *s == atom).map(|(_, v)| v.clone());
-        (form.substitute(&value), shared)
+        let mut form = |expr: Expr| Polynomial::normal_form(arena, expr).substitute(&value);
+        shared.extend(sums.known().iter().map(|(symbol, sum)| (*symbol, form(*sum))));
+        (named.into_iter().map(form).collect(), shared)
     }
 }
 

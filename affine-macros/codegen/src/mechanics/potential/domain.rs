@@ -66,9 +66,7 @@ impl Potential {
         chart: &Chart,
     ) -> Option<(Vec<Polynomial>, Definitions)> {
         let values: Vec<Expr> = self.domain.iter().map(|guard| guard.value).collect();
-        let (values, shared): (Vec<_>, Vec<_>) =
-            values.into_iter().map(|value| self.at_a_point(arena, chart, value)).unzip();
-        Some((values, shared.into_iter().next()?))
+        (!values.is_empty()).then(|| self.at_a_point(arena, chart, &values))
     }
 }
 

@@ -7,6 +7,7 @@ use crate::mechanics::charts::Chart;
 use super::base::Base;
 use super::rewriting::{exponential_of_dilatation, multiple_of_logarithm};
 use super::scaled::{collected, definitions, scaled_bases};
+use super::sums::Sums;
 use super::{DILATATION, Potential};
 
 impl Potential {
@@ -35,7 +36,16 @@ impl Potential {
             scaled.iter().find(|(known, _)| *known == symbol).map(|(_, value)| *value)
         })?;
         let inverse = arena.pow(d, -1)?;
-        Some((collected(arena, energy, d), definitions(arena, chart, inverse)))
+        let mut shared = definitions(arena, chart, inverse);
+        let mut sums = Sums::default();
+        let named = sums.named(arena, energy);
+        // A power of `D` in a sum may have to cancel one beside it.
+        if sums.known().iter().any(|(_, sum)| arena.any_symbol(*sum, &mut |symbol| symbol == d)) {
+            return Some((collected(arena, energy, d), shared));
+        }
+        let energy = named;
+        shared.extend(sums.known().iter().map(|(symbol, sum)| (*symbol, collected(arena, *sum, d))));
+        Some((collected(arena, energy, d), shared))
     }
 }
 
