@@ -2,7 +2,8 @@
 //!
 //! What is not zero here is not zero; what is zero here may still be a multiple of the prime.
 
-use super::evaluate::Field;
+use super::arena::{Arena, Expr};
+use super::evaluate::{Field, evaluate};
 use super::function::Function;
 use super::rational::Rational;
 
@@ -33,6 +34,28 @@ impl Residue {
     pub fn is_nonzero(self) -> bool {
         self.0.is_some_and(|value| value != 0)
     }
+}
+
+/// Is the expression zero whatever its symbols are, by its values at two points? Not where it has none.
+#[must_use]
+pub fn vanishes(arena: &Arena, expr: Expr) -> bool {
+    POINTS.iter().all(|point| at(arena, expr, &|name| Residue::sample(&format!("{name}{point}"))) == Some(0))
+}
+
+/// Does the expression keep its value when the symbols that are not `kept` change? Not where it has none.
+pub fn depends_on(arena: &Arena, expr: Expr, kept: &impl Fn(&str) -> Option<Residue>) -> bool {
+    let value = |point: &str| {
+        at(arena, expr, &|name| kept(name).unwrap_or_else(|| Residue::sample(&format!("{name}{point}"))))
+    };
+    let [one, other] = POINTS.map(value);
+    one.is_none() || one != other
+}
+
+/// Endings of names, which make other samples of them.
+const POINTS: [&str; 2] = ["", "'"];
+
+fn at(arena: &Arena, expr: Expr, value: &dyn Fn(&str) -> Residue) -> Option<u64> {
+    evaluate(arena, expr, &|name| Some(value(name)))?.0
 }
 
 fn product(a: u64, b: u64) -> u64 {

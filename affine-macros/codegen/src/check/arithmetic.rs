@@ -2,7 +2,7 @@
 
 use super::constant::{LARGEST_POWER, constant, integer};
 use super::identity::vanishes;
-use super::size::summands;
+use super::size::{of_potential, summands};
 use crate::algebra::{Function, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, ExpressionMistake, PotentialMistake, Reported};
 use crate::spec::{Expression, ExpressionKind, Operator, Spec, numbered};
@@ -37,7 +37,11 @@ pub(super) fn computable(spec: &Spec, found: &mut Diagnostics) -> Result<(), Rep
         .chain(spec.potential.iter().map(|potential| (&potential.energy, Place::Potential)));
     for (expression, place) in placed {
         // First, for divisors are multiplied out.
-        if let Err(reported) = summands(expression, spec.dim.value, found) {
+        let size = match place {
+            Place::Coefficient => summands(expression, spec.dim.value, found),
+            Place::Potential => of_potential(expression, spec.dim.value, found),
+        };
+        if let Err(reported) = size {
             result = Err(reported);
             continue;
         }

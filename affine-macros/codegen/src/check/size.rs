@@ -1,9 +1,10 @@
-//! How many summands an expression has once its products and powers are multiplied out.
+//! How large an expression is: as written, or once its products and powers are multiplied out, where that is done.
 
 use super::constant::integer;
+use super::potential::parts;
 use crate::algebra::Function;
 use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
-use crate::spec::{Expression, ExpressionKind};
+use crate::spec::{Expression, ExpressionKind, numbered};
 
 /// Polynomials are derived, factored and scheduled in a time that grows faster than their number of summands; energies have
 /// tens of them. A power of a sum has `(m + k - 1) over k`, and one of degree 16 in seven variables 74613.
@@ -23,6 +24,35 @@ struct Summands {
 }
 
 const ONE: Summands = Summands { above: 1, below: 1, root: 1, inside: 1 };
+
+/// A potential has no more terms than a build has time for. It is computed as it is written; but whether a function of single
+/// stretches is symmetric shows when it is multiplied out.
+///
+/// # Errors
+/// Reported on the first smallest part that has more.
+pub(super) fn of_potential(energy: &Expression, n: usize, found: &mut Diagnostics) -> Result<(), Reported> {
+    if parts(energy).iter().any(|part| is_of_stretches(part)) {
+        return summands(energy, n, found);
+    }
+    let traces = |part: &&Expression| matches!(part.kind, ExpressionKind::Trace(_));
+    for part in parts(energy).into_iter().filter(traces) {
+        let ExpressionKind::Trace(factors) = &part.kind else { continue };
+        if of_trace(factors.len(), n) > MOST_SUMMANDS {
+            let limit = "512 summands when its products are multiplied out";
+            return Err(found.report(part.span, ExpressionMistake::ExpressionSize { limit }));
+        }
+    }
+    Ok(())
+}
+
+/// Does it name a stretch, or a function of pairs of them?
+fn is_of_stretches(part: &Expression) -> bool {
+    match &part.kind {
+        ExpressionKind::Pairs(_) => true,
+        ExpressionKind::Symbol(name) => matches!(numbered(&name.to_string()), Some(('q' | 'Q', _))),
+        _ => false,
+    }
+}
 
 /// The expression, and everything inside its functions, has no more summands than a build has time for.
 ///
@@ -50,11 +80,7 @@ fn counted(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result
             integer(exponent, n).map_or(ONE, |exponent| base.power(exponent))
         }
         (ExpressionKind::Call(function, argument), [of]) => of.applied(*function, argument),
-        // A sum over the inner indices.
-        (ExpressionKind::Trace(factors), _) => {
-            let inner = u32::try_from(factors.len().saturating_sub(2)).unwrap_or(u32::MAX);
-            Summands { above: u64::try_from(n).unwrap_or(u64::MAX).saturating_pow(inner), ..ONE }
-        }
+        (ExpressionKind::Trace(factors), _) => Summands { above: of_trace(factors.len(), n), ..ONE },
         _ => ONE,
     };
     if count.above <= MOST_SUMMANDS {
@@ -110,6 +136,12 @@ impl Summands {
             _ => of,
         }
     }
+}
+
+/// A sum over the inner indices.
+fn of_trace(factors: usize, n: usize) -> u64 {
+    let inner = u32::try_from(factors.saturating_sub(2)).unwrap_or(u32::MAX);
+    u64::try_from(n).unwrap_or(u64::MAX).saturating_pow(inner)
 }
 
 /// Monomials of degree `k` in `m` variables, `(m + k - 1) over k`.

@@ -108,7 +108,7 @@ fn kernel_operations(call: &Call) -> Operations {
                 kernel_operations(&Call { callee: Callee::Stretches, ..call.clone() });
             Operations {
                 mul: mul + 2 * n * n + 2 + n * (2 * n + 3) + rotations * (11 * n + 14),
-                add: add + n * n + n + 1 + n * 2 * n + rotations * (9 * n + 8),
+                add: add + 2 * n * n + 1 + n * (2 * n + 1) + rotations * (9 * n + 6),
                 div: div + 1 + n + rotations,
                 sqrt: sqrt + 1,
                 ln: n,

@@ -1,6 +1,7 @@
 //! Potentials as expressions in base functions of the placement.
 
 use crate::algebra::arena::Node;
+use crate::algebra::residue::depends_on;
 use crate::algebra::ring::{Square, product};
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::check::constant;
@@ -31,11 +32,14 @@ pub fn potential(
         domain.iter_mut().zip(carried).for_each(|(guard, value)| guard.value = value);
     }
     if is_stretched(arena, n, energy) {
-        energy = canonical(arena, n, energy);
+        // It decides; what needs the single stretches after all stays as it is written.
+        let symmetric = canonical(arena, n, energy);
+        if !is_stretched(arena, n, symmetric) {
+            energy = symmetric;
+        }
     }
-    let form = Polynomial::normal_form(arena, energy);
     // A constant moves nothing and leaves no trace.
-    (form.as_constant().is_none()).then_some((energy, domain))
+    depends_on(arena, energy, &|_| None).then_some((energy, domain))
 }
 
 /// The symbolic value, with `difference` for `d`; `None` only for what the checks refuse.

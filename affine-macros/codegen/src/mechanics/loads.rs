@@ -47,9 +47,7 @@ pub fn beside(
 /// What a potential adds, with `dU/dt` where that is accounted for.
 pub(super) fn of_potential(arena: &mut Arena, chart: &Chart, u: &Potential, forces: &Forces) -> Load {
     let load = u.load(arena, chart);
-    let drive = if forces.driven { u.drive(arena) } else { None };
-    let work = drive.map(|power| (arena.symbol("work"), power));
-    Load { work, ..load }
+    Load { work: load.work.filter(|_| forces.driven), ..load }
 }
 
 impl Load {

@@ -26,7 +26,8 @@ mod undeformed;
 mod volume;
 mod writing;
 
-use crate::algebra::{Arena, Expr, Polynomial};
+use crate::algebra::residue::vanishes;
+use crate::algebra::{Arena, Expr};
 
 use super::charts::Momentum;
 use super::conserved::Candidate;
@@ -36,8 +37,6 @@ pub use base::Base;
 pub use domain::{Bound, Guard};
 use invariance::Evidence;
 use restriction::restricted;
-use rewriting::through_dilatation;
-use volume::Volume;
 pub use writing::Writing;
 
 /// A potential.
@@ -95,7 +94,7 @@ impl Potential {
         for base in Base::all(dim) {
             let symbol = base.symbol(arena);
             let slope = arena.derivative(energy, symbol);
-            if !Polynomial::normal_form(arena, slope).is_zero() {
+            if !vanishes(arena, slope) {
                 slopes.push((base, slope));
             }
         }
@@ -124,13 +123,6 @@ impl Potential {
     #[must_use]
     pub fn time(&self) -> Option<Expr> {
         self.time
-    }
-
-    /// `dU/dt` at rest of `phi` and `x`, where it depends on the time; in the quantities that its [load](Self::load) shares.
-    pub fn drive(&self, arena: &mut Arena) -> Option<Polynomial> {
-        let slope = arena.derivative(self.energy, self.time?);
-        let form = through_dilatation(arena, slope);
-        Some(Volume::new(arena, self.dim).collected(arena, form))
     }
 
     /// Does it depend on the position of the centre of mass?

@@ -229,23 +229,23 @@ const UNDEFORMED: [&str; 5] = ["det", "inverse_det", "dilatation", "inverse_dila
 fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
     let value_at_rest = UNDEFORMED.map(|name| {
         let value = if name == "q" { Rational::ZERO } else { Rational::ONE };
-        (arena.symbol(name), Polynomial::constant(value))
+        (arena.symbol(name), arena.constant(value))
     });
-    let replaced: Vec<(Expr, Polynomial)> = pairs(chart.dim)
-        .map(|(i, a)| (chart.phi.0[i][a], Polynomial::atom(psi.0[i][a])))
-        .chain(value_at_rest.clone())
-        .collect();
-    let value = |atom: Expr| replaced.iter().find(|(s, _)| *s == atom).map(|(_, p)| p.clone());
+    let replaced: Vec<(Expr, Expr)> =
+        pairs(chart.dim).map(|(i, a)| (chart.phi.0[i][a], psi.0[i][a])).chain(value_at_rest).collect();
+    let value = |atom: Expr| replaced.iter().find(|(s, _)| *s == atom).map(|(_, value)| *value);
     let defined = |symbol: Expr| value_at_rest.iter().any(|(s, _)| *s == symbol);
+    let mut at_rest = |form: &Polynomial| {
+        let form = form.expression(arena);
+        // Dilatations of a placement have no part in what vanishes.
+        let form = arena.substitute(form, &value).unwrap_or(form);
+        Polynomial::normal_form(arena, form)
+    };
+    let shared = load.shared.iter().filter(|(symbol, _)| !defined(*symbol));
     Load {
-        shared: load
-            .shared
-            .iter()
-            .filter(|(symbol, _)| !defined(*symbol))
-            .map(|(symbol, p)| (*symbol, p.substitute(&value)))
-            .collect(),
-        forces: load.forces.iter().map(|(z, p)| (*z, p.substitute(&value))).collect(),
-        work: load.work.as_ref().map(|(symbol, power)| (*symbol, power.substitute(&value))),
+        shared: shared.map(|(symbol, form)| (*symbol, at_rest(form))).collect(),
+        forces: load.forces.iter().map(|(z, form)| (*z, at_rest(form))).collect(),
+        work: load.work.as_ref().map(|(symbol, power)| (*symbol, at_rest(power))),
         ..Load::default()
     }
 }

@@ -49,9 +49,10 @@ impl Potential {
             moved.push((base.symbol(arena), value));
         }
         let value = |atom: Expr| moved.iter().find(|(s, _)| *s == atom).map(|(_, v)| v.clone());
-        let mut form = |expr: Expr| Polynomial::normal_form(arena, expr).substitute(&value);
-        shared.extend(sums.known().iter().map(|(symbol, sum)| (*symbol, form(*sum))));
-        (named.into_iter().map(form).collect(), shared)
+        let forms = sums.forms(arena).into_iter();
+        shared.extend(forms.map(|(symbol, form)| (symbol, form.substitute(&value))));
+        let values = named.into_iter().map(|value| Polynomial::normal_form(arena, value));
+        (values.map(|form| form.substitute(&value)).collect(), shared)
     }
 }
 

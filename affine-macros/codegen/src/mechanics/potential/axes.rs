@@ -6,6 +6,7 @@ use crate::mechanics::symmetry::Side;
 use crate::mechanics::two_polar::{Lattice, Variables};
 
 use super::rewriting::{about_undeformed, through_dilatation};
+use super::sums::Sums;
 use super::{Base, Potential, is_parameter};
 
 /// A potential as a function of the places of a lattice.
@@ -49,9 +50,11 @@ impl Potential {
             energy: Polynomial::zero(),
             energy_shared: Vec::new(),
         };
+        let mut sums = Sums::default();
         for (base, slope) in &self.slopes {
             let form = diagonal(arena, *slope);
             let form = through_dilatation(arena, form);
+            let form = sums.named(arena, form);
             let form = Polynomial::normal_form(arena, form).scaled(&base.weight(self.dim));
             let moves = form.any_symbol(arena, &mut |s| !is_parameter(arena, s));
             let symbol = arena.symbol(&base.slope_name());
@@ -64,13 +67,18 @@ impl Potential {
                 force.add_product(&slope, &step, &Rational::ONE);
             }
         }
+        axes.shared.extend(sums.forms(arena));
         let definitions = definitions(arena, lattice, &stretches);
         axes.shared.extend(definitions.iter().cloned());
         let energy = diagonal(arena, self.energy);
         let energy = about_undeformed(arena, energy);
         let counted = counted_from_undeformed(arena, lattice, &mut axes.energy_shared);
-        axes.energy = Polynomial::normal_form(arena, energy)
-            .substitute(&|atom| counted.iter().find(|(symbol, _)| *symbol == atom).map(|(_, p)| p.clone()));
+        let value = |atom: Expr| counted.iter().find(|(symbol, _)| *symbol == atom).map(|(_, p)| p.clone());
+        let mut sums = Sums::default();
+        let energy = sums.named(arena, energy);
+        axes.energy = Polynomial::normal_form(arena, energy).substitute(&value);
+        let forms = sums.forms(arena).into_iter();
+        axes.energy_shared.extend(forms.map(|(symbol, form)| (symbol, form.substitute(&value))));
         axes.energy_shared.extend(definitions);
         axes
     }

@@ -1,8 +1,11 @@
 //! What of a potential is a function of `q` with a motion in closed form.
 
+use crate::algebra::evaluate::Field;
+use crate::algebra::residue::{Residue, depends_on, vanishes};
 use crate::algebra::{Arena, Polynomial, Rational};
 
 use super::rewriting::through_dilatation;
+use super::sums::Sums;
 use super::{Base, Potential};
 use crate::mechanics::separation::Slope;
 
@@ -10,31 +13,32 @@ impl Potential {
     /// `U_dil'(q)` where `U = U_dil(q) + U_sh(Psi)` and the closed form of its motion is known: the derivative along
     /// `phi -> e^s phi`, `dU/dq + 2 tr G dU/d(tr G) + ..`, is then a function of `q` alone.
     pub(in crate::mechanics) fn dilatational_slope(&self, arena: &mut Arena) -> Option<Slope> {
-        let mut slope = Polynomial::zero();
+        let mut terms = Vec::new();
         for (base, partial) in &self.slopes {
             let partial = through_dilatation(arena, *partial);
-            let partial = Polynomial::normal_form(arena, partial);
-            let symbol = Polynomial::atom(base.symbol(arena));
+            let symbol = base.symbol(arena);
             match base {
-                Base::MeanLogStretch => slope.add_scaled(&partial, &Rational::ONE),
-                Base::Trace | Base::Green(..) | Base::Finger(..) => {
-                    slope.add_product(&partial, &symbol, &Rational::from(2));
-                }
-                Base::TraceOfSquare => slope.add_product(&partial, &symbol, &Rational::from(4)),
-                Base::TraceOfCube => slope.add_product(&partial, &symbol, &Rational::from(6)),
-                Base::Placement(..) => slope.add_product(&partial, &symbol, &Rational::ONE),
+                Base::MeanLogStretch => terms.push((partial, Rational::ONE)),
                 // The centre of mass stays where it is.
                 Base::Position(_) => {}
                 // The axes of single stretches are those of phi, not of Psi.
                 Base::LogStretch(_) => return None,
+                _ => terms.push((arena.mul(partial, symbol), Rational::from(i64::from(base.degree())))),
             }
         }
-        let others: Vec<_> = Base::all(self.dim)
-            .into_iter()
-            .filter(|base| *base != Base::MeanLogStretch)
-            .map(|base| base.symbol(arena))
-            .collect();
-        if slope.any_symbol(arena, &mut |s| others.contains(&s)) {
+        let slope = arena.linear(&terms);
+        let others: Vec<String> = Base::all(self.dim).into_iter().map(Base::name).collect();
+        let kept = |name: &str| match name {
+            "inverse_dilatation" => Residue::sample("dilatation").recip(),
+            _ if name == "q" || !others.iter().any(|other| other == name) => Some(Residue::sample(name)),
+            _ => None,
+        };
+        if depends_on(arena, slope, &kept) {
+            return None;
+        }
+        let slope = Polynomial::normal_form(arena, slope);
+        let mut is_another = |symbol| arena.name(symbol).is_some_and(|name| kept(name).is_none());
+        if slope.any_symbol(arena, &mut is_another) {
             return None;
         }
         Slope::of(arena, &slope)
@@ -50,6 +54,7 @@ impl Potential {
             Some(slope) => slope,
             None => {
                 let partial = through_dilatation(arena, self.slopes[place].1);
+                let partial = Sums::default().named(arena, partial);
                 let partial = Polynomial::normal_form(arena, partial);
                 Slope::stiffest_in(arena, &partial)?
             }
@@ -59,7 +64,7 @@ impl Potential {
         let partial = &mut rest.slopes[place].1;
         *partial = arena.linear(&[(*partial, Rational::ONE), (own, Rational::MINUS_ONE)]);
         let left = through_dilatation(arena, *partial);
-        if Polynomial::normal_form(arena, left).is_zero() {
+        if vanishes(arena, left) {
             rest.slopes.remove(place);
         }
         Some((slope, rest))

@@ -7,8 +7,11 @@ use crate::mechanics::charts::Chart;
 use super::base::Base;
 use super::rewriting::{exponential_of_dilatation, multiple_of_logarithm};
 use super::scaled::{collected, definitions, scaled_bases};
-use super::sums::Sums;
+use super::sums::{Sums, multiplied_out};
 use super::{DILATATION, Potential};
+
+/// Energies are multiplied out up to so many terms.
+const MOST_TERMS: u32 = 256;
 
 impl Potential {
     /// `U` for evaluation far from the undeformed state, with what it shares; `q`, `q_a` and `D` are inputs. `None` where
@@ -40,7 +43,8 @@ impl Potential {
         let mut sums = Sums::default();
         let named = sums.named(arena, energy);
         // A power of `D` in a sum may have to cancel one beside it.
-        if sums.known().iter().any(|(_, sum)| arena.any_symbol(*sum, &mut |symbol| symbol == d)) {
+        let scaled = sums.known().iter().any(|(_, sum)| arena.any_symbol(*sum, &mut |symbol| symbol == d));
+        if scaled && multiplied_out(arena, energy) <= MOST_TERMS {
             return Some((collected(arena, energy, d), shared));
         }
         let energy = named;

@@ -71,7 +71,8 @@ impl Potential {
         draft.finished(arena)
     }
 
-    /// The slopes with the numbers that they carry in a force, and on the way the sums that they raise to powers.
+    /// The slopes with the numbers that they carry in a force, and on the way `dU/dt` at rest of `phi` and `x` and the sums that
+    /// all of them raise to powers.
     fn weighted(&self, arena: &mut Arena, draft: &mut Draft) -> Vec<(Base, Polynomial)> {
         let mut sums = Sums::default();
         let mut named: Vec<(Base, Expr)> = Vec::new();
@@ -80,6 +81,14 @@ impl Potential {
             let moved = base.degree() - i32::from(base.is_moved(draft.along));
             let form = draft.means.prepared(arena, form, moved);
             named.push((*base, sums.named(arena, form)));
+        }
+        if let Some(time) = self.time {
+            let form = arena.derivative(self.energy, time);
+            let form = through_dilatation(arena, form);
+            let form = draft.means.prepared(arena, form, 0);
+            let form = sums.named(arena, form);
+            let power = draft.normal_form(arena, form);
+            draft.load.work = Some((arena.symbol("work"), power));
         }
         let slopes: Vec<(Base, Polynomial)> =
             named.into_iter().map(|(base, form)| (base, draft.normal_form(arena, form))).collect();
@@ -211,6 +220,7 @@ impl Draft<'_> {
             let shared = self.load.shared.iter().map(|(_, form)| form);
             shared
                 .chain(self.load.forces.iter().map(|(_, form)| form))
+                .chain(self.load.work.iter().map(|(_, form)| form))
                 .any(|form| form.any_symbol(arena, &mut is_root))
         };
         let definitions = self.means.definitions(arena, self.chart, uses_root);

@@ -107,7 +107,7 @@ pub(super) fn stretch(arena: &mut Arena, k: usize) -> Expr {
 }
 
 /// `1/Q_k`
-fn inverse_stretch(arena: &mut Arena, k: usize) -> Expr {
+pub(super) fn inverse_stretch(arena: &mut Arena, k: usize) -> Expr {
     arena.symbol(&format!("inverse_stretch_{}", k + 1))
 }
 

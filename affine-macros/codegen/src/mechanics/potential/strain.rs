@@ -107,7 +107,10 @@ impl Strains {
             let q = Base::LogStretch(k).symbol(arena);
             list.push((q, Counted::vanishing(atom(q))));
             let growth = arena.apply(Function::ExpM1, q);
+            let inverse = principal::inverse_stretch(arena, k);
+            let decay = Polynomial::term(vec![growth, inverse], Rational::MINUS_ONE);
             list.push((principal::stretch(arena, k), Counted::from(1, atom(growth))));
+            list.push((inverse, Counted::from(1, decay)));
         }
         let q = Base::MeanLogStretch.symbol(arena);
         list.push((q, Counted::vanishing(atom(q))));

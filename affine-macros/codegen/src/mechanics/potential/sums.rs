@@ -1,7 +1,8 @@
-//! Sums that stand in powers: multiplied out, `(tr G - 3)^8` is a difference of numbers that are larger by many orders.
+//! Sums that stand in powers and functions: multiplied out, `(tr G - 3)^8` is a difference of numbers that are larger by many
+//! orders. Products of several sums keep them where they would have many terms.
 
 use crate::algebra::arena::Node;
-use crate::algebra::{Arena, Expr, Rational};
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 /// Sums with the symbols that stand for them.
 #[derive(Default)]
@@ -19,6 +20,11 @@ impl Sums {
             return expr;
         }
         self.replaced(arena, expr, &raised)
+    }
+
+    /// The symbols with their sums multiplied out.
+    pub(super) fn forms(&self, arena: &mut Arena) -> Vec<(Expr, Polynomial)> {
+        self.known.iter().map(|(symbol, sum)| (*symbol, Polynomial::normal_form(arena, *sum))).collect()
     }
 
     /// The symbols, and the sums in terms of those before.
@@ -62,19 +68,53 @@ impl Sums {
     }
 }
 
-/// Sums to the second power or a higher one.
+/// Products of sums are multiplied out up to so many terms.
+const FEW_TERMS: usize = 32;
+
+/// Sums to any power but the first, those in functions, and those of products that are too many.
 fn find(arena: &Arena, expr: Expr, raised: &mut Vec<Expr>) {
+    let mut keep = |of: Expr| {
+        if terms(arena, of) > 1 && !raised.contains(&of) {
+            raised.push(of);
+        }
+    };
     match arena.node(expr) {
         Node::Constant(_) | Node::Symbol(_) => {}
-        Node::Function(_, argument) => find(arena, *argument, raised),
+        Node::Function(_, argument) => {
+            keep(*argument);
+            find(arena, *argument, raised);
+        }
         Node::Sum(_, terms) => terms.iter().for_each(|(term, _)| find(arena, *term, raised)),
         Node::Product(factors) => {
-            for (base, exponent) in factors {
-                if *exponent > 1 && matches!(arena.node(*base), Node::Sum(..)) && !raised.contains(base) {
-                    raised.push(*base);
-                }
-                find(arena, *base, raised);
-            }
+            let sizes = factors.iter().map(|(base, _)| terms(arena, *base));
+            let many = sizes.fold(1, |product: usize, size| product.saturating_mul(size)) > FEW_TERMS;
+            factors.iter().filter(|(_, exponent)| many || *exponent != 1).for_each(|(base, _)| keep(*base));
+            factors.iter().for_each(|(base, _)| find(arena, *base, raised));
         }
+    }
+}
+
+/// How many terms the expression has at most once it is multiplied out; functions and divisors are one.
+pub(super) fn multiplied_out(arena: &Arena, expr: Expr) -> u32 {
+    match arena.node(expr) {
+        Node::Constant(_) | Node::Symbol(_) | Node::Function(..) => 1,
+        Node::Sum(constant, terms) => terms
+            .iter()
+            .map(|(term, _)| multiplied_out(arena, *term))
+            .fold(u32::from(!constant.is_zero()), u32::saturating_add),
+        Node::Product(factors) => factors
+            .iter()
+            .map(|(base, exponent)| {
+                multiplied_out(arena, *base).saturating_pow((*exponent).max(0).unsigned_abs())
+            })
+            .fold(1, u32::saturating_mul),
+    }
+}
+
+/// How many terms a sum has; anything else is one.
+fn terms(arena: &Arena, expr: Expr) -> usize {
+    match arena.node(expr) {
+        Node::Sum(constant, terms) => terms.len() + usize::from(!constant.is_zero()),
+        _ => 1,
     }
 }

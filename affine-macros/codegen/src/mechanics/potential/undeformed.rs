@@ -29,7 +29,7 @@ impl Counted {
     }
 
     /// What the placement does not change.
-    fn constant(of: Polynomial) -> Self {
+    pub(super) fn constant(of: Polynomial) -> Self {
         Self { at_rest: of, change: Polynomial::zero() }
     }
 

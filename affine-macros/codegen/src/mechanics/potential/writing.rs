@@ -13,6 +13,7 @@ use super::rewriting::through_dilatation;
 use super::scaled::{self, scaled_bases};
 use super::second;
 use super::strain::Strains;
+use super::sums::Sums;
 use super::tensors::{Tensors, cofactors, definitions, placement, squares};
 use super::undeformed::{Counted, Undeformed};
 use super::volume::Volume;
@@ -41,6 +42,9 @@ pub(super) enum Means {
     Strains(Box<Counting>),
     Unit(Volume),
 }
+
+/// Powers of sums are multiplied out at `phi = 1` where the sums have no more terms there.
+const MOST_AT_REST: usize = 2;
 
 /// What counting from the undeformed state takes.
 pub(super) struct Counting {
@@ -108,9 +112,11 @@ impl Potential {
     /// Is it a function of `I2` in which `tr G^2` has no part but that? `dU/d(tr G) = dU/dI1 + I1 dU/dI2` is then shorter
     /// without the second term.
     fn is_of_minors(&self, arena: &mut Arena) -> bool {
+        let mut sums = Sums::default();
         let mut slope = |wanted: Base| {
             let form = self.slopes.iter().find(|(base, _)| *base == wanted).map(|(_, slope)| *slope)?;
             let form = through_dilatation(arena, form);
+            let form = sums.named(arena, form);
             Some(Polynomial::normal_form(arena, form).scaled(&wanted.weight(self.dim)))
         };
         let Some((first, second)) = slope(Base::Trace).zip(slope(Base::TraceOfSquare)) else { return false };
@@ -122,25 +128,57 @@ impl Potential {
     /// Do tensors in the forces have powers of `D` beyond the third beside them? The product may be of degree 0, and `D^4`
     /// leaves the range of numbers where `phi` does not.
     fn is_steep(&self, arena: &mut Arena) -> bool {
-        self.slopes.iter().any(|(base, slope)| {
+        let mut sums = Sums::default();
+        let mut forms = Vec::new();
+        for (base, slope) in &self.slopes {
             let form = through_dilatation(arena, *slope);
+            forms.push((base.degree() > 0, sums.named(arena, form)));
+        }
+        let mut known = Vec::new();
+        for (symbol, form) in sums.forms(arena) {
+            let terms = form.terms().map(|(monomial, _)| Steepness::of(arena, monomial, &known)).collect();
+            known.push((symbol, terms));
+        }
+        forms.into_iter().any(|(of_tensor, form)| {
             let form = Polynomial::normal_form(arena, form);
-            // By name: a symbol that is not needed would come into being.
-            let named = |atom: Expr, name: &str| arena.name(atom) == Some(name);
-            let power =
-                |monomial: &[Expr], name: &str| monomial.iter().filter(|atom| named(**atom, name)).count();
-            let is_tensor = |name: &str| {
-                ["trace_", "green_", "finger_", "phi_"].iter().any(|stem| name.starts_with(stem))
-            };
-            let of_tensors = |monomial: &[Expr]| {
-                let mut found = |symbol: Expr| arena.name(symbol).is_some_and(is_tensor);
-                base.degree() > 0 || monomial.iter().any(|atom| arena.any_symbol(*atom, &mut found))
-            };
-            let is_steep = |monomial: &[Expr]| {
-                ["dilatation", "inverse_dilatation"].iter().any(|name| power(monomial, name) > 2)
-            };
-            form.terms().any(|(monomial, _)| is_steep(monomial) && of_tensors(monomial))
+            form.terms().any(|(monomial, _)| {
+                let Steepness { up, down, tensors } = Steepness::of(arena, monomial, &known);
+                up.max(down) > 2 && (of_tensor || tensors)
+            })
         })
+    }
+}
+
+/// The powers of `D` and `1/D` in a product, and whether there are tensors beside them.
+#[derive(Clone, Copy, Default)]
+struct Steepness {
+    up: usize,
+    down: usize,
+    tensors: bool,
+}
+
+impl Steepness {
+    /// With the terms of the sums that stand in the product.
+    fn of(arena: &Arena, monomial: &[Expr], sums: &[(Expr, Vec<Self>)]) -> Self {
+        let is_tensor =
+            |name: &str| ["trace_", "green_", "finger_", "phi_"].iter().any(|stem| name.starts_with(stem));
+        let mut all = Self::default();
+        for atom in monomial {
+            // By name: a symbol that is not needed would come into being.
+            match arena.name(*atom) {
+                Some("dilatation") => all.up += 1,
+                Some("inverse_dilatation") => all.down += 1,
+                _ => {}
+            }
+            let mut found = |symbol: Expr| arena.name(symbol).is_some_and(is_tensor);
+            all.tensors |= arena.any_symbol(*atom, &mut found);
+            let Some((_, terms)) = sums.iter().find(|(symbol, _)| symbol == atom) else { continue };
+            let most = |power: fn(&Self) -> usize| terms.iter().map(power).max().unwrap_or(0);
+            all.up += most(|term| term.up);
+            all.down += most(|term| term.down);
+            all.tensors |= terms.iter().any(|term| term.tensors);
+        }
+        all
     }
 }
 
@@ -245,8 +283,10 @@ impl Means {
         let parts = undeformed.of(arena, &form);
         if parts.at_rest.is_zero() {
             undeformed.know(symbol, Counted::vanishing(Polynomial::atom(symbol)));
-        } else {
+        } else if parts.at_rest.terms().len() <= MOST_AT_REST {
             undeformed.know(symbol, parts);
+        } else {
+            undeformed.know(symbol, Counted::constant(Polynomial::atom(symbol)));
         }
         let small = undeformed.counted(arena, &form);
         // One more division is not worth it where other terms hide the sum.
