@@ -71,7 +71,7 @@ impl Sums {
 /// Products of sums are multiplied out up to so many terms.
 const FEW_TERMS: usize = 32;
 
-/// Sums to any power but the first, those in functions, and those of products that are too many.
+/// Sums to any power but the first, those in functions, and factors that are sums of functions or too many.
 fn find(arena: &Arena, expr: Expr, raised: &mut Vec<Expr>) {
     let mut keep = |of: Expr| {
         if terms(arena, of) > 1 && !raised.contains(&of) {
@@ -88,7 +88,17 @@ fn find(arena: &Arena, expr: Expr, raised: &mut Vec<Expr>) {
         Node::Product(factors) => {
             let sizes = factors.iter().map(|(base, _)| terms(arena, *base));
             let many = sizes.fold(1, |product: usize, size| product.saturating_mul(size)) > FEW_TERMS;
-            factors.iter().filter(|(_, exponent)| many || *exponent != 1).for_each(|(base, _)| keep(*base));
+            // `1 - tanh^2` is small where both are not.
+            let of_functions = |base: Expr| {
+                let is_function = |node: Expr| matches!(arena.node(node), Node::Function(..));
+                let in_product = |term: Expr| match arena.node(term) {
+                    Node::Product(factors) => factors.iter().any(|(base, _)| is_function(*base)),
+                    _ => is_function(term),
+                };
+                matches!(arena.node(base), Node::Sum(_, terms) if terms.iter().any(|(term, _)| in_product(*term)))
+            };
+            let stays = |(base, exponent): &&(Expr, i32)| many || *exponent != 1 || of_functions(*base);
+            factors.iter().filter(stays).for_each(|(base, _)| keep(*base));
             factors.iter().for_each(|(base, _)| find(arena, *base, raised));
         }
     }
