@@ -31,5 +31,9 @@ done <<'PHRASES'
 2|((tr(G) - 2)^2 + q^2 + 0.1)^3 + ln(2 + (det - 1)^2)
 3|(G[1,1] - 1)^4*(Ct[1,2] + phi[3,1])^2 + (tr(G) - 3)^2/(1 + (q + 0.1)^2)
 3|sin(3*t)*tr(G)/(2 + cos(t)) + tanh(q)^2 + sinh(q)^2
+3|tr((G - 1)^2)/4 + a*tr(G^-1) + log1p(q^2) + expm1(b*(tr(G) - 3))
+2|tr((G - tr(G)/n)^2)*tr(Ct^-1) + tr((phi - 1)*(2*G - a*Ct)) + log(det)^2
+3|ln(1 + I2^2) + sqrt(1 + (I2 - 3)^2) + abs(tr(G))^3
+3|(Q1 + Q2 + Q3)^2*pairs(sqrt(1 + d^2)) + ln((1 + Q1)*(1 + Q2)*(1 + Q3))
 2|neo_hookean(a) + saint_venant_kirchhoff(1, b) + gas(0.1)
 PHRASES

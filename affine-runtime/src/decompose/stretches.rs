@@ -57,6 +57,7 @@ pub fn principal_stretches<const N: usize, T: Scalar>(
 /// `phi^T phi - 1 = H + H^T + H^T H`; both times a weight, since nothing is compared.
 #[inline]
 #[must_use]
+#[expect(clippy::type_complexity, reason = "generated code takes them apart at once")]
 pub fn principal_log_stretches<const N: usize, T: Scalar>(
     phi: [[T; N]; N],
 ) -> ([T; N], [T; N], [[T; N]; N], [[T; N]; N]) {

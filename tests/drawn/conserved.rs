@@ -1,0 +1,123 @@
+//! What is conserved: a quantity of the free motion stays so exactly where the energy is the same after every motion of the
+//! group that the quantity generates. Elements are drawn, and the energy is evaluated as written.
+
+use affine_codegen::mechanics::conserved::Candidate;
+use affine_oracle::Random;
+use affine_runtime::scalar::Scalar;
+use qd::Quad;
+
+use super::check::{Case, Mistakes, same};
+use super::number::Rounded;
+use super::place::{Measures, Place, Square, applied, product, short, square};
+
+/// Elements of a group at each place.
+const ELEMENTS: usize = 2;
+
+impl Case<'_> {
+    /// Both lists, moving and at rest, by the energy at these places; whether a list is short, of an energy with roots: that
+    /// `sqrt(a)^2` is `a` is no part of the proofs, in which a function is one of any kind.
+    pub(crate) fn conserves(&self, random: &mut Random, places: &[Place], mistakes: &mut Mistakes) -> bool {
+        let mut kept =
+            |candidate: &Candidate| places.iter().all(|place| self.keeps(random, *candidate, place));
+        let left = |list: &[Candidate], kept: &mut dyn FnMut(&Candidate) -> bool| -> Vec<Candidate> {
+            list.iter().copied().filter(kept).collect()
+        };
+        let moving = left(&self.free.conserved, &mut kept);
+        // A force on the centre of mass does not leave it at rest.
+        let at_rest = match kept(&Candidate::LinearMomentum) {
+            true => left(&self.free.conserved_at_rest, &mut kept),
+            false => moving.clone(),
+        };
+        let lists = [
+            ("conserved", &self.model.conserved, moving),
+            ("conserved at rest", &self.model.conserved_at_rest, at_rest),
+        ];
+        let mut is_short = false;
+        for (what, found, expected) in lists {
+            let within = found.iter().all(|candidate| expected.contains(candidate));
+            if *found != expected && within && self.energy.has_roots() {
+                is_short = true;
+            } else if *found != expected {
+                mistakes.push(format!("{what}: {found:?} is not {expected:?}"));
+            }
+        }
+        is_short
+    }
+
+    /// Is the energy at this place that after motions of the group?
+    fn keeps(&self, random: &mut Random, candidate: Candidate, place: &Place) -> bool {
+        let value = |place: &Place| self.energy.value(&Measures::at(place, self.energy.is_stretched())).value;
+        let here = value(place);
+        (0..ELEMENTS).all(|_| {
+            let there = value(&moved(random, candidate, place));
+            same(there.value, Rounded { error: here.error + there.error, ..here })
+        })
+    }
+}
+
+/// The place after a motion of the group that a quantity generates. Powers of a quantity generate what it does itself.
+fn moved(random: &mut Random, candidate: Candidate, place: &Place) -> Place {
+    let n = place.dim();
+    let mut there = place.clone();
+    let times_phi = |a: &Square<Quad>| product(a, &place.phi);
+    let times_x = |a: &Square<Quad>| applied(a, &place.x);
+    match candidate {
+        Candidate::Energy => there.t = place.t + Quad::from(short(random, 0.1, 1.0)),
+        Candidate::LinearMomentum | Candidate::ComovingLinearMomentum => {
+            there.x.iter_mut().for_each(|x| *x = *x + Quad::from(short(random, 0.1, 1.0)));
+        }
+        Candidate::OrbitalAngularMomentum => there.x = times_x(&rotation(random, n)),
+        Candidate::TotalAffineMomentum => {
+            let a = linear(random, n);
+            (there.phi, there.x) = (times_phi(&a), times_x(&a));
+        }
+        Candidate::TotalAngularMomentum => {
+            let r = rotation(random, n);
+            (there.phi, there.x) = (times_phi(&r), times_x(&r));
+        }
+        // No function of phi is left unchanged by all linear maps but a constant.
+        Candidate::AffineSpin | Candidate::CanonicalMomentum | Candidate::Casimir2 | Candidate::Casimir3 => {
+            there.phi = times_phi(&linear(random, n));
+        }
+        Candidate::Deviator | Candidate::DeviatorCasimir2 | Candidate::DeviatorCasimir3 => {
+            there.phi = times_phi(&special(random, n));
+        }
+        Candidate::Spin | Candidate::SpinNorm => there.phi = times_phi(&rotation(random, n)),
+        Candidate::ComovingAffineSpin => there.phi = product(&place.phi, &linear(random, n)),
+        Candidate::ComovingDeviator => there.phi = product(&place.phi, &special(random, n)),
+        Candidate::Vorticity | Candidate::VorticityNorm => {
+            there.phi = product(&place.phi, &rotation(random, n));
+        }
+        Candidate::Casimir1 => {
+            let scale = Quad::from(short(random, 0.6, 0.9));
+            there.phi.iter_mut().flatten().for_each(|entry| *entry = *entry * scale);
+        }
+    }
+    there
+}
+
+/// Near the identity.
+fn linear(random: &mut Random, n: usize) -> Square<Quad> {
+    Place::random(random, n, 0.2).phi
+}
+
+/// With determinant 1.
+fn special(random: &mut Random, n: usize) -> Square<Quad> {
+    let place = Place::random(random, n, 0.2);
+    let scale = Scalar::exp(Scalar::ln(place.det()) / Quad::from(-(n as f64)));
+    square(n, |i, j| place.phi[i][j] * scale)
+}
+
+/// A turn in every plane by an angle `2 atan u`.
+fn rotation(random: &mut Random, n: usize) -> Square<Quad> {
+    let mut rotation = square(n, |i, j| if i == j { Quad::ONE } else { Quad::ZERO });
+    for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
+        let u = Quad::from(short(random, 0.1, 0.9));
+        let below = Quad::ONE + u * u;
+        let (cosine, sine) = ((Quad::ONE - u * u) / below, (u + u) / below);
+        let mut turn = square(n, |i, j| if i == j { Quad::ONE } else { Quad::ZERO });
+        (turn[a][a], turn[b][b], turn[a][b], turn[b][a]) = (cosine, cosine, -sine, sine);
+        rotation = product(&rotation, &turn);
+    }
+    rotation
+}
