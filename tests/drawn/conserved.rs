@@ -64,7 +64,7 @@ fn moved(random: &mut Random, candidate: Candidate, place: &Place) -> Place {
     match candidate {
         Candidate::Energy => there.t = place.t + Quad::from(short(random, 0.1, 1.0)),
         Candidate::LinearMomentum | Candidate::ComovingLinearMomentum => {
-            there.x.iter_mut().for_each(|x| *x = *x + Quad::from(short(random, 0.1, 1.0)));
+            there.x.iter_mut().for_each(|x| *x += Quad::from(short(random, 0.1, 1.0)));
         }
         Candidate::OrbitalAngularMomentum => there.x = times_x(&rotation(random, n)),
         Candidate::TotalAffineMomentum => {
@@ -90,7 +90,7 @@ fn moved(random: &mut Random, candidate: Candidate, place: &Place) -> Place {
         }
         Candidate::Casimir1 => {
             let scale = Quad::from(short(random, 0.6, 0.9));
-            there.phi.iter_mut().flatten().for_each(|entry| *entry = *entry * scale);
+            there.phi.iter_mut().flatten().for_each(|entry| *entry *= scale);
         }
     }
     there

@@ -44,7 +44,7 @@ pub(crate) fn inverse(a: &Square<Quad>) -> Square<Quad> {
         let pivot = rows[k].clone();
         for (i, row) in rows.iter_mut().enumerate() {
             let factor = if i == k { (row[k] - Quad::ONE) / pivot[k] } else { row[k] / pivot[k] };
-            row.iter_mut().zip(&pivot).for_each(|(entry, pivot)| *entry = *entry - factor * *pivot);
+            row.iter_mut().zip(&pivot).for_each(|(entry, pivot)| *entry -= factor * *pivot);
         }
     }
     rows.into_iter().map(|row| row[n..].to_vec()).collect()
@@ -78,7 +78,7 @@ impl Place {
         let x = (0..n).map(|_| number(0.3, 1.5)).collect();
         let fields = [number(0.5, 1.5), number(0.5, 1.5)];
         let mut phi = square(n, |i, j| if i == j { Quad::ONE } else { Quad::ZERO });
-        phi.iter_mut().flatten().for_each(|entry| *entry = *entry + number(-strain, strain));
+        phi.iter_mut().flatten().for_each(|entry| *entry += number(-strain, strain));
         Self { t, x, phi, fields }
     }
 
