@@ -87,7 +87,7 @@ pub(super) fn shortest(
     let name = |symbols: &[Expr]| -> Vec<String> {
         symbols.iter().filter_map(|s| arena.name(*s).map(str::to_owned)).collect()
     };
-    let linear_name = if chart.linear == Some(Linear::Body) { "p_hat" } else { "p" };
+    let linear_name = chart.linear.map_or("p", Linear::name);
     let groups = [
         ("x", name(&chart.x)),
         ("phi", name(&chart.phi.0.concat())),
@@ -208,7 +208,8 @@ pub(super) fn best_reduction(
     // The squares of an anisotropic energy move each momentum, also one that their sum conserves.
     let in_squares = h.isotropic.is_none() && h.frame != Frame::Flat;
     let halves = asked.nystrom || (asked.split && in_squares);
-    let candidates = reduce::candidates(arena, h, potential, forces, (rotations, halves));
+    let pieces = asked.nystrom || asked.split;
+    let candidates = reduce::candidates(arena, h, potential, forces, (rotations, halves, pieces));
     let time = time(arena, potential, forces);
     let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
         let split = asked.split.then(|| Programs::of(arena, h, potential, reduction, constants));

@@ -8,7 +8,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::mechanics::carried::Carried;
-use crate::mechanics::charts::Momentum;
+use crate::mechanics::charts::{Linear, Momentum};
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::reduce::{Commuting, Layout};
 use crate::spec::Capability;
@@ -27,8 +27,10 @@ struct Parts {
     turn: bool,
     /// `p` is a constant.
     linear: bool,
-    /// `p` is state.
+    /// `p` or `p_hat` is state.
     pushed: bool,
+    /// It is `p_hat`.
+    comoving: bool,
     /// `x0` and `p/m` of a free centre of mass.
     drift: bool,
     /// The affine momentum is a constant.
@@ -53,13 +55,16 @@ impl Parts {
             Commuting::Spin(_) => Some(Frame::Space),
             Commuting::Drift(_) => None,
         });
-        let pushed = context.model.reduced.groups.iter().any(|(name, _)| *name == "p");
+        let has = |group: &str| context.model.reduced.groups.iter().any(|(name, _)| *name == group);
+        let comoving = has(Linear::Body.name());
+        let pushed = comoving || has(Linear::Space.name());
         let drift = reduction.commuting.iter().any(|piece| matches!(piece, Commuting::Drift(_)));
         Self {
             origin: whirl.is_some() || drift,
             turn: reduction.turned,
             linear: context.model.translation.is_some() && !pushed,
             pushed,
+            comoving,
             drift,
             momentum: reduction.layout == Layout::Constant,
             fixed: context.model.fixed.clone(),
@@ -157,7 +162,7 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
     let momentum = chart_momentum(context);
     let moving = chart.linear.is_some();
     let mut lets = TokenStream::new();
-    if parts.linear || parts.pushed {
+    if parts.linear || parts.pushed && !parts.comoving {
         lets.extend(quote!(let p = #rt::Phase::p(point);));
     }
     lets.extend(quote!(let momentum = #momentum;));
@@ -230,9 +235,11 @@ fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
     let mut lets = TokenStream::new();
     let vector = |stem: &str| -> Vec<String> { (1..=n).map(|i| format!("{stem}_{i}")).collect() };
     if moving {
-        for (names, value) in
-            [(vector("x"), turned(quote!(#rt::Phase::x(point)))), (vector("p"), turned(quote!(p)))]
-        {
+        let momentum = match parts.comoving {
+            true => (vector("p_hat"), quote!(#rt::Phase::p_hat(point).0.0)),
+            false => (vector("p"), turned(quote!(p))),
+        };
+        for (names, value) in [(vector("x"), turned(quote!(#rt::Phase::x(point)))), momentum] {
             if names.iter().any(|name| used.contains(&name.as_str())) {
                 let bound = pattern(&names, &used);
                 lets.extend(quote!(let #bound = #rt::components(&#value);));

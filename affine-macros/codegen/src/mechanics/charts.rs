@@ -27,6 +27,17 @@ pub enum Linear {
     Body,
 }
 
+impl Linear {
+    /// The paper's symbol.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Space => "p",
+            Self::Body => "p_hat",
+        }
+    }
+}
+
 /// Coordinates of phase space and their symbols.
 #[derive(Clone, Debug)]
 pub struct Chart {
@@ -114,8 +125,7 @@ impl Chart {
             |name: &str| -> Vec<Expr> { (1..=dim).map(|i| arena.symbol(&format!("{name}_{i}"))).collect() };
         let (x, p) = match linear {
             None => (Vec::new(), Vec::new()),
-            Some(Linear::Space) => (vector("x"), vector("p")),
-            Some(Linear::Body) => (vector("x"), vector("p_hat")),
+            Some(linear) => (vector("x"), vector(linear.name())),
         };
         let phi = Matrix::symbols(arena, "phi", dim);
         let m = Matrix::symbols(arena, momentum.name(), dim);

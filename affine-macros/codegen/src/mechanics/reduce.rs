@@ -138,19 +138,20 @@ pub fn commuting(
 }
 
 /// Every chart in which the rest of `H` is a polynomial, reduced; `rotations` tells whether those of space leave `H`
-/// unchanged, `halves` asks of an energy that has no other chart than its own for a momentum for each position.
+/// unchanged, `halves` asks of an energy that has no other chart than its own for a momentum for each position, `pieces`
+/// for one whose pieces have flows.
 pub fn candidates(
     arena: &mut Arena,
     h: &Hamiltonian,
     potential: Option<&Potential>,
     forces: &Forces,
-    (rotations, halves): (bool, bool),
+    (rotations, halves, pieces): (bool, bool, bool),
 ) -> Vec<Reduction> {
     let commuting = commuting(arena, h, potential, forces);
     let drift = commuting.iter().any(|c| matches!(c, Commuting::Drift(_)));
     let without_skew = commuting.iter().any(|c| !matches!(c, Commuting::Drift(_)));
     let linear = (h.translation.is_some() && !drift).then_some(Linear::Space);
-    let turn = linear.is_some() && rotations;
+    let turn = |linear| linear == Some(Linear::Space) && rotations;
     let mut momenta = vec![Momentum::of(h.frame)];
     for other in [Momentum::Body, Momentum::Space, Momentum::Total] {
         if !momenta.contains(&other) && (other != Momentum::Total || linear.is_some()) {
@@ -162,9 +163,16 @@ pub fn candidates(
         true => separated(arena, h, (potential, forces), &commuting),
         false => Vec::new(),
     };
-    let entire: Vec<Reduction> = momenta
+    let mut charts: Vec<(Momentum, Option<Linear>)> =
+        momenta.into_iter().map(|momentum| (momentum, linear)).collect();
+    // Its translational energy is as short as that of `p` in space. Splitting and Nystrom steps want `p`.
+    let comoving = matches!(&h.translation, Some((Frame::Body, _))) && h.frame == Frame::Body;
+    if comoving && linear.is_some() && !pieces {
+        charts.push((Momentum::Body, Some(Linear::Body)));
+    }
+    let entire: Vec<Reduction> = charts
         .into_iter()
-        .flat_map(|momentum| {
+        .flat_map(|(momentum, linear)| {
             let chart = Chart::new(arena, h.dim, momentum, linear).under(h.confined());
             let Some(mut main) = h.internal_in(&chart, without_skew) else { return Vec::new() };
             if linear.is_some() {
@@ -172,6 +180,7 @@ pub fn candidates(
             }
             let loads = loads(arena, &chart, h, potential, forces);
             let multiplier = h.constraint.is_some() && h.confined().is_none();
+            let turn = turn(linear);
             let plan = Plan { chart, commuting: commuting.clone(), turn, loads, multiplier, halves };
             plan.reduced(arena, &main, h.is_tensor())
         })
@@ -320,6 +329,9 @@ impl Plan {
         let fixed = if self.multiplier || self.halves { Vec::new() } else { take_constants(&mut system) };
         let carried = Carried::of(arena, &system);
         let states = states(arena, "phi", chart.momentum.symbol(), &system);
+        let linear = chart.linear.map_or("p", Linear::name);
+        let states =
+            states.into_iter().map(|(name, s)| (if name == "p" { linear } else { name }, s)).collect();
         Reduction {
             chart,
             commuting: self.commuting.clone(),

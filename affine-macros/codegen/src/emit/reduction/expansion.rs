@@ -50,8 +50,13 @@ pub(super) fn expand(context: &Context, parts: &Parts) -> TokenStream {
     }
     let p = if parts.pushed { quote!(p) } else { quote!(constants.p) };
     if parts.pushed {
-        let components = (1..=n).map(|i| format_ident!("p_{i}"));
-        lets.extend(quote!(let p = #rt::vector([#(#components),*]);));
+        let stem = if parts.comoving { "p_hat" } else { "p" };
+        let components = (1..=n).map(|i| format_ident!("{stem}_{i}"));
+        let components = quote!(#rt::vector([#(#components),*]));
+        lets.extend(match parts.comoving {
+            true => quote!(let p = #rt::inverse(&phi).tr_mul(&#components);),
+            false => quote!(let p = #components;),
+        });
     }
     lets.extend(match parts.dilatation {
         true => separated::momentum(context, &parts.fixed),

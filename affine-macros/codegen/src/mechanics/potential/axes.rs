@@ -50,7 +50,7 @@ impl Potential {
             energy: Polynomial::zero(),
             energy_shared: Vec::new(),
         };
-        let mut sums = Sums::default();
+        let mut sums = Sums::of_slopes();
         for (base, slope) in &self.slopes {
             let form = diagonal(arena, *slope);
             let form = through_dilatation(arena, form);

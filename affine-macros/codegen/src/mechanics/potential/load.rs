@@ -74,7 +74,7 @@ impl Potential {
     /// The slopes with the numbers that they carry in a force, and on the way `dU/dt` at rest of `phi` and `x` and the sums that
     /// all of them raise to powers.
     fn weighted(&self, arena: &mut Arena, draft: &mut Draft) -> Vec<(Base, Polynomial)> {
-        let mut sums = Sums::default();
+        let mut sums = Sums::of_slopes();
         let mut named: Vec<(Base, Expr)> = Vec::new();
         for (base, slope) in &self.slopes {
             let form = through_dilatation(arena, *slope);

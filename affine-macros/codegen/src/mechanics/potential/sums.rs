@@ -9,13 +9,20 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 pub(super) struct Sums {
     /// In the order in which they are computed.
     known: Vec<(Expr, Expr)>,
+    /// Does a factor that is a sum of functions stay one? `1 - tanh^2` is small where both are not.
+    functions: bool,
 }
 
 impl Sums {
+    /// Of slopes, in which the slopes of functions are factors.
+    pub(super) fn of_slopes() -> Self {
+        Self { functions: true, ..Self::default() }
+    }
+
     /// The expression with symbols for the sums that it raises to a power, wherever they stand in it.
     pub(super) fn named(&mut self, arena: &mut Arena, expr: Expr) -> Expr {
         let mut raised = Vec::new();
-        find(arena, expr, &mut raised);
+        self.find(arena, expr, &mut raised);
         if raised.is_empty() && self.known.is_empty() {
             return expr;
         }
@@ -30,6 +37,33 @@ impl Sums {
     /// The symbols, and the sums in terms of those before.
     pub(super) fn known(&self) -> &[(Expr, Expr)] {
         &self.known
+    }
+
+    /// Sums to any power but the first, those in functions, and factors that stay.
+    fn find(&self, arena: &Arena, expr: Expr, raised: &mut Vec<Expr>) {
+        let mut keep = |of: Expr| {
+            if terms(arena, of) > 1 && !raised.contains(&of) {
+                raised.push(of);
+            }
+        };
+        match arena.node(expr) {
+            Node::Constant(_) | Node::Symbol(_) => {}
+            Node::Function(_, argument) => {
+                keep(*argument);
+                self.find(arena, *argument, raised);
+            }
+            Node::Sum(_, terms) => terms.iter().for_each(|(term, _)| self.find(arena, *term, raised)),
+            Node::Product(factors) => {
+                let sizes = factors.iter().map(|(base, _)| terms(arena, *base));
+                let many = sizes.fold(1, |product: usize, size| product.saturating_mul(size)) > FEW_TERMS;
+                for (base, exponent) in factors {
+                    if many || *exponent != 1 || self.functions && is_of_functions(arena, *base) {
+                        keep(*base);
+                    }
+                }
+                factors.iter().for_each(|(base, _)| self.find(arena, *base, raised));
+            }
+        }
     }
 
     fn replaced(&mut self, arena: &mut Arena, expr: Expr, raised: &[Expr]) -> Expr {
@@ -71,37 +105,14 @@ impl Sums {
 /// Products of sums are multiplied out up to so many terms.
 const FEW_TERMS: usize = 32;
 
-/// Sums to any power but the first, those in functions, and factors that are sums of functions or too many.
-fn find(arena: &Arena, expr: Expr, raised: &mut Vec<Expr>) {
-    let mut keep = |of: Expr| {
-        if terms(arena, of) > 1 && !raised.contains(&of) {
-            raised.push(of);
-        }
+/// Has the sum a term with a function in it?
+fn is_of_functions(arena: &Arena, expr: Expr) -> bool {
+    let is_function = |node: Expr| matches!(arena.node(node), Node::Function(..));
+    let in_product = |term: Expr| match arena.node(term) {
+        Node::Product(factors) => factors.iter().any(|(base, _)| is_function(*base)),
+        _ => is_function(term),
     };
-    match arena.node(expr) {
-        Node::Constant(_) | Node::Symbol(_) => {}
-        Node::Function(_, argument) => {
-            keep(*argument);
-            find(arena, *argument, raised);
-        }
-        Node::Sum(_, terms) => terms.iter().for_each(|(term, _)| find(arena, *term, raised)),
-        Node::Product(factors) => {
-            let sizes = factors.iter().map(|(base, _)| terms(arena, *base));
-            let many = sizes.fold(1, |product: usize, size| product.saturating_mul(size)) > FEW_TERMS;
-            // `1 - tanh^2` is small where both are not.
-            let of_functions = |base: Expr| {
-                let is_function = |node: Expr| matches!(arena.node(node), Node::Function(..));
-                let in_product = |term: Expr| match arena.node(term) {
-                    Node::Product(factors) => factors.iter().any(|(base, _)| is_function(*base)),
-                    _ => is_function(term),
-                };
-                matches!(arena.node(base), Node::Sum(_, terms) if terms.iter().any(|(term, _)| in_product(*term)))
-            };
-            let stays = |(base, exponent): &&(Expr, i32)| many || *exponent != 1 || of_functions(*base);
-            factors.iter().filter(stays).for_each(|(base, _)| keep(*base));
-            factors.iter().for_each(|(base, _)| find(arena, *base, raised));
-        }
-    }
+    matches!(arena.node(expr), Node::Sum(_, terms) if terms.iter().any(|(term, _)| in_product(*term)))
 }
 
 /// How many terms the expression has at most once it is multiplied out; functions and divisors are one.

@@ -2,7 +2,7 @@
 
 use affine_codegen::algebra::Polynomial;
 use affine_codegen::algebra::kernel::Callee;
-use affine_codegen::mechanics::charts::{Chart, Momentum};
+use affine_codegen::mechanics::charts::{Chart, Linear, Momentum};
 use affine_codegen::mechanics::constraint::Constraint;
 use affine_codegen::mechanics::kinetic::Frame;
 use affine_codegen::mechanics::reduce::{Commuting, Layout, Reduction};
@@ -17,8 +17,8 @@ pub(super) struct Taken {
     pub(super) confined: Option<Constraint>,
     /// The affine momentum of the reduced chart.
     pub(super) momentum: Momentum,
-    /// Does the reduced chart hold `x` and `p`?
-    pub(super) linear: bool,
+    /// Which momentum the reduced chart holds beside `x`, if it holds them.
+    pub(super) linear: Option<Linear>,
     /// Is space turned, so that a constant `p` has one component?
     turned: bool,
     /// Is `p` state, and with that any vector later on?
@@ -49,7 +49,7 @@ impl Taken {
                 Commuting::Drift(mass) => drift = Some(number(mass)),
             }
         }
-        let pushed = reduction.states.iter().any(|(group, _)| *group == "p");
+        let pushed = reduction.states.iter().any(|(group, _)| ["p", "p_hat"].contains(group));
         let chart = Self::of(confined, &reduction.chart, reduction.layout);
         let single = reduction
             .system
@@ -65,7 +65,7 @@ impl Taken {
             dim: chart.dim,
             confined,
             momentum: chart.momentum,
-            linear: chart.linear.is_some(),
+            linear: chart.linear,
             turned: false,
             pushed: true,
             layout,
@@ -238,9 +238,13 @@ impl Point {
             return named;
         }
         put(&mut named, "phi", &self.phi);
-        if taken.linear {
+        if taken.linear.is_some() {
             put_vector(&mut named, "x", &self.x);
-            put_vector(&mut named, "p", &self.p);
+        }
+        match taken.linear {
+            Some(Linear::Space) => put_vector(&mut named, "p", &self.p),
+            Some(Linear::Body) => put_vector(&mut named, "p_hat", &self.phi.transpose().times(&self.p)),
+            None => {}
         }
         put(&mut named, taken.momentum.name(), &self.momentum);
         named
@@ -297,7 +301,13 @@ impl Point {
                 moving_table(&self.phi, "psi", rates).scaled(Jet { value: mean, rate })
             }
         };
-        let p = moving_vector(&self.p, "p", rates);
+        let p = match taken.linear {
+            Some(Linear::Body) => {
+                let comoving = self.phi.transpose().times(&self.p);
+                phi.inverse().transpose().times(&moving_vector(&comoving, "p_hat", rates))
+            }
+            _ => moving_vector(&self.p, "p", rates),
+        };
         let mut x = moving_vector(&self.x, "x", rates);
         if let Some(inverse_mass) = taken.drift {
             x.iter_mut().zip(&p).for_each(|(x, p)| x.rate = inverse_mass * p.value);

@@ -102,7 +102,7 @@ impl Whole {
     /// Every way to reduce the motion against the whole one, with a momentum for each position or not; what they take out.
     pub(super) fn check(&mut self, random: &mut Random, halves: bool) -> BTreeSet<&'static str> {
         let Self { arena, h, potential, forces, rotations, .. } = self;
-        let ways = reduce::candidates(arena, h, potential.as_ref(), forces, (*rotations, halves));
+        let ways = reduce::candidates(arena, h, potential.as_ref(), forces, (*rotations, halves, false));
         assert!(!ways.is_empty(), "{}", self.args);
         let rests: Vec<bool> = ways.iter().map(|way| self.check_one(random, way)).collect();
         for (way, resting) in ways.iter().zip(&rests) {
@@ -236,7 +236,7 @@ fn left_out(reduction: &Reduction) -> Vec<&'static str> {
     });
     let mut list: Vec<&'static str> = pieces.collect();
     let chart = &reduction.chart;
-    let pushed = sizes(reduction).iter().any(|(group, _)| *group == "p");
+    let pushed = sizes(reduction).iter().any(|(group, _)| ["p", "p_hat"].contains(group));
     let slope = reduction.separation.as_ref().map(|separation| match separation.slope {
         Separated::Zero => "free dilatation",
         Separated::Linear(_) => "harmonic dilatation",
