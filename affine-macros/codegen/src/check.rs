@@ -5,7 +5,6 @@
 
 mod arithmetic;
 mod capabilities;
-mod constant;
 mod constraint;
 mod custom;
 mod definite;
@@ -32,7 +31,6 @@ mod written;
 use crate::diagnostics::{Diagnostics, Reported};
 use crate::spec::Spec;
 
-pub use constant::constant;
 pub use definite::{eigenvalues, signature};
 pub use form::{Form, Quantities, form};
 pub use mixed::{MixedForm, Positive};

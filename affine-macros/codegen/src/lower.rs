@@ -1,13 +1,14 @@
 //! From what the user wrote to symbolic terms: the last place where the specification's syntax is known.
 
 mod components;
+mod constant;
 mod domain;
 mod metrics;
 mod momentum_side;
 mod potential;
 
 use crate::algebra::{Arena, Expr, Matrix, Rational};
-use crate::check::constant;
+
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::custom::{Class, Custom, On, Role};
 use crate::mechanics::dissipation::Dissipation;
@@ -16,6 +17,7 @@ use crate::mechanics::kinetic::{Coefficient, Frame, Term, TermKind};
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 
+pub use constant::{LARGEST_POWER, constant, integer};
 pub use metrics::metrics;
 pub use momentum_side::stated;
 pub use potential::potential;

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use affine_codegen::algebra::{Function, Rational};
-use affine_codegen::check::constant;
 use affine_codegen::diagnostics::{Diagnostic, ExpressionMistake, Rejected, gate};
+use affine_codegen::lower::constant;
 use affine_codegen::spec::{
     Expression, ExpressionKind, MatrixName, NAMED_POTENTIALS, Named, Operator, parse_expression,
     parse_potential,

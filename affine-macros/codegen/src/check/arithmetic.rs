@@ -1,10 +1,10 @@
 //! Arithmetic that has an exact value.
 
-use super::constant::{LARGEST_POWER, constant, integer};
 use super::identity::vanishes;
 use super::size::{of_potential, summands};
 use crate::algebra::{Function, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, ExpressionMistake, PotentialMistake, Reported};
+use crate::lower::{LARGEST_POWER, constant, integer};
 use crate::spec::{Expression, ExpressionKind, Operator, Spec, numbered};
 
 /// The largest degree of a potential. Its functions are not multiplied out, so it may be higher than that of a

@@ -1,7 +1,7 @@
 //! Frames of the terms, and the claims.
 
-use super::constant::constant;
 use crate::diagnostics::{Diagnostics, FormMistake};
+use crate::lower::constant;
 use crate::spec::{Claim, Constraint, Spec, Term, TermKind, Value};
 
 /// Where H is derived by inverting a matrix that depends on phi: the terms that are not exactly zero have constant

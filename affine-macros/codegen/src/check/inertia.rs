@@ -1,9 +1,9 @@
 //! The inertia J of 1/2 tr(O J O^T), and masses. Signs that depend on fields are left to `prepare()`.
 
-use super::constant::constant;
 use super::identity::equal;
 use crate::algebra::Rational;
 use crate::diagnostics::{Diagnostics, TermMistake};
+use crate::lower::constant;
 use crate::spec::{Expression, Named, Spec, Term, TermKind, Value};
 
 /// p = m x_dot: a zero mass leaves the velocity open. A negative mass is a legitimate indefinite energy beside

@@ -1,8 +1,8 @@
 //! The Hamiltonian as stated on the momentum side.
 
-use super::constant::constant;
 use crate::algebra::{Arena, Polynomial};
 use crate::diagnostics::{ConstraintMistake, Diagnostics, Directions, FormMistake, TermMistake};
+use crate::lower::constant;
 use crate::mechanics::hessian::Direction;
 use crate::mechanics::momentum_side::Stated;
 use crate::spec::{Expression, MomentumKind, Named, Requirement, Spec, Term, Value};

@@ -74,7 +74,7 @@ pub(super) fn in_domain(spec: &Spec, found: &mut Diagnostics) {
         let ExpressionKind::Call(function @ (Function::Ln | Function::Sqrt), argument) = &part.kind else {
             continue;
         };
-        let value = super::constant(argument, spec.dim.value);
+        let value = crate::lower::constant(argument, spec.dim.value);
         if let Some(value) = value.filter(|value| value.is_zero() || value.is_negative()) {
             let (function, argument, value) = (function.name(), argument.to_string(), value.to_string());
             found.report(part.span, PotentialMistake::Domain { function, argument, value });

@@ -1,9 +1,9 @@
 //! How large an expression is: as written, or once its products and powers are multiplied out, where that is done.
 
-use super::constant::integer;
 use super::potential::parts;
 use crate::algebra::Function;
 use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
+use crate::lower::integer;
 use crate::spec::{Expression, ExpressionKind, numbered};
 
 /// Polynomials are derived, factored and scheduled in a time that grows faster than their number of summands; energies have

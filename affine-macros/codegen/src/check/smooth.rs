@@ -161,7 +161,9 @@ fn kinks<'a>(arena: &mut Arena, n: usize, part: &'a Expression, difference: Opti
         _ => return list,
     };
     let singular_power = match &part.kind {
-        ExpressionKind::Power(_, exponent) => super::constant(exponent, n).is_some_and(|k| k.is_negative()),
+        ExpressionKind::Power(_, exponent) => {
+            crate::lower::constant(exponent, n).is_some_and(|k| k.is_negative())
+        }
         _ => true,
     };
     if let Some(value) = lower::energy(arena, n, vanishing, difference).filter(|_| singular_power) {

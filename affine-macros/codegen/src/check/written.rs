@@ -31,7 +31,7 @@ impl Written<'_> {
     /// The value of a scalar coefficient.
     pub(super) fn scalar(&self, term: &spec::Term) -> Option<Rational> {
         match &term.value {
-            Value::Scalar(e) => super::constant(e, self.n),
+            Value::Scalar(e) => crate::lower::constant(e, self.n),
             _ => None,
         }
     }

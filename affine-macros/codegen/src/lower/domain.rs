@@ -1,8 +1,8 @@
 //! Where a potential has a value, read off what the user wrote: arguments of logarithms and roots, and divisors; and angles
 //! that the time turns.
 
+use super::constant::constant;
 use crate::algebra::{Arena, Expr, Function};
-use crate::check::constant;
 use crate::mechanics::potential::{Bound, Guard, TIME};
 use crate::spec::{Expression, ExpressionKind};
 

@@ -1,7 +1,7 @@
 //! The terms of `hamiltonian(...)` as symbolic terms.
 
+use super::constant::constant;
 use crate::algebra::{Arena, Polynomial};
-use crate::check::constant;
 use crate::mechanics::hamiltonian::Isotropic;
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::momentum_side::Stated;

@@ -1,10 +1,10 @@
 //! Potentials as expressions in base functions of the placement.
 
+use super::constant::constant;
 use crate::algebra::arena::Node;
 use crate::algebra::residue::depends_on;
 use crate::algebra::ring::{Square, product};
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
-use crate::check::constant;
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::potential::stretches::{canonical, is_stretched};
 use crate::mechanics::potential::{Base, Guard, TIME};

@@ -5,7 +5,7 @@ use crate::spec::{Expression, ExpressionKind};
 
 /// The largest exponent that is evaluated. No kinetic energy has more than a few powers, and the polynomials in
 /// the fields that the derivation multiplies out grow with this degree.
-pub(super) const LARGEST_POWER: u64 = 16;
+pub const LARGEST_POWER: u64 = 16;
 
 /// The exact value of an expression in dimension `n`; `None` where it depends on a field or on the
 /// state, or has none.
@@ -36,7 +36,8 @@ pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
 }
 
 /// The value of an exponent: an integer of moderate size.
-pub(super) fn integer(exponent: &Expression, n: usize) -> Option<i32> {
+#[must_use]
+pub fn integer(exponent: &Expression, n: usize) -> Option<i32> {
     let value = constant(exponent, n)?.to_i64()?;
     (value.unsigned_abs() <= LARGEST_POWER).then(|| i32::try_from(value).ok()).flatten()
 }
