@@ -13,10 +13,9 @@ pub mod taylor;
 
 use crate::algebra::{Function, Rational};
 
-use call::Call;
+pub use call::Value;
 
-/// A value: the index of the step that makes it.
-pub type Value = usize;
+use call::Call;
 
 /// One operation.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

@@ -2,7 +2,8 @@
 
 use crate::algebra::kernel::{Callee, Group};
 
-use super::Value;
+/// A value: the index of the step that makes it.
+pub type Value = usize;
 
 /// A call. It happens before the first step that reads one of its results; every argument is an earlier step.
 #[derive(Clone, Debug, PartialEq, Eq)]

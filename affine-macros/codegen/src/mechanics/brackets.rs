@@ -3,10 +3,9 @@
 //! Everything dynamical is derived from this table and a Hamiltonian. Conventions: `{q, p} = 1`, `Pi[A][i]`
 //! conjugate to `phi[i][A]`.
 
-use crate::algebra::{Polynomial, Rational};
+use crate::algebra::{Expr, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
-use super::equations::gradient;
 
 /// `{a, b}` of two coordinates of a chart.
 #[must_use]
@@ -119,4 +118,12 @@ pub fn poisson(chart: &Chart, f: &Polynomial, g: &Polynomial) -> Polynomial {
         }
     }
     sum
+}
+
+/// The derivatives of `H` that do not vanish.
+#[must_use]
+pub fn gradient(chart: &Chart, h: &Polynomial) -> Vec<(Coordinate, Polynomial)> {
+    let coordinates = chart.coordinates();
+    let symbols: Vec<Expr> = coordinates.iter().map(|z| chart.symbol(*z)).collect();
+    coordinates.into_iter().zip(h.gradient(&symbols)).filter(|(_, slope)| !slope.is_zero()).collect()
 }

@@ -1,5 +1,6 @@
 //! Charts of phase space: which momenta stand beside `x` and `phi`.
 
+use crate::algebra::ring::Square;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 
 use super::constraint::Constraint;
@@ -136,6 +137,12 @@ impl Chart {
     #[must_use]
     pub fn under(self, confined: Option<Constraint>) -> Self {
         Self { confined, ..self }
+    }
+
+    /// `phi` in its entries.
+    #[must_use]
+    pub fn placement(&self) -> Square<Polynomial> {
+        self.phi.0.iter().map(|row| row.iter().map(|entry| Polynomial::atom(*entry)).collect()).collect()
     }
 
     /// Entries of the affine momentum that are linear in others, by those.

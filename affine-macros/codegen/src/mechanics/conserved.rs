@@ -5,9 +5,9 @@ use crate::algebra::residue::Residue;
 use crate::algebra::ring::{Ring, Square, deviator, skew, sum};
 use crate::algebra::{Arena, Polynomial};
 
+use super::brackets::gradient;
 use super::charts::{Chart, Coordinate};
 use super::constraint::Constraint;
-use super::equations::gradient;
 use super::flow::{Flow, at_a_point, norm_rate, power_rate};
 use super::group_point::GroupPoint;
 use super::weight;

@@ -5,7 +5,7 @@ use rustc_hash::FxHashSet;
 use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 
-use super::brackets::bracket;
+use super::brackets::{bracket, gradient};
 use super::charts::{Chart, Coordinate, Momentum};
 
 /// Straight-line system: quantities that several equations share, then the rates of the coordinates.
@@ -56,14 +56,6 @@ pub fn velocities(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> Vec<Vec<(
                 .collect()
         })
         .collect()
-}
-
-/// The derivatives of `H` that do not vanish.
-#[must_use]
-pub fn gradient(chart: &Chart, h: &Polynomial) -> Vec<(Coordinate, Polynomial)> {
-    let coordinates = chart.coordinates();
-    let symbols: Vec<Expr> = coordinates.iter().map(|z| chart.symbol(*z)).collect();
-    coordinates.into_iter().zip(h.gradient(&symbols)).filter(|(_, slope)| !slope.is_zero()).collect()
 }
 
 /// `dz/dt = {z, H} = sum over coordinates y of {z, y} dH/dy`.

@@ -10,9 +10,10 @@ use crate::mechanics::constraint::Constraint;
 use crate::mechanics::group_point::GroupPoint;
 use crate::mechanics::symmetry::Side;
 
+use super::base::Along;
 use super::principal::Principal;
 use super::rewriting::through_dilatation;
-use super::tensors::{Along, Tensors, direction, finger, green};
+use super::tensors::{Tensors, direction, finger, green};
 use super::{Base, Potential};
 
 impl Potential {

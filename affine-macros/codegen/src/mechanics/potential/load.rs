@@ -5,13 +5,12 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::equations::Load;
 
-use super::base::Base;
+use super::base::{Along, Base};
 use super::excess::Isochoric;
 use super::principal;
 use super::rewriting::through_dilatation;
 use super::second::{self, through_second_invariant};
 use super::sums::Sums;
-use super::tensors::Along;
 use super::writing::{Means, Writing};
 use super::{Potential, is_parameter};
 

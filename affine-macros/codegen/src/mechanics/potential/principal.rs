@@ -6,7 +6,7 @@ use crate::algebra::{Arena, Expr, Function, Kernel, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 
 use super::Base;
-use super::tensors::{Along, placement};
+use super::base::Along;
 
 /// Products of the entries of principal axes, in which the derivatives of log-stretches are written: with column `k` of `R`
 /// and of `L` written `R_k` and `L_k`, `dq_k = R_k . Oh R_k = L_k . Om L_k`.
@@ -86,7 +86,7 @@ pub(super) fn computed(arena: &mut Arena, chart: &Chart, counts: bool) -> (Kerne
     }
     let kernel = Kernel {
         callee: if counts { Callee::LogStretches } else { Callee::Stretches },
-        arguments: vec![Group::Matrix(placement(chart))],
+        arguments: vec![Group::Matrix(chart.placement())],
         results,
     };
     let mut shared = Vec::new();

@@ -9,7 +9,6 @@ use crate::mechanics::charts::{Chart, Momentum};
 
 use super::Base;
 use super::principal;
-use super::tensors::placement;
 use super::undeformed::{Counted, Undeformed};
 use super::volume::Volume;
 
@@ -46,7 +45,7 @@ impl Strains {
         let cofactors = Matrix::symbols(arena, "cofactor", n).0;
         Self {
             n,
-            phi: placement(chart),
+            phi: chart.placement(),
             volume,
             excess,
             green,

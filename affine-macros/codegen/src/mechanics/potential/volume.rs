@@ -9,7 +9,6 @@ use crate::mechanics::charts::{Chart, Momentum};
 
 use super::Base;
 use super::scaled::collected;
-use super::tensors::placement;
 
 /// The symbols of one volume.
 #[derive(Clone, Copy)]
@@ -153,7 +152,7 @@ impl Volume {
                 let cofactors = Matrix::symbols(arena, "cofactor", n);
                 cofactors.0[0].iter().map(|cofactor| Polynomial::atom(*cofactor)).collect()
             }
-            _ => adjugate(&placement(chart)).iter().map(|row| row[0].clone()).collect(),
+            _ => adjugate(&chart.placement()).iter().map(|row| row[0].clone()).collect(),
         };
         let mut determinant = Polynomial::zero();
         for (entry, cofactor) in chart.phi.0[0].iter().zip(first_row) {

@@ -14,7 +14,7 @@ use super::scaled::{self, scaled_bases};
 use super::second;
 use super::strain::Strains;
 use super::sums::Sums;
-use super::tensors::{Tensors, cofactors, definitions, placement, squares};
+use super::tensors::{Tensors, cofactors, definitions, squares};
 use super::undeformed::{Counted, Undeformed};
 use super::volume::Volume;
 use super::{Potential, is_parameter};
@@ -404,7 +404,7 @@ impl Means {
             (0..n).map(|a| (0..n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
         };
         let (green, finger) = (symbols(Base::Green), symbols(Base::Finger));
-        let phi = if unit { symbols(Base::Placement) } else { placement(chart) };
+        let phi = if unit { symbols(Base::Placement) } else { chart.placement() };
         let cofactors = Matrix::symbols(arena, "cofactor", n).0;
         let cofactors =
             cofactors.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
