@@ -165,9 +165,9 @@ pub fn candidates(
     };
     let mut charts: Vec<(Momentum, Option<Linear>)> =
         momenta.into_iter().map(|momentum| (momentum, linear)).collect();
-    // Its translational energy is as short as that of `p` in space. Splitting and Nystrom steps want `p`.
+    // Where a force moves `p` anyway: a constant is worth more than short equations. Splitting and Nystrom steps want `p`.
     let comoving = matches!(&h.translation, Some((Frame::Body, _))) && h.frame == Frame::Body;
-    if comoving && linear.is_some() && !pieces {
+    if comoving && !pieces && pushes_the_centre(arena, h, potential, forces) {
         charts.push((Momentum::Body, Some(Linear::Body)));
     }
     let entire: Vec<Reduction> = charts
@@ -186,6 +186,19 @@ pub fn candidates(
         })
         .collect();
     separated.into_iter().chain(entire).collect()
+}
+
+/// Does a force act on `p`, which the kinetic energy conserves?
+fn pushes_the_centre(
+    arena: &mut Arena,
+    h: &Hamiltonian,
+    potential: Option<&Potential>,
+    forces: &Forces,
+) -> bool {
+    let chart = own_chart(arena, h);
+    let loads = loads(arena, &chart, h, potential, forces);
+    let mut all = loads.iter().flat_map(|load| &load.forces);
+    all.any(|(z, force)| matches!(z, Coordinate::P(_)) && !force.is_zero())
 }
 
 /// The reductions that take the dilatation out of the state as well.
