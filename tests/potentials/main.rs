@@ -60,7 +60,7 @@ fn figures() {
 }
 
 /// An expansion forms no more than so many products of terms, counted where a clock would scatter.
-const WORK: u64 = 50_000;
+const WORK: u64 = 25_000;
 
 #[test]
 fn expansions_multiply_little_out() {
