@@ -42,7 +42,8 @@ pub fn vanishes(arena: &Arena, expr: Expr) -> bool {
     POINTS.iter().all(|point| at(arena, expr, &|name| Residue::sample(&format!("{name}{point}"))) == Some(0))
 }
 
-/// Does the expression keep its value when the symbols that are not `kept` change? Not where it has none.
+/// Does the value of the expression change with the symbols that are not `kept`, at two points? Also where it has none.
+#[must_use]
 pub fn depends_on(arena: &Arena, expr: Expr, kept: &impl Fn(&str) -> Option<Residue>) -> bool {
     let value = |point: &str| {
         at(arena, expr, &|name| kept(name).unwrap_or_else(|| Residue::sample(&format!("{name}{point}"))))

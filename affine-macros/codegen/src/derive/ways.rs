@@ -84,7 +84,7 @@ impl Place {
 /// How far from the undeformed state a placement is.
 #[derive(Clone, Copy)]
 enum Reach {
-    /// Digits matter.
+    /// What rounding does to it counts.
     Ordinary,
     /// A force has a value.
     Far,

@@ -56,8 +56,9 @@ impl Parts {
             Commuting::Drift(_) => None,
         });
         let has = |group: &str| context.model.reduced.groups.iter().any(|(name, _)| *name == group);
-        let comoving = has(Linear::Body.name());
-        let pushed = comoving || has(Linear::Space.name());
+        let linear = reduction.chart.linear;
+        let pushed = linear.is_some_and(|linear| has(linear.name()));
+        let comoving = pushed && linear == Some(Linear::Body);
         let drift = reduction.commuting.iter().any(|piece| matches!(piece, Commuting::Drift(_)));
         Self {
             origin: whirl.is_some() || drift,

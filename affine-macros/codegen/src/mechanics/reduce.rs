@@ -227,7 +227,7 @@ fn separated(
             let load = of_potential(arena, &chart, u, forces);
             let mut system = shear_system(arena, &chart, iso, &load)?;
             let fixed = take_constants(&mut system);
-            let states = states(arena, "Psi", "O", &system);
+            let states = states(arena, "Psi", ["p", "O"], &system);
             let separation = Some(Separation { slope: slope.clone(), inverse_mass: inverse_mass.clone() });
             let (commuting, layout) = (commuting.to_vec(), Layout::Entries);
             Some(Reduction {
@@ -341,10 +341,8 @@ impl Plan {
         system = system.substitute(&value).tidied(arena);
         let fixed = if self.multiplier || self.halves { Vec::new() } else { take_constants(&mut system) };
         let carried = Carried::of(arena, &system);
-        let states = states(arena, "phi", chart.momentum.symbol(), &system);
         let linear = chart.linear.map_or("p", Linear::name);
-        let states =
-            states.into_iter().map(|(name, s)| (if name == "p" { linear } else { name }, s)).collect();
+        let states = states(arena, "phi", [linear, chart.momentum.symbol()], &system);
         Reduction {
             chart,
             commuting: self.commuting.clone(),
@@ -370,7 +368,7 @@ fn conserved_layout(system: &System) -> Layout {
 fn states(
     arena: &Arena,
     placement: &'static str,
-    momentum: &'static str,
+    [linear, momentum]: [&'static str; 2],
     system: &System,
 ) -> Vec<(&'static str, Vec<Expr>)> {
     let group = |name: &'static str, wanted: fn(&Coordinate) -> bool| {
@@ -388,7 +386,7 @@ fn states(
     [
         group("x", |z| matches!(z, Coordinate::X(_))),
         group(placement, |z| matches!(z, Coordinate::Phi(..))),
-        group("p", |z| matches!(z, Coordinate::P(_))),
+        group(linear, |z| matches!(z, Coordinate::P(_))),
         group(momentum, |z| matches!(z, Coordinate::M(..))),
         carried(Carried::InverseDilatation),
         carried(Carried::MeanLogStretch),

@@ -70,7 +70,7 @@ fn in_turn(n: usize, place: usize) -> impl Iterator<Item = Forces> {
 /// Every family under every kind of forces.
 #[test]
 fn every_family() {
-    let mut random = Random::new(64);
+    let mut random = Random::new(61);
     let mut taken = BTreeSet::new();
     for n in [2, 3] {
         for (place, family) in families().into_iter().enumerate() {
@@ -89,7 +89,7 @@ fn every_family() {
 /// Energies on momenta, and motions confined to groups: of each kind of forces some have a meaning there.
 #[test]
 fn every_energy() {
-    let mut random = Random::new(63);
+    let mut random = Random::new(62);
     for n in [2, 3] {
         for (place, energy) in energies(&mut random, n).into_iter().enumerate() {
             // The dilatation and the Casimirs meet in few of them.

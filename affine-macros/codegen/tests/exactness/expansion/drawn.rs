@@ -115,7 +115,7 @@ impl Forces {
                 random,
             ),
             Self::Separable => {
-                let dilatational = ["q^2/2", "sinh(q)^2", "0", "0"][chosen(random, 4)];
+                let dilatational = ["q^2/2", "sinh(q)^2", "0"][chosen(random, 3)];
                 let shear = ["tr(G)*exp(-2*q)", "exp(-4*q)*tr(G*G) + tr(G)^2*exp(-4*q)"][chosen(random, 2)];
                 let fibre = ["", "", " + G[1,1]*exp(-2*q)", " + Ct[1,2]*exp(-2*q)"][chosen(random, 4)];
                 format!(", potential = {c}*({dilatational}) + {shear}{fibre}")
