@@ -7,6 +7,7 @@
 mod charts;
 mod energies;
 mod table;
+mod tidal;
 
 use table::{Energy, Row};
 

@@ -6,6 +6,7 @@ mod derivative;
 pub mod division;
 pub mod evaluate;
 pub mod factor;
+mod fold;
 pub mod function;
 pub mod kernel;
 pub mod lagrange;

@@ -14,6 +14,7 @@ mod far_away;
 mod invariance;
 mod load;
 mod principal;
+mod pulled_back;
 mod restriction;
 mod rewriting;
 mod scaled;

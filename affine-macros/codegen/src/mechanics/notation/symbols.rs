@@ -168,6 +168,11 @@ pub const SYMBOLS: &[Symbol] = &[
     of("slope_finger_#", "beta_Ct_#", "\\beta_{\\tilde C_{#}}", "the response to an entry of Ct"),
     of("slope_phi_#", "beta_phi_#", "\\beta_{\\varphi_{#}}", "the response to an entry of phi"),
     of("slope_x_#", "beta_x_#", "\\beta_{x_{#}}", "the response to a component of x"),
+    of("pulled_back_#", "x_hat_#", "\\hat x_{#}", "the position pulled back to the body, phi^T x"),
+    of("pushed_forward_#", "chi_#", "\\chi_{#}", "components of Ct x = phi x_hat"),
+    applied(of("pulled_back_square", "|x_hat|^2", "|\\hat x|^2", "its square, x . Ct x")),
+    of("slope_pulled_back", "beta_x_hat", "\\beta_{\\hat x}", "the response to it, -2 times the slope of U"),
+    of("weighted_#", "xi_#", "\\xi_{#}", "that times x, or times x_hat in the body"),
     of("tension_#", "tau_#", "\\tau_{#}", "the response to q_a; over Q_a^2 where it stands at f_a"),
     // Mass matrices and their factors.
     whole("J", "J", "an inertia that no field is"),

@@ -8,6 +8,7 @@ use crate::mechanics::equations::Load;
 use super::base::{Along, Base};
 use super::excess::Isochoric;
 use super::principal;
+use super::pulled_back::PulledBack;
 use super::rewriting::through_dilatation;
 use super::second::{self, through_second_invariant};
 use super::sums::Sums;
@@ -20,6 +21,8 @@ pub(super) struct Draft<'a> {
     pub(super) along: Along,
     pub(super) means: Means,
     pub(super) load: Load,
+    /// The position beside the entries of `Ct`, where these stand nowhere else.
+    pulled_back: Option<PulledBack>,
 }
 
 impl Potential {
@@ -36,7 +39,7 @@ impl Potential {
             Momentum::Canonical => Along::Placement,
         };
         let means = Means::new(arena, chart, writing);
-        let mut draft = Draft { chart, along, means, load: Load::default() };
+        let mut draft = Draft { chart, along, means, load: Load::default(), pulled_back: None };
         if self.has_single_stretches() {
             let (kernel, shared) = principal::computed(arena, chart, writing.counts());
             draft.load.kernels.push(kernel);
@@ -91,13 +94,17 @@ impl Potential {
         }
         let slopes: Vec<(Base, Polynomial)> =
             named.into_iter().map(|(base, form)| (base, draft.normal_form(arena, form))).collect();
-        for (symbol, sum) in sums.known() {
-            let form = draft.normal_form(arena, *sum);
+        let mut slopes: Vec<(Base, Polynomial)> =
+            slopes.into_iter().map(|(base, form)| (base, form.scaled(&base.weight(self.dim)))).collect();
+        let mut known: Vec<(Expr, Polynomial)> =
+            sums.known().iter().map(|(symbol, sum)| (*symbol, draft.normal_form(arena, *sum))).collect();
+        draft.pull_back(arena, &mut slopes, &mut known);
+        for (symbol, form) in known {
             // Where all of the force vanishes with one, its digits are those of the force.
-            let is_factor = slopes.iter().all(|(_, slope)| slope.terms().all(|(m, _)| m.contains(symbol)));
-            draft.raised(arena, (*symbol, form), is_factor);
+            let is_factor = slopes.iter().all(|(_, slope)| slope.terms().all(|(m, _)| m.contains(&symbol)));
+            draft.raised(arena, (symbol, form), is_factor);
         }
-        slopes.into_iter().map(|(base, form)| (base, form.scaled(&base.weight(self.dim)))).collect()
+        slopes
     }
 }
 
@@ -165,6 +172,30 @@ impl Draft<'_> {
         self.named(arena, &base.slope_name(), &form)
     }
 
+    /// Takes `x . Ct x` for the entries of `Ct`, where slopes, sums and power have them nowhere else.
+    fn pull_back(
+        &mut self,
+        arena: &mut Arena,
+        slopes: &mut Vec<(Base, Polynomial)>,
+        sums: &mut [(Expr, Polynomial)],
+    ) {
+        if self.chart.confined.is_some() || matches!(self.means, Means::Unit(_)) {
+            return;
+        }
+        let Some(mut found) = PulledBack::of(arena, self.chart, slopes) else { return };
+        slopes.retain(|(base, _)| !matches!(base, Base::Finger(..)));
+        let slope = found.through(arena, &found.slope);
+        found.slope = self.named(arena, "slope_pulled_back", &slope);
+        let slopes = slopes.iter_mut().map(|(_, slope)| slope);
+        let work = self.load.work.iter_mut().map(|(_, power)| power);
+        for form in slopes.chain(sums.iter_mut().map(|(_, sum)| sum)).chain(work) {
+            let shorter = found.through(arena, form);
+            *form = shorter.folded(&slope, &found.slope).unwrap_or(shorter);
+        }
+        self.share(found.definitions(self.chart));
+        self.pulled_back = Some(found);
+    }
+
     /// The normal form of a part of a slope.
     fn normal_form(&mut self, arena: &mut Arena, form: Expr) -> Polynomial {
         let form = self.means.normal_form(arena, form);
@@ -229,10 +260,20 @@ impl Draft<'_> {
 
     /// The forces on the affine momentum.
     fn forces(&mut self, arena: &mut Arena, slopes: &[(Base, Polynomial)]) -> Vec<Vec<Polynomial>> {
-        match self.along {
+        let mut forces = match self.along {
             Along::Placement => self.on_placement(arena, slopes),
             _ => self.on_spin(arena, slopes),
+        };
+        let Some(pulled_back) = self.pulled_back.take() else { return forces };
+        let [left, right] = pulled_back.direction(self.along);
+        for (b, entry) in right.iter().enumerate() {
+            let weighted = pulled_back.slope.mul(&Polynomial::atom(*entry));
+            let weighted = self.named(arena, &format!("weighted_{}", b + 1), &weighted);
+            for (row, entry) in forces.iter_mut().zip(left) {
+                row[b].add_product(&weighted, &Polynomial::atom(*entry), &Rational::ONE);
+            }
         }
+        forces
     }
 
     pub(super) fn empty(&self) -> Vec<Vec<Polynomial>> {

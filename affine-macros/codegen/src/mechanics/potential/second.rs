@@ -13,32 +13,9 @@ pub(super) fn symbol(arena: &mut Arena) -> Expr {
 /// The polynomial with `2 I2` for `(tr G)^2 - tr G^2`, wherever that stands in it with one factor; `None` where it does not.
 pub(super) fn through_second_invariant(arena: &mut Arena, form: &Polynomial) -> Option<Polynomial> {
     let [trace, of_square] = [Base::Trace, Base::TraceOfSquare].map(|base| base.symbol(arena));
-    let mut result = None;
-    for (monomial, c) in form.terms() {
-        let Some(rest) = without(monomial, &[trace, trace]) else { continue };
-        let with = |atom: Expr| [rest.as_slice(), &[atom]].concat();
-        let partner = Polynomial::term(with(of_square), Rational::ONE);
-        let partner = partner.terms().next().map(|(monomial, _)| monomial.clone()).unwrap_or_default();
-        let opposite = form.terms().any(|(other, k)| *other == partner && *k == -c);
-        if opposite {
-            let second = symbol(arena);
-            let result = result.get_or_insert_with(|| form.clone());
-            result.add_term(monomial.clone(), &-c);
-            result.add_term(partner, c);
-            result.add_term(with(second), &(c + c));
-        }
-    }
-    result
-}
-
-/// A sorted monomial without some of its atoms; `None` where it has not all of them.
-fn without(monomial: &[Expr], atoms: &[Expr]) -> Option<Vec<Expr>> {
-    let mut rest = monomial.to_vec();
-    for atom in atoms {
-        let place = rest.iter().position(|known| known == atom)?;
-        rest.remove(place);
-    }
-    Some(rest)
+    let mut difference = Polynomial::term(vec![trace; 2], Rational::ONE);
+    difference.add_term(vec![of_square], &Rational::MINUS_ONE);
+    form.folded(&difference, &Polynomial::term(vec![symbol(arena)], Rational::from(2)))
 }
 
 /// `I2`, the sum of the principal minors of the tensor that a chart has.
