@@ -13,6 +13,7 @@ pub mod lagrange;
 pub mod linear;
 pub mod matrix;
 pub mod polynomial;
+pub mod products;
 pub mod rational;
 pub mod residue;
 pub mod ring;

@@ -4,6 +4,7 @@ use rustc_hash::FxHashSet;
 
 use crate::algebra::bind::Constants;
 use crate::algebra::factor::{First, complete_sums, factored, number_of_all, scale_atoms};
+use crate::algebra::products::share_products;
 use crate::algebra::{Arena, Expr, Kernel, Polynomial};
 use crate::ir::Program;
 use crate::ir::build::{Builder, Ways};
@@ -66,45 +67,73 @@ pub fn straight_line(
         *polynomial = constants.bind(arena, polynomial, &moving);
     }
     let scaled = scale_atoms(arena, &mut polynomials, &moving);
-    let (shared_forms, other_forms) = polynomials.split_at(batch.shared.len());
-    let (result_forms, argument_forms) = other_forms.split_at(batch.results.len());
-    let mut arguments = argument_forms.iter().cloned();
-    let calls: Vec<Kernel> = batch
-        .kernels
-        .iter()
-        .map(|kernel| kernel.with_arguments(|p| arguments.next().unwrap_or_else(|| p.clone())))
-        .collect();
-    let open: Vec<(Expr, Polynomial)> = sums
-        .into_iter()
-        .chain(scaled)
-        .chain(batch.shared.iter().map(|(symbol, _)| *symbol).zip(shared_forms.iter().cloned()))
-        .collect();
-    let mut built = |mut builder: Builder, first: First| {
-        define(arena, &mut builder, (open.clone(), calls.clone()), first);
-        for ((name, _), form) in batch.results.iter().zip(result_forms) {
+    let mut sharing = polynomials.clone();
+    let products = share_products(arena, &mut sharing);
+    let named: Vec<_> = sums.into_iter().chain(scaled).collect();
+    let mut programs = ways(arena, &Forms::new(batch, &polynomials, named.clone()));
+    if !products.is_empty() {
+        let named = named.into_iter().chain(products).collect();
+        programs.extend(ways(arena, &Forms::new(batch, &sharing, named)));
+    }
+    shortest(programs)
+}
+
+/// What a program computes, in the forms that are to be factored.
+struct Forms<'a> {
+    definitions: Vec<(Expr, Polynomial)>,
+    calls: Vec<Kernel>,
+    results: Vec<(&'a str, Polynomial)>,
+}
+
+impl<'a> Forms<'a> {
+    /// The polynomials of a batch, its shared quantities before its results and these before the arguments of its calls, with
+    /// the definitions of what was named on the way.
+    fn new(batch: &'a Batch, polynomials: &[Polynomial], named: Vec<(Expr, Polynomial)>) -> Self {
+        let mut forms = polynomials.iter().cloned();
+        let mut definitions = named;
+        definitions.extend(batch.shared.iter().map(|(symbol, _)| *symbol).zip(forms.by_ref()));
+        let results = batch.results.iter().map(|(name, _)| name.as_str()).zip(forms.by_ref()).collect();
+        let mut argument = |p: &Polynomial| forms.next().unwrap_or_else(|| p.clone());
+        let calls = batch.kernels.iter().map(|kernel| kernel.with_arguments(&mut argument)).collect();
+        Self { definitions, calls, results }
+    }
+
+    /// One program of them, and whether it has powers.
+    fn built(&self, arena: &mut Arena, mut builder: Builder, first: First) -> (bool, Program) {
+        define(arena, &mut builder, (self.definitions.clone(), self.calls.clone()), first);
+        for (name, form) in &self.results {
             let value = factored(arena, form, first);
             builder.output(arena, name, value);
         }
         (builder.has_powers(), with_inverse_roots(&builder.finish()))
-    };
-    let has_numbers =
-        open.iter().map(|(_, form)| form).chain(result_forms).any(|p| number_of_all(p).is_some());
-    let (has_powers, program) = built(Builder::new(), First::Atom);
+    }
+
+    fn has_numbers(&self) -> bool {
+        let mut forms = self.definitions.iter().map(|(_, form)| form);
+        forms.any(|p| number_of_all(p).is_some())
+            || self.results.iter().any(|(_, p)| number_of_all(p).is_some())
+    }
+}
+
+/// Programs for the same forms.
+fn ways(arena: &mut Arena, forms: &Forms) -> Vec<Program> {
+    let (has_powers, program) = forms.built(arena, Builder::new(), First::Atom);
     let mut ways = Vec::new();
     let steps_through_powers = Ways { steps_through_powers: true, ..Ways::default() };
     if has_powers {
-        ways.push(built(Builder::by(steps_through_powers), First::Atom).1);
+        ways.push(forms.built(arena, Builder::by(steps_through_powers), First::Atom).1);
     }
     if program.operations().div > 1 {
         let inverts = Ways { inverts_divisors: true, ..Ways::default() };
-        ways.push(built(Builder::by(inverts), First::Atom).1);
-        ways.push(built(Builder::by(Ways { inverts_divisors: true, ..steps_through_powers }), First::Atom).1);
+        ways.push(forms.built(arena, Builder::by(inverts), First::Atom).1);
+        let inverts = Ways { inverts_divisors: true, ..steps_through_powers };
+        ways.push(forms.built(arena, Builder::by(inverts), First::Atom).1);
     }
     ways.push(program);
-    if has_numbers {
-        ways.push(built(Builder::new(), First::Number).1);
+    if forms.has_numbers() {
+        ways.push(forms.built(arena, Builder::new(), First::Number).1);
     }
-    shortest(ways)
+    ways
 }
 
 /// The shortest of some programs, the first of several.
