@@ -67,6 +67,16 @@ pub struct Program {
 }
 
 impl Program {
+    /// The names of what it reads.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<&str> {
+        let inputs = self.steps.iter().filter_map(|step| match step {
+            Op::Input(name) => Some(name.as_str()),
+            _ => None,
+        });
+        inputs.collect()
+    }
+
     /// Name of a value: what the derivation calls it, or its number.
     #[must_use]
     pub fn name(&self, value: Value) -> String {

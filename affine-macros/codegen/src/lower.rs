@@ -15,7 +15,7 @@ use crate::mechanics::dissipation::Dissipation;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::kinetic::{Coefficient, Frame, Term, TermKind};
 use crate::mechanics::metrics::{Metrics, Rebased};
-use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
+use crate::spec::{self, Expression, ExpressionKind, FIELD, Spec, Value, field_entry};
 
 pub use constant::{LARGEST_POWER, constant, integer};
 pub use metrics::metrics;
@@ -23,18 +23,9 @@ pub use momentum_side::stated;
 pub use potential::potential;
 pub(crate) use potential::{difference_of, energy};
 
-/// Stem of the symbols of fields: kept apart from the names that the derivation makes.
-pub const FIELD: &str = "self.";
-
 /// Does the expression depend on more than fields?
 pub(crate) fn moves(arena: &Arena, expr: Expr) -> bool {
     arena.any_symbol(expr, &mut |symbol| arena.name(symbol).is_some_and(|name| !name.starts_with(FIELD)))
-}
-
-/// The symbol of an entry of a field of matrix type, indices from 1.
-#[must_use]
-pub fn field_entry(field: impl std::fmt::Display, row: usize, column: usize) -> String {
-    format!("{FIELD}{field}[{row},{column}]")
 }
 
 /// The terms of a quadratic form in dimension `n` that are not exactly zero, each with its place in `written`.

@@ -29,7 +29,7 @@ pub use momentum_side::MomentumKind;
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
 pub use names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
 pub(crate) use symbol::numbered;
-pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
+pub use symbol::{FIELD, POTENTIAL_SYMBOLS, SYMBOLS, Symbol, field_entry};
 
 /// Something with its place in the source.
 #[derive(Clone, Copy, Debug)]

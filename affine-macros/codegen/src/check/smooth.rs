@@ -8,12 +8,12 @@ use super::potential::{energy, parts};
 use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function};
 use crate::diagnostics::{Diagnostics, PotentialMistake};
-use crate::lower::{self, FIELD};
+use crate::lower;
 use crate::mechanics::potential::TIME;
 use crate::mechanics::potential::stretches::{
     canonical, exchanged, is_stretched, singular_at_coincidence, vanishes_at_coincidence,
 };
-use crate::spec::{Expression, ExpressionKind, Spec};
+use crate::spec::{Expression, ExpressionKind, FIELD, Spec};
 
 /// Every rule; a potential that breaks one of symmetry is not asked for more.
 pub(super) fn potential(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) {

@@ -145,6 +145,14 @@ pub struct Equations {
     pub program: Program,
 }
 
+impl Equations {
+    /// Names of the components of the array.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        self.groups.iter().flat_map(|(_, names)| names.clone()).collect()
+    }
+}
+
 /// Legendre transformation of the centre of mass where it depends on `phi`.
 pub struct MixedMasses {
     /// `(phi, x_dot) -> p`.
@@ -229,7 +237,7 @@ impl Model {
     /// Derives what `emit(...)` asks for.
     #[must_use]
     pub fn with(mut self, capabilities: &[Spanned<Capability>]) -> Self {
-        let states: Vec<String> = self.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect();
+        let states = self.reduced.names();
         let program = &self.reduced.program;
         for capability in capabilities {
             match capability.value {

@@ -46,10 +46,7 @@ pub trait Written {
         let mut inputs = Vec::new();
         self.visit(&mut |part| {
             if let Part::Program(program) = part {
-                inputs.extend(program.steps.iter().filter_map(|step| match step {
-                    Op::Input(name) => Some(name.as_str()),
-                    _ => None,
-                }));
+                inputs.extend(program.inputs());
             }
         });
         inputs

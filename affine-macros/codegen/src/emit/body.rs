@@ -4,12 +4,13 @@ use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
-use crate::algebra::{Function, Rational};
-use crate::derive::Written;
+use crate::algebra::Function;
 use crate::ir::call::Call;
 use crate::ir::{Op, Program, Value};
 
 use super::kernel;
+use super::number::{Number, name_of};
+use super::scope::Scope;
 
 /// A program as statements and result expressions.
 pub(super) struct Body {
@@ -24,54 +25,6 @@ impl Body {
     pub(super) fn result(&self) -> TokenStream {
         self.results.iter().cloned().collect()
     }
-}
-
-/// What a body computes with.
-#[derive(Clone, Copy)]
-pub(super) enum Number<'a> {
-    /// A type parameter.
-    Generic(&'a Ident),
-    /// Doubles.
-    Double,
-}
-
-impl Number<'_> {
-    /// The number, to double-double precision where it is generic.
-    pub(super) fn exact(self, number: &Rational) -> TokenStream {
-        match self {
-            Self::Generic(scalar) => exact(scalar, number),
-            Self::Double => literal(number.to_doubles().0, "f64"),
-        }
-    }
-
-    /// The double that `value` is.
-    pub(super) fn of_double(self, value: TokenStream) -> TokenStream {
-        match self {
-            Self::Generic(scalar) => quote!(#scalar::constant(#value, 0.0)),
-            Self::Double => value,
-        }
-    }
-}
-
-/// A number to double-double precision.
-pub(super) fn exact(scalar: &Ident, number: &Rational) -> TokenStream {
-    let (hi, lo) = number.to_doubles();
-    let (hi, lo) = (literal(hi, ""), literal(lo, ""));
-    quote!(#scalar::constant(#hi, #lo))
-}
-
-/// How a body names its surroundings.
-pub(super) struct Scope<'a> {
-    /// Type of the numbers.
-    pub number: Number<'a>,
-    /// Expression of an input.
-    pub input: &'a dyn Fn(&str) -> TokenStream,
-    /// Have the fields that it calls other bases than its equations?
-    pub rebased: bool,
-    /// Where the specification names these fields.
-    pub places: &'a [Span],
-    /// The runtime's support module.
-    pub rt: &'a Ident,
 }
 
 /// Binding strength of an expression's outermost operator.
@@ -103,11 +56,6 @@ pub(super) fn body(program: &Program, scope: &Scope) -> Body {
     }
     let results = program.outputs.iter().map(|(_, v)| writer.expression(*v).0).collect();
     Body { lets: writer.lets, results }
-}
-
-/// The inputs a program reads.
-pub(super) fn inputs(program: &Program) -> Vec<&str> {
-    program.inputs()
 }
 
 /// Expressions nested deeper than this are cut by a name.
@@ -155,7 +103,7 @@ impl Writer<'_> {
         };
         let arguments: Vec<TokenStream> =
             call.arguments.iter().map(|group| kernel::written(group, |v| self.expression(*v).0)).collect();
-        let read = inputs(self.program);
+        let read = self.program.inputs();
         let results = call.results.iter().map(|group| kernel::bound(group, &read));
         self.lets.extend(kernel::statement(self.scope, call.callee, arguments, results));
         self.called.push(call);
@@ -249,19 +197,6 @@ impl Writer<'_> {
     }
 }
 
-/// The name of a number; `roots` counts those that have no short one.
-pub(super) fn name_of(number: &Rational, roots: &mut usize) -> Ident {
-    match number {
-        zero if zero.is_zero() => format_ident!("zero"),
-        one if one.is_one() => format_ident!("one"),
-        root if root.is_long() => {
-            *roots += 1;
-            format_ident!("root{roots}")
-        }
-        _ => format_ident!("r{}", number.to_string().replace('/', "_").replace('-', "m")),
-    }
-}
-
 /// An operator that stands inside the macro. Where all tokens of an array have the place of the attribute, linters look for
 /// the missing comma of `[a -b]` between the lines of the attribute.
 pub(super) fn inner(operator: TokenStream) -> TokenStream {
@@ -271,19 +206,4 @@ pub(super) fn inner(operator: TokenStream) -> TokenStream {
         token
     };
     operator.into_iter().map(placed).collect()
-}
-
-/// A double.
-pub(super) fn double(value: f64) -> TokenStream {
-    literal(value, "")
-}
-
-/// A double with an exponent where that is shorter.
-fn literal(value: f64, suffix: &str) -> TokenStream {
-    let size = value.abs();
-    let plain = size == 0.0 || (1e-4..1e16).contains(&size);
-    let digits = if plain { format!("{size:?}") } else { format!("{size:e}") };
-    // Both forms are literals of Rust.
-    let digits: TokenStream = format!("{digits}{suffix}").parse().unwrap_or_default();
-    if value.is_sign_negative() { quote!(-#digits) } else { quote!(#digits) }
 }

@@ -5,9 +5,9 @@ use quote::quote;
 
 use crate::mechanics::reduce::{ClosedForm, Commuting};
 
-use super::Context;
 use super::body::Body;
-use super::dynamics::own_spin;
+use super::context::Context;
+use super::point::own_spin;
 
 /// `geodesic`: the closed form where the model and the scene have one.
 pub(super) fn geodesic(context: &Context) -> TokenStream {

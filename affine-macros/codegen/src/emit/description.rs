@@ -8,7 +8,9 @@ use crate::mechanics::conserved::Candidate;
 use crate::mechanics::describe::Formula;
 use crate::mechanics::symmetry::Group;
 
-use super::{Context, number};
+use super::context::Context;
+use super::domain;
+use super::number::number;
 
 /// Documentation of the implementation, line by line.
 pub(super) fn docs(context: &Context) -> Vec<String> {
@@ -136,8 +138,8 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         let (what, scope) = (&left_out.what, format_ident!("{}", format!("{:?}", left_out.scope)));
         quote!(#rt::LeftOut { what: #what, scope: #rt::Scope::#scope })
     });
-    let domain = super::domain::guards(context);
-    let angles = super::domain::angles(context);
+    let domain = domain::guards(context);
+    let angles = domain::angles(context);
     let signature = match model.signature {
         Some((p, q)) => {
             let (p, q) = (number(p), number(q));

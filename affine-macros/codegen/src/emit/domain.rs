@@ -3,8 +3,9 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::Context;
-use super::dynamics::{at_placement, bind_point, time};
+use super::context::Context;
+use super::pattern::time;
+use super::point::{at_placement, bind_point};
 use crate::mechanics::potential::{Bound, Guard};
 
 /// The functions of the state that keep their sign, in the description of the model.

@@ -7,11 +7,14 @@ use crate::derive::VelocitySide;
 use crate::ir::Program;
 use crate::mechanics::charts::Linear;
 use crate::mechanics::kinetic::Frame;
-use crate::mechanics::potential::{DILATATION, TIME};
 
 use super::body::Body;
-use super::points::{affine_velocity, components, wrapper};
-use super::{Context, identifiers, inputs, mixed, pattern};
+use super::context::Context;
+use super::mixed;
+use super::pattern::{components, identifiers, pattern, time};
+use super::point::{
+    affine_velocity, at_placement, bind_components, bind_point, own_spin, placement, wrapper,
+};
 
 /// The methods of the model trait that do not reduce.
 pub(super) fn methods(context: &Context) -> TokenStream {
@@ -24,21 +27,11 @@ pub(super) fn methods(context: &Context) -> TokenStream {
     quote!(#velocity #kinetic_energy #hamiltonian #flat #equations #regularity)
 }
 
-/// The model's own affine spin of `point`, as a matrix.
-pub(super) fn own_spin(context: &Context) -> TokenStream {
-    let rt = &context.names.rt;
-    match context.model.frame {
-        Frame::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
-        Frame::Space => quote!(#rt::Phase::sigma(point).0.0),
-        Frame::Flat => quote!(#rt::Phase::pi(point).0.0),
-    }
-}
-
 fn velocity(context: &Context) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
     let spin = own_spin(context);
     let names = components(context.model.frame.momentum_name(), context.model.dim);
-    let used = inputs(&context.model.velocity);
+    let used = context.model.velocity.inputs();
     let rows = names.iter().map(|row| pattern(row, &used));
     let Body { lets, results } = context.generic(&context.model.velocity);
     let out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
@@ -48,7 +41,7 @@ fn velocity(context: &Context) -> TokenStream {
         Frame::Space => quote!(#velocity * #rt::Phase::phi(point)),
         Frame::Flat => velocity,
     };
-    let placement = mixed::placement(context, &context.model.velocity, &quote!(#rt::Phase::phi(point)));
+    let placement = placement(context, &context.model.velocity, &quote!(#rt::Phase::phi(point)));
     let (mass, x_dot) = match (&context.model.mass, context.model.translation) {
         (None, Some(_)) => mixed::velocity_of_centre(context),
         (Some(program), Some(frame)) => {
@@ -95,11 +88,11 @@ fn kinetic_energy(context: &Context) -> TokenStream {
             }
         };
     };
-    let used = inputs(program);
+    let used = program.inputs();
     let names = components(context.model.frame.velocity_name(), context.model.dim);
     let rows = names.iter().map(|row| pattern(row, &used));
     let o = affine_velocity(context, &quote!(phi));
-    let placement = mixed::placement(context, program, &quote!(phi));
+    let placement = placement(context, program, &quote!(phi));
     let reads_phi = context.model.frame != Frame::Flat
         || context.model.translation == Some(Frame::Body)
         || !placement.is_empty();
@@ -140,50 +133,6 @@ fn kinetic_energy(context: &Context) -> TokenStream {
             #energy
         }
     }
-}
-
-/// `let` statements that bind the components of `point` that a program reads.
-pub(super) fn bind_point(context: &Context, program: &Program) -> TokenStream {
-    let rt = &context.names.rt;
-    let used = inputs(program);
-    let spin = own_spin(context);
-    let mut lets = TokenStream::new();
-    for (group, names) in &context.model.full.groups {
-        if !names.iter().any(|name| used.contains(&name.as_str())) {
-            continue;
-        }
-        let value = match *group {
-            "x" => quote!(#rt::components(&#rt::Phase::x(point))),
-            "phi" => quote!(#rt::rows(#rt::Phase::phi(point))),
-            "p" => quote!(#rt::components(&#rt::Phase::p(point))),
-            "p_hat" => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
-            _ => quote!(#rt::rows(&#spin)),
-        };
-        lets.extend(bind_group(context, group, names, &used, &value));
-    }
-    lets
-}
-
-/// Binds the components of a vector or a matrix that are both in a group of the array and used.
-fn bind_group(
-    context: &Context,
-    group: &str,
-    names: &[String],
-    used: &[&str],
-    value: &TokenStream,
-) -> TokenStream {
-    let stem = match group {
-        "x" | "p" | "p_hat" => {
-            let bound = pattern(names, used);
-            return quote!(let #bound = #value;);
-        }
-        "phi" => "phi",
-        _ => context.model.frame.momentum_name(),
-    };
-    let used: Vec<&str> = used.iter().copied().filter(|name| names.iter().any(|n| n == name)).collect();
-    let rows = components(stem, context.model.dim);
-    let rows = rows.iter().map(|row| pattern(row, &used));
-    quote!(let [#(#rows),*] = #value;)
 }
 
 fn hamiltonian(context: &Context) -> TokenStream {
@@ -227,55 +176,13 @@ fn energy(context: &Context, program: &Program) -> TokenStream {
     }
 }
 
-/// `let` statements for the functions of the placement of `point` that a program reads: `q`, `D` and `q_a`.
-pub(super) fn at_placement(context: &Context, program: &Program) -> TokenStream {
-    let rt = &context.names.rt;
-    let used = inputs(program);
-    let of_placement = |name: &str| {
-        let (symbol, function) = match name {
-            "q" => (format_ident!("q"), format_ident!("mean_log_stretch")),
-            _ => (format_ident!("{name}"), format_ident!("{name}")),
-        };
-        used.contains(&name).then(|| quote!(let #symbol = #rt::#function(#rt::Phase::phi(point));))
-    };
-    let (mean, dilatation) = (of_placement("q"), of_placement(DILATATION));
-    let names: Vec<String> = (1..=context.model.dim).map(|a| format!("q_{a}")).collect();
-    let stretches = names.iter().any(|name| used.contains(&name.as_str())).then(|| {
-        let bound = pattern(&names, &used);
-        quote!(let #bound = #rt::log_stretches(#rt::Phase::phi(point));)
-    });
-    quote! {
-        #mean
-        #dilatation
-        #stretches
-    }
-}
-
-/// Name of the time as a parameter: an idle one where the program does not read it.
-pub(super) fn time(program: &Program) -> TokenStream {
-    if inputs(program).contains(&TIME) { quote!(t) } else { quote!(_t) }
-}
-
 /// `flatten` and `unflatten`.
 fn flat(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let n = context.model.dim;
-    let groups = &context.model.full.groups;
-    let all: Vec<String> = groups.iter().flat_map(|(_, names)| names.clone()).collect();
+    let all = context.model.full.names();
     let names = identifiers(&all);
-    let mut bound = TokenStream::new();
-    let spin = own_spin(context);
-    for (group, names) in groups {
-        let value = match *group {
-            "x" => quote!(#rt::components(&#rt::Phase::x(point))),
-            "phi" => quote!(#rt::rows(#rt::Phase::phi(point))),
-            "p" => quote!(#rt::components(&#rt::Phase::p(point))),
-            "p_hat" => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
-            _ => quote!(#rt::rows(&#spin)),
-        };
-        let used: Vec<&str> = names.iter().map(String::as_str).collect();
-        bound.extend(bind_group(context, group, names, &used, &value));
-    }
+    let bound = bind_components(context, &all.iter().map(String::as_str).collect::<Vec<_>>());
     let rows = |stem: &str| {
         let rows = components(stem, n).into_iter().map(|row| {
             let row = identifiers(&row);
@@ -324,8 +231,7 @@ fn flat(context: &Context) -> TokenStream {
 fn hamilton_equations(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.full.program;
-    let all: Vec<String> = context.model.full.groups.iter().flat_map(|(_, names)| names.clone()).collect();
-    let bound = pattern(&all, &inputs(program));
+    let bound = pattern(&context.model.full.names(), &program.inputs());
     let time = time(program);
     let Body { lets, results } = context.generic(program);
     // A constraint that momenta are not projected to is kept by a multiplier.

@@ -3,8 +3,9 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::Context;
-use super::dynamics::{bind_point, time};
+use super::context::Context;
+use super::pattern::time;
+use super::point::bind_point;
 
 /// `power`: nothing where the energy is that of the trait's default, conserved.
 pub(super) fn power(context: &Context) -> TokenStream {

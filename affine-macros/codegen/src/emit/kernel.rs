@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 
-use super::body::Scope;
+use super::scope::Scope;
 use crate::algebra::kernel::{Asked, Callee, Group};
 
 /// The statement of a call. One group of results is bound by itself, several as a tuple. Fields of a model with metrics

@@ -4,13 +4,14 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::algebra::Rational;
-use crate::algebra::kernel::Callee;
 use crate::derive::{ChangeOfBases, GivenMatrix, GivenSource, Preparation};
 use crate::mechanics::kinetic::Frame;
 
-use super::body::{Body, Number, exact};
-use super::prepare::{matrix_name, over_fields};
-use super::{Context, number, runtime};
+use super::body::Body;
+use super::context::Context;
+use super::fields::{matrix_name, over_fields};
+use super::names::runtime;
+use super::number::{exact, number};
 use crate::ir::Program;
 
 /// The bases as a function of the scalar, where they are known, and the methods of the trait that tell of them.
@@ -138,48 +139,5 @@ pub(super) fn told_in_given_bases(context: &Context, result: TokenStream) -> Tok
             quote!(#rt::told_in_given_bases(#factors, #result))
         }
         _ => result,
-    }
-}
-
-impl Context<'_> {
-    /// The bases over a scalar, or over the one that is asked for where they stand.
-    pub(super) fn bases(&self, scalar: Option<&TokenStream>) -> TokenStream {
-        let of = scalar.map(|scalar| quote!(::<#scalar>));
-        match self.model.metrics {
-            Some(ChangeOfBases::Prepared(_)) => quote!(self.bases.over #of ()),
-            _ => quote!(bases #of ()),
-        }
-    }
-
-    /// The change of bases for the fields that a program calls.
-    pub(super) fn change_for(&self, program: &Program, number: Number) -> Option<TokenStream> {
-        let calls = program.calls.iter().any(|call| matches!(call.callee, Callee::Custom(..)));
-        let rt = &self.names.rt;
-        let scalar = match number {
-            Number::Generic(scalar) => quote!(#scalar),
-            Number::Double => quote!(#rt::f64),
-        };
-        let bases = self.bases(Some(&scalar));
-        (calls && self.model.metrics.is_some()).then(|| quote!(let change = &#bases;))
-    }
-
-    /// Puts `point`, a reference, in orthonormal bases.
-    pub(super) fn inward(&self) -> TokenStream {
-        let rt = &self.names.rt;
-        self.with_metrics(quote!(let point = &#rt::Model::orthonormal(self, point);))
-    }
-
-    /// A point in the user's bases.
-    pub(super) fn outward(&self, scalar: &TokenStream, point: TokenStream) -> TokenStream {
-        let (rt, bases) = (&self.names.rt, self.bases(Some(scalar)));
-        match self.model.metrics {
-            Some(_) => quote!(#rt::Phase::from_orthonormal(&#point, &#bases)),
-            None => point,
-        }
-    }
-
-    /// Statements for a model with metrics.
-    pub(super) fn with_metrics(&self, statements: TokenStream) -> TokenStream {
-        if self.model.metrics.is_some() { statements } else { TokenStream::new() }
     }
 }

@@ -6,25 +6,16 @@ use quote::quote;
 use crate::ir::Program;
 
 use super::body::Body;
-use super::points::components;
-use super::{Context, inputs, number, pattern};
-
-/// A statement that binds the entries of `phi` that a program reads; nothing where it reads none.
-pub(super) fn placement(context: &Context, program: &Program, phi: &TokenStream) -> TokenStream {
-    let (rt, used) = (&context.names.rt, inputs(program));
-    let names = components("phi", context.model.dim);
-    if !names.concat().iter().any(|name| used.contains(&name.as_str())) {
-        return TokenStream::new();
-    }
-    let rows = names.iter().map(|row| pattern(row, &used));
-    quote!(let [#(#rows),*] = #rt::rows(#phi);)
-}
+use super::context::Context;
+use super::number::number;
+use super::pattern::pattern;
+use super::point::placement;
 
 /// A statement that binds the components of a vector that a program reads.
 fn vector(context: &Context, program: &Program, stem: &str, value: &TokenStream) -> TokenStream {
     let rt = &context.names.rt;
     let names: Vec<String> = (1..=context.model.dim).map(|i| format!("{stem}_{i}")).collect();
-    let bound = pattern(&names, &inputs(program));
+    let bound = pattern(&names, &program.inputs());
     quote!(let #bound = #rt::components(&#value);)
 }
 

@@ -1,7 +1,7 @@
 //! Every name that emitted code introduces, chosen against the user's own.
 
-use proc_macro2::Ident;
-use quote::format_ident;
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
 
 use crate::spec::Spec;
 
@@ -45,5 +45,13 @@ impl Names {
             model,
             prepared,
         }
+    }
+}
+
+/// The path of the runtime.
+pub(super) fn runtime(renamed: Option<&syn::Path>) -> TokenStream {
+    match renamed {
+        Some(path) => quote!(#path),
+        None => quote!(::affine_runtime),
     }
 }

@@ -8,9 +8,10 @@ use quote::quote;
 
 use crate::ir::packed::Packed;
 
-use super::dynamics::time;
-use super::splitting::coefficient_names;
-use super::{Context, coefficient_index, identifiers, inputs, number, pattern};
+use super::context::{Context, coefficient_index};
+use super::number::number;
+use super::pattern::{identifiers, time};
+use super::trajectory;
 
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context) -> TokenStream {
@@ -47,7 +48,7 @@ pub(super) fn capability(context: &Context) -> TokenStream {
 /// `packed` and `unpacked`.
 fn change_of_storage(context: &Context, packed: &Packed) -> TokenStream {
     let rt = &context.names.rt;
-    let names: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let names: Vec<String> = context.model.reduced.names();
     let all = identifiers(&names);
     let lanes: Vec<Option<usize>> = packed.state.iter().flatten().copied().collect();
     let filled = lanes.iter().map(|lane| match lane {
@@ -83,15 +84,8 @@ fn change_of_storage(context: &Context, packed: &Packed) -> TokenStream {
 fn equations(context: &Context, packed: &Packed) -> TokenStream {
     let rt = &context.names.rt;
     let program = packed.read();
-    let used = inputs(&program);
-    let own = coefficient_names(context);
-    let (constants, read) = match own.iter().any(|name| used.contains(&name.as_str())) {
-        true => {
-            let bound = pattern(&own, &used);
-            (quote!(constants), quote!(let #bound = constants.coefficients;))
-        }
-        false => (quote!(_constants), TokenStream::new()),
-    };
+    let used = program.inputs();
+    let (read, constants) = trajectory::coefficients(context, &used);
     let coefficients = used.iter().filter_map(|name| {
         let (index, name) = (coefficient_index(name)?, quote::format_ident!("{name}"));
         Some(quote!(let #name = self.coefficients[#index];))

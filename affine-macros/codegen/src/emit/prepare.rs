@@ -5,12 +5,14 @@ use quote::{format_ident, quote};
 
 use crate::derive::splitting::PrincipalProgram;
 use crate::derive::{Condition, Damping, NumericBlock, Relation, Written};
-use crate::lower::FIELD;
-use crate::spec::{Field, Storage};
+use crate::spec::{FIELD, Field, Storage};
 
-use super::body::{Body, Number, Scope, body, double};
-use super::{Context, identifiers, metrics, number};
-use crate::ir::Program;
+use super::body::Body;
+use super::context::Context;
+use super::fields::{matrix_name, over_fields};
+use super::metrics;
+use super::number::{double, number};
+use super::pattern::identifiers;
 
 /// What `prepare()` returns; nothing for a model without fields in its coefficients.
 pub(super) fn prepared_type(context: &Context) -> TokenStream {
@@ -178,40 +180,6 @@ fn matrices(context: &Context, rt: &Ident) -> TokenStream {
         quote!(let #local = #rt::symmetric_part::<#size>(#name, #rows, #condition, #reason)?;)
     });
     matrices.collect()
-}
-
-/// The local variable of a field of matrix type.
-pub(super) fn matrix_name(field: impl std::fmt::Display) -> Ident {
-    format_ident!("matrix_{}", field.to_string().trim_start_matches("r#"))
-}
-
-/// What reads a field, or an entry `j[1,2]` of one.
-fn read_field(name: &str) -> TokenStream {
-    let entry = name.strip_suffix(']').and_then(|entry| entry.split_once('['));
-    let places = entry.and_then(|(field, places)| {
-        let (row, column) = places.split_once(',')?;
-        let place = |index: &str| Some(number(index.parse::<usize>().ok()?.checked_sub(1)?));
-        Some((matrix_name(field), place(row)?, place(column)?))
-    });
-    match places {
-        Some((matrix, row, column)) => quote!(#matrix[#row][#column]),
-        None => {
-            let field = format_ident!("{name}");
-            quote!(self.#field)
-        }
-    }
-}
-
-/// A program over the fields, and over inverse blocks computed before.
-pub(super) fn over_fields(rt: &Ident, program: &Program) -> Body {
-    let input = |name: &str| match name.strip_prefix(FIELD) {
-        Some(field) => read_field(field),
-        None => {
-            let name = format_ident!("{name}");
-            quote!(#name)
-        }
-    };
-    body(program, &Scope { number: Number::Double, input: &input, rebased: false, places: &[], rt })
 }
 
 /// Eigenvalues share one threshold, a mass has its own.

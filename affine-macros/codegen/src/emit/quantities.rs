@@ -8,8 +8,10 @@ use crate::mechanics::balance::{CENTRE, INTERNAL};
 use crate::mechanics::potential::TIME;
 
 use super::body::Body;
-use super::dynamics::{bind_point, time};
-use super::{Context, inputs, mixed, number};
+use super::context::Context;
+use super::number::number;
+use super::pattern::time;
+use super::point::{bind_point, placement};
 
 /// `metric`, `inverse_metric`, `acceleration`, `balance`, `centre_balance`, as far as asked for.
 pub(super) fn inherent(context: &Context) -> TokenStream {
@@ -34,7 +36,7 @@ fn metric(context: &Context) -> TokenStream {
     };
     let bases = context.bases(Some(&quote!(#rt::f64)));
     let square = |program: &Program, carried: &str| {
-        let placement = mixed::placement(context, program, &quote!(phi));
+        let placement = placement(context, program, &quote!(phi));
         let Body { lets, results } = context.double(program);
         let rows = results.chunks(metric.size).map(|row| quote!([#(#row),*]));
         let reads = !placement.is_empty();
@@ -73,7 +75,7 @@ fn acceleration(context: &Context) -> TokenStream {
     let bound = bind_point(context, program);
     let Body { lets, results } = context.double(program);
     let point_name = if bound.is_empty() { quote!(_point) } else { quote!(point) };
-    let at = inputs(program).contains(&TIME).then(|| quote!(t: #rt::f64,));
+    let at = program.inputs().contains(&TIME).then(|| quote!(t: #rt::f64,));
     let inward = if bound.is_empty() { TokenStream::new() } else { context.inward() };
     let acceleration = quote!(#rt::vector([#(#results),*]));
     let bases = context.bases(Some(&quote!(#rt::f64)));

@@ -2,86 +2,28 @@
 
 mod carried;
 mod expansion;
-pub(super) mod lanes;
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::mechanics::carried::Carried;
-use crate::mechanics::charts::{Linear, Momentum};
+use crate::mechanics::charts::Momentum;
 use crate::mechanics::kinetic::Frame;
-use crate::mechanics::reduce::{Commuting, Layout};
 use crate::spec::Capability;
 
 use super::body::Body;
-use super::dynamics::time;
-use super::points::components;
+use super::context::Context;
+use super::eliminated::Eliminated;
+use super::number::number;
+use super::pattern::{components, identifiers, pattern, reads, time};
+use super::point::projected;
 use super::separated;
-use super::{Context, identifiers, inputs, number, pattern};
-
-/// What one trajectory needs besides its reduced state.
-struct Parts {
-    /// A time origin: something moves in closed form.
-    origin: bool,
-    /// Space is turned.
-    turn: bool,
-    /// `p` is a constant.
-    linear: bool,
-    /// `p` or `p_hat` is state.
-    pushed: bool,
-    /// It is `p_hat`.
-    comoving: bool,
-    /// `x0` and `p/m` of a free centre of mass.
-    drift: bool,
-    /// The affine momentum is a constant.
-    momentum: bool,
-    /// Components of the affine momentum that are constants while others are state.
-    fixed: Vec<String>,
-    /// Generator of the rotation that commutes.
-    whirl: Option<Frame>,
-    /// The dilatation moves in closed form.
-    dilatation: bool,
-    /// `1/D` is state.
-    carried: Vec<Carried>,
-    /// Coefficients of the reduced equations.
-    coefficients: usize,
-}
-
-impl Parts {
-    fn of(context: &Context) -> Self {
-        let reduction = &context.model.reduction;
-        let whirl = reduction.commuting.iter().find_map(|piece| match piece {
-            Commuting::Vorticity(_) => Some(Frame::Body),
-            Commuting::Spin(_) => Some(Frame::Space),
-            Commuting::Drift(_) => None,
-        });
-        let has = |group: &str| context.model.reduced.groups.iter().any(|(name, _)| *name == group);
-        let linear = reduction.chart.linear;
-        let pushed = linear.is_some_and(|linear| has(linear.name()));
-        let comoving = pushed && linear == Some(Linear::Body);
-        let drift = reduction.commuting.iter().any(|piece| matches!(piece, Commuting::Drift(_)));
-        Self {
-            origin: whirl.is_some() || drift,
-            turn: reduction.turned,
-            linear: context.model.translation.is_some() && !pushed,
-            pushed,
-            comoving,
-            drift,
-            momentum: reduction.layout == Layout::Constant,
-            fixed: context.model.fixed.clone(),
-            whirl,
-            dilatation: reduction.separation.is_some(),
-            carried: reduction.carried.clone(),
-            coefficients: context.model.trajectory.outputs.len(),
-        }
-    }
-}
+use super::trajectory::coefficient_names;
 
 /// The constants of a trajectory as a struct.
 pub(super) fn constants_type(context: &Context) -> TokenStream {
     let (name, rt, t) = (&context.names.constants, &context.names.rt, &context.names.scalar);
     let n = context.dim();
-    let parts = Parts::of(context);
+    let parts = Eliminated::of(context);
     let mut fields = TokenStream::new();
     let mut field = |wanted: bool, doc: &str, tokens: TokenStream| {
         if wanted {
@@ -129,7 +71,7 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
 
 /// `reduce`, `reduced_equations`, `expand`, `geodesic`, `on_geodesic`.
 pub(super) fn methods(context: &Context) -> TokenStream {
-    let parts = Parts::of(context);
+    let parts = Eliminated::of(context);
     let reduce = reduce(context, &parts);
     let equations = reduced_equations(context, &parts);
     let expand = expansion::expand(context, &parts);
@@ -148,16 +90,7 @@ fn chart_momentum(context: &Context) -> TokenStream {
     }
 }
 
-/// A momentum, projected under a constraint.
-fn projected(context: &Context, momentum: TokenStream) -> TokenStream {
-    let rt = &context.names.rt;
-    match context.constraint().filter(|_| context.model.projected) {
-        Some(group) => quote!(#rt::projected(#group, &(#momentum))),
-        None => momentum,
-    }
-}
-
-fn reduce(context: &Context, parts: &Parts) -> TokenStream {
+fn reduce(context: &Context, parts: &Eliminated) -> TokenStream {
     let (rt, t, constants) = (&context.names.rt, &context.names.scalar, &context.names.constants);
     let chart = &context.model.reduction.chart;
     let momentum = chart_momentum(context);
@@ -183,7 +116,7 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
     let body = context.generic(&context.model.trajectory);
     let (trajectory, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
-    let state: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let state: Vec<String> = context.model.reduced.names();
     let work = state.iter().any(|name| name == "work").then(|| quote!(let work = #t::zero();));
     let state = identifiers(&state);
     let mut fields = TokenStream::new();
@@ -225,11 +158,11 @@ fn reduce(context: &Context, parts: &Parts) -> TokenStream {
 }
 
 /// Components of state and momenta in turned space, as variables.
-fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
+fn bind_state(context: &Context, parts: &Eliminated, moving: bool) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.model.dim);
     let chart = &context.model.reduction.chart;
-    let mut used: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
-    used.extend(inputs(&context.model.trajectory).into_iter().map(str::to_owned));
+    let mut used: Vec<String> = context.model.reduced.names();
+    used.extend(context.model.trajectory.inputs().into_iter().map(str::to_owned));
     used.extend(parts.fixed.clone());
     let used: Vec<&str> = used.iter().map(String::as_str).collect();
     let turned = |value: TokenStream| if parts.turn { quote!((turn * #value)) } else { value };
@@ -241,7 +174,7 @@ fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
             false => (vector("p"), turned(quote!(p))),
         };
         for (names, value) in [(vector("x"), turned(quote!(#rt::Phase::x(point)))), momentum] {
-            if names.iter().any(|name| used.contains(&name.as_str())) {
+            if reads(&used, &names) {
                 let bound = pattern(&names, &used);
                 lets.extend(quote!(let #bound = #rt::components(&#value);));
             }
@@ -255,7 +188,7 @@ fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
         quote!(let [#(#phi_rows),*] = #rt::rows(#phi);)
     });
     let names = components(chart.momentum.name(), n);
-    if names.concat().iter().any(|name| used.contains(&name.as_str())) {
+    if reads(&used, &names.concat()) {
         let rows = names.iter().map(|row| pattern(row, &used));
         let value = match (parts.turn, chart.momentum) {
             (false, _) | (_, Momentum::Body) => quote!(momentum),
@@ -268,7 +201,7 @@ fn bind_state(context: &Context, parts: &Parts, moving: bool) -> TokenStream {
 }
 
 /// Generators of what moves in closed form: `-W/mu`, `p/m`.
-fn whirl(context: &Context, parts: &Parts) -> TokenStream {
+fn whirl(context: &Context, parts: &Eliminated) -> TokenStream {
     let rt = &context.names.rt;
     let mut lets = TokenStream::new();
     if let (Some(frame), Some(program)) = (parts.whirl, &context.model.isotropic) {
@@ -293,17 +226,16 @@ fn whirl(context: &Context, parts: &Parts) -> TokenStream {
     lets
 }
 
-fn reduced_equations(context: &Context, parts: &Parts) -> TokenStream {
+fn reduced_equations(context: &Context, parts: &Eliminated) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.reduced.program;
-    let used = inputs(program);
-    let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let used = program.inputs();
+    let all: Vec<String> = context.model.reduced.names();
     let bound = pattern(&all, &used);
-    let coefficient_names: Vec<String> = (1..=parts.coefficients).map(|k| format!("k_{k}")).collect();
-    let coefficients = pattern(&coefficient_names, &used);
+    let coefficients = pattern(&coefficient_names(context), &used);
     let read = (parts.coefficients > 0).then(|| quote!(let #coefficients = constants.coefficients;));
     let constants = if parts.coefficients > 0 { quote!(constants) } else { quote!(_constants) };
-    let reads_state = all.iter().any(|name| used.contains(&name.as_str()));
+    let reads_state = reads(&used, &all);
     let state = if reads_state { quote!(reduced) } else { quote!(_reduced) };
     let bind = reads_state.then(|| quote!(let #bound = *reduced;));
     let Body { lets, results } = context.generic(program);

@@ -6,10 +6,11 @@ use quote::quote;
 use crate::derive::second_order::Halves;
 use crate::ir::Program;
 
-use super::body::{Body, inputs};
-use super::dynamics::time;
-use super::splitting::coefficient_names;
-use super::{Context, number, pattern};
+use super::body::Body;
+use super::context::Context;
+use super::number::number;
+use super::pattern::{pattern, reads, time};
+use super::trajectory::coefficients;
 
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context) -> TokenStream {
@@ -68,17 +69,9 @@ fn written(
     program: &Program,
     (names, half): (&[String], TokenStream),
 ) -> (TokenStream, TokenStream) {
-    let used = inputs(program);
-    let coefficients = coefficient_names(context);
-    let reads = |names: &[String]| names.iter().any(|name| used.contains(&name.as_str()));
-    let (constants, read) = match reads(&coefficients) {
-        true => {
-            let bound = pattern(&coefficients, &used);
-            (quote!(constants), quote!(let #bound = constants.coefficients;))
-        }
-        false => (quote!(_constants), TokenStream::new()),
-    };
-    let bind = match reads(names) {
+    let used = program.inputs();
+    let (read, constants) = coefficients(context, &used);
+    let bind = match reads(&used, names) {
         true => {
             let bound = pattern(names, &used);
             quote!(let #bound = *#half;)

@@ -5,8 +5,8 @@ use quote::{format_ident, quote};
 
 use crate::mechanics::separation::Slope;
 
-use super::points::components;
-use super::{Context, identifiers, pattern};
+use super::context::Context;
+use super::pattern::{components, identifiers, pattern};
 
 /// `Psi`, the parts of `sigma/alpha` and the closed form of the dilatation at `point`.
 pub(super) fn split(context: &Context) -> TokenStream {

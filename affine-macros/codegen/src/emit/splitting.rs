@@ -8,9 +8,12 @@ use crate::ir::{Op, Program, Value};
 use crate::mechanics::potential::TIME;
 use crate::mechanics::separation::Slope;
 
-use super::body::{Body, inner, inputs};
+use super::body::{Body, inner};
+use super::context::Context;
+use super::number::number;
+use super::pattern::{identifiers, pattern, reads};
 use super::separated::closed_form;
-use super::{Context, identifiers, number, pattern};
+use super::trajectory::{coefficient_names, coefficients};
 
 /// The implementation of the capability.
 pub(super) fn splitting_impl(context: &Context) -> TokenStream {
@@ -39,9 +42,9 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
             const DILATES: ::core::primitive::bool = true;
         )
     });
-    let reads = |name: &str| programs().any(|program| inputs(program).contains(&name));
-    let time = if reads(TIME) { quote!(t) } else { quote!(_t) };
-    let constants = match coefficient_names(context).iter().any(|name| reads(name)) {
+    let is_read = |name: &str| programs().any(|program| program.inputs().contains(&name));
+    let time = if is_read(TIME) { quote!(t) } else { quote!(_t) };
+    let constants = match coefficient_names(context).iter().any(|name| is_read(name)) {
         true => quote!(constants),
         false => quote!(_constants),
     };
@@ -82,25 +85,13 @@ pub(super) fn capability(context: &Context) -> TokenStream {
     }
 }
 
-pub(super) fn coefficient_names(context: &Context) -> Vec<String> {
-    (1..=context.model.trajectory.outputs.len()).map(|k| format!("k_{k}")).collect()
-}
-
-fn states(context: &Context) -> Vec<String> {
-    context.model.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect()
-}
-
 /// What a flow reads: components of the state, besides `more`, and coefficients of the trajectory.
 fn bound(context: &Context, program: &Program, more: &[String]) -> TokenStream {
-    let mut used = inputs(program);
-    let coefficients = coefficient_names(context);
-    let read = coefficients.iter().any(|name| used.contains(&name.as_str())).then(|| {
-        let bound = pattern(&coefficients, &used);
-        quote!(let #bound = constants.coefficients;)
-    });
+    let mut used = program.inputs();
+    let (read, _) = coefficients(context, &used);
     used.extend(more.iter().map(String::as_str));
-    let states = states(context);
-    let bind = states.iter().any(|name| used.contains(&name.as_str())).then(|| {
+    let states = context.model.reduced.names();
+    let bind = reads(&used, &states).then(|| {
         let bound = pattern(&states, &used);
         quote!(let #bound = *state;)
     });
@@ -110,7 +101,13 @@ fn bound(context: &Context, program: &Program, more: &[String]) -> TokenStream {
 /// Adds to a component of the state.
 fn accumulated(context: &Context, component: &str, rise: TokenStream) -> TokenStream {
     let rt = &context.names.rt;
-    let at = states(context).iter().position(|name| name == component).map_or_else(|| number(0), number);
+    let at = context
+        .model
+        .reduced
+        .names()
+        .iter()
+        .position(|name| name == component)
+        .map_or_else(|| number(0), number);
     quote!(#rt::accumulate(&mut state[#at], &mut carry[#at], #rise);)
 }
 
@@ -227,7 +224,7 @@ fn added(context: &Context, names: &[Vec<String>], rise: &str) -> TokenStream {
     let rise = quote::format_ident!("{rise}");
     let entries =
         names.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, n)| (i, j, n)));
-    let states = states(context);
+    let states = context.model.reduced.names();
     entries
         .filter(|(.., name)| states.contains(name))
         .map(|(i, j, name)| {

@@ -5,10 +5,11 @@ use quote::quote;
 
 use crate::ir::tangent::change_of;
 
-use super::body::{Body, inputs};
-use super::dynamics::time;
-use super::splitting::coefficient_names;
-use super::{Context, number, pattern};
+use super::body::Body;
+use super::context::Context;
+use super::number::number;
+use super::pattern::{pattern, reads, time};
+use super::trajectory::coefficient_names;
 
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context) -> TokenStream {
@@ -21,16 +22,15 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
         quote!(#rt::Group { name: #name, len: #len })
     });
     let groups: Vec<TokenStream> = groups.collect();
-    let mut states: Vec<String> =
-        context.model.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect();
+    let mut states = context.model.reduced.names();
     let (len, both) = (number(states.len()), number(2 * states.len()));
     let changes: Vec<String> = states.iter().map(|name| change_of(name)).collect();
     states.extend(changes);
-    let used = inputs(program);
+    let used = program.inputs();
     let coefficients = coefficient_names(context);
     let changes: Vec<String> = coefficients.iter().map(|name| change_of(name)).collect();
     let part = |names: &[String], part: TokenStream| {
-        names.iter().any(|name| used.contains(&name.as_str())).then(|| {
+        reads(&used, names).then(|| {
             let bound = pattern(names, &used);
             quote!(let #bound = constants.coefficients.map(|coefficient| coefficient.#part);)
         })

@@ -5,16 +5,18 @@ mod convolutions;
 mod reads;
 mod rows;
 mod rules;
+mod writer;
 
-use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::TokenStream;
+use quote::quote;
 
-use crate::algebra::Function;
-use crate::ir::taylor::{Recurrence, Rule, Series};
-use crate::ir::{Program, Value};
+use crate::ir::Value;
+use crate::ir::taylor::Rule;
 
-use super::body::{Body, inputs};
-use super::{Context, number, pattern};
+use super::body::Body;
+use super::context::Context;
+use super::number::number;
+use writer::Writer;
 
 /// The implementation of the capability.
 pub(super) fn taylor_impl(context: &Context) -> TokenStream {
@@ -51,63 +53,13 @@ pub(super) fn capability(context: &Context) -> TokenStream {
     }
 }
 
-struct Writer<'a> {
-    context: &'a Context<'a>,
-    recurrence: &'a Recurrence,
-    /// Values that do not move and that rules read, with their expressions.
-    fixed: Vec<(Value, TokenStream)>,
-}
-
 impl Writer<'_> {
-    fn states(&self) -> Vec<String> {
-        self.context.model.reduced.groups.iter().flat_map(|(_, names)| names.clone()).collect()
-    }
-
-    /// `let [k_1, ..] = constants.coefficients;`, and the parameter.
-    fn constants(&self, program: &Program) -> (TokenStream, TokenStream) {
-        let used = inputs(program);
-        let count = self.context.model.trajectory.outputs.len();
-        let names: Vec<String> = (1..=count).map(|k| format!("k_{k}")).collect();
-        if !names.iter().any(|name| used.contains(&name.as_str())) {
-            return (TokenStream::new(), quote!(_constants));
-        }
-        let bound = pattern(&names, &used);
-        (quote!(let #bound = constants.coefficients;), quote!(constants))
-    }
-
-    /// A state vector's components that are read, bound to their names, and the parameter.
-    fn bind(&self, used: &[&str], from: &str) -> (TokenStream, TokenStream) {
-        let names = self.states();
-        if !names.iter().any(|name| used.contains(&name.as_str())) {
-            let unused = format_ident!("_{from}");
-            return (TokenStream::new(), quote!(#unused));
-        }
-        let (bound, from) = (pattern(&names, used), format_ident!("{from}"));
-        (quote!(let #bound = *#from;), quote!(#from))
-    }
-
-    /// The program with other results.
-    fn with_results(&self, results: impl Iterator<Item = Value>) -> Program {
-        let mut program = self.recurrence.program.clone();
-        program.outputs = results.map(|v| (self.name(v), v)).collect();
-        program.without_dead_steps()
-    }
-
-    /// Name of a value: what the derivation calls it, or its number.
-    fn name(&self, value: Value) -> String {
-        self.recurrence.program.name(value)
-    }
-
-    fn ident(&self, value: Value) -> Ident {
-        format_ident!("{}", self.name(value))
-    }
-
     /// `start`: order zero of the row, and the slope.
     fn start(&self) -> TokenStream {
         let (rt, t) = (&self.context.names.rt, &self.context.names.scalar);
         let program = &self.recurrence.start;
         let (read, constants) = self.constants(program);
-        let (bind, state) = self.bind(&inputs(program), "state");
+        let (bind, state) = self.bind(&program.inputs(), "state");
         let Body { lets, results } = self.context.generic(program);
         let (rates, kept) = results.split_at(self.recurrence.program.outputs.len());
         let mut kept = kept.iter();
@@ -131,17 +83,6 @@ impl Writer<'_> {
                 [#(#rates),*]
             }
         }
-    }
-
-    /// The values that do not move and that rules read, as statements; the parameter that they read.
-    fn fix(&mut self, rules: &[&(Value, Rule)]) -> (TokenStream, TokenStream) {
-        let values = reads::fixed(rules);
-        let program = self.with_results(values.iter().copied());
-        let (read, constants) = self.constants(&program);
-        let Body { lets, results } = self.context.generic(&program);
-        self.fixed = values.into_iter().zip(results).collect();
-        let divisors = self.divisors(rules);
-        (quote!(#read #lets #divisors), constants)
     }
 
     /// `next`: one order more.
@@ -227,17 +168,5 @@ impl Writer<'_> {
         let apart = self.outputs_apart();
         let rates = self.recurrence.program.outputs.iter().map(|(_, value)| *value);
         rates.filter(|v| !elsewhere.contains(v) && !in_row(*v) && !apart.contains(v)).collect()
-    }
-
-    fn reads_order(&self) -> bool {
-        let weighted = |rule: &Rule| matches!(rule, Rule::Function { function, .. } if !matches!(function, Function::Sqrt | Function::Abs));
-        self.recurrence.rules.iter().any(|(_, rule)| weighted(rule))
-            || self.recurrence.row.iter().flatten().any(|s| s.rate)
-    }
-
-    /// A series at order `k`.
-    fn current(&self, series: Series) -> TokenStream {
-        let value = self.ident(series.value);
-        if series.rate { quote!(#value * order) } else { quote!(#value) }
     }
 }

@@ -13,9 +13,11 @@ use crate::mechanics::kinetic::Frame;
 use crate::mechanics::two_polar::Variables;
 
 use super::body::Body;
-use super::dynamics::own_spin;
-use super::points::wrapper;
-use super::{Context, description, inputs, number, pattern};
+use super::context::Context;
+use super::description;
+use super::number::number;
+use super::pattern::pattern;
+use super::point::{own_spin, wrapper};
 
 /// The implementations of the lattice traits, where they were asked for.
 pub(super) fn implementations(context: &Context) -> TokenStream {
@@ -43,7 +45,7 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
     let description = description(context, form);
     let docs = docs(form);
     let function = |program: &Program, variables: &[String]| {
-        let used = inputs(program);
+        let used = program.inputs();
         let (couplings, bound) = (pattern(&form.couplings, &used), pattern(variables, &used));
         let body = context.generic(program);
         let lets = &body.lets;

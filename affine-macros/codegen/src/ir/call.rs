@@ -17,6 +17,15 @@ pub struct Call {
 }
 
 impl Call {
+    /// The place of the field that it asks, from 1, where it asks one.
+    #[must_use]
+    pub fn field(&self) -> Option<usize> {
+        match self.callee {
+            Callee::Custom(place, _) => Some(place),
+            Callee::Stretches | Callee::LogStretches | Callee::Elongation | Callee::Turn => None,
+        }
+    }
+
     /// Does it provide the input?
     #[must_use]
     pub fn provides(&self, input: &str) -> bool {

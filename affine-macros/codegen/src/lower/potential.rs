@@ -8,9 +8,9 @@ use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::potential::stretches::{canonical, is_stretched};
 use crate::mechanics::potential::{Base, Guard, TIME};
-use crate::spec::{Expression, ExpressionKind, MatrixName, Spec, numbered};
+use crate::spec::{Expression, ExpressionKind, FIELD, MatrixName, Spec, numbered};
 
-use super::{FIELD, components, domain};
+use super::{components, domain};
 
 /// The potential energy, if the model states one that is not constant, and where it has a value: expressions in the symbols
 /// of [`Base`]. Beside metrics these stand in orthonormal bases; what `prepare()` has to know of them is added to `rebased`.

@@ -5,9 +5,10 @@ use std::collections::HashMap;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::body::{DEEPEST, Number, Strength, inner, name_of};
-use super::super::{Context, number};
 use super::names;
+use crate::emit::body::{DEEPEST, Strength, inner};
+use crate::emit::context::Context;
+use crate::emit::number::{Number, name_of, number};
 use crate::ir::packed::{Four, Index, Lane, Packed, Step};
 use crate::ir::{Op, Value};
 

@@ -3,14 +3,14 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::emit::points::components;
-use crate::emit::{Context, identifiers, pattern};
+use crate::emit::context::Context;
+use crate::emit::pattern::{components, identifiers, pattern};
 use crate::mechanics::carried::Carried;
 
 /// The state with `1/D` and `q` from its placement.
 pub(super) fn renewed(context: &Context, list: &[Carried]) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
-    let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let all: Vec<String> = context.model.reduced.names();
     let names = identifiers(&all);
     let rows = components("phi", n).into_iter().map(|row| {
         let row = identifiers(&row);

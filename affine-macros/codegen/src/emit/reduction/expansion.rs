@@ -3,17 +3,19 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::{Parts, projected};
-use crate::emit::points::components;
-use crate::emit::{Context, identifiers, pattern, separated};
+use crate::emit::context::Context;
+use crate::emit::eliminated::Eliminated;
+use crate::emit::pattern::{components, identifiers, pattern};
+use crate::emit::point::projected;
+use crate::emit::separated;
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::kinetic::Frame;
 
 /// `expand`: what moves in closed form is put back, and space turned back.
-pub(super) fn expand(context: &Context, parts: &Parts) -> TokenStream {
+pub(super) fn expand(context: &Context, parts: &Eliminated) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
     let chart = &context.model.reduction.chart;
-    let all: Vec<String> = context.model.reduced.groups.iter().flat_map(|(_, g)| g.clone()).collect();
+    let all: Vec<String> = context.model.reduced.names();
     // No phase point holds the work, and 1/D and q follow from phi.
     let needed: Vec<&str> = all
         .iter()
@@ -108,7 +110,7 @@ pub(super) fn expand(context: &Context, parts: &Parts) -> TokenStream {
 }
 
 /// The affine momentum of the chart, back from turned space.
-fn expanded_momentum(context: &Context, parts: &Parts, rows: &TokenStream) -> TokenStream {
+fn expanded_momentum(context: &Context, parts: &Eliminated, rows: &TokenStream) -> TokenStream {
     let chart = &context.model.reduction.chart;
     if parts.momentum {
         return quote!(let momentum = constants.momentum;);

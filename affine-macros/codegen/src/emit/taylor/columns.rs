@@ -3,8 +3,8 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::number;
-use super::Writer;
+use super::writer::Writer;
+use crate::emit::number::number;
 
 impl Writer<'_> {
     /// The type of the columns, and how they are taken from a coefficient.

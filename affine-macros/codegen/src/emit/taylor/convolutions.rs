@@ -3,8 +3,8 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::number;
-use super::Writer;
+use super::writer::Writer;
+use crate::emit::number::number;
 use crate::ir::taylor::{Factor, Pass, Place, sums};
 
 /// Sums that are formed in one loop: with the factors from both rows they fill the registers of AVX-512, and with half as

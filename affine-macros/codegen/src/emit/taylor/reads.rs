@@ -1,6 +1,7 @@
 //! What rules read.
 
-use super::Writer;
+use super::writer::Writer;
+use crate::algebra::Function;
 use crate::ir::taylor::{Rule, Term};
 use crate::ir::{Op, Value};
 
@@ -39,7 +40,7 @@ pub(super) fn fixed(rules: &[&(Value, Rule)]) -> Vec<Value> {
 }
 
 /// Is a coefficient of order zero read, or only those of the present order?
-fn reads_first(rule: &Rule) -> bool {
+pub(super) fn first(rule: &Rule) -> bool {
     match rule {
         Rule::Sum(terms) => terms.iter().any(|(_, term)| matches!(term, Term::Ends(..))),
         Rule::Quotient { .. } | Rule::Function { .. } => true,
@@ -71,9 +72,10 @@ impl<'a> Writer<'a> {
         states.map(|v| self.name(v)).collect()
     }
 
-    /// Does `next` name the first row, and the last?
-    pub(super) fn row_names(&self) -> (bool, bool) {
-        let late = self.recurrence.rules.iter().filter(|(v, _)| !self.recurrence.ready[*v]);
-        (late.into_iter().any(|(_, rule)| reads_first(rule)), self.late_slots().next().is_some())
+    /// Does a rule read the order itself?
+    pub(super) fn reads_order(&self) -> bool {
+        let weighted = |rule: &Rule| matches!(rule, Rule::Function { function, .. } if !matches!(function, Function::Sqrt | Function::Abs));
+        self.recurrence.rules.iter().any(|(_, rule)| weighted(rule))
+            || self.recurrence.row.iter().flatten().any(|s| s.rate)
     }
 }

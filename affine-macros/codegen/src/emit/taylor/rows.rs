@@ -3,8 +3,9 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::super::number;
-use super::Writer;
+use super::reads;
+use super::writer::Writer;
+use crate::emit::number::number;
 use crate::ir::Value;
 use crate::ir::taylor::Series;
 
@@ -118,5 +119,11 @@ impl Writer<'_> {
                 None => quote!(#t::zero()),
             });
         quote!([#(#entries),*])
+    }
+
+    /// Does `next` name the first row, and the last?
+    pub(super) fn row_names(&self) -> (bool, bool) {
+        let late = self.recurrence.rules.iter().filter(|(v, _)| !self.recurrence.ready[*v]);
+        (late.into_iter().any(|(_, rule)| reads::first(rule)), self.late_slots().next().is_some())
     }
 }

@@ -3,14 +3,26 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::body::double;
-use super::super::number;
-use super::Writer;
+use super::reads;
+use super::writer::Writer;
 use crate::algebra::{Function, Rational};
+use crate::emit::body::Body;
+use crate::emit::number::{double, number};
 use crate::ir::taylor::{Place, Rule, Series, Term};
 use crate::ir::{Op, Value};
 
 impl Writer<'_> {
+    /// The values that do not move and that rules read, as statements; the parameter that they read.
+    pub(super) fn fix(&mut self, rules: &[&(Value, Rule)]) -> (TokenStream, TokenStream) {
+        let values = reads::fixed(rules);
+        let program = self.with_results(values.iter().copied());
+        let (read, constants) = self.constants(&program);
+        let Body { lets, results } = self.context.generic(&program);
+        self.fixed = values.into_iter().zip(results).collect();
+        let divisors = self.divisors(rules);
+        (quote!(#read #lets #divisors), constants)
+    }
+
     /// The coefficient of order zero.
     fn first(&self, series: Series) -> TokenStream {
         // Every factor of an inner convolution has a slot.

@@ -5,7 +5,9 @@ use quote::{format_ident, quote};
 
 use crate::derive::{PieceProgram, TwoPolar};
 use crate::emit::body::Body;
-use crate::emit::{Context, inputs, number, pattern};
+use crate::emit::context::Context;
+use crate::emit::number::number;
+use crate::emit::pattern::{pattern, reads};
 use crate::mechanics::kinetic::Frame;
 
 /// The implementation of the capability over the state with frames, whose components are named.
@@ -24,9 +26,9 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[Strin
         let place = if k + 1 == count { quote!(_) } else { quote!(#piece) };
         quote!(#place => { #body })
     });
-    let reads =
-        |name: &String| pieces.list.iter().any(|piece| inputs(&piece.program).contains(&name.as_str()));
-    let couplings = if form.couplings.iter().any(reads) { quote!(couplings) } else { quote!(_couplings) };
+    let is_read =
+        |name: &String| pieces.list.iter().any(|piece| piece.program.inputs().contains(&name.as_str()));
+    let couplings = if form.couplings.iter().any(is_read) { quote!(couplings) } else { quote!(_couplings) };
     let turning = turning(context);
     quote! {
         impl #generics #rt::LatticePieces<#n> for #prepared #types #clause {
@@ -75,8 +77,8 @@ fn turning(context: &Context) -> TokenStream {
 
 fn flow(context: &Context, form: &TwoPolar, piece: &PieceProgram, framed: &[String]) -> TokenStream {
     let rt = &context.names.rt;
-    let used = inputs(&piece.program);
-    let couplings = form.couplings.iter().any(|name| used.contains(&name.as_str())).then(|| {
+    let used = piece.program.inputs();
+    let couplings = reads(&used, &form.couplings).then(|| {
         let bound = pattern(&form.couplings, &used);
         quote!(let #bound = *couplings;)
     });

@@ -5,7 +5,10 @@ use quote::quote;
 
 use crate::derive::TwoPolar;
 use crate::emit::body::Body;
-use crate::emit::{Context, description, inputs, number, pattern};
+use crate::emit::context::Context;
+use crate::emit::description;
+use crate::emit::number::number;
+use crate::emit::pattern::pattern;
 
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context, form: &TwoPolar) -> TokenStream {
@@ -14,7 +17,7 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar) -> TokenStream 
         (&context.names.prepared, &context.names.rt, &context.names.scalar, context.dim());
     let (generics, types, clause) = context.generics();
     let size = number(ratios.state.len());
-    let used = inputs(&ratios.program);
+    let used = ratios.program.inputs();
     let bound = pattern(&ratios.state, &used);
     let (couplings, read) = match ratios.couplings.is_empty() {
         true => (quote!(_couplings), TokenStream::new()),

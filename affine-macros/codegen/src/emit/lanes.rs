@@ -3,18 +3,19 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
-use super::{Context, Parts};
+use super::context::Context;
+use super::eliminated::Eliminated;
 use crate::spec::Capability;
 
 /// The implementation of the capability.
-pub(in crate::emit) fn implementation(context: &Context) -> TokenStream {
+pub(super) fn implementation(context: &Context) -> TokenStream {
     if !context.spec.emit.iter().any(|capability| capability.value == Capability::Lanes) {
         return TokenStream::new();
     }
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
     let (t, constants) = (&context.names.scalar, &context.names.constants);
-    let parts = Parts::of(context);
+    let parts = Eliminated::of(context);
     let stored: Vec<Stored> = [
         (parts.origin, "t0", Shape::Number),
         (parts.turn, "turn", Shape::Matrix),

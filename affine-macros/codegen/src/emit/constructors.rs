@@ -1,7 +1,5 @@
 //! Constructors of phase points: inherent methods, so that a model without translation has no `x` to give.
 
-mod refused;
-
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
@@ -9,10 +7,11 @@ use crate::derive::VelocitySide;
 use crate::ir::Program;
 use crate::mechanics::kinetic::Frame;
 
-pub(super) use refused::unprepared;
-
 use super::body::Body;
-use super::{Context, inputs, mixed, pattern, quantities};
+use super::context::Context;
+use super::pattern::{components, pattern};
+use super::point::{affine_velocity, placement, wrapper};
+use super::{mixed, quantities, refused};
 
 /// `at_momentum` and `at_velocity`.
 pub(super) fn inherent(context: &Context) -> TokenStream {
@@ -170,38 +169,18 @@ fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
 fn legendre(context: &Context, program: &Program) -> TokenStream {
     let rt = &context.names.rt;
     let components = components(context.model.frame.velocity_name(), context.model.dim);
-    let used = inputs(program);
+    let used = program.inputs();
     let rows = components.iter().map(|row| pattern(row, &used));
     let Body { lets, results } = context.double(program);
     let rows_out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
     let velocity = affine_velocity(context, &quote!(&phi));
     let wrapper = wrapper(context);
-    let placement = mixed::placement(context, program, &quote!(&phi));
+    let placement = placement(context, program, &quote!(&phi));
     quote! {
         let [#(#rows),*] = #rt::rows(&#velocity);
         #placement
         #lets
         let spin = #wrapper(#rt::matrix([#(#rows_out),*]));
-    }
-}
-
-/// The affine velocity of the model's frame from a reference to `phi` and `phi_dot`.
-pub(super) fn affine_velocity(context: &Context, phi: &TokenStream) -> TokenStream {
-    let rt = &context.names.rt;
-    match context.model.frame {
-        Frame::Body => quote!((#rt::inverse(#phi) * phi_dot)),
-        Frame::Space => quote!((phi_dot * #rt::inverse(#phi))),
-        Frame::Flat => quote!(phi_dot),
-    }
-}
-
-/// Wrapper of matrices that hold the model's affine spin.
-pub(super) fn wrapper(context: &Context) -> TokenStream {
-    let rt = &context.names.rt;
-    match context.model.frame {
-        Frame::Body => quote!(#rt::Comoving),
-        Frame::Space => quote!(#rt::Spatial),
-        Frame::Flat => quote!(#rt::TwoPoint),
     }
 }
 
@@ -219,9 +198,4 @@ fn momentum_of_centre(context: &Context) -> TokenStream {
         _ => quote!(let p = x_dot * mass;),
     };
     quote!(#lets let mass = #mass; #p)
-}
-
-/// Names of the entries of a matrix, row by row.
-pub(super) fn components(stem: &str, n: usize) -> Vec<Vec<String>> {
-    (1..=n).map(|i| (1..=n).map(|j| format!("{stem}_{i}{j}")).collect()).collect()
 }

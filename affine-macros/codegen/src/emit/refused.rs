@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::emit::Context;
+use super::context::Context;
 
 /// `at_velocity` of a model whose velocities do not determine the momentum.
 pub(super) fn without_velocity(context: &Context, point: &TokenStream) -> TokenStream {
@@ -16,7 +16,7 @@ pub(super) fn without_velocity(context: &Context, point: &TokenStream) -> TokenS
 }
 
 /// Both constructors of a struct whose fields are still to be looked at.
-pub(in crate::emit) fn unprepared(context: &Context) -> TokenStream {
+pub(super) fn unprepared(context: &Context) -> TokenStream {
     if !context.has_fields {
         return TokenStream::new();
     }

@@ -1,0 +1,192 @@
+//! What every emitter reads of a model, and programs over its fields and coefficients.
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote, quote_spanned};
+
+use crate::derive::{ChangeOfBases, Equations, Model};
+use crate::ir::Program;
+use crate::mechanics::kinetic::Frame;
+use crate::spec::{Custom, Role, Spec};
+
+use super::body::{Body, body};
+use super::names::Names;
+use super::number::{Number, number};
+use super::pattern::identifiers;
+use super::scope::Scope;
+
+/// What every emitter reads.
+pub(super) struct Context<'a> {
+    pub(super) spec: &'a Spec,
+    pub(super) model: &'a Model,
+    pub(super) names: &'a Names,
+    /// Do coefficients depend on fields?
+    pub(super) has_fields: bool,
+}
+
+impl Context<'_> {
+    pub(super) fn dim(&self) -> Literal {
+        number(self.model.dim)
+    }
+
+    pub(super) fn frame(&self) -> TokenStream {
+        let rt = &self.names.rt;
+        match self.model.frame {
+            Frame::Body => quote!(#rt::Body),
+            Frame::Space => quote!(#rt::Space),
+            Frame::Flat => quote!(#rt::Canonical),
+        }
+    }
+
+    /// The constraint, as an expression.
+    pub(super) fn constraint(&self) -> Option<TokenStream> {
+        let rt = &self.names.rt;
+        let group = self.model.constraint?;
+        let group = format_ident!("{}", format!("{group:?}"));
+        Some(quote!(#rt::Constraint::#group))
+    }
+
+    /// `let` statements for the entries of the affine momentum that are linear in components of an array.
+    pub(super) fn dependent(&self, equations: &Equations) -> TokenStream {
+        let program = &equations.dependent;
+        let Body { lets, results } = self.generic(program);
+        let names = identifiers(&program.outputs.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>());
+        // A result with a step of its own is bound to its name already.
+        let lets_of =
+            names.iter().zip(&results).filter(|(name, result)| name.to_string() != result.to_string());
+        let rest = lets_of.map(|(name, result)| quote!(let #name = #result;));
+        quote!(#lets #(#rest)*)
+    }
+
+    /// Type of the centre of mass over a scalar.
+    pub(super) fn centre(&self, scalar: &TokenStream) -> TokenStream {
+        let (rt, n) = (&self.names.rt, self.dim());
+        match self.model.translation {
+            Some(_) => quote!(#rt::Centre<#n, #scalar>),
+            None => quote!(#rt::Pinned),
+        }
+    }
+
+    /// Type of phase points over a scalar.
+    pub(super) fn point(&self, scalar: &TokenStream) -> TokenStream {
+        let (rt, n, frame, centre) = (&self.names.rt, self.dim(), self.frame(), self.centre(scalar));
+        let basis = self.model.metrics.is_some().then(|| quote!(, #rt::Given));
+        quote!(#rt::PhasePoint<#n, #frame, #centre, #scalar #basis>)
+    }
+
+    /// Generics of the type that implements the model.
+    pub(super) fn generics(&self) -> (TokenStream, TokenStream, TokenStream) {
+        if self.has_fields && self.spec.customs.is_empty() {
+            return (TokenStream::new(), TokenStream::new(), TokenStream::new());
+        }
+        let (implementation, ty, clause) = self.spec.item.generics.split_for_impl();
+        (quote!(#implementation), quote!(#ty), quote!(#clause))
+    }
+
+    /// A field as what it computes. It stands where the specification names it, so that what its type lacks is said there,
+    /// and once: the calls ask nothing of it any more.
+    pub(super) fn computing(&self, name: &Ident, custom: &Custom) -> TokenStream {
+        let at = place(custom);
+        let (n, rt) = (self.dim(), Ident::new(&self.names.rt.to_string(), at));
+        let name = Ident::new(&name.to_string(), at);
+        let field = if self.has_fields { &name } else { &custom.field };
+        let force = |form| {
+            let form = Ident::new(form, at);
+            quote_spanned!(at=> as_force::<#n, #rt::force::#form, _>)
+        };
+        let function = match custom.role.value {
+            Role::Spatial => force("Spatial"),
+            Role::Comoving => force("Comoving"),
+            Role::Translation => force("Translation"),
+            Role::Isotropic | Role::Green | Role::Finger | Role::General => {
+                quote_spanned!(at=> as_potential::<#n, _>)
+            }
+        };
+        quote_spanned!(at=> let #name = #rt::#function(&self.#field);)
+    }
+
+    /// A program over the scalar type parameter.
+    pub(super) fn generic(&self, program: &Program) -> Body {
+        self.body(program, Number::Generic(&self.names.scalar))
+    }
+
+    /// A program over doubles.
+    pub(super) fn double(&self, program: &Program) -> Body {
+        self.body(program, Number::Double)
+    }
+
+    /// A program whose inputs are variables of the same name, and coefficients that are read first.
+    pub(super) fn body(&self, program: &Program, number: Number) -> Body {
+        let input = |name: &str| {
+            let name = format_ident!("{name}");
+            quote!(#name)
+        };
+        let rebased = self.model.metrics.is_some();
+        let places: Vec<Span> = self.spec.customs.iter().map(place).collect();
+        let scope = Scope { number, input: &input, rebased, places: &places, rt: &self.names.rt };
+        let Body { lets, results } = body(program, &scope);
+        let coefficients = program.inputs().into_iter().filter_map(|name| {
+            let (index, name) = (coefficient_index(name)?, format_ident!("{name}"));
+            let value = number.of_double(quote!(self.coefficients[#index]));
+            Some(quote!(let #name = #value;))
+        });
+        let fields = self.spec.customs.iter().enumerate().filter_map(|(k, custom)| {
+            program.calls.iter().find(|call| call.field() == Some(k + 1))?;
+            let name = format_ident!("custom_{}", k + 1);
+            Some(self.computing(&name, custom))
+        });
+        let change = self.change_for(program, number);
+        Body { lets: coefficients.chain(change).chain(fields).chain([lets]).collect(), results }
+    }
+
+    /// The bases over a scalar, or over the one that is asked for where they stand.
+    pub(super) fn bases(&self, scalar: Option<&TokenStream>) -> TokenStream {
+        let of = scalar.map(|scalar| quote!(::<#scalar>));
+        match self.model.metrics {
+            Some(ChangeOfBases::Prepared(_)) => quote!(self.bases.over #of ()),
+            _ => quote!(bases #of ()),
+        }
+    }
+
+    /// The change of bases for the fields that a program calls.
+    pub(super) fn change_for(&self, program: &Program, number: Number) -> Option<TokenStream> {
+        let calls = program.calls.iter().any(|call| call.field().is_some());
+        let rt = &self.names.rt;
+        let scalar = match number {
+            Number::Generic(scalar) => quote!(#scalar),
+            Number::Double => quote!(#rt::f64),
+        };
+        let bases = self.bases(Some(&scalar));
+        (calls && self.model.metrics.is_some()).then(|| quote!(let change = &#bases;))
+    }
+
+    /// Puts `point`, a reference, in orthonormal bases.
+    pub(super) fn inward(&self) -> TokenStream {
+        let rt = &self.names.rt;
+        self.with_metrics(quote!(let point = &#rt::Model::orthonormal(self, point);))
+    }
+
+    /// A point in the user's bases.
+    pub(super) fn outward(&self, scalar: &TokenStream, point: TokenStream) -> TokenStream {
+        let (rt, bases) = (&self.names.rt, self.bases(Some(scalar)));
+        match self.model.metrics {
+            Some(_) => quote!(#rt::Phase::from_orthonormal(&#point, &#bases)),
+            None => point,
+        }
+    }
+
+    /// Statements for a model with metrics.
+    pub(super) fn with_metrics(&self, statements: TokenStream) -> TokenStream {
+        if self.model.metrics.is_some() { statements } else { TokenStream::new() }
+    }
+}
+
+/// Where the specification names a field that is called; names there mean what they mean elsewhere.
+fn place(custom: &Custom) -> Span {
+    Span::call_site().located_at(custom.field.span())
+}
+
+/// Index of `c_1`, `c_2`, ... in the prepared model.
+pub(super) fn coefficient_index(name: &str) -> Option<Literal> {
+    let index: usize = name.strip_prefix("c_")?.parse().ok()?;
+    Some(number(index.checked_sub(1)?))
+}

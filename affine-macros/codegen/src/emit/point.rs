@@ -1,0 +1,133 @@
+//! A phase point in emitted code: its components bound to names, its matrices in the words of the runtime.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use crate::ir::Program;
+use crate::mechanics::kinetic::Frame;
+use crate::mechanics::potential::DILATATION;
+
+use super::context::Context;
+use super::pattern::{components, pattern, reads};
+
+/// The model's own affine spin of `point`, as a matrix.
+pub(super) fn own_spin(context: &Context) -> TokenStream {
+    let rt = &context.names.rt;
+    match context.model.frame {
+        Frame::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
+        Frame::Space => quote!(#rt::Phase::sigma(point).0.0),
+        Frame::Flat => quote!(#rt::Phase::pi(point).0.0),
+    }
+}
+
+/// The affine velocity of the model's frame from a reference to `phi` and `phi_dot`.
+pub(super) fn affine_velocity(context: &Context, phi: &TokenStream) -> TokenStream {
+    let rt = &context.names.rt;
+    match context.model.frame {
+        Frame::Body => quote!((#rt::inverse(#phi) * phi_dot)),
+        Frame::Space => quote!((phi_dot * #rt::inverse(#phi))),
+        Frame::Flat => quote!(phi_dot),
+    }
+}
+
+/// Wrapper of matrices that hold the model's affine spin.
+pub(super) fn wrapper(context: &Context) -> TokenStream {
+    let rt = &context.names.rt;
+    match context.model.frame {
+        Frame::Body => quote!(#rt::Comoving),
+        Frame::Space => quote!(#rt::Spatial),
+        Frame::Flat => quote!(#rt::TwoPoint),
+    }
+}
+
+/// A momentum, projected under a constraint.
+pub(super) fn projected(context: &Context, momentum: TokenStream) -> TokenStream {
+    let rt = &context.names.rt;
+    match context.constraint().filter(|_| context.model.projected) {
+        Some(group) => quote!(#rt::projected(#group, &(#momentum))),
+        None => momentum,
+    }
+}
+
+/// `let` statements that bind the components of `point` that a program reads.
+pub(super) fn bind_point(context: &Context, program: &Program) -> TokenStream {
+    bind_components(context, &program.inputs())
+}
+
+/// `let` statements that bind these components of `point`.
+pub(super) fn bind_components(context: &Context, used: &[&str]) -> TokenStream {
+    let rt = &context.names.rt;
+    let spin = own_spin(context);
+    let mut lets = TokenStream::new();
+    for (group, names) in &context.model.full.groups {
+        if !reads(used, names) {
+            continue;
+        }
+        let value = match *group {
+            "x" => quote!(#rt::components(&#rt::Phase::x(point))),
+            "phi" => quote!(#rt::rows(#rt::Phase::phi(point))),
+            "p" => quote!(#rt::components(&#rt::Phase::p(point))),
+            "p_hat" => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
+            _ => quote!(#rt::rows(&#spin)),
+        };
+        lets.extend(bind_group(context, group, names, used, &value));
+    }
+    lets
+}
+
+/// Binds the components of a vector or a matrix that are both in a group of the array and used.
+fn bind_group(
+    context: &Context,
+    group: &str,
+    names: &[String],
+    used: &[&str],
+    value: &TokenStream,
+) -> TokenStream {
+    let stem = match group {
+        "x" | "p" | "p_hat" => {
+            let bound = pattern(names, used);
+            return quote!(let #bound = #value;);
+        }
+        "phi" => "phi",
+        _ => context.model.frame.momentum_name(),
+    };
+    let used: Vec<&str> = used.iter().copied().filter(|name| names.iter().any(|n| n == name)).collect();
+    let rows = components(stem, context.model.dim);
+    let rows = rows.iter().map(|row| pattern(row, &used));
+    quote!(let [#(#rows),*] = #value;)
+}
+
+/// A statement that binds the entries of `phi` that a program reads; nothing where it reads none.
+pub(super) fn placement(context: &Context, program: &Program, phi: &TokenStream) -> TokenStream {
+    let (rt, used) = (&context.names.rt, program.inputs());
+    let names = components("phi", context.model.dim);
+    if !reads(&used, &names.concat()) {
+        return TokenStream::new();
+    }
+    let rows = names.iter().map(|row| pattern(row, &used));
+    quote!(let [#(#rows),*] = #rt::rows(#phi);)
+}
+
+/// `let` statements for the functions of the placement of `point` that a program reads: `q`, `D` and `q_a`.
+pub(super) fn at_placement(context: &Context, program: &Program) -> TokenStream {
+    let rt = &context.names.rt;
+    let used = program.inputs();
+    let of_placement = |name: &str| {
+        let (symbol, function) = match name {
+            "q" => (format_ident!("q"), format_ident!("mean_log_stretch")),
+            _ => (format_ident!("{name}"), format_ident!("{name}")),
+        };
+        used.contains(&name).then(|| quote!(let #symbol = #rt::#function(#rt::Phase::phi(point));))
+    };
+    let (mean, dilatation) = (of_placement("q"), of_placement(DILATATION));
+    let names: Vec<String> = (1..=context.model.dim).map(|a| format!("q_{a}")).collect();
+    let stretches = reads(&used, &names).then(|| {
+        let bound = pattern(&names, &used);
+        quote!(let #bound = #rt::log_stretches(#rt::Phase::phi(point));)
+    });
+    quote! {
+        #mean
+        #dilatation
+        #stretches
+    }
+}

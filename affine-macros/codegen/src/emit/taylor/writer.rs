@@ -1,0 +1,62 @@
+//! The recurrence of a model on its way to code, and the names of its values.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::emit::context::Context;
+use crate::emit::pattern::{pattern, reads};
+use crate::emit::trajectory;
+use crate::ir::taylor::{Recurrence, Series};
+use crate::ir::{Program, Value};
+
+/// The recurrence, written down piece by piece.
+pub(super) struct Writer<'a> {
+    pub(super) context: &'a Context<'a>,
+    pub(super) recurrence: &'a Recurrence,
+    /// Values that do not move and that rules read, with their expressions.
+    pub(super) fixed: Vec<(Value, TokenStream)>,
+}
+
+impl Writer<'_> {
+    pub(super) fn states(&self) -> Vec<String> {
+        self.context.model.reduced.names()
+    }
+
+    /// The statement that binds the coefficients of the trajectory that a program reads, and the parameter.
+    pub(super) fn constants(&self, program: &Program) -> (TokenStream, TokenStream) {
+        trajectory::coefficients(self.context, &program.inputs())
+    }
+
+    /// A state vector's components that are read, bound to their names, and the parameter.
+    pub(super) fn bind(&self, used: &[&str], from: &str) -> (TokenStream, TokenStream) {
+        let names = self.states();
+        if !reads(used, &names) {
+            let unused = format_ident!("_{from}");
+            return (TokenStream::new(), quote!(#unused));
+        }
+        let (bound, from) = (pattern(&names, used), format_ident!("{from}"));
+        (quote!(let #bound = *#from;), quote!(#from))
+    }
+
+    /// The program with other results.
+    pub(super) fn with_results(&self, results: impl Iterator<Item = Value>) -> Program {
+        let mut program = self.recurrence.program.clone();
+        program.outputs = results.map(|v| (self.name(v), v)).collect();
+        program.without_dead_steps()
+    }
+
+    /// Name of a value: what the derivation calls it, or its number.
+    pub(super) fn name(&self, value: Value) -> String {
+        self.recurrence.program.name(value)
+    }
+
+    pub(super) fn ident(&self, value: Value) -> Ident {
+        format_ident!("{}", self.name(value))
+    }
+
+    /// A series at order `k`.
+    pub(super) fn current(&self, series: Series) -> TokenStream {
+        let value = self.ident(series.value);
+        if series.rate { quote!(#value * order) } else { quote!(#value) }
+    }
+}
