@@ -1,5 +1,7 @@
 //! The mistakes, idea by idea.
 
+use std::fmt;
+
 use super::capability::CapabilityMistake;
 use super::constraint::ConstraintMistake;
 use super::expression::ExpressionMistake;
@@ -34,6 +36,12 @@ pub enum Diagnostic {
     Force(ForceMistake),
 }
 
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.text().write(self.name(), f)
+    }
+}
+
 /// Hands on what every idea has; a new one is a row here and a file beside this one.
 macro_rules! ideas {
     ($($idea:ident($mistake:ident),)*) => {
@@ -51,7 +59,7 @@ macro_rules! ideas {
                 [$($mistake::NAMES),*].into_iter().flatten().copied()
             }
 
-            pub(super) fn text(&self) -> Text {
+            fn text(&self) -> Text {
                 match self {
                     $(Self::$idea(mistake) => mistake.text(),)*
                 }

@@ -3,8 +3,6 @@
 
 use std::fmt;
 
-use super::Diagnostic;
-
 /// The three parts of a message.
 pub(super) struct Text {
     what: String,
@@ -12,10 +10,11 @@ pub(super) struct Text {
     instead: String,
 }
 
-impl fmt::Display for Diagnostic {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Text { what, why, instead } = self.text();
-        write!(f, "{what} [{}]\nwhy: {why}\ninstead: {instead}", self.name())
+impl Text {
+    /// Writes the message of the mistake with this name.
+    pub(super) fn write(&self, name: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { what, why, instead } = self;
+        write!(f, "{what} [{name}]\nwhy: {why}\ninstead: {instead}")
     }
 }
 
