@@ -1,6 +1,7 @@
 //! Vectors from the results down.
 
-use super::{Four, Index, Lane, Lanes, OF_A_SUM, Vector, weight};
+use super::cost::{self, OF_A_SUM};
+use super::vector::{Four, Index, Lane, Lanes, Vector};
 use crate::ir::{Op, Program, Value};
 
 /// Vectors that are in no order yet.
@@ -43,22 +44,6 @@ fn fixed(program: &Program, state: &[String]) -> Vec<bool> {
         fixed.push(is_fixed);
     }
     fixed
-}
-
-/// Instructions of a vector, about.
-pub(super) fn cost(program: &Program, four: Four) -> usize {
-    match four {
-        Four::State(_) | Four::Neg(_) => 0,
-        // A number in memory goes to all lanes as it is read.
-        Four::All(value) => usize::from(!matches!(program.steps[value], Op::Constant(_))),
-        Four::Gathered(lanes) => lanes
-            .into_iter()
-            .filter_map(Lane::value)
-            .filter(|v| !matches!(program.steps[*v], Op::Constant(_)))
-            .count(),
-        Four::Add(..) | Four::Sub(..) | Four::Mul(..) => 1,
-        Four::MulAdd(..) => 2,
-    }
 }
 
 struct Packer<'p> {
@@ -262,11 +247,11 @@ impl Packer<'_> {
             });
         }
         let mut open: Vec<Value> = self.vectors.iter().flat_map(|vector| vector.made.values()).collect();
-        let mut cost = self.vectors.iter().map(|vector| cost(self.program, vector.made)).sum();
+        let mut cost = self.vectors.iter().map(|vector| cost::of_vector(self.program, vector.made)).sum();
         while let Some(value) = open.pop() {
             if !found[value] {
                 found[value] = true;
-                cost += weight(&self.program.steps[value]);
+                cost += cost::of_number(&self.program.steps[value]);
                 open.extend(self.program.steps[value].operands());
             }
         }

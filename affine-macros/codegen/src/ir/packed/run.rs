@@ -1,6 +1,6 @@
 //! Execution in any field.
 
-use super::{Four, Lane, Packed, Step};
+use super::vector::{Four, Lane, Packed, Step};
 use crate::algebra::Rational;
 use crate::algebra::evaluate::Field;
 use crate::ir::{Op, Program, Value};

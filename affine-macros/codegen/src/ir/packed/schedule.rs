@@ -1,7 +1,7 @@
 //! The order of vectors and scalar steps.
 
 use super::pack::Draft;
-use super::{Index, Lane, Packed, Step, Vector};
+use super::vector::{Index, Lane, Packed, Step, Vector};
 use crate::ir::{Op, Program, Value};
 
 /// Puts everything that the rates need in order.

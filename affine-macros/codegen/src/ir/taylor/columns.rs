@@ -2,7 +2,7 @@
 //! taken out of a lane and put back into one.
 
 use super::super::{Op, Program, Value};
-use super::{Column, Place, Rule, Series, Term};
+use super::recurrence::{Column, Place, Rule, Series, Term};
 
 /// The columns among the vectors of a row of slots.
 pub(super) fn find(

@@ -4,8 +4,8 @@
 //! partner in turn (a column of `phi` by the entries of `Omega`), or lane by lane by another vector (two columns in
 //! `phi^T phi`). Vectors are chosen greedily by the products they cover; what is left over is gathered.
 
+use super::recurrence::{Factor, Pass, Place, Series};
 use super::rules::Product;
-use super::{Factor, Pass, Place, Series};
 
 /// Products in lanes.
 pub(super) struct Packed {

@@ -5,7 +5,7 @@ use crate::algebra::Function;
 use super::super::{Op, Program, Value};
 use super::companions::companion_of;
 use super::quotients::is_quotient;
-use super::{Place, Rule, Series, Term};
+use super::recurrence::{Place, Rule, Series, Term};
 
 /// A convolution to be formed.
 #[derive(Clone, Debug, PartialEq, Eq)]
