@@ -1,5 +1,6 @@
 //! From what the user wrote to symbolic terms: the last place where the specification's syntax is known.
 
+mod base_functions;
 mod components;
 mod constant;
 mod domain;
@@ -17,11 +18,11 @@ use crate::mechanics::kinetic::{Coefficient, Frame, Term, TermKind};
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::spec::{self, Expression, ExpressionKind, FIELD, Spec, Value, field_entry};
 
+pub(crate) use base_functions::{difference_of, energy};
 pub use constant::{LARGEST_POWER, constant, integer};
 pub use metrics::metrics;
 pub use momentum_side::stated;
 pub use potential::potential;
-pub(crate) use potential::{difference_of, energy};
 
 /// Does the expression depend on more than fields?
 pub(crate) fn moves(arena: &Arena, expr: Expr) -> bool {

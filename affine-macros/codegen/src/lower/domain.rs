@@ -1,12 +1,11 @@
 //! Where a potential has a value, read off what the user wrote: arguments of logarithms and roots, and divisors; and angles
 //! that the time turns.
 
+use super::base_functions::{Reading, difference_of, is_positive, value};
 use super::constant::constant;
 use crate::algebra::{Arena, Expr, Function};
 use crate::mechanics::potential::{Bound, Guard, TIME};
 use crate::spec::{Expression, ExpressionKind};
-
-use super::potential::{Reading, difference_of, is_positive, value};
 
 /// The guards of an energy, in the order of its parts, angles last; those that hold everywhere are left out.
 pub(super) fn guards(arena: &mut Arena, n: usize, energy: &Expression, given: bool) -> Vec<Guard> {

@@ -1,0 +1,193 @@
+//! An expression of a potential in base functions of the placement, the time and the fields.
+
+use super::components;
+use super::constant::constant;
+use crate::algebra::arena::Node;
+use crate::algebra::ring::{Square, product};
+use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
+use crate::mechanics::potential::{Base, TIME};
+use crate::spec::{Expression, ExpressionKind, FIELD, MatrixName, numbered};
+
+/// The symbolic value, with `difference` for `d`; `None` only for what the checks refuse.
+pub(crate) fn energy(arena: &mut Arena, n: usize, e: &Expression, difference: Option<Expr>) -> Option<Expr> {
+    value(arena, n, e, Reading { difference, given: false })
+}
+
+/// How an expression is read.
+#[derive(Clone, Copy)]
+pub(super) struct Reading {
+    /// What `d` stands for.
+    pub(super) difference: Option<Expr>,
+    /// Are components told from those in orthonormal bases?
+    pub(super) given: bool,
+}
+
+pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Reading) -> Option<Expr> {
+    if let Some(value) = constant(e, n) {
+        return Some(arena.constant(value));
+    }
+    let of = |arena: &mut Arena, operand: &Expression| value(arena, n, operand, reading);
+    let component = |arena: &mut Arena, base: Base| {
+        if reading.given { components::symbol(arena, base) } else { base.symbol(arena) }
+    };
+    match &e.kind {
+        ExpressionKind::Number(value) => Some(arena.constant(value.clone())),
+        // Of a matrix a potential could only take entries, and those of fields have no notation.
+        ExpressionKind::FieldEntry(..) => None,
+        ExpressionKind::Symbol(name) if name == "d" => reading.difference,
+        ExpressionKind::Symbol(name) => symbol(arena, n, &name.to_string()),
+        ExpressionKind::Negate(a) => {
+            let a = of(arena, a)?;
+            Some(arena.neg(a))
+        }
+        ExpressionKind::Add(a, b) => {
+            let (a, b) = (of(arena, a)?, of(arena, b)?);
+            Some(arena.add(a, b))
+        }
+        ExpressionKind::Subtract(a, b) => {
+            let (a, b) = (of(arena, a)?, of(arena, b)?);
+            Some(arena.sub(a, b))
+        }
+        ExpressionKind::Multiply(a, b) => {
+            let (a, b) = (of(arena, a)?, of(arena, b)?);
+            Some(arena.mul(a, b))
+        }
+        ExpressionKind::Divide(a, b) => {
+            let (a, b) = (of(arena, a)?, of(arena, b)?);
+            arena.div(a, b)
+        }
+        ExpressionKind::Power(a, exponent) => {
+            let a = of(arena, a)?;
+            let exponent = constant(exponent, n)?;
+            match (exponent.to_i64().and_then(|k| i32::try_from(k).ok()), arena.node(a)) {
+                (Some(k), _) => arena.pow(a, k),
+                // exp(u)^k = exp(k u): of det, D, I_n and stretches, which are positive.
+                (None, &Node::Function(Function::Exp, logarithm)) => {
+                    let logarithm = arena.scale(logarithm, &exponent);
+                    Some(arena.apply(Function::Exp, logarithm))
+                }
+                (None, _) => None,
+            }
+        }
+        ExpressionKind::Call(function, a) => {
+            let a = of(arena, a)?;
+            Some(applied(arena, *function, a))
+        }
+        ExpressionKind::Trace(factors) => trace(arena, n, factors),
+        ExpressionKind::InverseTrace(_) => {
+            let [above, below] = [n.checked_sub(1)?, n].map(|k| symbol(arena, n, &format!("I{k}")));
+            arena.div(above?, below?)
+        }
+        ExpressionKind::Entry(matrix, row, column) => {
+            Some(component(arena, entry(*matrix, row.checked_sub(1)?, column.checked_sub(1)?)))
+        }
+        ExpressionKind::Component(index) => Some(component(arena, Base::Position(index.checked_sub(1)?))),
+        ExpressionKind::Norm => {
+            let mut squares = Vec::new();
+            for i in 0..n {
+                let x = Base::Position(i).symbol(arena);
+                squares.push((arena.mul(x, x), Rational::ONE));
+            }
+            let square = arena.linear(&squares);
+            Some(arena.apply(Function::Sqrt, square))
+        }
+        ExpressionKind::Pairs(f) => {
+            let mut terms = Vec::new();
+            for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
+                let difference = difference_of(arena, a, b);
+                let difference = Some(difference);
+                terms.push((value(arena, n, f, Reading { difference, ..reading })?, Rational::ONE));
+            }
+            Some(arena.linear(&terms))
+        }
+    }
+}
+
+/// `q_a - q_b`, counted from 0.
+pub(crate) fn difference_of(arena: &mut Arena, a: usize, b: usize) -> Expr {
+    let [left, right] = [a, b].map(|k| Base::LogStretch(k).symbol(arena));
+    arena.sub(left, right)
+}
+
+/// A function of an argument; an absolute value of what keeps its sign is no function.
+fn applied(arena: &mut Arena, function: Function, argument: Expr) -> Expr {
+    let value = arena.apply(function, argument);
+    let Node::Function(Function::Abs, of) = *arena.node(value) else { return value };
+    match arena.sign(of, &is_positive) {
+        Some(sign) if sign.negative => arena.neg(of),
+        Some(_) => of,
+        None => value,
+    }
+}
+
+/// Traces and diagonal entries of `G` and `Ct` are positive.
+pub(super) fn is_positive(name: &str) -> bool {
+    let name = name.strip_prefix(components::GIVEN).unwrap_or(name);
+    let diagonal = |entry: &str| matches!(entry, "11" | "22" | "33");
+    ["trace_1", "trace_2", "trace_3"].contains(&name)
+        || name.strip_prefix("green_").or_else(|| name.strip_prefix("finger_")).is_some_and(diagonal)
+}
+
+fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
+    let q = Base::MeanLogStretch.symbol(arena);
+    // exp(k q); det phi = exp(n q), so that one logarithm or one root serves all.
+    let power = |arena: &mut Arena, k: usize| {
+        let argument = arena.scale(q, &Rational::from(i64::try_from(k).ok()?));
+        Some(arena.apply(Function::Exp, argument))
+    };
+    match name {
+        "q" => Some(q),
+        TIME => Some(arena.symbol(TIME)),
+        "D" => power(arena, 1),
+        "det" => power(arena, n),
+        "I1" => Some(Base::Trace.symbol(arena)),
+        // e_2 = ((tr G)^2 - tr G^2)/2
+        "I2" if n == 3 => {
+            let (first, second) = (Base::Trace.symbol(arena), Base::TraceOfSquare.symbol(arena));
+            let square = arena.mul(first, first);
+            let half = Rational::ratio(1, 2)?;
+            Some(arena.linear(&[(square, half.clone()), (second, -&half)]))
+        }
+        // e_n = det G
+        "I2" | "I3" => power(arena, 2 * n),
+        name => match numbered(name) {
+            Some(('q', a)) => Some(Base::LogStretch(a.checked_sub(1)?).symbol(arena)),
+            Some(('Q', a)) => {
+                let q = Base::LogStretch(a.checked_sub(1)?).symbol(arena);
+                Some(arena.apply(Function::Exp, q))
+            }
+            _ => Some(arena.symbol(&format!("{FIELD}{name}"))),
+        },
+    }
+}
+
+fn entry(matrix: MatrixName, row: usize, column: usize) -> Base {
+    match matrix {
+        MatrixName::Green => Base::Green(row.min(column), row.max(column)),
+        MatrixName::Finger => Base::Finger(row.min(column), row.max(column)),
+        MatrixName::Placement => Base::Placement(row, column),
+    }
+}
+
+/// `tr G = tr Ct` and likewise of squares and cubes are base functions; other products are written out.
+fn trace(arena: &mut Arena, n: usize, factors: &[MatrixName]) -> Option<Expr> {
+    let first = *factors.first()?;
+    if first != MatrixName::Placement && factors.iter().all(|factor| *factor == first) {
+        match factors.len() {
+            1 => return Some(Base::Trace.symbol(arena)),
+            2 => return Some(Base::TraceOfSquare.symbol(arena)),
+            3 => return Some(Base::TraceOfCube.symbol(arena)),
+            _ => {}
+        }
+    }
+    let mut matrix = |name: MatrixName| -> Square<Polynomial> {
+        (0..n).map(|a| (0..n).map(|b| Polynomial::atom(entry(name, a, b).symbol(arena))).collect()).collect()
+    };
+    let mut result = matrix(first);
+    for factor in &factors[1..] {
+        result = product(&result, &matrix(*factor));
+    }
+    let mut sum = Polynomial::zero();
+    (0..n).for_each(|a| sum.add_scaled(&result[a][a], &Rational::ONE));
+    Some(sum.expression(arena))
+}
