@@ -2,9 +2,9 @@
 
 use proc_macro2::{Delimiter, Ident, TokenTree};
 
-use super::Spanned;
 use super::entries::{Piece, pieces, region, shortened, unwrapped};
 use super::names::Named;
+use super::spanned::Spanned;
 use crate::diagnostics::{Diagnostics, ForceMistake, Region};
 
 /// A field that computes a potential or a force.

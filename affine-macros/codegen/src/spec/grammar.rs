@@ -3,12 +3,16 @@
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::parse::Parser;
 
+use super::custom::{self, Custom};
 use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
 use super::expression_parser::{self, Language};
+use super::item::Item;
 use super::keys::{Key, Side};
 use super::momentum_side::{self, MomentumKind};
 use super::names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, TermKind, nearest};
-use super::{Custom, Item, Metric, Potential, Spanned, Spec, Symmetry, Term, custom, value};
+use super::spanned::Spanned;
+use super::statement::{Metric, Potential, Spec, Symmetry, Term};
+use super::value;
 use crate::diagnostics::{Diagnostics, NotationMistake, Region, Reported};
 
 /// Terms that `hamiltonian(...)` has, and `kinetic(...)` and `dissipation(...)` have not.

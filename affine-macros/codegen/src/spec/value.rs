@@ -3,8 +3,10 @@
 use proc_macro2::{Delimiter, TokenTree};
 
 use super::entries::{Piece, pieces, unwrapped};
+use super::expression::Expression;
 use super::expression_parser::{self, Language};
-use super::{Expression, TermKind, Value};
+use super::names::TermKind;
+use super::statement::Value;
 use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
 
 /// How a term may look, in a message.
