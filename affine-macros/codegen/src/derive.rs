@@ -1,7 +1,9 @@
 //! The derivation of one model: from its quadratic form to straight-line programs, ready to be written down.
 
+mod batch;
 mod constant;
 mod domain;
+mod equations;
 mod lattice;
 mod metrics;
 mod mixed;
@@ -13,16 +15,16 @@ pub mod second_order;
 pub mod splitting;
 mod stated;
 mod ways;
+mod well_posed;
 mod written;
 
 use crate::check::Energy;
 
+pub use equations::Equations;
 pub use lattice::{PieceProgram, PiecePrograms, RatioProgram, TwoPolar};
 pub use metrics::{ChangeOfBases, GivenMatrix, GivenSource, Preparation};
-pub use model::{
-    Balance, Condition, Damping, Domain, Equations, Formulas, Metric, MixedMasses, Model, NumericBlock,
-    Regularity, Relation, VelocitySide,
-};
+pub use model::{Balance, Domain, Formulas, Metric, MixedMasses, Model, Regularity, VelocitySide};
+pub use well_posed::{Condition, Damping, NumericBlock, Relation};
 pub use written::{Part, Written};
 
 /// Derives a model; `None` only for energies that the checks refuse.

@@ -23,8 +23,9 @@ use crate::mechanics::reduce::{self, ClosedForm, Commuting, Reduction};
 use crate::mechanics::shared::CentreVelocity;
 use crate::optimise::Batch;
 
+use super::batch::batch;
 use super::prepared::{coefficient_program, damping};
-use super::programs::{Pieces, Reduced, batch, shortest, shortest_reduction};
+use super::programs::{Pieces, Reduced, shortest, shortest_reduction};
 use super::ways::Ways;
 use super::{Formulas, Model, VelocitySide, quantities};
 

@@ -1,7 +1,10 @@
 //! Everything that is emitted about a model.
 
-use super::{ChangeOfBases, TwoPolar, second_order, splitting};
-use crate::algebra::Rational;
+use super::equations::Equations;
+use super::lattice::TwoPolar;
+use super::metrics::ChangeOfBases;
+use super::well_posed::{Condition, Damping, NumericBlock};
+use super::{second_order, splitting};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::ir::packed::Packed;
@@ -135,24 +138,6 @@ pub struct Domain {
     pub program: Program,
 }
 
-/// A first-order system as a program over a plain array.
-pub struct Equations {
-    /// Groups of the array: name and component symbols.
-    pub groups: Vec<(&'static str, Vec<String>)>,
-    /// Entries of the affine momentum that are linear in components of the array.
-    pub dependent: Program,
-    /// Array -> its rate.
-    pub program: Program,
-}
-
-impl Equations {
-    /// Names of the components of the array.
-    #[must_use]
-    pub fn names(&self) -> Vec<String> {
-        self.groups.iter().flat_map(|(_, names)| names.clone()).collect()
-    }
-}
-
 /// Legendre transformation of the centre of mass where it depends on `phi`.
 pub struct MixedMasses {
     /// `(phi, x_dot) -> p`.
@@ -185,52 +170,6 @@ pub struct Balance {
     pub internal: Program,
     /// Point -> [quantities](crate::mechanics::balance::CENTRE) of the centre of mass, where it moves.
     pub centre: Option<Program>,
-}
-
-/// A quantity that must not vanish once the fields have values.
-pub struct Condition {
-    /// `I + A`.
-    pub name: &'static str,
-    /// Which velocities lose their momentum, or which momenta their velocity.
-    pub directions: &'static str,
-    /// Is it a factor of velocities, or of momenta?
-    pub relation: Relation,
-    /// Must it be positive?
-    pub positive: bool,
-    /// Computes the value, then the terms whose sizes make the threshold.
-    pub program: Program,
-}
-
-/// What an eigenvalue is a factor of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Relation {
-    /// The momentum is the eigenvalue times the velocity.
-    MomentumOfVelocity,
-    /// The velocity is the eigenvalue times the momentum.
-    VelocityOfMomentum,
-}
-
-/// What must not be negative once the fields have values.
-#[derive(Default)]
-pub struct Damping {
-    /// Eigenvalues and coefficients.
-    pub conditions: Vec<Condition>,
-    /// Blocks whose eigenvalues need numbers; no inverse is formed.
-    pub blocks: Vec<NumericBlock>,
-}
-
-/// A block to invert numerically.
-pub struct NumericBlock {
-    /// Computes the upper triangle, row after row, then the terms whose sizes make the threshold.
-    pub program: Program,
-    /// Names of the entries of the inverse, upper triangle, row after row.
-    pub inverse: Vec<String>,
-    /// The velocities that it is written in: row-major places and weights.
-    pub basis: Vec<Vec<(usize, Rational)>>,
-    /// Number of rows of the block.
-    pub size: usize,
-    /// Must it be positive definite?
-    pub positive: bool,
 }
 
 impl Model {

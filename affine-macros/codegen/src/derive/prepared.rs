@@ -10,7 +10,7 @@ use crate::mechanics::hessian::Direction;
 use crate::mechanics::kinetic::{Coefficient, Kinetic, TermKind};
 use crate::optimise::{Batch, straight_line};
 
-use super::{Condition, Damping, NumericBlock, Relation};
+use super::well_posed::{Condition, Damping, NumericBlock, Relation};
 
 /// What `prepare()` has to check once the fields have values.
 pub(super) fn conditions(

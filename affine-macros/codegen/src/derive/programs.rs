@@ -1,7 +1,7 @@
 //! Hamilton's equations and the reduced equations in their shortest forms.
 
 use crate::algebra::bind::Constants;
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
@@ -13,10 +13,10 @@ use crate::mechanics::kinetic::Frame;
 use crate::mechanics::loads::loads;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::{self, Layout, Reduction};
-use crate::mechanics::separation::{Separation, Slope};
 use crate::optimise::{Batch, straight_line};
 
-use super::Equations;
+use super::batch::{batch, split_batch};
+use super::equations::Equations;
 use super::second_order::Halves;
 use super::splitting::Programs;
 
@@ -101,22 +101,6 @@ pub(super) fn shortest(
     }
 }
 
-impl Separation {
-    /// What the closed form of the dilatation reads: `1/m`, and the stiffness and scale of `U_dil'`.
-    pub(super) fn batch(&self) -> Batch {
-        let mut results = vec![("inverse_dilatational_mass".to_owned(), self.inverse_mass.clone())];
-        match &self.slope {
-            Slope::Zero => {}
-            Slope::Linear(stiffness) => results.push(("stiffness".to_owned(), stiffness.clone())),
-            Slope::Hyperbolic { stiffness, scale } => {
-                results.push(("stiffness".to_owned(), stiffness.clone()));
-                results.push(("scale".to_owned(), Polynomial::constant(scale.clone())));
-            }
-        }
-        Batch { results, ..Batch::default() }
-    }
-}
-
 fn independent_momenta(chart: &Chart) -> Vec<Expr> {
     let momenta = chart.independent().into_iter().filter(|z| matches!(z, Coordinate::M(..)));
     momenta.map(|z| chart.symbol(z)).collect()
@@ -128,47 +112,6 @@ fn dependent(arena: &mut Arena, chart: &Chart) -> Program {
     let results = results.map(|(symbol, value)| (arena.name(symbol).unwrap_or("entry").to_owned(), value));
     let batch = Batch { results: results.collect(), ..Batch::default() };
     fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
-}
-
-pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
-    let rates = system.rates.iter().map(|(_, symbol, rate)| (*symbol, rate));
-    let work = system.work.iter().map(|(symbol, power)| (*symbol, power));
-    Batch {
-        shared: system.shared.clone(),
-        kernels: system.kernels.clone(),
-        results: rates
-            .chain(work)
-            .map(|(symbol, rate)| (format!("d_{}", arena.name(symbol).unwrap_or("state")), rate.clone()))
-            .collect(),
-    }
-}
-
-/// The system in symmetric and skew parts of the affine momentum, formed from its entries.
-fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> Batch {
-    let mut replaced: Vec<(Expr, Polynomial)> = Vec::new();
-    let mut shared: Vec<(Expr, Polynomial)> = Vec::new();
-    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
-    for (a, b) in (0..chart.dim).flat_map(|a| (a + 1..chart.dim).map(move |b| (a, b))) {
-        let (upper, lower) = (chart.m.0[a][b], chart.m.0[b][a]);
-        let mut symbol =
-            |part: &str| arena.symbol(&format!("{}_{part}_{}{}", chart.momentum.name(), a + 1, b + 1));
-        let (symmetric, skew) = (symbol("sym"), symbol("skew"));
-        // s = (M_ab + M_ba)/2, w = M_ab - M_ba, so M_ab = s + w/2 and M_ba = s - w/2.
-        let combined = |x: Expr, y: Expr, weight: &Rational| {
-            let mut sum = Polynomial::atom(x);
-            sum.add_term(vec![y], weight);
-            sum
-        };
-        replaced.push((upper, combined(symmetric, skew, &half)));
-        replaced.push((lower, combined(symmetric, skew, &-&half)));
-        shared.push((symmetric, combined(upper, lower, &Rational::ONE).scaled(&half)));
-        shared.push((skew, combined(upper, lower, &Rational::MINUS_ONE)));
-    }
-    let value =
-        |atom: Expr| replaced.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone());
-    let mut result = batch(arena, &system.substitute(&value));
-    result.shared.extend(shared);
-    result
 }
 
 /// What is asked for beside the reduced equations, as programs over the same state.

@@ -14,7 +14,7 @@ use crate::mechanics::metric::{self, Definitions};
 use crate::mechanics::mixed::Factorisation;
 use crate::optimise::{Batch, straight_line};
 
-use super::{Balance, Metric};
+use super::model::{Balance, Metric};
 
 /// The mass matrix over `(x_dot, phi_dot)` of a sum of energies, and its inverse.
 pub(super) fn metric(

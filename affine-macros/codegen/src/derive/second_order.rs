@@ -11,7 +11,7 @@ use crate::mechanics::reduce::Reduction;
 use crate::mechanics::second_order::second_order;
 use crate::optimise::straight_line;
 
-use super::programs::batch;
+use super::batch::batch;
 
 /// `q' = V(p)`, `p' = F(t, q)` over the reduced state.
 pub struct Halves {

@@ -11,8 +11,8 @@ use crate::mechanics::separation::Slope;
 use crate::mechanics::splitting::{Flow, Principal, TIME_OF_FLOW, splitting};
 use crate::optimise::{Batch, straight_line};
 
+use super::batch::batch;
 use super::prepared::unbound;
-use super::programs::batch;
 
 /// The pieces of a reduced motion.
 pub struct Programs {

@@ -6,7 +6,7 @@ use crate::mechanics::kinetic::Frame;
 use crate::mechanics::momentum_side::Stated;
 
 use super::prepared::{summands, unbound};
-use super::{Condition, Relation};
+use super::well_posed::{Condition, Relation};
 
 /// Each eigenvalue of the momentum form, and the inverse mass, is different from zero; nothing is asked of a cubic
 /// Hamiltonian, whose velocity is a polynomial in the momentum whatever the coefficients are.

@@ -1,0 +1,50 @@
+//! What `prepare()` asks of the values of the fields.
+
+use crate::algebra::Rational;
+use crate::ir::Program;
+
+/// A quantity that must not vanish once the fields have values.
+pub struct Condition {
+    /// `I + A`.
+    pub name: &'static str,
+    /// Which velocities lose their momentum, or which momenta their velocity.
+    pub directions: &'static str,
+    /// Is it a factor of velocities, or of momenta?
+    pub relation: Relation,
+    /// Must it be positive?
+    pub positive: bool,
+    /// Computes the value, then the terms whose sizes make the threshold.
+    pub program: Program,
+}
+
+/// What an eigenvalue is a factor of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// The momentum is the eigenvalue times the velocity.
+    MomentumOfVelocity,
+    /// The velocity is the eigenvalue times the momentum.
+    VelocityOfMomentum,
+}
+
+/// What must not be negative once the fields have values.
+#[derive(Default)]
+pub struct Damping {
+    /// Eigenvalues and coefficients.
+    pub conditions: Vec<Condition>,
+    /// Blocks whose eigenvalues need numbers; no inverse is formed.
+    pub blocks: Vec<NumericBlock>,
+}
+
+/// A block to invert numerically.
+pub struct NumericBlock {
+    /// Computes the upper triangle, row after row, then the terms whose sizes make the threshold.
+    pub program: Program,
+    /// Names of the entries of the inverse, upper triangle, row after row.
+    pub inverse: Vec<String>,
+    /// The velocities that it is written in: row-major places and weights.
+    pub basis: Vec<Vec<(usize, Rational)>>,
+    /// Number of rows of the block.
+    pub size: usize,
+    /// Must it be positive definite?
+    pub positive: bool,
+}
