@@ -27,7 +27,7 @@ pub(crate) fn derived(args: &str) -> Result<Model, Vec<String>> {
         let spec = gate(|found| spec::parse(args, item, found))?;
         gate(|found| check::as_written(&spec, found))?;
         let energy = gate(|found| check::energy(&spec, found))?;
-        let model = derive(energy, false).expect("what passed the checks").with(&spec.emit);
+        let model = derive(energy, false).expect("what passed the checks");
         gate(|found| range::representable(&spec, &model, found))?;
         Ok(model)
     };

@@ -29,11 +29,10 @@ mod unitary;
 mod written;
 
 use crate::diagnostics::{Diagnostics, Reported};
+use crate::mechanics::form::Energy;
 use crate::spec::Spec;
 
-pub use definite::{eigenvalues, signature};
-pub use form::{Form, Quantities, form};
-pub use mixed::{MixedForm, Positive};
+pub use form::form;
 
 /// The rules that need only what the user wrote.
 ///
@@ -76,20 +75,6 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     inertia::positive(spec, found);
     tensors::symmetric(spec, found);
     found.verdict()
-}
-
-/// A kinetic energy, with a potential, that passed all rules.
-pub enum Energy {
-    /// Its mass matrix is constant in one frame.
-    Constant(Box<Form>),
-    /// Its mass matrix depends on the placement.
-    Mixed(Box<MixedForm>),
-}
-
-impl From<Form> for Energy {
-    fn from(form: Form) -> Self {
-        Self::Constant(Box::new(form))
-    }
 }
 
 /// The rules on the kinetic energy as a quadratic form.

@@ -18,7 +18,7 @@ mod ways;
 mod well_posed;
 mod written;
 
-use crate::check::Energy;
+use crate::mechanics::form::Energy;
 
 pub use equations::Equations;
 pub use lattice::{PieceProgram, PiecePrograms, RatioProgram, TwoPolar};
@@ -29,8 +29,15 @@ pub use written::{Part, Written};
 
 /// Derives a model; `None` only for energies that the checks refuse.
 pub fn derive(energy: impl Into<Energy>, require_positive: bool) -> Option<Model> {
-    match energy.into() {
-        Energy::Constant(form) => constant::constant(*form, require_positive),
-        Energy::Mixed(form) => mixed::derive(*form, require_positive),
-    }
+    let (model, asked) = match energy.into() {
+        Energy::Constant(form) => {
+            let asked = form.asked;
+            (constant::constant(*form, require_positive)?, asked)
+        }
+        Energy::Mixed(form) => {
+            let asked = form.asked;
+            (mixed::derive(*form, require_positive)?, asked)
+        }
+    };
+    Some(model.completed(asked))
 }

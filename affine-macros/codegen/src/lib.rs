@@ -52,7 +52,6 @@ pub fn model(args: TokenStream, item: TokenStream) -> Result<TokenStream, Reject
     // Past the second gate no derivation can fail: a form that passed has an invertible Legendre transformation.
     let positive = spec.require.iter().any(|r| r.value == spec::Requirement::PositiveDefinite);
     let Some(model) = derive::derive(energy, positive) else { return Ok(spec.item.tokens) };
-    let model = model.with(&spec.emit);
     gate(|found| range::representable(&spec, &model, found))?;
     Ok(emit::emit(&spec, &model))
 }

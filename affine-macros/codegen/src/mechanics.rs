@@ -1,5 +1,6 @@
 //! From a kinetic energy to Hamilton's equations; never sees tokens. One file per step.
 
+pub mod asked;
 pub mod balance;
 pub mod brackets;
 pub mod carried;
@@ -12,6 +13,7 @@ pub mod dissipation;
 pub mod equations;
 mod flow;
 pub mod forces;
+pub mod form;
 mod group_point;
 pub mod hamiltonian;
 pub mod hessian;

@@ -32,7 +32,7 @@ fn stand_in(args: TokenStream, item: &TokenStream) -> Option<TokenStream> {
         fields: field.into_iter().collect(),
     };
     let form = gate(|found| check::form(&spec, found)).ok()?;
-    Some(emit::emit(&spec, &derive::derive(form, false)?.with(&spec.emit)))
+    Some(emit::emit(&spec, &derive::derive(form, false)?))
 }
 
 /// A field that coefficients name.

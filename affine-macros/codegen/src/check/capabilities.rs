@@ -1,6 +1,7 @@
 //! Capabilities.
 
 use crate::diagnostics::{CapabilityMistake, Diagnostics, PotentialMistake};
+use crate::mechanics::asked::Asked;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::potential::Potential;
 use crate::spec::{Capability, Named, Spanned, Spec, TermKind};
@@ -88,6 +89,22 @@ pub(super) fn tangent(spec: &Spec, potential: Option<&Potential>, found: &mut Di
 /// Is a capability asked for?
 pub(super) fn asked(spec: &Spec, capability: Capability) -> bool {
     spec.emit.iter().any(|c| c.value == capability)
+}
+
+/// Everything that is asked for.
+pub(super) fn asked_for(spec: &Spec) -> Asked {
+    let asked = |capability| asked(spec, capability);
+    Asked {
+        two_polar: asked(Capability::TwoPolar),
+        ratios: asked(Capability::Ratios),
+        splitting: asked(Capability::Splitting),
+        nystrom: asked(Capability::Nystrom),
+        taylor: asked(Capability::Taylor),
+        tangent: asked(Capability::Tangent),
+        metric: asked(Capability::Metric),
+        acceleration: asked(Capability::Acceleration),
+        balance: asked(Capability::Balance),
+    }
 }
 
 /// Pieces with exact flows: the Casimirs of an isotropic energy and the rotation beside them, the squares of any other,

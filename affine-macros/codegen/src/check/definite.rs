@@ -1,12 +1,9 @@
 //! Rules on the signs of a kinetic energy: no eigenvalue may vanish, and none be negative where that is required.
 
-use super::Form;
 use super::written::{Written, eigenvalue_name, matrix_text};
-use crate::algebra::Polynomial;
 use crate::diagnostics::{Diagnostics, FormMistake};
-use crate::mechanics::hessian::{Block, Direction, Hessian};
+use crate::mechanics::hessian::{Direction, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic};
-use crate::mechanics::momentum_side::Stated;
 use crate::spec::{self, Named, Requirement, Spec};
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic
@@ -98,42 +95,4 @@ fn degenerate(spec: &Spec, kind: Direction) -> FormMistake {
         numbers: kinetic_terms(spec).eigenvalue_in_numbers(kind),
         directions,
     }
-}
-
-/// The numbers of positive and negative squares of a numeric form.
-#[must_use]
-pub fn signature(form: &Form) -> Option<(usize, usize)> {
-    // With a cubic term the metric depends on the momentum.
-    if form.stated.as_ref().is_some_and(Stated::is_cubic) {
-        return None;
-    }
-    let mut count = (0, 0);
-    for inertia in form.hessian.blocks.iter().map(|b: &Block| b.inertia(form.kinetic.dim)) {
-        let inertia = inertia?;
-        count.0 += inertia.positive;
-        count.1 += inertia.negative;
-    }
-    if let Some(t) = form.kinetic.translation {
-        let mass = form.arena.as_constant(t.mass)?;
-        match mass.is_negative() {
-            true => count.1 += form.kinetic.dim,
-            false => count.0 += form.kinetic.dim,
-        }
-    }
-    Some(count)
-}
-
-/// The eigenvalues that decide whether a model with fields is well posed: condition, reason, value.
-#[must_use]
-pub fn eigenvalues(hessian: &Hessian) -> Vec<(Direction, Polynomial)> {
-    let mut list: Vec<(Direction, Polynomial)> = Vec::new();
-    for block in &hessian.blocks {
-        if let Some(value) = block.eigenvalue() {
-            let kind = block.basis[0].kind;
-            if value.as_constant().is_none() && !list.contains(&(kind, value.clone())) {
-                list.push((kind, value));
-            }
-        }
-    }
-    list
 }

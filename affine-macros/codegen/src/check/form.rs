@@ -1,11 +1,13 @@
 //! Rules on the kinetic energy as a quadratic form, decided exactly.
 
-use super::{definite, dissipation, momentum_side, two_polar};
+use super::{capabilities, definite, dissipation, momentum_side, two_polar};
 use crate::algebra::Arena;
 use crate::diagnostics::{ConstraintMistake, Diagnostics, FormMistake, Reported};
 use crate::lower;
+use crate::mechanics::asked::Asked;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
+use crate::mechanics::form::Form;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
 use crate::mechanics::metrics::{Metrics, Rebased};
@@ -14,64 +16,6 @@ use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
 use crate::spec::{Capability, Claim, Named, Spec};
-
-/// A kinetic energy that passed all rules that can be decided before its fields have values.
-pub struct Form {
-    /// Owner of its expressions.
-    pub arena: Arena,
-    /// The energy.
-    pub kinetic: Kinetic,
-    /// The Hamiltonian, where it is what the user stated; `kinetic` follows from it.
-    pub stated: Option<Stated>,
-    /// Its Hessian on the affine velocities.
-    pub hessian: Hessian,
-    /// The largest of GL(n), O(n) that acts on space without changing the energy.
-    pub space_group: Group,
-    /// Likewise for the body.
-    pub body_group: Group,
-    /// The potential energy.
-    pub potential: Option<Potential>,
-    /// The forces that no potential has, and the potentials that fields compute.
-    pub forces: Forces,
-    /// Is the two-polar form asked for?
-    pub two_polar: bool,
-    /// Its equations in ratios of stretches too?
-    pub ratios: bool,
-    /// Are the placements those of U(n)?
-    pub unitary: bool,
-    /// Metrics other than the identity; everything else stands in bases in which they are.
-    pub metrics: Option<Metrics>,
-    /// Matrices that are carried to these bases when the model is prepared.
-    pub rebased: Vec<Rebased>,
-    /// Are the exact flows of pieces of the Hamiltonian asked for?
-    pub split: bool,
-    /// Are the equations asked for as `q'' = f(t, q)`?
-    pub nystrom: bool,
-    /// What else is emitted.
-    pub quantities: Quantities,
-}
-
-/// Quantities that are emitted when asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Quantities {
-    /// The configuration metric and its inverse.
-    pub metric: bool,
-    /// The acceleration of the centre of mass.
-    pub acceleration: bool,
-    /// The balance laws of a d'Alembert model.
-    pub balance: bool,
-}
-
-impl Quantities {
-    pub(super) fn of(spec: &Spec) -> Self {
-        let asked = |wanted: Capability| spec.emit.iter().any(|capability| capability.value == wanted);
-        Self {
-            metric: asked(Capability::Metric),
-            acceleration: asked(Capability::Acceleration),
-            balance: asked(Capability::Balance),
-        }
-    }
-}
 
 /// Builds the form and holds it against every rule.
 ///
@@ -112,10 +56,10 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     found.verdict()?;
     let potential = potential(&mut arena, spec, kinetic.constraint, (metrics.as_ref(), &mut rebased), found);
     forces.driven = driven(spec, potential.as_ref());
-    super::capabilities::series(spec, potential.as_ref(), found);
-    super::capabilities::tangent(spec, potential.as_ref(), found);
-    super::capabilities::pieces(spec, &kinetic, found);
-    super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
+    capabilities::series(spec, potential.as_ref(), found);
+    capabilities::tangent(spec, potential.as_ref(), found);
+    capabilities::pieces(spec, &kinetic, found);
+    capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
     let group = |side: Side| free.iter().map(|part| largest_group(part, side)).min().unwrap_or(Group::Affine);
     let (space_group, body_group) = (group(Side::Space), group(Side::Body));
@@ -132,11 +76,7 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
         forces,
         metrics,
         rebased,
-        split: super::capabilities::asked(spec, Capability::Splitting),
-        nystrom: super::capabilities::asked(spec, Capability::Nystrom),
-        quantities: Quantities::of(spec),
-        two_polar,
-        ratios: super::capabilities::asked(spec, Capability::Ratios),
+        asked: Asked { two_polar, ..capabilities::asked_for(spec) },
         unitary,
     })
 }
@@ -170,10 +110,10 @@ fn momentum_form(
     let body_group = largest_group(&on_momenta, Side::Body);
     let potential = potential(&mut arena, spec, kinetic.constraint, (metrics.as_ref(), &mut rebased), found);
     forces.driven = driven(spec, potential.as_ref());
-    super::capabilities::series(spec, potential.as_ref(), found);
-    super::capabilities::tangent(spec, potential.as_ref(), found);
-    super::capabilities::pieces(spec, &kinetic, found);
-    super::capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
+    capabilities::series(spec, potential.as_ref(), found);
+    capabilities::tangent(spec, potential.as_ref(), found);
+    capabilities::pieces(spec, &kinetic, found);
+    capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
     found.verdict()?;
     let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
     Ok(Form {
@@ -187,11 +127,7 @@ fn momentum_form(
         forces,
         metrics,
         rebased,
-        split: super::capabilities::asked(spec, Capability::Splitting),
-        nystrom: super::capabilities::asked(spec, Capability::Nystrom),
-        quantities: Quantities::of(spec),
-        two_polar,
-        ratios: super::capabilities::asked(spec, Capability::Ratios),
+        asked: Asked { two_polar, ..capabilities::asked_for(spec) },
         unitary: false,
     })
 }
@@ -217,7 +153,7 @@ pub(super) fn forces(
 pub(super) fn driven(spec: &Spec, potential: Option<&Potential>) -> bool {
     let apart = [Capability::Splitting, Capability::Nystrom];
     let taken_apart =
-        super::forces::has_multiplier(spec) || apart.iter().any(|c| super::capabilities::asked(spec, *c));
+        super::forces::has_multiplier(spec) || apart.iter().any(|c| capabilities::asked(spec, *c));
     potential.is_some_and(Potential::depends_on_time) && !taken_apart
 }
 

@@ -3,47 +3,15 @@
 use crate::algebra::Arena;
 use crate::diagnostics::{CapabilityMistake, Diagnostics, FormMistake, Reported};
 use crate::lower;
-use crate::mechanics::forces::Forces;
+use crate::mechanics::form::{MixedForm, Positive};
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::{Frame, Kinetic, Term};
 use crate::mechanics::mixed::{Confined, Internal, Masses, Mixed};
-use crate::mechanics::potential::Potential;
-use crate::mechanics::symmetry::{Group, Side};
+use crate::mechanics::symmetry::Side;
 use crate::spec::{Capability, Named, Requirement, Spec};
 
-use super::definite;
-use super::form::{self, Quantities};
-
-/// A sum of energies of different frames that passed all rules that can be decided before a placement is known.
-pub struct MixedForm {
-    /// Owner of its expressions.
-    pub arena: Arena,
-    /// The energy.
-    pub mixed: Mixed,
-    /// Hessian of the internal energy, where all of that has one frame.
-    pub hessian: Option<Hessian>,
-    /// Where it is positive whatever the placement.
-    pub positive: Positive,
-    /// The largest of GL(n), O(n) that acts on space without changing the energy.
-    pub space_group: Group,
-    /// Likewise for the body.
-    pub body_group: Group,
-    /// The potential energy.
-    pub potential: Option<Potential>,
-    /// The forces that no potential has, and the potentials that fields compute.
-    pub forces: Forces,
-    /// What else is emitted.
-    pub quantities: Quantities,
-}
-
-/// What is positive definite whatever the placement; undecided counts as not.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Positive {
-    /// The internal energy.
-    pub internal: bool,
-    /// The translational energy; one that does not exist is.
-    pub centre: bool,
-}
+use super::form::{self};
+use super::{capabilities, definite};
 
 /// Builds the form and holds it against every rule.
 ///
@@ -61,8 +29,8 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
             CapabilityMistake::LatticeWithout { part, lacks: "mass matrix that depends on phi" },
         );
     }
-    super::capabilities::one_frame(spec, found);
-    super::capabilities::on_the_group(spec, found);
+    capabilities::one_frame(spec, found);
+    capabilities::on_the_group(spec, found);
     let mut arena = Arena::new();
     let stated = lower::terms(&mut arena, spec.dim.value, &spec.kinetic);
     let (places, free): (Vec<usize>, Vec<Term>) = stated.iter().cloned().unzip();
@@ -116,8 +84,8 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
     found.verdict()?;
     let potential = form::potential(&mut arena, spec, group, (None, &mut Vec::new()), found);
     forces.driven = form::driven(spec, potential.as_ref());
-    super::capabilities::series(spec, potential.as_ref(), found);
-    super::capabilities::tangent(spec, potential.as_ref(), found);
+    capabilities::series(spec, potential.as_ref(), found);
+    capabilities::tangent(spec, potential.as_ref(), found);
     found.verdict()?;
     Ok(MixedForm {
         hessian,
@@ -127,7 +95,7 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
         mixed,
         potential,
         forces,
-        quantities: Quantities::of(spec),
+        asked: capabilities::asked_for(spec),
         arena,
     })
 }

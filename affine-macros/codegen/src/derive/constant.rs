@@ -3,12 +3,11 @@
 use super::domain::domain;
 use super::model::{Formulas, Model, VelocitySide};
 use super::prepared::{coefficient_program, conditions, damping, numeric_blocks};
-use super::programs::{Asked, Reduced, best_reduction, full_chart, full_equations, power_batch};
+use super::programs::{Reduced, best_reduction, full_chart, full_equations, power_batch};
 use super::ways::Ways;
 use super::{ChangeOfBases, lattice, quantities, stated};
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
-use crate::check::{Form, eigenvalues, signature};
 use crate::ir::fuse::fuse;
 use crate::mechanics::balance::Laws;
 use crate::mechanics::charts::{Chart, Momentum};
@@ -16,6 +15,7 @@ use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::describe::{self, Described, Notation};
 use crate::mechanics::equations::{self, hamilton};
 use crate::mechanics::forces::Forces;
+use crate::mechanics::form::Form;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::loads::loads;
@@ -29,26 +29,12 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
     let signature = match require_positive || form.kinetic.is_dalembert() {
         // `prepare()` refuses anything else.
         true => Some((form.kinetic.degrees_of_freedom(), 0)),
-        false => signature(&form),
+        false => form.signature(),
     };
     let groups = (form.space_group, form.body_group);
-    let eigenvalues = eigenvalues(&form.hessian);
+    let eigenvalues = form.hessian.eigenvalues();
     let Form {
-        mut arena,
-        kinetic,
-        stated,
-        hessian,
-        potential,
-        forces,
-        metrics,
-        rebased,
-        split,
-        nystrom,
-        two_polar,
-        ratios,
-        unitary,
-        quantities,
-        ..
+        mut arena, kinetic, stated, hessian, potential, forces, metrics, rebased, unitary, asked, ..
     } = form;
     let arena = &mut arena;
     let cubic = stated.as_ref().filter(|stated| stated.is_cubic());
@@ -73,10 +59,8 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
 
     let (full_chart, full_h) = full_chart(arena, &h);
     let full = full_equations(arena, &h, &full_chart, &full_h, at_points, &forces, &mut coefficients);
-    let Reduced { reduction, equations: reduced, pieces, trajectory, fixed } = {
-        let asked = (rotations, Asked { split, nystrom });
-        best_reduction(arena, &h, potential, &forces, asked, &mut coefficients)?
-    };
+    let Reduced { reduction, equations: reduced, pieces, trajectory, fixed } =
+        { best_reduction(arena, &h, potential, &forces, (rotations, asked), &mut coefficients)? };
     let energies = std::slice::from_ref(&kinetic);
     let metrics_of = metrics.as_ref();
     let described = Described {
@@ -145,21 +129,21 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
         // Nothing but the lattice is emitted: no other coefficient is computed.
         coefficients = Constants::new("c");
     }
-    let asked = lattice::Asked { unitary, split, ratios };
-    let two_polar =
-        two_polar.then(|| lattice::two_polar(arena, &notation, &h, potential, asked, &mut coefficients));
+    let two_polar = asked
+        .two_polar
+        .then(|| lattice::two_polar(arena, &notation, &h, potential, (unitary, asked), &mut coefficients));
     let numeric_blocks = numeric_blocks(arena, &h, require_positive || kinetic.is_dalembert());
-    let metric = match quantities.metric {
+    let metric = match asked.metric {
         true => Some(quantities::metric(arena, std::slice::from_ref(&kinetic), Some(&h), &mut coefficients)?),
         false => None,
     };
     let time = potential.and_then(Potential::time).or_else(|| forces.time(arena));
-    let acceleration = quantities.acceleration.then(|| {
+    let acceleration = asked.acceleration.then(|| {
         let mut system = hamilton(arena, &full_chart, &full_h, equations::Form::ThroughVelocity);
         loads(arena, &full_chart, &h, potential, &forces).iter().for_each(|load| system.add(load));
         quantities::acceleration(arena, &full_chart, &system, time, &mut coefficients)
     });
-    let balance = quantities.balance.then(|| {
+    let balance = asked.balance.then(|| {
         let loads = loads(arena, &full_chart, &h, potential, &forces);
         let laws = Laws::new(arena, &full_chart, &h, &full_h, &loads);
         quantities::balance(arena, &full_chart, &laws, time, &mut coefficients)

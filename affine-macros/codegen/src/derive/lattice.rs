@@ -10,6 +10,7 @@ use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::mechanics::asked::Asked;
 use crate::mechanics::describe::{Formula, Notation};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::{OnAxes, Potential};
@@ -42,27 +43,16 @@ pub struct TwoPolar {
     pub ratios: Option<RatioProgram>,
 }
 
-/// What is asked of a lattice.
-#[derive(Clone, Copy)]
-pub(super) struct Asked {
-    /// Is the group U(n)?
-    pub unitary: bool,
-    /// Exact flows of pieces?
-    pub split: bool,
-    /// Equations in ratios of stretches?
-    pub ratios: bool,
-}
-
-/// Derives the programs of the lattice form.
+/// Derives the programs of the lattice form, of U(n) or of GL(n).
 pub(super) fn two_polar(
     arena: &mut Arena,
     notation: &Notation,
     h: &Hamiltonian,
     potential: Option<&Potential>,
-    asked: Asked,
+    (unitary, asked): (bool, Asked),
     coefficients: &mut Constants,
 ) -> TwoPolar {
-    let lattice = Lattice::of(arena, h, asked.unitary);
+    let lattice = Lattice::of(arena, h, unitary);
     let mut equations = lattice.equations(arena, h);
     let formulas = two_polar::formulas(arena, notation, &equations, potential);
     let on_axes = potential.map(|u| u.on_axes(arena, &lattice));
@@ -98,7 +88,7 @@ pub(super) fn two_polar(
         true => Ratios::of(arena, &lattice, h).map(|form| RatioProgram::of(arena, &form)),
         false => None,
     };
-    let pieces = match asked.split {
+    let pieces = match asked.splitting {
         true => Pieces::of(arena, &lattice, &frames, h, on_axes.as_ref()),
         false => None,
     };

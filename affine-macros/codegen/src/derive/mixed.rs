@@ -5,13 +5,13 @@ mod programs;
 
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial};
-use crate::check::MixedForm;
 use crate::mechanics::brackets::gradient;
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::describe::{self, Described, Notation, Scope, closed_form};
 use crate::mechanics::equations::{self, Load, System, hamilton};
 use crate::mechanics::forces::Forces;
+use crate::mechanics::form::MixedForm;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::{self, Hessian};
 use crate::mechanics::kinetic::{Frame, Kinetic};
@@ -41,17 +41,8 @@ enum Inner {
 
 /// Derives a model; `None` only for energies that the checks refuse.
 pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
-    let MixedForm {
-        mut arena,
-        mixed,
-        hessian,
-        positive,
-        space_group,
-        body_group,
-        potential,
-        forces,
-        quantities,
-    } = form;
+    let MixedForm { mut arena, mixed, hessian, positive, space_group, body_group, potential, forces, asked } =
+        form;
     let arena = &mut arena;
     let inner = Inner::new(arena, &mixed, hessian.as_ref())?;
     let masses = Masses::of(&mixed);
@@ -77,11 +68,11 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
     let formulas = body.formulas(arena, &chart, &reduction, closed_form);
     let programs = body.programs(arena, &chart, &mut coefficients)?;
     let regularity = body.regularity(arena, positive, require_positive, &mut coefficients)?;
-    let metric = match quantities.metric {
+    let metric = match asked.metric {
         true => Some(quantities::metric(arena, &mixed.parts(), None, &mut coefficients)?),
         false => None,
     };
-    let acceleration = quantities
+    let acceleration = asked
         .acceleration
         .then(|| quantities::acceleration(arena, &chart, &systems[0], time, &mut coefficients));
     let signature = body.signature(hessian.as_ref(), positive, require_positive);

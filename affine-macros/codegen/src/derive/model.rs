@@ -10,6 +10,7 @@ use crate::ir::fuse::fuse;
 use crate::ir::packed::Packed;
 use crate::ir::tangent::with_tangent;
 use crate::ir::taylor::Recurrence;
+use crate::mechanics::asked::Asked;
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{Formula, LeftOut};
@@ -17,7 +18,6 @@ use crate::mechanics::kinetic::Frame;
 use crate::mechanics::potential::Guard;
 use crate::mechanics::reduce::{ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
-use crate::spec::{Capability, Spanned};
 
 /// Everything that is emitted about a model.
 pub struct Model {
@@ -173,23 +173,17 @@ pub struct Balance {
 }
 
 impl Model {
-    /// Derives what `emit(...)` asks for.
-    #[must_use]
-    pub fn with(mut self, capabilities: &[Spanned<Capability>]) -> Self {
+    /// With what is derived from the reduced equations: recurrence and variational equations, where they are asked for,
+    /// and vectors of four.
+    pub(super) fn completed(mut self, asked: Asked) -> Self {
         let states = self.reduced.names();
         let program = &self.reduced.program;
-        for capability in capabilities {
-            match capability.value {
-                Capability::Taylor => self.taylor = Some(Recurrence::of(program, &states)),
-                Capability::Tangent => {
-                    let own = (1..=self.trajectory.outputs.len()).map(|k| format!("k_{k}"));
-                    let changing: Vec<String> = states.iter().cloned().chain(own).collect();
-                    let along = with_tangent(program, &|name| changing.iter().any(|known| known == name));
-                    self.tangent = Some(fuse(&along));
-                }
-                _ => {}
-            }
-        }
+        self.taylor = asked.taylor.then(|| Recurrence::of(program, &states));
+        self.tangent = asked.tangent.then(|| {
+            let own = (1..=self.trajectory.outputs.len()).map(|k| format!("k_{k}"));
+            let changing: Vec<String> = states.iter().cloned().chain(own).collect();
+            fuse(&with_tangent(program, &|name| changing.iter().any(|known| known == name)))
+        });
         // Charts of groups take single components; Runge-Kutta-Nystrom steps and closed forms leave nothing to do.
         let is_closed = matches!(self.closed_form, Some((_, false)));
         if self.constraint.is_none() && self.second_order.is_none() && !is_closed {

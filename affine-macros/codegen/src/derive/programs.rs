@@ -4,6 +4,7 @@ use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::mechanics::asked::Asked;
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::equations::{self, System, hamilton};
@@ -123,13 +124,6 @@ pub(super) struct Pieces {
     pub(super) second_order: Option<Halves>,
 }
 
-/// What is asked for.
-#[derive(Clone, Copy)]
-pub(super) struct Asked {
-    pub(super) split: bool,
-    pub(super) nystrom: bool,
-}
-
 /// A reduction with its programs.
 pub(super) struct Reduced {
     pub(super) reduction: Reduction,
@@ -150,12 +144,12 @@ pub(super) fn best_reduction(
 ) -> Option<Reduced> {
     // The squares of an anisotropic energy move each momentum, also one that their sum conserves.
     let in_squares = h.isotropic.is_none() && h.frame != Frame::Flat;
-    let halves = asked.nystrom || (asked.split && in_squares);
-    let pieces = asked.nystrom || asked.split;
+    let halves = asked.nystrom || (asked.splitting && in_squares);
+    let pieces = asked.nystrom || asked.splitting;
     let candidates = reduce::candidates(arena, h, potential, forces, (rotations, halves, pieces));
     let time = time(arena, potential, forces);
     let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
-        let split = asked.split.then(|| Programs::of(arena, h, potential, reduction, constants));
+        let split = asked.splitting.then(|| Programs::of(arena, h, potential, reduction, constants));
         let halves = asked.nystrom.then(|| Halves::of(arena, h, potential, reduction, constants));
         Pieces { splitting: split.flatten(), second_order: halves.flatten() }
     };

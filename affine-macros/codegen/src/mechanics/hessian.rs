@@ -123,6 +123,21 @@ impl Block {
 }
 
 impl Hessian {
+    /// The eigenvalues that decide whether a model with fields is well posed: condition, reason, value.
+    #[must_use]
+    pub fn eigenvalues(&self) -> Vec<(Direction, Polynomial)> {
+        let mut list: Vec<(Direction, Polynomial)> = Vec::new();
+        for block in &self.blocks {
+            if let Some(value) = block.eigenvalue() {
+                let kind = block.basis[0].kind;
+                if value.as_constant().is_none() && !list.contains(&(kind, value.clone())) {
+                    list.push((kind, value));
+                }
+            }
+        }
+        list
+    }
+
     /// Is the energy zero for all velocities that are free?
     #[must_use]
     pub fn is_zero(&self) -> bool {

@@ -13,9 +13,10 @@ mod whole;
 
 use std::collections::BTreeSet;
 
-use affine_codegen::check::{self, Energy};
+use affine_codegen::check;
 use affine_codegen::derive::derive;
 use affine_codegen::diagnostics::gate;
+use affine_codegen::mechanics::form::Energy;
 use affine_codegen::spec;
 use affine_oracle::Random;
 

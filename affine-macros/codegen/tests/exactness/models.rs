@@ -1,8 +1,9 @@
 //! Random models: the text of a specification beside the oracle of the same energy.
 
-use affine_codegen::check::{self, Form};
+use affine_codegen::check;
 use affine_codegen::derive::{Model, derive};
 use affine_codegen::diagnostics::{Rejected, gate};
+use affine_codegen::mechanics::form::Form;
 use affine_codegen::spec;
 use affine_oracle::{Kinetic, Matrix, Random, Rational, Signature, Term, rational};
 

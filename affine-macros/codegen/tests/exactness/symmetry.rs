@@ -1,7 +1,7 @@
 //! Symmetry groups against brute force: random exact group elements applied to the energy itself.
 
-use affine_codegen::check::Form;
 use affine_codegen::diagnostics::{Diagnostic, FormMistake};
+use affine_codegen::mechanics::form::Form;
 use affine_codegen::mechanics::kinetic::Kinetic as Symbolic;
 use affine_codegen::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
 use affine_oracle::{Kinetic, Matrix, Random, Rational, Term, rational};

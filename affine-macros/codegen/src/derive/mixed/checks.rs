@@ -2,10 +2,10 @@
 
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Function, Matrix, Polynomial, Rational};
-use crate::check::{Positive, eigenvalues};
 use crate::derive::prepared::{conditions, leading_minors, numeric_blocks, summands, unbound};
 use crate::derive::{Condition, NumericBlock, Regularity};
 use crate::ir::fuse::fuse;
+use crate::mechanics::form::Positive;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::TermKind;
 use crate::mechanics::metric::Definitions;
@@ -75,7 +75,7 @@ impl Body<'_> {
     ) -> Vec<Condition> {
         let mut list = match (&self.inner, hessian) {
             (Inner::Constant(kinetic, _), Some(hessian)) => {
-                conditions(arena, kinetic, eigenvalues(hessian), required)
+                conditions(arena, kinetic, hessian.eigenvalues(), required)
             }
             _ => Vec::new(),
         };

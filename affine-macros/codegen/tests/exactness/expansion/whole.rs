@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 
 use affine_codegen::algebra::{Arena, Polynomial};
-use affine_codegen::check::Form;
 use affine_codegen::mechanics::charts::{Chart, Coordinate, Momentum};
 use affine_codegen::mechanics::conserved::{Candidate, conserved};
 use affine_codegen::mechanics::equations::{Form as Way, System, hamilton};
 use affine_codegen::mechanics::forces::Forces;
+use affine_codegen::mechanics::form::Form;
 use affine_codegen::mechanics::hamiltonian::Hamiltonian;
 use affine_codegen::mechanics::kinetic::Frame;
 use affine_codegen::mechanics::loads::loads;
