@@ -7,7 +7,6 @@ mod context;
 mod description;
 mod domain;
 mod dynamics;
-mod eliminated;
 mod fields;
 mod forces;
 mod kernel;

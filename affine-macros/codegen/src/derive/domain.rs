@@ -1,12 +1,61 @@
-//! Where the potential has a value, as a program.
+//! Where the potential has a value.
 
-use super::model::Domain;
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr};
+use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::Chart;
-use crate::mechanics::potential::Potential;
+use crate::mechanics::potential::{Bound, Guard, Potential};
 use crate::optimise::{Batch, straight_line};
+
+/// Where the potential has a value.
+pub struct Domain {
+    /// Functions of the state that keep their sign.
+    pub guards: Vec<Guard>,
+    /// Point -> their values.
+    pub program: Program,
+}
+
+/// An argument that keeps its sign.
+pub struct SignedArgument<'a> {
+    /// The part of the potential that it stands in.
+    pub part: &'a str,
+    /// The argument.
+    pub argument: &'a str,
+    /// The sign.
+    pub sign: Sign,
+}
+
+/// The sign that an argument keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// Above zero.
+    Positive,
+    /// Zero or above.
+    NotNegative,
+    /// That of the start.
+    NotZero,
+}
+
+impl Domain {
+    /// The arguments that keep their signs.
+    pub fn arguments(&self) -> impl Iterator<Item = SignedArgument<'_>> {
+        self.guards.iter().filter_map(|Guard { part, argument, bound, .. }| {
+            let sign = match bound {
+                Bound::Positive => Sign::Positive,
+                Bound::NotNegative => Sign::NotNegative,
+                Bound::NotZero => Sign::NotZero,
+                Bound::Angle => return None,
+            };
+            Some(SignedArgument { part, argument, sign })
+        })
+    }
+
+    /// The parts with an angle that the time turns.
+    pub fn angles(&self) -> impl Iterator<Item = &str> {
+        self.guards.iter().filter(|guard| guard.bound == Bound::Angle).map(|guard| guard.part.as_str())
+    }
+}
 
 /// What has to keep its sign along a motion; `None` where the potential has a value at every state.
 pub(super) fn domain(

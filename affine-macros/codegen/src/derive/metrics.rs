@@ -5,6 +5,7 @@ use crate::ir::Program;
 use crate::mechanics::kinetic::Frame;
 use crate::mechanics::metrics::{Bases, Metrics, Rebased, Source};
 
+use super::components::Components;
 use super::prepared::unbound;
 
 /// Where the bases come from in which the metrics are the identity. The equations do not know of them.
@@ -49,8 +50,8 @@ pub enum GivenSource {
     Form {
         /// Its entries in the user's bases, row after row.
         entries: Program,
-        /// `O`, whose bases it goes with.
-        frame: Frame,
+        /// Those of `O`, whose bases it goes with.
+        components: Components,
         /// Is it contracted with both indices of `O`?
         tensor: bool,
     },
@@ -66,7 +67,7 @@ impl GivenMatrix {
             Source::Form(kind, given) => GivenSource::Form {
                 entries: entries(arena, given),
                 // No matrix stands at a term without a frame.
-                frame: kind.internal_frame().unwrap_or(Frame::Body),
+                components: kind.internal_frame().unwrap_or(Frame::Body).into(),
                 tensor: kind.is_tensor(),
             },
             Source::SpaceInverse => GivenSource::SpaceInverse,

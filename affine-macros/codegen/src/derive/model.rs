@@ -1,5 +1,7 @@
 //! Everything that is emitted about a model.
 
+use super::components::Components;
+use super::domain::Domain;
 use super::equations::Equations;
 use super::lattice::TwoPolar;
 use super::metrics::ChangeOfBases;
@@ -15,7 +17,6 @@ use crate::mechanics::conserved::Candidate;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{Formula, LeftOut};
 use crate::mechanics::kinetic::Frame;
-use crate::mechanics::potential::Guard;
 use crate::mechanics::reduce::{ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 
@@ -130,14 +131,6 @@ pub struct Formulas {
     pub left_out: Vec<LeftOut>,
 }
 
-/// Where the potential has a value.
-pub struct Domain {
-    /// Functions of the state that keep their sign.
-    pub guards: Vec<Guard>,
-    /// Point -> their values.
-    pub program: Program,
-}
-
 /// Legendre transformation of the centre of mass where it depends on `phi`.
 pub struct MixedMasses {
     /// `(phi, x_dot) -> p`.
@@ -164,12 +157,20 @@ pub struct Metric {
     pub inverse: Program,
 }
 
-/// Programs of the balance laws of a d'Alembert model, the entries of one quantity after the other.
+/// The balance laws of a d'Alembert model.
 pub struct Balance {
-    /// Point -> [quantities](crate::mechanics::balance::INTERNAL) of the internal motion.
-    pub internal: Program,
-    /// Point -> [quantities](crate::mechanics::balance::CENTRE) of the centre of mass, where it moves.
-    pub centre: Option<Program>,
+    /// Quantities of the internal motion, matrices.
+    pub internal: BalancedQuantities,
+    /// Quantities of the centre of mass, vectors, where it moves.
+    pub centre: Option<BalancedQuantities>,
+}
+
+/// The two sides of balance laws.
+pub struct BalancedQuantities {
+    /// Name and components of each quantity.
+    pub quantities: Vec<(&'static str, Components)>,
+    /// Point -> their entries, one quantity after the other.
+    pub program: Program,
 }
 
 impl Model {

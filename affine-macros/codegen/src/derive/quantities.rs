@@ -14,7 +14,7 @@ use crate::mechanics::metric::{self, Definitions};
 use crate::mechanics::mixed::Factorisation;
 use crate::optimise::{Batch, straight_line};
 
-use super::model::{Balance, Metric};
+use super::model::{Balance, BalancedQuantities, Metric};
 
 /// The mass matrix over `(x_dot, phi_dot)` of a sum of energies, and its inverse.
 pub(super) fn metric(
@@ -164,10 +164,17 @@ pub(super) fn balance(
         entries.into_iter().enumerate().map(|(k, entry)| (format!("{name}_{}", k + 1), entry)).collect()
     };
     let internal = INTERNAL.iter().zip(&laws.internal);
-    let internal = internal.flat_map(|(name, matrix)| numbered((name, matrix.concat()))).collect();
+    let internal = internal.flat_map(|((name, _), matrix)| numbered((name, matrix.concat()))).collect();
     let centre = CENTRE.iter().zip(&laws.centre);
-    let centre: Vec<_> = centre.flat_map(|(name, vector)| numbered((name, vector.clone()))).collect();
-    Balance { internal: program(internal), centre: (!centre.is_empty()).then(|| program(centre)) }
+    let centre: Vec<_> = centre.flat_map(|((name, _), vector)| numbered((name, vector.clone()))).collect();
+    let mut balanced = |quantities: &[(&'static str, Frame)], results| BalancedQuantities {
+        quantities: quantities.iter().map(|(name, frame)| (*name, (*frame).into())).collect(),
+        program: program(results),
+    };
+    Balance {
+        internal: balanced(&INTERNAL, internal),
+        centre: (!centre.is_empty()).then(|| balanced(&CENTRE, centre)),
+    }
 }
 
 /// Derivatives along the flow of a system.

@@ -7,11 +7,11 @@ use crate::ir::fuse::fuse;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::Reduction;
-use crate::mechanics::separation::Slope;
 use crate::mechanics::splitting::{Flow, Principal, TIME_OF_FLOW, splitting};
 use crate::optimise::{Batch, straight_line};
 
 use super::batch::batch;
+use super::dilatation::DilatationalMotion;
 use super::prepared::unbound;
 
 /// The pieces of a reduced motion.
@@ -67,8 +67,8 @@ pub enum FlowProgram {
         placement: Vec<Vec<String>>,
         /// Components of the affine momentum.
         momentum: Vec<Vec<String>>,
-        /// What the potential is.
-        slope: Slope,
+        /// Its closed form.
+        motion: DilatationalMotion,
         /// What the closed form reads, and the diagonal of the affine spin.
         program: Program,
     },
@@ -167,7 +167,7 @@ fn written(
             batch.results.extend(entries.map(|(a, entry)| (format!("spin_{}", a + 1), entry.clone())));
             let program = program(arena, &batch);
             let (placement, momentum) = (placement(arena), momentum(arena));
-            FlowProgram::Dilatation { placement, momentum, slope: separation.slope.clone(), program }
+            FlowProgram::Dilatation { placement, momentum, motion: (&separation.slope).into(), program }
         }
     }
 }

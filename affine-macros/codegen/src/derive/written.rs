@@ -4,9 +4,9 @@
 use super::second_order::Halves;
 use super::splitting::{FlowProgram, PrincipalProgram, Programs};
 use super::{
-    Balance, ChangeOfBases, Condition, Damping, Domain, Equations, GivenMatrix, GivenSource, Metric,
-    MixedMasses, Model, NumericBlock, PieceProgram, PiecePrograms, Preparation, RatioProgram, Regularity,
-    TwoPolar, VelocitySide,
+    Balance, BalancedQuantities, ChangeOfBases, Condition, Damping, Domain, Equations, GivenMatrix,
+    GivenSource, Metric, MixedMasses, Model, NumericBlock, PieceProgram, PiecePrograms, Preparation,
+    RatioProgram, Regularity, TwoPolar, VelocitySide,
 };
 use crate::algebra::Rational;
 use crate::ir::packed::Packed;
@@ -128,6 +128,7 @@ written! {
     Regularity { blocks; positive }
     Metric { entries, inverse; size }
     Balance { internal, centre; }
+    BalancedQuantities { program; quantities }
     Condition { program; name, directions, relation, positive }
     Damping { conditions, blocks; }
     NumericBlock { program, basis; inverse, size, positive }
@@ -135,7 +136,7 @@ written! {
     Factor { matrix, inverse; axes }
     Preparation { metrics, matrices; }
     GivenMatrix { source; name }
-    TwoPolar { rates, framed, energy, pieces, ratios; variables, state, frames, couplings, formulas, dilatation_only }
+    TwoPolar { rates, framed, energy, pieces, ratios; places, state, frames, couplings, formulas, dilatation_only }
     PiecePrograms { list; nystrom }
     PieceProgram { program; name, shifted, turned }
     RatioProgram { program; state, couplings }
@@ -158,7 +159,7 @@ impl Written for ChangeOfBases {
 impl Written for GivenSource {
     fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
         match self {
-            Self::Form { entries, frame: _, tensor: _ } => entries.visit(each),
+            Self::Form { entries, components: _, tensor: _ } => entries.visit(each),
             Self::SpaceInverse | Self::Body => {}
         }
     }

@@ -4,7 +4,6 @@ use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
-use crate::algebra::Function;
 use crate::ir::call::Call;
 use crate::ir::{Op, Program, Value};
 
@@ -146,7 +145,7 @@ impl Writer<'_> {
                 let a = self.at_least(*a, Strength::Sign);
                 (quote!(-#a), Strength::Sign)
             }
-            Op::Call(function, a) => (self.applied(*function, *a), Strength::Atom),
+            Op::Call(function, a) => (self.applied(function.name(), *a), Strength::Atom),
             Op::Add(a, b) => self.infix(*a, *b, quote!(+), Strength::Sum, Strength::Sum),
             Op::Sub(a, b) => self.infix(*a, *b, inner(quote!(-)), Strength::Sum, Strength::Product),
             Op::Mul(a, b) => self.infix(*a, *b, inner(quote!(*)), Strength::Product, Strength::Product),
@@ -165,8 +164,8 @@ impl Writer<'_> {
     }
 
     /// A function of a value. Doubles have methods of their own, not all of them, and none without the standard library.
-    fn applied(&self, function: Function, a: Value) -> TokenStream {
-        let name = format_ident!("{}", function.name());
+    fn applied(&self, function: &str, a: Value) -> TokenStream {
+        let name = format_ident!("{function}");
         match self.scope.number {
             Number::Generic(_) => {
                 let a = self.at_least(a, Strength::Atom);

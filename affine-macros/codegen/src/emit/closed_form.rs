@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::mechanics::reduce::{ClosedForm, Commuting};
+use crate::derive::{Components, Trajectory};
 
 use super::body::Body;
 use super::context::Context;
@@ -12,10 +12,10 @@ use super::point::own_spin;
 /// `geodesic`: the closed form where the model and the scene have one.
 pub(super) fn geodesic(context: &Context) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.dim());
-    let drifts = context.model.reduction.commuting.iter().any(|piece| matches!(piece, Commuting::Drift(_)));
+    let drifts = Trajectory::of(context.model).drift;
     let f64 = quote!(#rt::f64);
     let none = quote!(::core::option::Option::None);
-    let Some((form, needs_rest)) = context.model.closed_form else {
+    let Some((components, needs_rest)) = context.model.geodesics() else {
         return quote! {
             fn geodesic(&self, _t0: #f64, _point: &Self::Point<#f64>) -> ::core::option::Option<#rt::Geodesic<#n>> {
                 #none
@@ -37,16 +37,16 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
         }
         _ => quote!(let drift = #rt::Vector::<#n>::zeros();),
     };
+    let straight = components == Components::TwoPoint;
     let spin = own_spin(context);
     let typed = context.bases(Some(&f64));
     let velocity = match context.model.metrics {
         None => quote!(#rt::Model::velocity(self, point)),
         Some(_) => quote!(#typed.velocity(&#rt::Model::velocity(self, stated))),
     };
-    let stated = (context.model.metrics.is_some() && form == ClosedForm::Straight)
-        .then(|| quote!(let stated = point;));
+    let stated = (context.model.metrics.is_some() && straight).then(|| quote!(let stated = point;));
     // A straight line reads the velocity alone, and the momentum of a free centre.
-    let inward = (form != ClosedForm::Straight || drifts).then(|| context.inward());
+    let inward = (!straight || drifts).then(|| context.inward());
     let on_geodesic = context.with_metrics(quote! {
         fn on_geodesic(
             &self,
@@ -58,14 +58,14 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
             #rt::Phase::from_orthonormal(&geodesic.point(t, &start), &#typed)
         }
     });
-    let motion = match (form, &context.model.isotropic) {
-        (ClosedForm::Straight, _) | (_, None) => quote! {
+    let motion = match (components, &context.model.isotropic) {
+        (Components::TwoPoint, _) | (_, None) => quote! {
             let motion = #rt::Motion::straight(#velocity.phi_dot);
         },
-        (affine, Some(program)) => {
+        (components, Some(program)) => {
             let Body { lets, results } = context.double(program);
-            let make = match affine {
-                ClosedForm::Body => quote!(body),
+            let make = match components {
+                Components::Comoving => quote!(body),
                 _ => quote!(space),
             };
             let (quadratic, cubic) = results.split_at(3.min(results.len()));

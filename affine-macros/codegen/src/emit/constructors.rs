@@ -3,9 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::VelocitySide;
+use crate::derive::{Components, VelocitySide};
 use crate::ir::Program;
-use crate::mechanics::kinetic::Frame;
 
 use super::body::Body;
 use super::context::Context;
@@ -168,13 +167,13 @@ fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
 /// `O -> X` in the model's frame.
 fn legendre(context: &Context, program: &Program) -> TokenStream {
     let rt = &context.names.rt;
-    let components = components(context.model.frame.velocity_name(), context.model.dim);
+    let components = components(context.model.velocity_name(), context.model.dim);
     let used = program.inputs();
     let rows = components.iter().map(|row| pattern(row, &used));
     let Body { lets, results } = context.double(program);
     let rows_out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
     let velocity = affine_velocity(context, &quote!(&phi));
-    let wrapper = wrapper(context);
+    let wrapper = wrapper(context, context.model.spin());
     let placement = placement(context, program, &quote!(&phi));
     quote! {
         let [#(#rows),*] = #rt::rows(&#velocity);
@@ -190,8 +189,8 @@ fn momentum_of_centre(context: &Context) -> TokenStream {
     let Some(program) = &context.model.mass else { return mixed::momentum_of_centre(context) };
     let body = context.double(&program.only("mass"));
     let (lets, mass) = (&body.lets, body.result());
-    let p = match context.model.translation {
-        Some(Frame::Body) => quote! {
+    let p = match context.model.centre() {
+        Some(Components::Comoving) => quote! {
             let to_body = #rt::inverse(&phi);
             let p = to_body.tr_mul(&(to_body * x_dot)) * mass;
         },

@@ -3,9 +3,8 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 
-use crate::derive::{ChangeOfBases, Equations, Model};
+use crate::derive::{ChangeOfBases, Components, Equations, Model};
 use crate::ir::Program;
-use crate::mechanics::kinetic::Frame;
 use crate::spec::{Custom, Role, Spec};
 
 use super::body::{Body, body};
@@ -30,10 +29,10 @@ impl Context<'_> {
 
     pub(super) fn frame(&self) -> TokenStream {
         let rt = &self.names.rt;
-        match self.model.frame {
-            Frame::Body => quote!(#rt::Body),
-            Frame::Space => quote!(#rt::Space),
-            Frame::Flat => quote!(#rt::Canonical),
+        match self.model.spin() {
+            Components::Comoving => quote!(#rt::Body),
+            Components::Spatial => quote!(#rt::Space),
+            Components::TwoPoint => quote!(#rt::Canonical),
         }
     }
 

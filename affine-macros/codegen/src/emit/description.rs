@@ -4,13 +4,11 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use crate::ir::count::Operations;
-use crate::mechanics::conserved::Candidate;
-use crate::mechanics::describe::Formula;
-use crate::mechanics::symmetry::Group;
 
 use super::context::Context;
 use super::domain;
 use super::number::number;
+use super::pattern::identifiers;
 
 /// Documentation of the implementation, line by line.
 pub(super) fn docs(context: &Context) -> Vec<String> {
@@ -22,14 +20,18 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         format!("`{}`", formulas.hamiltonian.text),
         String::new(),
     ];
-    let system = |title: &str, operations: Operations, formulas: &[Formula]| {
-        let mut lines = vec![format!("{title}, {}:", counts(operations)), "```text".to_owned()];
-        lines.extend(formulas.iter().map(|f| f.text.clone()));
-        lines.push("```".to_owned());
-        lines
-    };
-    lines.extend(system("Hamilton's equations", model.full.program.operations(), &formulas.equations));
-    lines.extend(system("Reduced equations", model.reduced.program.operations(), &formulas.reduced));
+    lines.extend([
+        format!("Hamilton's equations, {}:", counts(model.full.program.operations())),
+        "```text".to_owned(),
+    ]);
+    lines.extend(formulas.equations.iter().map(|f| f.text.clone()));
+    lines.extend([
+        "```".to_owned(),
+        format!("Reduced equations, {}:", counts(model.reduced.program.operations())),
+        "```text".to_owned(),
+    ]);
+    lines.extend(formulas.reduced.iter().map(|f| f.text.clone()));
+    lines.push("```".to_owned());
     if !formulas.left_out.is_empty() {
         lines.push("Left out of the state:".to_owned());
         lines.extend(formulas.left_out.iter().map(|left_out| format!("- {}", left_out.what)));
@@ -52,40 +54,23 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         None => "The signature of the kinetic metric depends on the fields.".to_owned(),
     });
     lines.push(String::new());
-    let n = model.dim;
-    let group = |g: Group| match g {
-        Group::Affine => format!("GL({n})"),
-        Group::Metric => format!("O({n})"),
-        Group::Less => format!("a proper subgroup of O({n})"),
-    };
+    let [in_space, in_the_body] = model.invariance();
     let invariant = match (model.has_forces, model.constraint) {
         (_, Some(_)) => "Without its constraint the kinetic energy is invariant",
         (true, None) => "The kinetic energy is invariant",
         (false, None) => "Invariant",
     };
-    lines.push(format!(
-        "{invariant} under {} in space and {} in the body.",
-        group(model.groups.0),
-        group(model.groups.1)
-    ));
-    if let Some(constraint) = model.constraint {
-        let survives = |g: Group| match g {
-            Group::Affine => constraint.name(n),
-            Group::Metric => format!("SO({n})"),
-            Group::Less => format!("a proper subgroup of SO({n})"),
-        };
+    lines.push(format!("{invariant} under {in_space} in space and {in_the_body} in the body."));
+    if let Some((group, [in_space, in_the_body])) = model.confinement() {
         lines.push(format!(
-            "The motion is confined to {}, on which {} in space and {} in the body act.",
-            constraint.name(n),
-            survives(model.groups.0),
-            survives(model.groups.1)
+            "The motion is confined to {group}, on which {in_space} in space and {in_the_body} in the body act."
         ));
     }
     lines.push(String::new());
-    lines.push(format!("Conserved: {}.", names(&model.conserved)));
+    lines.push(format!("Conserved: {}.", listed(&model.conserved_names())));
     if model.translation.is_some() {
         lines.push(String::new());
-        lines.push(format!("With `p = 0`: {}.", names(&model.conserved_at_rest)));
+        lines.push(format!("With `p = 0`: {}.", listed(&model.conserved_names_at_rest())));
     }
     lines.into_iter().map(indented).collect()
 }
@@ -95,8 +80,8 @@ pub(super) fn indented(line: String) -> String {
     if line.is_empty() { line } else { format!(" {line}") }
 }
 
-fn names(list: &[Candidate]) -> String {
-    list.iter().map(|c| format!("`{c:?}`")).collect::<Vec<_>>().join(", ")
+fn listed(names: &[String]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
 pub(super) fn counts(operations: Operations) -> String {
@@ -122,19 +107,22 @@ pub(super) fn operations(context: &Context, o: Operations) -> TokenStream {
     quote!(#rt::Operations { mul: #mul, add: #add, div: #div, sqrt: #sqrt, exp: #exp, ln: #ln })
 }
 
+/// A formula as an expression.
+pub(super) fn formula(context: &Context, text: &str, latex: &str) -> TokenStream {
+    let rt = &context.names.rt;
+    quote!(#rt::Formula { text: #text, latex: #latex })
+}
+
 /// The description as an expression.
 pub(super) fn constant(context: &Context) -> TokenStream {
     let (model, rt) = (context.model, &context.names.rt);
     let name = context.names.model.to_string();
-    let formula = |f: &Formula| {
-        let (text, latex) = (&f.text, &f.latex);
-        quote!(#rt::Formula { text: #text, latex: #latex })
-    };
-    let kinetic_energy = formula(&model.formulas.kinetic_energy);
-    let hamiltonian = formula(&model.formulas.hamiltonian);
-    let equations = model.formulas.equations.iter().map(formula);
-    let reduced_equations = model.formulas.reduced.iter().map(formula);
-    let left_out = model.formulas.left_out.iter().map(|left_out| {
+    let formulas = &model.formulas;
+    let kinetic_energy = formula(context, &formulas.kinetic_energy.text, &formulas.kinetic_energy.latex);
+    let hamiltonian = formula(context, &formulas.hamiltonian.text, &formulas.hamiltonian.latex);
+    let equations = formulas.equations.iter().map(|f| formula(context, &f.text, &f.latex));
+    let reduced_equations = formulas.reduced.iter().map(|f| formula(context, &f.text, &f.latex));
+    let left_out = formulas.left_out.iter().map(|left_out| {
         let (what, scope) = (&left_out.what, format_ident!("{}", format!("{:?}", left_out.scope)));
         quote!(#rt::LeftOut { what: #what, scope: #rt::Scope::#scope })
     });
@@ -147,14 +135,11 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         }
         None => quote!(::core::option::Option::None),
     };
-    let conserved = |list: &[Candidate]| {
-        let entries = list.iter().map(|c| {
-            let variant = format_ident!("{c:?}");
-            quote!(#rt::Conserved::#variant)
-        });
-        quote!(&[#(#entries),*])
+    let conserved = |names: &[String]| {
+        let names = identifiers(names);
+        quote!(&[#(#rt::Conserved::#names),*])
     };
-    let (now, at_rest) = (conserved(&model.conserved), conserved(&model.conserved_at_rest));
+    let (now, at_rest) = (conserved(&model.conserved_names()), conserved(&model.conserved_names_at_rest()));
     let groups = |groups: &[(&'static str, Vec<String>)]| {
         let entries = groups.iter().map(|(name, components)| {
             let len = number(components.len());

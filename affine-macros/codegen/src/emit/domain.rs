@@ -1,19 +1,24 @@
 //! Where the potential has a value.
 
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::quote;
+
+use crate::derive::{Domain, Sign, SignedArgument};
 
 use super::context::Context;
 use super::pattern::time;
 use super::point::{at_placement, bind_point};
-use crate::mechanics::potential::{Bound, Guard};
 
 /// The functions of the state that keep their sign, in the description of the model.
 pub(super) fn guards(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
-    let guards = listed(context).filter(|guard| guard.bound != Bound::Angle).map(|guard| {
-        let (part, argument) = (&guard.part, &guard.argument);
-        let bound = format_ident!("{}", format!("{:?}", guard.bound));
+    let arguments = context.model.domain.iter().flat_map(Domain::arguments);
+    let guards = arguments.map(|SignedArgument { part, argument, sign }| {
+        let bound = match sign {
+            Sign::Positive => quote!(Positive),
+            Sign::NotNegative => quote!(NotNegative),
+            Sign::NotZero => quote!(NotZero),
+        };
         quote!(#rt::Guard { part: #part, argument: #argument, bound: #rt::Bound::#bound })
     });
     quote!(&[#(#guards),*])
@@ -21,12 +26,8 @@ pub(super) fn guards(context: &Context) -> TokenStream {
 
 /// The parts of the potential with an angle that the time turns.
 pub(super) fn angles(context: &Context) -> TokenStream {
-    let parts = listed(context).filter(|guard| guard.bound == Bound::Angle).map(|guard| &guard.part);
+    let parts = context.model.domain.iter().flat_map(Domain::angles);
     quote!(&[#(#parts),*])
-}
-
-fn listed<'a>(context: &'a Context) -> impl Iterator<Item = &'a Guard> {
-    context.model.domain.iter().flat_map(|domain| &domain.guards)
 }
 
 /// `domain`: nothing where the potential has a value at every state.

@@ -3,10 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::VelocitySide;
+use crate::derive::{Components, VelocitySide};
 use crate::ir::Program;
-use crate::mechanics::charts::Linear;
-use crate::mechanics::kinetic::Frame;
 
 use super::body::Body;
 use super::context::Context;
@@ -30,25 +28,27 @@ pub(super) fn methods(context: &Context) -> TokenStream {
 fn velocity(context: &Context) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
     let spin = own_spin(context);
-    let names = components(context.model.frame.momentum_name(), context.model.dim);
+    let names = components(context.model.spin_name(), context.model.dim);
     let used = context.model.velocity.inputs();
     let rows = names.iter().map(|row| pattern(row, &used));
     let Body { lets, results } = context.generic(&context.model.velocity);
     let out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
     let velocity = quote!(#rt::matrix([#(#out),*]));
-    let phi_dot = match context.model.frame {
-        Frame::Body => quote!(#rt::Phase::phi(point) * #velocity),
-        Frame::Space => quote!(#velocity * #rt::Phase::phi(point)),
-        Frame::Flat => velocity,
+    let phi_dot = match context.model.spin() {
+        Components::Comoving => quote!(#rt::Phase::phi(point) * #velocity),
+        Components::Spatial => quote!(#velocity * #rt::Phase::phi(point)),
+        Components::TwoPoint => velocity,
     };
     let placement = placement(context, &context.model.velocity, &quote!(#rt::Phase::phi(point)));
-    let (mass, x_dot) = match (&context.model.mass, context.model.translation) {
+    let (mass, x_dot) = match (&context.model.mass, context.model.centre()) {
         (None, Some(_)) => mixed::velocity_of_centre(context),
-        (Some(program), Some(frame)) => {
+        (Some(program), Some(components)) => {
             let body = context.generic(&program.only("inverse_mass"));
             let (lets, inverse_mass) = (&body.lets, body.result());
-            let x_dot = match frame {
-                Frame::Body => quote!(#rt::Phase::phi(point) * #rt::Phase::p_hat(point).0.0 * inverse_mass),
+            let x_dot = match components {
+                Components::Comoving => {
+                    quote!(#rt::Phase::phi(point) * #rt::Phase::p_hat(point).0.0 * inverse_mass)
+                }
                 _ => quote!(#rt::Phase::p(point) * inverse_mass),
             };
             (quote!(#lets let inverse_mass = #inverse_mass;), x_dot)
@@ -89,21 +89,21 @@ fn kinetic_energy(context: &Context) -> TokenStream {
         };
     };
     let used = program.inputs();
-    let names = components(context.model.frame.velocity_name(), context.model.dim);
+    let names = components(context.model.velocity_name(), context.model.dim);
     let rows = names.iter().map(|row| pattern(row, &used));
     let o = affine_velocity(context, &quote!(phi));
     let placement = placement(context, program, &quote!(phi));
-    let reads_phi = context.model.frame != Frame::Flat
-        || context.model.translation == Some(Frame::Body)
+    let reads_phi = context.model.spin() != Components::TwoPoint
+        || context.model.centre() == Some(Components::Comoving)
         || !placement.is_empty();
     let phi = if reads_phi { quote!(phi) } else { quote!(_phi) };
-    let centre = match context.model.translation {
+    let centre = match context.model.centre() {
         None => TokenStream::new(),
-        Some(frame) => {
+        Some(components) => {
             let names: Vec<String> = (1..=context.model.dim).map(|i| format!("v_{i}")).collect();
             let v = pattern(&names, &used);
-            let value = match frame {
-                Frame::Body => quote!((#rt::inverse(phi) * velocity.x_dot)),
+            let value = match components {
+                Components::Comoving => quote!((#rt::inverse(phi) * velocity.x_dot)),
                 _ => quote!(velocity.x_dot),
             };
             quote!(let #v = #rt::components(&#value);)
@@ -194,17 +194,17 @@ fn flat(context: &Context) -> TokenStream {
         let names = (1..=n).map(|i| format_ident!("{stem}_{i}"));
         quote!(#rt::vector([#(#names),*]))
     };
-    let (phi, own, wrap) = (rows("phi"), rows(context.model.frame.momentum_name()), wrapper(context));
+    let (phi, own, wrap) =
+        (rows("phi"), rows(context.model.spin_name()), wrapper(context, context.model.spin()));
     let dependent = context.dependent(&context.model.full);
-    let linear = context.model.full.groups.iter().any(|(name, _)| *name == "p_hat");
-    let linear = if linear { Linear::Body } else { Linear::Space };
-    let centre = match (context.model.translation, linear) {
+    let comoving = context.model.full.groups.iter().any(|(name, _)| *name == "p_hat");
+    let centre = match (context.model.translation, comoving) {
         (None, _) => quote!(let centre = #rt::Pinned;),
-        (Some(_), Linear::Space) => {
+        (Some(_), false) => {
             let (x, p) = (vector("x"), vector("p"));
             quote!(let centre = #rt::Centre { x: #x, p: #p };)
         }
-        (Some(_), Linear::Body) => {
+        (Some(_), true) => {
             let (x, p_hat) = (vector("x"), vector("p_hat"));
             quote!(let centre = #rt::Centre { x: #x, p: #rt::inverse(&phi).tr_mul(&#p_hat) };)
         }

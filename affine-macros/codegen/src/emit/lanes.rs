@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
 use super::context::Context;
-use super::eliminated::Eliminated;
+use crate::derive::Trajectory;
 use crate::spec::Capability;
 
 /// The implementation of the capability.
@@ -15,17 +15,17 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
     let (t, constants) = (&context.names.scalar, &context.names.constants);
-    let parts = Eliminated::of(context);
+    let parts = Trajectory::of(context.model);
     let stored: Vec<Stored> = [
         (parts.origin, "t0", Shape::Number),
         (parts.turn, "turn", Shape::Matrix),
         (parts.linear, "p", Shape::Vector),
         (parts.drift, "x0", Shape::Vector),
         (parts.drift, "drift", Shape::Vector),
-        (parts.momentum, "momentum", Shape::Matrix),
+        (parts.conserved, "momentum", Shape::Matrix),
         (!parts.fixed.is_empty(), "fixed", Shape::List),
-        (parts.whirl.is_some(), "whirl", Shape::Matrix),
-        (parts.dilatation, "dilatation", Shape::Dilatation),
+        (parts.rotation.is_some(), "whirl", Shape::Matrix),
+        (parts.dilatation.is_some(), "dilatation", Shape::Dilatation),
         (parts.coefficients > 0, "coefficients", Shape::List),
     ]
     .into_iter()

@@ -3,15 +3,13 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::algebra::Rational;
-use crate::derive::{ChangeOfBases, GivenMatrix, GivenSource, Preparation};
-use crate::mechanics::kinetic::Frame;
+use crate::derive::{ChangeOfBases, Components, GivenMatrix, GivenSource, Preparation};
 
 use super::body::Body;
 use super::context::Context;
 use super::fields::{matrix_name, over_fields};
 use super::names::runtime;
-use super::number::{exact, number};
+use super::number::{exact_table, number};
 use crate::ir::Program;
 
 /// The bases as a function of the scalar, where they are known, and the methods of the trait that tell of them.
@@ -29,20 +27,19 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
         Some(ChangeOfBases::Prepared(_)) => return (TokenStream::new(), method(quote!(self.bases))),
         Some(ChangeOfBases::Known(bases)) => bases,
     };
-    let matrix = |rows: &Vec<Vec<Rational>>| {
-        let rows = rows.iter().map(|row| {
-            let entries = row.iter().map(|entry| exact(t, entry));
-            quote!([#(#entries),*])
-        });
-        quote!(#rt::matrix([#(#rows),*]))
-    };
     let [a, a_inverse, b, b_inverse] =
-        [&bases.space.matrix, &bases.space.inverse, &bases.body.matrix, &bases.body.inverse].map(matrix);
+        [&bases.space.matrix, &bases.space.inverse, &bases.body.matrix, &bases.body.inverse]
+            .map(|rows| exact_table(t, rows));
     // Fields are called over every number that equations are evaluated in.
     let number = if context.spec.customs.is_empty() { quote!(Real) } else { quote!(Scalar) };
     let function = quote! {
         fn bases<#t: #rt::#number>() -> #rt::Bases<#n, #t> {
-            #rt::Bases { space: #a, space_inverse: #a_inverse, body: #b, body_inverse: #b_inverse }
+            #rt::Bases {
+                    space: #rt::matrix(#a),
+                    space_inverse: #rt::matrix(#a_inverse),
+                    body: #rt::matrix(#b),
+                    body_inverse: #rt::matrix(#b_inverse),
+                }
         }
     };
     let method = method(quote!(bases()));
@@ -99,8 +96,8 @@ pub(super) fn rebased(context: &Context) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.dim());
     let statement = |matrix: &GivenMatrix| {
         let local = matrix_name(&matrix.name);
-        let (entries, frame, tensor) = match &matrix.source {
-            GivenSource::Form { entries, frame, tensor } => (entries, *frame, *tensor),
+        let (entries, components, tensor) = match &matrix.source {
+            GivenSource::Form { entries, components, tensor } => (entries, *components, *tensor),
             GivenSource::SpaceInverse => return quote!(let #local = #rt::rows(&bases.space_inverse);),
             GivenSource::Body => return quote!(let #local = #rt::rows(&bases.body);),
         };
@@ -108,11 +105,11 @@ pub(super) fn rebased(context: &Context) -> TokenStream {
         let size = if tensor { context.model.dim.pow(2) } else { context.model.dim };
         let rows = results.chunks(size).map(|row| quote!([#(#row),*]));
         let entries = quote!([#(#rows),*]);
-        let value = match (tensor, frame) {
-            (false, Frame::Space) => quote!(#rt::rebased_inertia::<#n>(&bases.space, #entries)),
+        let value = match (tensor, components) {
+            (false, Components::Spatial) => quote!(#rt::rebased_inertia::<#n>(&bases.space, #entries)),
             (false, _) => quote!(#rt::rebased_inertia::<#n>(&bases.body, #entries)),
-            (true, frame) => {
-                let (factors, size) = (factors(frame), number(size));
+            (true, components) => {
+                let (factors, size) = (factors(components), number(size));
                 quote!(#rt::rebased_tensor::<#n, #size>(#factors, #entries))
             }
         };
@@ -122,11 +119,11 @@ pub(super) fn rebased(context: &Context) -> TokenStream {
 }
 
 /// `L` and `R` of `O = L O' R`, from an affine velocity in orthonormal bases to one in the user's.
-fn factors(frame: Frame) -> TokenStream {
-    match frame {
-        Frame::Body => quote!(&bases.body_inverse, &bases.body),
-        Frame::Space => quote!(&bases.space_inverse, &bases.space),
-        Frame::Flat => quote!(&bases.space_inverse, &bases.body),
+fn factors(components: Components) -> TokenStream {
+    match components {
+        Components::Comoving => quote!(&bases.body_inverse, &bases.body),
+        Components::Spatial => quote!(&bases.space_inverse, &bases.space),
+        Components::TwoPoint => quote!(&bases.space_inverse, &bases.body),
     }
 }
 
@@ -135,7 +132,7 @@ pub(super) fn told_in_given_bases(context: &Context, result: TokenStream) -> Tok
     let rt = &context.names.rt;
     match &context.model.metrics {
         Some(ChangeOfBases::Prepared(Preparation { matrices, .. })) if !matrices.is_empty() => {
-            let factors = factors(context.model.frame);
+            let factors = factors(context.model.spin());
             quote!(#rt::told_in_given_bases(#factors, #result))
         }
         _ => result,

@@ -33,10 +33,19 @@ impl Number<'_> {
 }
 
 /// A number to double-double precision.
-pub(super) fn exact(scalar: &Ident, number: &Rational) -> TokenStream {
+fn exact(scalar: &Ident, number: &Rational) -> TokenStream {
     let (hi, lo) = number.to_doubles();
     let (hi, lo) = (literal(hi, ""), literal(lo, ""));
     quote!(#scalar::constant(#hi, #lo))
+}
+
+/// Rows of numbers to double-double precision.
+pub(super) fn exact_table(scalar: &Ident, rows: &[Vec<Rational>]) -> TokenStream {
+    let rows = rows.iter().map(|row| {
+        let entries = row.iter().map(|entry| exact(scalar, entry));
+        quote!([#(#entries),*])
+    });
+    quote!([#(#rows),*])
 }
 
 /// The name of a number; `roots` counts those that have no short one.

@@ -3,8 +3,8 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::derive::reads_time;
 use crate::ir::Program;
-use crate::mechanics::potential::TIME;
 
 /// Does a program with these inputs read any of some names?
 pub(super) fn reads(used: &[&str], names: &[String]) -> bool {
@@ -35,5 +35,5 @@ pub(super) fn components(stem: &str, n: usize) -> Vec<Vec<String>> {
 
 /// Name of the time as a parameter: an idle one where the program does not read it.
 pub(super) fn time(program: &Program) -> TokenStream {
-    if program.inputs().contains(&TIME) { quote!(t) } else { quote!(_t) }
+    if reads_time(program) { quote!(t) } else { quote!(_t) }
 }

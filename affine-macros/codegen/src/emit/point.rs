@@ -3,40 +3,44 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use crate::derive::{Components, VolumeMeasure};
 use crate::ir::Program;
-use crate::mechanics::kinetic::Frame;
-use crate::mechanics::potential::DILATATION;
 
 use super::context::Context;
 use super::pattern::{components, pattern, reads};
 
 /// The model's own affine spin of `point`, as a matrix.
 pub(super) fn own_spin(context: &Context) -> TokenStream {
+    spin(context, context.model.spin())
+}
+
+/// These components of the affine spin of `point`, as a matrix.
+pub(super) fn spin(context: &Context, components: Components) -> TokenStream {
     let rt = &context.names.rt;
-    match context.model.frame {
-        Frame::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
-        Frame::Space => quote!(#rt::Phase::sigma(point).0.0),
-        Frame::Flat => quote!(#rt::Phase::pi(point).0.0),
+    match components {
+        Components::Comoving => quote!(#rt::Phase::sigma_hat(point).0.0),
+        Components::Spatial => quote!(#rt::Phase::sigma(point).0.0),
+        Components::TwoPoint => quote!(#rt::Phase::pi(point).0.0),
     }
 }
 
 /// The affine velocity of the model's frame from a reference to `phi` and `phi_dot`.
 pub(super) fn affine_velocity(context: &Context, phi: &TokenStream) -> TokenStream {
     let rt = &context.names.rt;
-    match context.model.frame {
-        Frame::Body => quote!((#rt::inverse(#phi) * phi_dot)),
-        Frame::Space => quote!((phi_dot * #rt::inverse(#phi))),
-        Frame::Flat => quote!(phi_dot),
+    match context.model.spin() {
+        Components::Comoving => quote!((#rt::inverse(#phi) * phi_dot)),
+        Components::Spatial => quote!((phi_dot * #rt::inverse(#phi))),
+        Components::TwoPoint => quote!(phi_dot),
     }
 }
 
-/// Wrapper of matrices that hold the model's affine spin.
-pub(super) fn wrapper(context: &Context) -> TokenStream {
+/// Wrapper of a vector or a matrix of these components.
+pub(super) fn wrapper(context: &Context, components: Components) -> TokenStream {
     let rt = &context.names.rt;
-    match context.model.frame {
-        Frame::Body => quote!(#rt::Comoving),
-        Frame::Space => quote!(#rt::Spatial),
-        Frame::Flat => quote!(#rt::TwoPoint),
+    match components {
+        Components::Comoving => quote!(#rt::Comoving),
+        Components::Spatial => quote!(#rt::Spatial),
+        Components::TwoPoint => quote!(#rt::TwoPoint),
     }
 }
 
@@ -89,7 +93,7 @@ fn bind_group(
             return quote!(let #bound = #value;);
         }
         "phi" => "phi",
-        _ => context.model.frame.momentum_name(),
+        _ => context.model.spin_name(),
     };
     let used: Vec<&str> = used.iter().copied().filter(|name| names.iter().any(|n| n == name)).collect();
     let rows = components(stem, context.model.dim);
@@ -112,14 +116,10 @@ pub(super) fn placement(context: &Context, program: &Program, phi: &TokenStream)
 pub(super) fn at_placement(context: &Context, program: &Program) -> TokenStream {
     let rt = &context.names.rt;
     let used = program.inputs();
-    let of_placement = |name: &str| {
-        let (symbol, function) = match name {
-            "q" => (format_ident!("q"), format_ident!("mean_log_stretch")),
-            _ => (format_ident!("{name}"), format_ident!("{name}")),
-        };
-        used.contains(&name).then(|| quote!(let #symbol = #rt::#function(#rt::Phase::phi(point));))
-    };
-    let (mean, dilatation) = (of_placement("q"), of_placement(DILATATION));
+    let [mean, dilatation] = [VolumeMeasure::MeanLogStretch, VolumeMeasure::Dilatation].map(|measure| {
+        let is_read = used.contains(&measure.symbol());
+        is_read.then(|| bind_measure(context, measure, &quote!(#rt::Phase::phi(point))))
+    });
     let names: Vec<String> = (1..=context.model.dim).map(|a| format!("q_{a}")).collect();
     let stretches = reads(&used, &names).then(|| {
         let bound = pattern(&names, &used);
@@ -130,4 +130,15 @@ pub(super) fn at_placement(context: &Context, program: &Program) -> TokenStream 
         #dilatation
         #stretches
     }
+}
+
+/// The statement that binds a function of `det phi`.
+pub(super) fn bind_measure(context: &Context, measure: VolumeMeasure, phi: &TokenStream) -> TokenStream {
+    let (rt, t, symbol) = (&context.names.rt, &context.names.scalar, format_ident!("{}", measure.symbol()));
+    let value = match measure {
+        VolumeMeasure::MeanLogStretch => quote!(#rt::mean_log_stretch(#phi)),
+        VolumeMeasure::Dilatation => quote!(#rt::dilatation(#phi)),
+        VolumeMeasure::InverseDilatation => quote!(#t::one() / #rt::dilatation(#phi)),
+    };
+    quote!(let #symbol = #value;)
 }

@@ -3,15 +3,14 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use crate::derive::{BalancedQuantities, Components, reads_time};
 use crate::ir::Program;
-use crate::mechanics::balance::{CENTRE, INTERNAL};
-use crate::mechanics::potential::TIME;
 
 use super::body::Body;
 use super::context::Context;
 use super::number::number;
 use super::pattern::time;
-use super::point::{bind_point, placement};
+use super::point::{bind_point, placement, wrapper};
 
 /// `metric`, `inverse_metric`, `acceleration`, `balance`, `centre_balance`, as far as asked for.
 pub(super) fn inherent(context: &Context) -> TokenStream {
@@ -75,7 +74,7 @@ fn acceleration(context: &Context) -> TokenStream {
     let bound = bind_point(context, program);
     let Body { lets, results } = context.double(program);
     let point_name = if bound.is_empty() { quote!(_point) } else { quote!(point) };
-    let at = program.inputs().contains(&TIME).then(|| quote!(t: #rt::f64,));
+    let at = reads_time(program).then(|| quote!(t: #rt::f64,));
     let inward = if bound.is_empty() { TokenStream::new() } else { context.inward() };
     let acceleration = quote!(#rt::vector([#(#results),*]));
     let bases = context.bases(Some(&quote!(#rt::f64)));
@@ -104,28 +103,27 @@ fn balance(context: &Context) -> TokenStream {
         let rows = entries.chunks(dim).map(|row| quote!([#(#row),*]));
         quote!(#rt::matrix([#(#rows),*]))
     };
-    let fields = |names: &[&str], results: &[TokenStream], size: usize| {
+    let fields = |quantities: &[(&str, Components)], results: &[TokenStream], size: usize| {
         let value = |entries: &[TokenStream]| {
             if size == dim { quote!(#rt::vector([#(#entries),*])) } else { matrix(entries) }
         };
-        let field = |(name, entries): (&&str, &[TokenStream])| {
-            let (frame, value) =
-                (if name.ends_with("_hat") { "Comoving" } else { "Spatial" }, value(entries));
-            let (name, frame) = (format_ident!("{name}"), format_ident!("{frame}"));
-            quote!(#name: #rt::#frame(#value))
+        let field = |((name, components), entries): (&(&str, Components), &[TokenStream])| {
+            let (name, wrapper, value) =
+                (format_ident!("{name}"), wrapper(context, *components), value(entries));
+            quote!(#name: #wrapper(#value))
         };
-        let fields = names.iter().zip(results.chunks(size)).map(field);
+        let fields = quantities.iter().zip(results.chunks(size)).map(field);
         quote!(#(#fields),*)
     };
-    let method = |program: &Program, size: usize, names: &[&str]| {
+    let method = |BalancedQuantities { quantities, program }: &BalancedQuantities, size: usize| {
         let (bound, time) = (bind_point(context, program), time(program));
         let Body { lets, results } = context.double(program);
-        let fields = fields(names, &results, size);
+        let fields = fields(quantities, &results, size);
         (quote!(&self, #time: #rt::f64, point: &#point), quote!(#bound #lets), fields)
     };
-    let (arguments, body, fields) = method(&balance.internal, dim * dim, &INTERNAL);
-    let centre = balance.centre.as_ref().map(|program| {
-        let (arguments, body, fields) = method(program, dim, &CENTRE);
+    let (arguments, body, fields) = method(&balance.internal, dim * dim);
+    let centre = balance.centre.as_ref().map(|balanced| {
+        let (arguments, body, fields) = method(balanced, dim);
         quote! {
             /// Both sides of the balance of the momentum of the centre of mass, `dk/dt = F`,
             /// `dk_hat/dt = -K_hat^T J^-1 k_hat + F_hat` (3.3), (3.9).

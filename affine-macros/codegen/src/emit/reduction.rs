@@ -6,16 +6,14 @@ mod expansion;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::mechanics::charts::Momentum;
-use crate::mechanics::kinetic::Frame;
+use crate::derive::{AffineMomentum, Components, Trajectory};
 use crate::spec::Capability;
 
 use super::body::Body;
 use super::context::Context;
-use super::eliminated::Eliminated;
 use super::number::number;
 use super::pattern::{components, identifiers, pattern, reads, time};
-use super::point::projected;
+use super::point::{projected, spin};
 use super::separated;
 use super::trajectory::coefficient_names;
 
@@ -23,7 +21,7 @@ use super::trajectory::coefficient_names;
 pub(super) fn constants_type(context: &Context) -> TokenStream {
     let (name, rt, t) = (&context.names.constants, &context.names.rt, &context.names.scalar);
     let n = context.dim();
-    let parts = Eliminated::of(context);
+    let parts = Trajectory::of(context.model);
     let mut fields = TokenStream::new();
     let mut field = |wanted: bool, doc: &str, tokens: TokenStream| {
         if wanted {
@@ -42,15 +40,15 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
     field(parts.linear, "Linear momentum `p`.", quote!(p: #rt::Vector<#n, #t>));
     field(parts.drift, "Centre of mass at the start.", quote!(x0: #rt::Vector<#n, #t>));
     field(parts.drift, "Velocity `p/m` of the centre of mass.", quote!(drift: #rt::Vector<#n, #t>));
-    field(parts.momentum, "Conserved affine momentum.", quote!(momentum: #rt::Matrix<#n, #t>));
+    field(parts.conserved, "Conserved affine momentum.", quote!(momentum: #rt::Matrix<#n, #t>));
     field(!parts.fixed.is_empty(), &fixed_doc, quote!(fixed: [#t; #fixed]));
     field(
-        parts.whirl.is_some(),
+        parts.rotation.is_some(),
         "Generator of the rotation that commutes with the rest of the motion.",
         quote!(whirl: #rt::Matrix<#n, #t>),
     );
     field(
-        parts.dilatation,
+        parts.dilatation.is_some(),
         "The motion of `q = ln(det phi)/n` and its momentum `tr Sigma`.",
         quote!(dilatation: #rt::Breathing<#t>),
     );
@@ -71,7 +69,7 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
 
 /// `reduce`, `reduced_equations`, `expand`, `geodesic`, `on_geodesic`.
 pub(super) fn methods(context: &Context) -> TokenStream {
-    let parts = Eliminated::of(context);
+    let parts = Trajectory::of(context.model);
     let reduce = reduce(context, &parts);
     let equations = reduced_equations(context, &parts);
     let expand = expansion::expand(context, &parts);
@@ -80,37 +78,33 @@ pub(super) fn methods(context: &Context) -> TokenStream {
 }
 
 /// The affine momentum of the reduced chart at `point`.
-fn chart_momentum(context: &Context) -> TokenStream {
+fn chart_momentum(context: &Context, parts: &Trajectory) -> TokenStream {
     let rt = &context.names.rt;
-    match context.model.reduction.chart.momentum {
-        Momentum::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
-        Momentum::Space => quote!(#rt::Phase::sigma(point).0.0),
-        Momentum::Total => projected(context, quote!(#rt::total_affine_momentum(point))),
-        Momentum::Canonical => quote!(#rt::Phase::pi(point).0.0),
+    match parts.momentum {
+        AffineMomentum::Spin(components) => spin(context, components),
+        AffineMomentum::Total => projected(context, quote!(#rt::total_affine_momentum(point))),
     }
 }
 
-fn reduce(context: &Context, parts: &Eliminated) -> TokenStream {
+fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, t, constants) = (&context.names.rt, &context.names.scalar, &context.names.constants);
-    let chart = &context.model.reduction.chart;
-    let momentum = chart_momentum(context);
-    let moving = chart.linear.is_some();
+    let momentum = chart_momentum(context, parts);
     let mut lets = TokenStream::new();
     if parts.linear || parts.pushed && !parts.comoving {
         lets.extend(quote!(let p = #rt::Phase::p(point);));
     }
     lets.extend(quote!(let momentum = #momentum;));
     if parts.turn {
-        lets.extend(match (chart.momentum, parts.momentum) {
-            (Momentum::Total, true) => {
+        lets.extend(match (parts.momentum, parts.conserved) {
+            (AffineMomentum::Total, true) => {
                 quote!(let turn = #rt::turn(&p, ::core::option::Option::Some(&momentum));)
             }
             _ => quote!(let turn = #rt::turn(&p, ::core::option::Option::None);),
         });
     }
     lets.extend(match parts.dilatation {
-        true => separated::split(context),
-        false => bind_state(context, parts, moving),
+        Some(motion) => separated::split(context, motion),
+        None => bind_state(context, parts),
     });
     lets.extend(carried::computed(context, &parts.carried, &quote!(#rt::Phase::phi(point))));
     let body = context.generic(&context.model.trajectory);
@@ -131,15 +125,15 @@ fn reduce(context: &Context, parts: &Eliminated) -> TokenStream {
     field(parts.linear, quote!(p));
     field(parts.drift, quote!(x0: #rt::Phase::x(point)));
     field(parts.drift, quote!(drift));
-    field(parts.momentum, quote!(momentum));
+    field(parts.conserved, quote!(momentum));
     field(!parts.fixed.is_empty(), quote!(fixed: [#(#fixed),*]));
-    field(parts.whirl.is_some(), quote!(whirl));
-    field(parts.dilatation, quote!(dilatation));
+    field(parts.rotation.is_some(), quote!(whirl));
+    field(parts.dilatation.is_some(), quote!(dilatation));
     field(parts.coefficients > 0, quote!(coefficients: [#(#results),*]));
     if fields.is_empty() {
         fields = quote!(scalar: ::core::marker::PhantomData);
     }
-    let origin = if parts.origin || parts.dilatation { quote!(t0) } else { quote!(_t0) };
+    let origin = if parts.origin || parts.dilatation.is_some() { quote!(t0) } else { quote!(_t0) };
     let inward = context.inward();
     quote! {
         fn reduce<#t: #rt::Real>(
@@ -158,9 +152,8 @@ fn reduce(context: &Context, parts: &Eliminated) -> TokenStream {
 }
 
 /// Components of state and momenta in turned space, as variables.
-fn bind_state(context: &Context, parts: &Eliminated, moving: bool) -> TokenStream {
+fn bind_state(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.model.dim);
-    let chart = &context.model.reduction.chart;
     let mut used: Vec<String> = context.model.reduced.names();
     used.extend(context.model.trajectory.inputs().into_iter().map(str::to_owned));
     used.extend(parts.fixed.clone());
@@ -168,7 +161,7 @@ fn bind_state(context: &Context, parts: &Eliminated, moving: bool) -> TokenStrea
     let turned = |value: TokenStream| if parts.turn { quote!((turn * #value)) } else { value };
     let mut lets = TokenStream::new();
     let vector = |stem: &str| -> Vec<String> { (1..=n).map(|i| format!("{stem}_{i}")).collect() };
-    if moving {
+    if parts.placed {
         let momentum = match parts.comoving {
             true => (vector("p_hat"), quote!(#rt::Phase::p_hat(point).0.0)),
             false => (vector("p"), turned(quote!(p))),
@@ -187,12 +180,12 @@ fn bind_state(context: &Context, parts: &Eliminated, moving: bool) -> TokenStrea
     } else {
         quote!(let [#(#phi_rows),*] = #rt::rows(#phi);)
     });
-    let names = components(chart.momentum.name(), n);
+    let names = components(parts.momentum_name, n);
     if reads(&used, &names.concat()) {
         let rows = names.iter().map(|row| pattern(row, &used));
-        let value = match (parts.turn, chart.momentum) {
-            (false, _) | (_, Momentum::Body) => quote!(momentum),
-            (true, Momentum::Canonical) => quote!((momentum * turn.transpose())),
+        let value = match (parts.turn, parts.momentum) {
+            (false, _) | (_, AffineMomentum::Spin(Components::Comoving)) => quote!(momentum),
+            (true, AffineMomentum::Spin(Components::TwoPoint)) => quote!((momentum * turn.transpose())),
             (true, _) => quote!((turn * momentum * turn.transpose())),
         };
         lets.extend(quote!(let [#(#rows),*] = #rt::rows(&#value);));
@@ -201,16 +194,12 @@ fn bind_state(context: &Context, parts: &Eliminated, moving: bool) -> TokenStrea
 }
 
 /// Generators of what moves in closed form: `-W/mu`, `p/m`.
-fn whirl(context: &Context, parts: &Eliminated) -> TokenStream {
-    let rt = &context.names.rt;
+fn whirl(context: &Context, parts: &Trajectory) -> TokenStream {
     let mut lets = TokenStream::new();
-    if let (Some(frame), Some(program)) = (parts.whirl, &context.model.isotropic) {
+    if let (Some(side), Some(program)) = (parts.rotation, &context.model.isotropic) {
         let body = context.generic(&program.only("inverse_mu"));
         let (inner, inverse_mu) = (&body.lets, body.result());
-        let spin = match frame {
-            Frame::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
-            _ => quote!(#rt::Phase::sigma(point).0.0),
-        };
+        let spin = spin(context, side);
         lets.extend(quote! {
             #inner
             let spin = #spin;
@@ -226,7 +215,7 @@ fn whirl(context: &Context, parts: &Eliminated) -> TokenStream {
     lets
 }
 
-fn reduced_equations(context: &Context, parts: &Eliminated) -> TokenStream {
+fn reduced_equations(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.reduced.program;
     let used = program.inputs();

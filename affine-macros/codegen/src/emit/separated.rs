@@ -3,13 +3,13 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::mechanics::separation::Slope;
+use crate::derive::DilatationalMotion;
 
 use super::context::Context;
 use super::pattern::{components, identifiers, pattern};
 
 /// `Psi`, the parts of `sigma/alpha` and the closed form of the dilatation at `point`.
-pub(super) fn split(context: &Context) -> TokenStream {
+pub(super) fn split(context: &Context, motion: DilatationalMotion) -> TokenStream {
     let rt = &context.names.rt;
     let n = context.model.dim;
     let used: Vec<String> = context
@@ -24,7 +24,7 @@ pub(super) fn split(context: &Context) -> TokenStream {
     let psi = components("psi", n).into_iter().map(|row| pattern(&row, &used));
     let parts = part_names(n).into_iter().map(|row| pattern(&row, &used));
     let (inverse_alpha, inverse_alpha_lets) = inverse_alpha(context);
-    let dilatation = dilatation(context);
+    let dilatation = dilatation(context, motion);
     quote! {
         let phi = #rt::Phase::phi(point);
         let q = #rt::mean_log_stretch(phi);
@@ -87,15 +87,12 @@ fn inverse_alpha(context: &Context) -> (TokenStream, TokenStream) {
     }
 }
 
-fn dilatation(context: &Context) -> TokenStream {
+fn dilatation(context: &Context, motion: DilatationalMotion) -> TokenStream {
     let rt = &context.names.rt;
-    let (Some(program), Some(separation)) = (&context.model.dilatation, &context.model.reduction.separation)
-    else {
-        return TokenStream::new();
-    };
+    let Some(program) = &context.model.dilatation else { return TokenStream::new() };
     let body = context.generic(program);
     let (lets, values) = (&body.lets, &body.results);
-    let path = closed_form(&separation.slope);
+    let path = closed_form(motion);
     quote! {
         #lets
         let dilatation = #rt::Breathing::#path(t0, q, momentum.trace(), #(#values),*);
@@ -103,10 +100,10 @@ fn dilatation(context: &Context) -> TokenStream {
 }
 
 /// The constructor of the closed form.
-pub(super) fn closed_form(slope: &Slope) -> TokenStream {
-    match slope {
-        Slope::Zero => quote!(free),
-        Slope::Linear(_) => quote!(harmonic),
-        Slope::Hyperbolic { .. } => quote!(hyperbolic),
+pub(super) fn closed_form(motion: DilatationalMotion) -> TokenStream {
+    match motion {
+        DilatationalMotion::Free => quote!(free),
+        DilatationalMotion::Harmonic => quote!(harmonic),
+        DilatationalMotion::Hyperbolic => quote!(hyperbolic),
     }
 }

@@ -4,9 +4,8 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::derive::splitting::{FlowProgram, Programs};
+use crate::derive::{DilatationalMotion, reads_time};
 use crate::ir::{Op, Program, Value};
-use crate::mechanics::potential::TIME;
-use crate::mechanics::separation::Slope;
 
 use super::body::{Body, inner};
 use super::context::Context;
@@ -43,7 +42,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         )
     });
     let is_read = |name: &str| programs().any(|program| program.inputs().contains(&name));
-    let time = if is_read(TIME) { quote!(t) } else { quote!(_t) };
+    let time = if programs().any(reads_time) { quote!(t) } else { quote!(_t) };
     let constants = match coefficient_names(context).iter().any(|name| is_read(name)) {
         true => quote!(constants),
         false => quote!(_constants),
@@ -128,8 +127,8 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
                 .map(|(name, rate)| accumulated(context, name, quote!(#over_time #rate)));
             quote!({ #bind #lets #only #(#rises)* })
         }
-        FlowProgram::Dilatation { placement, momentum, slope, program } => {
-            dilated(context, [placement, momentum], slope, program)
+        FlowProgram::Dilatation { placement, momentum, motion, program } => {
+            dilated(context, [placement, momentum], *motion, program)
         }
         FlowProgram::Exponential { placement, momentum, right, program } => {
             let rt = &context.names.rt;
@@ -186,7 +185,7 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
 fn dilated(
     context: &Context,
     [placement, momentum]: [&[Vec<String>]; 2],
-    slope: &Slope,
+    motion: DilatationalMotion,
     program: &Program,
 ) -> TokenStream {
     let rt = &context.names.rt;
@@ -195,7 +194,7 @@ fn dilated(
     let bind = bound(context, program, &placement.concat());
     let Body { lets, results } = context.generic(program);
     let (results, spin) = results.split_at(results.len().saturating_sub(context.model.dim));
-    let path = closed_form(slope);
+    let path = closed_form(motion);
     let matrix = table(placement);
     let grown = placement.iter().flatten().zip(identifiers(&placement.concat()));
     let grown = grown.map(|(name, entry)| accumulated(context, name, quote!(#entry * growth)));

@@ -127,7 +127,7 @@ impl Writer<'_> {
         let passes = recurrence.passes();
         let rows = if passes > 0 || open.is_some() { quote!(rows) } else { quote!(_rows) };
         let vectors = if passes > 0 { quote!(vectors) } else { quote!(_vectors) };
-        let order = if self.reads_order() { quote!(order) } else { quote!(_) };
+        let order = if recurrence.reads_order() { quote!(order) } else { quote!(_) };
         let moves = recurrence.program.outputs.iter().any(|(_, v)| recurrence.moving[*v]);
         let divisor = if moves { quote!(divisor) } else { quote!(_) };
         quote! {

@@ -6,11 +6,8 @@ mod ratios;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::TwoPolar;
+use crate::derive::{Components, Places, TwoPolar};
 use crate::ir::Program;
-use crate::mechanics::describe::Formula;
-use crate::mechanics::kinetic::Frame;
-use crate::mechanics::two_polar::Variables;
 
 use super::body::Body;
 use super::context::Context;
@@ -103,15 +100,15 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
 fn conversions(context: &Context) -> TokenStream {
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
-    let (frame, spin, wrap) = (context.frame(), own_spin(context), wrapper(context));
+    let (frame, spin, wrap) = (context.frame(), own_spin(context), wrapper(context, context.model.spin()));
     let f64 = quote!(#rt::f64);
     let some = quote!(::core::option::Option::Some);
     let isotropic = match &context.model.isotropic {
         None => quote!(::core::option::Option::None),
         Some(program) => {
             let Body { lets, results } = context.double(program);
-            let side = match context.model.frame {
-                Frame::Body => quote!(Body),
+            let side = match context.model.spin() {
+                Components::Comoving => quote!(Body),
                 _ => quote!(Space),
             };
             let [inverse_alpha, inverse_beta, inverse_mu] = &results[..] else { return TokenStream::new() };
@@ -166,15 +163,13 @@ fn docs(form: &TwoPolar) -> Vec<String> {
 
 fn description(context: &Context, form: &TwoPolar) -> TokenStream {
     let rt = &context.names.rt;
-    let formula = |f: &Formula| {
-        let (text, latex) = (&f.text, &f.latex);
-        quote!(#rt::Formula { text: #text, latex: #latex })
-    };
-    let (hamiltonian, equations) = (formula(&form.formulas.0), form.formulas.1.iter().map(formula));
-    let variables = match form.variables {
-        Variables::LogStretches => format_ident!("LogStretches"),
-        Variables::Stretches => format_ident!("Stretches"),
-        Variables::Angles => format_ident!("Angles"),
+    let (hamiltonian, equations) = &form.formulas;
+    let hamiltonian = description::formula(context, &hamiltonian.text, &hamiltonian.latex);
+    let equations = equations.iter().map(|f| description::formula(context, &f.text, &f.latex));
+    let variables = match form.places {
+        Places::LogStretches => format_ident!("LogStretches"),
+        Places::Stretches => format_ident!("Stretches"),
+        Places::Angles => format_ident!("Angles"),
     };
     let potential = match (context.model.has_forces, form.dilatation_only) {
         (false, _) => format_ident!("None"),

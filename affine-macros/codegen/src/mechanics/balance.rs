@@ -11,13 +11,27 @@ use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use super::charts::{Chart, Coordinate};
 use super::equations::{Load, System, velocities};
 use super::hamiltonian::Hamiltonian;
+use super::kinetic::Frame;
 use super::shared::{Shared, atoms};
 
 /// Quantities of the internal motion: `K`, `phi_dot Pi`, `N`, and in the body `K_hat`, `-K_hat Oh^T`, `N_hat`.
-pub const INTERNAL: [&str; 6] = ["spin", "inertia", "moment", "spin_hat", "inertia_hat", "moment_hat"];
+pub const INTERNAL: [(&str, Frame); 6] = [
+    ("spin", Frame::Space),
+    ("inertia", Frame::Space),
+    ("moment", Frame::Space),
+    ("spin_hat", Frame::Body),
+    ("inertia_hat", Frame::Body),
+    ("moment_hat", Frame::Body),
+];
 
 /// Quantities of the centre of mass: `k = m x_dot`, `F`, and in the body `k_hat`, `-Oh k_hat`, `F_hat`.
-pub const CENTRE: [&str; 5] = ["momentum", "force", "momentum_hat", "inertia_hat", "force_hat"];
+pub const CENTRE: [(&str, Frame); 5] = [
+    ("momentum", Frame::Space),
+    ("force", Frame::Space),
+    ("momentum_hat", Frame::Body),
+    ("inertia_hat", Frame::Body),
+    ("force_hat", Frame::Body),
+];
 
 /// The two sides of the balance laws.
 pub struct Laws {

@@ -10,7 +10,7 @@ const TABLE: &str = include_str!("../../../ARCHITECTURE.md");
 /// Arrows that the table does not allow, and circles of files.
 const KNOWN: &str = include_str!("known.txt");
 
-/// The rooms with those that they may use.
+/// The rooms with the rooms and files that they may use.
 fn allowed() -> BTreeMap<String, BTreeSet<String>> {
     let names = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect::<BTreeSet<_>>();
     let rows = TABLE.lines().filter(|line| line.starts_with("| `"));
@@ -33,7 +33,10 @@ fn arrows_and_circles_are_known() {
     let mut found = BTreeSet::new();
     for (from, used) in &arrows.of {
         let rooms = allowed.get(room(from)).unwrap_or_else(|| panic!("{from} is in no room of the table"));
-        let within = |to: &String| room(from) == "lib" || room(from) == room(to) || rooms.contains(room(to));
+        let within = |to: &String| {
+            let is_allowed = rooms.contains(room(to)) || rooms.contains(to.trim_end_matches(".rs"));
+            room(from) == "lib" || room(from) == room(to) || is_allowed
+        };
         found.extend(used.iter().filter(|to| !within(to)).map(|to| format!("{from} -> {to}")));
     }
     for circle in arrows.circles() {
@@ -48,7 +51,7 @@ fn arrows_and_circles_are_known() {
 /// The list is no way to more: it had so many lines when it began.
 #[test]
 fn the_list_gets_shorter() {
-    assert!(KNOWN.lines().count() <= 45, "{} lines", KNOWN.lines().count());
+    assert!(KNOWN.lines().count() <= 7, "{} lines", KNOWN.lines().count());
 }
 
 /// What is used where, on this crate itself.

@@ -3,12 +3,13 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::derive::VolumeMeasure;
 use crate::emit::context::Context;
 use crate::emit::pattern::{components, identifiers, pattern};
-use crate::mechanics::carried::Carried;
+use crate::emit::point::bind_measure;
 
 /// The state with `1/D` and `q` from its placement.
-pub(super) fn renewed(context: &Context, list: &[Carried]) -> TokenStream {
+pub(super) fn renewed(context: &Context, list: &[VolumeMeasure]) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
     let all: Vec<String> = context.model.reduced.names();
     let names = identifiers(&all);
@@ -16,7 +17,7 @@ pub(super) fn renewed(context: &Context, list: &[Carried]) -> TokenStream {
         let row = identifiers(&row);
         quote!([#(#row),*])
     });
-    let is_carried = |name: &str| list.iter().any(|carried| carried.name() == name);
+    let is_carried = |name: &str| list.iter().any(|carried| carried.symbol() == name);
     let kept: Vec<&str> = all.iter().map(String::as_str).filter(|name| !is_carried(name)).collect();
     let bound = pattern(&all, &kept);
     let carried = computed(context, list, &quote!(&phi));
@@ -31,11 +32,6 @@ pub(super) fn renewed(context: &Context, list: &[Carried]) -> TokenStream {
 }
 
 /// What is carried along, as a function of the placement.
-pub(super) fn computed(context: &Context, list: &[Carried], phi: &TokenStream) -> TokenStream {
-    let (rt, t) = (&context.names.rt, &context.names.scalar);
-    let lets = list.iter().map(|carried| match carried {
-        Carried::InverseDilatation => quote!(let inverse_dilatation = #t::one() / #rt::dilatation(#phi);),
-        Carried::MeanLogStretch => quote!(let q = #rt::mean_log_stretch(#phi);),
-    });
-    lets.collect()
+pub(super) fn computed(context: &Context, list: &[VolumeMeasure], phi: &TokenStream) -> TokenStream {
+    list.iter().map(|measure| bind_measure(context, *measure, phi)).collect()
 }

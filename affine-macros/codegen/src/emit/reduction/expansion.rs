@@ -3,18 +3,15 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use crate::derive::{AffineMomentum, Components, Trajectory};
 use crate::emit::context::Context;
-use crate::emit::eliminated::Eliminated;
 use crate::emit::pattern::{components, identifiers, pattern};
-use crate::emit::point::projected;
+use crate::emit::point::{projected, wrapper};
 use crate::emit::separated;
-use crate::mechanics::charts::Momentum;
-use crate::mechanics::kinetic::Frame;
 
 /// `expand`: what moves in closed form is put back, and space turned back.
-pub(super) fn expand(context: &Context, parts: &Eliminated) -> TokenStream {
+pub(super) fn expand(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
-    let chart = &context.model.reduction.chart;
     let all: Vec<String> = context.model.reduced.names();
     // No phase point holds the work, and 1/D and q follow from phi.
     let needed: Vec<&str> = all
@@ -34,7 +31,7 @@ pub(super) fn expand(context: &Context, parts: &Eliminated) -> TokenStream {
     let back = |value: TokenStream| {
         if parts.turn { quote!(constants.turn.tr_mul(&#value)) } else { value }
     };
-    if parts.dilatation {
+    if parts.dilatation.is_some() {
         lets.extend(separated::placement(context));
     } else {
         let phi = back(rows("phi"));
@@ -43,7 +40,7 @@ pub(super) fn expand(context: &Context, parts: &Eliminated) -> TokenStream {
     if parts.origin {
         lets.extend(quote!(let elapsed = t - constants.t0;));
     }
-    if chart.linear.is_some() {
+    if parts.placed {
         let x = (1..=n).map(|i| format_ident!("x_{i}"));
         let x = back(quote!(#rt::vector([#(#x),*])));
         lets.extend(quote!(let x = #x;));
@@ -61,24 +58,29 @@ pub(super) fn expand(context: &Context, parts: &Eliminated) -> TokenStream {
         });
     }
     lets.extend(match parts.dilatation {
-        true => separated::momentum(context, &parts.fixed),
-        false => expanded_momentum(context, parts, &rows(chart.momentum.name())),
+        Some(_) => separated::momentum(context, &parts.fixed),
+        None => expanded_momentum(context, parts, &rows(parts.momentum_name)),
     });
-    let spin = match (parts.whirl, chart.momentum) {
-        (Some(Frame::Body), Momentum::Body) => quote!(#rt::Comoving(whirl.tr_mul(&momentum) * whirl)),
-        (Some(Frame::Space), Momentum::Space) => quote!(#rt::Spatial(whirl * momentum * whirl.transpose())),
-        (_, Momentum::Body) => quote!(#rt::Comoving(momentum)),
-        (_, Momentum::Space) => quote!(#rt::Spatial(momentum)),
-        (_, Momentum::Total) => {
+    let spin = match (parts.rotation, parts.momentum) {
+        (Some(Components::Comoving), AffineMomentum::Spin(Components::Comoving)) => {
+            quote!(#rt::Comoving(whirl.tr_mul(&momentum) * whirl))
+        }
+        (Some(Components::Spatial), AffineMomentum::Spin(Components::Spatial)) => {
+            quote!(#rt::Spatial(whirl * momentum * whirl.transpose()))
+        }
+        (_, AffineMomentum::Total) => {
             let spin = projected(context, quote!(momentum - x * #p.transpose()));
             quote!(#rt::Spatial(#spin))
         }
-        (_, Momentum::Canonical) => quote!(#rt::TwoPoint(momentum)),
+        (_, AffineMomentum::Spin(components)) => {
+            let wrapper = wrapper(context, components);
+            quote!(#wrapper(momentum))
+        }
     };
-    if let Some(frame) = parts.whirl {
+    if let Some(side) = parts.rotation {
         lets.extend(quote!(let whirl = #rt::skew_exponential(&(constants.whirl * elapsed));));
-        lets.extend(match frame {
-            Frame::Body => quote!(let phi = phi * whirl;),
+        lets.extend(match side {
+            Components::Comoving => quote!(let phi = phi * whirl;),
             _ => quote!(let phi = whirl * phi;),
         });
     }
@@ -87,12 +89,12 @@ pub(super) fn expand(context: &Context, parts: &Eliminated) -> TokenStream {
         (false, true) => quote!(#rt::Centre { x, p: constants.p }),
         (false, false) => quote!(#rt::Pinned),
     };
-    let time = if parts.origin || parts.dilatation { quote!(t) } else { quote!(_t) };
+    let time = if parts.origin || parts.dilatation.is_some() { quote!(t) } else { quote!(_t) };
     let reads = parts.origin
-        || parts.dilatation
+        || parts.dilatation.is_some()
         || parts.turn
         || parts.linear
-        || parts.momentum
+        || parts.conserved
         || !parts.fixed.is_empty();
     let constants = if reads { quote!(constants) } else { quote!(_constants) };
     let point = context.outward(&quote!(#t), quote!(#rt::point(phi, #spin, #centre)));
@@ -110,9 +112,8 @@ pub(super) fn expand(context: &Context, parts: &Eliminated) -> TokenStream {
 }
 
 /// The affine momentum of the chart, back from turned space.
-fn expanded_momentum(context: &Context, parts: &Eliminated, rows: &TokenStream) -> TokenStream {
-    let chart = &context.model.reduction.chart;
-    if parts.momentum {
+fn expanded_momentum(context: &Context, parts: &Trajectory, rows: &TokenStream) -> TokenStream {
+    if parts.conserved {
         return quote!(let momentum = constants.momentum;);
     }
     let mut lets = TokenStream::new();
@@ -121,9 +122,9 @@ fn expanded_momentum(context: &Context, parts: &Eliminated, rows: &TokenStream) 
         lets.extend(quote!(let [#(#fixed),*] = constants.fixed;));
     }
     lets.extend(context.dependent(&context.model.reduced));
-    let momentum = match (parts.turn, chart.momentum) {
-        (false, _) | (_, Momentum::Body) => quote!(#rows),
-        (true, Momentum::Canonical) => quote!(#rows * constants.turn),
+    let momentum = match (parts.turn, parts.momentum) {
+        (false, _) | (_, AffineMomentum::Spin(Components::Comoving)) => quote!(#rows),
+        (true, AffineMomentum::Spin(Components::TwoPoint)) => quote!(#rows * constants.turn),
         (true, _) => quote!(constants.turn.tr_mul(&#rows) * constants.turn),
     };
     lets.extend(quote!(let momentum = #momentum;));

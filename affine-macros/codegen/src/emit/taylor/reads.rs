@@ -1,7 +1,6 @@
 //! What rules read.
 
 use super::writer::Writer;
-use crate::algebra::Function;
 use crate::ir::taylor::{Rule, Term};
 use crate::ir::{Op, Value};
 
@@ -70,12 +69,5 @@ impl<'a> Writer<'a> {
             self.recurrence.moving[*v] && matches!(self.recurrence.program.steps[*v], Op::Input(_))
         });
         states.map(|v| self.name(v)).collect()
-    }
-
-    /// Does a rule read the order itself?
-    pub(super) fn reads_order(&self) -> bool {
-        let weighted = |rule: &Rule| matches!(rule, Rule::Function { function, .. } if !matches!(function, Function::Sqrt | Function::Abs));
-        self.recurrence.rules.iter().any(|(_, rule)| weighted(rule))
-            || self.recurrence.row.iter().flatten().any(|s| s.rate)
     }
 }

@@ -5,11 +5,11 @@ use quote::{format_ident, quote};
 
 use super::reads;
 use super::writer::Writer;
-use crate::algebra::{Function, Rational};
+use crate::algebra::Function;
 use crate::emit::body::Body;
 use crate::emit::number::{double, number};
+use crate::ir::Value;
 use crate::ir::taylor::{Place, Rule, Series, Term};
-use crate::ir::{Op, Value};
 
 impl Writer<'_> {
     /// The values that do not move and that rules read, as statements; the parameter that they read.
@@ -113,15 +113,9 @@ impl Writer<'_> {
 
     /// The reciprocal of a number, to be divided by.
     fn divisor(&self, value: Value) -> Ident {
-        let reciprocal = self.number(value).recip().map(|number| number.to_string()).unwrap_or_default();
+        let reciprocal =
+            self.recurrence.number(value).recip().map(|number| number.to_string()).unwrap_or_default();
         format_ident!("divisor_{}", reciprocal.replace('/', "_").replace('-', "m"))
-    }
-
-    fn number(&self, value: Value) -> Rational {
-        match &self.recurrence.program.steps[value] {
-            Op::Constant(number) => number.clone(),
-            _ => Rational::ONE,
-        }
     }
 
     /// All that are divided by, as statements.
@@ -141,7 +135,7 @@ impl Writer<'_> {
         }
         let written = |c: &Value| {
             let name = self.divisor(*c);
-            let [half, rest, left] = self.number(*c).to_halves().map(double);
+            let [half, rest, left] = self.recurrence.number(*c).to_halves().map(double);
             quote!(let #name = #rt::Divisor::with_reciprocal(#half, #rest, #left);)
         };
         divisors.iter().map(written).collect()

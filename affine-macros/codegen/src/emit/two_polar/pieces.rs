@@ -3,12 +3,11 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::{PieceProgram, TwoPolar};
+use crate::derive::{Components, PieceProgram, TwoPolar};
 use crate::emit::body::Body;
 use crate::emit::context::Context;
 use crate::emit::number::number;
 use crate::emit::pattern::{pattern, reads};
-use crate::mechanics::kinetic::Frame;
 
 /// The implementation of the capability over the state with frames, whose components are named.
 pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[String]) -> TokenStream {
@@ -54,10 +53,10 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[Strin
 /// `1/mu` and the side of the rotation that is no piece.
 fn turning(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
-    let side = match context.model.frame {
-        Frame::Body => quote!(Body),
-        Frame::Space => quote!(Space),
-        Frame::Flat => return TokenStream::new(),
+    let side = match context.model.spin() {
+        Components::Comoving => quote!(Body),
+        Components::Spatial => quote!(Space),
+        Components::TwoPoint => return TokenStream::new(),
     };
     // On U(n) there is none, and no coefficient of it is computed.
     let program = match (&context.model.isotropic, &context.spec.group) {

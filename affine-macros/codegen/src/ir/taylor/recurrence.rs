@@ -1,7 +1,7 @@
 //! A recurrence as data: what is kept of each order, the convolutions, and the rules of the coefficients.
 
-use crate::algebra::Function;
-use crate::ir::{Program, Value};
+use crate::algebra::{Function, Rational};
+use crate::ir::{Op, Program, Value};
 
 /// What has a history: a value, or `k v_k`, the coefficients of `t v'`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -148,6 +148,23 @@ impl Recurrence {
     #[must_use]
     pub fn slot(&self, series: Series) -> Option<usize> {
         self.row.iter().position(|kept| *kept == Some(series))
+    }
+
+    /// Does any rule, or what is kept, read the order itself?
+    #[must_use]
+    pub fn reads_order(&self) -> bool {
+        let weighted = |rule: &Rule| matches!(rule, Rule::Function { function, .. } if !matches!(function, Function::Sqrt | Function::Abs));
+        self.rules.iter().any(|(_, rule)| weighted(rule))
+            || self.row.iter().flatten().any(|series| series.rate)
+    }
+
+    /// The number that a value is; 1 where it is none.
+    #[must_use]
+    pub fn number(&self, value: Value) -> Rational {
+        match &self.program.steps[value] {
+            Op::Constant(number) => number.clone(),
+            _ => Rational::ONE,
+        }
     }
 
     /// Multiplications of vectors for each step `j` of the convolutions.

@@ -1,0 +1,46 @@
+//! Symmetries and conserved quantities by their names.
+
+use super::model::Model;
+use crate::mechanics::conserved::Candidate;
+use crate::mechanics::symmetry::Group;
+
+impl Model {
+    /// The groups that leave the kinetic energy unchanged, in space and in the body.
+    #[must_use]
+    pub fn invariance(&self) -> [String; 2] {
+        let n = self.dim;
+        [self.groups.0, self.groups.1].map(|group| match group {
+            Group::Affine => format!("GL({n})"),
+            Group::Metric => format!("O({n})"),
+            Group::Less => format!("a proper subgroup of O({n})"),
+        })
+    }
+
+    /// The group that the motion is confined to, and what of these acts on it in space and in the body.
+    #[must_use]
+    pub fn confinement(&self) -> Option<(String, [String; 2])> {
+        let (n, constraint) = (self.dim, self.constraint?);
+        let surviving = [self.groups.0, self.groups.1].map(|group| match group {
+            Group::Affine => constraint.name(n),
+            Group::Metric => format!("SO({n})"),
+            Group::Less => format!("a proper subgroup of SO({n})"),
+        });
+        Some((constraint.name(n), surviving))
+    }
+
+    /// Names of the conserved quantities.
+    #[must_use]
+    pub fn conserved_names(&self) -> Vec<String> {
+        names(&self.conserved)
+    }
+
+    /// Names of the conserved quantities of motions with `p = 0`.
+    #[must_use]
+    pub fn conserved_names_at_rest(&self) -> Vec<String> {
+        names(&self.conserved_at_rest)
+    }
+}
+
+fn names(list: &[Candidate]) -> Vec<String> {
+    list.iter().map(|candidate| format!("{candidate:?}")).collect()
+}

@@ -1,0 +1,44 @@
+//! The phase space of a model, as its points hold it.
+
+use super::components::Components;
+use super::model::Model;
+use crate::mechanics::reduce::ClosedForm;
+
+impl Model {
+    /// The components of the affine spin that points hold, and of the affine velocity that goes with it.
+    #[must_use]
+    pub fn spin(&self) -> Components {
+        self.frame.into()
+    }
+
+    /// Stem of the names of that spin's entries.
+    #[must_use]
+    pub fn spin_name(&self) -> &'static str {
+        self.frame.momentum_name()
+    }
+
+    /// Stem of the names of that velocity's entries.
+    #[must_use]
+    pub fn velocity_name(&self) -> &'static str {
+        self.frame.velocity_name()
+    }
+
+    /// The components of the velocity that geodesics are made of, where these are known in closed form: of an exponential
+    /// beside the placement, or of a straight line. And whether they need `p = 0`.
+    #[must_use]
+    pub fn geodesics(&self) -> Option<(Components, bool)> {
+        let (form, at_rest) = self.closed_form?;
+        let components = match form {
+            ClosedForm::Body => Components::Comoving,
+            ClosedForm::Space => Components::Spatial,
+            ClosedForm::Straight => Components::TwoPoint,
+        };
+        Some((components, at_rest))
+    }
+
+    /// The components of the velocity of the centre of mass that its energy is the square of, where it moves.
+    #[must_use]
+    pub fn centre(&self) -> Option<Components> {
+        self.translation.map(Components::from)
+    }
+}

@@ -1,0 +1,43 @@
+//! Symbols of programs that stand for functions of time and placement.
+
+use crate::ir::Program;
+use crate::mechanics::carried::Carried;
+use crate::mechanics::potential::{DILATATION, TIME};
+
+/// Does a program read the time?
+#[must_use]
+pub fn reads_time(program: &Program) -> bool {
+    program.inputs().contains(&TIME)
+}
+
+/// A function of `det phi` that programs read by a symbol of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VolumeMeasure {
+    /// `q = ln(det phi)/n`.
+    MeanLogStretch,
+    /// `D = exp(q)`.
+    Dilatation,
+    /// `1/D`.
+    InverseDilatation,
+}
+
+impl VolumeMeasure {
+    /// Its symbol.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::MeanLogStretch => Carried::MeanLogStretch.name(),
+            Self::Dilatation => DILATATION,
+            Self::InverseDilatation => Carried::InverseDilatation.name(),
+        }
+    }
+}
+
+impl From<Carried> for VolumeMeasure {
+    fn from(carried: Carried) -> Self {
+        match carried {
+            Carried::InverseDilatation => Self::InverseDilatation,
+            Carried::MeanLogStretch => Self::MeanLogStretch,
+        }
+    }
+}
