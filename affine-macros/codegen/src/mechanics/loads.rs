@@ -21,7 +21,7 @@ pub fn loads(
     potential: Option<&Potential>,
     forces: &Forces,
 ) -> Vec<Load> {
-    let mut loads: Vec<Load> = h.weight.iter().map(|weight| weight.load(chart, h)).collect();
+    let mut loads: Vec<Load> = h.weight.iter().map(|weight| weight.load(chart, &h.internal())).collect();
     loads.extend(beside(arena, chart, &h.centre_velocity(), potential, forces));
     loads
 }

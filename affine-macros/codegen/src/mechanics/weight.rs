@@ -8,7 +8,6 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate};
 use super::equations::Load;
-use super::hamiltonian::Hamiltonian;
 use super::kinetic::Kinetic;
 
 /// Names of `D^2` and `D^-2`, which [group points](super::group_point) and formulas know.
@@ -45,13 +44,13 @@ impl Weight {
         Self { square, inverse, definitions: vec![(square, length), (inverse, reciprocal)] }
     }
 
-    /// The force `-dH_int/dq 1/n = 2 H_int/n 1` on `Sigma_hat`, and what defines the weight.
-    pub(super) fn load(&self, chart: &Chart, h: &Hamiltonian) -> Load {
+    /// The force `-dH_int/dq 1/n = 2 H_int/n 1` on `Sigma_hat` from the internal energy, and what defines the weight.
+    pub(super) fn load(&self, chart: &Chart, internal: &Polynomial) -> Load {
         let share =
             i64::try_from(chart.dim).ok().and_then(|n| Rational::ratio(2, n)).unwrap_or(Rational::ONE);
         let dependent = chart.dependent();
         let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
-        let force = h.internal().substitute(&value).scaled(&share);
+        let force = internal.substitute(&value).scaled(&share);
         let forces = (0..chart.dim).map(|a| (Coordinate::M(a, a), force.clone())).collect();
         Load { shared: self.definitions.clone(), forces, ..Load::default() }
     }
