@@ -26,6 +26,7 @@
 
 mod flows;
 mod squares;
+mod summand;
 mod turns;
 
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
@@ -38,9 +39,11 @@ use super::kinetic::Frame;
 use super::potential::Potential;
 use super::reduce::{Commuting, Reduction, gauge};
 use super::separation::Separation;
+pub use flows::Flow;
 use flows::{exact_flow, expanded};
 pub use squares::Principal;
 use squares::Squares;
+use summand::{Summand, joined, over_the_state};
 pub use turns::TIME_OF_FLOW;
 
 /// Pieces whose flows make up the motion, those of the kinetic energy first.
@@ -61,41 +64,6 @@ pub struct Piece {
     pub name: String,
     /// Its flows.
     pub flows: Vec<Flow>,
-}
-
-/// A flow in closed form.
-#[derive(Clone, Debug)]
-pub enum Flow {
-    /// `z -> z + t z'`, the rates being constants of the flow.
-    Shift(System),
-    /// `z -> z + r(h)`, the rises being polynomials in the state and functions of the time `h`.
-    Rise(System),
-    /// `phi -> phi exp(tY)` or `exp(tY) phi`.
-    Exponential {
-        /// What `Y` is written in.
-        shared: Vec<(Expr, Polynomial)>,
-        /// `Y`.
-        generator: Vec<Vec<Polynomial>>,
-        /// Does it stand on the right?
-        right: bool,
-        /// Does the affine momentum turn along?
-        turns_momentum: bool,
-    },
-    /// `q` and the trace of the affine spin along the closed form of their motion.
-    Dilatation {
-        /// The motion.
-        separation: Separation,
-        /// The diagonal of the affine spin.
-        spin: Vec<Polynomial>,
-    },
-}
-
-/// A summand of `H` with its equations over the reduced state.
-struct Summand {
-    name: String,
-    /// The summand, where it is a polynomial.
-    energy: Option<Polynomial>,
-    system: System,
 }
 
 /// The pieces of a reduced system; `None` where one of them has no flow in closed form.
@@ -267,34 +235,6 @@ fn separated(arena: &Arena, reduction: &Reduction) -> Vec<Summand> {
     let mut kinetic = part("Casimirs", true);
     kinetic.system = expanded(kinetic.system);
     vec![kinetic, part("potential", false)]
-}
-
-/// The equations that move components of the reduced state; `None` where they move anything else that is kept as a
-/// constant.
-fn over_the_state(arena: &Arena, reduction: &Reduction, system: System) -> Option<System> {
-    let gauge = gauge(&reduction.chart, reduction.turned, reduction.layout);
-    let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
-    let mut system = system.substitute(&value);
-    system.rates.retain(|(_, _, rate)| !rate.is_zero());
-    let states: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
-    let inside = system.rates.iter().all(|(_, symbol, _)| states.contains(symbol));
-    inside.then(|| system.tidied(arena))
-}
-
-/// The sum of summands.
-fn joined(list: &[Summand], last: &Summand) -> System {
-    let mut sum = System::default();
-    for summand in list.iter().chain([last]) {
-        sum.shared.extend(summand.system.shared.iter().cloned());
-        sum.kernels.extend(summand.system.kernels.iter().cloned());
-        for (z, symbol, rate) in &summand.system.rates {
-            match sum.rates.iter_mut().find(|(at, ..)| at == z) {
-                Some((.., total)) => total.add_scaled(rate, &Rational::ONE),
-                None => sum.rates.push((*z, *symbol, rate.clone())),
-            }
-        }
-    }
-    sum
 }
 
 /// `ad_B` lowers the degree in what `B` moves by one, for it gives that rates which it does not change: of a first

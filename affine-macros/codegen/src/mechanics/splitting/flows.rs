@@ -1,10 +1,36 @@
-//! Which flow a system of equations has.
+//! Flows in closed form, and which of them a system of equations has.
 
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::equations::System;
+use crate::mechanics::separation::Separation;
 
-use super::Flow;
+/// A flow in closed form.
+#[derive(Clone, Debug)]
+pub enum Flow {
+    /// `z -> z + t z'`, the rates being constants of the flow.
+    Shift(System),
+    /// `z -> z + r(h)`, the rises being polynomials in the state and functions of the time `h`.
+    Rise(System),
+    /// `phi -> phi exp(tY)` or `exp(tY) phi`.
+    Exponential {
+        /// What `Y` is written in.
+        shared: Vec<(Expr, Polynomial)>,
+        /// `Y`.
+        generator: Vec<Vec<Polynomial>>,
+        /// Does it stand on the right?
+        right: bool,
+        /// Does the affine momentum turn along?
+        turns_momentum: bool,
+    },
+    /// `q` and the trace of the affine spin along the closed form of their motion.
+    Dilatation {
+        /// The motion.
+        separation: Separation,
+        /// The diagonal of the affine spin.
+        spin: Vec<Polynomial>,
+    },
+}
 
 /// A system with its velocities written out.
 pub(super) fn expanded(mut system: System) -> System {

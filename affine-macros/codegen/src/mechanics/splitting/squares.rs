@@ -20,9 +20,9 @@ use crate::mechanics::equations::System;
 use crate::mechanics::hessian::{Block, blocks, entries};
 use crate::mechanics::reduce::Reduction;
 
-use super::flows::value_of;
+use super::flows::{Flow, value_of};
+use super::summand::Summand;
 use super::turns::{self, Turn};
-use super::{Flow, Summand};
 
 /// The squares of an energy.
 #[derive(Default)]

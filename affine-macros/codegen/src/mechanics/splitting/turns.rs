@@ -17,8 +17,8 @@ use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::equations::{Form, System, hamilton};
 use crate::mechanics::reduce::Reduction;
 
-use super::flows::{confined, expanded, generator, turns_along};
-use super::{Flow, over_the_state};
+use super::flows::{Flow, confined, expanded, generator, turns_along};
+use super::summand::over_the_state;
 
 /// The time that a flow lasts.
 pub const TIME_OF_FLOW: &str = "h";

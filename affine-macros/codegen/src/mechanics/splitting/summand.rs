@@ -1,0 +1,41 @@
+//! Summands of a Hamiltonian, each with its equations.
+
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::mechanics::equations::System;
+use crate::mechanics::reduce::{Reduction, gauge};
+
+/// A summand of `H` with its equations over the reduced state.
+pub(super) struct Summand {
+    pub(super) name: String,
+    /// The summand, where it is a polynomial.
+    pub(super) energy: Option<Polynomial>,
+    pub(super) system: System,
+}
+
+/// The equations that move components of the reduced state; `None` where they move anything else that is kept as a
+/// constant.
+pub(super) fn over_the_state(arena: &Arena, reduction: &Reduction, system: System) -> Option<System> {
+    let gauge = gauge(&reduction.chart, reduction.turned, reduction.layout);
+    let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
+    let mut system = system.substitute(&value);
+    system.rates.retain(|(_, _, rate)| !rate.is_zero());
+    let states: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
+    let inside = system.rates.iter().all(|(_, symbol, _)| states.contains(symbol));
+    inside.then(|| system.tidied(arena))
+}
+
+/// The sum of summands.
+pub(super) fn joined(list: &[Summand], last: &Summand) -> System {
+    let mut sum = System::default();
+    for summand in list.iter().chain([last]) {
+        sum.shared.extend(summand.system.shared.iter().cloned());
+        sum.kernels.extend(summand.system.kernels.iter().cloned());
+        for (z, symbol, rate) in &summand.system.rates {
+            match sum.rates.iter_mut().find(|(at, ..)| at == z) {
+                Some((.., total)) => total.add_scaled(rate, &Rational::ONE),
+                None => sum.rates.push((*z, *symbol, rate.clone())),
+            }
+        }
+    }
+    sum
+}
