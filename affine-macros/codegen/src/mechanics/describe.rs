@@ -2,6 +2,7 @@
 //! compared with the derived ones.
 
 mod equations;
+mod forces;
 mod hamiltonian;
 mod inertia;
 mod known_forms;
@@ -77,14 +78,6 @@ impl Sum {
     /// As what something is.
     pub(super) fn of(self, left: &str, left_latex: &str) -> Formula {
         self.value().of(left, left_latex)
-    }
-}
-
-impl Formula {
-    /// `left = self`.
-    pub(super) fn of(self, left: &str, left_latex: &str) -> Self {
-        let Self { text, latex } = self;
-        Self { text: format!("{left} = {text}"), latex: format!("{left_latex} = {latex}") }
     }
 }
 

@@ -1,8 +1,9 @@
 //! The names of fields: as the user wrote them, but where a symbol of the mechanics is written so.
 
-use super::matrix::MatrixName;
+use super::matrix_name::MatrixName;
 use super::symbols::{is_letter, is_symbol};
 use crate::algebra::text::Written;
+use crate::algebra::{Arena, Expr};
 
 /// Names of letters that LaTeX has as commands.
 const GREEK: [&str; 34] = [
@@ -80,4 +81,18 @@ fn indexed(name: &str) -> (&str, Option<&str>) {
         }
         _ => (name, None),
     }
+}
+
+/// The field of which all these are the entries.
+pub(super) fn field_of<'a>(arena: &'a Arena, rows: &[Vec<Expr>]) -> Option<&'a str> {
+    let name = |e: &Expr| Some(entry_of_field(arena.name(*e)?)?.0);
+    let field = name(rows.first()?.first()?)?;
+    rows.iter().flatten().all(|entry| name(entry) == Some(field)).then_some(field)
+}
+
+/// Field, row and column of the symbol of an entry of a matrix.
+pub(super) fn entry_of_field(symbol: &str) -> Option<(&str, usize, usize)> {
+    let (field, places) = symbol.strip_prefix("self.")?.strip_suffix(']')?.split_once('[')?;
+    let (row, column) = places.split_once(',')?;
+    Some((field, row.parse().ok()?, column.parse().ok()?))
 }

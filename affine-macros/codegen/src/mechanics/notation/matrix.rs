@@ -1,85 +1,19 @@
-//! Matrices of coefficients: their names, their entries and those of their inverses.
+//! Matrices of coefficients: which name each has, and what it is.
 
-use super::{Formula, Notation, field};
-use crate::algebra::text::Written;
+use super::field::{self, entry_of_field, field_of};
+use super::formula::Formula;
+use super::matrix_name::{MatrixName, Named};
+use super::names::Notation;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::kinetic::{Coefficient, Frame, Kinetic, Term};
 use crate::mechanics::metrics::{Rebased, Source};
-
-/// A matrix by name.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(in crate::mechanics) struct MatrixName {
-    pub(in crate::mechanics) text: String,
-    pub(in crate::mechanics) latex: String,
-    /// Can an index be set at the LaTeX?
-    pub(super) letter: bool,
-}
-
-impl MatrixName {
-    pub(super) fn new(text: impl Into<String>, latex: impl Into<String>, letter: bool) -> Self {
-        Self { text: text.into(), latex: latex.into(), letter }
-    }
-
-    /// The LaTeX to which an index is set.
-    pub(in crate::mechanics) fn indexed(&self) -> String {
-        if self.letter { self.latex.clone() } else { format!("({})", self.latex) }
-    }
-
-    /// Text and LaTeX of an entry, indices from 1.
-    pub(super) fn entry(&self, row: usize, column: usize) -> [Written; 2] {
-        [
-            Written::letter(format!("{}[{row},{column}]", self.text)),
-            Written::letter(format!("{}_{{{row}{column}}}", self.indexed())),
-        ]
-    }
-
-    /// The inverse.
-    #[must_use]
-    pub(in crate::mechanics) fn inverse(&self) -> Self {
-        Self {
-            text: format!("{}^-1", self.text),
-            latex: format!("{}^{{-1}}", self.latex),
-            letter: self.letter,
-        }
-    }
-
-    /// Text and LaTeX of an entry of the inverse.
-    pub(super) fn inverse_entry(&self, row: usize, column: usize) -> [Written; 2] {
-        self.inverse().entry(row, column).map(|Written { body, .. }| Written::raised(body))
-    }
-}
-
-/// A matrix of a quadratic form under its name.
-#[derive(Clone, Debug)]
-pub(super) struct Named {
-    pub(super) rows: Vec<Vec<Expr>>,
-    pub(super) name: MatrixName,
-    /// What it is, where it is no field.
-    pub(super) definition: Option<Formula>,
-    /// What its symbols seem to be entries of, where `prepare()` carries it to orthonormal bases.
-    pub(super) carried: Option<String>,
-}
 
 /// What a matrix is a coefficient of.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Form {
     Energy,
     Friction,
-}
-
-/// The field of which all these are the entries.
-pub(super) fn field_of<'a>(arena: &'a Arena, rows: &[Vec<Expr>]) -> Option<&'a str> {
-    let name = |e: &Expr| Some(entry_of_field(arena.name(*e)?)?.0);
-    let field = name(rows.first()?.first()?)?;
-    rows.iter().flatten().all(|entry| name(entry) == Some(field)).then_some(field)
-}
-
-/// Field, row and column of the symbol of an entry of a matrix.
-pub(super) fn entry_of_field(symbol: &str) -> Option<(&str, usize, usize)> {
-    let (field, places) = symbol.strip_prefix("self.")?.strip_suffix(']')?.split_once('[')?;
-    let (row, column) = places.split_once(',')?;
-    Some((field, row.parse().ok()?, column.parse().ok()?))
 }
 
 impl Notation<'_> {
