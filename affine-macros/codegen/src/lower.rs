@@ -14,8 +14,8 @@ use crate::mechanics::constraint::Constraint;
 use crate::mechanics::custom::{Class, Custom, On, Role};
 use crate::mechanics::dissipation::Dissipation;
 use crate::mechanics::forces::Forces;
-use crate::mechanics::kinetic::{Coefficient, Frame, Term, TermKind};
 use crate::mechanics::metrics::{Metrics, Rebased};
+use crate::mechanics::term::{Coefficient, Frame, Term, TermKind};
 use crate::spec::{self, Expression, ExpressionKind, FIELD, Spec, Value, field_entry};
 
 pub(crate) use base_functions::{difference_of, energy};

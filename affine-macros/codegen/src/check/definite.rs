@@ -2,8 +2,10 @@
 
 use super::written::{Written, eigenvalue_name, matrix_text};
 use crate::diagnostics::{Diagnostics, FormMistake};
-use crate::mechanics::hessian::{Direction, Hessian};
-use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::direction::Direction;
+use crate::mechanics::hessian::Hessian;
+use crate::mechanics::kinetic::Kinetic;
+use crate::mechanics::term::Frame;
 use crate::spec::{self, Named, Requirement, Spec};
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic

@@ -5,9 +5,11 @@ use crate::algebra::Rational;
 use crate::algebra::linear::negative_direction;
 use crate::diagnostics::{ConstraintMistake, Diagnostics, ForceMistake};
 use crate::lower;
+use crate::mechanics::direction::Direction;
 use crate::mechanics::dissipation::{Dissipation, Part};
-use crate::mechanics::hessian::{Block, Direction, Hessian};
-use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::hessian::{Block, Hessian};
+use crate::mechanics::kinetic::Kinetic;
+use crate::mechanics::term::Frame;
 use crate::spec::{self, Named, Spec};
 
 /// Without a translational kinetic energy the centre of mass stands still, and nothing slows it.
@@ -76,7 +78,7 @@ pub(super) fn semidefinite(spec: &Spec, dissipation: &Dissipation, found: &mut D
     }
 }
 
-fn same_kind(written: &spec::Term, term: &crate::mechanics::kinetic::Term) -> bool {
+fn same_kind(written: &spec::Term, term: &crate::mechanics::term::Term) -> bool {
     crate::lower::kind(written.kind.value) == term.kind
 }
 

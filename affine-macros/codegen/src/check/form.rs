@@ -9,12 +9,13 @@ use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::form::Form;
 use crate::mechanics::hessian::Hessian;
-use crate::mechanics::kinetic::{Frame, Kinetic, Term};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::mixed::Mixed;
 use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group};
+use crate::mechanics::term::{Frame, Term};
 use crate::spec::{Capability, Claim, Named, Spec};
 
 /// Builds the form and holds it against every rule.

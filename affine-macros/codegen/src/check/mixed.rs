@@ -5,9 +5,10 @@ use crate::diagnostics::{CapabilityMistake, Diagnostics, FormMistake, Reported};
 use crate::lower;
 use crate::mechanics::form::{MixedForm, Positive};
 use crate::mechanics::hessian::Hessian;
-use crate::mechanics::kinetic::{Frame, Kinetic, Term};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::mixed::{Confined, Internal, Masses, Mixed};
 use crate::mechanics::symmetry::Side;
+use crate::mechanics::term::{Frame, Term};
 use crate::spec::{Capability, Named, Requirement, Spec};
 
 use super::form::{self};

@@ -3,7 +3,7 @@
 use crate::algebra::{Arena, Polynomial};
 use crate::diagnostics::{ConstraintMistake, Diagnostics, Directions, FormMistake, TermMistake};
 use crate::lower::constant;
-use crate::mechanics::hessian::Direction;
+use crate::mechanics::direction::Direction;
 use crate::mechanics::momentum_side::Stated;
 use crate::spec::{Expression, MomentumKind, Named, Requirement, Spec, Term, Value};
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::algebra::Rational;
 use crate::diagnostics::Directions;
-use crate::mechanics::hessian::Direction;
+use crate::mechanics::direction::Direction;
 use crate::spec::{self, Named, Value};
 
 /// The internal terms of a quadratic form as the user wrote them.

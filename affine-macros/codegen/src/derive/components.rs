@@ -1,6 +1,6 @@
 //! Co-moving, spatial and two-point components.
 
-use crate::mechanics::kinetic::Frame;
+use crate::mechanics::term::Frame;
 
 /// The components that a velocity or a momentum is given by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

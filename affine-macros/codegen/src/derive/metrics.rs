@@ -2,8 +2,8 @@
 
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
-use crate::mechanics::kinetic::Frame;
 use crate::mechanics::metrics::{Bases, Metrics, Rebased, Source};
+use crate::mechanics::term::Frame;
 
 use super::components::Components;
 use super::prepared::unbound;

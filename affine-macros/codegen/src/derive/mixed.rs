@@ -14,13 +14,14 @@ use crate::mechanics::forces::Forces;
 use crate::mechanics::form::MixedForm;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::{self, Hessian};
-use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::loads::beside;
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::{self, Confined, Factorisation, ForceNames, Internal, Masses, Mixed};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::{self, ClosedForm, Commuting, Reduction};
 use crate::mechanics::shared::CentreVelocity;
+use crate::mechanics::term::Frame;
 use crate::optimise::Batch;
 
 use super::batch::batch;

@@ -16,9 +16,9 @@ use crate::mechanics::asked::Asked;
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{Formula, LeftOut};
-use crate::mechanics::kinetic::Frame;
 use crate::mechanics::reduce::{ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
+use crate::mechanics::term::Frame;
 
 /// Everything that is emitted about a model.
 pub struct Model {

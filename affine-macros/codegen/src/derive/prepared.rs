@@ -4,10 +4,11 @@ use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::mechanics::direction::Direction;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::hessian::Direction;
-use crate::mechanics::kinetic::{Coefficient, Kinetic, TermKind};
+use crate::mechanics::kinetic::Kinetic;
+use crate::mechanics::term::{Coefficient, TermKind};
 use crate::optimise::{Batch, straight_line};
 
 use super::well_posed::{Condition, Damping, NumericBlock, Relation};

@@ -10,10 +10,10 @@ use crate::mechanics::constraint::Constraint;
 use crate::mechanics::equations::{self, System, hamilton};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::kinetic::Frame;
 use crate::mechanics::loads::loads;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::{self, Layout, Reduction};
+use crate::mechanics::term::Frame;
 use crate::optimise::{Batch, straight_line};
 
 use super::batch::{batch, split_batch};

@@ -9,9 +9,10 @@ use crate::mechanics::balance::{CENTRE, INTERNAL, Laws};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::equations::System;
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metric::{self, Definitions};
 use crate::mechanics::mixed::Factorisation;
+use crate::mechanics::term::Frame;
 use crate::optimise::{Batch, straight_line};
 
 use super::model::{Balance, BalancedQuantities, Metric};

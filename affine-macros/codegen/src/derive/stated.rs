@@ -1,9 +1,9 @@
 //! What a Hamiltonian stated on the momentum side asks of the values of the fields.
 
 use crate::algebra::{Arena, Polynomial};
-use crate::mechanics::hessian::Direction;
-use crate::mechanics::kinetic::Frame;
+use crate::mechanics::direction::Direction;
 use crate::mechanics::momentum_side::Stated;
+use crate::mechanics::term::Frame;
 
 use super::prepared::{summands, unbound};
 use super::well_posed::{Condition, Relation};

@@ -3,8 +3,8 @@
 use super::constant::constant;
 use crate::algebra::{Arena, Polynomial};
 use crate::mechanics::hamiltonian::Isotropic;
-use crate::mechanics::kinetic::Frame;
 use crate::mechanics::momentum_side::Stated;
+use crate::mechanics::term::Frame;
 use crate::spec::{MomentumKind, Spec, Value};
 
 use super::expression;

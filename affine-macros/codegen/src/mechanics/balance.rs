@@ -11,8 +11,8 @@ use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use super::charts::{Chart, Coordinate};
 use super::equations::{Load, System, velocities};
 use super::hamiltonian::Hamiltonian;
-use super::kinetic::Frame;
 use super::shared::{Shared, atoms};
+use super::term::Frame;
 
 /// Quantities of the internal motion: `K`, `phi_dot Pi`, `N`, and in the body `K_hat`, `-K_hat Oh^T`, `N_hat`.
 pub const INTERNAL: [(&str, Frame); 6] = [

@@ -4,7 +4,7 @@ use crate::algebra::ring::Square;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 
 use super::constraint::Constraint;
-use super::kinetic::Frame;
+use super::term::Frame;
 
 /// The affine momentum of a chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

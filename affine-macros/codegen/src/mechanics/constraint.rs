@@ -11,8 +11,8 @@ mod terms;
 use crate::algebra::ring::{Ring, Square, deviator, table};
 use crate::algebra::{Expr, Matrix, Polynomial, Rational};
 
-use super::hessian::{BasisVector, Direction};
-use super::kinetic::TermKind;
+use super::direction::{BasisVector, Direction};
+use super::term::TermKind;
 
 /// The subgroup that the motion is confined to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,9 +10,9 @@ use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::conserved::Candidate;
 use super::equations::Load;
-use super::kinetic::Frame;
 use super::potential::TIME;
 use super::shared::{CentreVelocity, Shared, atoms, frame_of};
+use super::term::Frame;
 
 /// A field that computes a force or a potential.
 #[derive(Clone, Debug)]

@@ -12,8 +12,9 @@ mod system;
 use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::Momentum;
-use crate::mechanics::kinetic::{Coefficient, Frame, Kinetic, Term, TermKind};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::notation::MatrixName;
+use crate::mechanics::term::{Coefficient, Frame, Term, TermKind};
 
 pub use super::notation::{Described, Formula, Notation};
 pub use equations::equations;

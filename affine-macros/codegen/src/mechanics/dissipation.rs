@@ -12,9 +12,10 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::equations::Load;
 use super::hessian::Hessian;
-use super::kinetic::{Coefficient, Frame, Kinetic, Term};
+use super::kinetic::Kinetic;
 use super::metrics::Metrics;
 use super::shared::{CentreVelocity, Shared, atoms, frame_of};
+use super::term::{Coefficient, Frame, Term};
 
 /// A dissipation function.
 #[derive(Clone, Debug)]

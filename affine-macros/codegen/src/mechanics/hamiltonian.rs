@@ -4,9 +4,11 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Linear, Momentum};
 use super::constraint::Constraint;
-use super::hessian::{Direction, Hessian, NumericBlock};
-use super::kinetic::{Frame, Kinetic};
+use super::direction::Direction;
+use super::hessian::{Hessian, NumericBlock};
+use super::kinetic::Kinetic;
 use super::shared::CentreVelocity;
+use super::term::Frame;
 use super::weight::Weight;
 
 /// The kinetic Hamiltonian in pieces.

@@ -6,7 +6,8 @@
 use crate::algebra::ring::{Square, adjugate, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
-use super::kinetic::{Frame, Kinetic};
+use super::kinetic::Kinetic;
+use super::term::Frame;
 
 /// Quantities with their definitions, each in earlier ones.
 pub type Definitions = Vec<(Expr, Polynomial)>;

@@ -1,13 +1,15 @@
 //! Constant metrics of space and body: the bases in which they are the identity.
 
 mod axes;
+mod congruent;
 mod forms;
 
 use crate::algebra::root::root;
 use crate::algebra::{Expr, Rational};
 
 pub use axes::{Axes, root_of_product};
-pub use forms::{Congruent, Rebased, Source};
+pub use congruent::Congruent;
+pub use forms::{Rebased, Source};
 
 /// Metrics other than the identity.
 #[derive(Clone, Debug, PartialEq, Eq)]

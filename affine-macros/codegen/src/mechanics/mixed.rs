@@ -15,8 +15,9 @@ mod sample;
 use crate::algebra::Arena;
 
 use super::constraint::Constraint;
-use super::kinetic::{Frame, Kinetic, Term, TermKind};
+use super::kinetic::Kinetic;
 use super::symmetry::{Group, Side, largest_group};
+use super::term::{Frame, Term, TermKind};
 
 pub use centre::Masses;
 pub use confined::Confined;

@@ -3,9 +3,11 @@
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::constraint::Constraint;
+use super::direction::Direction;
 use super::hamiltonian::{Hamiltonian, Isotropic};
-use super::hessian::{Direction, Hessian};
-use super::kinetic::{Coefficient, Frame, Kinetic, Term, TermKind, Translation};
+use super::hessian::Hessian;
+use super::kinetic::{Kinetic, Translation};
+use super::term::{Coefficient, Frame, Term, TermKind};
 
 /// `a/2 tr X^2 + b/2 (tr X)^2 + c/2 |W|^2 + d/3 tr X^3`, `W = X - X^T`, and `k/2 |p_hat|^2` or `k/2 |p|^2`.
 #[derive(Clone, Debug)]

@@ -10,10 +10,10 @@ use super::conserved::Candidate;
 use super::equations::{Form, Load, System, hamilton};
 use super::forces::Forces;
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
-use super::kinetic::Frame;
 use super::loads::{loads, of_potential};
 use super::potential::Potential;
 use super::separation::{Separation, shear_system};
+use super::term::Frame;
 
 /// A piece of `H` that commutes with the rest and whose flow is known.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@ use crate::algebra::ring::{Square, adjugate, product, table, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Linear, Momentum};
-use super::kinetic::Frame;
+use super::term::Frame;
 
 /// How the velocity of the centre of mass is known.
 #[derive(Clone, Debug)]

@@ -2,7 +2,8 @@
 
 use crate::algebra::{Expr, Matrix, Polynomial, Rational};
 
-use super::kinetic::{Frame, Kinetic};
+use super::kinetic::Kinetic;
+use super::term::Frame;
 
 /// Which action: `phi -> A phi` (and `x -> A x`) or `phi -> phi B`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -18,8 +18,8 @@ mod stable;
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 
 use super::hamiltonian::Hamiltonian;
-use super::kinetic::Frame;
 use super::potential::OnAxes;
+use super::term::Frame;
 
 pub use describe::formulas;
 pub use frames::Frames;

@@ -1,7 +1,7 @@
 //! Legendre transformation, energies and Hamilton's equations of every family, equal to the oracle's.
 
 use affine_codegen::derive::Model;
-use affine_codegen::mechanics::kinetic::Frame;
+use affine_codegen::mechanics::term::Frame;
 use affine_oracle::{Kinetic, Random, State, rational};
 
 use super::models::{FAMILIES, Internal, Sample, TRANSLATIONS, Translation};

@@ -3,8 +3,8 @@
 use affine_codegen::check;
 use affine_codegen::derive::{Model, derive};
 use affine_codegen::diagnostics::gate;
-use affine_codegen::mechanics::kinetic::Frame;
 use affine_codegen::mechanics::reduce::Commuting;
+use affine_codegen::mechanics::term::Frame;
 use affine_codegen::spec;
 use affine_oracle::{Kinetic, Matrix, Observable, Random, State, Term, rational};
 

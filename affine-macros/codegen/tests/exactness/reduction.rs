@@ -4,8 +4,8 @@ use affine_codegen::algebra::Rational;
 use affine_codegen::derive::Model;
 use affine_codegen::ir::Op;
 use affine_codegen::mechanics::charts::Momentum;
-use affine_codegen::mechanics::kinetic::Frame;
 use affine_codegen::mechanics::reduce::{ClosedForm, Commuting, Layout, Reduction};
+use affine_codegen::mechanics::term::Frame;
 use affine_oracle::{Kinetic, Matrix, Observable, Random, Rational as Exact, State, rational};
 
 use super::derivation::point;

@@ -7,9 +7,9 @@ use crate::derive::{Condition, NumericBlock, Regularity};
 use crate::ir::fuse::fuse;
 use crate::mechanics::form::Positive;
 use crate::mechanics::hessian::Hessian;
-use crate::mechanics::kinetic::TermKind;
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::Factorisation;
+use crate::mechanics::term::TermKind;
 use crate::optimise::{Batch, straight_line};
 
 use super::{Body, Inner};

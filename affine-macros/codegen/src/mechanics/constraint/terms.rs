@@ -1,7 +1,7 @@
 //! Terms of a kinetic energy that are the same on a group.
 
 use crate::algebra::Arena;
-use crate::mechanics::kinetic::{Coefficient, Frame, Term, TermKind};
+use crate::mechanics::term::{Coefficient, Frame, Term, TermKind};
 
 use super::Constraint;
 

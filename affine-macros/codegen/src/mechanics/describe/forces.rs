@@ -4,8 +4,8 @@ use crate::algebra::{Arena, Rational};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::custom::{Custom, On, Role};
 use crate::mechanics::forces::Forces;
-use crate::mechanics::kinetic::Frame;
 use crate::mechanics::notation::{Formula, Notation, field_index};
+use crate::mechanics::term::Frame;
 
 use super::{Sum, quadratic_terms};
 

@@ -6,8 +6,9 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::{Hamiltonian, Isotropic};
-use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::potential::Potential;
+use crate::mechanics::term::Frame;
 
 /// `T = tr(X O) - H` of a Hamiltonian with `C(3)`, on momenta: the cubic term counts twice (Euler).
 pub fn kinetic_energy_of_momenta(arena: &mut Arena, notation: &Notation, h: &Hamiltonian) -> Formula {

@@ -4,8 +4,9 @@ use super::{Formula, Notation, momentum_names, velocity_names};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::kinetic::{Coefficient, Kinetic};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::notation::MatrixName;
+use crate::mechanics::term::Coefficient;
 
 /// Energy and velocity through the inverse of a matrix.
 pub(super) struct Inertial {

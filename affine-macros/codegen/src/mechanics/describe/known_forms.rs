@@ -6,7 +6,7 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Linear};
 use crate::mechanics::equations::Form;
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::kinetic::Frame;
+use crate::mechanics::term::Frame;
 
 /// A matrix or vector formula with its components.
 pub(super) struct Known {

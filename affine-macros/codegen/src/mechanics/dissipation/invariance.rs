@@ -9,8 +9,8 @@ use crate::mechanics::conserved::Candidate;
 use crate::mechanics::flow::{Flow, Push, at_a_point};
 use crate::mechanics::group_point::GroupPoint;
 use crate::mechanics::hamiltonian::{Hamiltonian, Isotropic, spatial_or_own};
-use crate::mechanics::kinetic::Frame;
 use crate::mechanics::symmetry::{Group, Side, broken_by};
+use crate::mechanics::term::Frame;
 
 use crate::mechanics::shared::frame_of;
 

@@ -8,9 +8,10 @@ use crate::algebra::ring::{Square, table};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::equations::Load;
-use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::potential::Base;
+use crate::mechanics::term::Frame;
 
 use super::Mixed;
 use super::factorisation::Factorisation;

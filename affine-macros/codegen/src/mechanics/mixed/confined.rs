@@ -15,11 +15,12 @@ use crate::algebra::ring::{Square, adjugate, product, table, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::constraint::Constraint;
+use crate::mechanics::direction::{BasisVector, invariant};
 use crate::mechanics::equations::System;
-use crate::mechanics::hessian::{BasisVector, invariant};
-use crate::mechanics::kinetic::{Frame, Kinetic};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metric::{Definitions, same_blocks};
 use crate::mechanics::potential::Base;
+use crate::mechanics::term::Frame;
 use crate::mechanics::weight::Weight;
 
 use super::Mixed;

@@ -5,8 +5,8 @@ use crate::mechanics::charts::Chart;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{Formula, Notation, Sum, energy_terms};
 use crate::mechanics::forces::Forces;
-use crate::mechanics::kinetic::Frame;
 use crate::mechanics::potential::Potential;
+use crate::mechanics::term::Frame;
 
 use super::{Masses, Mixed};
 

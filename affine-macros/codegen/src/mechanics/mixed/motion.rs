@@ -4,8 +4,8 @@ use crate::algebra::ring::{Square, product, table, transpose};
 use crate::algebra::{Arena, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::equations::System;
-use crate::mechanics::kinetic::Frame;
 use crate::mechanics::metric::{Definitions, Metric, inverse_placement};
+use crate::mechanics::term::Frame;
 
 use super::Mixed;
 use super::factorisation::Factorisation;

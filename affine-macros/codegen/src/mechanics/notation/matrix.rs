@@ -6,8 +6,9 @@ use super::matrix_name::{MatrixName, Named};
 use super::names::Notation;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::forces::Forces;
-use crate::mechanics::kinetic::{Coefficient, Frame, Kinetic, Term};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metrics::{Rebased, Source};
+use crate::mechanics::term::{Coefficient, Frame, Term};
 
 /// What a matrix is a coefficient of.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -16,8 +16,9 @@ use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::brackets::poisson;
 use crate::mechanics::charts::{Chart, Coordinate};
+use crate::mechanics::direction::entries;
 use crate::mechanics::equations::System;
-use crate::mechanics::hessian::{Block, blocks, entries};
+use crate::mechanics::hessian::{Block, blocks};
 use crate::mechanics::reduce::Reduction;
 
 use super::flows::{Flow, value_of};

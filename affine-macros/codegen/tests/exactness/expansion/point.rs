@@ -4,8 +4,8 @@ use affine_codegen::algebra::Polynomial;
 use affine_codegen::algebra::kernel::Callee;
 use affine_codegen::mechanics::charts::{Chart, Linear, Momentum};
 use affine_codegen::mechanics::constraint::Constraint;
-use affine_codegen::mechanics::kinetic::Frame;
 use affine_codegen::mechanics::reduce::{Commuting, Layout, Reduction};
+use affine_codegen::mechanics::term::Frame;
 use affine_oracle::Random;
 
 use super::equations::Named;

@@ -9,11 +9,11 @@ use affine_codegen::mechanics::equations::{Form as Way, System, hamilton};
 use affine_codegen::mechanics::forces::Forces;
 use affine_codegen::mechanics::form::Form;
 use affine_codegen::mechanics::hamiltonian::Hamiltonian;
-use affine_codegen::mechanics::kinetic::Frame;
 use affine_codegen::mechanics::loads::loads;
 use affine_codegen::mechanics::potential::Potential;
 use affine_codegen::mechanics::reduce::{self, ClosedForm, Commuting, Layout, Reduction};
 use affine_codegen::mechanics::separation::{Separation, Slope as Separated};
+use affine_codegen::mechanics::term::Frame;
 use affine_oracle::Random;
 
 use super::equations::{AtPoint, Named, value};
