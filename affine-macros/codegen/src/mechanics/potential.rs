@@ -34,7 +34,8 @@ use super::charts::Momentum;
 use super::conserved::Candidate;
 use super::constraint::Constraint;
 pub use axes::OnAxes;
-pub use base::Base;
+pub(super) use base::is_parameter;
+pub use base::{Base, DILATATION, TIME};
 pub use domain::{Bound, Guard};
 use invariance::Evidence;
 use restriction::restricted;
@@ -53,12 +54,6 @@ pub struct Potential {
     /// How its forces are written beside a momentum.
     writings: Vec<(Momentum, Writing)>,
 }
-
-/// Name of the symbol of `D = exp(q)`.
-pub const DILATATION: &str = "dilatation";
-
-/// Name of the symbol of the time.
-pub const TIME: &str = "t";
 
 impl Potential {
     /// The potential `energy`, an expression in base functions, parameters and numbers.
@@ -131,9 +126,26 @@ impl Potential {
     pub fn moves_the_centre(&self) -> bool {
         self.slopes.iter().any(|(base, _)| matches!(base, Base::Position(_)))
     }
-}
 
-/// A parameter of the model: a field.
-pub(super) fn is_parameter(arena: &Arena, symbol: Expr) -> bool {
-    arena.name(symbol).is_some_and(|name| name.starts_with("self."))
+    /// Does every motion that conserves the candidate without the potential conserve it with it? The kinetic
+    /// energy is quadratic in the momenta, so that its bracket and that of the potential vanish each for itself.
+    #[must_use]
+    pub fn keeps(&self, candidate: Candidate) -> bool {
+        if candidate == Candidate::Energy {
+            return !self.depends_on_time();
+        }
+        self.invariance.keeps(candidate)
+    }
+
+    /// The potential with what keeps the state within its domain.
+    #[must_use]
+    pub fn within(self, domain: Vec<Guard>) -> Self {
+        Self { domain, ..self }
+    }
+
+    /// What keeps the state within the domain of the potential.
+    #[must_use]
+    pub fn domain(&self) -> &[Guard] {
+        &self.domain
+    }
 }

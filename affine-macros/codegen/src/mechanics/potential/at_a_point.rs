@@ -19,8 +19,18 @@ impl Potential {
         (values.pop().unwrap_or_default(), shared)
     }
 
+    /// The values of the functions that keep the state within the domain, with what they share; `q` and `q_a` are inputs.
+    pub fn domain_at_a_point(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+    ) -> Option<(Vec<Polynomial>, Definitions)> {
+        let values: Vec<Expr> = self.domain.iter().map(|guard| guard.value).collect();
+        (!values.is_empty()).then(|| self.at_a_point(arena, chart, &values))
+    }
+
     /// The same of any functions of the placement, of `x` and of the time.
-    pub(super) fn at_a_point(
+    fn at_a_point(
         &self,
         arena: &mut Arena,
         chart: &Chart,

@@ -5,9 +5,10 @@ use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::mechanics::symmetry::Side;
 use crate::mechanics::two_polar::{Lattice, Variables};
 
+use super::Potential;
+use super::base::{Base, is_parameter};
 use super::rewriting::{about_undeformed, through_dilatation};
 use super::sums::Sums;
-use super::{Base, Potential, is_parameter};
 
 /// A potential as a function of the places of a lattice.
 #[derive(Clone, Debug)]

@@ -25,6 +25,22 @@ pub enum Base {
     Position(usize),
 }
 
+/// Name of the symbol of `D = exp(q)`.
+pub const DILATATION: &str = "dilatation";
+
+/// Name of the symbol of the time.
+pub const TIME: &str = "t";
+
+/// The symbols `q_1, ..., q_n`.
+pub(super) fn log_stretches(arena: &mut Arena, n: usize) -> Vec<Expr> {
+    (0..n).map(|a| Base::LogStretch(a).symbol(arena)).collect()
+}
+
+/// A parameter of the model: a field.
+pub(in crate::mechanics) fn is_parameter(arena: &Arena, symbol: Expr) -> bool {
+    arena.name(symbol).is_some_and(|name| name.starts_with("self."))
+}
+
 /// The directions of a derivative: the entries of an affine momentum.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Along {

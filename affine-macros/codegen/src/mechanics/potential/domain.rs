@@ -1,12 +1,9 @@
 //! What a run looks at in a potential: functions of the placement, of `x` and of the time that keep their sign where it has a
 //! value, and angles that the time turns.
 
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
-use crate::mechanics::charts::Chart;
+use crate::algebra::{Arena, Expr, Rational};
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::metric::Definitions;
 
-use super::Potential;
 use super::restriction::restricted;
 
 /// A part of a potential that has a value only where a function of the state keeps its sign, or that the time turns.
@@ -43,30 +40,6 @@ impl Bound {
             Self::NotZero => !value.is_zero(),
             Self::Angle => true,
         }
-    }
-}
-
-impl Potential {
-    /// The potential with what keeps the state within its domain.
-    #[must_use]
-    pub fn within(self, domain: Vec<Guard>) -> Self {
-        Self { domain, ..self }
-    }
-
-    /// What keeps the state within the domain of the potential.
-    #[must_use]
-    pub fn domain(&self) -> &[Guard] {
-        &self.domain
-    }
-
-    /// The values of these functions at a point of a chart, with what they share; `q` and `q_a` are inputs.
-    pub fn domain_at_a_point(
-        &self,
-        arena: &mut Arena,
-        chart: &Chart,
-    ) -> Option<(Vec<Polynomial>, Definitions)> {
-        let values: Vec<Expr> = self.domain.iter().map(|guard| guard.value).collect();
-        (!values.is_empty()).then(|| self.at_a_point(arena, chart, &values))
     }
 }
 

@@ -4,11 +4,12 @@ use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function, Polynomial};
 use crate::mechanics::charts::Chart;
 
+use super::Potential;
 use super::base::Base;
+use super::base::DILATATION;
 use super::rewriting::{exponential_of_dilatation, multiple_of_logarithm};
 use super::scaled::{collected, definitions, scaled_bases};
 use super::sums::{Sums, multiplied_out};
-use super::{DILATATION, Potential};
 
 /// Energies are multiplied out up to so many terms.
 const MOST_TERMS: u32 = 256;

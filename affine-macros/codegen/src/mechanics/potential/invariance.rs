@@ -10,23 +10,10 @@ use crate::mechanics::constraint::Constraint;
 use crate::mechanics::group_point::GroupPoint;
 use crate::mechanics::symmetry::Side;
 
-use super::base::Along;
+use super::base::{Along, Base};
 use super::principal::Principal;
 use super::rewriting::through_dilatation;
 use super::tensors::{Tensors, direction, finger, green};
-use super::{Base, Potential};
-
-impl Potential {
-    /// Does every motion that conserves the candidate without the potential conserve it with it? The kinetic
-    /// energy is quadratic in the momenta, so that its bracket and that of the potential vanish each for itself.
-    #[must_use]
-    pub fn keeps(&self, candidate: Candidate) -> bool {
-        if candidate == Candidate::Energy {
-            return !self.depends_on_time();
-        }
-        self.invariance.keeps(candidate)
-    }
-}
 
 /// Derivatives of `U` along the generators, at a point modulo a prime.
 #[derive(Clone, Debug)]
@@ -64,7 +51,8 @@ impl Evidence {
         Self(points.iter().map(at).collect())
     }
 
-    fn keeps(&self, candidate: Candidate) -> bool {
+    /// Do the derivatives vanish that would change the candidate?
+    pub(super) fn keeps(&self, candidate: Candidate) -> bool {
         self.0.iter().all(|point| point.keeps(candidate))
     }
 

@@ -5,7 +5,8 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::equations::Load;
 
-use super::base::{Along, Base};
+use super::Potential;
+use super::base::{Along, Base, is_parameter};
 use super::excess::Isochoric;
 use super::principal;
 use super::pulled_back::PulledBack;
@@ -13,7 +14,6 @@ use super::rewriting::through_dilatation;
 use super::second::{self, through_second_invariant};
 use super::sums::Sums;
 use super::writing::{Means, Writing};
-use super::{Potential, is_parameter};
 
 /// What the forces of a potential in a chart are made of: a way of writing, and what is shared so far.
 pub(super) struct Draft<'a> {

@@ -3,7 +3,7 @@
 use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function, Rational};
 
-use super::DILATATION;
+use super::base::DILATATION;
 
 /// A logarithm `q` or `q_a`, as the name of its exponential.
 fn exponential(arena: &Arena, symbol: Expr) -> Option<String> {

@@ -5,13 +5,14 @@
 //! stretch, `Q_a = exp(q_a)`. Symmetric functions of the stretches that are smooth in the `q_a` are smooth functions of
 //! the placement, also where stretches coincide (Ball, Duke Math. J. 51 (1984) 699).
 
+mod canonical;
 mod form;
 mod symmetric;
 
 use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function, Rational};
 
-use super::Base;
+use super::base::{Base, log_stretches};
 use form::Form;
 
 /// The function in canonical form.
@@ -26,13 +27,13 @@ pub fn canonical(arena: &mut Arena, n: usize, energy: Expr) -> Expr {
 /// Does it need the single stretches?
 #[must_use]
 pub fn is_stretched(arena: &mut Arena, n: usize, energy: Expr) -> bool {
-    let stretches = symbols(arena, n);
+    let stretches = log_stretches(arena, n);
     arena.any_symbol(energy, &mut |symbol| stretches.contains(&symbol))
 }
 
 /// The function with two stretches exchanged, counted from 0; `None` where that divides by zero.
 pub fn exchanged(arena: &mut Arena, n: usize, energy: Expr, a: usize, b: usize) -> Option<Expr> {
-    let q = symbols(arena, n);
+    let q = log_stretches(arena, n);
     arena.substitute(energy, &|symbol| match symbol {
         _ if symbol == q[a] => Some(q[b]),
         _ if symbol == q[b] => Some(q[a]),
@@ -43,7 +44,7 @@ pub fn exchanged(arena: &mut Arena, n: usize, energy: Expr, a: usize, b: usize) 
 /// Does a function vanish wherever two stretches, counted from 0, coincide? `q` and the traces of `G` are what they are in
 /// terms of the stretches.
 pub fn vanishes_at_coincidence(arena: &mut Arena, n: usize, function: Expr, a: usize, b: usize) -> bool {
-    let q = symbols(arena, n);
+    let q = log_stretches(arena, n);
     let [mean, trace, of_square, of_cube] =
         [Base::MeanLogStretch, Base::Trace, Base::TraceOfSquare, Base::TraceOfCube]
             .map(|base| base.symbol(arena));
@@ -105,9 +106,4 @@ pub fn singular_at_coincidence(arena: &mut Arena, n: usize, energy: Expr) -> Opt
         }
     }
     None
-}
-
-/// The symbols `q_1, ..., q_n`.
-pub fn symbols(arena: &mut Arena, n: usize) -> Vec<Expr> {
-    (0..n).map(|a| Base::LogStretch(a).symbol(arena)).collect()
 }

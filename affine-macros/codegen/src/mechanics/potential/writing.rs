@@ -6,7 +6,8 @@ use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::equations::Load;
 
-use super::base::Base;
+use super::Potential;
+use super::base::{Base, is_parameter};
 use super::excess::{Isochoric, mean_square};
 use super::principal::Principal;
 use super::rewriting::through_dilatation;
@@ -17,7 +18,6 @@ use super::sums::Sums;
 use super::tensors::{Tensors, cofactors, definitions, squares};
 use super::undeformed::{Counted, Undeformed};
 use super::volume::Volume;
-use super::{Potential, is_parameter};
 
 /// A way of writing the forces of a potential.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

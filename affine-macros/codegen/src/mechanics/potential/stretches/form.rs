@@ -1,12 +1,9 @@
-//! The canonical form and its arithmetic.
+//! Sums of terms in log-stretches, exponentials and other factors, and their arithmetic.
 
 use std::collections::BTreeMap;
 
-use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function, Rational};
-use crate::mechanics::potential::Base;
-
-use super::{symbols, symmetric};
+use crate::mechanics::potential::base::{Base, log_stretches};
 
 /// A sum of terms; no zero coefficient is stored.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -31,7 +28,7 @@ impl Key {
         Self { powers: vec![0; n], exponents: vec![Rational::ZERO; n + 1], others: Vec::new() }
     }
 
-    fn times(&self, other: &Self) -> Self {
+    pub(super) fn times(&self, other: &Self) -> Self {
         let powers = self.powers.iter().zip(&other.powers).map(|(a, b)| a + b).collect();
         let exponents = self.exponents.iter().zip(&other.exponents).map(|(a, b)| a + b).collect();
         let mut others = [self.others.clone(), other.others.clone()].concat();
@@ -48,12 +45,12 @@ impl Key {
     }
 
     /// Neither powers nor other factors: exponentials alone.
-    fn is_exponential(&self) -> bool {
+    pub(super) fn is_exponential(&self) -> bool {
         self.others.is_empty() && self.powers.iter().all(|power| *power == 0)
     }
 
     /// The place `a` of a bare `q_a`, `n` for the mean.
-    fn is_log_stretch(&self, mean: Expr) -> Option<usize> {
+    pub(super) fn is_log_stretch(&self, mean: Expr) -> Option<usize> {
         if self.exponents.iter().any(|c| !c.is_zero()) {
             return None;
         }
@@ -101,155 +98,9 @@ impl Form {
         (0..exponent).fold(Self::term(Key::one(n), Rational::ONE), |power, _| power.mul(self))
     }
 
-    /// An expression in symbols `q_a`, with everything that is symmetric inside functions and divisors written through
-    /// traces.
-    pub(super) fn of(arena: &mut Arena, n: usize, expr: Expr) -> Self {
-        match arena.node(expr).clone() {
-            Node::Constant(value) => Self::term(Key::one(n), value),
-            Node::Symbol(_) => {
-                let mut key = Key::one(n);
-                match symbols(arena, n).iter().position(|q| *q == expr) {
-                    Some(a) => key.powers[a] = 1,
-                    None => key.others.push((expr, 1)),
-                }
-                Self::term(key, Rational::ONE)
-            }
-            Node::Sum(constant, terms) => {
-                let mut sum = Self::term(Key::one(n), constant);
-                for (term, c) in terms {
-                    sum.add_scaled(&Self::of(arena, n, term), &c);
-                }
-                sum
-            }
-            Node::Product(factors) => {
-                let mut product = Self::term(Key::one(n), Rational::ONE);
-                for (base, exponent) in factors {
-                    let base = Self::of(arena, n, base);
-                    let factor = match exponent {
-                        1.. => base.power(n, exponent.unsigned_abs()),
-                        _ => base.reciprocal(arena, n).power(n, exponent.unsigned_abs()),
-                    };
-                    product = product.mul(&factor);
-                }
-                product
-            }
-            Node::Function(function, argument) => Self::of(arena, n, argument).applied(arena, n, function),
-        }
-    }
-
-    /// `1/form`; a sum is divided by as a whole, its first coefficient outside.
-    fn reciprocal(&self, arena: &mut Arena, n: usize) -> Self {
-        if let Some((key, c)) = self.terms.first_key_value().filter(|_| self.terms.len() == 1)
-            && key.powers.iter().all(|power| *power == 0)
-        {
-            let mut inverse = key.clone();
-            inverse.exponents.iter_mut().for_each(|c| *c = -&*c);
-            inverse.others.iter_mut().for_each(|(_, exponent)| *exponent = -*exponent);
-            return Self::term(inverse, c.recip().unwrap_or(Rational::ONE));
-        }
-        // A divisor is not zero: its form has a term.
-        let first = self.terms.values().next().and_then(Rational::recip).unwrap_or(Rational::ONE);
-        let mut monic = Self::default();
-        monic.add_scaled(self, &first);
-        let base = symmetric::through_traces(arena, n, monic).expression(arena, n);
-        Self::factor(n, base, -1, first)
-    }
-
-    fn factor(n: usize, base: Expr, exponent: i32, coefficient: Rational) -> Self {
-        let mut key = Key::one(n);
-        key.others.push((base, exponent));
-        Self::term(key, coefficient)
-    }
-
-    fn applied(self, arena: &mut Arena, n: usize, function: Function) -> Self {
-        let mean = Base::MeanLogStretch.symbol(arena);
-        let linear = self.terms.keys().all(|key| key.is_log_stretch(mean).is_some());
-        match function {
-            Function::Exp => return self.exponential(arena, n, mean),
-            Function::Sinh | Function::Cosh if linear => {
-                let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
-                let mut opposite = Self::default();
-                opposite.add_scaled(&self, &Rational::MINUS_ONE);
-                let sign = if function == Function::Sinh { -&half } else { half.clone() };
-                let mut sum = Self::default();
-                sum.add_scaled(&self.exponential(arena, n, mean), &half);
-                sum.add_scaled(&opposite.exponential(arena, n, mean), &sign);
-                return sum;
-            }
-            Function::Ln | Function::Sqrt => {
-                if let Some((key, _)) =
-                    self.terms.first_key_value().filter(|(key, c)| c.is_one() && key.is_exponential())
-                    && self.terms.len() == 1
-                {
-                    return Self::of_exponential(n, key, function, mean);
-                }
-            }
-            _ => {}
-        }
-        let even = matches!(function, Function::Cos | Function::Cosh | Function::Abs);
-        let odd = matches!(function, Function::Sin | Function::Sinh | Function::Tan | Function::Tanh);
-        let flipped = (even || odd) && self.terms.values().next().is_some_and(Rational::is_negative);
-        let mut argument = Self::default();
-        argument.add_scaled(&self, if flipped { &Rational::MINUS_ONE } else { &Rational::ONE });
-        let argument = symmetric::through_traces(arena, n, argument).expression(arena, n);
-        let value = arena.apply(function, argument);
-        let sign = if flipped && odd { Rational::MINUS_ONE } else { Rational::ONE };
-        match arena.node(value) {
-            Node::Function(..) => Self::factor(n, value, 1, sign),
-            // A known value, or what an inverse function left.
-            _ => {
-                let mut form = Self::default();
-                form.add_scaled(&Self::of(arena, n, value), &sign);
-                form
-            }
-        }
-    }
-
-    /// Logarithm or root of `exp(c_1 q_1 + ...)`.
-    fn of_exponential(n: usize, key: &Key, function: Function, mean: Expr) -> Self {
-        let mut result = Self::default();
-        if function == Function::Ln {
-            for (a, c) in key.exponents.iter().enumerate() {
-                let mut one = Key::one(n);
-                match one.powers.get_mut(a) {
-                    Some(power) => *power = 1,
-                    None => one.others.push((mean, 1)),
-                }
-                result.add(one, c);
-            }
-        } else {
-            let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
-            let mut root = key.clone();
-            root.exponents.iter_mut().for_each(|c| *c = &*c * &half);
-            result.add(root, &Rational::ONE);
-        }
-        result
-    }
-
-    /// `exp(form)`: a factor for each term.
-    fn exponential(&self, arena: &mut Arena, n: usize, mean: Expr) -> Self {
-        let mut product = Key::one(n);
-        for (key, c) in &self.terms {
-            if let Some(a) = key.is_log_stretch(mean) {
-                product.exponents[a] = &product.exponents[a] + c;
-                continue;
-            }
-            let whole = c.to_i64().and_then(|c| i32::try_from(c).ok()).filter(|_| c.is_integer());
-            let unit = if whole.is_some() { Rational::ONE } else { c.clone() };
-            let mut argument = Self::default();
-            argument.add(key.clone(), &unit);
-            let argument = argument.expression(arena, n);
-            let value = arena.apply(Function::Exp, argument);
-            let mut factor = Key::one(n);
-            factor.others.push((value, whole.unwrap_or(1)));
-            product = product.times(&factor);
-        }
-        Self::term(product, Rational::ONE)
-    }
-
     /// The form as an expression.
     pub(super) fn expression(&self, arena: &mut Arena, n: usize) -> Expr {
-        let mut arguments = symbols(arena, n);
+        let mut arguments = log_stretches(arena, n);
         let logs = arguments.clone();
         arguments.push(Base::MeanLogStretch.symbol(arena));
         let mut summands = Vec::new();

@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 
 use crate::algebra::{Arena, Expr, Rational};
-use crate::mechanics::potential::Base;
+use crate::mechanics::potential::base::{Base, log_stretches};
 
 use super::form::{Form, Key};
-use super::symbols;
 
 /// Exponents of `q_a` and of `Q_a`, with a coefficient each.
 type Part = BTreeMap<(Vec<u32>, Vec<Rational>), Rational>;
@@ -14,7 +13,7 @@ type Part = BTreeMap<(Vec<u32>, Vec<Rational>), Rational>;
 /// Writes every homogeneous part of `form` that is a function of `sum q_a = n q` and a symmetric polynomial of even powers
 /// of the stretches, up to a power of `Q_1 ... Q_n = exp(n q)`, in terms of `q`, `tr G` and `tr G^2`.
 pub(super) fn through_traces(arena: &mut Arena, n: usize, form: Form) -> Form {
-    let stretches = symbols(arena, n);
+    let stretches = log_stretches(arena, n);
     let mut result = Form::default();
     let mut parts: BTreeMap<(Key, u32, Rational), Part> = BTreeMap::new();
     for (key, c) in form.terms {
