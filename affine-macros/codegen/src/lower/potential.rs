@@ -10,7 +10,8 @@ use crate::mechanics::potential::stretches::{canonical, is_stretched};
 use crate::spec::Spec;
 
 /// The potential energy, if the model states one that is not constant, and where it has a value: expressions in the symbols
-/// of [`Base`]. Beside metrics these stand in orthonormal bases; what `prepare()` has to know of them is added to `rebased`.
+/// of [base functions](crate::mechanics::potential::Base). Beside metrics these stand in orthonormal bases; what `prepare()`
+/// has to know of them is added to `rebased`.
 pub fn potential(
     arena: &mut Arena,
     spec: &Spec,
