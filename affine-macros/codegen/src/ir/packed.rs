@@ -17,7 +17,7 @@ mod schedule;
 mod vector;
 
 use super::Program;
-use cost::OF_A_SUM;
+use cost::{OF_A_SHUFFLE, OF_A_SUM};
 use layout::Layout;
 use pack::pack;
 use schedule::scheduled;
@@ -27,9 +27,6 @@ pub use vector::{Four, Index, Lane, Lanes, Packed, Step, Vector};
 /// Steps beyond which code that is there a dozen times, once in each stage, is not worth having twice: without optimisation
 /// a step of a method keeps all of its values on the stack.
 const MOST_STEPS: usize = 384;
-/// Instructions for each component of the state that a compiler adds in shuffles between vectors and numbers; measured:
-/// 251 in all for P2 and 198 for P1, of 14 and 12 components with 92 and 66 operations.
-const OF_A_SHUFFLE: usize = 7;
 /// Where it was not measured whether it pays: states of the plane.
 const FEWEST: usize = 12;
 

@@ -153,7 +153,10 @@ impl Recurrence {
     /// Does any rule, or what is kept, read the order itself?
     #[must_use]
     pub fn reads_order(&self) -> bool {
-        let weighted = |rule: &Rule| matches!(rule, Rule::Function { function, .. } if !matches!(function, Function::Sqrt | Function::Abs));
+        let weighted = |rule: &Rule| match rule {
+            Rule::Function { function, .. } => !matches!(function, Function::Sqrt | Function::Abs),
+            Rule::Sum(_) | Rule::Quotient { .. } => false,
+        };
         self.rules.iter().any(|(_, rule)| weighted(rule))
             || self.row.iter().flatten().any(|series| series.rate)
     }
