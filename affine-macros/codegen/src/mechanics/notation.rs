@@ -16,15 +16,31 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::algebra::{Arena, Expr, Polynomial};
 
+use super::forces::Forces;
 use super::hessian::NumericBlock;
-use super::metrics::{Metrics, Source};
+use super::kinetic::Kinetic;
+use super::metrics::{Metrics, Rebased, Source};
 use field::entry_of_field;
 
 pub(super) use field::index as field_index;
 pub use formula::Formula;
 pub(super) use matrix_name::MatrixName;
-pub use names::{Described, Notation};
+pub use names::Notation;
 pub use symbols::{FUNCTIONS, SYMBOLS, Symbol, is_symbol};
+
+/// What the formulas of a model describe.
+pub struct Described<'a> {
+    /// The kinetic energies.
+    pub energies: &'a [Kinetic],
+    /// The blocks of the mass matrix whose inverses need numbers.
+    pub blocks: &'a [NumericBlock],
+    /// The forces that no potential has.
+    pub forces: &'a Forces,
+    /// The metrics other than the identity.
+    pub metrics: Option<&'a Metrics>,
+    /// The matrices that are carried to orthonormal bases.
+    pub rebased: &'a [Rebased],
+}
 
 impl<'a> Notation<'a> {
     /// The names for a model.

@@ -9,24 +9,7 @@ use super::{latex, symbols};
 use crate::algebra::text::Written;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::custom::{Custom, On, Role};
-use crate::mechanics::forces::Forces;
-use crate::mechanics::hessian::NumericBlock;
-use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metrics::{Metrics, Rebased, Source};
-
-/// What the formulas of a model describe.
-pub struct Described<'a> {
-    /// The kinetic energies.
-    pub energies: &'a [Kinetic],
-    /// The blocks of the mass matrix whose inverses need numbers.
-    pub blocks: &'a [NumericBlock],
-    /// The forces that no potential has.
-    pub forces: &'a Forces,
-    /// The metrics other than the identity.
-    pub metrics: Option<&'a Metrics>,
-    /// The matrices that are carried to orthonormal bases.
-    pub rebased: &'a [Rebased],
-}
 
 /// The names in the formulas of a model.
 pub struct Notation<'a> {
