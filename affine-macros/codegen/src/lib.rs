@@ -1,8 +1,8 @@
 //! Symbolic mechanics behind `#[affine_model(...)]`.
 //!
-//! The order of the modules is the order of the passes and of permission: the front half (`diagnostics`,
-//! `spec`, `check`) never emits, the back half never fails, but for the size of the numbers that it derives (`range`).
-//! `algebra` and `ir` know neither Rust syntax nor mechanics, `mechanics` never sees tokens, `emit` does no algebra.
+//! The front half (`diagnostics`, `spec`, `check`) never emits, the back half never fails, but for the size of the numbers
+//! that it derives (`range`). `algebra` and `ir` know neither Rust syntax nor mechanics, `mechanics` never sees tokens,
+//! `emit` does no algebra. Which module may use which stands in `ARCHITECTURE.md`, and a test reads it.
 
 pub mod diagnostics;
 
