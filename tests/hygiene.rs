@@ -16,7 +16,7 @@ fn works<const N: usize, M: Model<N>>(model: &M) {
         // Arbitrary, but for the placement, whose diagonal dominates.
         *value = 0.1 + 0.07 * ((k * k + 3 * k) % 11) as f64;
     }
-    let skip = usize::from(M::DESCRIPTION.full[0].name == "x") * N;
+    let skip = usize::from(M::DESCRIPTION.full[0].name() == "x") * N;
     (0..N).for_each(|k| full.as_mut()[skip + k * (N + 1)] = 2.0);
     let point = model.unflatten(&full);
     let mut resting = full;

@@ -26,7 +26,7 @@ fn sample<const N: usize, M: Model<N>>(model: &M) -> M::Point<Counting> {
         // Diagonally dominant placements are invertible; the rest is arbitrary.
         *value = Counting::from(0.1 + 0.07 * ((k * k + 3 * k) % 11) as f64);
     }
-    let skip = usize::from(M::DESCRIPTION.full[0].name == "x") * N;
+    let skip = usize::from(M::DESCRIPTION.full[0].name() == "x") * N;
     for k in 0..N {
         full.as_mut()[skip + k * (N + 1)] = Counting::from(2.0);
     }
@@ -266,7 +266,7 @@ fn co_moving_linear_momentum() {
         potential = hyperbolic_dilatation(10) + 0.3*x[1]^2
     )]
     struct Pushed;
-    assert!(Pushed::DESCRIPTION.reduced.iter().any(|group| group.name == "p_hat"));
+    assert!(Pushed::DESCRIPTION.reduced.iter().any(|group| group.name() == "p_hat"));
     let [full, reduced] = counts::<2, Pushed>(&Pushed, &sample::<2, Pushed>(&Pushed));
     assert!(reduced.0 + reduced.1 <= full.0 + full.1, "{reduced:?} {full:?}");
 }

@@ -11,7 +11,7 @@ use affine_runtime::integrate::RungeKutta8;
 use affine_runtime::lattice::{
     Lattice, LatticeFlow, LatticeForm, LatticePieces, LatticeSplitting, RatioForm, TwoPolarForm,
 };
-use affine_runtime::model::Group;
+use affine_runtime::model::{Group, Quantity};
 use affine_runtime::prelude::*;
 
 const REPEATS: usize = 11;
@@ -118,8 +118,11 @@ fn equations() {
 /// P4 to `t_end` at several tolerances, without frames in ratios.
 fn in_ratios(lattice: &Lattice<3>, t_end: f64, expected: &Lattice<3>) {
     let (couplings, state) = Geodesic.in_ratios(lattice);
-    let groups =
-        &[Group { name: "t", len: 1 }, Group { name: "t", len: 1 }, Group { name: "momenta", len: 9 }];
+    let groups = &[
+        Group::new(Quantity::Other("t"), 1),
+        Group::new(Quantity::Other("t"), 1),
+        Group::new(Quantity::LatticeMomenta, 9),
+    ];
     let run = |tolerance: f64| {
         let rates = |_: f64, state: &<Geodesic as RatioForm<3>>::Ratios<f64>| {
             Geodesic.ratio_equations(&couplings, state)

@@ -191,14 +191,15 @@ fn inverse_sinh<T: Real>(y: T) -> T {
 mod tests {
     use super::Breathing;
     use crate::integrate::RungeKutta8;
-    use crate::model::Group;
+    use crate::model::{Group, Quantity};
 
     const T_END: f64 = 3.0;
 
     /// `(q, p)` at `T_END` by integration.
     fn integrated(q: f64, p: f64, inverse_mass: f64, slope: impl Fn(f64) -> f64) -> [f64; 2] {
         let rates = |_: f64, y: &[f64; 2]| [y[1] * inverse_mass, -slope(y[0])];
-        const GROUPS: &[Group] = &[Group { name: "q", len: 1 }, Group { name: "p", len: 1 }];
+        const GROUPS: &[Group] =
+            &[Group::new(Quantity::MeanLogStretch, 1), Group::new(Quantity::LinearMomentum, 1)];
         let mut run =
             RungeKutta8::new(rates, GROUPS, (0.0, [q, p]), T_END, 1e-13).expect("the start is finite");
         while !run.is_finished() {

@@ -1,7 +1,7 @@
 //! Condition number of the Legendre transformation.
 
 use crate::frames::Matrix;
-use crate::model::{Constraint, Model, StateVector};
+use crate::model::{Constraint, Model, Quantity, StateVector};
 use crate::scalar::Scalar;
 
 /// Most directions that are free, those of `gl(3)`.
@@ -43,7 +43,7 @@ pub(crate) fn condition<const N: usize, M: Model<N>>(model: &M, phi: &Matrix<N>)
 type Free = [bool; 3];
 
 fn free<const N: usize, M: Model<N>>() -> Free {
-    let flat = M::DESCRIPTION.full.iter().any(|group| group.name == "Pi");
+    let flat = M::DESCRIPTION.full.iter().any(|group| group.quantity == Quantity::CanonicalMomentum);
     match M::DESCRIPTION.constraint {
         None => [true; 3],
         // Of a flat body the multiplier does what a projection does of the others.
@@ -84,17 +84,19 @@ fn linear_part<const N: usize, M: Model<N>>(
     (phi, inverse): (&Matrix<N>, &Matrix<N>),
     momentum: &Matrix<N>,
 ) -> Option<Matrix<N>> {
-    let frame =
-        M::DESCRIPTION.full.iter().find(|group| ["Sigma_hat", "Sigma", "Pi"].contains(&group.name))?;
+    let is_affine = |quantity: &Quantity| {
+        matches!(quantity, Quantity::ComovingAffineSpin | Quantity::AffineSpin | Quantity::CanonicalMomentum)
+    };
+    let frame = M::DESCRIPTION.full.iter().map(|group| group.quantity).find(is_affine)?;
     let velocity = |sign: f64| {
         let mut full = <M::Full<f64> as StateVector<f64>>::zeros();
         let mut start = 0;
         for group in M::DESCRIPTION.full {
             let values = &mut full.as_mut()[start..start + group.len];
             start += group.len;
-            let matrix = match group.name {
-                "phi" => *phi,
-                name if name == frame.name => momentum * sign,
+            let matrix = match group.quantity {
+                Quantity::Placement => *phi,
+                quantity if quantity == frame => momentum * sign,
                 _ => continue,
             };
             let by_rows = (0..N * N).map(|k| matrix[(k / N, k % N)]);
@@ -102,9 +104,9 @@ fn linear_part<const N: usize, M: Model<N>>(
         }
         let velocity = model.velocity(&model.unflatten(&full));
         let velocity = model.bases().map_or(velocity, |bases| bases.velocity(&velocity));
-        match frame.name {
-            "Sigma_hat" => inverse * velocity.phi_dot,
-            "Sigma" => velocity.phi_dot * inverse,
+        match frame {
+            Quantity::ComovingAffineSpin => inverse * velocity.phi_dot,
+            Quantity::AffineSpin => velocity.phi_dot * inverse,
             _ => velocity.phi_dot,
         }
     };

@@ -41,6 +41,7 @@ mod matrix_field;
 pub mod metrics;
 pub mod model;
 pub mod potential;
+mod quantity;
 mod reduction;
 mod regularity;
 #[cfg(feature = "report")]

@@ -9,6 +9,7 @@ use crate::integrate::packed::Packing;
 use crate::integrate::splitting::Pieces;
 use crate::integrate::taylor::Series;
 use crate::metrics::{Bases, Tensor};
+pub use crate::quantity::Quantity;
 pub use crate::regularity::Regularity;
 use crate::scalar::{Real, Scalar};
 use crate::state::Phase;
@@ -272,6 +273,8 @@ pub struct Description {
     pub reduced_operations: Operations,
     /// The group to which the motion is confined; `None` for all of GL+(n).
     pub constraint: Option<Constraint>,
+    /// Are the reduced equations `q'' = f(t, q)`, as `emit(nystrom)` integrates them?
+    pub second_order: bool,
     /// Functions of the state that keep their sign where the potential has a value; empty where that is everywhere.
     pub domain: &'static [Guard],
     /// Parts of the potential with an angle that the time turns, as written: `cos(w*t)`. [`Model::domain`] gives the angles.
@@ -340,24 +343,25 @@ pub struct Formula {
 /// A run of components of a state vector that form one geometric object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Group {
-    /// The object: `x`, `phi`, `Sigma_hat`, ...; `work`, the integral of [`Model::power`] since the start, where
-    /// there are forces that no potential has.
-    pub name: &'static str,
+    /// What it is.
+    pub quantity: Quantity,
     /// Number of components, row-major.
     pub len: usize,
 }
 
 impl Group {
-    /// The placement, or its isochoric part: what momenta move, and what keeps its orientation.
-    pub(crate) fn is_placement(&self) -> bool {
-        matches!(self.name, "phi" | "Psi")
+    /// So many components of a quantity.
+    #[must_use]
+    pub const fn new(quantity: Quantity, len: usize) -> Self {
+        Self { quantity, len }
+    }
+
+    /// The symbol of the quantity: `x`, `phi`, `Sigma_hat`, ...
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        self.quantity.symbol()
     }
 }
-
-/// Name of the group of one component that holds the integral of [`Model::power`] since the start.
-pub const WORK: &str = "work";
-/// Name of the group that holds the change of a reduced state, in the variational equations.
-pub const TANGENT: &str = "tangent";
 
 /// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -43,8 +43,8 @@ pub use crate::metrics::{
     told_in_given_bases,
 };
 pub use crate::model::{
-    Bound, Conserved, Constraint, Description, Formula, Group, Guard, LeftOut, Model, Operations, Regularity,
-    Scope, TANGENT, Velocity, VelocityDeterminesMomentum,
+    Bound, Conserved, Constraint, Description, Formula, Group, Guard, LeftOut, Model, Operations, Quantity,
+    Regularity, Scope, Velocity, VelocityDeterminesMomentum,
 };
 pub use crate::reduction::{
     Condition, finite, finite_fields, from_shear_and_turn, inverse_form, principal_axes, shear_and_turn,

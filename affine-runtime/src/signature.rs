@@ -1,7 +1,7 @@
 //! The signature of a kinetic energy whose coefficients are known when the model is prepared.
 
 use crate::frames::{Matrix, Vector};
-use crate::model::{Constraint, Model, Velocity};
+use crate::model::{Constraint, Model, Quantity, Velocity};
 use crate::reduction::jacobi;
 
 /// Degrees of freedom of the largest model: nine of the placement and three of the centre.
@@ -65,7 +65,7 @@ fn free_velocities<const N: usize, M: Model<N>>(phi: &Matrix<N>) -> ([Velocity<N
     if dilatation {
         turn(Matrix::<N>::identity());
     }
-    if M::DESCRIPTION.full.iter().any(|group| group.name == "x") {
+    if M::DESCRIPTION.full.iter().any(|group| group.quantity == Quantity::Position) {
         for i in 0..N {
             let mut x_dot = Vector::<N>::zeros();
             x_dot[i] = 1.0;

@@ -3,11 +3,14 @@
 
 use affine_runtime::integrate::nystrom::{SecondOrder, Tableau};
 use affine_runtime::integrate::{Failure, RungeKuttaNystrom, Statistics};
-use affine_runtime::model::Group;
+use affine_runtime::model::{Group, Quantity};
 
 const MASSES: [f64; 2] = [2.0, 0.5];
-const GROUPS: &[Group] =
-    &[Group { name: "phi", len: 2 }, Group { name: "Pi", len: 2 }, Group { name: "1/D", len: 1 }];
+const GROUPS: &[Group] = &[
+    Group::new(Quantity::Placement, 2),
+    Group::new(Quantity::CanonicalMomentum, 2),
+    Group::new(Quantity::InverseDilatation, 1),
+];
 
 /// `q_1'' = q_1 (q_2^2 - sin t)`, `q_2'' = ln q_1 - sin t - q_2` with the solution `exp(sin t), cos t`; the state carries
 /// `1/q_1`.
@@ -163,7 +166,7 @@ impl SecondOrder<[f64; 2], ()> for Pole {
 
 #[test]
 fn blow_up_stops_before_the_pole_and_keeps_the_state() {
-    const LINE: &[Group] = &[Group { name: "phi", len: 1 }, Group { name: "Pi", len: 1 }];
+    const LINE: &[Group] = &[Group::new(Quantity::Placement, 1), Group::new(Quantity::CanonicalMomentum, 1)];
     for method in METHODS {
         let start = (0.0, [1.0, 2.0]);
         let mut run = RungeKuttaNystrom::new((Pole, ()), method, LINE, start, 2.0, 1e-10).unwrap();

@@ -3,7 +3,7 @@
 
 use affine_runtime::integrate::runge_kutta::Step;
 use affine_runtime::integrate::{Failure, RungeKutta8, Statistics};
-use affine_runtime::model::Group;
+use affine_runtime::model::{Group, Quantity};
 
 /// Rounding ends the convergence there; larger than the roundoff of a few hundred steps.
 const FLOOR: f64 = 2e-14;
@@ -33,8 +33,8 @@ fn pair_exact(t: f64) -> [f64; 2] {
     [t.sin(), 1.0 / (1.0 + t * t)]
 }
 
-const FOUR: &[Group] = &[Group { name: "y", len: 4 }];
-const PAIR: &[Group] = &[Group { name: "y", len: 2 }];
+const FOUR: &[Group] = &[Group::new(Quantity::Other("y"), 4)];
+const PAIR: &[Group] = &[Group::new(Quantity::Other("y"), 2)];
 
 fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs() / (1.0 + b.abs())).fold(0.0, f64::max)
@@ -156,7 +156,7 @@ fn nothing_to_do_costs_one_evaluation() {
 fn blow_up_stops_before_the_pole_and_keeps_the_state() {
     // y' = y^2, y = 1/(1 - t).
     let square = |_: f64, y: &[f64; 1]| [y[0] * y[0]];
-    const ONE: &[Group] = &[Group { name: "y", len: 1 }];
+    const ONE: &[Group] = &[Group::new(Quantity::Other("y"), 1)];
     let mut run = RungeKutta8::new(square, ONE, (0.0, [1.0]), 2.0, 1e-10).unwrap();
     let failure = loop {
         if let Err(failure) = run.advance() {
@@ -173,7 +173,7 @@ fn blow_up_stops_before_the_pole_and_keeps_the_state() {
 
 #[test]
 fn what_is_not_finite_is_told_apart() {
-    const ONE: &[Group] = &[Group { name: "y", len: 1 }];
+    const ONE: &[Group] = &[Group::new(Quantity::Other("y"), 1)];
     let root = |_: f64, y: &[f64; 1]| [-1.0 / y[0].sqrt()];
     assert_eq!(RungeKutta8::new(root, ONE, (0.0, [-1.0]), 1.0, 1e-6).unwrap_err(), Failure::NotFinite);
     // Beyond t = 1 the right-hand side is NaN: rejections until the step underflows.

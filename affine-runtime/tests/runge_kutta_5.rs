@@ -4,9 +4,9 @@
 use affine_runtime::integrate::RungeKutta5;
 use affine_runtime::integrate::lie::Chart;
 use affine_runtime::integrate::runge_kutta::{DormandPrince54, OneStep};
-use affine_runtime::model::{Constraint, Group};
+use affine_runtime::model::{Constraint, Group, Quantity};
 
-const PAIR: &[Group] = &[Group { name: "y", len: 2 }];
+const PAIR: &[Group] = &[Group::new(Quantity::Other("y"), 2)];
 
 /// A coupled pair with the solution `(sin t, 1/(1 + t^2))`.
 fn pair(t: f64, y: &[f64; 2]) -> [f64; 2] {
@@ -73,7 +73,7 @@ fn errors_and_costs_follow_the_tolerance() {
 /// Turns about an axis at a rate that changes: `phi' = cos(t) phi w`.
 #[test]
 fn stays_on_the_group_in_its_chart() {
-    const GROUPS: &[Group] = &[Group { name: "phi", len: 4 }];
+    const GROUPS: &[Group] = &[Group::new(Quantity::Placement, 4)];
     let chart = Chart::<2>::new(Constraint::Rigid, 0);
     let turning = |t: f64, y: &[f64; 4]| [y[1], -y[0], y[3], -y[2]].map(|v| v * t.cos());
     let start = (0.0, [1.0, 0.0, 0.0, 1.0]);

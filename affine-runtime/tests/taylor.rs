@@ -3,10 +3,10 @@
 
 use affine_runtime::integrate::taylor::{HIGHEST_ORDER, Series, order_for};
 use affine_runtime::integrate::{Failure, Statistics, Taylor};
-use affine_runtime::model::Group;
+use affine_runtime::model::{Group, Quantity};
 
-const PAIR: &[Group] = &[Group { name: "y", len: 2 }];
-const ONE: &[Group] = &[Group { name: "y", len: 1 }];
+const PAIR: &[Group] = &[Group::new(Quantity::Other("y"), 2)];
+const ONE: &[Group] = &[Group::new(Quantity::Other("y"), 1)];
 
 /// `sum_(j = 0..=k) a_j b_(k-j)`.
 fn product(k: usize, a: impl Fn(usize) -> f64, b: impl Fn(usize) -> f64) -> f64 {

@@ -48,7 +48,7 @@ trait Confined<const N: usize>: Model<N> + Sized {
 
     /// The exact motion through a point that the code may have moved.
     fn reference(&self, point: &Self::Point<f64>) -> Reference {
-        let state = exact_state(Self::DESCRIPTION.full.last().unwrap().name, point);
+        let state = exact_state(Self::DESCRIPTION.full.last().unwrap().name(), point);
         match Self::MULTIPLIER {
             true => Reference::under(&Self::kinetic(), &state, T0, Self::potential),
             false => Reference::confined(&Self::kinetic(), Self::CONSTRAINT, &state, T0, Self::potential),
@@ -93,7 +93,7 @@ fn assert_right_but_for_the_multiplier<const N: usize, M: Confined<N>>(
     point: &M::Point<f64>,
     rates: &[f64],
 ) {
-    let state = exact_state(M::DESCRIPTION.full.last().unwrap().name, point);
+    let state = exact_state(M::DESCRIPTION.full.last().unwrap().name(), point);
     let reference = Reference::confined(&M::kinetic(), M::CONSTRAINT, &state, T0, M::potential);
     let phi_dot = model.velocity(point).phi_dot;
     let pi_dot = Matrix::<N>::from_row_slice(&rates[rates.len() - N * N..]);
@@ -107,7 +107,7 @@ fn assert_right_but_for_the_multiplier<const N: usize, M: Confined<N>>(
 fn reduction_keeps_the_motion<const N: usize, M: Confined<N>>() {
     let model = M::body();
     for point in model.points() {
-        let spin = M::DESCRIPTION.full.last().unwrap().name;
+        let spin = M::DESCRIPTION.full.last().unwrap().name();
         let state = exact_state(spin, &point);
         let condition = M::kinetic().constrained_condition(M::CONSTRAINT, &state.phi).unwrap();
         assert_charts_lead_back(&model, &point, &state, UNDER_POTENTIAL * condition);
@@ -126,7 +126,7 @@ fn reduction_keeps_the_motion<const N: usize, M: Confined<N>>() {
 /// Exactly what the constrained motion conserves is listed, once.
 fn lists_are_exact<const N: usize, M: Confined<N>>() {
     let (model, kinetic) = (M::body(), M::kinetic());
-    let spin = M::DESCRIPTION.full.last().unwrap().name;
+    let spin = M::DESCRIPTION.full.last().unwrap().name();
     let states: Vec<State> = model.points().iter().map(|point| exact_state(spin, point)).collect();
     let held = |state: &State| {
         let slopes = Slopes::of(M::potential, T0, &state.x.to_f64(), &state.phi.to_f64());

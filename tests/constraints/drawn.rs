@@ -82,7 +82,7 @@ fn reference<const N: usize, M: Drawn<N>>(kinetic: &Kinetic, t: f64, state: &Sta
 }
 
 fn spin<const N: usize, M: Drawn<N>>() -> &'static str {
-    M::DESCRIPTION.full.last().unwrap().name
+    M::DESCRIPTION.full.last().unwrap().name()
 }
 
 /// Velocities, energies, Hamilton's equations, and the way back from velocities.

@@ -64,7 +64,7 @@ fn energy<const N: usize>(place: &Place, on_p: &[f64], on_pi: &[f64]) -> Differe
 
 fn agrees_with_the_oracle<const N: usize, M: Driven<N>>() {
     let model = M::body();
-    let spin = M::DESCRIPTION.full.last().unwrap().name;
+    let spin = M::DESCRIPTION.full.last().unwrap().name();
     for point in model.points() {
         let state = exact_state(spin, &point);
         let reference = M::reference(T0, &state);
@@ -82,7 +82,7 @@ fn agrees_with_the_oracle<const N: usize, M: Driven<N>>() {
 /// except where it depends on what a field computes.
 fn lists_are_exact<const N: usize, M: Driven<N>>(decided: bool) {
     let (model, kinetic) = (M::body(), M::kinetic());
-    let spin = M::DESCRIPTION.full.last().unwrap().name;
+    let spin = M::DESCRIPTION.full.last().unwrap().name();
     let listed: Vec<Observable> = M::DESCRIPTION
         .conserved
         .iter()

@@ -3,6 +3,7 @@
 use affine_codegen::derive::Model;
 use affine_codegen::ir::Program;
 use affine_codegen::mechanics::potential::Bound;
+use affine_codegen::mechanics::quantity::Quantity;
 use affine_oracle::Random;
 use qd::Quad;
 
@@ -101,13 +102,13 @@ impl Point<'_> {
             let entry = |(k, name): (usize, &String)| {
                 let (a, b) = (k / n, k % n);
                 let force = match *group {
-                    "Pi" => f[b][a].negated(),
-                    "Sigma_hat" => sum(&|i| f[i][a].times(phi[i][b])),
-                    "Sigma" => sum(&|c| phi[a][c].times(f[b][c])),
-                    "p" => pull(k).negated(),
-                    "p_hat" => sum(&|i| phi[i][k].times(pull(i))),
-                    "x" | "phi" => Rounded::ZERO,
-                    other => panic!("{other} is no group"),
+                    Quantity::CanonicalMomentum => f[b][a].negated(),
+                    Quantity::ComovingAffineSpin => sum(&|i| f[i][a].times(phi[i][b])),
+                    Quantity::AffineSpin => sum(&|c| phi[a][c].times(f[b][c])),
+                    Quantity::LinearMomentum => pull(k).negated(),
+                    Quantity::ComovingLinearMomentum => sum(&|i| phi[i][k].times(pull(i))),
+                    Quantity::Position | Quantity::Placement => Rounded::ZERO,
+                    other => panic!("{other:?} is no group"),
                 };
                 (format!("d_{name}"), force)
             };

@@ -3,7 +3,7 @@
 use affine_runtime::Error;
 use affine_runtime::integrate::gauss::Tableau;
 use affine_runtime::integrate::{Failure, Gauss, RungeKutta5, RungeKutta8};
-use affine_runtime::model::Group;
+use affine_runtime::model::{Group, Quantity};
 use affine_runtime::prelude::*;
 use affine_runtime::report::WorkPrecision;
 use affine_runtime::report::reference_solution;
@@ -14,7 +14,7 @@ use crate::models;
 use crate::sweep::{STEP, within_patience};
 
 const NO_NUMBERS: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
-const GROUPS: &[Group] = &[Group { name: "q", len: 1 }, Group { name: "p", len: 1 }];
+const GROUPS: &[Group] = &[Group::new(Quantity::MeanLogStretch, 1), Group::new(Quantity::LinearMomentum, 1)];
 
 fn spring(_: f64, y: &[f64; 2]) -> [f64; 2] {
     [y[1], -y[0]]

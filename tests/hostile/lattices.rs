@@ -140,7 +140,7 @@ fn rattle() {
                     pi[(1, 1)],
                 ])
             };
-            let named: Vec<&str> = Droplet::DESCRIPTION.full.iter().map(|group| group.name).collect();
+            let named: Vec<&str> = Droplet::DESCRIPTION.full.iter().map(|group| group.name()).collect();
             assert_eq!(named, ["x", "phi", "p", "Pi"]);
             let unit = Matrix::<2>::identity();
             for (phi, pi) in [(unit * 1.1, Matrix::<2>::zeros()), (unit, unit)] {

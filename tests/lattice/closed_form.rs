@@ -194,8 +194,9 @@ fn far_apart_nothing_overflows() {
 fn variables_are_named() {
     assert_eq!(AffineAffine3::LATTICE.variables, Variables::LogStretches);
     assert_eq!(Dalembert3::LATTICE.variables, Variables::Stretches);
-    let layout =
-        |groups: &[affine_runtime::model::Group]| groups.iter().map(|g| (g.name, g.len)).collect::<Vec<_>>();
+    let layout = |groups: &[affine_runtime::model::Group]| {
+        groups.iter().map(|g| (g.name(), g.len)).collect::<Vec<_>>()
+    };
     assert_eq!(layout(AffineAffine2::LATTICE.state), [("q", 2), ("p", 2)], "M and N are constants");
     assert_eq!(layout(Dalembert3::LATTICE.state), [("Q", 3), ("P", 3), ("M", 3), ("N", 3)]);
 }

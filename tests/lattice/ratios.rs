@@ -5,7 +5,7 @@ use affine_runtime::decompose::exponential;
 use affine_runtime::frames::Matrix;
 use affine_runtime::integrate::RungeKutta8;
 use affine_runtime::lattice::{Lattice, LatticeFlow, LatticeForm, RatioForm, TwoPolarForm};
-use affine_runtime::model::Group;
+use affine_runtime::model::{Group, Quantity};
 use affine_runtime::prelude::*;
 
 use crate::reduced_flow::{distance, start};
@@ -111,11 +111,14 @@ fn the_motion_has_its_closed_form() {
     let (couplings, mut state) = Affine.in_ratios(&lattice);
     let rates =
         |_: f64, state: &<Affine as RatioForm<3>>::Ratios<f64>| Affine.ratio_equations(&couplings, state);
-    let groups =
-        &[Group { name: "t", len: 1 }, Group { name: "t", len: 1 }, Group { name: "momenta", len: 9 }];
+    const GROUPS: &[Group] = &[
+        Group::new(Quantity::Other("t"), 1),
+        Group::new(Quantity::Other("t"), 1),
+        Group::new(Quantity::LatticeMomenta, 9),
+    ];
     for k in 1..=20 {
         let t = 0.5 * f64::from(k);
-        let mut steps = RungeKutta8::new(rates, groups, (t - 0.5, state), t, 1e-15).unwrap();
+        let mut steps = RungeKutta8::new(rates, GROUPS, (t - 0.5, state), t, 1e-15).unwrap();
         while !steps.is_finished() {
             steps.advance().unwrap();
         }

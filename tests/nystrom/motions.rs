@@ -189,6 +189,22 @@ fn what_was_not_emitted_is_named() {
     assert!(run.why().to_string().contains("Runge-Kutta of order 5"), "{}", run.why());
 }
 
+/// The name of a field decides nothing.
+#[test]
+fn a_field_may_be_called_omega() {
+    #[affine_model(dim = 2, kinetic(dalembert = Omega), potential = orthogonality(inverse_1_1_1))]
+    #[allow(non_snake_case)]
+    struct Named {
+        Omega: f64,
+        inverse_1_1_1: f64,
+    }
+
+    let model = Named { Omega: 1.0, inverse_1_1_1: 5.0 }.prepare().unwrap();
+    let start = model.at_momentum(placement(), momentum()).unwrap();
+    let why = Simulation::new(&model, start).until(1.0).run().unwrap().why().to_string();
+    assert!(why.contains("not emitted: `emit(nystrom)`"), "{why}");
+}
+
 /// Events look at times within steps, which would cost a step each.
 #[test]
 fn events_are_left_to_the_method_with_a_dense_output() {

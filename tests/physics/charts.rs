@@ -17,7 +17,7 @@ pub(crate) fn groups<'a, T>(layout: &'static [Group], array: &'a [T]) -> Vec<(&'
     let parts = layout.iter().map(|group| {
         let (part, after) = rest.split_at(group.len);
         rest = after;
-        (group.name, part)
+        (group.name(), part)
     });
     let parts: Vec<_> = parts.collect();
     assert!(rest.is_empty(), "the layout covers the array");
@@ -56,7 +56,7 @@ pub(crate) fn assert_reduced_equations_move<const N: usize, M: Model<N>>(
     // Rotations by angles of order 1.
     let t = T0 + 0.75 * start.phi().norm() / model.velocity(start).phi_dot.norm();
     let (reduced, constants) = model.reduce(T0, start);
-    let spin = M::DESCRIPTION.full.last().unwrap().name;
+    let spin = M::DESCRIPTION.full.last().unwrap().name();
     let reference = reference(t, &exact_state(spin, &model.expand(t, &constants, &reduced)));
 
     let mut full = M::Full::<Dual>::zeros();

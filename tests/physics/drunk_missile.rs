@@ -105,6 +105,6 @@ fn full_equations_reach_the_reference() {
 #[test]
 fn reduced_state_is_x_and_phi() {
     let groups: Vec<_> =
-        DrunkMissile::DESCRIPTION.reduced.iter().map(|group| (group.name, group.len)).collect();
+        DrunkMissile::DESCRIPTION.reduced.iter().map(|group| (group.name(), group.len)).collect();
     assert_eq!(groups, [("x", 3), ("phi", 9)]);
 }

@@ -1,6 +1,6 @@
 //! The reference values, and what a model makes of them.
 
-use affine_runtime::model::{Description, Group, Operations};
+use affine_runtime::model::{Description, Operations};
 use affine_runtime::prelude::*;
 
 /// A model beside the table.
@@ -33,7 +33,8 @@ fn norm(values: &[f64]) -> f64 {
 /// Where a group of components stands in the state.
 fn place(description: &Description, name: &str) -> Option<core::ops::Range<usize>> {
     let mut start = 0;
-    for Group { name: group, len } in description.full {
+    for group in description.full {
+        let (group, len) = (&group.name(), &group.len);
         if *group == name {
             return Some(start..start + len);
         }

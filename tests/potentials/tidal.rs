@@ -1,7 +1,6 @@
 //! `x . Ct x` beside other functions, in every chart: forces against differences of the energy as it is written here, and runs
 //! against their own energy.
 
-use affine_runtime::model::Group;
 use affine_runtime::prelude::*;
 
 /// A difference of order 4, whose error is that of rounding over the step, or of the fifth derivative.
@@ -36,7 +35,8 @@ fn check<const N: usize, M: Model<N>>(label: &str, model: &M, start: &M::Point<f
     let spin = -phi * slopes.transpose();
     let rates = model.hamilton_equations(0.0, &model.flatten(start));
     let (mut at, mut seen) = (0, 0);
-    for Group { name, len } in M::DESCRIPTION.full {
+    for group in M::DESCRIPTION.full {
+        let (name, len) = (&group.name(), &group.len);
         let entries = &rates.as_ref()[at..at + len];
         let expected = match *name {
             "p" => Some(force.as_slice().to_vec()),

@@ -14,7 +14,7 @@ const GROUP: f64 = 1e-14;
 /// Components of the state that are functions of the rest stand last.
 fn moved<const N: usize, M: Model<N>>() -> usize {
     let groups = M::DESCRIPTION.reduced;
-    groups.iter().filter(|group| !["1/D", "q"].contains(&group.name)).map(|group| group.len).sum()
+    groups.iter().filter(|group| !["1/D", "q"].contains(&group.name())).map(|group| group.len).sum()
 }
 
 fn after<const N: usize, M: Splitting<N>>(
@@ -90,7 +90,7 @@ fn a_dilatation_of_its_own_beside_any_potential() {
     assert_eq!(own(&moored.unwrap()), (3, true, false, true));
     // What it moves is the affine spin in the total affine momentum.
     for groups in [PreparedTowed::DESCRIPTION.reduced, PreparedMoored::DESCRIPTION.reduced] {
-        assert!(groups.iter().any(|group| group.name == "I(O)"), "{groups:?}");
+        assert!(groups.iter().any(|group| group.name() == "I(O)"), "{groups:?}");
     }
     // Where the reduction takes it out of the state, and where nothing has a closed form.
     assert_eq!(own(&Vibrating), (2, false, true, false));

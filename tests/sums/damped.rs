@@ -2,7 +2,7 @@
 
 use affine_oracle::{Kinetic, Matrix as Exact, Motion, Observable, Random, Rational, State, Term, rational};
 use affine_runtime::force::Motion as At;
-use affine_runtime::model::{Conserved, WORK};
+use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 
 use crate::charts::{
@@ -64,7 +64,7 @@ fn agrees_with_the_oracle<const N: usize, M: Damped<N>>() {
             let (reduced, constants) = model.reduce(T0, &point);
             let rates = model.reduced_equations(T0, &constants, &reduced);
             let rates = groups(M::DESCRIPTION.reduced, rates.as_ref());
-            let work = rates.into_iter().find(|(name, _)| *name == WORK).unwrap().1;
+            let work = rates.into_iter().find(|(name, _)| *name == "work").unwrap().1;
             assert_close("work", work, &exact, exact[0].abs(), tolerance);
         }
     }

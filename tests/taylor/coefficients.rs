@@ -16,7 +16,7 @@ fn sample<const N: usize, M: Model<N>, T: Real>(model: &M) -> M::Point<T> {
     for (k, value) in full.as_mut().iter_mut().enumerate() {
         *value = T::from_f64(0.05 + 0.04 * ((k * k + 3 * k) % 11) as f64);
     }
-    let skip = usize::from(M::DESCRIPTION.full[0].name == "x") * N;
+    let skip = usize::from(M::DESCRIPTION.full[0].name() == "x") * N;
     (0..N).for_each(|k| full.as_mut()[skip + k * (N + 1)] = T::from_f64(1.1 + 0.1 * k as f64));
     model.unflatten(&full)
 }

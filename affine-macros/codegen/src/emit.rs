@@ -9,6 +9,7 @@ mod domain;
 mod dynamics;
 mod fields;
 mod forces;
+mod groups;
 mod kernel;
 mod lanes;
 mod metrics;

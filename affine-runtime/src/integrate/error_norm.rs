@@ -10,7 +10,7 @@ pub(crate) use in_lanes::{NormInLanes, Squares};
 use core::ops::Range;
 
 use super::larger;
-use crate::model::{Group, StateVector, TANGENT, WORK};
+use crate::model::{Group, Quantity, StateVector};
 use crate::scalar::Scalar;
 
 /// A state vector has at most so many groups with a floor of their own.
@@ -63,10 +63,10 @@ enum Measure {
 
 impl Measure {
     fn of(group: &Group) -> Self {
-        match group.name {
-            "q" => Self::One,
-            "x" => Self::Position,
-            WORK => Self::Nothing,
+        match group.quantity {
+            Quantity::MeanLogStretch | Quantity::LogStretches => Self::One,
+            Quantity::Position => Self::Position,
+            Quantity::Work => Self::Nothing,
             _ => Self::Size,
         }
     }
@@ -237,20 +237,28 @@ impl ErrorNorm {
 
     /// Components of the configuration that a momentum moves; `None` for what is no momentum.
     fn moved_by(&self, group: &Group) -> Option<Range<usize>> {
-        match group.name {
-            "x" | "q" | "1/D" | WORK | TANGENT => None,
-            _ if group.is_placement() => None,
-            "p" | "p_hat" => self.range_of("x"),
+        match group.quantity {
+            Quantity::Position
+            | Quantity::Placement
+            | Quantity::IsochoricPlacement
+            | Quantity::MeanLogStretch
+            | Quantity::LogStretches
+            | Quantity::InverseDilatation
+            | Quantity::Work
+            | Quantity::Tangent => None,
+            Quantity::LinearMomentum | Quantity::LogStretchMomenta | Quantity::ComovingLinearMomentum => {
+                self.range_of(Quantity::Position)
+            }
             _ => self.placement(),
         }
     }
 
     fn placement(&self) -> Option<Range<usize>> {
-        self.groups.iter().position(Group::is_placement).map(|k| self.range(k))
+        self.groups.iter().position(|group| group.quantity.is_placement()).map(|k| self.range(k))
     }
 
-    fn range_of(&self, name: &str) -> Option<Range<usize>> {
-        self.groups.iter().position(|group| group.name == name).map(|k| self.range(k))
+    fn range_of(&self, quantity: Quantity) -> Option<Range<usize>> {
+        self.groups.iter().position(|group| group.quantity == quantity).map(|k| self.range(k))
     }
 
     fn range(&self, k: usize) -> Range<usize> {
@@ -323,8 +331,11 @@ fn square(value: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const LAYOUT: &[Group] =
-        &[Group { name: "x", len: 2 }, Group { name: "phi", len: 2 }, Group { name: "q", len: 1 }];
+    const LAYOUT: &[Group] = &[
+        Group::new(Quantity::Position, 2),
+        Group::new(Quantity::Placement, 2),
+        Group::new(Quantity::MeanLogStretch, 1),
+    ];
 
     fn error(before: [f64; 5], after: [f64; 5], error: [f64; 5]) -> f64 {
         ErrorNorm::new(LAYOUT).largest(1.0, &before, &after, |r| norm(&error[r]))
@@ -364,10 +375,10 @@ mod tests {
     #[test]
     fn momenta_are_held_against_what_they_move() {
         const LAYOUT: &[Group] = &[
-            Group { name: "x", len: 1 },
-            Group { name: "phi", len: 2 },
-            Group { name: "p", len: 1 },
-            Group { name: "Pi", len: 2 },
+            Group::new(Quantity::Position, 1),
+            Group::new(Quantity::Placement, 2),
+            Group::new(Quantity::LinearMomentum, 1),
+            Group::new(Quantity::CanonicalMomentum, 2),
         ];
         // x' = p/4, phi' = (Pi_1/2, Pi_2): masses 4, 2 and 1, the least of Pi is 1.
         let f = |_: f64, y: &[f64; 6]| [y[3] / 4.0, y[4] / 2.0, y[5], 0.0, 0.0, 0.0];

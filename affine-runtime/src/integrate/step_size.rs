@@ -175,7 +175,7 @@ pub(crate) fn first_step<S: StateVector<f64>>(
 mod tests {
     use super::{Controller, LARGEST_CUT, LARGEST_GROWTH, SAFETY, first_step, next_time, shortest, trial};
     use crate::integrate::ErrorNorm;
-    use crate::model::Group;
+    use crate::model::{Group, Quantity};
 
     const ORDER: f64 = 8.0;
 
@@ -279,7 +279,7 @@ mod tests {
     /// `y' = -w y`: `(10 eps)^(1/k)/w`, in any unit of time, and never beyond what the trial says.
     #[test]
     fn first_steps() {
-        const GROUPS: &[Group] = &[Group { name: "Sigma", len: 2 }];
+        const GROUPS: &[Group] = &[Group::new(Quantity::AffineSpin, 2)];
         let norm = ErrorNorm::new(GROUPS);
         for w in [1e-6, 1.0, 1e9] {
             let f = |_: f64, y: &[f64; 2]| y.map(|v| -w * v);

@@ -6,7 +6,7 @@ use super::{Lattice, LatticeForm, TwoPolarForm, Variables};
 use crate::error::Error;
 use crate::frames::Matrix;
 use crate::integrate::{Failure, RungeKutta8};
-use crate::model::Group;
+use crate::model::{Group, Quantity};
 
 /// Stretches nearer than this are taken across in the form of the placement; see [`LatticeFlow`].
 const NEAR: f64 = 0.05;
@@ -255,16 +255,24 @@ fn is_finite<const N: usize>(lattice: &Lattice<N>) -> bool {
 /// The layout for the error norm: momenta and couplings together, since any of them may vanish; angles against 1 as
 /// logarithms are.
 pub(super) fn groups<const N: usize, M: LatticeForm<N>>() -> &'static [Group] {
-    const fn group(name: &'static str, len: usize) -> Group {
-        Group { name, len }
-    }
+    use Quantity::{LatticeMomenta, LeftRotation, LogStretches, RightRotation, Stretches};
     const PLANE: [[Group; 3]; 2] = [
-        [group("q", 2), group("momenta", 2), group("q", 2)],
-        [group("Q", 2), group("momenta", 2), group("q", 2)],
+        [Group::new(LogStretches, 2), Group::new(LatticeMomenta, 2), Group::new(LogStretches, 2)],
+        [Group::new(Stretches, 2), Group::new(LatticeMomenta, 2), Group::new(LogStretches, 2)],
     ];
     const SPACE: [[Group; 4]; 2] = [
-        [group("q", 3), group("momenta", 9), group("L", 9), group("R", 9)],
-        [group("Q", 3), group("momenta", 9), group("L", 9), group("R", 9)],
+        [
+            Group::new(LogStretches, 3),
+            Group::new(LatticeMomenta, 9),
+            Group::new(LeftRotation, 9),
+            Group::new(RightRotation, 9),
+        ],
+        [
+            Group::new(Stretches, 3),
+            Group::new(LatticeMomenta, 9),
+            Group::new(LeftRotation, 9),
+            Group::new(RightRotation, 9),
+        ],
     ];
     match (N, M::LATTICE.variables) {
         (2, Variables::LogStretches | Variables::Angles) => &PLANE[0],

@@ -9,7 +9,7 @@ use super::{method_name, save};
 use crate::error::Result;
 use crate::integrate::splitting::Pieces;
 use crate::integrate::{Statistics, norm};
-use crate::model::{Conserved, Model};
+use crate::model::{Conserved, Group, Model};
 use crate::simulate::{Halt, Method, Reason, Simulation, Stop, Trajectory};
 
 /// Tolerances of a report that names none.
@@ -162,7 +162,7 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
                 }
             }
         }
-        let quantities = M::DESCRIPTION.full.iter().map(|group| group.name).collect();
+        let quantities = M::DESCRIPTION.full.iter().map(Group::name).collect();
         let interval = (self.t0, self.t_end);
         Ok(WorkPrecisionReport { model: M::DESCRIPTION.name, quantities, interval, rows })
     }

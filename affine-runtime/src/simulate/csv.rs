@@ -9,6 +9,7 @@ use csv::Writer;
 use super::trajectory::Trajectory;
 use crate::error::{Error, Result};
 use crate::frames::Matrix;
+use crate::model::Quantity;
 use crate::state::Phase;
 
 impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
@@ -69,15 +70,15 @@ struct Columns<const N: usize, P> {
 
 impl<const N: usize, P: Phase<N>> Columns<N, P> {
     fn of(trajectory: &Trajectory<N, P>) -> Self {
-        let stored = |name| trajectory.description.full.iter().any(|group| group.name == name);
-        let momentum: (&'static str, fn(&P) -> Matrix<N>) = if stored("Sigma") {
+        let stored = |quantity| trajectory.description.full.iter().any(|group| group.quantity == quantity);
+        let momentum: (&'static str, fn(&P) -> Matrix<N>) = if stored(Quantity::AffineSpin) {
             ("Sigma", |point| point.sigma().0.0)
-        } else if stored("Sigma_hat") {
+        } else if stored(Quantity::ComovingAffineSpin) {
             ("Sigma_hat", |point| point.sigma_hat().0.0)
         } else {
             ("Pi", |point| point.pi().0.0)
         };
-        Self { translation: stored("x"), momentum }
+        Self { translation: stored(Quantity::Position), momentum }
     }
 
     fn names(&self) -> Vec<String> {

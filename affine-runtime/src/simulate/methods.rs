@@ -1,9 +1,7 @@
 //! The integrators, each begun on the state that it steps.
 
 use super::halt::Reason;
-use super::layout::{
-    Layout, carries_dilatation, has_multiplier, is_canonical, is_second_order, moves_on_group, placement_in,
-};
+use super::layout::{Layout, carries_dilatation, has_multiplier, is_canonical, moves_on_group, placement_in};
 use super::mechanics::Course;
 use super::motion::{Expanded, Expansion};
 use super::range::in_range;
@@ -130,7 +128,7 @@ fn chosen<const N: usize, M: Model<N>>(
         asked => return asked,
     };
     let has_series = M::DESCRIPTION.constraint.is_none() && course.tolerance <= TAYLOR_TOLERANCE;
-    recorder.trajectory.computation.missing = if by_halves && is_second_order(&M::DESCRIPTION) {
+    recorder.trajectory.computation.missing = if by_halves && M::DESCRIPTION.second_order {
         Some("nystrom")
     } else if has_series && method == Method::RungeKutta8 {
         Some("taylor")

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::trajectory::Trajectory;
 use crate::integrate::larger;
-use crate::model::WORK;
+use crate::model::Quantity;
 use crate::state::Phase;
 
 /// The balance `H(t) - H(t0) = W(t)`, `W` the integral of the power over time, along a trajectory.
@@ -38,7 +38,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// energy stands among what [`conservation`](Self::conservation) lists.
     #[must_use]
     pub fn power_balance(&self) -> Option<PowerBalance> {
-        self.description.reduced.iter().find(|group| group.name == WORK)?;
+        self.description.reduced.iter().find(|group| group.quantity == Quantity::Work)?;
         let energies = &self.energies;
         let points = energies.outputs.iter().zip(&energies.work);
         let end = (&energies.end, &energies.work_at_end);

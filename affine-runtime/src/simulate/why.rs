@@ -6,7 +6,7 @@ use super::trajectory::{Computation, Trajectory};
 use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 use crate::integrate::splitting::ORDER;
 use crate::integrate::taylor::order_for;
-use crate::model::{Constraint, Description, LeftOut, Scope};
+use crate::model::{Constraint, Description, LeftOut, Quantity, Scope};
 use crate::state::Phase;
 
 /// Condition numbers from here on take more than half the digits.
@@ -206,9 +206,16 @@ impl Why {
     /// method takes the same step as of `x` and `p`.
     fn is_canonical(&self) -> bool {
         let groups = self.description.reduced;
-        let holds = |name: &str| groups.iter().any(|group| group.name == name);
-        let paired = holds("phi") && holds("Pi") && (holds("x") || !holds("p"));
-        paired && groups.iter().all(|group| ["x", "phi", "p", "Pi", "1/D", "q"].contains(&group.name))
+        let holds = |quantity: Quantity| groups.iter().any(|group| group.quantity == quantity);
+        let paired = holds(Quantity::Placement)
+            && holds(Quantity::CanonicalMomentum)
+            && (holds(Quantity::Position) || !holds(Quantity::LinearMomentum));
+        let is_canonical = |quantity: Quantity| {
+            use Quantity::{CanonicalMomentum, LinearMomentum, Placement, Position};
+            matches!(quantity, Position | Placement | LinearMomentum | CanonicalMomentum)
+                || quantity.is_carried()
+        };
+        paired && groups.iter().all(|group| is_canonical(group.quantity))
     }
 
     /// What the start and the velocities on the way are worth, where the kinetic energy is nearly degenerate.
@@ -296,7 +303,9 @@ impl Why {
 
     fn scene(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Computation { method, no_whirl, at_rest, .. } = self.computation;
-        let translates = self.description.full.iter().any(|group| group.name == "p" || group.name == "p_hat");
+        let translates = self.description.full.iter().any(|group| {
+            matches!(group.quantity, Quantity::LinearMomentum | Quantity::ComovingLinearMomentum)
+        });
         if at_rest && translates {
             writeln!(f, "left out of this run: p = 0, the centre of mass exerts nothing on the placement")?;
         }

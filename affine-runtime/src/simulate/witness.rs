@@ -4,7 +4,7 @@ use super::halt::Reason;
 use super::mechanics::Mechanics;
 use super::point::energy_bound;
 use crate::integrate::{larger, norm};
-use crate::model::{Conserved, Description, WORK};
+use crate::model::{Conserved, Description, Quantity};
 use crate::state::Phase;
 
 /// A run ends where the energy is off by so much of the largest `|T| + |U|` met.
@@ -114,7 +114,8 @@ fn worth<const N: usize, P: Phase<N>>(
 
 /// The energy is conserved, or changes by a work that is integrated with the motion.
 fn is_accounted_for(model: &Description) -> bool {
-    model.conserved.contains(&Conserved::Energy) || model.reduced.iter().any(|group| group.name == WORK)
+    model.conserved.contains(&Conserved::Energy)
+        || model.reduced.iter().any(|group| group.quantity == Quantity::Work)
 }
 
 /// `|T| + |U|`, with a bound of `|T|` that an indefinite kinetic energy has too.

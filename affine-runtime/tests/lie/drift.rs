@@ -4,14 +4,14 @@ use affine_runtime::frames::Matrix;
 use affine_runtime::integrate::gauss::Tableau;
 use affine_runtime::integrate::lie::Chart;
 use affine_runtime::integrate::{Gauss, RungeKutta8};
-use affine_runtime::model::{Constraint, Group};
+use affine_runtime::model::{Constraint, Group, Quantity};
 
 use crate::curve::{defect, project, write};
 
 /// Unoptimised, a tenth: the bound grows with the root of the number of steps.
 const STEPS: u64 = if cfg!(debug_assertions) { 10_000 } else { 100_000 };
 
-const PLACEMENT: &[Group] = &[Group { name: "phi", len: 9 }];
+const PLACEMENT: &[Group] = &[Group::new(Quantity::Placement, 9)];
 
 /// `phi' = phi P(A sin t + B cos t phi^T phi + ...)`: bounded, neither periodic nor constant.
 fn equations(constraint: Constraint) -> impl Fn(f64, &[f64; 9]) -> [f64; 9] {

@@ -4,7 +4,7 @@ use affine_runtime::integrate::gauss::Tableau;
 use affine_runtime::integrate::lie::{Chart, Coordinates, Sum};
 use affine_runtime::integrate::runge_kutta::Step;
 use affine_runtime::integrate::{Gauss, RungeKutta8};
-use affine_runtime::model::{Constraint, Group};
+use affine_runtime::model::{Constraint, Group, Quantity};
 
 use crate::curve::{GROUPS, defect, distance, equations, solution};
 
@@ -74,7 +74,7 @@ fn gauss_is_of_orders_4_and_6() {
     }
 }
 
-const SPACE: &[Group] = &[Group { name: "phi", len: 9 }, Group { name: "s", len: 1 }];
+const SPACE: &[Group] = &[Group::new(Quantity::Placement, 9), Group::new(Quantity::Other("s"), 1)];
 
 #[test]
 fn adaptive_steps_and_dense_output_follow_the_tolerance() {

@@ -4,7 +4,7 @@ use affine_runtime::frames::Matrix;
 use affine_runtime::integrate::gauss::Tableau;
 use affine_runtime::integrate::lie::Chart;
 use affine_runtime::integrate::{Gauss, RungeKutta8};
-use affine_runtime::model::{Constraint, Group};
+use affine_runtime::model::{Constraint, Group, Quantity};
 
 use crate::curve::{defect, write};
 use crate::jacobi::sn_cn_dn;
@@ -13,7 +13,7 @@ use crate::jacobi::sn_cn_dn;
 const J: [f64; 3] = [1.3, 0.9, 0.5];
 const INERTIA: [f64; 3] = [J[1] + J[2], J[0] + J[2], J[0] + J[1]];
 
-const STATE: &[Group] = &[Group { name: "phi", len: 9 }, Group { name: "Sigma_hat", len: 3 }];
+const STATE: &[Group] = &[Group::new(Quantity::Placement, 9), Group::new(Quantity::ComovingAffineSpin, 3)];
 
 /// The skew matrix of a vector: `hat(w) a = w x a`.
 fn hat(w: [f64; 3]) -> Matrix<3> {

@@ -3,10 +3,12 @@
 use affine_runtime::frames::Matrix;
 use affine_runtime::integrate::Rattle;
 use affine_runtime::integrate::rattle::Composition;
-use affine_runtime::model::Group;
+use affine_runtime::model::{Group, Quantity};
 
-pub(crate) const SPACE: &[Group] = &[Group { name: "phi", len: 9 }, Group { name: "Pi", len: 9 }];
-pub(crate) const PLANE: &[Group] = &[Group { name: "phi", len: 4 }, Group { name: "Pi", len: 4 }];
+pub(crate) const SPACE: &[Group] =
+    &[Group::new(Quantity::Placement, 9), Group::new(Quantity::CanonicalMomentum, 9)];
+pub(crate) const PLANE: &[Group] =
+    &[Group::new(Quantity::Placement, 4), Group::new(Quantity::CanonicalMomentum, 4)];
 
 pub(crate) fn groups<const N: usize>() -> &'static [Group] {
     if N == 2 { PLANE } else { SPACE }

@@ -2,7 +2,7 @@
 
 use affine_runtime::integrate::rattle::Composition;
 use affine_runtime::integrate::{Failure, Rattle};
-use affine_runtime::model::Group;
+use affine_runtime::model::{Group, Quantity};
 
 use crate::body::{DISC, PLANE, SPACE, TRIAXIAL, determinant, part, start};
 
@@ -47,7 +47,8 @@ fn equations_that_are_not_separable() {
         rates
     };
     assert_eq!(new(quartic, SPACE, y, 0.1).map(|run| run.t()), Err(Failure::NotSeparable));
-    const LIE_POISSON: &[Group] = &[Group { name: "phi", len: 9 }, Group { name: "Sigma_hat", len: 9 }];
+    const LIE_POISSON: &[Group] =
+        &[Group::new(Quantity::Placement, 9), Group::new(Quantity::ComovingAffineSpin, 9)];
     assert_eq!(new(free, LIE_POISSON, y, 0.1).map(|run| run.t()), Err(Failure::NotSeparable));
 }
 

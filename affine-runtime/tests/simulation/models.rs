@@ -65,6 +65,7 @@ const fn description(name: &'static str) -> Description {
         full_operations: NOTHING,
         reduced_operations: NOTHING,
         constraint: None,
+        second_order: false,
         domain: &[],
         angles: &[],
         left_out: &[],

@@ -151,7 +151,7 @@ struct Sprung {
 
 #[test]
 fn forces_keep_the_dilatation_in_the_state() {
-    let separates = |description: Description| description.reduced.iter().any(|group| group.name == "Psi");
+    let separates = |description: Description| description.reduced.iter().any(|group| group.name() == "Psi");
     assert!(separates(Undisturbed::DESCRIPTION));
     assert!(!separates(Damped::DESCRIPTION));
     assert!(!separates(Sprung::DESCRIPTION));

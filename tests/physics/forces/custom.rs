@@ -3,7 +3,7 @@
 
 use affine_oracle::{Kinetic, Random, State};
 use affine_runtime::force::{self, Comoving as ComovingForce, Force, Motion, Translation};
-use affine_runtime::model::{Conserved, Description, WORK};
+use affine_runtime::model::{Conserved, Description, Quantity};
 use affine_runtime::potential::{self, Class, Place, Potential, Slopes};
 use affine_runtime::prelude::*;
 use affine_runtime::sampling;
@@ -83,7 +83,7 @@ fn energy_is_accounted_for<const N: usize, M: Pushed<N>>() {
         }
         None => {
             assert!(has(M::DESCRIPTION, Conserved::Energy));
-            assert!(M::DESCRIPTION.reduced.iter().all(|group| group.name != WORK));
+            assert!(M::DESCRIPTION.reduced.iter().all(|group| group.quantity != Quantity::Work));
             assert!(run.conservation().worst() <= POWER_BALANCE, "{}", run.conservation());
             assert_eq!(model.power(T0, &start), 0.0);
         }

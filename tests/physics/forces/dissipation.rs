@@ -1,7 +1,7 @@
 //! Rayleigh's dissipation function, in every frame under kinetic energies of every frame.
 
 use affine_oracle::{Kinetic, Motion, Observable, State, Term, rational};
-use affine_runtime::model::{Conserved, StateVector, WORK};
+use affine_runtime::model::{Conserved, StateVector};
 use affine_runtime::prelude::*;
 
 use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
@@ -53,7 +53,8 @@ fn agrees_with_the_oracle<const N: usize, M: Damped<N>>() {
 
         let (reduced, constants) = model.reduce(T0, &point);
         let rates = model.reduced_equations(T0, &constants, &reduced);
-        let work = groups(M::DESCRIPTION.reduced, rates.as_ref()).into_iter().find(|(name, _)| *name == WORK);
+        let work =
+            groups(M::DESCRIPTION.reduced, rates.as_ref()).into_iter().find(|(name, _)| *name == "work");
         assert_close("work", work.unwrap().1, &[exact], exact.abs(), tolerance);
         assert_eq!(*reduced.as_ref().last().unwrap(), 0.0, "no work at the start");
         assert_eq!(M::Reduced::<f64>::LEN, reduced.as_ref().len());

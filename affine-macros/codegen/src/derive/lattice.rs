@@ -14,6 +14,7 @@ use crate::mechanics::asked::Asked;
 use crate::mechanics::describe::{Formula, Notation};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::{OnAxes, Potential};
+use crate::mechanics::quantity::Quantity;
 use crate::mechanics::two_polar::{self, Equations, Frames, Lattice, Pieces, Ratios, Stable, Variables};
 use crate::optimise::{Batch, straight_line};
 
@@ -22,9 +23,9 @@ pub struct TwoPolar {
     /// What the places are.
     pub places: Places,
     /// Symbols of the state, group after group.
-    pub state: Vec<(&'static str, Vec<String>)>,
+    pub state: Vec<(Quantity, Vec<String>)>,
     /// Symbols of the frames, beside the state.
-    pub frames: Vec<(&'static str, Vec<String>)>,
+    pub frames: Vec<(Quantity, Vec<String>)>,
     /// Symbols of `M` and `N` where they are constants.
     pub couplings: Vec<String>,
     /// State -> its rate.
@@ -84,8 +85,8 @@ pub(super) fn two_polar(
     let name = |arena: &Arena, s: &Expr| arena.name(*s).unwrap_or("place").to_owned();
     let names = |arena: &Arena, symbols: &[Expr]| symbols.iter().map(|s| name(arena, s)).collect::<Vec<_>>();
     let (place, momentum) = match lattice.variables {
-        Variables::LogStretches | Variables::Angles => ("q", "p"),
-        Variables::Stretches => ("Q", "P"),
+        Variables::LogStretches | Variables::Angles => (Quantity::LogStretches, Quantity::LogStretchMomenta),
+        Variables::Stretches => (Quantity::Stretches, Quantity::StretchMomenta),
     };
     let mut state = vec![(place, names(arena, &lattice.q)), (momentum, names(arena, &lattice.p))];
     let skew = [names(arena, &lattice.m), names(arena, &lattice.n)];
@@ -93,7 +94,7 @@ pub(super) fn two_polar(
     let couplings = match lattice.dim {
         2 => skew.concat(),
         _ => {
-            state.extend([("M", m), ("N", n)]);
+            state.extend([(Quantity::SumCouplings, m), (Quantity::DifferenceCouplings, n)]);
             Vec::new()
         }
     };
@@ -157,11 +158,11 @@ fn energy(equations: &Equations, stable: &Stable, potential: Option<&OnAxes>) ->
 }
 
 /// Names of the frames' components.
-fn groups(arena: &Arena, frames: &Frames) -> Vec<(&'static str, Vec<String>)> {
+fn groups(arena: &Arena, frames: &Frames) -> Vec<(Quantity, Vec<String>)> {
     let names = |symbols: &[Expr]| {
         symbols.iter().map(|s| arena.name(*s).unwrap_or("frame").to_owned()).collect::<Vec<_>>()
     };
-    vec![("L", names(&frames.left)), ("R", names(&frames.right))]
+    vec![(Quantity::LeftRotation, names(&frames.left)), (Quantity::RightRotation, names(&frames.right))]
 }
 
 /// The rates of the frames beside those of the state.

@@ -16,6 +16,7 @@ use crate::mechanics::asked::Asked;
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{Formula, LeftOut};
+use crate::mechanics::quantity::Quantity;
 use crate::mechanics::reduce::{ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 use crate::mechanics::term::Frame;
@@ -174,6 +175,26 @@ pub struct BalancedQuantities {
 }
 
 impl Model {
+    /// Are the reduced equations `q'' = f(t, q)`? So they are over positions and canonical momenta, for a kinetic energy of
+    /// `phi_dot` and `x_dot` with constant coefficients.
+    #[must_use]
+    pub fn is_second_order(&self) -> bool {
+        use Quantity::{
+            CanonicalMomentum, InverseDilatation, LinearMomentum, MeanLogStretch, Placement, Position,
+        };
+        let canonical = |quantity: &Quantity| {
+            matches!(quantity, Position | Placement | LinearMomentum | CanonicalMomentum)
+                || matches!(quantity, InverseDilatation | MeanLogStretch)
+        };
+        let is_flat = self.frame == Frame::Flat && self.translation != Some(Frame::Body);
+        let is_constant = self.regularity.is_none() && self.mixed_masses.is_none();
+        self.constraint.is_none()
+            && is_flat
+            && is_constant
+            && self.reduced.groups.iter().all(|(quantity, _)| canonical(quantity))
+            && self.reduced.has(CanonicalMomentum)
+    }
+
     /// With what is derived from the reduced equations: recurrence and variational equations, where they are asked for,
     /// and vectors of four.
     pub(super) fn completed(mut self, asked: Asked) -> Self {
@@ -188,7 +209,7 @@ impl Model {
         // Charts of groups take single components; Runge-Kutta-Nystrom steps and closed forms leave nothing to do.
         let is_closed = matches!(self.closed_form, Some((_, false)));
         if self.constraint.is_none() && self.second_order.is_none() && !is_closed {
-            self.packed = Packed::of(program, &self.reduced.groups);
+            self.packed = Packed::of(program, &self.reduced.components());
         }
         self
     }

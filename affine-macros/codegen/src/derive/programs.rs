@@ -12,6 +12,7 @@ use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::loads::loads;
 use crate::mechanics::potential::Potential;
+use crate::mechanics::quantity::Quantity;
 use crate::mechanics::reduce::{self, Layout, Reduction};
 use crate::mechanics::term::Frame;
 use crate::optimise::{Batch, straight_line};
@@ -88,12 +89,12 @@ pub(super) fn shortest(
     let name = |symbols: &[Expr]| -> Vec<String> {
         symbols.iter().filter_map(|s| arena.name(*s).map(str::to_owned)).collect()
     };
-    let linear_name = chart.linear.map_or("p", Linear::name);
+    let linear = chart.linear.map_or(Quantity::LinearMomentum, Linear::quantity);
     let groups = [
-        ("x", name(&chart.x)),
-        ("phi", name(&chart.phi.0.concat())),
-        (linear_name, name(&chart.p)),
-        (chart.momentum.symbol(), name(&independent_momenta(chart))),
+        (Quantity::Position, name(&chart.x)),
+        (Quantity::Placement, name(&chart.phi.0.concat())),
+        (linear, name(&chart.p)),
+        (chart.momentum.quantity(), name(&independent_momenta(chart))),
     ];
     Equations {
         groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),

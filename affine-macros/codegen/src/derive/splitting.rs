@@ -6,6 +6,7 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::Potential;
+use crate::mechanics::quantity::Quantity;
 use crate::mechanics::reduce::Reduction;
 use crate::mechanics::splitting::{Flow, Principal, TIME_OF_FLOW, splitting};
 use crate::optimise::{Batch, straight_line};
@@ -128,7 +129,10 @@ fn written(
         rows.map(|row| row.iter().map(|s| name(arena, *s)).collect()).collect()
     };
     let placement = |arena: &Arena| {
-        let placement = reduction.states.iter().find(|(group, _)| matches!(*group, "phi" | "Psi"));
+        let placement = reduction
+            .states
+            .iter()
+            .find(|(group, _)| matches!(group, Quantity::Placement | Quantity::IsochoricPlacement));
         placement.map_or_else(Vec::new, |(_, symbols)| table(arena, symbols))
     };
     let momentum = |arena: &Arena| table(arena, &reduction.chart.m.0.concat());

@@ -71,9 +71,8 @@ impl Trajectory {
             Commuting::Spin(_) => Some(Components::Spatial),
             Commuting::Drift(_) => None,
         });
-        let has = |group: &str| model.reduced.groups.iter().any(|(name, _)| *name == group);
         let linear = reduction.chart.linear;
-        let pushed = linear.is_some_and(|linear| has(linear.name()));
+        let pushed = linear.is_some_and(|linear| model.reduced.has(linear.quantity()));
         let drift = reduction.commuting.iter().any(|piece| matches!(piece, Commuting::Drift(_)));
         Self {
             origin: rotation.is_some() || drift,

@@ -7,6 +7,7 @@ use crate::ir::count::Operations;
 
 use super::context::Context;
 use super::domain;
+use super::groups::groups;
 use super::number::number;
 use super::pattern::identifiers;
 
@@ -140,18 +141,12 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         quote!(&[#(#rt::Conserved::#names),*])
     };
     let (now, at_rest) = (conserved(&model.conserved_names()), conserved(&model.conserved_names_at_rest()));
-    let groups = |groups: &[(&'static str, Vec<String>)]| {
-        let entries = groups.iter().map(|(name, components)| {
-            let len = number(components.len());
-            quote!(#rt::Group { name: #name, len: #len })
-        });
-        quote!(&[#(#entries),*])
-    };
-    let (full, reduced) = (groups(&model.full.groups), groups(&model.reduced.groups));
+    let (full, reduced) = (groups(context, &model.full.groups), groups(context, &model.reduced.groups));
     let constraint = match context.constraint() {
         Some(group) => quote!(::core::option::Option::Some(#group)),
         None => quote!(::core::option::Option::None),
     };
+    let second_order = model.is_second_order();
     let full_operations = operations(context, model.full.program.operations());
     let reduced_operations = operations(context, model.reduced.program.operations());
     quote! {
@@ -169,6 +164,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
             full_operations: #full_operations,
             reduced_operations: #reduced_operations,
             constraint: #constraint,
+            second_order: #second_order,
             domain: #domain,
             angles: #angles,
             left_out: &[#(#left_out),*],

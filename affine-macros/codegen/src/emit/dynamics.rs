@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 
 use crate::derive::{Components, VelocitySide};
 use crate::ir::Program;
+use crate::mechanics::quantity::Quantity;
 
 use super::body::Body;
 use super::context::Context;
@@ -197,7 +198,7 @@ fn flat(context: &Context) -> TokenStream {
     let (phi, own, wrap) =
         (rows("phi"), rows(context.model.spin_name()), wrapper(context, context.model.spin()));
     let dependent = context.dependent(&context.model.full);
-    let comoving = context.model.full.groups.iter().any(|(name, _)| *name == "p_hat");
+    let comoving = context.model.full.has(Quantity::ComovingLinearMomentum);
     let centre = match (context.model.translation, comoving) {
         (None, _) => quote!(let centre = #rt::Pinned;),
         (Some(_), false) => {

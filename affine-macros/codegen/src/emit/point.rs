@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 
 use crate::derive::{Components, VolumeMeasure};
 use crate::ir::Program;
+use crate::mechanics::quantity::Quantity;
 
 use super::context::Context;
 use super::pattern::{components, pattern, reads};
@@ -68,13 +69,13 @@ pub(super) fn bind_components(context: &Context, used: &[&str]) -> TokenStream {
             continue;
         }
         let value = match *group {
-            "x" => quote!(#rt::components(&#rt::Phase::x(point))),
-            "phi" => quote!(#rt::rows(#rt::Phase::phi(point))),
-            "p" => quote!(#rt::components(&#rt::Phase::p(point))),
-            "p_hat" => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
+            Quantity::Position => quote!(#rt::components(&#rt::Phase::x(point))),
+            Quantity::Placement => quote!(#rt::rows(#rt::Phase::phi(point))),
+            Quantity::LinearMomentum => quote!(#rt::components(&#rt::Phase::p(point))),
+            Quantity::ComovingLinearMomentum => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
             _ => quote!(#rt::rows(&#spin)),
         };
-        lets.extend(bind_group(context, group, names, used, &value));
+        lets.extend(bind_group(context, *group, names, used, &value));
     }
     lets
 }
@@ -82,17 +83,17 @@ pub(super) fn bind_components(context: &Context, used: &[&str]) -> TokenStream {
 /// Binds the components of a vector or a matrix that are both in a group of the array and used.
 fn bind_group(
     context: &Context,
-    group: &str,
+    group: Quantity,
     names: &[String],
     used: &[&str],
     value: &TokenStream,
 ) -> TokenStream {
     let stem = match group {
-        "x" | "p" | "p_hat" => {
+        Quantity::Position | Quantity::LinearMomentum | Quantity::ComovingLinearMomentum => {
             let bound = pattern(names, used);
             return quote!(let #bound = #value;);
         }
-        "phi" => "phi",
+        Quantity::Placement => "phi",
         _ => context.model.spin_name(),
     };
     let used: Vec<&str> = used.iter().copied().filter(|name| names.iter().any(|n| n == name)).collect();

@@ -7,6 +7,7 @@ use crate::ir::tangent::change_of;
 
 use super::body::Body;
 use super::context::Context;
+use super::groups::group;
 use super::number::number;
 use super::pattern::{pattern, reads, time};
 use super::trajectory::coefficient_names;
@@ -17,9 +18,9 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
     let t = &context.names.scalar;
-    let groups = context.model.reduced.groups.iter().map(|(name, components)| {
+    let groups = context.model.reduced.groups.iter().map(|(quantity, components)| {
         let len = number(components.len());
-        quote!(#rt::Group { name: #name, len: #len })
+        group(context, *quantity, &len)
     });
     let groups: Vec<TokenStream> = groups.collect();
     let mut states = context.model.reduced.names();
@@ -44,7 +45,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
         impl #generics #rt::Tangent<#n> for #prepared #types #clause {
             type Varied<#t: #rt::Scalar> = [#t; #both];
             const VARIED: &'static [#rt::Group] =
-                &[#(#groups,)* #rt::Group { name: #rt::TANGENT, len: #len }];
+                &[#(#groups,)* #rt::Group::new(#rt::Quantity::Tangent, #len)];
 
             #[inline]
             fn variational_equations<#t: #rt::Scalar>(

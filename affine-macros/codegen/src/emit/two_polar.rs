@@ -12,6 +12,7 @@ use crate::ir::Program;
 use super::body::Body;
 use super::context::Context;
 use super::description;
+use super::groups::groups;
 use super::number::number;
 use super::pattern::pattern;
 use super::point::{own_spin, wrapper};
@@ -176,15 +177,8 @@ fn description(context: &Context, form: &TwoPolar) -> TokenStream {
         (true, true) => format_ident!("Dilatation"),
         (true, false) => format_ident!("Stretches"),
     };
-    let groups = |groups: &mut dyn Iterator<Item = &(&'static str, Vec<String>)>| {
-        let entries = groups.map(|(name, components)| {
-            let len = number(components.len());
-            quote!(#rt::Group { name: #name, len: #len })
-        });
-        quote!(&[#(#entries),*])
-    };
-    let state = groups(&mut form.state.iter());
-    let framed = groups(&mut form.state.iter().chain(&form.frames));
+    let state = groups(context, &form.state);
+    let framed = groups(context, &[form.state.as_slice(), &form.frames].concat());
     let operations = description::operations(context, form.rates.operations());
     quote! {
         #rt::LatticeDescription {

@@ -7,6 +7,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Momentum};
 use super::equations::System;
+use super::quantity::Quantity;
 use isochoric::{inverts_the_placement, without_the_determinant};
 
 /// A function of `det phi` that is integrated beside `phi`.
@@ -30,12 +31,11 @@ impl Carried {
         }
     }
 
-    /// Name of its group in the state.
-    #[must_use]
-    pub fn group(self) -> &'static str {
+    /// What it is in a state.
+    pub(super) fn quantity(self) -> Quantity {
         match self {
-            Self::InverseDilatation => "1/D",
-            Self::MeanLogStretch => "q",
+            Self::InverseDilatation => Quantity::InverseDilatation,
+            Self::MeanLogStretch => Quantity::MeanLogStretch,
         }
     }
 

@@ -4,6 +4,7 @@ use crate::algebra::ring::Square;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 
 use super::constraint::Constraint;
+use super::quantity::Quantity;
 use super::term::Frame;
 
 /// The affine momentum of a chart.
@@ -29,6 +30,15 @@ pub enum Linear {
 }
 
 impl Linear {
+    /// What it is in a state.
+    #[must_use]
+    pub fn quantity(self) -> Quantity {
+        match self {
+            Self::Space => Quantity::LinearMomentum,
+            Self::Body => Quantity::ComovingLinearMomentum,
+        }
+    }
+
     /// The paper's symbol.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -94,6 +104,17 @@ impl Momentum {
             Momentum::Space => "sigma",
             Momentum::Total => "total",
             Momentum::Canonical => "pi",
+        }
+    }
+
+    /// What it is in a state.
+    #[must_use]
+    pub fn quantity(self) -> Quantity {
+        match self {
+            Momentum::Body => Quantity::ComovingAffineSpin,
+            Momentum::Space => Quantity::AffineSpin,
+            Momentum::Total => Quantity::TotalAffineMomentum,
+            Momentum::Canonical => Quantity::CanonicalMomentum,
         }
     }
 

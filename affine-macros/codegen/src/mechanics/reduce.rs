@@ -12,6 +12,7 @@ use super::forces::Forces;
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::loads::{loads, of_potential};
 use super::potential::Potential;
+use super::quantity::Quantity;
 use super::separation::{Separation, shear_system};
 use super::term::Frame;
 
@@ -55,7 +56,7 @@ pub struct Reduction {
     /// The equations of the state variables.
     pub system: System,
     /// State variables: group name and symbols.
-    pub states: Vec<(&'static str, Vec<Expr>)>,
+    pub states: Vec<(Quantity, Vec<Expr>)>,
 }
 
 /// Closed-form motions.
@@ -227,7 +228,12 @@ fn separated(
             let load = of_potential(arena, &chart, u, forces);
             let mut system = shear_system(arena, &chart, iso, &load)?;
             let fixed = take_constants(&mut system);
-            let states = states(arena, "Psi", ["p", "O"], &system);
+            let states = states(
+                arena,
+                Quantity::IsochoricPlacement,
+                [Quantity::LinearMomentum, Quantity::IsochoricVelocity],
+                &system,
+            );
             let separation = Some(Separation { slope: slope.clone(), inverse_mass: inverse_mass.clone() });
             let (commuting, layout) = (commuting.to_vec(), Layout::Entries);
             Some(Reduction {
@@ -341,8 +347,8 @@ impl Plan {
         system = system.substitute(&value).tidied(arena);
         let fixed = if self.multiplier || self.halves { Vec::new() } else { take_constants(&mut system) };
         let carried = Carried::of(arena, &system);
-        let linear = chart.linear.map_or("p", Linear::name);
-        let states = states(arena, "phi", [linear, chart.momentum.symbol()], &system);
+        let linear = chart.linear.map_or(Quantity::LinearMomentum, Linear::quantity);
+        let states = states(arena, Quantity::Placement, [linear, chart.momentum.quantity()], &system);
         Reduction {
             chart,
             commuting: self.commuting.clone(),
@@ -367,31 +373,31 @@ fn conserved_layout(system: &System) -> Layout {
 /// State variables, grouped.
 fn states(
     arena: &Arena,
-    placement: &'static str,
-    [linear, momentum]: [&'static str; 2],
+    placement: Quantity,
+    [linear, momentum]: [Quantity; 2],
     system: &System,
-) -> Vec<(&'static str, Vec<Expr>)> {
-    let group = |name: &'static str, wanted: fn(&Coordinate) -> bool| {
+) -> Vec<(Quantity, Vec<Expr>)> {
+    let group = |quantity: Quantity, wanted: fn(&Coordinate) -> bool| {
         let symbols: Vec<Expr> =
             system.rates.iter().filter(|(z, _, _)| wanted(z)).map(|(_, s, _)| *s).collect();
-        (name, symbols)
+        (quantity, symbols)
     };
     let carried = |carried: Carried| {
         let is_it = |z: &Coordinate, s: Expr| {
             matches!(z, Coordinate::Carried(_)) && arena.name(s) == Some(carried.name())
         };
         let symbols = system.rates.iter().filter(|(z, s, _)| is_it(z, *s)).map(|(_, s, _)| *s).collect();
-        (carried.group(), symbols)
+        (carried.quantity(), symbols)
     };
     [
-        group("x", |z| matches!(z, Coordinate::X(_))),
+        group(Quantity::Position, |z| matches!(z, Coordinate::X(_))),
         group(placement, |z| matches!(z, Coordinate::Phi(..))),
         group(linear, |z| matches!(z, Coordinate::P(_))),
         group(momentum, |z| matches!(z, Coordinate::M(..))),
         carried(Carried::InverseDilatation),
         carried(Carried::MeanLogStretch),
         // After all rates.
-        ("work", system.work.iter().map(|(symbol, _)| *symbol).collect()),
+        (Quantity::Work, system.work.iter().map(|(symbol, _)| *symbol).collect()),
     ]
     .into_iter()
     .filter(|(_, symbols)| !symbols.is_empty())

@@ -6,6 +6,7 @@ use super::charts::Coordinate;
 use super::equations::System;
 use super::hamiltonian::Hamiltonian;
 use super::potential::Potential;
+use super::quantity::Quantity;
 use super::reduce::Reduction;
 use super::splitting::{Flow, Piece, splitting};
 
@@ -31,11 +32,14 @@ pub fn second_order(
     let split = splitting(arena, h, potential, reduction)?;
     let [kinetic, kick] = split.pieces.as_slice() else { return None };
     let states: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
-    let half = |names: [&str; 2]| -> Vec<Expr> {
-        let groups = reduction.states.iter().filter(|(name, _)| names.contains(name));
+    let half = |quantities: [Quantity; 2]| -> Vec<Expr> {
+        let groups = reduction.states.iter().filter(|(quantity, _)| quantities.contains(quantity));
         groups.flat_map(|(_, symbols)| symbols.clone()).collect()
     };
-    let (positions, momenta) = (half(["x", "phi"]), half(["p", "Pi"]));
+    let (positions, momenta) = (
+        half([Quantity::Position, Quantity::Placement]),
+        half([Quantity::LinearMomentum, Quantity::CanonicalMomentum]),
+    );
     let in_order = positions.len() == momenta.len()
         && states.iter().take(2 * positions.len()).eq(positions.iter().chain(&momenta));
     (split.nystrom && in_order).then_some(())?;

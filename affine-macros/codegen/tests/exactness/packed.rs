@@ -12,7 +12,7 @@ use super::points::{fraction, own};
 /// Holds the packed program of a model against the scalar one at a random point, whether it pays or not.
 fn agrees(model: &Model, random: &mut Random) -> Option<(Packed, usize)> {
     let program: &Program = &model.reduced.program;
-    let (packed, cost) = Packed::cheapest(program, &model.reduced.groups)?;
+    let (packed, cost) = Packed::cheapest(program, &model.reduced.components())?;
     let values: Vec<Rational> = program.steps.iter().map(|_| own(&fraction(random))).collect();
     let input = |name: &str| {
         let place = program.steps.iter().position(|op| matches!(op, Op::Input(known) if known == name))?;
@@ -85,7 +85,7 @@ fn benchmark_problems() {
 #[test]
 fn rows_of_a_symmetric_matrix() {
     let model = derived(VIBRATING, "struct Body;");
-    let (packed, _) = Packed::cheapest(&model.reduced.program, &model.reduced.groups).unwrap();
+    let (packed, _) = Packed::cheapest(&model.reduced.program, &model.reduced.components()).unwrap();
     let row = |components: [usize; 3]| {
         let [a, b, c] = components.map(Some);
         [a, b, c, None]

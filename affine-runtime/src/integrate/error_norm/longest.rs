@@ -58,14 +58,14 @@ impl ErrorNorm {
 #[cfg(test)]
 mod tests {
     use super::super::{ErrorNorm, norm};
-    use crate::model::Group;
+    use crate::model::{Group, Quantity};
 
     const GROUPS: &[Group] = &[
-        Group { name: "x", len: 1 },
-        Group { name: "phi", len: 2 },
-        Group { name: "q", len: 1 },
-        Group { name: "Pi", len: 2 },
-        Group { name: "work", len: 1 },
+        Group::new(Quantity::Position, 1),
+        Group::new(Quantity::Placement, 2),
+        Group::new(Quantity::MeanLogStretch, 1),
+        Group::new(Quantity::CanonicalMomentum, 2),
+        Group::new(Quantity::Work, 1),
     ];
     const ORDERS: [usize; 2] = [12, 11];
     const TOLERANCE: f64 = 1e-9;

@@ -5,7 +5,7 @@ use core::ops::Range;
 use super::{Failure, is_finite, matrix};
 use crate::frames::Matrix;
 use crate::integrate::norm;
-use crate::model::{Group, StateVector};
+use crate::model::{Group, Quantity, StateVector};
 
 /// Momenta of a body in space with its centre of mass.
 const MOST: usize = 12;
@@ -74,18 +74,18 @@ impl<const N: usize> Layout<N> {
         for group in groups {
             let range = start..start + group.len;
             start = range.end;
-            let (list, count) = match group.name {
-                "x" | "phi" => (&mut layout.positions, &mut positions),
-                "p" | "Pi" => (&mut layout.momenta, &mut momenta),
+            let (list, count) = match group.quantity {
+                Quantity::Position | Quantity::Placement => (&mut layout.positions, &mut positions),
+                Quantity::LinearMomentum | Quantity::CanonicalMomentum => (&mut layout.momenta, &mut momenta),
                 _ => return None,
             };
             for k in range.clone() {
                 *list.get_mut(*count)? = k;
                 *count += 1;
             }
-            match group.name {
-                "phi" => layout.phi = range,
-                "Pi" => layout.pi = range,
+            match group.quantity {
+                Quantity::Placement => layout.phi = range,
+                Quantity::CanonicalMomentum => layout.pi = range,
                 _ => {}
             }
         }

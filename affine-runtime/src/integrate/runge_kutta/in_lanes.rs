@@ -280,9 +280,10 @@ mod tests {
     use super::*;
     use crate::integrate::{Failure, RungeKutta8};
     use crate::lanes::F64x8;
+    use crate::model::Quantity;
     use crate::scalar::Scalar;
 
-    const GROUPS: &[Group] = &[Group { name: "x", len: 1 }, Group { name: "v", len: 1 }];
+    const GROUPS: &[Group] = &[Group::new(Quantity::Position, 1), Group::new(Quantity::Other("v"), 1)];
     const T_END: f64 = 20.0;
     const TOLERANCE: f64 = 1e-10;
 

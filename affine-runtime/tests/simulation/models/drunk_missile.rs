@@ -4,7 +4,7 @@
 use affine_runtime::__private::point as point_of;
 use affine_runtime::frames::{AffineSpin, Body, Comoving, Matrix, Vector};
 use affine_runtime::geodesic::Geodesic;
-use affine_runtime::model::{Conserved, Description, Group, LeftOut, Model, Scope, Velocity};
+use affine_runtime::model::{Conserved, Description, Group, LeftOut, Model, Quantity, Scope, Velocity};
 use affine_runtime::scalar::{Real, Scalar};
 use affine_runtime::state::{Centre, Phase, PhasePoint};
 
@@ -16,10 +16,10 @@ pub(crate) struct DrunkMissile;
 pub(crate) type Missile<T = f64> = PhasePoint<3, Body, Centre<3, T>, T>;
 
 const GROUPS: &[Group] = &[
-    Group { name: "x", len: 3 },
-    Group { name: "phi", len: 9 },
-    Group { name: "p_hat", len: 3 },
-    Group { name: "Sigma_hat", len: 9 },
+    Group::new(Quantity::Position, 3),
+    Group::new(Quantity::Placement, 9),
+    Group::new(Quantity::ComovingLinearMomentum, 3),
+    Group::new(Quantity::ComovingAffineSpin, 9),
 ];
 
 /// `Oh = Sh^T/I~ + Sh/A~ + tr(Sh)/B~` with the reciprocals `25/24, -5/24, -5/90` at these coefficients:

@@ -5,7 +5,7 @@
 use affine_runtime::__private::point as point_of;
 use affine_runtime::frames::{Canonical, Matrix, TwoPoint, Vector};
 use affine_runtime::geodesic::{Geodesic, Motion};
-use affine_runtime::model::{Conserved, Description, Group, Model, Regularity, Velocity};
+use affine_runtime::model::{Conserved, Description, Group, Model, Quantity, Regularity, Velocity};
 use affine_runtime::scalar::{Real, Scalar};
 use affine_runtime::state::{Phase, PhasePoint, Pinned};
 
@@ -22,8 +22,8 @@ pub(crate) struct Planar<const DRIVEN: bool = false, const IN_PI: bool = true> {
 
 pub(crate) type Disc<T = f64> = PhasePoint<2, Canonical, Pinned, T>;
 
-const GROUPS: &[Group] = &[Group { name: "phi", len: 4 }, Group { name: "Pi", len: 4 }];
-const OTHER_GROUPS: &[Group] = &[Group { name: "phi", len: 4 }, Group { name: "Sigma", len: 4 }];
+const GROUPS: &[Group] = &[Group::new(Quantity::Placement, 4), Group::new(Quantity::CanonicalMomentum, 4)];
+const OTHER_GROUPS: &[Group] = &[Group::new(Quantity::Placement, 4), Group::new(Quantity::AffineSpin, 4)];
 
 impl Planar {
     pub(crate) const FREE: Self = Self { spring: 0.0, singular_at: None, is_weighed: false };

@@ -3,7 +3,7 @@
 use affine_runtime::__private::point as point_of;
 use affine_runtime::frames::{Body, Comoving, Matrix, Vector};
 use affine_runtime::geodesic::Geodesic;
-use affine_runtime::model::{Conserved, Constraint, Description, Group, Model, Velocity};
+use affine_runtime::model::{Conserved, Constraint, Description, Group, Model, Quantity, Velocity};
 use affine_runtime::scalar::{Real, Scalar};
 use affine_runtime::state::{Phase, PhasePoint, Pinned};
 
@@ -15,7 +15,7 @@ pub(crate) struct Top;
 pub(crate) type Body3<T = f64> = PhasePoint<3, Body, Pinned, T>;
 
 const J: [f64; 3] = [1.3, 0.9, 0.5];
-const GROUPS: &[Group] = &[Group { name: "phi", len: 9 }, Group { name: "Sigma_hat", len: 9 }];
+const GROUPS: &[Group] = &[Group::new(Quantity::Placement, 9), Group::new(Quantity::ComovingAffineSpin, 9)];
 
 fn affine_velocity<T: Scalar>(spin: &Matrix<3, T>) -> Matrix<3, T> {
     Matrix::<3, T>::from_fn(|a, b| spin[(b, a)] * T::constant(2.0 / (J[a] + J[b]), 0.0))

@@ -5,7 +5,7 @@
 use affine_runtime::__private::point as point_of;
 use affine_runtime::frames::{Body, Comoving, Matrix};
 use affine_runtime::geodesic::Geodesic;
-use affine_runtime::model::{Conserved, Description, Group, LeftOut, Model, Scope, Velocity};
+use affine_runtime::model::{Conserved, Description, Group, LeftOut, Model, Quantity, Scope, Velocity};
 use affine_runtime::scalar::{Real, Scalar};
 use affine_runtime::state::{Phase, PhasePoint, Pinned};
 
@@ -22,8 +22,11 @@ pub(crate) struct VibratingBody {
 
 pub(crate) type Body3<T = f64> = PhasePoint<3, Body, Pinned, T>;
 
-const GROUPS: &[Group] =
-    &[Group { name: "phi", len: 9 }, Group { name: "Sigma_hat", len: 9 }, Group { name: "r", len: 1 }];
+const GROUPS: &[Group] = &[
+    Group::new(Quantity::Placement, 9),
+    Group::new(Quantity::ComovingAffineSpin, 9),
+    Group::new(Quantity::Other("r"), 1),
+];
 
 impl VibratingBody {
     /// The benchmark problem "vibrating body".

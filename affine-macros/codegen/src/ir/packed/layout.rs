@@ -14,9 +14,9 @@ pub(super) struct Layout {
 
 impl Layout {
     /// Matrices by rows, all else in its order.
-    pub(super) fn in_rows(groups: &[(&'static str, Vec<String>)]) -> Self {
+    pub(super) fn in_rows(groups: &[Vec<String>]) -> Self {
         let (mut names, mut chosen, mut others) = (Vec::new(), Vec::new(), Vec::new());
-        for (place, (_, components)) in groups.iter().enumerate() {
+        for (place, components) in groups.iter().enumerate() {
             let first = names.len();
             names.extend(components.iter().cloned());
             let mut ways = Vec::from_iter(lines(components, first, |line, other| (line, other)));

@@ -4,6 +4,7 @@ use affine_codegen::algebra::Polynomial;
 use affine_codegen::algebra::kernel::Callee;
 use affine_codegen::mechanics::charts::{Chart, Linear, Momentum};
 use affine_codegen::mechanics::constraint::Constraint;
+use affine_codegen::mechanics::quantity::Quantity;
 use affine_codegen::mechanics::reduce::{Commuting, Layout, Reduction};
 use affine_codegen::mechanics::term::Frame;
 use affine_oracle::Random;
@@ -49,7 +50,10 @@ impl Taken {
                 Commuting::Drift(mass) => drift = Some(number(mass)),
             }
         }
-        let pushed = reduction.states.iter().any(|(group, _)| ["p", "p_hat"].contains(group));
+        let pushed = reduction
+            .states
+            .iter()
+            .any(|(group, _)| [Quantity::LinearMomentum, Quantity::ComovingLinearMomentum].contains(group));
         let chart = Self::of(confined, &reduction.chart, reduction.layout);
         let single = reduction
             .system

@@ -11,6 +11,7 @@ use affine_codegen::mechanics::form::Form;
 use affine_codegen::mechanics::hamiltonian::Hamiltonian;
 use affine_codegen::mechanics::loads::loads;
 use affine_codegen::mechanics::potential::Potential;
+use affine_codegen::mechanics::quantity::Quantity;
 use affine_codegen::mechanics::reduce::{self, ClosedForm, Commuting, Layout, Reduction};
 use affine_codegen::mechanics::separation::{Separation, Slope as Separated};
 use affine_codegen::mechanics::term::Frame;
@@ -156,10 +157,10 @@ impl Whole {
         assert_eq!(chart.momentum, Momentum::of(self.h.frame), "{what}");
         let count =
             |wanted: fn(&Coordinate) -> bool| chart.independent().iter().filter(|z| wanted(z)).count();
-        let size = |name: &str| {
-            sizes(reduction).iter().find(|(group, _)| *group == name).map_or(0, |(_, size)| *size)
+        let size = |quantity: Quantity| {
+            sizes(reduction).iter().find(|(group, _)| *group == quantity).map_or(0, |(_, size)| *size)
         };
-        assert_eq!(size(chart.momentum.symbol()), count(|z| matches!(z, Coordinate::M(..))), "{what}");
+        assert_eq!(size(chart.momentum.quantity()), count(|z| matches!(z, Coordinate::M(..))), "{what}");
     }
 
     fn has_a_resting_momentum(&self, reduction: &Reduction, rates: &Named) -> bool {
@@ -223,7 +224,7 @@ impl Whole {
 }
 
 /// The groups of the state and their sizes.
-fn sizes(reduction: &Reduction) -> Vec<(&'static str, usize)> {
+fn sizes(reduction: &Reduction) -> Vec<(Quantity, usize)> {
     reduction.states.iter().map(|(group, symbols)| (*group, symbols.len())).collect()
 }
 
@@ -236,7 +237,9 @@ fn left_out(reduction: &Reduction) -> Vec<&'static str> {
     });
     let mut list: Vec<&'static str> = pieces.collect();
     let chart = &reduction.chart;
-    let pushed = sizes(reduction).iter().any(|(group, _)| ["p", "p_hat"].contains(group));
+    let pushed = sizes(reduction)
+        .iter()
+        .any(|(group, _)| [Quantity::LinearMomentum, Quantity::ComovingLinearMomentum].contains(group));
     let slope = reduction.separation.as_ref().map(|separation| match separation.slope {
         Separated::Zero => "free dilatation",
         Separated::Linear(_) => "harmonic dilatation",
