@@ -31,7 +31,7 @@ pub enum Quantity {
     /// The integral of [`Model::power`](crate::Model::power) since the start, where there are forces that no potential has.
     Work,
     /// The change of a reduced state, in the variational equations.
-    Tangent,
+    TangentVector,
     /// The places `q_a` of a lattice: logarithms of stretches, or angles.
     LogStretches,
     /// Their momenta `p_a`.
@@ -72,7 +72,7 @@ impl Quantity {
             Self::InverseDilatation => "1/D",
             Self::MeanLogStretch | Self::LogStretches => "q",
             Self::Work => "work",
-            Self::Tangent => "tangent",
+            Self::TangentVector => "tangent",
             Self::Stretches => "Q",
             Self::StretchMomenta => "P",
             Self::SumCouplings => "M",

@@ -245,7 +245,7 @@ impl ErrorNorm {
             | Quantity::LogStretches
             | Quantity::InverseDilatation
             | Quantity::Work
-            | Quantity::Tangent => None,
+            | Quantity::TangentVector => None,
             Quantity::LinearMomentum | Quantity::LogStretchMomenta | Quantity::ComovingLinearMomentum => {
                 self.range_of(Quantity::Position)
             }

@@ -45,7 +45,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
         impl #generics #rt::Tangent<#n> for #prepared #types #clause {
             type Varied<#t: #rt::Scalar> = [#t; #both];
             const VARIED: &'static [#rt::Group] =
-                &[#(#groups,)* #rt::Group::new(#rt::Quantity::Tangent, #len)];
+                &[#(#groups,)* #rt::Group::new(#rt::Quantity::TangentVector, #len)];
 
             #[inline]
             fn variational_equations<#t: #rt::Scalar>(
