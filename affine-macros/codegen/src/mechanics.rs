@@ -19,6 +19,7 @@ mod group_point;
 pub mod hamiltonian;
 pub mod hessian;
 pub mod kinetic;
+pub mod kinetics;
 pub mod loads;
 pub mod metric;
 pub mod metrics;

@@ -13,11 +13,12 @@ use crate::mechanics::balance::Laws;
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::conserved::{Candidate, conserved};
 use crate::mechanics::describe::{self, Described, Notation};
-use crate::mechanics::equations::{self, hamilton};
+use crate::mechanics::equations::Form as Written;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::form::Form;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
+use crate::mechanics::kinetics::Kinetics;
 use crate::mechanics::loads::loads;
 use crate::mechanics::potential::{Base, DILATATION, Potential};
 use crate::mechanics::reduce;
@@ -139,7 +140,7 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
     };
     let time = potential.and_then(Potential::time).or_else(|| forces.time(arena));
     let acceleration = asked.acceleration.then(|| {
-        let mut system = hamilton(arena, &full_chart, &full_h, equations::Form::ThroughVelocity);
+        let mut system = Kinetics::polynomial(arena, &full_chart, &full_h).system(Written::ThroughVelocity);
         loads(arena, &full_chart, &h, potential, &forces).iter().for_each(|load| system.add(load));
         quantities::acceleration(arena, &full_chart, &system, time, &mut coefficients)
     });

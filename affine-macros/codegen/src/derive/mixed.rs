@@ -9,12 +9,13 @@ use crate::mechanics::brackets::gradient;
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::describe::{self, Described, Notation, Scope, closed_form};
-use crate::mechanics::equations::{self, Load, System, hamilton};
+use crate::mechanics::equations::{Form, Load, System};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::form::MixedForm;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::hessian::{self, Hessian};
 use crate::mechanics::kinetic::Kinetic;
+use crate::mechanics::kinetics::Kinetics;
 use crate::mechanics::loads::beside;
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::{self, Confined, Factorisation, ForceNames, Internal, Masses, Mixed};
@@ -249,10 +250,10 @@ impl Body<'_> {
             Inner::Varying(internal) => vec![internal.system(arena, self.mixed, chart)],
             Inner::Confined(internal) => vec![internal.system(arena, self.mixed, chart)],
             Inner::Constant(_, h) => {
-                let energy = h.internal();
-                let mut forms = vec![hamilton(arena, chart, &energy, equations::Form::ThroughVelocity)];
+                let kinetics = Kinetics::polynomial(arena, chart, &h.internal());
+                let mut forms = vec![kinetics.system(Form::ThroughVelocity)];
                 if !h.is_tensor() {
-                    forms.push(hamilton(arena, chart, &energy, equations::Form::Expanded));
+                    forms.push(kinetics.system(Form::Expanded));
                 }
                 forms
             }
@@ -283,8 +284,8 @@ impl Body<'_> {
             }
             Inner::Confined(internal) => internal.slopes(arena, self.mixed, &still),
             Inner::Constant(_, h) => {
-                let velocities = equations::velocities(arena, &still, &h.internal());
-                (gradient(&still, &h.internal()), velocities.concat())
+                let kinetics = Kinetics::polynomial(arena, &still, &h.internal());
+                (gradient(&still, &h.internal()), kinetics.shared)
             }
         };
         let resting = shared.clone();

@@ -7,9 +7,10 @@ use crate::ir::fuse::fuse;
 use crate::mechanics::asked::Asked;
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::equations::{self, System, hamilton};
+use crate::mechanics::equations::{Form, System};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::kinetics::Kinetics;
 use crate::mechanics::loads::loads;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::quantity::Quantity;
@@ -46,11 +47,12 @@ pub(super) fn full_equations(
     let mut loads = loads(arena, chart, h, potential, forces);
     // The plain array has no place for the work.
     loads.iter_mut().for_each(|load| load.work = None);
-    let mut through_velocity = hamilton(arena, chart, full_h, equations::Form::ThroughVelocity);
+    let kinetics = Kinetics::polynomial(arena, chart, full_h);
+    let mut through_velocity = kinetics.system(Form::ThroughVelocity);
     loads.iter().for_each(|load| through_velocity.add(load));
     let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
     if !h.is_tensor() {
-        let mut expanded = hamilton(arena, chart, full_h, equations::Form::Expanded);
+        let mut expanded = kinetics.system(Form::Expanded);
         loads.iter().for_each(|load| expanded.add(load));
         ways.push(batch(arena, &expanded));
         // Symmetric and skew parts are entries already where a constraint leaves only one of them.
@@ -219,10 +221,8 @@ pub(super) fn power_batch(
     potential: Option<&Potential>,
     forces: &Forces,
 ) -> Option<Batch> {
-    let mut system = System {
-        shared: equations::velocities(arena, chart, full_h).into_iter().flatten().collect(),
-        ..System::default()
-    };
+    let Kinetics { shared, .. } = Kinetics::polynomial(arena, chart, full_h);
+    let mut system = System { shared, ..System::default() };
     // Another potential has no power.
     let driving = potential.filter(|_| forces.driven);
     loads(arena, chart, h, driving, forces).iter().for_each(|load| system.add(load));

@@ -9,8 +9,9 @@ use crate::algebra::ring::{Square, product, table, times, transpose};
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate};
-use super::equations::{Load, System, velocities};
+use super::equations::{Load, System};
 use super::hamiltonian::Hamiltonian;
+use super::kinetics::Kinetics;
 use super::shared::{Shared, atoms};
 use super::term::Frame;
 
@@ -55,9 +56,9 @@ impl Laws {
         loads: &[Load],
     ) -> Self {
         let (n, phi, pi) = (chart.dim, atoms(&chart.phi), atoms(&chart.m));
-        let velocity = velocities(arena, chart, energy);
+        let kinetics = Kinetics::polynomial(arena, chart, energy);
         let mut system = System {
-            shared: velocity.iter().flatten().cloned().collect(),
+            shared: kinetics.shared.clone(),
             rates: chart
                 .coordinates()
                 .into_iter()
@@ -71,7 +72,7 @@ impl Laws {
             found.map_or_else(Polynomial::zero, |(_, _, force)| force.clone())
         };
         let mut shared = Shared { arena, list: Vec::new() };
-        let phi_dot = table(n, |i, a| Polynomial::atom(velocity[i][a].0));
+        let phi_dot = atoms(&kinetics.velocity);
         let push = shared.matrix("load", &table(n, |a, i| force(Coordinate::M(a, i))));
         let inverse = shared.inverse(&phi);
         let upper = |shared: &mut Shared, name: &str, tensor: &Square<Polynomial>| {

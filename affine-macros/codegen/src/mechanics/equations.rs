@@ -1,12 +1,11 @@
-//! Hamilton's equations of a chart from its brackets.
+//! Systems of ordinary differential equations in the coordinates of a chart, and what is added to them.
 
 use rustc_hash::FxHashSet;
 
 use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 
-use super::brackets::{bracket, gradient};
-use super::charts::{Chart, Coordinate, Momentum};
+use super::charts::{Chart, Coordinate};
 
 /// Straight-line system: quantities that several equations share, then the rates of the coordinates.
 #[derive(Clone, Debug, Default)]
@@ -41,70 +40,6 @@ pub enum Form {
     Expanded,
     /// Through the affine velocity: products stay products.
     ThroughVelocity,
-}
-
-/// The affine velocity `O = (dH/dM)^T` of a chart as symbols with their definitions.
-pub fn velocities(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> Vec<Vec<(Expr, Polynomial)>> {
-    let stem = chart.momentum.velocity_name();
-    (0..chart.dim)
-        .map(|a| {
-            (0..chart.dim)
-                .map(|b| {
-                    let symbol = arena.symbol(&format!("{stem}_{}{}", a + 1, b + 1));
-                    (symbol, h.derivative(chart.m.0[b][a]))
-                })
-                .collect()
-        })
-        .collect()
-}
-
-/// `dz/dt = {z, H} = sum over coordinates y of {z, y} dH/dy`.
-#[must_use]
-pub fn rate(
-    chart: &Chart,
-    gradient: &[(Coordinate, Polynomial)],
-    velocity: &[Vec<(Expr, Polynomial)>],
-    form: Form,
-    z: Coordinate,
-) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    for (y, slope) in gradient {
-        let zy = bracket(chart, z, *y);
-        if zy.is_zero() {
-            continue;
-        }
-        match (form, *y) {
-            (Form::ThroughVelocity, Coordinate::M(a, b)) => {
-                sum.add_product(&zy, &Polynomial::atom(velocity[b][a].0), &Rational::ONE);
-            }
-            _ => sum.add_product(&zy, slope, &Rational::ONE),
-        }
-    }
-    sum
-}
-
-/// Hamilton's equations of all coordinates: placement through the velocity, momenta in the given form.
-pub fn hamilton(arena: &mut Arena, chart: &Chart, h: &Polynomial, momenta: Form) -> System {
-    let velocity = velocities(arena, chart, h);
-    let gradient = gradient(chart, h);
-    let rates = chart
-        .coordinates()
-        .into_iter()
-        .map(|z| {
-            let form = match z {
-                Coordinate::Phi(..) => Form::ThroughVelocity,
-                Coordinate::M(..) => momenta,
-                // With I(O) as momentum the velocity of x is a difference that cancels.
-                Coordinate::X(_) | Coordinate::P(_) if chart.momentum == Momentum::Total => Form::Expanded,
-                Coordinate::X(_) | Coordinate::P(_) | Coordinate::Carried(_) => Form::ThroughVelocity,
-            };
-            (z, chart.symbol(z), rate(chart, &gradient, &velocity, form, z))
-        })
-        .collect();
-    let symbols =
-        Matrix(velocity.iter().map(|row| row.iter().map(|(symbol, _)| *symbol).collect()).collect());
-    let system = System { shared: velocity.into_iter().flatten().collect(), rates, ..System::default() };
-    system.confined(chart, &symbols)
 }
 
 impl System {

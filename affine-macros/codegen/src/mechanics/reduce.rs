@@ -7,9 +7,10 @@ use super::brackets::poisson;
 use super::carried::{Carried, carrying_the_dilatation};
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::conserved::Candidate;
-use super::equations::{Form, Load, System, hamilton};
+use super::equations::{Form, Load, System};
 use super::forces::Forces;
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
+use super::kinetics::Kinetics;
 use super::loads::{loads, of_potential};
 use super::potential::Potential;
 use super::quantity::Quantity;
@@ -297,17 +298,18 @@ impl Plan {
     /// Takes the conserved momenta out of the state. Where the affine momentum stays in it, its equations are
     /// written in both forms; those of a tensor, in which nothing cancels, only through the velocity.
     fn reduced(self, arena: &mut Arena, h: &Polynomial, tensor: bool) -> Vec<Reduction> {
+        let kinetics = Kinetics::polynomial(arena, &self.chart, h);
         let mut layout = Layout::Entries;
         let mut systems = Vec::new();
         if !tensor {
-            let expanded = self.loaded(hamilton(arena, &self.chart, h, Form::Expanded));
+            let expanded = self.loaded(kinetics.system(Form::Expanded));
             if !self.multiplier && !self.halves {
                 layout = conserved_layout(&expanded);
             }
             systems.push(expanded);
         }
         if layout == Layout::Entries {
-            systems.push(self.loaded(hamilton(arena, &self.chart, h, Form::ThroughVelocity)));
+            systems.push(self.loaded(kinetics.system(Form::ThroughVelocity)));
         }
         let mut reductions = Vec::new();
         for system in systems {

@@ -33,8 +33,9 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 use super::brackets::poisson;
 use super::charts::{Coordinate, Momentum};
-use super::equations::{Form, System, hamilton};
+use super::equations::{Form, System};
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
+use super::kinetics::Kinetics;
 use super::potential::Potential;
 use super::reduce::{Commuting, Reduction, gauge};
 use super::separation::Separation;
@@ -200,7 +201,7 @@ fn summands(
     }
     let mut summands = Vec::new();
     for (name, energy) in energies {
-        let system = expanded(hamilton(arena, chart, &energy, Form::Expanded));
+        let system = expanded(Kinetics::polynomial(arena, chart, &energy).system(Form::Expanded));
         summands.push(Summand {
             name: name.to_owned(),
             energy: Some(energy),

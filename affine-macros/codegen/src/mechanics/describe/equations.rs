@@ -5,13 +5,13 @@ use super::inertia::inertial;
 use super::known_forms::known_forms;
 use super::{Formula, Notation, Sum, momentum_names, velocity_names};
 use crate::algebra::{Arena, Polynomial, Rational};
-use crate::mechanics::brackets::gradient;
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::equations::{Form, rate, velocities};
+use crate::mechanics::equations::Form;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
+use crate::mechanics::kinetics::Kinetics;
 use crate::mechanics::potential::Potential;
 
 /// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
@@ -24,11 +24,10 @@ pub fn equations(
     potential: Option<&Potential>,
     forces: &Forces,
 ) -> Vec<Formula> {
-    let velocity = velocities(arena, chart, full);
-    let slopes = gradient(chart, full);
+    let kinetics = Kinetics::polynomial(arena, chart, full);
     // A tensor's velocity stays a symbol: written out, nothing in its commutators cancels.
     let form = if h.is_tensor() { Form::ThroughVelocity } else { Form::Expanded };
-    let known = known_forms(arena, notation, h, chart, &velocity, form);
+    let known = known_forms(arena, notation, h, chart, &kinetics.affine_velocity(form));
     // For the canonical momentum the velocity is the rate of phi itself.
     let mut list = match chart.momentum {
         Momentum::Canonical => Vec::new(),
@@ -37,8 +36,7 @@ pub fn equations(
     let names = force_names(arena, notation, h, chart, potential, forces);
     let mut written: Vec<Polynomial> = Vec::new();
     for group in groups(chart) {
-        let derived: Vec<Polynomial> =
-            group.coordinates.iter().map(|z| rate(chart, &slopes, &velocity, form, *z)).collect();
+        let derived: Vec<Polynomial> = group.coordinates.iter().map(|z| kinetics.rate(form, *z)).collect();
         let matches =
             |known: &Formula, components: &Vec<Polynomial>| (*components == derived).then(|| known.clone());
         let known = known.iter().find_map(|k| matches(&k.value, &k.components));

@@ -4,7 +4,6 @@ use super::{Formula, Notation, Sum, momentum_names, velocity_names};
 use crate::algebra::ring::{Square, difference, outer, product, times, transpose};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Linear};
-use crate::mechanics::equations::Form;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::term::Frame;
 
@@ -20,22 +19,13 @@ pub(super) fn known_forms(
     notation: &Notation,
     h: &Hamiltonian,
     chart: &Chart,
-    velocity: &[Vec<(Expr, Polynomial)>],
-    form: Form,
+    o: &Square<Polynomial>,
 ) -> Vec<Known> {
     let n = chart.dim;
     let atoms = |rows: &Vec<Vec<Expr>>| -> Vec<Vec<Polynomial>> {
         rows.iter().map(|row| row.iter().map(|e| Polynomial::atom(*e)).collect()).collect()
     };
     let (phi, m) = (atoms(&chart.phi.0), atoms(&chart.m.0));
-    let written = |symbol: Expr, value: &Polynomial| match form {
-        Form::Expanded => value.clone(),
-        Form::ThroughVelocity => Polynomial::atom(symbol),
-    };
-    let o: Vec<Vec<Polynomial>> = velocity
-        .iter()
-        .map(|row| row.iter().map(|(symbol, value)| written(*symbol, value)).collect())
-        .collect();
     let p: Vec<Polynomial> = chart.p.iter().map(|e| Polynomial::atom(*e)).collect();
     let (x, x_latex, ..) = momentum_names(chart.momentum);
     let (omega, omega_latex) = velocity_names(chart.momentum);
@@ -45,16 +35,16 @@ pub(super) fn known_forms(
     };
     add("0".into(), "0".into(), vec![Polynomial::zero(); n]);
     add("0".into(), "0".into(), vec![Polynomial::zero(); n * n]);
-    add(format!("phi {omega}"), format!("\\varphi\\,{omega_latex}"), product(&phi, &o).concat());
-    add(format!("{omega} phi"), format!("{omega_latex}\\,\\varphi"), product(&o, &phi).concat());
+    add(format!("phi {omega}"), format!("\\varphi\\,{omega_latex}"), product(&phi, o).concat());
+    add(format!("{omega} phi"), format!("{omega_latex}\\,\\varphi"), product(o, &phi).concat());
     add("(dH/dPi)^T".into(), "(\\partial H/\\partial \\Pi)^T".into(), o.concat());
-    let (xo, ox) = (product(&m, &o), product(&o, &m));
+    let (xo, ox) = (product(&m, o), product(o, &m));
     let body_commutator = difference(&xo, &ox);
     let space_commutator = difference(&ox, &xo);
     add(format!("[{x}, {omega}]"), format!("[{x_latex}, {omega_latex}]"), body_commutator.concat());
     add(format!("[{omega}, {x}]"), format!("[{omega_latex}, {x_latex}]"), space_commutator.concat());
     if let Some((frame, inverse_mass)) = &h.translation {
-        known.extend(translation(arena, notation, chart, (*frame, inverse_mass), [&phi, &m, &o], &p));
+        known.extend(translation(arena, notation, chart, (*frame, inverse_mass), [&phi, &m, o], &p));
     }
     known
 }

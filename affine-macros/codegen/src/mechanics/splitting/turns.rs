@@ -14,7 +14,8 @@ use crate::algebra::kernel::{Callee, Group};
 use crate::algebra::ring::{self, table};
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate};
-use crate::mechanics::equations::{Form, System, hamilton};
+use crate::mechanics::equations::{Form, System};
+use crate::mechanics::kinetics::Kinetics;
 use crate::mechanics::reduce::Reduction;
 
 use super::flows::{Flow, confined, expanded, generator, turns_along};
@@ -52,7 +53,7 @@ impl Turn {
         rate: (Expr, Polynomial),
     ) -> Option<Self> {
         let chart = &reduction.chart;
-        let system = expanded(hamilton(arena, chart, l, Form::Expanded));
+        let system = expanded(Kinetics::polynomial(arena, chart, l).system(Form::Expanded));
         let system = over_the_state(arena, reduction, system)?;
         let (direction, right) = generator(chart, &system)?;
         turns_along(chart, &system, &direction, right).then_some(Self { rate, direction, right })
