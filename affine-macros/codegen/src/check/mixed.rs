@@ -6,7 +6,7 @@ use crate::lower;
 use crate::mechanics::form::{MixedForm, Positive};
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::Kinetic;
-use crate::mechanics::mixed::{Confined, Internal, Masses, Mixed};
+use crate::mechanics::mixed::{Internal, Masses, Mixed};
 use crate::mechanics::symmetry::Side;
 use crate::mechanics::term::{Frame, Term};
 use crate::spec::{Capability, Named, Requirement, Spec};
@@ -104,11 +104,7 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
 /// The momentum determines the velocity at some placement: the mass matrix is not singular everywhere. Where along a
 /// motion it becomes so is for the run to notice.
 fn regular_somewhere(spec: &Spec, arena: &mut Arena, mixed: &Mixed, found: &mut Diagnostics) {
-    let singular = match mixed.constraint {
-        None => Internal::new(arena, mixed).is_none(),
-        Some(group) => Confined::new(arena, mixed, group).is_none(),
-    };
-    if singular {
+    if Internal::new(arena, mixed).is_none() {
         let names = spec.kinetic.iter().filter(|term| !term.kind.value.is_translation());
         let terms: Vec<&str> = names.map(|term| crate::spec::Named::name(term.kind.value)).collect();
         found.report(spec.kinetic_key, FormMistake::DegenerateSum { terms: terms.join(" + ") });

@@ -5,7 +5,6 @@ mod programs;
 
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial};
-use crate::mechanics::brackets::gradient;
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::describe::{self, Described, Notation, Scope, closed_form};
@@ -18,7 +17,7 @@ use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::Kinetics;
 use crate::mechanics::loads::beside;
 use crate::mechanics::metric::Definitions;
-use crate::mechanics::mixed::{self, Confined, Factorisation, ForceNames, Internal, Masses, Mixed};
+use crate::mechanics::mixed::{self, Factorisation, ForceNames, Internal, Masses, Mixed};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::{self, ClosedForm, Commuting, Reduction};
 use crate::mechanics::shared::CentreVelocity;
@@ -37,8 +36,6 @@ enum Inner {
     Constant(Box<Kinetic>, Box<Hamiltonian>),
     /// Its mass matrix depends on `phi`.
     Varying(Box<Internal>),
-    /// The same of a motion that is confined to a group.
-    Confined(Box<Confined>),
 }
 
 /// Derives a model; `None` only for energies that the checks refuse.
@@ -51,7 +48,8 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
     let momenta = [Momentum::of(inner.frame())];
     let written = potential.map(|u| Ways::new(arena, &u, mixed.dim, &momenta));
     let potential = written.as_ref().map(|ways| &ways.along_motions);
-    let body = Body { inner, masses, potential, forces: &forces, mixed: &mixed };
+    let kinetics = inner.kinetics(arena);
+    let body = Body { inner, kinetics, masses, potential, forces: &forces, mixed: &mixed };
     let mut coefficients = Constants::new("c");
     let chart = body.chart(arena, true);
     let at_points = written.as_ref().map(|ways| &ways.at_points);
@@ -129,9 +127,6 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
 
 impl Inner {
     fn new(arena: &mut Arena, mixed: &Mixed, hessian: Option<&Hessian>) -> Option<Self> {
-        if let Some(group) = mixed.constraint {
-            return Some(Self::Confined(Box::new(Confined::new(arena, mixed, group)?)));
-        }
         match (mixed.internal.as_slice(), hessian) {
             ([one], Some(hessian)) => {
                 let h = Hamiltonian::new(arena, one, hessian)?;
@@ -144,8 +139,23 @@ impl Inner {
     fn frame(&self) -> Frame {
         match self {
             Self::Constant(kinetic, _) => kinetic.frame,
-            Self::Varying(_) => Frame::Flat,
-            Self::Confined(_) => Frame::Body,
+            Self::Varying(internal) => internal.frame(),
+        }
+    }
+
+    /// Hamilton's equations of the internal motion, in each form that may be the shortest.
+    fn kinetics(&self, arena: &mut Arena) -> Vec<(Kinetics, Form)> {
+        match self {
+            Self::Varying(internal) => {
+                let ways = internal.kinetics(arena).into_iter();
+                ways.map(|kinetics| (kinetics, Form::ThroughVelocity)).collect()
+            }
+            Self::Constant(_, h) => {
+                let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), None);
+                let kinetics = Kinetics::polynomial(arena, &chart, &h.internal());
+                let expanded = (!h.is_tensor()).then(|| (kinetics.clone(), Form::Expanded));
+                [(kinetics, Form::ThroughVelocity)].into_iter().chain(expanded).collect()
+            }
         }
     }
 
@@ -154,7 +164,6 @@ impl Inner {
         match self {
             Self::Constant(..) => None,
             Self::Varying(internal) => Some((&internal.factorisation, &internal.shared)),
-            Self::Confined(internal) => Some((&internal.factorisation, &internal.shared)),
         }
     }
 }
@@ -162,6 +171,8 @@ impl Inner {
 /// What the equations are derived from.
 struct Body<'a> {
     inner: Inner,
+    /// The internal motion by its equations.
+    kinetics: Vec<(Kinetics, Form)>,
     masses: Masses,
     potential: Option<&'a Potential>,
     forces: &'a Forces,
@@ -198,8 +209,10 @@ impl Body<'_> {
     fn velocity_names(&self, arena: &mut Arena, chart: &Chart) -> Load {
         let Inner::Varying(internal) = &self.inner else { return Load::default() };
         let symbols = Matrix::symbols(arena, chart.momentum.velocity_name(), chart.dim).0.concat();
-        let values = internal.velocity.0.concat().into_iter().map(Polynomial::atom);
-        Load { shared: symbols.into_iter().zip(values).collect(), ..Load::default() }
+        let values = internal.velocity.0.concat();
+        let renamed = symbols.into_iter().zip(values).filter(|(name, symbol)| name != symbol);
+        let shared = renamed.map(|(name, symbol)| (name, Polynomial::atom(symbol))).collect();
+        Load { shared, ..Load::default() }
     }
 
     /// What a potential and the forces add.
@@ -227,7 +240,7 @@ impl Body<'_> {
 
     /// What the motion of the centre of mass adds.
     fn of_the_centre(&self, arena: &mut Arena, chart: &Chart) -> Option<Load> {
-        let load = self.masses.load(arena, chart)?;
+        let load = self.masses.kinetics(arena, chart)?.load();
         Some(match chart.confined {
             Some(group) => load.confined(arena, chart, group),
             None => load,
@@ -246,18 +259,6 @@ impl Body<'_> {
         chart: &Chart,
         potential: Option<&Potential>,
     ) -> Option<Vec<System>> {
-        let internal = match &self.inner {
-            Inner::Varying(internal) => vec![internal.system(arena, self.mixed, chart)],
-            Inner::Confined(internal) => vec![internal.system(arena, self.mixed, chart)],
-            Inner::Constant(_, h) => {
-                let kinetics = Kinetics::polynomial(arena, chart, &h.internal());
-                let mut forms = vec![kinetics.system(Form::ThroughVelocity)];
-                if !h.is_tensor() {
-                    forms.push(kinetics.system(Form::Expanded));
-                }
-                forms
-            }
-        };
         let mut loads = Vec::new();
         if chart.linear.is_some() {
             loads.push(self.of_the_centre(arena, chart)?);
@@ -271,30 +272,21 @@ impl Body<'_> {
             }
             system.tidied(arena)
         };
-        Some(internal.into_iter().map(joined).collect())
+        let internal = self.kinetics.iter().map(|(kinetics, form)| kinetics.beside(chart).system(*form));
+        Some(internal.map(joined).collect())
     }
 
     /// What is conserved, what is with `p = 0`, and whether rotations of space leave the motion and the forces unchanged.
     fn conserved(&self, arena: &mut Arena, chart: &Chart) -> Option<(Vec<Candidate>, Vec<Candidate>, bool)> {
         let still = self.chart(arena, false);
-        let (slopes, mut shared) = match &self.inner {
-            Inner::Varying(internal) => {
-                let system = internal.system(arena, self.mixed, &still);
-                (mixed::slopes_of(&system), system.shared)
-            }
-            Inner::Confined(internal) => internal.slopes(arena, self.mixed, &still),
-            Inner::Constant(_, h) => {
-                let kinetics = Kinetics::polynomial(arena, &still, &h.internal());
-                (gradient(&still, &h.internal()), kinetics.shared)
-            }
-        };
+        let (slopes, mut shared) = self.kinetics.first()?.0.gradient(arena);
         let resting = shared.clone();
         let mut at_rest = mixed::conserved(arena, &still, &slopes, &shared);
         let mut moving = at_rest.clone();
         if chart.linear.is_some() {
-            let load = self.masses.load(arena, chart)?;
-            shared.extend(load.shared);
-            let slopes = [slopes, self.masses.slopes(arena)].concat();
+            let (of_the_centre, definitions) = self.masses.kinetics(arena, chart)?.gradient(arena);
+            shared.extend(definitions);
+            let slopes = [slopes, of_the_centre].concat();
             moving = mixed::conserved(arena, chart, &slopes, &shared);
         }
         if let Some(u) = self.potential {
@@ -367,27 +359,35 @@ impl Body<'_> {
         let energies = self.mixed.parts();
         let blocks: &[hessian::NumericBlock] = match &self.inner {
             Inner::Constant(_, h) => &h.numeric_blocks,
-            Inner::Varying(_) | Inner::Confined(_) => &[],
+            Inner::Varying(_) => &[],
         };
         let described =
             Described { energies: &energies, blocks, forces: self.forces, metrics: None, rebased: &[] };
         let notation = &Notation::new(arena, &described);
         let masses = &self.masses;
         let (internal, mut equations) = match &self.inner {
-            Inner::Varying(_) => {
-                let names = ForceNames::of(chart, self.forces);
-                let mut list =
-                    mixed::internal_equations(arena, notation, self.mixed, masses, self.potential, &names);
-                list.extend(mixed::centre_equations(arena, notation, masses, self.potential, &names));
-                (mixed::internal_hamiltonian(), list)
-            }
-            Inner::Confined(internal) => {
+            Inner::Varying(internal) => {
                 let names = ForceNames::of(chart, self.forces);
                 let pulls = (masses, self.potential);
-                let mut list =
-                    mixed::confined_equations(arena, notation, self.mixed, internal.group, pulls, &names);
+                let (hamiltonian, mut list) = match internal.group() {
+                    None => (
+                        mixed::internal_hamiltonian(),
+                        mixed::internal_equations(
+                            arena,
+                            notation,
+                            self.mixed,
+                            masses,
+                            self.potential,
+                            &names,
+                        ),
+                    ),
+                    Some(group) => (
+                        mixed::confined_hamiltonian(),
+                        mixed::confined_equations(arena, notation, self.mixed, group, pulls, &names),
+                    ),
+                };
                 list.extend(mixed::centre_equations(arena, notation, masses, self.potential, &names));
-                (mixed::confined_hamiltonian(), list)
+                (hamiltonian, list)
             }
             Inner::Constant(kinetic, h) => {
                 let system = describe::system(arena, notation, &reduction.system);

@@ -79,15 +79,7 @@ pub(super) fn shortest(
 ) -> Equations {
     let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
     inputs.extend(time);
-    let (program, chosen) = ways
-        .iter()
-        .map(|way| {
-            let mut constants = coefficients.clone();
-            (straight_line(arena, way, &mut constants, &|a| inputs.contains(&a)), constants)
-        })
-        .min_by_key(|(program, _)| program.operations().weight())
-        .unwrap_or_else(|| (Program::default(), coefficients.clone()));
-    *coefficients = chosen;
+    let program = shortest_program(arena, ways, coefficients, &|a| inputs.contains(&a));
     let name = |symbols: &[Expr]| -> Vec<String> {
         symbols.iter().filter_map(|s| arena.name(*s).map(str::to_owned)).collect()
     };
@@ -103,6 +95,25 @@ pub(super) fn shortest(
         dependent: dependent(arena, chart),
         program: fuse(&program),
     }
+}
+
+/// The shortest of several programs for the same results.
+pub(super) fn shortest_program(
+    arena: &mut Arena,
+    ways: &[Batch],
+    coefficients: &mut Constants,
+    varies: &impl Fn(Expr) -> bool,
+) -> Program {
+    let (program, chosen) = ways
+        .iter()
+        .map(|way| {
+            let mut constants = coefficients.clone();
+            (straight_line(arena, way, &mut constants, varies), constants)
+        })
+        .min_by_key(|(program, _)| program.operations().weight())
+        .unwrap_or_else(|| (Program::default(), coefficients.clone()));
+    *coefficients = chosen;
+    program
 }
 
 fn independent_momenta(chart: &Chart) -> Vec<Expr> {

@@ -7,13 +7,20 @@
 //! The velocities `dH/dy` are polynomials in the momenta, or quantities that solve the Legendre transformation at a
 //! placement. The forces `F` are zero where `H` depends on the momenta of the chart alone.
 
-use crate::algebra::ring::{Square, table};
+mod action;
+mod lagrangian;
+mod ways;
+
+use crate::algebra::ring::{Square, product, table};
 use crate::algebra::{Arena, Matrix, Polynomial, Rational};
 
 use super::brackets::{bracket, gradient};
 use super::charts::{Chart, Coordinate, Momentum};
-use super::equations::{Form, System};
-use super::metric::Definitions;
+use super::equations::{Form, Load, System};
+use super::metric::{Definitions, inverse_placement};
+use super::shared::atoms;
+
+pub use lagrangian::{Lagrangian, Part, named};
 
 /// An energy in a chart, as far as its motion depends on it.
 #[derive(Clone, Debug)]
@@ -44,6 +51,12 @@ impl Kinetics {
             pairs(chart.dim).map(|(a, b)| (velocity.0[a][b], h.derivative(chart.m.0[b][a]))).collect();
         let forces = momenta.map(force).filter(|(_, force)| !force.is_zero()).collect();
         Self { chart: chart.clone(), velocity, shared, slopes, forces }
+    }
+
+    /// The same energy in a chart that has a spatial `p` besides.
+    #[must_use]
+    pub fn beside(&self, chart: &Chart) -> Self {
+        Self { chart: chart.clone(), ..self.clone() }
     }
 
     /// The affine velocity in a form.
@@ -93,6 +106,36 @@ impl Kinetics {
         let rates = self.chart.coordinates().into_iter().map(rate).collect();
         let system = System { shared: self.shared.clone(), rates, ..System::default() };
         system.confined(&self.chart, &self.velocity)
+    }
+
+    /// What it adds to the equations of another energy in the same chart, before any projection.
+    #[must_use]
+    pub fn load(&self) -> Load {
+        let rate = |z: Coordinate| (z, self.rate(Form::ThroughVelocity, z));
+        let forces = self.chart.coordinates().into_iter().map(rate).filter(|(_, rate)| !rate.is_zero());
+        Load { shared: self.shared.clone(), forces: forces.collect(), ..Load::default() }
+    }
+
+    /// The derivatives of `H` along momenta and placement, up to forces that no velocity of the group sees, with what they
+    /// share.
+    pub fn gradient(&self, arena: &mut Arena) -> (Vec<(Coordinate, Polynomial)>, Definitions) {
+        let n = self.chart.dim;
+        let force = table(n, |a, b| {
+            let found = self.forces.iter().find(|(y, _)| *y == Coordinate::M(a, b));
+            found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
+        });
+        let (inverse, definitions) = inverse_placement(arena, n);
+        let inverse = atoms(&inverse);
+        // F on Pi is -dH/dphi, and Sigma_hat = Pi phi, Sigma = phi Pi.
+        let push = match self.chart.momentum {
+            Momentum::Body => product(&force, &inverse),
+            Momentum::Space | Momentum::Total => product(&inverse, &force),
+            Momentum::Canonical => force,
+        };
+        let slope = |(i, a): (usize, usize)| (Coordinate::Phi(i, a), push[a][i].scaled(&Rational::MINUS_ONE));
+        let mut list = self.slopes.clone();
+        list.extend(pairs(n).map(slope).filter(|(_, slope)| !slope.is_zero()));
+        (list, [self.shared.clone(), definitions].concat())
     }
 }
 

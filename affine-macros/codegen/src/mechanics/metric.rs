@@ -12,6 +12,9 @@ use super::term::Frame;
 /// Quantities with their definitions, each in earlier ones.
 pub type Definitions = Vec<(Expr, Polynomial)>;
 
+/// Stem of the names of the entries of `phi^-1`.
+pub(super) const INVERSE: &str = "inverse_phi";
+
 /// The mass matrix in blocks: centre of mass and internal motion do not mix.
 #[derive(Clone, Debug)]
 pub struct Metric {
@@ -36,7 +39,7 @@ pub fn inverse_placement(arena: &mut Arena, dim: usize) -> (Matrix, Definitions)
     // A symbol is not the number zero.
     let reciprocal = Polynomial::atom(arena.pow(det, -1).unwrap_or(det));
     let mut shared = vec![(det, determinant), (inverse_det, reciprocal)];
-    let inverse = Matrix::symbols(arena, "inverse_phi", dim);
+    let inverse = Matrix::symbols(arena, INVERSE, dim);
     for (symbol, cofactor) in inverse.0.iter().flatten().zip(cofactors.iter().flatten()) {
         shared.push((*symbol, cofactor.mul(&Polynomial::atom(inverse_det))));
     }

@@ -94,7 +94,7 @@ impl Body<'_> {
         };
         let terms = self.mixed.internal.iter().flat_map(|part| &part.terms);
         let inertia = terms.filter(|term| term.kind == TermKind::Dalembert).map(|term| &term.value).next();
-        if let (Inner::Varying(_) | Inner::Confined(_), Some(inertia)) = (&self.inner, inertia) {
+        if let (Inner::Varying(_), Some(inertia)) = (&self.inner, inertia) {
             for minor in leading_minors(arena, inertia) {
                 add(arena, "a leading minor of J", "a row of phi_dot", true, minor);
             }
@@ -109,7 +109,7 @@ impl Body<'_> {
     pub(super) fn numeric_blocks(&self, arena: &mut Arena, required: bool) -> Vec<NumericBlock> {
         match &self.inner {
             Inner::Constant(kinetic, h) => numeric_blocks(arena, h, required || kinetic.is_dalembert()),
-            Inner::Varying(_) | Inner::Confined(_) => Vec::new(),
+            Inner::Varying(_) => Vec::new(),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Legendre transformation and energies at one placement.
 
+use std::slice::from_ref;
+
 use crate::algebra::bind::Constants;
 use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
@@ -7,12 +9,13 @@ use crate::derive::Domain;
 use crate::derive::MixedMasses;
 use crate::derive::constant::{legendre_batch, matrix_batch, placement_inputs, result};
 use crate::derive::domain::domain;
+use crate::derive::programs::shortest_program;
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::metric::{Definitions, inverse_placement};
-use crate::mechanics::mixed::{Confined, Legendre};
-use crate::optimise::{Batch, straight_line};
+use crate::mechanics::mixed::Legendre;
+use crate::optimise::Batch;
 
 use super::{Body, Inner};
 
@@ -39,21 +42,23 @@ impl Body<'_> {
     ) -> Option<Programs> {
         let n = self.mixed.dim;
         let phi = chart.phi.0.concat();
-        let mut inline = |arena: &mut Arena, batch: &Batch, inputs: &[Expr]| {
-            fuse(&straight_line(arena, batch, coefficients, &|a| inputs.contains(&a) || phi.contains(&a)))
+        let mut inline = |arena: &mut Arena, ways: &[Batch], inputs: &[Expr]| {
+            let varies = |a: Expr| inputs.contains(&a) || phi.contains(&a);
+            fuse(&shortest_program(arena, ways, coefficients, &varies))
         };
         let velocities = Matrix::symbols(arena, self.inner.frame().velocity_name(), n);
         let momenta = Matrix::symbols(arena, self.inner.frame().momentum_name(), n);
         let [v, x_dot, p] = ["v", "x_dot", "p"]
             .map(|stem| (1..=n).map(|i| arena.symbol(&format!("{stem}_{i}"))).collect::<Vec<_>>());
-        let [legendre, velocity, mut energy] = self.internal(arena, &velocities, &momenta);
+        let (legendre, [velocity, mut energy]) = self.internal(arena, &velocities, &momenta);
         self.centre_energy(arena, &v, &mut energy);
         let inputs = [velocities.0.concat(), v].concat();
-        let mass = self.mass(arena).map(|batch| inline(arena, &batch, &[]));
+        let mass = self.mass(arena).map(|batch| inline(arena, from_ref(&batch), &[]));
         let mixed_masses = match self.masses.are_mixed() {
             true => {
                 let [momentum, velocity] = self.centre(arena, &x_dot)?;
-                let (momentum, velocity) = (inline(arena, &momentum, &x_dot), inline(arena, &velocity, &p));
+                let (momentum, velocity) =
+                    (inline(arena, from_ref(&momentum), &x_dot), inline(arena, from_ref(&velocity), &p));
                 Some(MixedMasses { momentum, velocity })
             }
             false => None,
@@ -64,39 +69,41 @@ impl Body<'_> {
             Some(value) => Some(self.hamiltonian(arena, chart, Some(value))?.0),
             None => None,
         };
-        let power = self.power(arena, chart)?.map(|batch| inline(arena, &batch, &at_a_point));
+        let power = self.power(arena, chart)?.map(|batch| inline(arena, from_ref(&batch), &at_a_point));
         let isotropic = self.isotropic();
         Some(Programs {
             legendre: inline(arena, &legendre, &inputs),
-            velocity: inline(arena, &velocity, &momenta.0.concat()),
+            velocity: inline(arena, from_ref(&velocity), &momenta.0.concat()),
             mass,
             mixed_masses,
-            kinetic_energy: inline(arena, &energy, &inputs),
-            hamiltonian: inline(arena, &hamiltonian, &at_a_point),
-            hamiltonian_far_away: far_away.map(|batch| inline(arena, &batch, &at_a_point)),
+            kinetic_energy: inline(arena, from_ref(&energy), &inputs),
+            hamiltonian: inline(arena, from_ref(&hamiltonian), &at_a_point),
+            hamiltonian_far_away: far_away.map(|batch| inline(arena, from_ref(&batch), &at_a_point)),
             power,
-            isotropic: isotropic.map(|batch| inline(arena, &batch, &[])),
+            isotropic: isotropic.map(|batch| inline(arena, from_ref(&batch), &[])),
             domain: domain(arena, chart, self.potential, coefficients, &[phi, at_a_point].concat()),
         })
     }
 
     /// The Legendre transformation of the internal motion, its inverse, and `T_int`.
-    fn internal(&self, arena: &mut Arena, velocities: &Matrix, momenta: &Matrix) -> [Batch; 3] {
-        match &self.inner {
-            Inner::Constant(kinetic, h) => [
-                legendre_batch(arena, kinetic),
-                matrix_batch(arena, velocities, &h.velocity),
-                result("energy", kinetic.internal_energy()),
-            ],
-            Inner::Varying(internal) => {
-                let legendre = Legendre::new(arena, self.mixed);
-                both_ways(arena, legendre, (&internal.velocity, &internal.shared), [velocities, momenta])
+    fn internal(&self, arena: &mut Arena, velocities: &Matrix, momenta: &Matrix) -> (Vec<Batch>, [Batch; 2]) {
+        let internal = match &self.inner {
+            Inner::Constant(kinetic, h) => {
+                let velocity = matrix_batch(arena, velocities, &h.velocity);
+                let energy = result("energy", kinetic.internal_energy());
+                return (vec![legendre_batch(arena, kinetic)], [velocity, energy]);
             }
-            Inner::Confined(internal) => {
-                let legendre = Confined::legendre(arena, self.mixed, internal.group);
-                both_ways(arena, legendre, (&internal.velocity, &internal.shared), [velocities, momenta])
-            }
-        }
+            Inner::Varying(internal) => internal,
+        };
+        let forms = internal.legendre(arena, self.mixed);
+        let energy = Batch { shared: forms[0].shared.clone(), ..result("energy", forms[0].energy.clone()) };
+        let solution = table(velocities.dim(), |i, a| Polynomial::atom(internal.velocity.0[i][a]));
+        let velocity =
+            Batch { shared: internal.shared.clone(), ..matrix_batch(arena, velocities, &solution) };
+        let legendre = |Legendre { shared, momentum, .. }: Legendre| {
+            Batch { shared, ..matrix_batch(arena, momenta, &momentum) }.pruned(arena)
+        };
+        (forms.into_iter().map(legendre).collect(), [velocity, energy.pruned(arena)])
     }
 
     /// `1/m` and `m`, where there is one mass.
@@ -184,10 +191,7 @@ impl Body<'_> {
     ) -> Option<(Batch, Vec<Expr>)> {
         let mut batch = match &self.inner {
             Inner::Varying(internal) => {
-                Batch { shared: internal.shared.clone(), ..result("energy", internal.energy(chart)) }
-            }
-            Inner::Confined(internal) => {
-                Batch { shared: internal.shared.clone(), ..result("energy", internal.energy()) }
+                Batch { shared: internal.shared.clone(), ..result("energy", internal.energy.clone()) }
             }
             Inner::Constant(_, h) => result("energy", h.internal()),
         };
@@ -231,21 +235,6 @@ impl Body<'_> {
         let batch = Batch { shared: system.shared, kernels: system.kernels, results };
         Some(Some(batch.pruned(arena)))
     }
-}
-
-/// The Legendre transformation, its inverse through the symbols that solve it, and `T_int`.
-fn both_ways(
-    arena: &mut Arena,
-    Legendre { shared, momentum, energy }: Legendre,
-    (solution, solving): (&Matrix, &Definitions),
-    [velocities, momenta]: [&Matrix; 2],
-) -> [Batch; 3] {
-    let solution = table(solution.dim(), |i, a| Polynomial::atom(solution.0[i][a]));
-    [
-        Batch { shared: shared.clone(), ..matrix_batch(arena, momenta, &momentum) }.pruned(arena),
-        Batch { shared: solving.clone(), ..matrix_batch(arena, velocities, &solution) },
-        Batch { shared, ..result("energy", energy) }.pruned(arena),
-    ]
 }
 
 /// `v_hat = phi^-1 x_dot`, with what leads there.

@@ -1,20 +1,21 @@
-//! The motion of the centre of mass with energies in body and space, as what it adds to the equations of a chart.
+//! The motion of the centre of mass with energies in body and space.
 //!
 //! With `v_hat = phi^-1 x_dot` and `p_hat = phi^T p = (m_body 1 + m_space G) v_hat` the Hamiltonian is
-//! `1/2 p_hat^T (m_body 1 + m_space G)^-1 p_hat`; its derivative along `phi` at fixed `p` is
-//! `dH = (p - m_space x_dot)^T dphi v_hat`, and `p - m_space x_dot = m_body phi^-T v_hat`.
+//! `1/2 p_hat^T (m_body 1 + m_space G)^-1 p_hat`.
 
-use crate::algebra::ring::{Square, table};
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
-use crate::mechanics::charts::{Chart, Coordinate, Momentum};
-use crate::mechanics::equations::Load;
+use crate::algebra::ring::{Square, table, times};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::kinetic::Kinetic;
-use crate::mechanics::metric::Definitions;
-use crate::mechanics::potential::Base;
+use crate::mechanics::kinetics::{Kinetics, Lagrangian, Part};
+use crate::mechanics::metric::{Definitions, INVERSE};
+use crate::mechanics::shared::atoms;
 use crate::mechanics::term::Frame;
 
 use super::Mixed;
 use super::factorisation::Factorisation;
+use super::parts::names;
+use super::placed::{Placed, green, green_definitions};
 
 /// The masses of the translational energies.
 #[derive(Clone, Debug)]
@@ -57,7 +58,7 @@ impl Masses {
         let (body, space) = (mass(self.body), mass(self.space));
         table(self.dim, |a, b| {
             let mut entry = if a == b { body.clone() } else { Polynomial::zero() };
-            entry.add_product(&space, &Polynomial::atom(green[a][b]), &Rational::ONE);
+            entry.add_product(&space, &green[a][b], &Rational::ONE);
             entry
         })
     }
@@ -111,55 +112,40 @@ impl Masses {
         Some((x_dot, shared))
     }
 
-    /// What the translation adds to Hamilton's equations of a chart with spatial `p`, whose affine momentum is that of
-    /// a frame. `None` as in [`Masses::velocity`].
-    pub fn load(&self, arena: &mut Arena, chart: &Chart) -> Option<Load> {
+    /// The translational energy in a chart with spatial `p`. `None` as in [`Masses::velocity`].
+    pub fn kinetics(&self, arena: &mut Arena, chart: &Chart) -> Option<Kinetics> {
         let n = self.dim;
-        let (x_dot, mut shared) = self.velocity(arena)?;
-        let mut forces: Vec<(Coordinate, Polynomial)> =
-            (0..n).map(|i| (Coordinate::X(i), Polynomial::atom(x_dot[i]))).collect();
-        let Some(body) = self.body else { return Some(Load { shared, forces, ..Load::default() }) };
-        let mut numbered =
-            |name: &str| (1..=n).map(|i| arena.symbol(&format!("{name}_{i}"))).collect::<Vec<Expr>>();
-        let (v_hat, rest) = (numbered("v_hat"), numbered("body_p"));
-        let body = Polynomial::normal_form(arena, body);
-        let space = self.space.map_or_else(Polynomial::zero, |m| Polynomial::normal_form(arena, m));
-        for i in 0..n {
-            let mut value = Polynomial::atom(chart.p[i]);
-            value.add_product(&space, &Polynomial::atom(x_dot[i]), &Rational::MINUS_ONE);
-            shared.push((rest[i], value));
+        let (x_dot, inverse) = self.velocity(arena)?;
+        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        let energy = |arena: &mut Arena, mass: Expr, velocities: &[Expr]| {
+            let mut energy = Polynomial::zero();
+            velocities.iter().for_each(|v| energy.add_term(vec![*v, *v], &half));
+            energy.mul(&Polynomial::normal_form(arena, mass))
+        };
+        let mut parts = Vec::new();
+        if let Some(mass) = self.space {
+            let (energy, velocities) = (energy(arena, mass, &x_dot), x_dot.clone());
+            let (slopes, momenta) = (Vec::new(), Vec::new());
+            parts.push(Part { velocities, definitions: None, energy, slopes, momenta });
         }
-        let minus = |left: Expr, right: Expr| Polynomial::term(vec![left, right], Rational::MINUS_ONE);
-        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
-            // {M, H} = {M_ab, phi_kC} dH/dphi_kC with the brackets of phi and the momentum of the chart.
-            let force = match chart.momentum {
-                // -phi_kB dH/dphi_kA = -m_body v_hat_A v_hat_B
-                Momentum::Body => body.mul(&minus(v_hat[a], v_hat[b])),
-                // -phi_iC dH/dphi_jC
-                Momentum::Space | Momentum::Total => minus(x_dot[a], rest[b]),
-                // -dH/dphi_iA, i = b
-                Momentum::Canonical => minus(v_hat[a], rest[b]),
-            };
-            forces.push((Coordinate::M(a, b), force));
+        if let Some(mass) = self.body {
+            let psi = atoms(&Matrix::symbols(arena, INVERSE, n));
+            let velocities: Vec<Expr> = (1..=n).map(|a| arena.symbol(&format!("v_hat_{a}"))).collect();
+            let definitions = times(&psi, &x_dot.iter().map(|v| Polynomial::atom(*v)).collect::<Vec<_>>());
+            let (energy, momenta) = (energy(arena, mass, &velocities), names(arena, "body", &chart.p));
+            parts.push(Part {
+                velocities,
+                definitions: Some(definitions),
+                energy,
+                slopes: Vec::new(),
+                momenta,
+            });
         }
-        Some(Load { shared, forces, ..Load::default() })
-    }
-
-    /// The derivatives of the translational energy in such a chart: `dH/dp = x_dot`,
-    /// `dH/dphi = (p - m_space x_dot) v_hat^T`.
-    pub fn slopes(&self, arena: &mut Arena) -> Vec<(Coordinate, Polynomial)> {
-        let n = self.dim;
-        let [x_dot, v_hat, rest] = ["x_dot", "v_hat", "body_p"]
-            .map(|name| (1..=n).map(|i| arena.symbol(&format!("{name}_{i}"))).collect::<Vec<_>>());
-        let mut list: Vec<(Coordinate, Polynomial)> =
-            (0..n).map(|i| (Coordinate::P(i), Polynomial::atom(x_dot[i]))).collect();
-        if self.body.is_some() {
-            for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
-                let slope = Polynomial::term(vec![rest[i], v_hat[a]], Rational::ONE);
-                list.push((Coordinate::Phi(i, a), slope));
-            }
-        }
-        list
+        let conjugate = x_dot.iter().enumerate().map(|(i, v)| (Coordinate::P(i), *v)).collect();
+        let on_the_group = Placed::new(arena, n, chart.confined).values(arena);
+        let lagrangian = Lagrangian { chart: chart.clone(), conjugate, parts, on_the_group };
+        let velocity = Matrix::symbols(arena, chart.momentum.velocity_name(), n);
+        lagrangian.kinetics(arena, &velocity, &inverse).into_iter().next()
     }
 
     /// `p . x_dot/2`.
@@ -183,22 +169,4 @@ fn along(arena: &mut Arena, n: usize, factor: impl Fn(usize) -> ((usize, usize),
         sum.add_term(vec![phi, symbol], &Rational::ONE);
     }
     sum
-}
-
-fn green(arena: &mut Arena, n: usize) -> Vec<Vec<Expr>> {
-    (0..n).map(|a| (0..n).map(|b| Base::Green(a, b).symbol(arena)).collect()).collect()
-}
-
-fn green_definitions(arena: &mut Arena, n: usize) -> Definitions {
-    let mut list = Definitions::new();
-    for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
-        let symbol = Base::Green(a, b).symbol(arena);
-        let mut value = Polynomial::zero();
-        for i in 1..=n {
-            let pair = [a, b].map(|c| arena.symbol(&format!("phi_{i}{}", c + 1)));
-            value.add_term(pair.to_vec(), &Rational::ONE);
-        }
-        list.push((symbol, value));
-    }
-    list
 }

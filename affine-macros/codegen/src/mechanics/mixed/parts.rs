@@ -1,0 +1,109 @@
+//! The energies of a sum as parts in the velocities of a chart.
+
+use crate::algebra::ring::{Square, product};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::mechanics::charts::{Chart, Coordinate};
+use crate::mechanics::kinetic::Kinetic;
+use crate::mechanics::kinetics::{Lagrangian, Part};
+use crate::mechanics::metric::{Definitions, INVERSE, same_blocks};
+use crate::mechanics::shared::{atoms, frame_of};
+use crate::mechanics::term::Frame;
+
+use super::Mixed;
+use super::placed::green;
+
+impl Mixed {
+    /// The internal energy in a chart; d'Alembert's in the velocity of the body `through_green`, if not in `phi_dot`.
+    pub(super) fn lagrangian(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        on_the_group: Definitions,
+        through_green: bool,
+    ) -> Lagrangian {
+        let n = self.dim;
+        let velocity = Matrix::symbols(arena, frame_of(chart).velocity_name(), n);
+        let conjugate = (0..n).flat_map(|a| (0..n).map(move |b| (a, b)));
+        let conjugate = conjugate.map(|(a, b)| (Coordinate::M(a, b), velocity.0[b][a])).collect();
+        let part = |energy: &Kinetic| internal(arena, chart, &velocity, energy, through_green);
+        let parts = self.internal.iter().map(part).collect();
+        Lagrangian { chart: chart.clone(), conjugate, parts, on_the_group }
+    }
+}
+
+fn internal(
+    arena: &mut Arena,
+    chart: &Chart,
+    velocity: &Matrix,
+    energy: &Kinetic,
+    through_green: bool,
+) -> Part {
+    let n = chart.dim;
+    let name = of(energy.frame);
+    let own = Part {
+        velocities: energy.velocity.0.concat(),
+        definitions: None,
+        energy: energy.internal_energy(),
+        slopes: Vec::new(),
+        momenta: names(arena, name, &chart.m.0.concat()),
+    };
+    if energy.frame == frame_of(chart) {
+        return own;
+    }
+    let (phi, psi, o) = (chart.placement(), atoms(&Matrix::symbols(arena, INVERSE, n)), atoms(velocity));
+    let form = hessian(energy);
+    let stands_in_the_body = (energy.frame, frame_of(chart)) == (Frame::Flat, Frame::Body);
+    if through_green && stands_in_the_body && same_blocks(&form, n) {
+        let green = green(arena, n);
+        return Part { velocities: velocity.0.concat(), energy: by_rows(&form, &o, &green), ..own };
+    }
+    let phi_dot = match frame_of(chart) {
+        Frame::Body => product(&phi, &o),
+        Frame::Space => product(&o, &phi),
+        Frame::Flat => o,
+    };
+    let definitions = match energy.frame {
+        Frame::Body => product(&psi, &phi_dot),
+        Frame::Space => product(&phi_dot, &psi),
+        Frame::Flat => phi_dot,
+    };
+    // The momentum conjugate to O_ab is X_ba.
+    let slopes = Matrix::symbols(arena, energy.frame.momentum_name(), n).transpose().0.concat();
+    Part { definitions: Some(definitions.concat()), slopes: names(arena, name, &slopes), ..own }
+}
+
+/// `tr(phi_dot J phi_dot^T)/2 = tr(Oh J Oh^T G)/2`.
+fn by_rows(form: &Square<Polynomial>, oh: &Square<Polynomial>, green: &Square<Polynomial>) -> Polynomial {
+    let n = oh.len();
+    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+    let mut energy = Polynomial::zero();
+    for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+        for (c, d) in (0..n).flat_map(|c| (0..n).map(move |d| (c, d))) {
+            energy.add_product(&form[c][d].mul(&green[a][b]), &oh[a][c].mul(&oh[b][d]), &half);
+        }
+    }
+    energy
+}
+
+/// The Hessian of an energy in the velocity of its frame.
+pub(super) fn hessian(part: &Kinetic) -> Square<Polynomial> {
+    let velocities = part.velocity.0.concat();
+    let slopes = part.internal_energy().gradient(&velocities);
+    slopes.iter().map(|slope| slope.gradient(&velocities)).collect()
+}
+
+/// What the names of the quantities of a frame begin with.
+fn of(frame: Frame) -> &'static str {
+    match frame {
+        Frame::Body => "body",
+        Frame::Space => "space",
+        Frame::Flat => "flat",
+    }
+}
+
+/// The names of momenta for what a part has of them.
+pub(super) fn names(arena: &mut Arena, part: &str, momenta: &[Expr]) -> Vec<Expr> {
+    let name = |momentum: &Expr| format!("{part}_{}", arena.name(*momentum).unwrap_or("momentum"));
+    let names: Vec<String> = momenta.iter().map(name).collect();
+    names.iter().map(|name| arena.symbol(name)).collect()
+}

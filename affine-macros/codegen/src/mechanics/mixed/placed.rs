@@ -1,0 +1,106 @@
+//! What is known of a placement, of all of GL(n) or of a group that the motion is confined to.
+
+use crate::algebra::ring::{Square, adjugate, table, transpose};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::mechanics::constraint::Constraint;
+use crate::mechanics::kinetics::named;
+use crate::mechanics::metric::{Definitions, INVERSE, inverse_placement};
+use crate::mechanics::potential::Base;
+use crate::mechanics::shared::atoms;
+use crate::mechanics::weight::Weight;
+
+/// A placement.
+pub(super) struct Placed {
+    pub(super) phi: Square<Polynomial>,
+    /// `phi^-1`.
+    pub(super) inverse: Square<Polynomial>,
+    /// `phi^T phi`.
+    pub(super) green: Square<Polynomial>,
+    /// `D^-2` on R+ SO(n), where `phi^-1 = D^-2 phi^T`; 1 on SO(n).
+    pub(super) inverse_square: Option<Polynomial>,
+    /// What these share.
+    pub(super) shared: Definitions,
+}
+
+impl Placed {
+    pub(super) fn new(arena: &mut Arena, n: usize, group: Option<Constraint>) -> Self {
+        let phi = atoms(&Matrix::symbols(arena, "phi", n));
+        let unit =
+            |value: &Polynomial| table(n, |a, b| if a == b { value.clone() } else { Polynomial::zero() });
+        let one = Polynomial::constant(Rational::ONE);
+        match group {
+            None => {
+                let (inverse, shared) = inverse_placement(arena, n);
+                let green = green(arena, n);
+                Self { inverse: atoms(&inverse), green, inverse_square: None, shared, phi }
+            }
+            Some(Constraint::Rigid) => Self {
+                inverse: transpose(&phi),
+                green: unit(&one),
+                inverse_square: Some(one),
+                shared: Vec::new(),
+                phi,
+            },
+            Some(Constraint::Conformal) => {
+                let Weight { square, inverse, definitions } = Weight::squares(arena, n);
+                let (square, inverse_square) = (Polynomial::atom(square), Polynomial::atom(inverse));
+                let mut shared = definitions;
+                let inverse = table(n, |a, i| phi[i][a].mul(&inverse_square));
+                let inverse = matrix(arena, &mut shared, INVERSE, &inverse);
+                Self { inverse, green: unit(&square), inverse_square: Some(inverse_square), shared, phi }
+            }
+            Some(Constraint::Isochoric) => {
+                let mut shared = Vec::new();
+                // det phi = 1
+                let inverse = match n {
+                    2 => adjugate(&phi),
+                    _ => matrix(arena, &mut shared, INVERSE, &adjugate(&phi)),
+                };
+                shared.extend(green_definitions(arena, n));
+                Self { inverse, green: green(arena, n), inverse_square: None, shared, phi }
+            }
+        }
+    }
+
+    /// The entries of `phi^-1` and `G` with what they are here.
+    pub(super) fn values(&self, arena: &mut Arena) -> Definitions {
+        let n = self.phi.len();
+        let inverse = Matrix::symbols(arena, INVERSE, n).0.concat();
+        let mut list: Definitions = inverse.into_iter().zip(self.inverse.concat()).collect();
+        for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
+            list.push((Base::Green(a, b).symbol(arena), self.green[a][b].clone()));
+        }
+        list.retain(|(symbol, value)| *value != Polynomial::atom(*symbol));
+        list
+    }
+}
+
+/// `G` as symbols.
+pub(super) fn green(arena: &mut Arena, n: usize) -> Square<Polynomial> {
+    let mut entry = |a: usize, b: usize| Polynomial::atom(Base::Green(a, b).symbol(arena));
+    (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect()
+}
+
+/// `G = phi^T phi`.
+pub(super) fn green_definitions(arena: &mut Arena, n: usize) -> Definitions {
+    let phi = Matrix::symbols(arena, "phi", n);
+    let mut list = Definitions::new();
+    for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
+        let mut value = Polynomial::zero();
+        phi.0.iter().for_each(|row| value.add_term(vec![row[a], row[b]], &Rational::ONE));
+        list.push((Base::Green(a, b).symbol(arena), value));
+    }
+    list
+}
+
+/// A matrix by names `stem_11`, `stem_12`, ...; one whose entries are symbols already stays as it is.
+pub(super) fn matrix(
+    arena: &mut Arena,
+    shared: &mut Definitions,
+    stem: &str,
+    values: &Square<Polynomial>,
+) -> Square<Polynomial> {
+    let symbols: Vec<Expr> = Matrix::symbols(arena, stem, values.len()).0.concat();
+    let values = named(&symbols, values.concat(), shared);
+    values.chunks(symbols.len().isqrt().max(1)).map(<[Polynomial]>::to_vec).collect()
+}
