@@ -11,9 +11,9 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::fuse::fuse;
 use crate::mechanics::balance::Laws;
 use crate::mechanics::charts::{Chart, Momentum};
-use crate::mechanics::conserved::{Candidate, conserved};
+use crate::mechanics::conserved::{Candidate, candidates, still};
 use crate::mechanics::describe::{self, Described, Notation};
-use crate::mechanics::equations::Form as Written;
+use crate::mechanics::equations::{Form as Written, Load};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::form::Form;
 use crate::mechanics::hamiltonian::Hamiltonian;
@@ -22,6 +22,7 @@ use crate::mechanics::kinetics::Kinetics;
 use crate::mechanics::loads::loads;
 use crate::mechanics::potential::{Base, DILATATION, Potential};
 use crate::mechanics::reduce;
+use crate::mechanics::shared::CentreVelocity;
 use crate::mechanics::weight::Weight;
 use crate::optimise::{Batch, straight_line};
 
@@ -216,8 +217,15 @@ fn kept(
     potential: Option<&Potential>,
     forces: &Forces,
 ) -> Kept {
-    let mut moving = conserved(arena, own, own_h);
-    let mut at_rest = at_rest(arena, h, &moving);
+    let whole = motion(arena, h, own, own_h);
+    let mut moving = still(arena, own, &whole, candidates(own));
+    let resting = Chart::new(arena, h.dim, Momentum::of(h.frame), None).under(h.confined());
+    let internal = motion(arena, h, &resting, &h.internal());
+    // Translation dropped, and with it what it alone makes meaningful.
+    let mut at_rest = match h.translation {
+        None => moving.clone(),
+        Some(_) => still(arena, &resting, &internal, candidates(&resting)),
+    };
     if let Some(reaction) = multiplier(arena, h) {
         moving.retain(|candidate| reaction.keeps(*candidate));
         at_rest.retain(|candidate| reaction.keeps(*candidate));
@@ -233,10 +241,14 @@ fn kept(
     // Of the undamped motion: the forces are held against the same rotations on their own.
     let rotations = moving.contains(&Candidate::TotalAngularMomentum) && forces.are_isotropic_in_space();
     if !forces.is_empty() {
-        moving = forces.keep(arena, own, h, moving);
+        let shared = |loads: &[Load]| loads.iter().flat_map(|load| load.shared.clone()).collect::<Vec<_>>();
+        moving = forces.keep(arena, own, (&h.centre_velocity(), &shared(&whole)), moving);
         at_rest = match forces.push_from_rest() {
             true => moving.clone(),
-            false => forces.at_rest().keep(arena, own, h, at_rest),
+            false => {
+                let fixed = (&CentreVelocity::Fixed, &shared(&internal));
+                forces.at_rest().keep(arena, &resting, fixed, at_rest)
+            }
         };
     }
     Kept { moving, at_rest, rotations }
@@ -315,13 +327,10 @@ pub(super) fn result(name: &str, polynomial: Polynomial) -> Batch {
     Batch { results: vec![(name.to_owned(), polynomial)], ..Batch::default() }
 }
 
-/// The list for `p = 0`: translation dropped, and with it what it alone makes meaningful.
-fn at_rest(arena: &mut Arena, h: &Hamiltonian, moving: &[Candidate]) -> Vec<Candidate> {
-    if h.translation.is_none() {
-        return moving.to_vec();
-    }
-    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), None).under(h.confined());
-    conserved(arena, &chart, &h.internal())
+/// What moves the coordinates of a chart without potential and forces.
+fn motion(arena: &mut Arena, h: &Hamiltonian, chart: &Chart, energy: &Polynomial) -> Vec<Load> {
+    let kinetics = Kinetics::polynomial(arena, chart, energy).load();
+    h.weight.iter().map(|weight| weight.load(chart, &h.internal())).chain([kinetics]).collect()
 }
 
 /// The force of the multiplier of a constraint that acts through one: it has the directions of that of a potential in

@@ -6,7 +6,7 @@ mod programs;
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
-use crate::mechanics::conserved::Candidate;
+use crate::mechanics::conserved::{Candidate, candidates, still};
 use crate::mechanics::describe::{self, Described, Notation, Scope, closed_form};
 use crate::mechanics::equations::{Form, Load, System};
 use crate::mechanics::forces::Forces;
@@ -278,16 +278,14 @@ impl Body<'_> {
 
     /// What is conserved, what is with `p = 0`, and whether rotations of space leave the motion and the forces unchanged.
     fn conserved(&self, arena: &mut Arena, chart: &Chart) -> Option<(Vec<Candidate>, Vec<Candidate>, bool)> {
-        let still = self.chart(arena, false);
-        let (slopes, mut shared) = self.kinetics.first()?.0.gradient(arena);
-        let resting = shared.clone();
-        let mut at_rest = mixed::conserved(arena, &still, &slopes, &shared);
+        let resting = self.chart(arena, false);
+        let internal = |chart: &Chart| Some(self.kinetics.first()?.0.beside(chart).load());
+        let mut at_rest = still(arena, &resting, &[internal(&resting)?], candidates(&resting));
         let mut moving = at_rest.clone();
+        let mut loads = vec![internal(chart)?];
         if chart.linear.is_some() {
-            let (of_the_centre, definitions) = self.masses.kinetics(arena, chart)?.gradient(arena);
-            shared.extend(definitions);
-            let slopes = [slopes, of_the_centre].concat();
-            moving = mixed::conserved(arena, chart, &slopes, &shared);
+            loads.push(self.masses.kinetics(arena, chart)?.load());
+            moving = still(arena, chart, &loads, candidates(chart));
         }
         if let Some(u) = self.potential {
             moving.retain(|candidate| u.keeps(*candidate));
@@ -301,14 +299,17 @@ impl Body<'_> {
             moving.contains(&Candidate::TotalAngularMomentum) && self.forces.are_isotropic_in_space();
         if !self.forces.is_empty() {
             let centre = self.centre_velocity(arena);
-            shared.extend(self.velocity_names(arena, chart).shared);
-            moving = self.forces.keep_varying(arena, chart, (&centre, &shared), moving);
+            let named = |names: Load, loads: &[Load]| -> Definitions {
+                loads.iter().chain([&names]).flat_map(|load| load.shared.clone()).collect()
+            };
+            let shared = named(self.velocity_names(arena, chart), &loads);
+            moving = self.forces.keep(arena, chart, (&centre, &shared), moving);
             at_rest = match self.forces.push_from_rest() {
                 true => moving.clone(),
                 false => {
-                    let shared = [resting, self.velocity_names(arena, &still).shared].concat();
+                    let shared = named(self.velocity_names(arena, &resting), &loads[..1]);
                     let fixed = (&CentreVelocity::Fixed, &shared);
-                    self.forces.at_rest().keep_varying(arena, &still, fixed, at_rest)
+                    self.forces.at_rest().keep(arena, &resting, fixed, at_rest)
                 }
             };
         }

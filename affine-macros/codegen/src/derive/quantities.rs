@@ -6,7 +6,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::balance::{CENTRE, INTERNAL, Laws};
-use crate::mechanics::charts::{Chart, Coordinate};
+use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::equations::System;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
@@ -34,7 +34,10 @@ pub(super) fn metric(
     let entries = joined(&centre, &internal);
     let inverse = match hamiltonian {
         Some(h) => inverse_of(arena, h),
-        None => inverse(arena, &entries, shared.clone())?,
+        None => {
+            let chart = Chart::new(arena, dim, Momentum::Canonical, None);
+            inverse(arena, &entries, shared.clone(), &chart)?
+        }
     };
     let (size, results) = (entries.len(), numbered(&entries));
     let entries = Batch { shared, results, ..Batch::default() }.pruned(arena);
@@ -98,9 +101,14 @@ fn inverse_of(arena: &mut Arena, h: &Hamiltonian) -> Batch {
 }
 
 /// The columns of the inverse of a matrix that depends on the placement: the solutions for unit momenta.
-fn inverse(arena: &mut Arena, entries: &Square<Polynomial>, mut shared: Definitions) -> Option<Batch> {
+fn inverse(
+    arena: &mut Arena,
+    entries: &Square<Polynomial>,
+    mut shared: Definitions,
+    chart: &Chart,
+) -> Option<Batch> {
     let size = entries.len();
-    let factorisation = Factorisation::new(arena, "", entries, &mut shared)?;
+    let factorisation = Factorisation::new(arena, "", entries, &mut shared, chart)?;
     let columns: Square<Polynomial> = (0..size)
         .map(|column| {
             let mut unit = vec![Polynomial::zero(); size];

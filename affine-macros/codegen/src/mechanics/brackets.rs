@@ -60,43 +60,6 @@ fn ordered(chart: &Chart, a: Coordinate, b: Coordinate) -> Polynomial {
     sum
 }
 
-/// Generators of the left and right action of the affine group on placements.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Generator {
-    /// `Sigma_ij`, of `phi -> A phi`.
-    Space(usize, usize),
-    /// `Sigma_hat_AB`, of `phi -> phi B`.
-    Body(usize, usize),
-}
-
-/// `{generator, coordinate}` in a chart whose affine momentum is `Sigma`, `Sigma_hat` or `Pi`.
-#[must_use]
-pub fn generator_bracket(chart: &Chart, generator: Generator, coordinate: Coordinate) -> Polynomial {
-    use Coordinate::{M, Phi};
-    let mut sum = Polynomial::zero();
-    match (generator, coordinate) {
-        // {phi_kC, Sigma_ij} = d_kj phi_iC
-        (Generator::Space(i, j), Phi(k, c)) => add(&mut sum, k == j, chart, Phi(i, c), -1),
-        // {phi_kC, Sigma_hat_AB} = d_CA phi_kB
-        (Generator::Body(a, b), Phi(k, c)) => add(&mut sum, c == a, chart, Phi(k, b), -1),
-        (Generator::Space(i, j), M(k, l)) => match chart.momentum {
-            // {Sigma, Sigma_hat} = 0
-            Momentum::Body => {}
-            Momentum::Space | Momentum::Total => return bracket(chart, M(i, j), M(k, l)),
-            // {Sigma_ij, Pi_Ck} = d_ik Pi_Cj
-            Momentum::Canonical => add(&mut sum, i == l, chart, M(k, j), 1),
-        },
-        (Generator::Body(a, b), M(k, l)) => match chart.momentum {
-            Momentum::Body => return bracket(chart, M(a, b), M(k, l)),
-            Momentum::Space | Momentum::Total => {}
-            // {Sigma_hat_AB, Pi_Ck} = d_BC Pi_Ak
-            Momentum::Canonical => add(&mut sum, b == k, chart, M(a, l), 1),
-        },
-        _ => {}
-    }
-    sum
-}
-
 /// Adds `sign * coordinate` where the Kronecker symbol `delta` holds.
 fn add(sum: &mut Polynomial, delta: bool, chart: &Chart, coordinate: Coordinate, sign: i64) {
     if delta {

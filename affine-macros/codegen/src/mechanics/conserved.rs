@@ -1,16 +1,17 @@
-//! Conserved quantities by exact brackets: a candidate is listed exactly when its bracket with `H` vanishes
-//! identically.
+//! What a motion conserves: a candidate is listed exactly when its rate vanishes identically.
+//!
+//! Written out, the rates of a mass matrix that depends on the placement are long rational functions. Whether they vanish is
+//! decided modulo the prime `2^61 - 1`, at points that have nothing to do with the model.
 
 use crate::algebra::residue::Residue;
 use crate::algebra::ring::{Ring, Square, deviator, skew, sum};
-use crate::algebra::{Arena, Polynomial};
+use crate::algebra::{Arena, Polynomial, Rational};
 
-use super::brackets::gradient;
-use super::charts::{Chart, Coordinate};
+use super::charts::Chart;
 use super::constraint::Constraint;
-use super::flow::{Flow, at_a_point, norm_rate, power_rate};
+use super::equations::Load;
+use super::flow::{Flow, power_rate};
 use super::group_point::GroupPoint;
-use super::weight;
 
 /// What a model may conserve, named as in the runtime.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,92 +115,65 @@ impl Candidate {
     }
 }
 
-/// The candidates that `h` conserves, a polynomial in the chart of the model's own frame with `p` spatial.
+/// The quantities that exist in a chart.
 #[must_use]
-pub fn conserved(arena: &Arena, chart: &Chart, h: &Polynomial) -> Vec<Candidate> {
+pub fn candidates(chart: &Chart) -> Vec<Candidate> {
     let exists = |c: &Candidate| {
         c.exists(chart.dim, chart.linear.is_some())
             && chart.confined.is_none_or(|group| c.means_something(group))
     };
-    still(arena, chart, h, Candidate::ALL.into_iter().filter(exists).collect())
+    Candidate::ALL.into_iter().filter(exists).collect()
 }
 
-/// The candidates whose brackets vanish at the points that `points` evaluate at; `slopes` are the derivatives of `H`.
-pub(super) fn conserved_at_points(
-    chart: &Chart,
-    slopes: &[(Coordinate, Polynomial)],
-    points: &[&dyn Fn(&Polynomial) -> Residue],
-) -> Vec<Candidate> {
-    let mut list = Candidate::ALL.to_vec();
-    list.retain(|c| c.exists(chart.dim, chart.linear.is_some()));
-    list.retain(|c| chart.confined.is_none_or(|group| c.means_something(group)));
-    for point in points {
-        let flow = Flow::new(chart, slopes, point);
-        list.retain(|c| flow.bracket(*c).iter().all(Ring::vanishes));
+/// Those of the candidates that stay what they are where the loads together move the coordinates of a chart with spatial
+/// `p`: the motion of an energy, or forces alone.
+#[must_use]
+pub fn still(arena: &Arena, chart: &Chart, loads: &[Load], mut candidates: Vec<Candidate>) -> Vec<Candidate> {
+    for mut point in GroupPoint::all(arena, chart, chart.confined) {
+        loads.iter().for_each(|load| point.define(arena, &load.shared));
+        let flow = Flow::new(chart, loads, &|p: &Polynomial| point.evaluate(arena, p));
+        candidates.retain(|candidate| flow.rate(*candidate).iter().all(Ring::vanishes));
     }
-    list
+    candidates
 }
 
-/// Those of the candidates whose brackets with `h` vanish.
-fn still(arena: &Arena, chart: &Chart, h: &Polynomial, candidates: Vec<Candidate>) -> Vec<Candidate> {
-    let mut slopes = gradient(chart, h);
-    if let Some(group) = chart.confined {
-        slopes.extend(weight::slopes(arena, chart, h));
-        let mut list = candidates;
-        for point in GroupPoint::all(arena, chart, Some(group)) {
-            let value = |p: &Polynomial| -> Residue { point.evaluate(arena, p) };
-            let flow = Flow::new(chart, &slopes, &value);
-            list.retain(|c| flow.bracket(*c).iter().all(Ring::vanishes));
-        }
-        return list;
-    }
-    let (residue, itself) = (at_a_point(arena), Polynomial::clone);
-    let sample = Flow::new(chart, &slopes, &residue);
-    let symbolic = Flow::new(chart, &slopes, &itself);
-    let mut list = candidates;
-    list.retain(|c| sample.leaves(*c) && symbolic.leaves(*c));
-    list
-}
-
-impl<R: Ring> Flow<'_, R> {
-    /// Does the flow leave the candidate at rest?
-    pub(super) fn leaves(&self, candidate: Candidate) -> bool {
-        self.bracket(candidate).iter().all(Ring::vanishes)
-    }
-
-    /// The components of `{candidate, H}`, up to common factors that do not vanish.
-    fn bracket(&self, candidate: Candidate) -> Vec<R> {
+impl Flow {
+    /// The components of the rate of a candidate, up to common factors that do not vanish.
+    fn rate(&self, candidate: Candidate) -> Vec<Residue> {
+        let ([sigma, sigma_dot], [sigma_hat, sigma_hat_dot]) = (&self.sigma, &self.sigma_hat);
+        let total = || sum(&self.orbital_rate(), sigma_dot);
+        let shear = || [deviator(sigma), deviator(sigma_dot)];
         match candidate {
             Candidate::Energy => Vec::new(),
-            Candidate::LinearMomentum => self.p_dot(),
+            Candidate::LinearMomentum => self.p[1].clone(),
             Candidate::ComovingLinearMomentum => self.comoving_momentum_rate(),
             Candidate::OrbitalAngularMomentum => skew(&self.orbital_rate()),
-            Candidate::TotalAffineMomentum => sum(&self.orbital_rate(), self.sigma_dot()).concat(),
-            Candidate::TotalAngularMomentum => skew(&sum(&self.orbital_rate(), self.sigma_dot())),
-            Candidate::AffineSpin => self.sigma_dot().concat(),
-            Candidate::Deviator => deviator(self.sigma_dot()).concat(),
-            Candidate::Spin => skew(self.sigma_dot()),
-            Candidate::SpinNorm => norm_rate(&self.sigma_up_to_scale(), self.sigma_dot()),
-            Candidate::ComovingAffineSpin => self.sigma_hat_dot().concat(),
-            Candidate::ComovingDeviator => deviator(self.sigma_hat_dot()).concat(),
-            Candidate::Vorticity => skew(self.sigma_hat_dot()),
-            Candidate::VorticityNorm => norm_rate(&self.sigma_hat_up_to_scale(), self.sigma_hat_dot()),
-            Candidate::CanonicalMomentum => self.canonical_rate().concat(),
-            Candidate::Casimir1 => self.casimir_rate(1, Clone::clone),
-            Candidate::Casimir2 => self.casimir_rate(2, Clone::clone),
-            Candidate::Casimir3 => self.casimir_rate(3, Clone::clone),
-            Candidate::DeviatorCasimir2 => self.casimir_rate(2, deviator),
-            Candidate::DeviatorCasimir3 => self.casimir_rate(3, deviator),
+            Candidate::TotalAffineMomentum => total().concat(),
+            Candidate::TotalAngularMomentum => skew(&total()),
+            Candidate::AffineSpin => sigma_dot.concat(),
+            Candidate::Deviator => deviator(sigma_dot).concat(),
+            Candidate::Spin => skew(sigma_dot),
+            Candidate::SpinNorm => norm_rate(sigma, sigma_dot),
+            Candidate::ComovingAffineSpin => sigma_hat_dot.concat(),
+            Candidate::ComovingDeviator => deviator(sigma_hat_dot).concat(),
+            Candidate::Vorticity => skew(sigma_hat_dot),
+            Candidate::VorticityNorm => norm_rate(sigma_hat, sigma_hat_dot),
+            Candidate::CanonicalMomentum => self.pi[1].concat(),
+            // Sigma and Sigma_hat have the same traces.
+            Candidate::Casimir1 => power_rate(1, &self.sigma),
+            Candidate::Casimir2 => power_rate(2, &self.sigma),
+            Candidate::Casimir3 => power_rate(3, &self.sigma),
+            Candidate::DeviatorCasimir2 => power_rate(2, &shear()),
+            Candidate::DeviatorCasimir3 => power_rate(3, &shear()),
         }
     }
+}
 
-    /// Rate of the trace of a power of the affine spin or of its deviator. `Sigma` and `Sigma_hat` have the same
-    /// traces, so one of them at rest settles it.
-    fn casimir_rate(&self, k: usize, part: impl Fn(&Square<R>) -> Square<R>) -> Vec<R> {
-        let at_rest = |rate: &Square<R>| rate.iter().flatten().all(Ring::vanishes);
-        if at_rest(self.sigma_dot()) || at_rest(self.sigma_hat_dot()) {
-            return Vec::new();
-        }
-        power_rate(k, &part(&self.spin()), &part(self.spin_rate()))
+/// Half the rate of the squared norm of the skew part.
+fn norm_rate(m: &Square<Residue>, m_dot: &Square<Residue>) -> Vec<Residue> {
+    let mut rate = Residue::ZERO;
+    for (w, w_dot) in skew(m).iter().zip(&skew(m_dot)) {
+        rate.plus_product(w, w_dot, &Rational::ONE);
     }
+    vec![rate]
 }

@@ -3,13 +3,12 @@
 use crate::algebra::{Arena, Expr};
 
 use super::charts::Chart;
-use super::conserved::Candidate;
+use super::conserved::{Candidate, still};
 use super::custom::Custom;
 use super::dissipation::Dissipation;
 use super::equations::Load;
 use super::hamiltonian::{Hamiltonian, Isotropic};
 use super::metric::Definitions;
-use super::mixed;
 use super::potential::TIME;
 use super::shared::CentreVelocity;
 
@@ -39,23 +38,10 @@ impl Forces {
         loads
     }
 
-    /// Those of the candidates that they leave at rest; `chart` is that of the model's own frame, with `p` spatial.
+    /// Those of the candidates that they leave at rest, for all momenta; `chart` is that of the model's own frame with `p`
+    /// spatial, and `shared` defines its velocities. `T` is quadratic in the momenta, the forces are linear: the rates that
+    /// they and the bracket with `H` give have different degrees, so that each has to vanish for itself.
     pub fn keep(
-        &self,
-        arena: &Arena,
-        chart: &Chart,
-        h: &Hamiltonian,
-        mut candidates: Vec<Candidate>,
-    ) -> Vec<Candidate> {
-        candidates.retain(|candidate| self.customs.iter().all(|custom| custom.keeps(*candidate)));
-        match &self.dissipation {
-            None => candidates,
-            Some(dissipation) => dissipation.keeps(arena, chart, h, &candidates),
-        }
-    }
-
-    /// The same for a mass matrix that depends on the placement; `shared` defines the velocities of the chart.
-    pub fn keep_varying(
         &self,
         arena: &mut Arena,
         chart: &Chart,
@@ -64,8 +50,11 @@ impl Forces {
     ) -> Vec<Candidate> {
         candidates.retain(|candidate| self.customs.iter().all(|custom| custom.keeps(*candidate)));
         let Some(dissipation) = &self.dissipation else { return candidates };
+        // The forces take energy out of every motion that they act on.
+        candidates.retain(|candidate| *candidate != Candidate::Energy);
         let load = dissipation.load(arena, chart, centre);
-        mixed::unmoved(arena, chart, &load, shared, candidates)
+        let shared = Load { shared: shared.clone(), ..Load::default() };
+        still(arena, chart, &[shared, load], candidates)
     }
 
     /// Those that act where `p = 0`.

@@ -14,12 +14,14 @@ use crate::algebra::{Arena, Matrix, Polynomial, Rational};
 
 use super::charts::Chart;
 use super::constraint::Constraint;
+use super::metric::Definitions;
 use super::weight::{INVERSE_SQUARE, SQUARE};
 
 /// Number of points that decide.
-pub(super) const POINTS: usize = 3;
+const POINTS: usize = 3;
 
 /// Values of the placement, of a projected momentum and of `exp(q)`; of every other name one that depends on it alone.
+#[derive(Clone)]
 pub(super) struct GroupPoint {
     seed: usize,
     values: HashMap<String, Residue>,
@@ -69,14 +71,27 @@ impl GroupPoint {
         point
     }
 
-    /// Its values by name.
-    pub(super) fn values(
-        arena: &Arena,
-        chart: &Chart,
-        group: Constraint,
-        seed: usize,
-    ) -> HashMap<String, Residue> {
-        Self::new(arena, chart, Some(group), seed).values
+    /// The first of them.
+    pub(super) fn first(arena: &Arena, chart: &Chart) -> Self {
+        Self::new(arena, chart, chart.confined, 0)
+    }
+
+    /// A point at `phi = 1`, without other relations.
+    pub(super) fn undeformed(arena: &Arena, chart: &Chart) -> Self {
+        let one = table(chart.dim, |i, a| Residue::from_rational(&Rational::from(i64::from(i == a))));
+        let entries = chart.phi.0.concat().into_iter().zip(one.concat());
+        let named = entries.map(|(symbol, value)| (arena.name(symbol).unwrap_or_default().to_owned(), value));
+        Self { seed: 0, values: named.collect() }
+    }
+
+    /// Gives quantities the values of their definitions, in order.
+    pub(super) fn define(&mut self, arena: &Arena, definitions: &Definitions) {
+        for (symbol, definition) in definitions {
+            let value = self.evaluate(arena, definition);
+            if let Some(name) = arena.name(*symbol) {
+                self.values.insert(name.to_owned(), value);
+            }
+        }
     }
 
     /// The value of a symbol.
@@ -94,6 +109,11 @@ impl GroupPoint {
         let value = evaluate_polynomial(arena, polynomial, &|name| Some(self.value(name)));
         value.unwrap_or(Residue::UNKNOWN)
     }
+}
+
+/// The inverse matrix.
+pub(super) fn inverse(m: &Square<Residue>) -> Square<Residue> {
+    scaled(&adjugate(m), determinant(m).recip().unwrap_or(Residue::UNKNOWN))
 }
 
 fn determinant(m: &Square<Residue>) -> Residue {
@@ -123,7 +143,5 @@ fn cayley(w: &Square<Residue>) -> Square<Residue> {
             entry
         })
     };
-    let minus = unit_plus(&Rational::MINUS_ONE);
-    let factor = determinant(&minus).recip().unwrap_or(Residue::UNKNOWN);
-    scaled(&product(&adjugate(&minus), &unit_plus(&Rational::ONE)), factor)
+    product(&inverse(&unit_plus(&Rational::MINUS_ONE)), &unit_plus(&Rational::ONE))
 }

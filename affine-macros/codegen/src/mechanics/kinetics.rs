@@ -11,14 +11,13 @@ mod action;
 mod lagrangian;
 mod ways;
 
-use crate::algebra::ring::{Square, product, table};
+use crate::algebra::ring::{Square, table};
 use crate::algebra::{Arena, Matrix, Polynomial, Rational};
 
 use super::brackets::{bracket, gradient};
 use super::charts::{Chart, Coordinate, Momentum};
 use super::equations::{Form, Load, System};
-use super::metric::{Definitions, inverse_placement};
-use super::shared::atoms;
+use super::metric::Definitions;
 
 pub use lagrangian::{Lagrangian, Part, named};
 
@@ -114,28 +113,6 @@ impl Kinetics {
         let rate = |z: Coordinate| (z, self.rate(Form::ThroughVelocity, z));
         let forces = self.chart.coordinates().into_iter().map(rate).filter(|(_, rate)| !rate.is_zero());
         Load { shared: self.shared.clone(), forces: forces.collect(), ..Load::default() }
-    }
-
-    /// The derivatives of `H` along momenta and placement, up to forces that no velocity of the group sees, with what they
-    /// share.
-    pub fn gradient(&self, arena: &mut Arena) -> (Vec<(Coordinate, Polynomial)>, Definitions) {
-        let n = self.chart.dim;
-        let force = table(n, |a, b| {
-            let found = self.forces.iter().find(|(y, _)| *y == Coordinate::M(a, b));
-            found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
-        });
-        let (inverse, definitions) = inverse_placement(arena, n);
-        let inverse = atoms(&inverse);
-        // F on Pi is -dH/dphi, and Sigma_hat = Pi phi, Sigma = phi Pi.
-        let push = match self.chart.momentum {
-            Momentum::Body => product(&force, &inverse),
-            Momentum::Space | Momentum::Total => product(&inverse, &force),
-            Momentum::Canonical => force,
-        };
-        let slope = |(i, a): (usize, usize)| (Coordinate::Phi(i, a), push[a][i].scaled(&Rational::MINUS_ONE));
-        let mut list = self.slopes.clone();
-        list.extend(pairs(n).map(slope).filter(|(_, slope)| !slope.is_zero()));
-        (list, [self.shared.clone(), definitions].concat())
     }
 }
 

@@ -6,13 +6,11 @@
 
 mod centre;
 mod confined;
-mod conserved;
 mod factorisation;
 mod formulas;
 mod internal;
 mod parts;
 mod placed;
-mod sample;
 
 use crate::algebra::Arena;
 
@@ -22,14 +20,12 @@ use super::symmetry::{Group, Side, largest_group};
 use super::term::{Frame, Term, TermKind};
 
 pub use centre::Masses;
-pub use conserved::{conserved, unmoved};
 pub use factorisation::{Factorisation, SymmetricBlock};
 pub use formulas::{
     ForceNames, centre_equations, confined_equations, confined_hamiltonian, energy, hamiltonian,
     internal_equations, internal_hamiltonian,
 };
 pub use internal::{Internal, Legendre};
-pub use sample::Sample;
 
 /// A sum of energies, each with constant coefficients in its frame.
 #[derive(Clone, Debug)]

@@ -45,7 +45,8 @@ impl Weight {
     }
 
     /// The force `-dH_int/dq 1/n = 2 H_int/n 1` on `Sigma_hat` from the internal energy, and what defines the weight.
-    pub(super) fn load(&self, chart: &Chart, internal: &Polynomial) -> Load {
+    #[must_use]
+    pub fn load(&self, chart: &Chart, internal: &Polynomial) -> Load {
         let share =
             i64::try_from(chart.dim).ok().and_then(|n| Rational::ratio(2, n)).unwrap_or(Rational::ONE);
         let dependent = chart.dependent();
@@ -54,20 +55,4 @@ impl Weight {
         let forces = (0..chart.dim).map(|a| (Coordinate::M(a, a), force.clone())).collect();
         Load { shared: self.definitions.clone(), forces, ..Load::default() }
     }
-}
-
-/// The derivatives of `H` along the placement that its weight has: `d(D^-2)/dphi_i1 = -2 D^-4 phi_i1` with `D` the length
-/// of the first column.
-pub(super) fn slopes(arena: &Arena, chart: &Chart, h: &Polynomial) -> Vec<(Coordinate, Polynomial)> {
-    let mut inverse = None;
-    h.any_symbol(arena, &mut |symbol| {
-        if arena.name(symbol) == Some(INVERSE_SQUARE) {
-            inverse = Some(symbol);
-        }
-        false
-    });
-    let Some(inverse) = inverse else { return Vec::new() };
-    let outer = h.derivative(inverse);
-    let inner = |i: usize| Polynomial::term(vec![inverse, inverse, chart.phi.0[i][0]], Rational::from(-2));
-    (0..chart.dim).map(|i| (Coordinate::Phi(i, 0), outer.mul(&inner(i)))).collect()
 }

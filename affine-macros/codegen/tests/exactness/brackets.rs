@@ -1,7 +1,7 @@
 //! The table of brackets against the canonical bracket, from which all of it follows.
 
 use affine_codegen::algebra::{Arena, Expr, Polynomial, Rational};
-use affine_codegen::mechanics::brackets::{Generator, bracket, generator_bracket, poisson};
+use affine_codegen::mechanics::brackets::{bracket, poisson};
 use affine_codegen::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 
 /// Every chart in which the brackets of coordinates are linear in coordinates.
@@ -159,34 +159,6 @@ fn every_chart_follows_from_the_canonical_one() {
                     let expected = poisson(&canonical.chart, &f, &g);
                     let found = canonical.pulled_back(&chart, &bracket(&chart, a, b));
                     assert_eq!(found, expected, "{a:?} {b:?} in {:?} {:?}", chart.momentum, chart.linear);
-                }
-            }
-        }
-    }
-}
-
-/// The brackets with `Sigma` and `Sigma_hat` likewise, in the charts with `p`.
-#[test]
-fn generators_follow_from_the_canonical_chart() {
-    for n in [2, 3] {
-        for (mut arena, chart) in charts(n) {
-            if chart.momentum == Momentum::Total || chart.linear == Some(Linear::Body) {
-                continue;
-            }
-            let canonical = Canonical::new(&mut arena, n);
-            let pairs: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).collect();
-            for (i, j) in pairs {
-                for z in chart.coordinates() {
-                    let g = canonical.function(&chart, z);
-                    for (generator, f) in [
-                        (Generator::Space(i, j), canonical.sigma(i, j)),
-                        (Generator::Body(i, j), canonical.sigma_hat(i, j)),
-                    ] {
-                        let expected = poisson(&canonical.chart, &f, &g);
-                        let found = generator_bracket(&chart, generator, z);
-                        let found = canonical.pulled_back(&chart, &found);
-                        assert_eq!(found, expected, "{generator:?} {z:?} in {:?}", chart.momentum);
-                    }
                 }
             }
         }

@@ -5,7 +5,7 @@
 
 use crate::algebra::ring::{Square, table, times};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
-use crate::mechanics::charts::{Chart, Coordinate};
+use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Kinetics, Lagrangian, Part};
 use crate::mechanics::metric::{Definitions, INVERSE};
@@ -67,7 +67,8 @@ impl Masses {
     pub fn factorised(&self, arena: &mut Arena) -> Option<(Factorisation, Definitions)> {
         let mut shared = green_definitions(arena, self.dim);
         let matrix = self.matrix(arena);
-        let factorisation = Factorisation::new(arena, "centre_", &matrix, &mut shared)?;
+        let chart = Chart::new(arena, self.dim, Momentum::Canonical, None);
+        let factorisation = Factorisation::new(arena, "centre_", &matrix, &mut shared, &chart)?;
         Some((factorisation, shared))
     }
 

@@ -17,7 +17,6 @@ use super::Mixed;
 use super::factorisation::Factorisation;
 use super::parts::hessian;
 use super::placed::{Placed, matrix};
-use super::sample::Sample;
 
 /// An inverse Legendre transformation.
 pub(super) struct Solved {
@@ -45,8 +44,7 @@ pub(super) fn on_the_algebra(
         matrix = sum(&matrix, &placed.mass_matrix(arena, part, &basis));
     }
     let mut shared = placed.shared;
-    let points = [Sample::on_the_group(arena, chart, group, 0), Sample::undeformed()];
-    let factorisation = Factorisation::at(arena, "", &matrix, &mut shared, points)?;
+    let factorisation = Factorisation::new(arena, "", &matrix, &mut shared, chart)?;
     let dependent = chart.dependent();
     let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
     // The momentum conjugate to Oh_ab is Sigma_hat_ba.

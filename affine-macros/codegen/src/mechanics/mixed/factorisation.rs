@@ -9,9 +9,9 @@ use crate::algebra::evaluate::Field;
 use crate::algebra::residue::Residue;
 use crate::algebra::ring::Square;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::mechanics::charts::Chart;
+use crate::mechanics::group_point::GroupPoint;
 use crate::mechanics::metric::Definitions;
-
-use super::sample::Sample;
 
 /// A direction in the space that the matrix acts on: indices and weights.
 type Direction = Vec<(usize, Rational)>;
@@ -65,18 +65,9 @@ impl Factorisation {
         stem: &str,
         matrix: &Square<Polynomial>,
         shared: &mut Definitions,
+        chart: &Chart,
     ) -> Option<Self> {
-        Self::at(arena, stem, matrix, shared, [Sample::generic(""), Sample::undeformed()])
-    }
-
-    /// The same of placements of which the first point is a generic one, the second the undeformed.
-    pub fn at(
-        arena: &mut Arena,
-        stem: &str,
-        matrix: &Square<Polynomial>,
-        shared: &mut Definitions,
-        mut points: [Sample; 2],
-    ) -> Option<Self> {
+        let mut points = [GroupPoint::first(arena, chart), GroupPoint::undeformed(arena, chart)];
         points.iter_mut().for_each(|point| point.define(arena, shared));
         let mut blocks: Vec<Block> = Vec::new();
         for members in components(matrix) {
@@ -223,13 +214,13 @@ fn ordered(
     arena: &Arena,
     matrix: &Square<Polynomial>,
     members: &[usize],
-    points: &[Sample; 2],
+    points: &[GroupPoint; 2],
 ) -> Option<(Vec<Direction>, Square<Polynomial>)> {
     let mut open: Vec<Direction> = members.iter().map(|k| vec![(*k, Rational::ONE)]).collect();
     let mut basis: Vec<Direction> = Vec::new();
     while !open.is_empty() {
         let [generic, undeformed] = points.each_ref().map(|point| {
-            let value = |k: usize, l: usize| point.value(arena, &matrix[k][l]);
+            let value = |k: usize, l: usize| point.evaluate(arena, &matrix[k][l]);
             complement(&value, &basis, &open)
         });
         let alive = |k: &usize| generic[*k][*k].is_nonzero();

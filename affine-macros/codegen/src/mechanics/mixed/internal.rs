@@ -114,7 +114,7 @@ impl Internal {
 /// The velocity `phi_dot` of a motion that nothing confines.
 fn on_all_matrices(arena: &mut Arena, mixed: &Mixed, chart: &Chart) -> Option<Solved> {
     let Metric { mut shared, internal, .. } = Metric::new(arena, mixed.dim, &mixed.internal);
-    let factorisation = Factorisation::new(arena, "", &internal, &mut shared)?;
+    let factorisation = Factorisation::new(arena, "", &internal, &mut shared, chart)?;
     // The momentum conjugate to phi_dot_iA is Pi_Ai.
     let momenta = atoms(&chart.m.transpose()).concat();
     let velocity = Matrix::symbols(arena, Frame::Flat.velocity_name(), mixed.dim).0.concat();

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use affine_codegen::algebra::{Arena, Polynomial};
 use affine_codegen::mechanics::charts::{Chart, Coordinate, Momentum};
-use affine_codegen::mechanics::conserved::{Candidate, conserved};
+use affine_codegen::mechanics::conserved::{Candidate, candidates, still};
 use affine_codegen::mechanics::equations::{Form as Way, System};
 use affine_codegen::mechanics::forces::Forces;
 use affine_codegen::mechanics::form::Form;
@@ -47,11 +47,15 @@ impl Whole {
         };
         let own = reduce::own_chart(&mut arena, &h);
         let energy = reduce::own_hamiltonian(&h, &own);
-        let mut full = Kinetics::polynomial(&mut arena, &own, &energy).system(Way::ThroughVelocity);
+        let kinetics = Kinetics::polynomial(&mut arena, &own, &energy);
+        let mut full = kinetics.system(Way::ThroughVelocity);
         let loads = loads(&mut arena, &own, &h, potential.as_ref(), &forces);
         loads.iter().for_each(|load| full.add(load));
         let keeps = |candidate| potential.as_ref().is_none_or(|u| u.keeps(candidate));
-        let rotations = conserved(&arena, &own, &energy).contains(&Candidate::TotalAngularMomentum)
+        let motion: Vec<_> =
+            h.weight.iter().map(|weight| weight.load(&own, &h.internal())).chain([kinetics.load()]).collect();
+        let kept = still(&arena, &own, &motion, candidates(&own));
+        let rotations = kept.contains(&Candidate::TotalAngularMomentum)
             && keeps(Candidate::TotalAngularMomentum)
             && forces.are_isotropic_in_space();
         Self { args: args.to_owned(), arena, h, potential, forces, own, full, rotations }
