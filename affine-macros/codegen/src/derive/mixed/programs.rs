@@ -13,7 +13,7 @@ use crate::derive::programs::shortest_program;
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::charts::Chart;
-use crate::mechanics::metric::{Definitions, inverse_placement};
+use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::Legendre;
 use crate::optimise::Batch;
 
@@ -121,7 +121,9 @@ impl Body<'_> {
     /// The Legendre transformation of a centre of mass with two masses, and its inverse.
     fn centre(&self, arena: &mut Arena, x_dot: &[Expr]) -> Option<[Batch; 2]> {
         let (_, shared) = self.masses.velocity(arena)?;
-        let momentum = self.centre_momentum(arena, x_dot);
+        let (definitions, momentum, _) = self.masses.legendre(arena, x_dot);
+        let results = momentum.into_iter().zip(1..).map(|(p, i): (Polynomial, usize)| (format!("p_{i}"), p));
+        let momentum = Batch { shared: definitions, results: results.collect(), ..Batch::default() };
         let named = |s: &Expr| (arena.name(*s).unwrap_or("x_dot").to_owned(), Polynomial::atom(*s));
         Some([momentum, Batch { shared, results: x_dot.iter().map(named).collect(), ..Batch::default() }])
     }
@@ -139,47 +141,21 @@ impl Body<'_> {
         Some(Batch { results, ..Batch::default() })
     }
 
-    /// Adds `m/2 |v|^2` in the frame of the translation; with two masses `v = x_dot`, and `phi^-1 v` beside it.
+    /// Adds `m/2 |v|^2` in the frame of the translation; with two masses `v = x_dot`.
     fn centre_energy(&self, arena: &mut Arena, v: &[Expr], energy: &mut Batch) {
-        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
-        let mut comoving_velocity = v.to_vec();
         if self.masses.are_mixed() {
-            comoving_velocity = (1..=v.len()).map(|a| arena.symbol(&format!("v_hat_{a}"))).collect();
+            let (shared, _, of_both) = self.masses.legendre(arena, v);
             let known: Vec<Expr> = energy.shared.iter().map(|(symbol, _)| *symbol).collect();
-            energy.shared.extend(comoving(arena, v).into_iter().filter(|(s, _)| !known.contains(s)));
-        }
-        for (mass, symbols) in [(self.masses.space, v), (self.masses.body, comoving_velocity.as_slice())] {
-            let Some(mass) = mass else { continue };
+            energy.shared.extend(shared.into_iter().filter(|(s, _)| !known.contains(s)));
+            energy.results[0].1.add_scaled(&of_both, &Rational::ONE);
+        } else if let Some(mass) = self.masses.space.or(self.masses.body) {
             let mass = Polynomial::normal_form(arena, mass);
-            for s in symbols {
-                let square = Polynomial::term(vec![*s, *s], Rational::ONE);
+            let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+            for v in v {
+                let square = Polynomial::term(vec![*v, *v], Rational::ONE);
                 energy.results[0].1.add_product(&square, &mass, &half);
             }
         }
-    }
-
-    /// `p = m_space x_dot + m_body phi^-T phi^-1 x_dot`.
-    fn centre_momentum(&self, arena: &mut Arena, x_dot: &[Expr]) -> Batch {
-        let n = x_dot.len();
-        let inverse = Matrix::symbols(arena, "inverse_phi", n).0;
-        let shared = comoving(arena, x_dot);
-        let mass = |arena: &mut Arena, mass: Option<Expr>| {
-            mass.map_or_else(Polynomial::zero, |m| Polynomial::normal_form(arena, m))
-        };
-        let (body, space) = (mass(arena, self.masses.body), mass(arena, self.masses.space));
-        let results = (0..n)
-            .map(|i| {
-                let mut pulled = Polynomial::zero();
-                for (a, row) in inverse.iter().enumerate() {
-                    let v_hat = arena.symbol(&format!("v_hat_{}", a + 1));
-                    pulled.add_term(vec![row[i], v_hat], &Rational::ONE);
-                }
-                let mut momentum = space.mul(&Polynomial::atom(x_dot[i]));
-                momentum.add_product(&body, &pulled, &Rational::ONE);
-                (format!("p_{}", i + 1), momentum)
-            })
-            .collect();
-        Batch { shared, results, ..Batch::default() }
     }
 
     /// `H` at a point from the potential and what that shares, with its inputs.
@@ -235,15 +211,4 @@ impl Body<'_> {
         let batch = Batch { shared: system.shared, kernels: system.kernels, results };
         Some(Some(batch.pruned(arena)))
     }
-}
-
-/// `v_hat = phi^-1 x_dot`, with what leads there.
-fn comoving(arena: &mut Arena, x_dot: &[Expr]) -> Definitions {
-    let (inverse, mut shared) = inverse_placement(arena, x_dot.len());
-    for (a, row) in inverse.0.iter().enumerate() {
-        let mut value = Polynomial::zero();
-        row.iter().zip(x_dot).for_each(|(psi, v)| value.add_term(vec![*psi, *v], &Rational::ONE));
-        shared.push((arena.symbol(&format!("v_hat_{}", a + 1)), value));
-    }
-    shared
 }

@@ -5,10 +5,10 @@
 
 use crate::algebra::ring::{Square, table, times};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
-use crate::mechanics::charts::{Chart, Coordinate, Momentum};
+use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Kinetics, Lagrangian, Part};
-use crate::mechanics::metric::{Definitions, INVERSE};
+use crate::mechanics::metric::{Definitions, INVERSE, inverse_placement};
 use crate::mechanics::shared::atoms;
 use crate::mechanics::term::Frame;
 
@@ -115,38 +115,44 @@ impl Masses {
 
     /// The translational energy in a chart with spatial `p`. `None` as in [`Masses::velocity`].
     pub fn kinetics(&self, arena: &mut Arena, chart: &Chart) -> Option<Kinetics> {
-        let n = self.dim;
         let (x_dot, inverse) = self.velocity(arena)?;
+        let lagrangian = self.lagrangian(arena, chart, &x_dot);
+        let velocity = Matrix::symbols(arena, chart.momentum.velocity_name(), self.dim);
+        lagrangian.kinetics(arena, &velocity, &inverse).into_iter().next()
+    }
+
+    /// What `p` and the energy share, `p`, and the energy, from `phi` and `x_dot` under any names.
+    pub fn legendre(&self, arena: &mut Arena, x_dot: &[Expr]) -> (Definitions, Vec<Polynomial>, Polynomial) {
+        let chart = Chart::new(arena, self.dim, Momentum::Canonical, Some(Linear::Space));
+        let (_, mut shared) = inverse_placement(arena, self.dim);
+        let (definitions, momentum, energy) = self.lagrangian(arena, &chart, x_dot).legendre(false);
+        shared.extend(definitions);
+        (shared, momentum, energy)
+    }
+
+    /// `m_space/2 |x_dot|^2 + m_body/2 |v_hat|^2`, `v_hat = phi^-1 x_dot`.
+    fn lagrangian(&self, arena: &mut Arena, chart: &Chart, x_dot: &[Expr]) -> Lagrangian {
+        let n = self.dim;
         let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
-        let energy = |arena: &mut Arena, mass: Expr, velocities: &[Expr]| {
+        let part = |arena: &mut Arena, mass: Expr, velocities: Vec<Expr>| {
             let mut energy = Polynomial::zero();
             velocities.iter().for_each(|v| energy.add_term(vec![*v, *v], &half));
-            energy.mul(&Polynomial::normal_form(arena, mass))
+            let energy = energy.mul(&Polynomial::normal_form(arena, mass));
+            let (slopes, momenta) = (Vec::new(), Vec::new());
+            Part { velocities, definitions: None, energy, slopes, momenta }
         };
         let mut parts = Vec::new();
-        if let Some(mass) = self.space {
-            let (energy, velocities) = (energy(arena, mass, &x_dot), x_dot.clone());
-            let (slopes, momenta) = (Vec::new(), Vec::new());
-            parts.push(Part { velocities, definitions: None, energy, slopes, momenta });
-        }
+        parts.extend(self.space.map(|mass| part(arena, mass, x_dot.to_vec())));
         if let Some(mass) = self.body {
             let psi = atoms(&Matrix::symbols(arena, INVERSE, n));
-            let velocities: Vec<Expr> = (1..=n).map(|a| arena.symbol(&format!("v_hat_{a}"))).collect();
+            let v_hat: Vec<Expr> = (1..=n).map(|a| arena.symbol(&format!("v_hat_{a}"))).collect();
             let definitions = times(&psi, &x_dot.iter().map(|v| Polynomial::atom(*v)).collect::<Vec<_>>());
-            let (energy, momenta) = (energy(arena, mass, &velocities), names(arena, "body", &chart.p));
-            parts.push(Part {
-                velocities,
-                definitions: Some(definitions),
-                energy,
-                slopes: Vec::new(),
-                momenta,
-            });
+            let momenta = names(arena, "body", &chart.p);
+            parts.push(Part { definitions: Some(definitions), momenta, ..part(arena, mass, v_hat) });
         }
         let conjugate = x_dot.iter().enumerate().map(|(i, v)| (Coordinate::P(i), *v)).collect();
         let on_the_group = Placed::new(arena, n, chart.confined).values(arena);
-        let lagrangian = Lagrangian { chart: chart.clone(), conjugate, parts, on_the_group };
-        let velocity = Matrix::symbols(arena, chart.momentum.velocity_name(), n);
-        lagrangian.kinetics(arena, &velocity, &inverse).into_iter().next()
+        Lagrangian { chart: chart.clone(), conjugate, parts, on_the_group }
     }
 
     /// `p . x_dot/2`.
