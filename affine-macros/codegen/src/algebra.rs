@@ -6,6 +6,7 @@ mod derivative;
 pub mod division;
 pub mod evaluate;
 pub mod factor;
+pub mod fault;
 mod fold;
 pub mod function;
 pub mod kernel;

@@ -7,6 +7,7 @@
 mod capability;
 mod constraint;
 mod expression;
+mod fault;
 mod force;
 mod form;
 mod kind;
@@ -22,6 +23,7 @@ use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenS
 pub use capability::CapabilityMistake;
 pub use constraint::ConstraintMistake;
 pub use expression::ExpressionMistake;
+pub use fault::FaultMistake;
 pub use force::ForceMistake;
 pub use form::{Directions, FormMistake};
 pub use kind::Diagnostic;
@@ -103,6 +105,13 @@ impl Rejected {
     /// The reasons, in the order in which they were found.
     pub fn diagnostics(&self) -> impl Iterator<Item = &Diagnostic> {
         self.found.iter().map(|(_, diagnostic)| diagnostic)
+    }
+
+    /// These reasons, and those of another refusal after them.
+    #[must_use]
+    pub fn and(mut self, other: Self) -> Self {
+        self.found.extend(other.found);
+        self
     }
 
     /// One `::core::compile_error! { "..." }` for each reason, where the mistake is.

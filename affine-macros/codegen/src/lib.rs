@@ -28,9 +28,10 @@ pub mod emit;
 
 pub mod stub;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 
-use diagnostics::{Rejected, gate};
+use algebra::fault;
+use diagnostics::{FaultMistake, Rejected, gate};
 
 /// The expansion of `#[affine_model(args)] item`, of a refused model its reasons and a stand-in.
 #[must_use]
@@ -46,6 +47,29 @@ pub fn expand(args: TokenStream, item: TokenStream) -> TokenStream {
 /// # Errors
 /// [`Rejected`] with the reasons, where the model is refused.
 pub fn model(args: TokenStream, item: TokenStream) -> Result<TokenStream, Rejected> {
+    without_fault(|| road(args, item))
+}
+
+/// What an expansion gives, unless what cannot happen happened on its way.
+///
+/// # Errors
+/// [`Rejected`] with the reasons of the expansion, then with the fault, to which they may be due.
+pub fn without_fault<T>(expansion: impl FnOnce() -> Result<T, Rejected>) -> Result<T, Rejected> {
+    let (result, fault) = fault::watch(expansion);
+    let told = gate(|found| match fault {
+        None => Ok(()),
+        Some(fault) => {
+            let mistake = FaultMistake::Impossible { belief: fault.belief, place: fault.place() };
+            Err(found.report(Span::call_site(), mistake))
+        }
+    });
+    match (result, told) {
+        (Err(own), Err(fault)) => Err(own.and(fault)),
+        (result, told) => told.and(result),
+    }
+}
+
+fn road(args: TokenStream, item: TokenStream) -> Result<TokenStream, Rejected> {
     let spec = gate(|found| spec::parse(args, item, found))?;
     gate(|found| check::as_written(&spec, found))?;
     let energy = gate(|found| check::energy(&spec, found))?;

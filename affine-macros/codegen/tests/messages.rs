@@ -4,8 +4,9 @@
 
 use std::collections::BTreeSet;
 
-use affine_codegen::diagnostics::{Diagnostic, Rejected};
-use affine_codegen::model;
+use affine_codegen::algebra::fault::never_missing;
+use affine_codegen::diagnostics::{Diagnostic, FaultMistake, Rejected, gate};
+use affine_codegen::{model, without_fault};
 use proc_macro2::{Span, TokenStream, TokenTree};
 
 const TABLE: &str = include_str!("messages.txt");
@@ -16,13 +17,14 @@ struct Case {
     expected: String,
 }
 
-/// Cases are separated by blank lines; the first two lines are `spec:` and `item:`.
+/// Cases are separated by blank lines; the first two lines are `spec:` and `item:`. No specification is known that leads to a
+/// fault of the macro: in its place stands what was thought to hold.
 fn cases() -> Vec<Case> {
     let case = |block: &str| {
         let (args, rest) = block.trim().split_once('\n').expect("a line for the attribute");
         let (item, expected) = rest.split_once('\n').expect("a line for the item");
         Case {
-            args: args.strip_prefix("spec: ").expect("spec:").to_owned(),
+            args: args.strip_prefix("spec: ").unwrap_or(args).to_owned(),
             item: item.strip_prefix("item: ").expect("item:").to_owned(),
             expected: expected.to_owned(),
         }
@@ -31,6 +33,11 @@ fn cases() -> Vec<Case> {
 }
 
 fn refusal(args: &str, item: &str) -> Rejected {
+    if let Some(belief) = args.strip_prefix("fault: ") {
+        let place = "algebra/rational.rs:1".to_owned();
+        let mistake = FaultMistake::Impossible { belief: belief.to_owned().leak(), place };
+        return gate::<()>(|found| Err(found.report(Span::call_site(), mistake))).unwrap_err();
+    }
     let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
     model(tokens(args), tokens(item)).err().unwrap_or_else(|| panic!("accepted: {args}"))
 }
@@ -86,4 +93,26 @@ fn several_mistakes_arrive_together() {
     let args = "dim = 3, kinetic(casimir2 = b + c, dalembert = diag(1, 0), space_translation = 1/0)";
     let names: Vec<&str> = refusal(args, "struct M;").diagnostics().map(Diagnostic::name).collect();
     assert_eq!(names, ["unknown-symbol", "unknown-symbol", "matrix-size", "division-by-zero"]);
+}
+
+#[test]
+fn a_fault_of_the_macro_stops_the_expansion_and_asks_for_a_report() {
+    let expansion = without_fault(|| {
+        Ok(never_missing(None, "there is a first", 1) + never_missing(Some(2), "not this", 0))
+    });
+    let message =
+        expansion.unwrap_err().diagnostics().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+    assert!(
+        message.contains("why: there is a first; that did not hold at ") && message.contains("messages.rs:")
+    );
+    assert!(message.contains("instead: report it") && !message.contains("not this"), "{message}");
+    // The record is of one expansion, and a refusal with other reasons keeps them.
+    assert!(without_fault(|| Ok(())).is_ok());
+    let both = without_fault(|| {
+        never_missing(None, "there is a first", ());
+        Err::<(), _>(refusal("dim = 2", "struct M;"))
+    });
+    let names: Vec<&str> = both.as_ref().unwrap_err().diagnostics().map(Diagnostic::name).collect();
+    assert_eq!(names.last(), Some(&"impossible"), "{names:?}");
+    assert!(names.len() > 1);
 }

@@ -5,6 +5,7 @@ use std::fmt;
 use super::capability::CapabilityMistake;
 use super::constraint::ConstraintMistake;
 use super::expression::ExpressionMistake;
+use super::fault::FaultMistake;
 use super::force::ForceMistake;
 use super::form::FormMistake;
 use super::message::Text;
@@ -34,6 +35,8 @@ pub enum Diagnostic {
     Form(FormMistake),
     /// A mistake in a force or in the dissipation.
     Force(ForceMistake),
+    /// A mistake of the macro.
+    Fault(FaultMistake),
 }
 
 impl fmt::Display for Diagnostic {
@@ -84,4 +87,5 @@ ideas! {
     Constraint(ConstraintMistake),
     Form(FormMistake),
     Force(ForceMistake),
+    Fault(FaultMistake),
 }
