@@ -6,6 +6,7 @@
 
 use rustc_hash::FxHashMap;
 
+use super::fault::never_missing;
 use super::function::Function;
 use super::rational::Rational;
 
@@ -52,8 +53,8 @@ impl Arena {
         if let Some(&known) = self.index.get(&node) {
             return known;
         }
-        // An arena of 2^32 nodes does not fit in memory.
-        let fresh = Expr(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        let fresh = u32::try_from(self.nodes.len()).ok();
+        let fresh = Expr(never_missing(fresh, "an arena of 2^32 nodes does not fit in memory", 0));
         self.nodes.push(node.clone());
         self.index.insert(node, fresh);
         fresh
@@ -85,6 +86,13 @@ impl Arena {
             Node::Symbol(name) => Some(name),
             _ => None,
         }
+    }
+
+    /// Name of an expression that is a symbol.
+    #[must_use]
+    #[track_caller]
+    pub fn symbol_name(&self, symbol: Expr) -> &str {
+        never_missing(self.name(symbol), "only symbols are asked for their names", "")
     }
 
     /// Sum of expressions with rational coefficients.
@@ -140,12 +148,41 @@ impl Arena {
 
     /// `a * b`.
     pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
-        self.product(&[(a, 1), (b, 1)]).unwrap_or(a)
+        never_missing(self.product(&[(a, 1), (b, 1)]), "a product divides by nothing", a)
     }
 
     /// `a ^ exponent`; `None` for a negative power of zero.
     pub fn pow(&mut self, a: Expr, exponent: i32) -> Option<Expr> {
         self.product(&[(a, exponent)])
+    }
+
+    /// `1/a` of what is not the number zero: of a symbol, of a function of symbols, of what was divided by before.
+    #[track_caller]
+    pub fn reciprocal(&mut self, a: Expr) -> Expr {
+        never_missing(self.pow(a, -1), "what is divided by is not the number zero", a)
+    }
+
+    /// `a ^ exponent` of what is not the number zero, or with an exponent that is not negative.
+    #[track_caller]
+    pub fn power(&mut self, a: Expr, exponent: i32) -> Expr {
+        never_missing(self.pow(a, exponent), "no negative power is of the number zero", a)
+    }
+
+    /// The expression with symbols replaced by what makes no divisor zero.
+    #[track_caller]
+    pub fn replaced(&mut self, expr: Expr, value: &dyn Fn(Expr) -> Option<Expr>) -> Expr {
+        never_missing(self.substitute(expr, value), "no divisor becomes the number zero", expr)
+    }
+
+    /// A product of powers of which no negative one is of the number zero.
+    #[track_caller]
+    pub fn certain_product(&mut self, factors: &[(Expr, i32)]) -> Expr {
+        let product = self.product(factors);
+        never_missing(
+            product,
+            "bases that are rewritten keep their values, and were not the number zero",
+            Expr(0),
+        )
     }
 
     /// `a / b`; `None` where `b` is zero.

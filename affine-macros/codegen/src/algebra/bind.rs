@@ -100,7 +100,7 @@ impl Constants {
             Node::Product(factors) => {
                 let factors: Vec<(Expr, i32)> = factors.iter().map(|(b, e)| (inner(arena, *b), *e)).collect();
                 // A base that varies is not the number zero.
-                arena.product(&factors).unwrap_or(atom)
+                arena.certain_product(&factors)
             }
             _ => atom,
         }

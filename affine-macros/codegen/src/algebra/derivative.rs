@@ -23,9 +23,7 @@ impl Arena {
                     let mut rest = factors.clone();
                     rest[k].1 -= 1;
                     rest.push((inner, 1));
-                    if let Some(part) = self.product(&rest) {
-                        parts.push((part, Rational::from(i64::from(exponent))));
-                    }
+                    parts.push((self.certain_product(&rest), Rational::from(i64::from(exponent))));
                 }
                 self.linear(&parts)
             }
@@ -42,23 +40,23 @@ impl Arena {
         let one = self.constant(Rational::ONE);
         let value = self.apply(function, argument);
         // The reciprocals below are of functions and arguments that are no constants.
-        let reciprocal = |arena: &mut Self, of: Expr, exponent: i32, number: (i64, i64)| {
-            let power = arena.pow(of, exponent).unwrap_or(of);
-            arena.scale(power, &Rational::ratio(number.0, number.1).unwrap_or(Rational::ONE))
+        let reciprocal = |arena: &mut Self, of: Expr, exponent: i32, number: Rational| {
+            let power = arena.power(of, exponent);
+            arena.scale(power, &number)
         };
         match function {
             Function::Exp => value,
             Function::ExpM1 => self.apply(Function::Exp, argument),
-            Function::Ln => reciprocal(self, argument, -1, (1, 1)),
+            Function::Ln => reciprocal(self, argument, -1, Rational::ONE),
             Function::Asinh => {
                 let square = self.mul(argument, argument);
                 let sum = self.add(one, square);
                 let root = self.apply(Function::Sqrt, sum);
-                self.pow(root, -1).unwrap_or(root)
+                self.reciprocal(root)
             }
-            Function::Sqrt => reciprocal(self, value, -1, (1, 2)),
-            Function::Cbrt => reciprocal(self, value, -2, (1, 3)),
-            Function::InverseCbrt => reciprocal(self, value, 4, (-1, 3)),
+            Function::Sqrt => reciprocal(self, value, -1, Rational::HALF),
+            Function::Cbrt => reciprocal(self, value, -2, Rational::THIRD),
+            Function::InverseCbrt => reciprocal(self, value, 4, -&Rational::THIRD),
             Function::Abs => self.apply(Function::Sign, argument),
             Function::Sign => self.constant(Rational::ZERO),
             Function::Sin => self.apply(Function::Cos, argument),

@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 
 use super::arena::Expr;
+use super::fault::never_missing;
 use super::polynomial::{Monomial, Polynomial};
 use super::rational::Rational;
 
@@ -19,7 +20,7 @@ pub fn content(polynomial: &Polynomial) -> (Monomial, Polynomial) {
     let common = common.unwrap_or_default();
     let mut rest = Polynomial::zero();
     for (monomial, c) in polynomial.terms() {
-        rest.add_term(divided(monomial, &common).unwrap_or_default(), c);
+        rest.add_term(rest_of(monomial, &common), c);
     }
     (common, rest)
 }
@@ -45,6 +46,11 @@ fn leading(polynomial: &Polynomial) -> Option<(Monomial, Rational)> {
         unequal => unequal,
     };
     polynomial.terms().max_by(|(a, _), (b, _)| larger(a, b)).map(|(m, c)| (m.clone(), c.clone()))
+}
+
+/// What is left of a monomial of a polynomial by what divides all of them.
+fn rest_of(monomial: &[Expr], common: &[Expr]) -> Monomial {
+    never_missing(divided(monomial, common), "a common factor divides every term", Monomial::new())
 }
 
 /// `monomial/divisor`; both are sorted.

@@ -62,7 +62,7 @@ fn pivot(form: &mut [Vec<Polynomial>], rows: &mut [Vec<Polynomial>], open: &[usi
         return Some(k);
     }
     // y_i = (u + v)/2 and y_j = (u - v)/2, in the rows and in the columns of the form.
-    let half = Rational::ratio(1, 2)?;
+    let half = Rational::HALF;
     for _ in 0..2 {
         mix(form, (i, j), &half);
         transpose(form);

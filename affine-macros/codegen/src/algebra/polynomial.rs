@@ -6,6 +6,7 @@
 use std::cmp::Ordering;
 
 use super::arena::{Arena, Expr, Node};
+use super::fault::never_missing;
 use super::function::Function;
 use super::rational::Rational;
 use super::work;
@@ -73,7 +74,7 @@ impl Polynomial {
                     let factor = match exponent {
                         1.. => Self::normal_form(arena, base),
                         // A canonical base is never the number zero, so its reciprocal exists.
-                        _ => Self::atom(arena.pow(base, -1).unwrap_or(base)),
+                        _ => Self::atom(arena.reciprocal(base)),
                     };
                     for _ in 0..exponent.unsigned_abs() {
                         product = product.mul(&factor);
@@ -102,9 +103,8 @@ impl Polynomial {
             .map(|(monomial, c)| {
                 let factors: Vec<_> = monomial.iter().map(|atom| (*atom, 1)).collect();
                 // Only first powers of atoms: no division.
-                (arena.product(&factors), c.clone())
+                (arena.certain_product(&factors), c.clone())
             })
-            .filter_map(|(product, c)| product.map(|p| (p, c)))
             .collect();
         arena.linear(&summands)
     }
@@ -238,7 +238,7 @@ impl Polynomial {
     /// Derivative with respect to an atom.
     #[must_use]
     pub fn derivative(&self, atom: Expr) -> Self {
-        self.gradient(&[atom]).pop().unwrap_or_default()
+        never_missing(self.gradient(&[atom]).pop(), "one atom has one derivative", Self::zero())
     }
 
     /// Derivatives with respect to several atoms, in one pass.
@@ -253,7 +253,7 @@ impl Polynomial {
                     let mut rest = monomial.clone();
                     rest.remove(at);
                     // Degrees are tiny.
-                    let weight = Rational::from(i64::try_from(power).unwrap_or(i64::MAX));
+                    let weight = Rational::whole(power);
                     slopes[k].add_term(rest, &(c * &weight));
                 }
                 at += power;

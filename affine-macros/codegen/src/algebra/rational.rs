@@ -11,6 +11,8 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
+use super::fault::never_missing;
+
 /// An exact rational number.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Rational(Repr);
@@ -30,6 +32,26 @@ impl Rational {
     pub const ONE: Self = Self(Repr::Small(1, 1));
     /// -1.
     pub const MINUS_ONE: Self = Self(Repr::Small(-1, 1));
+    /// 1/2.
+    pub const HALF: Self = Self(Repr::Small(1, 2));
+    /// 1/3.
+    pub const THIRD: Self = Self(Repr::Small(1, 3));
+    /// 1/4.
+    pub const QUARTER: Self = Self(Repr::Small(1, 4));
+
+    /// A count.
+    #[must_use]
+    pub fn whole(count: usize) -> Self {
+        i64::try_from(count)
+            .map_or_else(|_| Self::shrink(BigRational::from_integer(count.into())), Self::from)
+    }
+
+    /// `1 / count`, of a count that is not zero.
+    #[must_use]
+    #[track_caller]
+    pub fn one_over(count: usize) -> Self {
+        never_missing(Self::whole(count).recip(), "what is divided by counts something", Self::ZERO)
+    }
 
     /// `numerator / denominator`; `None` for a zero denominator.
     #[must_use]
@@ -162,7 +184,8 @@ impl Rational {
     #[must_use]
     pub fn binary_exponent(&self) -> i64 {
         let (numerator, denominator) = self.parts();
-        let bits = |part: BigInt| i64::try_from(part.bits()).unwrap_or(i64::MAX);
+        let bits =
+            |part: BigInt| never_missing(i64::try_from(part.bits()).ok(), "a number fits in memory", 0);
         if self.is_zero() { 0 } else { bits(numerator) - bits(denominator) }
     }
 
@@ -171,12 +194,14 @@ impl Rational {
     pub fn about(&self) -> String {
         // Digits above less digits below: the decimal exponent, or one more.
         let (numerator, denominator) = self.abs().parts();
-        let digits = |part: &BigInt| i32::try_from(part.to_string().len()).unwrap_or(i32::MAX);
+        let digits = |part: &BigInt| exponent(part.to_string().len());
         let exponent = digits(&numerator) - digits(&denominator);
-        let unit = Self::from(10).pow(-exponent).unwrap_or(Self::ONE);
+        let unit = never_missing(Self::from(10).pow(-exponent), "ten is not zero", Self::ONE);
         let scaled = format!("{:.2e}", (self * &unit).to_doubles().0);
-        let (mantissa, rest) = scaled.split_once('e').unwrap_or((&scaled, "0"));
-        let exponent = exponent + rest.parse::<i32>().unwrap_or(0);
+        let parts =
+            scaled.split_once('e').and_then(|(mantissa, rest)| Some((mantissa, rest.parse::<i32>().ok()?)));
+        let (mantissa, rest) = never_missing(parts, "this notation has a whole exponent", (&scaled, 0));
+        let exponent = exponent + rest;
         format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
     }
 
@@ -227,7 +252,10 @@ impl Rational {
                 (numerator, d.unsigned_abs() % modulus)
             }
             Repr::Big(b) => {
-                let size = |value: &BigInt| (value.magnitude() % modulus).to_u64().unwrap_or(0);
+                let size = |value: &BigInt| {
+                    let rest = (value.magnitude() % modulus).to_u64();
+                    never_missing(rest, "a rest by division fits where the divisor does", 0)
+                };
                 let numerator = size(b.numer());
                 let numerator =
                     if b.is_negative() && numerator > 0 { modulus - numerator } else { numerator };
@@ -261,9 +289,16 @@ impl Rational {
     }
 }
 
+/// An exponent that is a count: a dimension, or how often a factor stands in a product.
+#[must_use]
+#[track_caller]
+pub fn exponent(count: usize) -> i32 {
+    never_missing(i32::try_from(count).ok(), "no product has 2^31 factors", 0)
+}
+
 /// `num-rational` rounds the quotient to nearest, ties to even.
 fn nearest(value: &BigRational) -> f64 {
-    value.to_f64().unwrap_or(f64::NAN)
+    never_missing(value.to_f64(), "every fraction has a nearest double or infinity", f64::NAN)
 }
 
 fn gcd(mut a: u128, mut b: u128) -> u128 {

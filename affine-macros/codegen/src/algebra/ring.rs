@@ -1,6 +1,7 @@
 //! Small matrices over any commutative ring: polynomials, and numbers modulo a prime.
 
 use super::evaluate::Field;
+use super::fault;
 use super::polynomial::Polynomial;
 use super::rational::Rational;
 use super::residue::Residue;
@@ -104,7 +105,7 @@ pub fn skew<R: Ring>(m: &Square<R>) -> Vec<R> {
 pub fn deviator<R: Ring>(m: &Square<R>) -> Square<R> {
     let mut trace = R::zero();
     (0..m.len()).for_each(|k| trace.plus(&m[k][k], &Rational::ONE));
-    let nth = i64::try_from(m.len()).ok().and_then(|n| Rational::ratio(-1, n)).unwrap_or(Rational::ZERO);
+    let nth = -&Rational::one_over(m.len());
     table(m.len(), |i, j| {
         let mut value = m[i][j].clone();
         if i == j {
@@ -129,7 +130,7 @@ pub fn adjugate<R: Ring>(m: &Square<R>) -> Square<R> {
                 minor.plus_product(&m[*r][*c], &m[*s][*d], &sign);
                 minor.plus_product(&m[*r][*d], &m[*s][*c], &-&sign);
             }
-            _ => {}
+            _ => fault::record("a matrix has two or three rows"),
         }
         minor
     })

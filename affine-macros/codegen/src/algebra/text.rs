@@ -53,7 +53,7 @@ impl Arena {
     /// The expression as text in the notation of specifications: `2*a + b^2/3`.
     #[must_use]
     pub fn text(&self, expr: Expr) -> String {
-        self.text_with(expr, &|symbol| Written::letter(self.name(symbol).unwrap_or_default()))
+        self.text_with(expr, &|symbol| Written::letter(self.symbol_name(symbol)))
     }
 
     /// The same with other names for the symbols.
