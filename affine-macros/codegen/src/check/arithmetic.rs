@@ -2,6 +2,7 @@
 
 use super::identity::vanishes;
 use super::size::{of_potential, summands};
+use crate::algebra::fault::never_missing;
 use crate::algebra::{Function, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, ExpressionMistake, PotentialMistake, Reported};
 use crate::lower::{LARGEST_POWER, constant, integer};
@@ -61,14 +62,15 @@ fn degree(expression: &Expression, place: Place, n: usize, found: &mut Diagnosti
     let degree = match &expression.kind {
         ExpressionKind::Power(base, exponent) => {
             let power = exponent_is_integer(base, exponent, place, n, found)?;
-            let base_degree = degrees.first().copied().unwrap_or(1);
+            let base_degree = never_missing(degrees.first().copied(), "a power has a base", 1);
             if power < 0 {
                 divisor_is_not_zero(base, base_degree, n, found)?;
             }
             base_degree * u64::from(power.unsigned_abs())
         }
         ExpressionKind::Divide(_, divisor) => {
-            divisor_is_not_zero(divisor, degrees.last().copied().unwrap_or(1), n, found)?;
+            let of_divisor = never_missing(degrees.last().copied(), "a quotient has a divisor", 1);
+            divisor_is_not_zero(divisor, of_divisor, n, found)?;
             degrees.iter().sum()
         }
         ExpressionKind::Multiply(..) => degrees.iter().sum(),

@@ -93,7 +93,7 @@ fn defect(written: &Written, part: &Part, block: &Block) -> Option<String> {
     }
     let direction = negative_direction(&block.numbers()?)?;
     let velocity = block.velocity(written.n, &direction);
-    let half = Rational::ratio(1, 2)?;
+    let half = Rational::HALF;
     let value = &block.square(&direction)? * &half;
     let name = match part.form.frame {
         Frame::Body => "Oh",

@@ -1,5 +1,6 @@
 //! The Hamiltonian as stated on the momentum side.
 
+use crate::algebra::fault::never_missing;
 use crate::algebra::{Arena, Polynomial};
 use crate::diagnostics::{ConstraintMistake, Diagnostics, Directions, FormMistake, TermMistake};
 use crate::lower::constant;
@@ -65,7 +66,8 @@ pub(super) fn third_casimir(spec: &Spec, found: &mut Diagnostics) {
 /// `x_dot = p/m`: with `1/m = 0` the centre stands still whatever `p` is.
 pub(super) fn inverse_masses(spec: &Spec, found: &mut Diagnostics) {
     for term in terms(spec).filter(|term| term.kind.value.is_translation() && is_zero(term, spec.dim.value)) {
-        let coefficient = written(term).map(Expression::to_string).unwrap_or_default();
+        let coefficient = written(term).map(Expression::to_string);
+        let coefficient = never_missing(coefficient, "what is zero was written", String::new());
         found.report(term.span, TermMistake::ZeroInverseMass { term: term.kind.value.name(), coefficient });
     }
 }

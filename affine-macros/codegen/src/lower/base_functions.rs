@@ -145,7 +145,7 @@ fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
         "I2" if n == 3 => {
             let (first, second) = (Base::Trace.symbol(arena), Base::TraceOfSquare.symbol(arena));
             let square = arena.mul(first, first);
-            let half = Rational::ratio(1, 2)?;
+            let half = Rational::HALF;
             Some(arena.linear(&[(square, half.clone()), (second, -&half)]))
         }
         // e_n = det G

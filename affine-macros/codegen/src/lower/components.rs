@@ -13,7 +13,7 @@ pub(super) const GIVEN: &str = "given_";
 /// The symbol of a component in the user's bases.
 pub(super) fn symbol(arena: &mut Arena, base: Base) -> Expr {
     let own = base.symbol(arena);
-    let name = format!("{GIVEN}{}", arena.name(own).unwrap_or_default());
+    let name = format!("{GIVEN}{}", arena.symbol_name(own));
     arena.symbol(&name)
 }
 

@@ -3,6 +3,7 @@
 //! Everything dynamical is derived from this table and a Hamiltonian. Conventions: `{q, p} = 1`, `Pi[A][i]`
 //! conjugate to `phi[i][A]`.
 
+use crate::algebra::fault;
 use crate::algebra::{Expr, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
@@ -15,7 +16,7 @@ pub fn bracket(chart: &Chart, a: Coordinate, b: Coordinate) -> Polynomial {
 
 /// `{a, b}` for `a` not after `b` in the order `x, phi, p, M`.
 fn ordered(chart: &Chart, a: Coordinate, b: Coordinate) -> Polynomial {
-    use Coordinate::{M, P, Phi, X};
+    use Coordinate::{Carried, M, P, Phi, X};
     let mut sum = Polynomial::zero();
     match (a, b) {
         (X(i), P(j)) => match chart.linear {
@@ -39,8 +40,9 @@ fn ordered(chart: &Chart, a: Coordinate, b: Coordinate) -> Polynomial {
             // {p_hat_C, Sigma_hat_AB} = d_AC p_hat_B
             (Some(Linear::Body), Momentum::Body) => add(&mut sum, i == k, chart, P(j), 1),
             // {p_k, I_ij} = -d_ik p_j
-            (_, Momentum::Total) => add(&mut sum, i == k, chart, P(j), -1),
-            _ => {}
+            (Some(Linear::Space) | None, Momentum::Total) => add(&mut sum, i == k, chart, P(j), -1),
+            (Some(Linear::Space) | None, _) => {}
+            (Some(Linear::Body), _) => fault::record("p_hat stands beside Sigma_hat alone"),
         },
         (M(i, j), M(k, l)) => match chart.momentum {
             // {Sigma_hat_AB, Sigma_hat_CD} = d_CB Sigma_hat_AD - d_AD Sigma_hat_CB
@@ -55,6 +57,9 @@ fn ordered(chart: &Chart, a: Coordinate, b: Coordinate) -> Polynomial {
             }
             Momentum::Canonical => {}
         },
+        (Carried(_), _) | (_, Carried(_)) => {
+            fault::record("what is carried moves by its own rate, no bracket")
+        }
         _ => {}
     }
     sum

@@ -72,7 +72,7 @@ impl Constraint {
     /// velocities on `g`.
     #[must_use]
     pub fn projected<R: Ring>(self, m: &Square<R>) -> Square<R> {
-        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        let half = Rational::HALF;
         let skew = || {
             table(m.len(), |a, b| {
                 let mut entry = R::zero();
@@ -88,8 +88,7 @@ impl Constraint {
             Self::Rigid => skew(),
             Self::Conformal => {
                 let mut result = skew();
-                let nth = i64::try_from(m.len()).ok().and_then(|n| Rational::ratio(1, n));
-                let nth = nth.unwrap_or(Rational::ONE);
+                let nth = Rational::one_over(m.len());
                 for a in 0..m.len() {
                     for (k, row) in m.iter().enumerate() {
                         result[a][a].plus(&row[k], &nth);

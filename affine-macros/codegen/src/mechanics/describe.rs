@@ -104,7 +104,7 @@ pub(super) fn quadratic_terms(
     frame: Frame,
     terms: &[Term],
 ) {
-    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+    let half = Rational::HALF;
     let (o, o_latex) = match frame {
         Frame::Body => ("Omega_hat", "\\hat\\Omega"),
         Frame::Space => ("Omega", "\\Omega"),

@@ -53,7 +53,7 @@ pub(super) fn invariant(n: usize) -> Vec<BasisVector> {
     }
     for a in 1..n {
         let mut entries: Vec<_> = (0..a).map(|b| (n * b + b, one())).collect();
-        entries.push((n * a + a, Rational::from(-i64::try_from(a).unwrap_or(i64::MAX))));
+        entries.push((n * a + a, -&Rational::whole(a)));
         basis.push(BasisVector { kind: Direction::Shear, entries });
     }
     basis.push(BasisVector {

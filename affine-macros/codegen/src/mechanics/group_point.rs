@@ -8,6 +8,7 @@
 use std::collections::HashMap;
 
 use crate::algebra::evaluate::{Field, evaluate_polynomial};
+use crate::algebra::fault::never_missing;
 use crate::algebra::residue::Residue;
 use crate::algebra::ring::{Ring, Square, adjugate, product, table};
 use crate::algebra::{Arena, Matrix, Polynomial, Rational};
@@ -57,10 +58,10 @@ impl GroupPoint {
         let momentum = group.map_or_else(|| momentum.clone(), |group| group.projected(&momentum));
         for (symbols, values) in [(&chart.phi, phi), (&chart.m, momentum)] {
             for (symbol, value) in symbols.0.iter().flatten().zip(values.concat()) {
-                point.values.insert(arena.name(*symbol).unwrap_or_default().to_owned(), value);
+                point.values.insert(arena.symbol_name(*symbol).to_owned(), value);
             }
         }
-        let inverse = scale.recip().unwrap_or(Residue::UNKNOWN);
+        let inverse = never_missing(scale.recip(), "a random dilatation is not zero", Residue::UNKNOWN);
         let of_the_dilatation = [
             ("dilatation", scale),
             ("inverse_dilatation", inverse),
@@ -101,13 +102,13 @@ impl GroupPoint {
     }
 
     fn sample(&self, arena: &Arena, symbols: &Matrix) -> Square<Residue> {
-        table(symbols.dim(), |i, j| self.value(arena.name(symbols.0[i][j]).unwrap_or_default()))
+        table(symbols.dim(), |i, j| self.value(arena.symbol_name(symbols.0[i][j])))
     }
 
     /// The value of a polynomial.
     pub(super) fn evaluate(&self, arena: &Arena, polynomial: &Polynomial) -> Residue {
         let value = evaluate_polynomial(arena, polynomial, &|name| Some(self.value(name)));
-        value.unwrap_or(Residue::UNKNOWN)
+        never_missing(value, "a form of the energy has values on the group", Residue::UNKNOWN)
     }
 }
 
@@ -124,13 +125,17 @@ fn determinant(m: &Square<Residue>) -> Residue {
     sum
 }
 
+fn inverse_determinant(m: &Square<Residue>) -> Residue {
+    never_missing(determinant(m).recip(), "a random matrix is regular", Residue::UNKNOWN)
+}
+
 fn scaled(m: &Square<Residue>, factor: Residue) -> Square<Residue> {
     table(m.len(), |i, j| m[i][j].mul(&factor))
 }
 
 /// The matrix with its first row divided by its determinant.
 fn unimodular(m: &Square<Residue>) -> Square<Residue> {
-    let factor = determinant(m).recip().unwrap_or(Residue::UNKNOWN);
+    let factor = inverse_determinant(m);
     table(m.len(), |i, j| if i == 0 { m[i][j].mul(&factor) } else { m[i][j] })
 }
 

@@ -106,7 +106,7 @@ impl Hamiltonian {
         for (a, row) in self.velocity.iter().enumerate() {
             for (b, o) in row.iter().enumerate() {
                 let x = Polynomial::atom(self.momentum.0[b][a]);
-                sum.add_product(&x, o, &half());
+                sum.add_product(&x, o, &Rational::HALF);
             }
         }
         sum
@@ -169,7 +169,7 @@ impl Hamiltonian {
         };
         let mut sum = Polynomial::zero();
         for p in &squares {
-            sum.add_product(&p.mul(p), inverse_mass, &half());
+            sum.add_product(&p.mul(p), inverse_mass, &Rational::HALF);
         }
         sum
     }
@@ -202,10 +202,10 @@ impl Isotropic {
             }
         }
         let mut sum = Polynomial::zero();
-        sum.add_product(&c2, &self.casimir2, &half());
-        sum.add_product(&c1.mul(&c1), &self.casimir1_squared, &half());
+        sum.add_product(&c2, &self.casimir2, &Rational::HALF);
+        sum.add_product(&c1.mul(&c1), &self.casimir1_squared, &Rational::HALF);
         if !self.casimir3.is_zero() {
-            let third = Rational::ratio(1, 3).unwrap_or(Rational::ONE);
+            let third = Rational::THIRD;
             sum.add_product(&cubed_trace(spin), &self.casimir3, &third);
         }
         sum
@@ -219,7 +219,7 @@ impl Isotropic {
             for b in a + 1..spin.len() {
                 let mut w = spin[a][b].clone();
                 w.add_scaled(&spin[b][a], &Rational::MINUS_ONE);
-                norm.add_product(&w, &w, &half());
+                norm.add_product(&w, &w, &Rational::HALF);
             }
         }
         norm.mul(&self.skew)
@@ -268,10 +268,6 @@ pub fn spatial_or_own(chart: &Chart) -> Vec<Vec<Polynomial>> {
         .collect()
 }
 
-fn half() -> Rational {
-    Rational::ratio(1, 2).unwrap_or(Rational::ONE)
-}
-
 /// The isotropic coefficients, where shear, rotation and dilatation each have one eigenvalue, or are not free.
 fn isotropic(
     arena: &mut Arena,
@@ -303,13 +299,13 @@ fn isotropic(
     // C(2) = |symmetric|^2 - |skew|^2 and |W|^2 = 2 |skew|^2 (sum over all entries on the right).
     let mut casimir1_squared = dilatation;
     casimir1_squared.add_scaled(&shear, &Rational::MINUS_ONE);
-    let nth = Rational::ratio(1, i64::try_from(n).ok()?)?;
+    let nth = Rational::one_over(n);
     let mut skew = shear.clone();
     skew.add_scaled(&rotation, &Rational::ONE);
     Some(Isotropic {
         casimir2: shear,
         casimir1_squared: casimir1_squared.scaled(&nth),
-        skew: skew.scaled(&half()),
+        skew: skew.scaled(&Rational::HALF),
         casimir3: Polynomial::zero(),
     })
 }

@@ -1,5 +1,6 @@
 //! The Hessian of the kinetic energy on the velocity space, its invariant blocks and its exact inverse.
 
+use crate::algebra::fault::never_missing;
 use crate::algebra::linear::{self, Inertia};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
@@ -72,7 +73,11 @@ impl Block {
         let seen = |vector: &BasisVector| {
             let mut velocity = vec![Rational::ZERO; congruent.velocities.len()];
             for (k, w) in &vector.entries {
-                let per_root = w.checked_div(&congruent.roots[*k]).unwrap_or(Rational::ZERO);
+                let per_root = never_missing(
+                    w.checked_div(&congruent.roots[*k]),
+                    "a root of a positive number is not zero",
+                    Rational::ZERO,
+                );
                 for (place, weight) in &congruent.velocities[*k] {
                     velocity[*place] = &velocity[*place] + &(&per_root * weight);
                 }
@@ -128,17 +133,16 @@ impl Hessian {
             None => vec![entries(kinetic.dim.pow(2)), invariant(kinetic.dim)],
             Some(group) => group.bases(kinetic.dim, invariant(kinetic.dim)),
         };
-        let blocks = bases
-            .into_iter()
-            .map(|basis| blocks(&matrix, basis))
+        let blocks = bases.into_iter().map(|basis| blocks(&matrix, basis));
+        let blocks = blocks
             // Work of inverting; the invariant directions win a tie, since they name the eigenvalues, but not where
             // numbers are left to tell: in entries their eigenvalues are those of T.
             .min_by_key(|blocks| {
                 let work: usize = blocks.iter().map(|b| b.basis.len().pow(3)).sum();
                 let left = blocks.iter().any(|b| b.basis.len() > 1 && b.numbers().is_none());
                 (work, (blocks[0].basis[0].kind == Direction::Entry) != left)
-            })
-            .unwrap_or_default();
+            });
+        let blocks = never_missing(blocks, "velocities have a basis", Vec::new());
         let hessian = Self { blocks, matrix, weights: None };
         match &kinetic.congruent {
             Some(congruent) => hessian.decided_by(congruent, kinetic),

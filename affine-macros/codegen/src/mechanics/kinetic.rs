@@ -169,7 +169,7 @@ fn common(
 /// The energy of an internal term at the affine velocity `o` of its frame.
 fn internal_energy(arena: &mut Arena, o: &Matrix, term: &Term) -> Polynomial {
     let n = o.dim();
-    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+    let half = Rational::HALF;
     let pairs = || (0..n).flat_map(|a| (0..n).map(move |b| (a, b)));
     let mut energy = Polynomial::zero();
     let mut add = |left: Expr, coefficient: &Polynomial, right: Expr| {

@@ -37,7 +37,7 @@ pub fn inverse_placement(arena: &mut Arena, dim: usize) -> (Matrix, Definitions)
         determinant.add_product(entry, &row[0], &Rational::ONE);
     }
     // A symbol is not the number zero.
-    let reciprocal = Polynomial::atom(arena.pow(det, -1).unwrap_or(det));
+    let reciprocal = Polynomial::atom(arena.reciprocal(det));
     let mut shared = vec![(det, determinant), (inverse_det, reciprocal)];
     let inverse = Matrix::symbols(arena, INVERSE, dim);
     for (symbol, cofactor) in inverse.0.iter().flatten().zip(cofactors.iter().flatten()) {

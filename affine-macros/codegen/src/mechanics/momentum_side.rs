@@ -63,7 +63,7 @@ impl Stated {
         let two = Rational::from(2);
         let mut rotation = sum.skew.scaled(&two);
         rotation.add_scaled(&sum.casimir2, &Rational::MINUS_ONE);
-        let mut dilatation = sum.casimir1_squared.scaled(&dimension(self.dim));
+        let mut dilatation = sum.casimir1_squared.scaled(&Rational::whole(self.dim));
         dilatation.add_scaled(&sum.casimir2, &Rational::ONE);
         [
             (Direction::Shear, sum.casimir2),
@@ -131,8 +131,8 @@ impl Stated {
         let dilatation = if self.leaves_free(Direction::Dilatation) { dilatation } else { shear.clone() };
         let (shear, rotation, dilatation) =
             (reciprocal(shear)?, reciprocal(rotation)?, reciprocal(dilatation)?);
-        let half = Rational::ratio(1, 2)?;
-        let nth = Rational::ONE.checked_div(&dimension(self.dim))?;
+        let half = Rational::HALF;
+        let nth = Rational::one_over(self.dim);
         let combined = |x: &Polynomial, y: &Polynomial, sign: &Rational, weight: &Rational| {
             let mut sum = x.clone();
             sum.add_scaled(y, sign);
@@ -189,8 +189,4 @@ impl Stated {
 fn atoms(matrix: &Matrix) -> Vec<Vec<Polynomial>> {
     let row = |row: &Vec<Expr>| row.iter().map(|symbol| Polynomial::atom(*symbol)).collect();
     matrix.0.iter().map(row).collect()
-}
-
-fn dimension(n: usize) -> Rational {
-    Rational::from(i64::try_from(n).unwrap_or(i64::MAX))
 }

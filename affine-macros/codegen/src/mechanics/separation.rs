@@ -197,8 +197,8 @@ pub(super) fn shear_system(
         let found = forces.forces.iter().find(|(z, _)| *z == Coordinate::M(a, b));
         found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
     };
-    let nth = Rational::ratio(1, i64::try_from(n).ok()?)?;
-    let half = Rational::ratio(1, 2)?;
+    let nth = Rational::one_over(n);
+    let half = Rational::HALF;
     let mut mean = Polynomial::zero();
     (0..n).for_each(|a| mean.add_scaled(&force(a, a), &nth));
     for (a, b) in pairs(n) {
@@ -238,7 +238,7 @@ fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
     let mut at_rest = |form: &Polynomial| {
         let form = form.expression(arena);
         // Dilatations of a placement have no part in what vanishes.
-        let form = arena.substitute(form, &value).unwrap_or(form);
+        let form = arena.replaced(form, &value);
         Polynomial::normal_form(arena, form)
     };
     let shared = load.shared.iter().filter(|(symbol, _)| !defined(*symbol));
@@ -291,7 +291,7 @@ fn sum(left: &Polynomial, right: &Polynomial, weight: &Rational) -> Polynomial {
 impl Isotropic {
     /// `1/m` of `p^2/(2 m)`, the energy of the dilatational momentum `p = tr Sigma`: `1/(n alpha) + 1/beta`.
     pub(super) fn inverse_dilatational_mass(&self, n: usize) -> Polynomial {
-        let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+        let nth = Rational::one_over(n);
         sum(&self.casimir2.scaled(&nth), &self.casimir1_squared, &Rational::ONE)
     }
 }

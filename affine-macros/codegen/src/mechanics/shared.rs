@@ -65,7 +65,7 @@ impl Shared<'_> {
         self.named("det", &determinant);
         let det = self.arena.symbol("det");
         // A symbol is not the number zero.
-        let reciprocal = Polynomial::atom(self.arena.pow(det, -1).unwrap_or(det));
+        let reciprocal = Polynomial::atom(self.arena.reciprocal(det));
         let inverse_det = self.arena.symbol("inverse_det");
         if !self.list.iter().any(|(known, _)| *known == inverse_det) {
             self.list.push((inverse_det, reciprocal));

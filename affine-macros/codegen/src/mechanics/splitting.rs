@@ -162,9 +162,9 @@ fn own_dilatation(
     let mut trace = Polynomial::zero();
     spin.iter().for_each(|entry| trace.add_scaled(entry, &Rational::ONE));
     let mut energy = Polynomial::zero();
-    energy.add_product(&trace.mul(&trace), &inverse_mass, &Rational::ratio(1, 2)?);
+    energy.add_product(&trace.mul(&trace), &inverse_mass, &Rational::HALF);
     let mut h = h.clone();
-    let nth = Rational::ratio(-1, i64::try_from(chart.dim).ok()?)?;
+    let nth = -&Rational::one_over(chart.dim);
     // tr M^2 - (tr M)^2/n, of the traceless momentum.
     h.isotropic.as_mut()?.casimir1_squared = iso.casimir2.scaled(&nth);
     let gauge = gauge(chart, reduction.turned, reduction.layout);

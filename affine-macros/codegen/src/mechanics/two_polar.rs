@@ -16,6 +16,7 @@ mod pieces;
 mod ratios;
 mod stable;
 
+use crate::algebra::fault::never_missing;
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 
 use super::hamiltonian::Hamiltonian;
@@ -56,19 +57,23 @@ impl Lattice {
                 for (a, b) in self.pairs() {
                     let [m, n] = self.coupled(arena, a, b);
                     for z in [m, n] {
-                        sum.add_product(&z.mul(&z), &iso.casimir2, &(&quarter() * &quarter()));
+                        sum.add_product(
+                            &z.mul(&z),
+                            &iso.casimir2,
+                            &(&Rational::QUARTER * &Rational::QUARTER),
+                        );
                     }
                 }
                 sum
             }
             Some(iso) => {
-                let z = self.momentum_on_axes(arena, &quarter());
+                let z = self.momentum_on_axes(arena, &Rational::QUARTER);
                 let mut sum = iso.casimirs(&z);
                 sum.add_scaled(&iso.skew_norm(&self.conserved_spin(h.frame)), &Rational::ONE);
                 sum
             }
             None => {
-                let p = self.momentum_on_axes(arena, &half());
+                let p = self.momentum_on_axes(arena, &Rational::HALF);
                 let entry = |atom: Expr| {
                     let place = h.momentum.0.iter().flatten().position(|entry| *entry == atom)?;
                     Some(p[place / self.dim][place % self.dim].clone())
@@ -99,8 +104,7 @@ impl Lattice {
     /// `M_ab/odd_ab` and `N_ab/even_ab`.
     fn coupled(&self, arena: &mut Arena, a: usize, b: usize) -> [Polynomial; 2] {
         // Functions of symbols are not the number zero.
-        let [odd, even] =
-            self.couplings(arena, a, b).map(|e| Polynomial::atom(arena.pow(e, -1).unwrap_or(e)));
+        let [odd, even] = self.couplings(arena, a, b).map(|e| Polynomial::atom(arena.reciprocal(e)));
         [self.skew(Coordinate::M, a, b).mul(&odd), self.skew(Coordinate::N, a, b).mul(&even)]
     }
 
@@ -108,7 +112,7 @@ impl Lattice {
     fn couplings(&self, arena: &mut Arena, a: usize, b: usize) -> [Expr; 2] {
         let (qa, qb) = (self.q[a], self.q[b]);
         let mut of_half = |functions: [Function; 2]| {
-            let x = arena.linear(&[(qa, half()), (qb, -&half())]);
+            let x = arena.linear(&[(qa, Rational::HALF), (qb, -&Rational::HALF)]);
             functions.map(|function| arena.apply(function, x))
         };
         match self.variables {
@@ -121,10 +125,10 @@ impl Lattice {
     /// A matrix `X` with `X - X^T = tau_hat` (body) or `rho_hat` (space): `|Vort|^2` and `|S|^2` in the energy.
     fn conserved_spin(&self, frame: Frame) -> Vec<Vec<Polynomial>> {
         let mut rows = vec![vec![Polynomial::zero(); self.dim]; self.dim];
-        let sign = if frame == Frame::Body { half() } else { -&half() };
+        let sign = if frame == Frame::Body { Rational::HALF } else { -&Rational::HALF };
         for (a, b) in self.pairs() {
             // tau_hat = -(N + M)/2, rho_hat = (N - M)/2; the norm is even.
-            rows[a][b].add_scaled(&self.skew(Coordinate::N, a, b), &half());
+            rows[a][b].add_scaled(&self.skew(Coordinate::N, a, b), &Rational::HALF);
             rows[a][b].add_scaled(&self.skew(Coordinate::M, a, b), &sign);
         }
         rows
@@ -155,11 +159,14 @@ impl Lattice {
             sum
         };
         let rates = coordinates.iter().map(|z| (*z, self.symbol(*z), rate(*z))).collect();
-        let of = |z: Coordinate| slopes.iter().find(|(y, _)| *y == z).map(|(_, slope)| slope.clone());
+        let of = |z: Coordinate| {
+            let slope = slopes.iter().find(|(y, _)| *y == z).map(|(_, slope)| slope.clone());
+            never_missing(slope, "there is a slope along every coordinate", Polynomial::zero())
+        };
         let angular = |sign: Rational| {
             let one = |(a, b)| {
-                let mut sum = of(Coordinate::M(a, b)).unwrap_or_default();
-                sum.add_scaled(&of(Coordinate::N(a, b)).unwrap_or_default(), &sign);
+                let mut sum = of(Coordinate::M(a, b));
+                sum.add_scaled(&of(Coordinate::N(a, b)), &sign);
                 sum
             };
             self.pairs().map(one).collect()
@@ -177,12 +184,4 @@ impl Equations {
             }
         }
     }
-}
-
-fn half() -> Rational {
-    Rational::ratio(1, 2).unwrap_or(Rational::ONE)
-}
-
-fn quarter() -> Rational {
-    Rational::ratio(1, 4).unwrap_or(Rational::ONE)
 }

@@ -40,15 +40,14 @@ impl Weight {
             length.add_term(vec![entry, entry], &Rational::ONE);
         }
         // A symbol is not the number zero.
-        let reciprocal = Polynomial::atom(arena.pow(square, -1).unwrap_or(square));
+        let reciprocal = Polynomial::atom(arena.reciprocal(square));
         Self { square, inverse, definitions: vec![(square, length), (inverse, reciprocal)] }
     }
 
     /// The force `-dH_int/dq 1/n = 2 H_int/n 1` on `Sigma_hat` from the internal energy, and what defines the weight.
     #[must_use]
     pub fn load(&self, chart: &Chart, internal: &Polynomial) -> Load {
-        let share =
-            i64::try_from(chart.dim).ok().and_then(|n| Rational::ratio(2, n)).unwrap_or(Rational::ONE);
+        let share = &Rational::from(2) * &Rational::one_over(chart.dim);
         let dependent = chart.dependent();
         let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
         let force = internal.substitute(&value).scaled(&share);

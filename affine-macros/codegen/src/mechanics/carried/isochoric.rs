@@ -1,6 +1,7 @@
 //! Equations without `det phi`, which leaves the range of numbers n times as early as `phi` does: the isochoric part
 //! `Psi = r phi` has `det Psi = 1`, and `phi^-1 = r adj Psi`.
 
+use crate::algebra::rational::exponent;
 use crate::algebra::ring::{Square, adjugate, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
@@ -44,7 +45,7 @@ struct Powers {
 
 impl Powers {
     fn new(arena: &mut Arena, chart: &Chart, r: Expr, isochoric: bool) -> Self {
-        let n = i32::try_from(chart.dim).unwrap_or(3);
+        let n = exponent(chart.dim);
         let [det, inverse_det, d, swelling] =
             ["det", "inverse_det", "dilatation", "swelling"].map(|name| arena.symbol(name));
         let mut weights = vec![(det, n, false), (inverse_det, -n, false), (d, 1, false), (r, -1, false)];
@@ -72,7 +73,7 @@ impl Powers {
                 }
             }
             let factor = if power > 0 { self.d } else { self.r };
-            kept.extend(vec![factor; usize::try_from(power.unsigned_abs()).unwrap_or(0)]);
+            kept.extend(vec![factor; power.unsigned_abs() as usize]);
             result.add_term(kept, c);
         }
         result
@@ -83,12 +84,12 @@ impl Powers {
         if arena.name(atom).is_some() {
             return atom;
         }
-        let n = i32::try_from(self.n).unwrap_or(3);
-        let powers = [(self.d, n), (self.r, n)].map(|(of, k)| arena.pow(of, k).unwrap_or(of));
+        let n = exponent(self.n);
+        let powers = [(self.d, n), (self.r, n)].map(|(of, k)| arena.power(of, k));
         let values = [(self.weights[0].0, powers[0]), (self.weights[1].0, powers[1])];
         let value = |symbol: Expr| values.iter().find(|(known, _)| *known == symbol).map(|(_, power)| *power);
         // Powers of D are not zero.
-        arena.substitute(atom, &value).unwrap_or(atom)
+        arena.replaced(atom, &value)
     }
 
     fn of_system(&self, arena: &mut Arena, system: &System) -> System {

@@ -210,7 +210,7 @@ fn force_names(
     let owned = |(text, latex): (&str, &str)| (text.to_owned(), latex.to_owned());
     on_linear.extend(moves.then(|| owned(of_linear)));
     if h.weight.is_some() {
-        let share = i64::try_from(h.dim).ok().and_then(|n| Rational::ratio(2, n)).unwrap_or(Rational::ONE);
+        let share = &Rational::from(2) * &Rational::one_over(h.dim);
         let mut sum = Sum::default();
         sum.add(arena, notation, &Polynomial::constant(share), ("T_int 1", "T_{\\mathrm{int}}\\,1"));
         let Formula { text, latex } = sum.value();

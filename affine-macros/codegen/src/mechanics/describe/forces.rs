@@ -48,7 +48,7 @@ impl Forces {
             for part in &dissipation.parts {
                 quadratic_terms(arena, notation, &mut sum, part.form.frame, &part.form.terms);
             }
-            let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+            let half = Rational::HALF;
             for (frame, coefficient) in &dissipation.centre {
                 let body = match frame {
                     Frame::Body => ("|phi^-1 dx/dt|^2", "|\\varphi^{-1}\\dot x|^2"),

@@ -68,8 +68,8 @@ fn internal(
 
 /// Adds the Casimirs of an isotropic energy.
 fn casimirs(arena: &mut Arena, notation: &Notation, sum: &mut Sum, h: &Hamiltonian, iso: &Isotropic) {
-    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
-    let third = Rational::ratio(1, 3).unwrap_or(Rational::ONE);
+    let half = Rational::HALF;
+    let third = Rational::THIRD;
     let (x, hat, skew) = match h.frame {
         Frame::Body => ("Sigma_hat", "\\hat\\Sigma", ("|Vort|^2", "\\|V\\|^2")),
         _ => ("Sigma", "\\Sigma", ("|S|^2", "\\|S\\|^2")),
@@ -89,7 +89,7 @@ fn casimirs(arena: &mut Arena, notation: &Notation, sum: &mut Sum, h: &Hamiltoni
 /// Adds the energy of the centre of mass.
 fn translation(arena: &mut Arena, notation: &Notation, sum: &mut Sum, h: &Hamiltonian) {
     let Some((frame, inverse_mass)) = &h.translation else { return };
-    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+    let half = Rational::HALF;
     let body = match frame {
         Frame::Body => ("|phi^T p|^2", "|\\varphi^T p|^2"),
         _ => ("|p|^2", "|p|^2"),

@@ -77,7 +77,7 @@ impl Line {
         let value = self.value.expression(arena);
         let (left, value) = match (self.is_rate, exponent) {
             // 1/D = 1/x says that D = x; a definition is not zero.
-            (false, -1) => (base, arena.pow(value, -1).unwrap_or(value)),
+            (false, -1) => (base, arena.reciprocal(value)),
             _ => (self.symbol, value),
         };
         let right = notation.formula(arena, value);

@@ -4,6 +4,7 @@
 //! `A J A^T` in space. `K` is contracted with the components of a velocity, whose metrics it does not read, and becomes
 //! `M^T K M` with `O = M O'`.
 
+use crate::algebra::fault::never_missing;
 use crate::algebra::ring::{Square, product, table, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::kinetic::Kinetic;
@@ -243,8 +244,8 @@ impl Bases {
                 let zero = arena.constant(Rational::ZERO);
                 let mut rows = vec![vec![zero; right.squares.len()]; right.squares.len()];
                 for (k, square) in right.squares.iter().enumerate() {
-                    // Squared lengths are positive.
-                    let reciprocal = square.recip().unwrap_or(Rational::ONE);
+                    let reciprocal =
+                        never_missing(square.recip(), "a squared length is positive", Rational::ZERO);
                     rows[k][k] = scalar.scaled(&reciprocal).expression(arena);
                 }
                 Coefficient::Matrix(Matrix(rows))

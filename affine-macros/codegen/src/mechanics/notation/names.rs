@@ -66,7 +66,7 @@ impl Notation<'_> {
         }
         let value = |symbol: Expr| values.iter().find(|(known, _)| *known == symbol).map(|(_, value)| *value);
         // Powers of symbols are not zero.
-        arena.substitute(expr, &value).unwrap_or(expr)
+        arena.replaced(expr, &value)
     }
 
     /// The symbol that this is a power of in formulas, and the exponent.
@@ -95,7 +95,7 @@ impl Notation<'_> {
 
     /// Text and LaTeX of a symbol.
     fn written(&self, arena: &Arena, symbol: Expr) -> [Written; 2] {
-        let name = arena.name(symbol).unwrap_or_default();
+        let name = arena.symbol_name(symbol);
         if let Some((matrix, (row, column))) = self.inverses.get(&symbol) {
             return matrix.inverse_entry(*row, *column);
         }

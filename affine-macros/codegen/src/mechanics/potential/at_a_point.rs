@@ -1,5 +1,6 @@
 //! The value of a potential at a point, without cancellation near the undeformed state.
 
+use crate::algebra::fault::never_missing;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::metric::Definitions;
@@ -16,7 +17,7 @@ impl Potential {
     /// counted from `n`, so that the constants go away exactly.
     pub fn energy_at_a_point(&self, arena: &mut Arena, chart: &Chart) -> (Polynomial, Definitions) {
         let (mut values, shared) = self.at_a_point(arena, chart, &[self.energy]);
-        (values.pop().unwrap_or_default(), shared)
+        (never_missing(values.pop(), "one function has one value", Polynomial::zero()), shared)
     }
 
     /// The values of the functions that keep the state within the domain, with what they share; `q` and `q_a` are inputs.
@@ -44,7 +45,7 @@ impl Potential {
                 sums.named(arena, shifted)
             })
             .collect();
-        let n = Rational::from(i64::try_from(self.dim).unwrap_or(1));
+        let n = Rational::whole(self.dim);
         let mut shared = definitions(arena, self.dim, chart);
         let (excesses, strains) = strain_traces(arena, chart);
         shared.extend(excesses);

@@ -107,7 +107,7 @@ fn along_axis(
     let mut power = |exponent: usize, number: i64| match exponent.checked_sub(less) {
         Some(exponent) => Polynomial::term(vec![stretches[a]; exponent], Rational::from(number)),
         // A symbol is not the number zero.
-        None => Polynomial::atom(arena.pow(stretches[a], -1).unwrap_or(stretches[a])),
+        None => Polynomial::atom(arena.reciprocal(stretches[a])),
     };
     match base {
         Base::MeanLogStretch => power(0, 1),
@@ -128,14 +128,14 @@ fn along_axis(
 /// Base functions through the places.
 fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<(Expr, Polynomial)> {
     let n = lattice.dim;
-    let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+    let nth = Rational::one_over(n);
     let mut list = Vec::new();
     let (mut trace, mut of_square, mut of_cube) =
         (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
     for (a, stretch) in stretches.iter().enumerate() {
         let inverse = arena.symbol(&format!("inverse_stretch_{}", a + 1));
         // A symbol is not the number zero.
-        list.push((inverse, Polynomial::atom(arena.pow(*stretch, -1).unwrap_or(*stretch))));
+        list.push((inverse, Polynomial::atom(arena.reciprocal(*stretch))));
         let square = arena.symbol(&format!("square_{}", a + 1));
         list.push((square, Polynomial::term(vec![*stretch, *stretch], Rational::ONE)));
         trace.add_term(vec![square], &Rational::ONE);
@@ -168,7 +168,7 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
             list.push((det, Polynomial::term(stretches.to_vec(), Rational::ONE)));
             let root = arena.apply(if n == 2 { Function::Sqrt } else { Function::Cbrt }, det);
             list.push((d, Polynomial::atom(root)));
-            list.push((inverse_d, Polynomial::atom(arena.pow(d, -1).unwrap_or(d))));
+            list.push((inverse_d, Polynomial::atom(arena.reciprocal(d))));
             list.push((q, Polynomial::term(vec![arena.apply(Function::Ln, det)], nth)));
             for (a, stretch) in stretches.iter().enumerate() {
                 let own = Base::LogStretch(a).symbol(arena);
@@ -185,7 +185,7 @@ fn counted_from_undeformed(
     lattice: &Lattice,
     shared: &mut Vec<(Expr, Polynomial)>,
 ) -> Vec<(Expr, Polynomial)> {
-    let n = Rational::from(i64::try_from(lattice.dim).unwrap_or(1));
+    let n = Rational::whole(lattice.dim);
     let (mut trace, mut of_square, mut of_cube) =
         (Polynomial::constant(n.clone()), Polynomial::constant(n.clone()), Polynomial::constant(n));
     let mut list = Vec::new();
@@ -243,7 +243,7 @@ fn replaced(arena: &mut Arena, expr: Expr, value: &dyn Fn(Expr) -> Option<Expr>)
             let factors: Vec<(Expr, i32)> =
                 factors.into_iter().map(|(base, e)| (replaced(arena, base, value), e)).collect();
             // An isotropic function that is smooth has no pole on the axes.
-            arena.product(&factors).unwrap_or(expr)
+            arena.certain_product(&factors)
         }
         Node::Function(function, argument) => {
             let argument = replaced(arena, argument, value);

@@ -88,14 +88,13 @@ impl Base {
 
     /// The number that its slope is multiplied by in a force, taken into the slope.
     pub(super) fn weight(self, n: usize) -> Rational {
-        let number = match self {
-            Self::MeanLogStretch => i64::try_from(n).ok().and_then(|n| Rational::ratio(-1, n)),
-            Self::Trace => Some(Rational::from(-2)),
-            Self::TraceOfSquare => Some(Rational::from(-4)),
-            Self::TraceOfCube => Some(Rational::from(-6)),
-            _ => Some(Rational::MINUS_ONE),
-        };
-        number.unwrap_or(Rational::MINUS_ONE)
+        match self {
+            Self::MeanLogStretch => -&Rational::one_over(n),
+            Self::Trace => Rational::from(-2),
+            Self::TraceOfSquare => Rational::from(-4),
+            Self::TraceOfCube => Rational::from(-6),
+            _ => Rational::MINUS_ONE,
+        }
     }
 
     /// Does its derivative along a direction lose one power of `D`, as along the placement itself?

@@ -45,7 +45,7 @@ impl Isochoric {
     /// ```
     pub(super) fn definitions(&self, arena: &mut Arena) -> Vec<(Expr, Polynomial)> {
         let n = self.deviator.len();
-        let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+        let nth = Rational::one_over(n);
         let (mean, mut list) = (mean_square(arena), Vec::new());
         list.push((mean, Polynomial::term(self.trace.clone(), nth)));
         let mut deviator: Square<Polynomial> = vec![vec![Polynomial::zero(); n]; n];
@@ -65,14 +65,14 @@ impl Isochoric {
         let mut above = Polynomial::atom(of_square);
         if n == 3 {
             powers.extend(arena.product(&[(mean, 2)]).map(|square| (square, Rational::ONE)));
-            above = Polynomial::term(vec![mean, of_square], Rational::ratio(3, 2).unwrap_or(Rational::ONE));
+            above = Polynomial::term(vec![mean, of_square], &Rational::from(3) * &Rational::HALF);
             for (entry, row) in deviator[0].iter().zip(adjugate(&deviator)) {
                 above.plus_product(entry, &row[0], &Rational::from(-3));
             }
         }
         let below = arena.linear(&powers);
         // A sum of squares and one.
-        let reciprocal = arena.pow(below, -1).unwrap_or(below);
+        let reciprocal = arena.reciprocal(below);
         list.push((symbol(arena), above.mul(&Polynomial::atom(reciprocal))));
         list
     }

@@ -1,6 +1,7 @@
 //! What a potential leaves conserved: its derivatives along the generators of the group.
 
 use crate::algebra::evaluate::{Field, evaluate};
+use crate::algebra::fault::never_missing;
 use crate::algebra::residue::Residue;
 use crate::algebra::ring::{Ring, Square, deviator, product, skew, sum, table};
 use crate::algebra::{Arena, Expr, Rational};
@@ -82,7 +83,8 @@ impl AtAPoint {
         let tensors = Tensors { phi, green, finger, squares, cofactors: Vec::new(), principal };
         let mut known = tensors.values();
         for k in 1..=n {
-            let inverse = point.value(&format!("stretch_{k}")).recip().unwrap_or(Residue::UNKNOWN);
+            let inverse = point.value(&format!("stretch_{k}")).recip();
+            let inverse = never_missing(inverse, "a random stretch is not zero", Residue::UNKNOWN);
             known.insert(format!("inverse_stretch_{k}"), inverse);
         }
         let value = |name: &str| Some(known.get(name).copied().unwrap_or_else(|| point.value(name)));

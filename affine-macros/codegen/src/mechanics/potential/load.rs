@@ -123,12 +123,17 @@ fn on_axes(
         Base::TraceOfCube if at_rest => Some(6),
         _ => None,
     };
-    let (isotropic, mut rest): (Vec<_>, Vec<_>) =
-        slopes.into_iter().partition(|(base, _)| power(base).is_some());
-    for (base, slope) in isotropic {
+    let (mut isotropic, mut rest) = (Vec::new(), Vec::new());
+    for (base, slope) in slopes {
+        match power(&base) {
+            Some(power) => isotropic.push((power, slope)),
+            None => rest.push((base, slope)),
+        }
+    }
+    for (power, slope) in isotropic {
         for k in 0..n {
             let stretch = principal::stretch(arena, k);
-            let projected = Polynomial::term(vec![stretch; power(&base).unwrap_or(0)], Rational::ONE);
+            let projected = Polynomial::term(vec![stretch; power], Rational::ONE);
             let slope = slope.mul(&projected);
             let axis = Base::LogStretch(k);
             match rest.iter_mut().find(|(base, _)| *base == axis) {

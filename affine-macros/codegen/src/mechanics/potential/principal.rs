@@ -91,7 +91,7 @@ pub(super) fn computed(arena: &mut Arena, chart: &Chart, counts: bool) -> (Kerne
     };
     let mut shared = Vec::new();
     for (k, (stretch, logarithm)) in stretches.into_iter().zip(logarithms).enumerate() {
-        let reciprocal = arena.pow(stretch, -1).unwrap_or(stretch);
+        let reciprocal = arena.reciprocal(stretch);
         shared.push((inverse_stretch(arena, k), Polynomial::atom(reciprocal)));
         if !counts {
             let value = arena.apply(Function::Ln, stretch);

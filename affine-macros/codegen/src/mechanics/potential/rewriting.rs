@@ -1,6 +1,8 @@
 //! Functions of `q` in the forms that right-hand sides and energies need.
 
 use crate::algebra::arena::Node;
+use crate::algebra::fault::never_missing;
+use crate::algebra::rational::exponent;
 use crate::algebra::{Arena, Expr, Function, Rational};
 
 use super::base::DILATATION;
@@ -31,13 +33,13 @@ pub(super) fn multiple_of_logarithm(arena: &Arena, argument: Expr) -> Option<(Ex
 /// root instead of a logarithm and an exponential each; those of `q_a` as powers of `Q_a` and `1/Q_a`.
 pub(super) fn through_dilatation(arena: &mut Arena, expr: Expr) -> Expr {
     let power = |arena: &mut Arena, q: Expr, k: i32| {
-        let name = exponential(arena, q).unwrap_or_default();
+        let name = never_missing(exponential(arena, q), "only logarithms have multiples", String::new());
         let base = arena.symbol(&if k > 0 { name } else { format!("inverse_{name}") });
-        arena.pow(base, i32::try_from(k.unsigned_abs()).unwrap_or(1)).unwrap_or(base)
+        arena.power(base, exponent(k.unsigned_abs() as usize))
     };
     rewritten(arena, expr, &|arena, function, argument, exponent| {
         let (q, k) = multiple_of_logarithm(arena, argument)?;
-        let half = Rational::ratio(1, 2)?;
+        let half = Rational::HALF;
         match function {
             Function::Exp => Some(power(arena, q, k.checked_mul(exponent)?)),
             Function::Sinh | Function::Cosh => {
@@ -117,7 +119,7 @@ fn rewritten(
                 });
             }
             // The bases were not the number zero, and keep their values.
-            arena.product(&product).unwrap_or(expr)
+            arena.certain_product(&product)
         }
         Node::Function(function, argument) => match value(arena, function, argument, 1) {
             Some(known) => known,

@@ -24,7 +24,7 @@ impl Base {
     /// The symbol of the same function of `Psi`.
     pub(super) fn unit(self, arena: &mut Arena) -> Expr {
         let symbol = self.symbol(arena);
-        let name = format!("unit_{}", arena.name(symbol).unwrap_or_default());
+        let name = format!("unit_{}", arena.symbol_name(symbol));
         arena.symbol(&name)
     }
 }
@@ -72,7 +72,7 @@ fn without_cancelling_powers(arena: &mut Arena, expr: Expr, d: Expr) -> Expr {
                 product.push((parts(arena, base), exponent));
             }
             // The bases keep their values, and were not the number zero.
-            arena.product(&product).unwrap_or(expr)
+            arena.certain_product(&product)
         }
     };
     let form = Polynomial::normal_form(arena, rebuilt);
@@ -85,14 +85,14 @@ fn logarithm(arena: &mut Arena, argument: Expr, d: Expr) -> Expr {
         Node::Product(factors) => factors.iter().find(|(base, _)| *base == d).map_or(0, |(_, k)| *k),
         _ => 0,
     };
-    let rest = arena.product(&[(argument, 1), (d, -power)]).unwrap_or(argument);
+    let rest = arena.certain_product(&[(argument, 1), (d, -power)]);
     let (q, rest) = (Base::MeanLogStretch.symbol(arena), arena.apply(Function::Ln, rest));
     arena.linear(&[(q, Rational::from(i64::from(power))), (rest, Rational::ONE)])
 }
 
 /// The polynomial without products of `D` and `1/D`, which are atoms of their own.
 fn cancelled(arena: &mut Arena, form: &Polynomial, d: Expr) -> Polynomial {
-    let inverse = arena.pow(d, -1).unwrap_or(d);
+    let inverse = arena.reciprocal(d);
     let mut result = Polynomial::zero();
     for (monomial, c) in form.terms() {
         let count = |atom: Expr| monomial.iter().filter(|a| **a == atom).count();

@@ -60,7 +60,6 @@ impl Strains {
 
     /// What is known of all symbols, those first whose changes cost least.
     pub(super) fn known(&self, arena: &mut Arena) -> Undeformed {
-        let n = i64::try_from(self.n).unwrap_or(3);
         let atom = Polynomial::atom;
         let mut list = Vec::new();
         let mut tensor = |arena: &mut Arena, base: fn(usize, usize) -> Base, diagonal: &[Expr]| {
@@ -87,9 +86,10 @@ impl Strains {
         }
         let [first, of_square, minors] =
             ["strain_1", "strain_2", "strain_minors"].map(|name| arena.symbol(name));
-        list.push((Base::Trace.symbol(arena), Counted::from(n, atom(first))));
+        let n = Rational::whole(self.n);
+        list.push((Base::Trace.symbol(arena), Counted::from(n.clone(), atom(first))));
         list.push((Base::TraceOfSquare.symbol(arena), Counted::from(n, atom(of_square))));
-        let nth = Rational::ratio(1, n).unwrap_or(Rational::ONE);
+        let nth = Rational::one_over(self.n);
         list.push((
             arena.symbol("mean_square_stretch"),
             Counted::from(1, Polynomial::term(vec![first], nth)),
@@ -100,8 +100,9 @@ impl Strains {
         let squared = arena.symbol("deviator_squared");
         list.push((squared, Counted::vanishing(atom(squared))));
         let mut second = atom(minors);
-        second.add_term(vec![first], &Rational::from(n - 1));
-        list.push((arena.symbol("second_invariant"), Counted::from(n * (n - 1) / 2, second)));
+        second.add_term(vec![first], &Rational::whole(self.n - 1));
+        let minors = Rational::whole(self.n * (self.n - 1) / 2);
+        list.push((arena.symbol("second_invariant"), Counted::from(minors, second)));
         for k in 0..self.n {
             let q = Base::LogStretch(k).symbol(arena);
             list.push((q, Counted::vanishing(atom(q))));
@@ -226,14 +227,14 @@ impl Strains {
         }
         let below = arena.linear(&powers);
         // A sum of powers of D and one.
-        let reciprocal = arena.pow(below, -1).unwrap_or(below);
+        let reciprocal = arena.reciprocal(below);
         list.push((excess_d, Polynomial::term(vec![excess, reciprocal], Rational::ONE)));
         // ln det = arsinh((det - 1/det)/2) = arsinh(((det - 1) + (det - 1)/det)/2)
-        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        let half = Rational::HALF;
         let mut argument = Polynomial::term(vec![excess], half.clone());
         argument.add_term(vec![excess, inverse_det], &half);
         let argument = argument.expression(arena);
-        let nth = i64::try_from(self.n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+        let nth = Rational::one_over(self.n);
         let logarithm = arena.apply(Function::Asinh, argument);
         list.push((Base::MeanLogStretch.symbol(arena), Polynomial::term(vec![logarithm], nth)));
     }
@@ -319,10 +320,7 @@ impl Strains {
     fn deviators(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
         let n = self.n;
         let base: fn(usize, usize) -> Base = if self.spatial { Base::Finger } else { Base::Green };
-        let whole = i64::try_from(n).unwrap_or(3);
-        let part = |number: usize| {
-            Rational::ratio(i64::try_from(number).unwrap_or(0), whole).unwrap_or(Rational::ONE)
-        };
+        let part = |number: usize| &Rational::whole(number) * &Rational::one_over(n);
         let mut diagonal = vec![Polynomial::zero(); n];
         for a in 0..n - 1 {
             let b = a + 1;
@@ -365,19 +363,19 @@ impl Strains {
 
     /// The polynomial with invariants through the mean and the deviator: those of dilatations cancel exactly.
     pub(super) fn through_deviator(&self, arena: &mut Arena, form: &Polynomial) -> Polynomial {
-        let n = i64::try_from(self.n).unwrap_or(3);
+        let n = Rational::whole(self.n);
+        let minors = Rational::whole(self.n * (self.n - 1) / 2);
         let [mean, square, second] =
             ["mean_square_stretch", "deviator_squared", "second_invariant"].map(|name| arena.symbol(name));
-        let half = Rational::ratio(-1, 2).unwrap_or(Rational::ONE);
         let sum = |of_mean: Rational, of_square: Rational| {
             let mut sum = Polynomial::term(vec![mean, mean], of_mean);
             sum.add_term(vec![square], &of_square);
             sum
         };
         let values = [
-            (Base::Trace.symbol(arena), Polynomial::term(vec![mean], Rational::from(n))),
-            (Base::TraceOfSquare.symbol(arena), sum(Rational::from(n), Rational::ONE)),
-            (second, sum(Rational::from(n * (n - 1) / 2), half)),
+            (Base::Trace.symbol(arena), Polynomial::term(vec![mean], n.clone())),
+            (Base::TraceOfSquare.symbol(arena), sum(n, Rational::ONE)),
+            (second, sum(minors, -&Rational::HALF)),
         ];
         form.substitute(&|atom| {
             values.iter().find(|(known, _)| *known == atom).map(|(_, value)| value.clone())

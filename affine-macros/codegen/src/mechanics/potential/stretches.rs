@@ -49,7 +49,7 @@ pub fn vanishes_at_coincidence(arena: &mut Arena, n: usize, function: Expr, a: u
         [Base::MeanLogStretch, Base::Trace, Base::TraceOfSquare, Base::TraceOfCube]
             .map(|base| base.symbol(arena));
     let stretches: Vec<Expr> = (0..n).map(|c| if c == b { q[a] } else { q[c] }).collect();
-    let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+    let nth = Rational::one_over(n);
     let sum = |arena: &mut Arena, power: i64| {
         let terms: Vec<(Expr, Rational)> = stretches
             .iter()

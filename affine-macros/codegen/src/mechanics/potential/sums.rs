@@ -79,7 +79,7 @@ impl Sums {
                     .map(|(base, exponent)| (self.replaced(arena, base, raised), exponent))
                     .collect();
                 // The bases keep their values, and were not the number zero.
-                return arena.product(&factors).unwrap_or(expr);
+                return arena.certain_product(&factors);
             }
             Node::Sum(constant, terms) => {
                 let mut summands = vec![(arena.constant(constant), Rational::ONE)];

@@ -19,8 +19,8 @@ pub(super) struct Counted {
 
 impl Counted {
     /// A number and a change.
-    pub(super) fn from(number: i64, change: Polynomial) -> Self {
-        Self { at_rest: Polynomial::constant(Rational::from(number)), change }
+    pub(super) fn from(number: impl Into<Rational>, change: Polynomial) -> Self {
+        Self { at_rest: Polynomial::constant(number.into()), change }
     }
 
     /// What vanishes at `phi = 1`.
@@ -174,7 +174,7 @@ impl Undeformed {
                 let above = arena.mul(step, sum);
                 let below = arena.mul(whole, start);
                 let ratio = arena.div(above, below)?;
-                let half = arena.scale(ratio, &Rational::ratio(1, 2)?);
+                let half = arena.scale(ratio, &Rational::HALF);
                 arena.apply(Function::Asinh, half)
             }
             // y - y0 = (u - u0)/(y + y0), and with cubes
@@ -190,7 +190,7 @@ impl Undeformed {
             }
             Function::Cosh | Function::Cos if at_rest.is_zero() => {
                 let odd = if function == Function::Cosh { Function::Sinh } else { Function::Sin };
-                let half = arena.scale(step, &Rational::ratio(1, 2)?);
+                let half = arena.scale(step, &Rational::HALF);
                 let half = arena.apply(odd, half);
                 let square = arena.mul(half, half);
                 arena.scale(square, &Rational::from(if odd == Function::Sinh { 2 } else { -2 }))

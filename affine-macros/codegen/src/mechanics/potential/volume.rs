@@ -2,6 +2,7 @@
 //! asked for.
 
 use crate::algebra::arena::Node;
+use crate::algebra::rational::exponent;
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 
 use crate::algebra::ring::adjugate;
@@ -24,20 +25,20 @@ impl Volume {
     pub(super) fn new(arena: &mut Arena, n: usize) -> Self {
         let [det, inverse_det, d, inverse_d] =
             ["det", "inverse_det", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
-        Self { n: i32::try_from(n).unwrap_or(3), det, inverse_det, d, inverse_d }
+        Self { n: exponent(n), det, inverse_det, d, inverse_d }
     }
 
     /// The dimension of space.
     pub(super) fn dim(&self) -> usize {
-        usize::try_from(self.n).unwrap_or(3)
+        self.n.unsigned_abs() as usize
     }
 
     /// The normal form of an expression in powers of `D` and `1/D`.
     pub(super) fn collected(&self, arena: &mut Arena, expr: Expr) -> Polynomial {
-        let reciprocal = arena.pow(self.d, -1).unwrap_or(self.d);
+        let reciprocal = arena.reciprocal(self.d);
         let inverse_d = self.inverse_d;
         // Powers of D are not zero.
-        let expr = arena.substitute(expr, &|s| (s == inverse_d).then_some(reciprocal)).unwrap_or(expr);
+        let expr = arena.replaced(expr, &|s| (s == inverse_d).then_some(reciprocal));
         let form = collected(arena, expr, self.d);
         let mut result = Polynomial::zero();
         for (monomial, c) in form.terms() {
@@ -62,7 +63,7 @@ impl Volume {
 
     fn rebuilt(&self, arena: &mut Arena, expr: Expr) -> Expr {
         match arena.node(expr).clone() {
-            Node::Symbol(_) if expr == self.d => self.power(arena, 1).unwrap_or(expr),
+            Node::Symbol(_) if expr == self.d => self.power(arena, 1),
             Node::Constant(_) | Node::Symbol(_) => expr,
             Node::Function(..) => self.inside(arena, expr),
             Node::Sum(constant, terms) => {
@@ -75,22 +76,21 @@ impl Volume {
             Node::Product(factors) => {
                 let mut product = Vec::with_capacity(factors.len());
                 for (base, exponent) in factors {
-                    let power = if base == self.d { self.power(arena, exponent) } else { None };
-                    match power {
-                        Some(power) => product.push((power, 1)),
-                        None => product.push((self.rebuilt(arena, base), exponent)),
-                    }
+                    product.push(match base == self.d {
+                        true => (self.power(arena, exponent), 1),
+                        false => (self.rebuilt(arena, base), exponent),
+                    });
                 }
                 // The bases keep their values, and were not the number zero.
-                arena.product(&product).unwrap_or(expr)
+                arena.certain_product(&product)
             }
         }
     }
 
     /// `D^exponent`.
-    fn power(&self, arena: &mut Arena, exponent: i32) -> Option<Expr> {
+    fn power(&self, arena: &mut Arena, exponent: i32) -> Expr {
         let factors: Vec<(Expr, i32)> = self.factors(exponent).into_iter().map(|atom| (atom, 1)).collect();
-        arena.product(&factors)
+        arena.certain_product(&factors)
     }
 
     /// The atoms of `D^exponent`.
@@ -101,7 +101,7 @@ impl Volume {
             1.. => ((det, exponent.div_euclid(n) + i32::from(exponent % n != 0)), (-exponent).rem_euclid(n)),
             _ => ((inverse_det, -exponent / n), -exponent % n),
         };
-        let times = |count: i32| usize::try_from(count).unwrap_or(0);
+        let times = |count: i32| count.unsigned_abs() as usize;
         let mut atoms = vec![whole.0; times(whole.1)];
         atoms.extend(vec![inverse_d; times(rest)]);
         atoms
@@ -139,9 +139,9 @@ impl Volume {
         let Self { det, inverse_det, d, inverse_d, .. } = *self;
         let root = arena.apply(if n == 2 { Function::Sqrt } else { Function::Cbrt }, det);
         let logarithm = arena.apply(Function::Ln, det);
-        let nth = i64::try_from(n).ok().and_then(|n| Rational::ratio(1, n)).unwrap_or(Rational::ONE);
+        let nth = Rational::one_over(n);
         // Symbols and functions of symbols are not the number zero.
-        let reciprocal = |arena: &mut Arena, of: Expr| Polynomial::atom(arena.pow(of, -1).unwrap_or(of));
+        let reciprocal = |arena: &mut Arena, of: Expr| Polynomial::atom(arena.reciprocal(of));
         let inverse = match uses_root {
             true => Polynomial::term(vec![inverse_d; n], Rational::ONE),
             false => reciprocal(arena, det),

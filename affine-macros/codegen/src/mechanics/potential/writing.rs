@@ -206,20 +206,20 @@ impl Means {
     /// A slope before its sums are named; `moved` is the power of `D` in what it stands beside.
     pub(super) fn prepared(&self, arena: &mut Arena, form: Expr, moved: i32) -> Expr {
         let Self::Unit(volume) = self else { return form };
-        let reciprocal = arena.pow(volume.d, -1).unwrap_or(volume.d);
+        let reciprocal = arena.reciprocal(volume.d);
         let mut values = scaled_bases(arena, volume.dim(), volume.d);
         values.push((volume.inverse_d, reciprocal));
         let value = |symbol: Expr| values.iter().find(|(known, _)| *known == symbol).map(|(_, value)| *value);
         // Powers of D are not zero.
-        let form = arena.substitute(form, &value).unwrap_or(form);
-        arena.product(&[(form, 1), (volume.d, moved)]).unwrap_or(form)
+        let form = arena.replaced(form, &value);
+        arena.certain_product(&[(form, 1), (volume.d, moved)])
     }
 
     /// The normal form of a part of a slope: without products of `D` and `1/D`.
     pub(super) fn normal_form(&self, arena: &mut Arena, form: Expr) -> Polynomial {
         let volume = self.volume();
         let Self::Unit(_) = self else { return volume.collected(arena, form) };
-        let reciprocal = arena.pow(volume.d, -1).unwrap_or(volume.d);
+        let reciprocal = arena.reciprocal(volume.d);
         let named = |atom: Expr| (atom == reciprocal).then(|| Polynomial::atom(volume.inverse_d));
         scaled::collected(arena, form, volume.d).substitute(&named)
     }

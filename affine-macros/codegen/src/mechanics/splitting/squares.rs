@@ -137,7 +137,7 @@ fn on_all_momenta(chart: &Chart, entry: Coordinate) -> Polynomial {
 
 impl Square {
     fn summand(&self) -> Option<Summand> {
-        let half = Rational::ratio(1, 2)?;
+        let half = Rational::HALF;
         let energy = self.weight.mul(&self.on_all.mul(&self.on_all)).scaled(&half);
         Some(Summand { name: self.name.clone(), energy: Some(energy), system: System::default() })
     }

@@ -74,7 +74,7 @@ impl Turn {
         if square == times(&self.direction, &trace) {
             return self.elongated(arena, reduction, &trace);
         }
-        let k = self::trace(&square).scaled(&Rational::ratio(1, 2)?);
+        let k = self::trace(&square).scaled(&Rational::HALF);
         if ring::product(&square, &self.direction) == times(&self.direction, &k) {
             return self.turned(arena, reduction, (&square, &k));
         }
@@ -186,7 +186,7 @@ fn rises(chart: &Chart, [there, back]: &[Square; 2], right: bool) -> Vec<(Coordi
 fn replaced(polynomial: &Polynomial, [one, other]: [Expr; 2], value: &Polynomial) -> Polynomial {
     let mut factor = polynomial.derivative(one).derivative(other);
     if one == other {
-        factor = factor.scaled(&Rational::ratio(1, 2).unwrap_or(Rational::ONE));
+        factor = factor.scaled(&Rational::HALF);
     }
     let mut sum = polynomial.clone();
     sum.add_product(&factor, &Polynomial::term(vec![one, other], Rational::ONE), &Rational::MINUS_ONE);

@@ -1,5 +1,6 @@
 //! The phase space of the lattice: its coordinates, their symbols and their brackets.
 
+use crate::algebra::fault::never_missing;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::term::Frame;
@@ -83,7 +84,9 @@ impl Lattice {
     /// Symbol of a coordinate.
     #[must_use]
     pub fn symbol(&self, coordinate: Coordinate) -> Expr {
-        let place = |a: usize, b: usize| self.pairs().position(|pair| pair == (a, b)).unwrap_or(0);
+        let place = |a: usize, b: usize| {
+            never_missing(self.pairs().position(|pair| pair == (a, b)), "the axes of a pair come in order", 0)
+        };
         match coordinate {
             Coordinate::Q(a) => self.q[a],
             Coordinate::P(a) => self.p[a],

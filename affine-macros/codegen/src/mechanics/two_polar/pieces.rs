@@ -109,7 +109,7 @@ fn parts(arena: &mut Arena, lattice: &Lattice, h: &Hamiltonian) -> Vec<(String, 
         let name = match coupling {
             None => drift.clone(),
             Some(atom) => {
-                let name = arena.name(atom).unwrap_or("coupling").to_uppercase();
+                let name = arena.symbol_name(atom).to_uppercase();
                 format!("{name}^2")
             }
         };

@@ -13,10 +13,11 @@
 //! divided by the angular velocities, exactly.
 
 use crate::algebra::division::{content, quotient};
+use crate::algebra::fault::never_missing;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::hamiltonian::{Hamiltonian, Isotropic};
 
-use super::{Coordinate, Equations, Lattice, Stable, half};
+use super::{Coordinate, Equations, Lattice, Stable};
 
 /// State, definitions and equations.
 #[derive(Clone, Debug)]
@@ -90,7 +91,7 @@ impl Ratios {
 
 fn rate_of(equations: &Equations, coordinate: Coordinate) -> Polynomial {
     let found = equations.rates.iter().find(|(z, ..)| *z == coordinate);
-    found.map(|(.., rate)| rate.clone()).unwrap_or_default()
+    never_missing(found.map(|(.., rate)| rate.clone()), "every coordinate has a rate", Polynomial::zero())
 }
 
 /// Symbols of all pairs, in their order.
@@ -178,7 +179,7 @@ fn pair(
         sum
     };
     // A symbol is not the number zero.
-    let below = arena.pow(gap, -1).unwrap_or(gap);
+    let below = arena.reciprocal(gap);
     shared.extend([
         (square, Polynomial::term(vec![ratio, ratio], Rational::ONE)),
         (gap, square_and(Rational::MINUS_ONE)),
@@ -203,7 +204,7 @@ fn pair(
                 term = term.mul(&even_less);
             }
             if power % 2 == 1 {
-                term = term.mul(&Polynomial::term(vec![twice], half()));
+                term = term.mul(&Polynomial::term(vec![twice], Rational::HALF));
             }
             sum.add_scaled(&term, &Rational::ONE);
         }
@@ -225,7 +226,10 @@ fn pair(
             shared.push((angular, Polynomial::term(outer, Rational::ONE)));
             primitive.mul(&scale)
         });
-    let (_, body_form) = (sides.next(), sides.next().unwrap_or_default());
+    let (_, body_form) = (
+        sides.next(),
+        never_missing(sides.next(), "a pair of axes turns with space and with body", Polynomial::zero()),
+    );
     drop(sides);
     Pair { at, recip, u, w, angular: [chi, theta], angular_forms, body: (body, body_form) }
 }
@@ -258,8 +262,8 @@ fn force(rate: &Polynomial, pairs: &[Pair]) -> Polynomial {
 /// `U` and `W` through the brackets, with `dH/dM = (theta_hat + chi_hat)/2` and `dH/dN = (theta_hat - chi_hat)/2`.
 fn turning(lattice: &Lattice, pairs: &[Pair], symbols: &Symbols) -> Vec<(Expr, Polynomial)> {
     let slope = |pair: &Pair, sign: &Rational| {
-        let mut slope = Polynomial::term(vec![pair.angular[1]], half());
-        slope.add_term(vec![pair.angular[0]], &(sign * &half()));
+        let mut slope = Polynomial::term(vec![pair.angular[1]], Rational::HALF);
+        slope.add_term(vec![pair.angular[0]], &(sign * &Rational::HALF));
         slope
     };
     let rate = |z: Coordinate| {
@@ -277,8 +281,8 @@ fn turning(lattice: &Lattice, pairs: &[Pair], symbols: &Symbols) -> Vec<(Expr, P
     };
     let combined = |pair: &Pair, sign: &Rational| {
         let (a, b) = pair.at;
-        let mut sum = rate(Coordinate::M(a, b)).scaled(&half());
-        sum.add_scaled(&rate(Coordinate::N(a, b)), &(sign * &half()));
+        let mut sum = rate(Coordinate::M(a, b)).scaled(&Rational::HALF);
+        sum.add_scaled(&rate(Coordinate::N(a, b)), &(sign * &Rational::HALF));
         sum
     };
     let sums = pairs.iter().map(|pair| (pair.u, combined(pair, &Rational::ONE)));

@@ -48,7 +48,7 @@ impl Stable {
         let mut stable = Self { shared: Vec::new(), pairs: Vec::new() };
         for (a, b) in lattice.pairs() {
             let [odd, even] = lattice.couplings(arena, a, b);
-            let [recip_odd, recip_even] = [odd, even].map(|e| arena.pow(e, -1).unwrap_or(e));
+            let [recip_odd, recip_even] = [odd, even].map(|e| arena.reciprocal(e));
             let replacement = match lattice.variables {
                 Variables::LogStretches => stable.decaying(arena, lattice, a, b),
                 Variables::Stretches | Variables::Angles => stable.reciprocals(arena, [odd, even], a, b),
@@ -107,7 +107,7 @@ impl Stable {
         pair: (usize, usize),
     ) -> [Expr; 2] {
         // Symbols are not the number zero.
-        let below = [d, e].map(|value| arena.pow(value, -1).unwrap_or(value));
+        let below = [d, e].map(|value| arena.reciprocal(value));
         let r = self.define(arena, "recip", pair, Polynomial::term(below.to_vec(), Rational::ONE));
         [
             self.define(arena, "recip_gap", pair, Polynomial::term(vec![e, r], Rational::ONE)),

@@ -3,6 +3,7 @@
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 
 use super::{Language, Parser};
+use crate::algebra::fault::never_missing;
 use crate::algebra::{Function, Rational};
 use crate::diagnostics::{ExpressionMistake, PotentialMistake, Region, Reported};
 use crate::spec::custom;
@@ -120,8 +121,8 @@ impl Parser<'_> {
     ) -> Result<Expression, Reported> {
         let arguments = self.arguments(potential.name, potential.parameters, group, span)?;
         let bound: Vec<_> = potential.parameters.iter().copied().zip(arguments).collect();
-        // A formula that Rust cannot split into tokens would read as a missing expression; a test reads them all.
-        let formula: TokenStream = potential.formula.parse().unwrap_or_default();
+        let formula = potential.formula.parse().ok();
+        let formula = never_missing(formula, "a named potential is a formula", TokenStream::new());
         self.inner(placed(formula, name).into_iter().collect(), span, Language::Potential(&bound))
     }
 

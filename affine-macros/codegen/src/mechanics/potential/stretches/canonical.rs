@@ -1,6 +1,7 @@
 //! The canonical form of a function of the single stretches.
 
 use crate::algebra::arena::Node;
+use crate::algebra::fault::never_missing;
 use crate::algebra::{Arena, Expr, Function, Rational};
 use crate::mechanics::potential::base::{Base, log_stretches};
 
@@ -52,10 +53,10 @@ impl Form {
             let mut inverse = key.clone();
             inverse.exponents.iter_mut().for_each(|c| *c = -&*c);
             inverse.others.iter_mut().for_each(|(_, exponent)| *exponent = -*exponent);
-            return Self::term(inverse, c.recip().unwrap_or(Rational::ONE));
+            return Self::term(inverse, never_missing(c.recip(), "no stored term is zero", Rational::ZERO));
         }
-        // A divisor is not zero: its form has a term.
-        let first = self.terms.values().next().and_then(Rational::recip).unwrap_or(Rational::ONE);
+        let first = self.terms.values().next().and_then(Rational::recip);
+        let first = never_missing(first, "a divisor is not zero, so its form has a term", Rational::ZERO);
         let mut monic = Self::default();
         monic.add_scaled(self, &first);
         let base = through_traces(arena, n, monic).expression(arena, n);
@@ -74,7 +75,7 @@ impl Form {
         match function {
             Function::Exp => return self.exponential(arena, n, mean),
             Function::Sinh | Function::Cosh if linear => {
-                let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+                let half = Rational::HALF;
                 let mut opposite = Self::default();
                 opposite.add_scaled(&self, &Rational::MINUS_ONE);
                 let sign = if function == Function::Sinh { -&half } else { half.clone() };
@@ -125,7 +126,7 @@ impl Form {
                 result.add(one, c);
             }
         } else {
-            let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+            let half = Rational::HALF;
             let mut root = key.clone();
             root.exponents.iter_mut().for_each(|c| *c = &*c * &half);
             result.add(root, &Rational::ONE);

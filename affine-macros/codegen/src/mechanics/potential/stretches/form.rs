@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::algebra::rational::exponent;
 use crate::algebra::{Arena, Expr, Function, Rational};
 use crate::mechanics::potential::base::{Base, log_stretches};
 
@@ -107,16 +108,14 @@ impl Form {
         for (key, c) in &self.terms {
             let mut factors: Vec<(Expr, i32)> = key.others.clone();
             for (q, power) in logs.iter().zip(&key.powers) {
-                factors.push((*q, i32::try_from(*power).unwrap_or(i32::MAX)));
+                factors.push((*q, exponent(*power as usize)));
             }
             for (q, c) in arguments.iter().zip(&key.exponents) {
                 let argument = arena.scale(*q, c);
                 factors.push((arena.apply(Function::Exp, argument), 1));
             }
             // Divisors were divisors in what this is the form of.
-            if let Some(product) = arena.product(&factors) {
-                summands.push((product, c.clone()));
-            }
+            summands.push((arena.certain_product(&factors), c.clone()));
         }
         arena.linear(&summands)
     }

@@ -114,7 +114,7 @@ fn through_sum(n: usize, part: &Part) -> Part {
 /// symmetric polynomials, in the invariants `I_k = e_k(Q^2)`.
 fn even_powers(arena: &mut Arena, n: usize, laurent: BTreeMap<Vec<Rational>, Rational>) -> Option<Form> {
     let least = laurent.keys().flatten().min()?.clone();
-    let half = Rational::ratio(1, 2)?;
+    let half = Rational::HALF;
     let mut open: BTreeMap<Vec<u32>, Rational> = BTreeMap::new();
     for (exponents, c) in laurent {
         let doubled = |exponent: &Rational| {
@@ -157,7 +157,7 @@ fn invariant(arena: &mut Arena, n: usize, k: usize) -> Option<Form> {
     match k {
         1 => Some(Form::term(factor(first, 1), Rational::ONE)),
         2 => {
-            let half = Rational::ratio(1, 2)?;
+            let half = Rational::HALF;
             let mut value = Form::term(factor(first, 2), half.clone());
             value.add(factor(second, 1), &-&half);
             Some(value)
