@@ -4,6 +4,7 @@ use rustc_hash::FxHashSet;
 
 use crate::algebra::bind::Constants;
 use crate::algebra::factor::{First, complete_sums, factored, number_of_all, scale_atoms};
+use crate::algebra::fault::never_missing;
 use crate::algebra::products::share_products;
 use crate::algebra::{Arena, Expr, Kernel, Polynomial};
 use crate::ir::Program;
@@ -93,7 +94,8 @@ impl<'a> Forms<'a> {
         let mut definitions = named;
         definitions.extend(batch.shared.iter().map(|(symbol, _)| *symbol).zip(forms.by_ref()));
         let results = batch.results.iter().map(|(name, _)| name.as_str()).zip(forms.by_ref()).collect();
-        let mut argument = |p: &Polynomial| forms.next().unwrap_or_else(|| p.clone());
+        let mut argument =
+            |p: &Polynomial| never_missing(forms.next(), "every argument of a call has its form", p.clone());
         let calls = batch.kernels.iter().map(|kernel| kernel.with_arguments(&mut argument)).collect();
         Self { definitions, calls, results }
     }
@@ -138,14 +140,8 @@ fn ways(arena: &mut Arena, forms: &Forms) -> Vec<Program> {
 
 /// The shortest of some programs, the first of several.
 fn shortest(programs: Vec<Program>) -> Program {
-    let mut programs = programs.into_iter();
-    let first = programs.next().unwrap_or_default();
-    programs.fold(
-        first,
-        |best, other| {
-            if other.operations().weight() < best.operations().weight() { other } else { best }
-        },
-    )
+    let shortest = programs.into_iter().min_by_key(|program| program.operations().weight());
+    never_missing(shortest, "there is one way to write a program", Program::default())
 }
 
 /// Definitions and calls in an order in which each uses only what is there already.

@@ -15,7 +15,7 @@ pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
         kernels: system.kernels.clone(),
         results: rates
             .chain(work)
-            .map(|(symbol, rate)| (format!("d_{}", arena.name(symbol).unwrap_or("state")), rate.clone()))
+            .map(|(symbol, rate)| (format!("d_{}", arena.symbol_name(symbol)), rate.clone()))
             .collect(),
     }
 }
@@ -24,7 +24,7 @@ pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
 pub(super) fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> Batch {
     let mut replaced: Vec<(Expr, Polynomial)> = Vec::new();
     let mut shared: Vec<(Expr, Polynomial)> = Vec::new();
-    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+    let half = Rational::HALF;
     for (a, b) in (0..chart.dim).flat_map(|a| (a + 1..chart.dim).map(move |b| (a, b))) {
         let (upper, lower) = (chart.m.0[a][b], chart.m.0[b][a]);
         let mut symbol =

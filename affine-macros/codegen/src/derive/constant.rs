@@ -361,7 +361,7 @@ pub(super) fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
 }
 
 pub(super) fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Batch {
-    let name = |s: &Expr| arena.name(*s).unwrap_or("entry").to_owned();
+    let name = |s: &Expr| arena.symbol_name(*s).to_owned();
     let results = names.0.concat().iter().map(name).zip(values.concat()).collect();
     Batch { results, ..Batch::default() }
 }
@@ -390,7 +390,7 @@ fn energy_batch(
     let energy = &mut batch.results[0].1;
     if let Some(t) = kinetic.translation {
         let mass = Polynomial::normal_form(arena, t.mass);
-        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        let half = Rational::HALF;
         for i in 1..=kinetic.dim {
             let v = arena.symbol(&format!("v_{i}"));
             energy.add_product(&Polynomial::term(vec![v, v], Rational::ONE), &mass, &half);

@@ -82,7 +82,7 @@ pub(super) fn two_polar(
         equations.add(on_axes);
     }
     let stable = Stable::new(arena, &lattice);
-    let name = |arena: &Arena, s: &Expr| arena.name(*s).unwrap_or("place").to_owned();
+    let name = |arena: &Arena, s: &Expr| arena.symbol_name(*s).to_owned();
     let names = |arena: &Arena, symbols: &[Expr]| symbols.iter().map(|s| name(arena, s)).collect::<Vec<_>>();
     let (place, momentum) = match lattice.variables {
         Variables::LogStretches | Variables::Angles => (Quantity::LogStretches, Quantity::LogStretchMomenta),
@@ -142,7 +142,7 @@ fn rates(
     shared.extend(potential.map(|u| u.shared.clone()).unwrap_or_default());
     let moving = if lattice.dim == 2 { 4 } else { equations.rates.len() };
     let rate = |(_, symbol, rate): &(_, Expr, Polynomial)| {
-        (format!("d_{}", arena.name(*symbol).unwrap_or("place")), stable.rewritten(rate))
+        (format!("d_{}", arena.symbol_name(*symbol)), stable.rewritten(rate))
     };
     Batch { shared, results: equations.rates.iter().take(moving).map(rate).collect(), ..Batch::default() }
 }
@@ -159,9 +159,8 @@ fn energy(equations: &Equations, stable: &Stable, potential: Option<&OnAxes>) ->
 
 /// Names of the frames' components.
 fn groups(arena: &Arena, frames: &Frames) -> Vec<(Quantity, Vec<String>)> {
-    let names = |symbols: &[Expr]| {
-        symbols.iter().map(|s| arena.name(*s).unwrap_or("frame").to_owned()).collect::<Vec<_>>()
-    };
+    let names =
+        |symbols: &[Expr]| symbols.iter().map(|s| arena.symbol_name(*s).to_owned()).collect::<Vec<_>>();
     vec![(Quantity::LeftRotation, names(&frames.left)), (Quantity::RightRotation, names(&frames.right))]
 }
 
@@ -175,7 +174,7 @@ fn framed(arena: &mut Arena, frames: &Frames, equations: &Equations, stable: &St
         shared.extend(symbols.iter().copied().zip(angular.iter().map(|p| stable.rewritten(p))));
         let symbols: Vec<Polynomial> = symbols.into_iter().map(Polynomial::atom).collect();
         for (k, entry) in frame.iter().enumerate() {
-            let name = format!("d_{}", arena.name(*entry).unwrap_or("frame"));
+            let name = format!("d_{}", arena.symbol_name(*entry));
             results.push((name, frames.rate(frame, &symbols, k)));
         }
     }

@@ -1,5 +1,6 @@
 //! The change to orthonormal bases: known, or left to `prepare()`.
 
+use crate::algebra::fault::never_missing;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
 use crate::mechanics::metrics::{Bases, Metrics, Rebased, Source};
@@ -66,8 +67,12 @@ impl GivenMatrix {
         let source = match &matrix.source {
             Source::Form(kind, given) => GivenSource::Form {
                 entries: entries(arena, given),
-                // No matrix stands at a term without a frame.
-                components: kind.internal_frame().unwrap_or(Frame::Body).into(),
+                components: never_missing(
+                    kind.internal_frame(),
+                    "no matrix stands at a term without a frame",
+                    Frame::Body,
+                )
+                .into(),
                 tensor: kind.is_tensor(),
             },
             Source::SpaceInverse => GivenSource::SpaceInverse,

@@ -144,11 +144,8 @@ pub(super) fn unbound(arena: &mut Arena, values: impl Iterator<Item = Polynomial
 }
 
 pub(super) fn coefficient_program(arena: &mut Arena, coefficients: &Constants) -> Program {
-    let results = coefficients
-        .entries
-        .iter()
-        .map(|(s, p)| (arena.name(*s).unwrap_or("c").to_owned(), p.clone()))
-        .collect();
+    let results =
+        coefficients.entries.iter().map(|(s, p)| (arena.symbol_name(*s).to_owned(), p.clone())).collect();
     let batch = Batch { results, ..Batch::default() };
     fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
 }
@@ -157,7 +154,7 @@ pub(super) fn numeric_blocks(arena: &mut Arena, h: &Hamiltonian, positive: bool)
     h.numeric_blocks
         .iter()
         .map(|block| {
-            let name = |s: Expr| arena.name(s).unwrap_or("inverse").to_owned();
+            let name = |s: Expr| arena.symbol_name(s).to_owned();
             let inverse = upper(block.form.len()).map(|(i, j)| name(block.inverse[i][j])).collect();
             NumericBlock { inverse, basis: block.basis.clone(), ..form_block(arena, &block.form, positive) }
         })

@@ -124,7 +124,7 @@ fn independent_momenta(chart: &Chart) -> Vec<Expr> {
 /// Entries of the affine momentum that a constraint makes linear in others.
 fn dependent(arena: &mut Arena, chart: &Chart) -> Program {
     let results = chart.dependent().into_iter();
-    let results = results.map(|(symbol, value)| (arena.name(symbol).unwrap_or("entry").to_owned(), value));
+    let results = results.map(|(symbol, value)| (arena.symbol_name(symbol).to_owned(), value));
     let batch = Batch { results: results.collect(), ..Batch::default() };
     fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
 }
@@ -197,12 +197,12 @@ pub(super) fn shortest_reduction(
         results: constants
             .entries
             .iter()
-            .map(|(s, p)| (arena.name(*s).unwrap_or("k").to_owned(), p.clone()))
+            .map(|(s, p)| (arena.symbol_name(*s).to_owned(), p.clone()))
             .collect(),
         ..Batch::default()
     };
     let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
-    let name = |s: &Expr| arena.name(*s).unwrap_or("state").to_owned();
+    let name = |s: &Expr| arena.symbol_name(*s).to_owned();
     let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(name).collect())).collect();
     let fixed = reduction.fixed.iter().map(name).collect();
     let dependent = match reduction.layout {

@@ -230,7 +230,7 @@ impl Flow<'_> {
             (None, None) => Polynomial::zero(),
         };
         let slope = if value.terms().len() > 1 {
-            let rate = arena.symbol(&format!("rate_{}", arena.name(symbol).unwrap_or("quantity")));
+            let rate = arena.symbol(&format!("rate_{}", arena.symbol_name(symbol)));
             self.definitions.push((rate, value));
             Polynomial::atom(rate)
         } else {

@@ -120,7 +120,7 @@ fn written(
     varying: &[Expr],
     constants: &mut Constants,
 ) -> FlowProgram {
-    let name = |arena: &Arena, s: Expr| arena.name(s).unwrap_or("state").to_owned();
+    let name = |arena: &Arena, s: Expr| arena.symbol_name(s).to_owned();
     let mut program = |arena: &mut Arena, batch: &Batch| {
         fuse(&straight_line(arena, batch, constants, &|atom| varying.contains(&atom)))
     };
@@ -180,7 +180,7 @@ fn principal(arena: &mut Arena, form: &Principal) -> PrincipalProgram {
     let size = form.values.len();
     let upper = (0..size).flat_map(|i| (i..size).map(move |j| form.form[i][j].clone()));
     let program = unbound(arena, upper);
-    let names = |list: &[Expr]| list.iter().map(|s| arena.name(*s).unwrap_or("axis").to_owned()).collect();
+    let names = |list: &[Expr]| list.iter().map(|s| arena.symbol_name(*s).to_owned()).collect();
     let vectors = form.vectors.iter().map(|vector| names(vector)).collect();
     PrincipalProgram { program, values: names(&form.values), vectors }
 }

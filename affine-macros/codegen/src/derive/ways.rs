@@ -161,7 +161,7 @@ impl Draft {
             .map(|(symbol, form)| {
                 let form = form.expression(arena);
                 let value = evaluate(arena, form, &|name| Some(sample(name)));
-                (arena.name(*symbol).unwrap_or_default().to_owned(), value.unwrap_or(f64::NAN))
+                (arena.symbol_name(*symbol).to_owned(), value.unwrap_or(f64::NAN))
             })
             .collect();
         let losses = PLACES.iter().map(|place| loss(&program, place, chart.dim, &parameters)).collect();

@@ -4,6 +4,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::algebra::Rational;
+use crate::algebra::fault::never_missing;
 
 /// What a body computes with.
 #[derive(Clone, Copy)]
@@ -71,8 +72,8 @@ fn literal(value: f64, suffix: &str) -> TokenStream {
     let size = value.abs();
     let plain = size == 0.0 || (1e-4..1e16).contains(&size);
     let digits = if plain { format!("{size:?}") } else { format!("{size:e}") };
-    // Both forms are literals of Rust.
-    let digits: TokenStream = format!("{digits}{suffix}").parse().unwrap_or_default();
+    let digits = format!("{digits}{suffix}").parse().ok();
+    let digits = never_missing(digits, "both forms of a double are literals of Rust", TokenStream::new());
     if value.is_sign_negative() { quote!(-#digits) } else { quote!(#digits) }
 }
 

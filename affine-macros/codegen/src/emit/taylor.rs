@@ -7,6 +7,7 @@ mod rows;
 mod rules;
 mod writer;
 
+use crate::algebra::fault::never_missing;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -64,7 +65,11 @@ impl Writer<'_> {
         let (rates, kept) = results.split_at(self.recurrence.program.outputs.len());
         let mut kept = kept.iter();
         let entries = self.recurrence.row.iter().map(|series| match series {
-            Some(series) if !series.rate => kept.next().cloned().unwrap_or_default(),
+            Some(series) if !series.rate => never_missing(
+                kept.next().cloned(),
+                "every series that is kept has a start",
+                quote!(#t::zero()),
+            ),
             _ => quote!(#t::zero()),
         });
         quote! {

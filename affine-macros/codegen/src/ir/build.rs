@@ -75,7 +75,7 @@ impl Builder {
         for symbol in results.iter().flat_map(Group::entries) {
             self.lower(arena, *symbol);
         }
-        let name = |symbol: &Expr| arena.name(*symbol).unwrap_or("result").to_owned();
+        let name = |symbol: &Expr| arena.symbol_name(*symbol).to_owned();
         let results = results.iter().map(|group| group.map(name)).collect();
         self.program.calls.push(Call { callee, arguments, results });
     }

@@ -13,6 +13,7 @@ mod whole;
 
 use std::collections::BTreeSet;
 
+use affine_codegen::algebra::fault::watch;
 use affine_codegen::check;
 use affine_codegen::derive::derive;
 use affine_codegen::diagnostics::gate;
@@ -30,8 +31,19 @@ fn accepted(drawn: &Drawn) -> Option<Energy> {
     gate(|found| check::energy(&spec, found)).ok()
 }
 
+/// What a derivation gives, on whose way nothing impossible happened.
+fn without_fault<T>(args: &str, derivation: impl FnOnce() -> T) -> T {
+    let (value, fault) = watch(derivation);
+    assert_eq!(fault, None, "{args}");
+    value
+}
+
 /// Every way to reduce a model, held against its whole motion; what was taken out of the state.
 fn every_way(random: &mut Random, drawn: &Drawn) -> Option<BTreeSet<&'static str>> {
+    without_fault(&drawn.args, || each_way(random, drawn))
+}
+
+fn each_way(random: &mut Random, drawn: &Drawn) -> Option<BTreeSet<&'static str>> {
     let Energy::Constant(form) = accepted(drawn)? else { panic!("{}", drawn.args) };
     let mut whole = Whole::new(&drawn.args, *form);
     let mut taken = whole.check(random, false);
@@ -126,7 +138,8 @@ fn programs() {
                     Some((accepted(&drawn)?, drawn.args))
                 });
                 let (form, args) = accepted.unwrap_or_else(|| panic!("{forces:?} for {energy}"));
-                programs::check(&mut random, &args, &derive(form, false).expect("a derivation"));
+                let model = without_fault(&args, || derive(form, false).expect("a derivation"));
+                programs::check(&mut random, &args, &model);
             }
         }
     }

@@ -19,7 +19,7 @@ pub struct RatioProgram {
 
 impl RatioProgram {
     pub(super) fn of(arena: &mut Arena, form: &Ratios) -> Self {
-        let name = |arena: &Arena, s: &Expr| arena.name(*s).unwrap_or("place").to_owned();
+        let name = |arena: &Arena, s: &Expr| arena.symbol_name(*s).to_owned();
         let state: Vec<Expr> = form.rates.iter().map(|(z, _)| *z).collect();
         let couplings: Vec<Expr> =
             form.couplings.iter().flatten().copied().filter(|z| !state.contains(z)).collect();

@@ -6,6 +6,7 @@ use quote::{format_ident, quote};
 use super::reads;
 use super::writer::Writer;
 use crate::algebra::Function;
+use crate::algebra::fault::never_missing;
 use crate::emit::body::Body;
 use crate::emit::number::{double, number};
 use crate::ir::Value;
@@ -25,8 +26,8 @@ impl Writer<'_> {
 
     /// The coefficient of order zero.
     fn first(&self, series: Series) -> TokenStream {
-        // Every factor of an inner convolution has a slot.
-        let slot = number(self.recurrence.slot(series).unwrap_or(0));
+        let slot = self.recurrence.slot(series);
+        let slot = number(never_missing(slot, "every factor of an inner convolution has a slot", 0));
         quote!(first[#slot])
     }
 
@@ -113,8 +114,8 @@ impl Writer<'_> {
 
     /// The reciprocal of a number, to be divided by.
     fn divisor(&self, value: Value) -> Ident {
-        let reciprocal =
-            self.recurrence.number(value).recip().map(|number| number.to_string()).unwrap_or_default();
+        let reciprocal = self.recurrence.number(value).recip().map(|number| number.to_string());
+        let reciprocal = never_missing(reciprocal, "no number that divides is zero", String::new());
         format_ident!("divisor_{}", reciprocal.replace('/', "_").replace('-', "m"))
     }
 
@@ -143,7 +144,8 @@ impl Writer<'_> {
 
     /// The expression of a value that does not move.
     fn fixed_value(&self, value: Value) -> TokenStream {
-        self.fixed.iter().find(|(v, _)| *v == value).map(|(_, tokens)| tokens.clone()).unwrap_or_default()
+        let fixed = self.fixed.iter().find(|(v, _)| *v == value).map(|(_, tokens)| tokens.clone());
+        never_missing(fixed, "what does not move is bound before it is read", TokenStream::new())
     }
 
     /// The differential equation of each function, solved for the coefficient of order `k`.
@@ -157,22 +159,35 @@ impl Writer<'_> {
     ) -> TokenStream {
         let t = &self.context.names.scalar;
         let u = self.ident(argument);
-        let (y0, u0) = (self.of_order_zero(value), self.of_order_zero(argument));
+        // Not every equation reads them, and what none reads has no slot.
+        let y0 = || self.of_order_zero(value);
+        let u0 = || self.of_order_zero(argument);
         let inner: Vec<TokenStream> = inner.iter().map(|place| self.place(*place)).collect();
         match (function, inner.as_slice(), companion) {
             // y' = y u'
-            (Function::Exp, [m], _) => quote!(#u.fma(#y0, #m / order)),
+            (Function::Exp, [m], _) => {
+                let y0 = y0();
+                quote!(#u.fma(#y0, #m / order))
+            }
             // u y' = u'
-            (Function::Ln, [m], _) => quote!((#u - #m / order) * (#t::one() / #u0)),
+            (Function::Ln, [m], _) => {
+                let u0 = u0();
+                quote!((#u - #m / order) * (#t::one() / #u0))
+            }
             // y^2 = u
-            (Function::Sqrt, [m], _) => quote!((#u - #m) * (#t::one() / (#y0 + #y0))),
+            (Function::Sqrt, [m], _) => {
+                let y0 = y0();
+                quote!((#u - #m) * (#t::one() / (#y0 + #y0)))
+            }
             // 3 u y' = y u'
             (Function::Cbrt, [m, weighted], _) => {
+                let (y0, u0) = (y0(), u0());
                 let (three, four) = (quote!(#t::constant(3.0, 0.0)), quote!(#t::constant(4.0, 0.0)));
                 quote!((#u.fma(#y0, #m) * order - #weighted * #four) * (#t::one() / (#u0 * order * #three)))
             }
             // 3 u y' = -y u'
             (Function::InverseCbrt, [m, weighted], _) => {
+                let (y0, u0) = (y0(), u0());
                 let (two, three) = (quote!(#t::constant(2.0, 0.0)), quote!(#t::constant(3.0, 0.0)));
                 quote!((#u.fma(#y0, #m) * order + #weighted * #two) * (-#t::one() / (#u0 * order * #three)))
             }
@@ -183,7 +198,11 @@ impl Writer<'_> {
                 if function == Function::Cos { quote!(-#sum) } else { sum }
             }
             // |u| = (|u_0|/u_0) u
-            _ => quote!(#u * (#y0 / #u0)),
+            (Function::Abs, ..) => {
+                let (y0, u0) = (y0(), u0());
+                quote!(#u * (#y0 / #u0))
+            }
+            _ => never_missing(None, "a function with a rule has a differential equation", quote!(#u)),
         }
     }
 }

@@ -6,6 +6,7 @@
 
 use super::recurrence::{Factor, Pass, Place, Series};
 use super::rules::Product;
+use crate::algebra::fault::never_missing;
 
 /// Products in lanes.
 pub(super) struct Packed {
@@ -52,7 +53,10 @@ fn pack_into(lanes: usize, fills: &[usize], products: &[Product], kept: &[Series
                 }
             }
         }
-        let slot = |series: Series| slots.iter().position(|s| *s == Some(series)).unwrap_or(0);
+        let slot = |series: Series| {
+            let slot = slots.iter().position(|s| *s == Some(series));
+            never_missing(slot, "every factor of a convolution has a slot", 0)
+        };
         let mut passes: Vec<Pass> = draft
             .iter()
             .zip(&merged)

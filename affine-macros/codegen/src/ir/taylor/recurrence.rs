@@ -1,5 +1,6 @@
 //! A recurrence as data: what is kept of each order, the convolutions, and the rules of the coefficients.
 
+use crate::algebra::fault::never_missing;
 use crate::algebra::{Function, Rational};
 use crate::ir::{Op, Program, Value};
 
@@ -161,12 +162,12 @@ impl Recurrence {
             || self.row.iter().flatten().any(|series| series.rate)
     }
 
-    /// The number that a value is; 1 where it is none.
+    /// The number that a constant value is.
     #[must_use]
     pub fn number(&self, value: Value) -> Rational {
         match &self.program.steps[value] {
             Op::Constant(number) => number.clone(),
-            _ => Rational::ONE,
+            _ => never_missing(None, "only constants are asked for their numbers", Rational::ONE),
         }
     }
 
