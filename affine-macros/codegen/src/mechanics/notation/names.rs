@@ -61,7 +61,7 @@ impl Notation<'_> {
         for symbol in symbols {
             let (base, exponent) = self.power(arena, symbol);
             if base != symbol {
-                values.extend(arena.pow(base, exponent).map(|power| (symbol, power)));
+                values.push((symbol, arena.power(base, exponent)));
             }
         }
         let value = |symbol: Expr| values.iter().find(|(known, _)| *known == symbol).map(|(_, value)| *value);

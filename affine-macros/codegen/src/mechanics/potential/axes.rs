@@ -1,6 +1,5 @@
 //! Isotropic potentials on the principal axes: `phi = L D R^T` has the potential of `D`.
 
-use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::mechanics::symmetry::Side;
 use crate::mechanics::two_polar::{Lattice, Variables};
@@ -43,7 +42,8 @@ impl Potential {
         let diagonal = |arena: &mut Arena, expr: Expr| {
             let zeros = off_diagonal(arena, self.dim);
             let zero = arena.constant(Rational::ZERO);
-            replaced(arena, expr, &|e| zeros.contains(&e).then_some(zero))
+            // An isotropic function that is smooth has no pole on the axes.
+            arena.replaced(expr, &|e| zeros.contains(&e).then_some(zero))
         };
         let mut axes = OnAxes {
             shared: Vec::new(),
@@ -224,30 +224,4 @@ fn counted_from_undeformed(
     list.push((Base::TraceOfSquare.symbol(arena), of_square));
     list.push((Base::TraceOfCube.symbol(arena), of_cube));
     list
-}
-
-/// The expression with symbols replaced.
-fn replaced(arena: &mut Arena, expr: Expr, value: &dyn Fn(Expr) -> Option<Expr>) -> Expr {
-    match arena.node(expr).clone() {
-        Node::Constant(_) => expr,
-        Node::Symbol(_) => value(expr).unwrap_or(expr),
-        Node::Sum(constant, terms) => {
-            let constant = arena.constant(constant);
-            let mut summands = vec![(constant, Rational::ONE)];
-            for (term, c) in terms {
-                summands.push((replaced(arena, term, value), c));
-            }
-            arena.linear(&summands)
-        }
-        Node::Product(factors) => {
-            let factors: Vec<(Expr, i32)> =
-                factors.into_iter().map(|(base, e)| (replaced(arena, base, value), e)).collect();
-            // An isotropic function that is smooth has no pole on the axes.
-            arena.certain_product(&factors)
-        }
-        Node::Function(function, argument) => {
-            let argument = replaced(arena, argument, value);
-            arena.apply(function, argument)
-        }
-    }
 }

@@ -64,7 +64,7 @@ impl Isochoric {
         let mut powers = vec![(one, Rational::ONE), (mean, Rational::ONE)];
         let mut above = Polynomial::atom(of_square);
         if n == 3 {
-            powers.extend(arena.product(&[(mean, 2)]).map(|square| (square, Rational::ONE)));
+            powers.push((arena.power(mean, 2), Rational::ONE));
             above = Polynomial::term(vec![mean, of_square], &Rational::from(3) * &Rational::HALF);
             for (entry, row) in deviator[0].iter().zip(adjugate(&deviator)) {
                 above.plus_product(entry, &row[0], &Rational::from(-3));

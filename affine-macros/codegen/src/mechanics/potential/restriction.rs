@@ -1,6 +1,5 @@
 //! A potential on the group that a constraint leaves: base functions that are constant there, or functions of `q`.
 
-use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function, Rational};
 use crate::mechanics::constraint::Constraint;
 
@@ -30,7 +29,7 @@ pub(super) fn restricted(arena: &mut Arena, dim: usize, energy: Expr, group: Con
         values.push((base.symbol(arena), value));
     }
     let value = |symbol: Expr| values.iter().find(|(s, _)| *s == symbol).map(|(_, value)| *value);
-    substituted(arena, energy, &value)
+    arena.substitute(energy, &value)
 }
 
 /// `weight exp(k q)`.
@@ -38,31 +37,4 @@ fn multiple(arena: &mut Arena, q: Expr, k: i64, weight: &Rational) -> Expr {
     let argument = arena.scale(q, &Rational::from(k));
     let power = arena.apply(Function::Exp, argument);
     arena.scale(power, weight)
-}
-
-/// The expression with values for symbols; `None` where it divides by zero.
-fn substituted(arena: &mut Arena, expr: Expr, value: &dyn Fn(Expr) -> Option<Expr>) -> Option<Expr> {
-    match arena.node(expr).clone() {
-        Node::Constant(_) => Some(expr),
-        Node::Symbol(_) => Some(value(expr).unwrap_or(expr)),
-        Node::Sum(constant, terms) => {
-            let constant = arena.constant(constant);
-            let mut summands = vec![(constant, Rational::ONE)];
-            for (term, c) in terms {
-                summands.push((substituted(arena, term, value)?, c));
-            }
-            Some(arena.linear(&summands))
-        }
-        Node::Product(factors) => {
-            let mut product = Vec::new();
-            for (base, exponent) in factors {
-                product.push((substituted(arena, base, value)?, exponent));
-            }
-            arena.product(&product)
-        }
-        Node::Function(function, argument) => {
-            let argument = substituted(arena, argument, value)?;
-            Some(arena.apply(function, argument))
-        }
-    }
 }

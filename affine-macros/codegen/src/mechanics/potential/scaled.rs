@@ -35,7 +35,7 @@ pub(super) fn scaled_bases(arena: &mut Arena, n: usize, d: Expr) -> Vec<(Expr, E
     for base in Base::all(n).into_iter().filter(|base| base.degree() != 0) {
         let (symbol, unit) = (base.symbol(arena), base.unit(arena));
         // A symbol is not the number zero.
-        list.extend(arena.product(&[(d, base.degree()), (unit, 1)]).map(|value| (symbol, value)));
+        list.push((symbol, arena.certain_product(&[(d, base.degree()), (unit, 1)])));
     }
     list
 }

@@ -223,7 +223,7 @@ impl Strains {
         let one = arena.constant(Rational::ONE);
         let mut powers = vec![(one, Rational::ONE), (d, Rational::ONE)];
         if self.n == 3 {
-            powers.extend(arena.pow(d, 2).map(|square| (square, Rational::ONE)));
+            powers.push((arena.power(d, 2), Rational::ONE));
         }
         let below = arena.linear(&powers);
         // A sum of powers of D and one.
