@@ -81,7 +81,7 @@ impl GroupPoint {
     pub(super) fn undeformed(arena: &Arena, chart: &Chart) -> Self {
         let one = table(chart.dim, |i, a| Residue::from_rational(&Rational::from(i64::from(i == a))));
         let entries = chart.phi.0.concat().into_iter().zip(one.concat());
-        let named = entries.map(|(symbol, value)| (arena.name(symbol).unwrap_or_default().to_owned(), value));
+        let named = entries.map(|(symbol, value)| (arena.symbol_name(symbol).to_owned(), value));
         Self { seed: 0, values: named.collect() }
     }
 

@@ -124,7 +124,7 @@ impl Body<'_> {
         let (definitions, momentum, _) = self.masses.legendre(arena, x_dot);
         let results = momentum.into_iter().zip(1..).map(|(p, i): (Polynomial, usize)| (format!("p_{i}"), p));
         let momentum = Batch { shared: definitions, results: results.collect(), ..Batch::default() };
-        let named = |s: &Expr| (arena.name(*s).unwrap_or("x_dot").to_owned(), Polynomial::atom(*s));
+        let named = |s: &Expr| (arena.symbol_name(*s).to_owned(), Polynomial::atom(*s));
         Some([momentum, Batch { shared, results: x_dot.iter().map(named).collect(), ..Batch::default() }])
     }
 
@@ -150,7 +150,7 @@ impl Body<'_> {
             energy.results[0].1.add_scaled(&of_both, &Rational::ONE);
         } else if let Some(mass) = self.masses.space.or(self.masses.body) {
             let mass = Polynomial::normal_form(arena, mass);
-            let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+            let half = Rational::HALF;
             for v in v {
                 let square = Polynomial::term(vec![*v, *v], Rational::ONE);
                 energy.results[0].1.add_product(&square, &mass, &half);

@@ -133,7 +133,7 @@ impl Masses {
     /// `m_space/2 |x_dot|^2 + m_body/2 |v_hat|^2`, `v_hat = phi^-1 x_dot`.
     fn lagrangian(&self, arena: &mut Arena, chart: &Chart, x_dot: &[Expr]) -> Lagrangian {
         let n = self.dim;
-        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        let half = Rational::HALF;
         let part = |arena: &mut Arena, mass: Expr, velocities: Vec<Expr>| {
             let mut energy = Polynomial::zero();
             velocities.iter().for_each(|v| energy.add_term(vec![*v, *v], &half));
@@ -157,7 +157,7 @@ impl Masses {
 
     /// `p . x_dot/2`.
     pub fn energy(&self, arena: &mut Arena, chart: &Chart) -> Polynomial {
-        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        let half = Rational::HALF;
         let mut sum = Polynomial::zero();
         for (i, p) in chart.p.iter().enumerate() {
             let x_dot = arena.symbol(&format!("x_dot_{}", i + 1));

@@ -252,8 +252,7 @@ fn centre_velocity(arena: &mut Arena, notation: &Notation, masses: &Masses) -> O
             ));
         }
     };
-    // A mass is not zero.
-    let inverse = arena.pow(mass, -1).unwrap_or(mass);
+    let inverse = arena.reciprocal(mass);
     let inverse = Polynomial::normal_form(arena, inverse);
     sum.add(arena, notation, &inverse, of);
     Some(sum.of("dx/dt", "\\dot x"))

@@ -52,7 +52,7 @@ impl Internal {
             None => on_all_matrices(arena, mixed, &chart)?,
             Some(group) => on_the_algebra(arena, mixed, &chart, group)?,
         };
-        let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+        let half = Rational::HALF;
         let mut energy = Polynomial::zero();
         for (momentum, speed) in &components {
             energy.add_product(momentum, &Polynomial::atom(*speed), &half);

@@ -75,7 +75,7 @@ fn internal(
 /// `tr(phi_dot J phi_dot^T)/2 = tr(Oh J Oh^T G)/2`.
 fn by_rows(form: &Square<Polynomial>, oh: &Square<Polynomial>, green: &Square<Polynomial>) -> Polynomial {
     let n = oh.len();
-    let half = Rational::ratio(1, 2).unwrap_or(Rational::ONE);
+    let half = Rational::HALF;
     let mut energy = Polynomial::zero();
     for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
         for (c, d) in (0..n).flat_map(|c| (0..n).map(move |d| (c, d))) {
@@ -103,7 +103,7 @@ fn of(frame: Frame) -> &'static str {
 
 /// The names of momenta for what a part has of them.
 pub(super) fn names(arena: &mut Arena, part: &str, momenta: &[Expr]) -> Vec<Expr> {
-    let name = |momentum: &Expr| format!("{part}_{}", arena.name(*momentum).unwrap_or("momentum"));
+    let name = |momentum: &Expr| format!("{part}_{}", arena.symbol_name(*momentum));
     let names: Vec<String> = momenta.iter().map(name).collect();
     names.iter().map(|name| arena.symbol(name)).collect()
 }
