@@ -118,7 +118,7 @@ fn equations() {
 /// P4 to `t_end` at several tolerances, without frames in ratios.
 fn in_ratios(lattice: &Lattice<3>, t_end: f64, expected: &Lattice<3>) {
     let (couplings, state) = Geodesic.in_ratios(lattice);
-    let groups = &[
+    const GROUPS: &[Group] = &[
         Group::new(Quantity::Other("t"), 1),
         Group::new(Quantity::Other("t"), 1),
         Group::new(Quantity::LatticeMomenta, 9),
@@ -127,7 +127,7 @@ fn in_ratios(lattice: &Lattice<3>, t_end: f64, expected: &Lattice<3>) {
         let rates = |_: f64, state: &<Geodesic as RatioForm<3>>::Ratios<f64>| {
             Geodesic.ratio_equations(&couplings, state)
         };
-        let mut steps = RungeKutta8::new(rates, groups, (0.0, state), t_end, tolerance).unwrap();
+        let mut steps = RungeKutta8::new(rates, GROUPS, (0.0, state), t_end, tolerance).unwrap();
         while !steps.is_finished() {
             steps.advance().unwrap();
         }
