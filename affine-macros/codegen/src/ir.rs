@@ -6,6 +6,7 @@ pub mod count;
 pub mod fuse;
 pub mod inverse_root;
 pub mod packed;
+pub mod quotient;
 pub mod rounding;
 pub mod run;
 pub mod tangent;

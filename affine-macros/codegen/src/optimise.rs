@@ -10,6 +10,7 @@ use crate::algebra::{Arena, Expr, Kernel, Polynomial};
 use crate::ir::Program;
 use crate::ir::build::{Builder, Ways};
 use crate::ir::inverse_root::with_inverse_roots;
+use crate::ir::quotient::with_quotients;
 
 /// Named polynomials in the order of their results, with quantities they share.
 #[derive(Clone, Debug, Default)]
@@ -107,7 +108,7 @@ impl<'a> Forms<'a> {
             let value = factored(arena, form, first);
             builder.output(arena, name, value);
         }
-        (builder.has_powers(), with_inverse_roots(&builder.finish()))
+        (builder.has_powers(), with_quotients(&with_inverse_roots(&builder.finish())))
     }
 
     fn has_numbers(&self) -> bool {
