@@ -144,7 +144,7 @@ fn mixed_sums() {
     assert_eq!(counted, [(107, 76), (107, 76)]);
     // phi_dot = phi Oh with phi^T phi = D^2: the force of d'Alembert's energy is a multiple of 1.
     let counted = counts::<3, Conformal>(&Conformal, &sample::<3, Conformal>(&Conformal));
-    assert_eq!(counted, [(56, 30), (56, 30)]);
+    assert_eq!(counted, [(52, 30), (52, 30)]);
 }
 
 // (multiplications, additions); 0.2, 0.1, 1 are the coefficients of problem P1.
