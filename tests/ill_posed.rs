@@ -32,10 +32,15 @@ fn outcomes() -> Vec<(PathBuf, String)> {
         .collect()
 }
 
+/// What no specification leads to: a fault of the macro itself.
+const OF_THE_MACRO: &str = "impossible";
+
 #[test]
 fn every_mistake_has_a_case() {
     let outcomes = outcomes();
-    let seen = |name: &str| outcomes.iter().any(|(_, text)| text.contains(&format!(" [{name}]\n")));
+    let seen = |name: &str| {
+        name == OF_THE_MACRO || outcomes.iter().any(|(_, text)| text.contains(&format!(" [{name}]\n")))
+    };
     let missing: BTreeSet<&str> = Diagnostic::names().filter(|name| !seen(name)).collect();
     assert!(missing.is_empty(), "no case for {missing:?}");
 }
