@@ -7,27 +7,6 @@ use super::polynomial::{Monomial, Polynomial};
 use super::rational::Rational;
 
 impl Polynomial {
-    /// The polynomial with `value` for `sum`, wherever all terms of the sum stand in it with one factor; `None` where they do
-    /// not.
-    #[must_use]
-    pub fn folded(&self, sum: &Self, value: &Self) -> Option<Self> {
-        let (lead, of_lead) = sum.terms().next()?;
-        let mut folded: Option<Self> = None;
-        for (monomial, c) in self.terms() {
-            let Some(rest) = without(monomial, lead) else { continue };
-            let Some(weight) = of_lead.recip().map(|reciprocal| c * &reciprocal) else { continue };
-            let factor = Self::term(rest, weight);
-            let known = folded.as_ref().unwrap_or(self);
-            if known.has_all_of(&factor.mul(sum)) {
-                let mut shorter = known.clone();
-                shorter.add_product(&factor, sum, &Rational::MINUS_ONE);
-                shorter.add_product(&factor, value, &Rational::ONE);
-                folded = Some(shorter);
-            }
-        }
-        folded
-    }
-
     /// The polynomial with the name of every sum that it contains a multiple of; as it was where that makes it no shorter.
     /// A name may be a number: `(1, psi_1k phi_k1)` uses that the sum is 1. Where two products have met, a term may have
     /// more than the multiple needs of it.
@@ -64,11 +43,6 @@ impl Polynomial {
             quotient.add_term(without(of_term, monomial)?, c);
         }
         Some(quotient)
-    }
-
-    /// Are these terms among its terms?
-    fn has_all_of(&self, part: &Self) -> bool {
-        part.terms().all(|term| self.terms().any(|own| own == term))
     }
 }
 

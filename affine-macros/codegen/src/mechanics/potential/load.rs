@@ -194,8 +194,7 @@ impl Draft<'_> {
         let slopes = slopes.iter_mut().map(|(_, slope)| slope);
         let work = self.load.work.iter_mut().map(|(_, power)| power);
         for form in slopes.chain(sums.iter_mut().map(|(_, sum)| sum)).chain(work) {
-            let shorter = found.through(arena, form);
-            *form = shorter.folded(&slope, &found.slope).unwrap_or(shorter);
+            *form = found.through(arena, form).by_names(&[(found.slope.clone(), slope.clone())]);
         }
         self.share(found.definitions(self.chart));
         self.pulled_back = Some(found);

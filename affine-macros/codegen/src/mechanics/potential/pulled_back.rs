@@ -46,17 +46,15 @@ impl PulledBack {
     /// The polynomial through these quantities instead of the entries of `Ct`.
     pub(super) fn through(&self, arena: &mut Arena, form: &Polynomial) -> Polynomial {
         let mut square = Polynomial::zero();
-        let mut known = Vec::new();
+        let mut names = Vec::new();
         for (i, x) in self.x.iter().enumerate() {
             let row = self.pushed_forward(arena, i);
             square.add_product(&Polynomial::atom(*x), &row, &Rational::ONE);
-            known.push((row, self.pushed[i]));
+            names.push((Polynomial::atom(self.pushed[i]), row));
         }
         // The rows stand in the square.
-        known.insert(0, (square, self.square));
-        known.into_iter().fold(form.clone(), |form, (sum, symbol)| {
-            form.folded(&sum, &Polynomial::atom(symbol)).unwrap_or(form)
-        })
+        names.insert(0, (Polynomial::atom(self.square), square));
+        form.by_names(&names)
     }
 
     /// `(Ct x)_i`.

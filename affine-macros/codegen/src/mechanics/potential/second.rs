@@ -15,7 +15,9 @@ pub(super) fn through_second_invariant(arena: &mut Arena, form: &Polynomial) -> 
     let [trace, of_square] = [Base::Trace, Base::TraceOfSquare].map(|base| base.symbol(arena));
     let mut difference = Polynomial::term(vec![trace; 2], Rational::ONE);
     difference.add_term(vec![of_square], &Rational::MINUS_ONE);
-    form.folded(&difference, &Polynomial::term(vec![symbol(arena)], Rational::from(2)))
+    let twice = Polynomial::term(vec![symbol(arena)], Rational::from(2));
+    let shorter = form.by_names(&[(twice, difference)]);
+    (shorter != *form).then_some(shorter)
 }
 
 /// `I2`, the sum of the principal minors of the tensor that a chart has.
