@@ -2,7 +2,7 @@
 
 use affine_oracle::Random;
 use affine_runtime::prelude::*;
-use affine_runtime::simulate::NEAR_DEGENERATE;
+use affine_runtime::simulate::{NEAR_DEGENERATE, Reason};
 
 /// Driven and damped, with a mass matrix that is `m 1 + c (...)` in the co-moving frame: it degenerates where the body is thin.
 #[affine_model(
@@ -21,13 +21,14 @@ struct Sum {
 }
 
 /// Seeds of random bodies that go through at 1e-13, picked because steps of a tolerance of 1e-2, 1e-3 or 1e-4 lead them onto a
-/// degenerate placement. Not among them is 309: finer steps too lead it to one, at t = 0.745983064088, and rounding alone would
-/// lead it past.
-const NEAR: [u64; 45] = [
-    8, 60, 364, 373, 388, 415, 471, 499, 604, 621, 740, 756, 861, 873, 891, 993, 996, 1078, 1079, 1181, 1187,
-    1209, 1266, 1268, 1271, 1339, 1362, 1405, 1513, 1610, 1696, 1863, 1987, 2025, 2112, 2137, 2178, 2378,
-    2442, 2539, 2552, 2605, 2632, 2650, 2672,
+/// degenerate placement.
+const NEAR: [u64; 46] = [
+    8, 60, 309, 364, 373, 388, 415, 471, 499, 604, 621, 740, 756, 861, 873, 891, 993, 996, 1078, 1079, 1181,
+    1187, 1209, 1266, 1268, 1271, 1339, 1362, 1405, 1513, 1610, 1696, 1863, 1987, 2025, 2112, 2137, 2178,
+    2378, 2442, 2539, 2552, 2605, 2632, 2650, 2672,
 ];
+/// The weakest pivot from which on motions are told from degenerate ones, in tolerances taken.
+const APART: f64 = 10.0;
 
 #[test]
 fn what_only_passes_near_goes_through_at_every_tolerance() {
@@ -48,15 +49,33 @@ fn what_only_passes_near_goes_through_at_every_tolerance() {
         let phi_dot = Matrix::<2>::new(-draw(0.0, 0.8), draw(0.0, 0.6), -draw(0.0, 0.6), -draw(0.0, 0.8));
         let start = model.at_velocity(phi, phi_dot).unwrap();
         let run = |tolerance: f64| Simulation::new(&model, start).until(3.0).tolerance(tolerance).run();
-        let fine = run(1e-13).unwrap();
+        let fine = match run(1e-13) {
+            Ok(fine) => fine,
+            // Seed 309: within 1e-10 of a degenerate placement rounding decides on which side a motion passes.
+            Err(halt) => {
+                assert!(matches!(halt.stop.reason, Reason::Degenerate { .. }), "{seed}: {}", halt.stop);
+                continue;
+            }
+        };
+        let pivots = fine.points().iter().map(|point| model.regularity(point.phi()).unwrap().weakest);
+        let weakest = pivots.fold(f64::INFINITY, f64::min);
         for tolerance in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
-            let label = format!("{seed} at {tolerance:e}");
-            let coarse = run(tolerance).unwrap_or_else(|halt| panic!("{label}: {}", halt.stop));
-            let distance = (coarse.end().1.phi() - fine.end().1.phi()).norm();
-            assert!(distance < 1e-2, "{label}: {distance:e}");
-            assert_eq!(coarse.why().to_string().contains("in place of"), tolerance > NEAR_DEGENERATE);
-            passed += 1;
+            let label = format!("{seed} at {tolerance:e}, pivots from {weakest:e} on");
+            match run(tolerance) {
+                Ok(coarse) => {
+                    passed += 1;
+                    let distance = (coarse.end().1.phi() - fine.end().1.phi()).norm();
+                    assert!(distance < 1e-2, "{label}: {distance:e}");
+                    assert_eq!(coarse.why().to_string().contains("in place of"), tolerance > NEAR_DEGENERATE);
+                }
+                Err(halt) => {
+                    let Reason::Degenerate { .. } = halt.stop.reason else {
+                        panic!("{label}: {}", halt.stop)
+                    };
+                    assert!(weakest < APART * NEAR_DEGENERATE, "{label}: {}", halt.stop);
+                }
+            }
         }
     }
-    assert_eq!(passed, 5 * NEAR.len());
+    assert_eq!(passed, 5 * (NEAR.len() - 1));
 }
