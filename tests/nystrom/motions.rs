@@ -189,6 +189,35 @@ fn what_was_not_emitted_is_named() {
     assert!(run.why().to_string().contains("Runge-Kutta of order 5"), "{}", run.why());
 }
 
+/// Which equations are of second order is a fact of the model, asked for or not.
+#[test]
+fn what_is_of_second_order_says_so() {
+    #[affine_model(dim = 2, kinetic(dalembert = 1), potential = tr(G)/2)]
+    struct Plain;
+    #[affine_model(dim = 2, kinetic(body_inertia = 1), potential = tr(G)/2)]
+    struct Affine;
+    #[affine_model(dim = 2, kinetic(dalembert = 1, body_inertia = 1), potential = tr(G)/2)]
+    struct Sum;
+    #[affine_model(dim = 2, kinetic(dalembert = 1, body_translation = 1), potential = tr(G)/2)]
+    struct Pushed;
+    #[affine_model(dim = 2, constraint = isochoric, kinetic(dalembert = 1), potential = tr(G)/2)]
+    struct Incompressible;
+    #[affine_model(dim = 2, kinetic(dalembert = 1), potential = tr(G)/2, dissipation(body_inertia = 1))]
+    struct Damped;
+    let facts = [Anchored::DESCRIPTION, Partly::DESCRIPTION, Plain::DESCRIPTION];
+    assert!(facts.iter().all(|description| description.second_order));
+    let facts = [
+        Affine::DESCRIPTION,
+        Sum::DESCRIPTION,
+        Pushed::DESCRIPTION,
+        Incompressible::DESCRIPTION,
+        Damped::DESCRIPTION,
+    ];
+    for description in facts {
+        assert!(!description.second_order, "{}", description.name);
+    }
+}
+
 /// The name of a field decides nothing.
 #[test]
 fn a_field_may_be_called_omega() {

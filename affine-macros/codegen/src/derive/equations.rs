@@ -1,6 +1,6 @@
 //! A first-order system, ready to be written down.
 
-use crate::ir::Program;
+use crate::ir::{Program, Value};
 use crate::mechanics::quantity::Quantity;
 
 /// A first-order system as a program over a plain array.
@@ -30,5 +30,31 @@ impl Equations {
     #[must_use]
     pub fn names(&self) -> Vec<String> {
         self.groups.iter().flat_map(|(_, names)| names.clone()).collect()
+    }
+
+    /// Are they `q' = V(p)`, `p' = F(t, q)`, that is `q'' = f(t, q)`?
+    #[must_use]
+    pub fn is_second_order(&self) -> bool {
+        let (positions, momenta) = (
+            self.of(&[Quantity::Position, Quantity::Placement]),
+            self.of(&[Quantity::LinearMomentum, Quantity::CanonicalMomentum]),
+        );
+        let read_by = |group: &[(String, Value)]| -> Vec<String> {
+            let program = Program { outputs: group.to_vec(), ..self.program.clone() };
+            program.without_dead_steps().inputs().into_iter().map(str::to_owned).collect()
+        };
+        let (by_velocities, by_forces) = (read_by(&positions.1), read_by(&momenta.1));
+        self.has(Quantity::CanonicalMomentum)
+            && by_velocities.iter().all(|read| !self.names().contains(read) || momenta.0.contains(read))
+            && by_forces.iter().all(|read| !momenta.0.contains(read))
+    }
+
+    /// Names of the components of some groups, and their rates.
+    fn of(&self, quantities: &[Quantity]) -> (Vec<String>, Vec<(String, Value)>) {
+        let groups =
+            self.groups.iter().flat_map(|(quantity, names)| names.iter().map(move |name| (quantity, name)));
+        let rates = groups.zip(&self.program.outputs);
+        let chosen = rates.filter(|((quantity, _), _)| quantities.contains(quantity));
+        chosen.map(|((_, name), rate)| (name.clone(), rate.clone())).unzip()
     }
 }

@@ -16,7 +16,6 @@ use crate::mechanics::asked::Asked;
 use crate::mechanics::conserved::Candidate;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{Formula, LeftOut};
-use crate::mechanics::quantity::Quantity;
 use crate::mechanics::reduce::{ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 use crate::mechanics::term::Frame;
@@ -175,26 +174,6 @@ pub struct BalancedQuantities {
 }
 
 impl Model {
-    /// Are the reduced equations `q'' = f(t, q)`? So they are over positions and canonical momenta, for a kinetic energy of
-    /// `phi_dot` and `x_dot` with constant coefficients.
-    #[must_use]
-    pub fn is_second_order(&self) -> bool {
-        use Quantity::{
-            CanonicalMomentum, InverseDilatation, LinearMomentum, MeanLogStretch, Placement, Position,
-        };
-        let canonical = |quantity: &Quantity| {
-            matches!(quantity, Position | Placement | LinearMomentum | CanonicalMomentum)
-                || matches!(quantity, InverseDilatation | MeanLogStretch)
-        };
-        let is_flat = self.frame == Frame::Flat && self.translation != Some(Frame::Body);
-        let is_constant = self.regularity.is_none() && self.mixed_masses.is_none();
-        self.constraint.is_none()
-            && is_flat
-            && is_constant
-            && self.reduced.groups.iter().all(|(quantity, _)| canonical(quantity))
-            && self.reduced.has(CanonicalMomentum)
-    }
-
     /// With what is derived from the reduced equations: recurrence and variational equations, where they are asked for,
     /// and vectors of four.
     pub(super) fn completed(mut self, asked: Asked) -> Self {

@@ -146,7 +146,8 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         Some(group) => quote!(::core::option::Option::Some(#group)),
         None => quote!(::core::option::Option::None),
     };
-    let second_order = model.is_second_order();
+    // The multiplier of a constraint depends on the velocity.
+    let second_order = model.constraint.is_none() && model.reduced.is_second_order();
     let full_operations = operations(context, model.full.program.operations());
     let reduced_operations = operations(context, model.reduced.program.operations());
     quote! {
