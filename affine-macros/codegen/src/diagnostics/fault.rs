@@ -23,7 +23,7 @@ impl FaultMistake {
     pub(super) fn text(&self) -> Text {
         match self {
             Self::Impossible { belief, place } => text(
-                "`affine_model(...)` meets a fault of its own, which is none of this specification",
+                "`affine_model(...)` has a fault of its own: the specification is not to blame",
                 format!("{belief}; that did not hold at {place}, and what is derived from it could be wrong"),
                 "report it as a fault of affine-macros, with the whole attribute and its struct",
             ),
