@@ -39,7 +39,7 @@ impl Rational {
     /// 1/4.
     pub const QUARTER: Self = Self(Repr::Small(1, 4));
 
-    /// A count.
+    /// The number of so many things.
     #[must_use]
     pub fn whole(count: usize) -> Self {
         i64::try_from(count)

@@ -5,11 +5,11 @@ use crate::mechanics::separation::Slope;
 /// A closed form of `q'' = -U_dil'(q)/m`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DilatationalMotion {
-    /// Of no force.
+    /// Without a force: `q` is linear in time.
     Free,
-    /// Of a force that is linear in `q`.
+    /// Under a force that is linear in `q`.
     Harmonic,
-    /// Of a hyperbolic sine of `q`.
+    /// Under a force that is a hyperbolic sine of `q`.
     Hyperbolic,
 }
 

@@ -20,9 +20,9 @@ pub struct Domain {
 pub struct SignedArgument<'a> {
     /// The part of the potential that it stands in.
     pub part: &'a str,
-    /// The argument.
+    /// The function of the state, as written: `q`, `x[1]`.
     pub argument: &'a str,
-    /// The sign.
+    /// The sign that it keeps.
     pub sign: Sign,
 }
 

@@ -1,6 +1,7 @@
 //! What the components of a state are.
 
-/// A quantity that stands in a state as a whole; the runtime has one of the same name.
+/// A quantity that stands in a state as a whole. The runtime has the same list: the generator is built before it, and what it
+/// emits names each by the same word, so that one that is missing there does not compile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// `x`
