@@ -70,7 +70,7 @@ fn literal(token: TokenTree) -> Option<String> {
 
 /// The models of all snapshots.
 fn snapshots() -> Vec<Described> {
-    let folder = std::fs::read_dir("tests/snapshots").expect("the snapshots");
+    let folder = std::fs::read_dir("snapshots").expect("the snapshots");
     let mut paths: Vec<_> = folder.map(|entry| entry.unwrap().path()).collect();
     paths.sort();
     assert!(paths.len() > 100);

@@ -9,18 +9,18 @@ use affine_codegen::diagnostics::Diagnostic;
 
 #[test]
 fn refused_models() {
-    trybuild::TestCases::new().compile_fail("tests/ill_posed/*/*.rs");
+    trybuild::TestCases::new().compile_fail("ill_posed/*/*.rs");
 }
 
 /// Well-posed models, and calls that they have no answer to.
 #[test]
 fn refused_calls() {
-    trybuild::TestCases::new().compile_fail("tests/refused_calls/*.rs");
+    trybuild::TestCases::new().compile_fail("refused_calls/*.rs");
 }
 
 /// What the compiler says, case by case.
 fn outcomes() -> Vec<(PathBuf, String)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/ill_posed");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("ill_posed");
     let entries = |folder: &Path| fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let cases = entries(&folder).flat_map(|kind| entries(&kind).collect::<Vec<_>>());
     cases

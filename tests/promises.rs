@@ -2,14 +2,11 @@
 //! the points that lie there, events where they are, and the same bits after an interruption.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-#[path = "promises/models.rs"]
-mod models;
-
 use core::ops::ControlFlow;
 
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
-use models::Served;
+use affine_tests::models::{self, Served};
 
 /// Of a method of high order at this tolerance, or of equal steps as short as below.
 const CLOSE: f64 = 2e-6;

@@ -406,7 +406,7 @@ fn every_snapshot_has_its_model() {
         .chain(SPECIAL.iter().map(|(name, ..)| name))
         .map(|name| format!("{name}.snap"))
         .collect();
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snapshots");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots");
     let present: BTreeSet<String> = std::fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())

@@ -5,7 +5,7 @@ use affine_runtime::model::StateVector;
 use affine_runtime::prelude::*;
 
 use crate::Stirring;
-use crate::dual::Dual;
+use affine_tests::dual::Dual;
 
 /// Some hundred roundings, in data with `phi^-1` of norm below 10.
 const ACCELERATION: f64 = 1e-12;

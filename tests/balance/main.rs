@@ -2,13 +2,6 @@
 //! against the power series of the motion. The balance of power of every kind of model.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-#[path = "../taylor/jet.rs"]
-mod jet;
-
-#[allow(dead_code, reason = "power is asked of values alone")]
-#[path = "../physics/dual.rs"]
-mod dual;
-
 mod acceleration;
 mod power;
 
@@ -19,7 +12,7 @@ use affine_runtime::model::{StateVector, Velocity};
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;
 
-use jet::{Jet, LENGTH};
+use affine_tests::jet::{Jet, LENGTH};
 
 /// Sums of some ten products, in units of the largest of them; the largest error seen is below 3e-16.
 const ALGEBRA: f64 = 1e-14;

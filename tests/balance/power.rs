@@ -4,7 +4,7 @@ use affine_oracle::Random;
 use affine_runtime::model::{Conserved, StateVector};
 use affine_runtime::prelude::*;
 
-use crate::dual::Dual;
+use affine_tests::dual::Dual;
 
 /// Derivatives of `H` along the equations against the emitted power: some hundred roundings.
 const POWER: f64 = 1e-12;

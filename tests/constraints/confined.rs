@@ -10,10 +10,10 @@ use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
 
-use crate::charts::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
-use crate::group::{Start, assert_components, assert_listed, diagonal, none, off_the_group, starts};
-use crate::reference::{Reference, assert_close, entries, exact_state};
-use crate::tolerances::{FREE_DILATATION, ON_THE_GROUP, UNDER_POTENTIAL};
+use affine_tests::charts::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
+use affine_tests::group::{Start, assert_components, assert_listed, diagonal, none, off_the_group, starts};
+use affine_tests::reference::{Reference, assert_close, entries, exact_state};
+use affine_tests::tolerances::{FREE_DILATATION, ON_THE_GROUP, UNDER_POTENTIAL};
 
 /// A constrained model, stated a second time for the oracle.
 trait Confined<const N: usize>: Model<N> + Sized {
@@ -82,7 +82,13 @@ fn agrees_with_the_oracle<const N: usize, M: Confined<N>>() {
 
         let back = model.at_speed(&point, velocity.x_dot, velocity.phi_dot).unwrap();
         let (found, expected) = (entries(&back.pi().0.0), entries(&point.pi().0.0));
-        assert_close("Pi of velocity", &found, &expected, crate::reference::norm(&expected), tolerance);
+        assert_close(
+            "Pi of velocity",
+            &found,
+            &expected,
+            affine_tests::reference::norm(&expected),
+            tolerance,
+        );
     }
 }
 
@@ -348,7 +354,7 @@ fn fields_in_a_full_inertia() {
         let point = Numbers.at_momentum(start.phi, Comoving(start.spin)).unwrap();
         let rates = Numbers.hamilton_equations(T0, &Numbers.flatten(&point));
         let found = fields.hamilton_equations(T0, &fields.flatten(&point));
-        assert_close("rates", &found, &rates, crate::reference::norm(&rates), UNDER_POTENTIAL);
+        assert_close("rates", &found, &rates, affine_tests::reference::norm(&rates), UNDER_POTENTIAL);
     }
 }
 

@@ -6,13 +6,15 @@ use affine_runtime::force::Motion;
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 
-use crate::charts::{
+use affine_tests::charts::{
     T0, assert_charts_lead_back, assert_reduced_equations_move, exists, groups, matrix, vector,
 };
-use crate::fields::{Fibre, Kneading, Spring, Stirring, Wind, blown, canonical, kneaded, stirred, under};
-use crate::group::{Start, assert_components, diagonal, has_another_name, none, starts};
-use crate::reference::{Reference, exact_state};
-use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, POWER_BALANCE, UNDER_POTENTIAL};
+use affine_tests::fields::{
+    Fibre, Kneading, Spring, Stirring, Wind, blown, canonical, kneaded, stirred, under,
+};
+use affine_tests::group::{Start, assert_components, diagonal, has_another_name, none, starts};
+use affine_tests::reference::{Reference, exact_state};
+use affine_tests::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, POWER_BALANCE, UNDER_POTENTIAL};
 
 /// A constrained model with forces, stated a second time for the oracle.
 trait Driven<const N: usize>: Model<N> + Sized {

@@ -7,9 +7,9 @@ use affine_oracle::{
 };
 use affine_runtime::prelude::*;
 
-use crate::drawn::Coefficients;
-use crate::group::none;
-use crate::tolerances::UNDER_POTENTIAL;
+use affine_tests::drawn::Coefficients;
+use affine_tests::group::none;
+use affine_tests::tolerances::UNDER_POTENTIAL;
 
 /// Eigenvalues `a`, `2c - a`, `a + n b` of `a/2 C(2) + b/2 C(1)^2 + c/2 |W|^2`.
 fn eigenvalues(n: usize, v: &Coefficients) -> [Rational; 3] {
@@ -84,7 +84,7 @@ fn energies_belong_together() {
     }
 }
 
-drawn! { UNDER_POTENTIAL;
+affine_tests::drawn! { UNDER_POTENTIAL;
     isochoric_vorticity_2: 2 Isochoric isochoric pinned false (hamiltonian(casimir2 = a, vorticity_squared = c))
         |v| regular(2, v), |v| of_body(2, &v), none;
     isochoric_vorticity_missile_3: 3 Isochoric isochoric moving false

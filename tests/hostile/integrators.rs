@@ -10,8 +10,8 @@ use affine_runtime::report::reference_solution;
 use affine_runtime::simulate::{Reason, Setting};
 use affine_runtime::variation::Variation;
 
-use crate::models;
 use crate::sweep::{STEP, within_patience};
+use affine_tests::models;
 
 const NO_NUMBERS: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 const GROUPS: &[Group] = &[Group::new(Quantity::MeanLogStretch, 1), Group::new(Quantity::LinearMomentum, 1)];

@@ -6,8 +6,8 @@ use affine_runtime::lattice::{CircleFlow, Lattice, LatticeFlow, LatticeSplitting
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::{Reason, Setting};
 
-use crate::models::{Droplet, Springs, Top};
 use crate::sweep::{sound, within_patience};
+use affine_tests::models::{Droplet, Springs, Top};
 
 #[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1), emit(two_polar, splitting))]
 struct Disc;

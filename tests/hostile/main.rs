@@ -3,9 +3,6 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 #![allow(clippy::result_large_err, reason = "a stop carries the last good state")]
 
-#[path = "../promises/models.rs"]
-mod models;
-
 mod checkpoints;
 mod ensembles;
 mod events;

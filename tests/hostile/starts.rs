@@ -3,7 +3,7 @@
 use affine_runtime::prelude::*;
 use affine_runtime::{Error, Result};
 
-use crate::models::{Droplet, Top, Vibrating};
+use affine_tests::models::{Droplet, Top, Vibrating};
 
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::{Halt, Reason};
 
-use crate::models::{self, Served};
+use affine_tests::models::{self, Served};
 
 /// Length of the equal steps where nothing else is asked for.
 pub(crate) const STEP: f64 = 0.01;

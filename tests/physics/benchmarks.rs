@@ -4,8 +4,8 @@ use affine_runtime::prelude::*;
 use affine_runtime::report::reference_solution;
 
 use crate::families::{matrix, vector};
-use crate::reference::{assert_close, entries, norm};
-use crate::tolerances::{VIBRATION, VIBRATION_PER_RADIAN};
+use affine_tests::reference::{assert_close, entries, norm};
+use affine_tests::tolerances::{VIBRATION, VIBRATION_PER_RADIAN};
 
 /// Tolerance of the integration, per step: the finest there is.
 const FINEST: f64 = 1e-15;

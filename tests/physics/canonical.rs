@@ -3,10 +3,10 @@
 use affine_oracle::{Matrix as Exact, Random, State};
 use affine_runtime::prelude::*;
 
-pub(crate) use crate::charts::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
 use crate::families::{Family, Parameters};
-use crate::reference::{Reference, assert_close, entries, norm};
-use crate::tolerances::CANONICAL;
+pub(crate) use affine_tests::charts::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
+use affine_tests::reference::{Reference, assert_close, entries, norm};
+use affine_tests::tolerances::CANONICAL;
 
 /// Models per family and dimension.
 const SAMPLES: u64 = 10;

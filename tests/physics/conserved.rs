@@ -4,8 +4,8 @@
 use affine_oracle::{Kinetic, Observable, Random, State};
 use affine_runtime::model::Conserved;
 
-pub(crate) use crate::charts::exists;
 use crate::families::{Family, Parameters};
+pub(crate) use affine_tests::charts::exists;
 
 fn assert_conserved(kinetic: &Kinetic, state: &State, listed: &[Conserved], translation: bool) {
     let listed: Vec<Observable> =

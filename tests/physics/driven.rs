@@ -3,7 +3,7 @@
 use affine_runtime::integrate::runge_kutta::Step;
 use affine_runtime::prelude::*;
 
-use crate::tolerances::{DRIVEN, ORDER};
+use affine_tests::tolerances::{DRIVEN, ORDER};
 
 /// `det phi^(1/2) = exp(q)` with `4 q'' = -q^3 - f(t)`: `q = sin(t)/2` for the force `f = 2 sin t - (sin t)^3/8`.
 #[affine_model(

@@ -4,8 +4,8 @@ use affine_runtime::model::StateVector;
 use affine_runtime::prelude::*;
 
 use crate::integrate::extrapolated;
-use crate::reference::{assert_close, entries, norm};
-use crate::tolerances::{CONSERVED, REFERENCE_SOLUTION};
+use affine_tests::reference::{assert_close, entries, norm};
+use affine_tests::tolerances::{CONSERVED, REFERENCE_SOLUTION};
 
 /// Affine in space, metrical in the body.
 #[affine_model(

@@ -5,7 +5,7 @@ use affine_oracle::{
 };
 use affine_runtime::prelude::*;
 
-pub(crate) use crate::charts::{matrix, vector};
+pub(crate) use affine_tests::charts::{matrix, vector};
 
 /// Values of all fields that the models have between them.
 pub(crate) struct Parameters {

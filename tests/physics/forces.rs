@@ -4,5 +4,4 @@
 mod combined;
 mod custom;
 mod dissipation;
-mod fields;
 mod prepare;

@@ -5,8 +5,8 @@ use affine_runtime::prelude::*;
 
 use crate::families::{Closed, Family, Parameters};
 use crate::integrate::extrapolated;
-use crate::reference::{assert_close, entries, norm};
-use crate::tolerances::{GEODESIC, MARTIN_NEFF};
+use affine_tests::reference::{assert_close, entries, norm};
+use affine_tests::tolerances::{GEODESIC, MARTIN_NEFF};
 
 const SAMPLES: u64 = 6;
 pub(crate) const T0: f64 = 0.25;

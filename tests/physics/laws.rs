@@ -2,8 +2,8 @@
 
 use affine_runtime::prelude::*;
 
-use crate::reference::{assert_close, entries, norm};
-use crate::tolerances::LAWS;
+use affine_tests::reference::{assert_close, entries, norm};
+use affine_tests::tolerances::LAWS;
 
 /// A monatomic gas cloud: `V = k det(phi)^(-2/3)`, homogeneous of degree -2, `J = m 1`.
 #[affine_model(dim = 3, kinetic(dalembert = m), potential = gas(k))]

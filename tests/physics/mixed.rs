@@ -12,9 +12,9 @@ use affine_runtime::{Error, error::IllPosed};
 use crate::canonical::T0;
 use crate::families::{Velocity, matrix, vector};
 use crate::potentials::{Loaded, agrees_with_the_oracle, lists_are_exact, reduction_keeps_the_motion};
-use crate::reference::{Reference, assert_close, entries, norm};
 use crate::stated::{diagonal, is_moving, phase_point};
-use crate::tolerances::{DEGENERATION, MIXED, TWO_METHODS};
+use affine_tests::reference::{Reference, assert_close, entries, norm};
+use affine_tests::tolerances::{DEGENERATION, MIXED, TWO_METHODS};
 
 /// A model of a mixed sum that makes phase points of velocities too.
 trait Sum<const N: usize>: Loaded<N> {

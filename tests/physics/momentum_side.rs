@@ -9,8 +9,8 @@ use crate::canonical::{assert_charts_lead_back, assert_reduced_equations_move, g
 use crate::conserved::exists;
 use crate::families::{Closed, matrix, vector};
 use crate::geodesics::{T0, assert_motion};
-use crate::reference::{Reference, assert_close, entries, norm};
-use crate::tolerances::CANONICAL;
+use affine_tests::reference::{Reference, assert_close, entries, norm};
+use affine_tests::tolerances::CANONICAL;
 
 const SAMPLES: u64 = 8;
 

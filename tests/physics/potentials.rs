@@ -10,12 +10,12 @@ use affine_runtime::prelude::*;
 use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
 use crate::conserved::exists;
 use crate::families::{matrix, vector};
-use crate::reference::{Reference, assert_close};
 use crate::stated::{
     body_inertia, body_translation, casimir1_squared, casimir2, dalembert, dalembert_scalar, is_moving,
     phase_point, space_inertia, space_translation, states,
 };
-use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, UNDER_POTENTIAL};
+use affine_tests::reference::{Reference, assert_close};
+use affine_tests::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, UNDER_POTENTIAL};
 
 /// The coefficient of every potential.
 pub(crate) const C: f64 = 1.75;

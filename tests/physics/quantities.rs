@@ -5,8 +5,8 @@ use affine_oracle::{Kinetic, Random, Term, rational};
 use affine_runtime::prelude::*;
 
 use crate::families::{matrix, vector};
-use crate::reference::{assert_close, entries, norm};
-use crate::tolerances::MIXED;
+use affine_tests::reference::{assert_close, entries, norm};
+use affine_tests::tolerances::MIXED;
 
 /// The metric, its inverse and the acceleration of one model at random states.
 macro_rules! quantities {

@@ -7,12 +7,12 @@ use affine_runtime::prelude::*;
 use crate::canonical::{T0, groups};
 use crate::families::{matrix, vector};
 use crate::potentials::{C, Loaded, agrees_with_the_oracle, lists_are_exact, reduction_keeps_the_motion};
-use crate::reference::Reference;
 use crate::stated::{
     body_inertia, body_translation, casimir1_squared, casimir2, dalembert, is_moving, phase_point,
     space_inertia, space_translation,
 };
-use crate::tolerances::UNDER_POTENTIAL;
+use affine_tests::reference::Reference;
+use affine_tests::tolerances::UNDER_POTENTIAL;
 
 /// `sum_a f(q_a)`.
 fn each(place: &Place, f: impl Fn(Differential) -> Differential) -> Differential {

@@ -7,9 +7,9 @@ use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
 use affine_runtime::{Error, error::IllPosed};
 
-use crate::drawn::Coefficients;
-use crate::group::none;
-use crate::tolerances::{DEGENERATION, MIXED, UNDER_POTENTIAL};
+use affine_tests::drawn::Coefficients;
+use affine_tests::group::none;
+use affine_tests::tolerances::{DEGENERATION, MIXED, UNDER_POTENTIAL};
 
 /// Rounding errors of the factorisation, and of gradients in `f64`.
 const ROUNDING: f64 = MIXED + UNDER_POTENTIAL;
@@ -50,7 +50,7 @@ fn spatial_tensor() -> Exact {
     quarters(9, &entries)
 }
 
-drawn! { ROUNDING;
+affine_tests::drawn! { ROUNDING;
     isochoric_flat_and_casimirs_2: 2 Isochoric isochoric pinned false (kinetic(dalembert = 1 + b^2, casimir2 = a/4))
         |_v| true, |v| vec![Term::dalembert(2, one() + square(&v, "b")), Term::Casimir2(v.value("a") * rational(1, 4))], none;
     isochoric_flat_and_body_3: 3 Isochoric isochoric pinned false

@@ -5,13 +5,13 @@ use affine_runtime::force::Motion as At;
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 
-use crate::charts::{
+use affine_tests::charts::{
     T0, assert_charts_lead_back, assert_reduced_equations_move, exists, groups, matrix, vector,
 };
-use crate::drawn::Coefficients;
-use crate::fields::{Fibre, Stirring, Wind, blown, stirred, under};
-use crate::reference::{Reference, assert_close, entries};
-use crate::tolerances::{DAMPED, MIXED, POWER_BALANCE};
+use affine_tests::drawn::Coefficients;
+use affine_tests::fields::{Fibre, Stirring, Wind, blown, stirred, under};
+use affine_tests::reference::{Reference, assert_close, entries};
+use affine_tests::tolerances::{DAMPED, MIXED, POWER_BALANCE};
 
 /// Models per statement, and states per model.
 const DRAWS: u64 = 3;

@@ -4,9 +4,9 @@ use affine_oracle::Random;
 use affine_runtime::model::{Conserved, StateVector};
 use affine_runtime::prelude::*;
 
-use crate::dual::Dual;
-use crate::group::starts;
-use crate::tolerances::{CANONICAL, POWER_BALANCE, UNSEEN_POWER};
+use affine_tests::dual::Dual;
+use affine_tests::group::starts;
+use affine_tests::tolerances::{CANONICAL, POWER_BALANCE, UNSEEN_POWER};
 
 const T0: f64 = 0.25;
 

@@ -5,7 +5,7 @@ use affine_runtime::model::{Model, StateVector};
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Real;
 
-use crate::jet::{Jet, LENGTH};
+use affine_tests::jet::{Jet, LENGTH};
 
 /// Two routes of some hundred roundings each, relative to the largest coefficient of the order.
 const TOLERANCE: f64 = 1e-12;

@@ -31,7 +31,6 @@ pub(crate) struct Spring;
 pub(super) fn cases(report: &mut StabilityReport, extent: Extent) -> affine_runtime::Result<()> {
     report.heading("long runs by Taylor series at 1e-15");
     let t_end = match extent {
-        Extent::Fast => 1e2,
         Extent::Full => 1e4,
         Extent::Long => 1e5,
     };

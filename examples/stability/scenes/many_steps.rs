@@ -35,7 +35,6 @@ pub(super) fn cases(report: &mut StabilityReport, extent: Extent) -> affine_runt
     // Outputs are steps.
     let steps = PARTS as f64
         * match extent {
-            Extent::Fast => 1e1,
             Extent::Full => 1e3,
             Extent::Long => 1e5,
         };

@@ -4,7 +4,6 @@ use affine_runtime::decompose::skew_exponential;
 use affine_runtime::prelude::*;
 use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
 
-use super::Extent;
 use super::shared::{run, run_by, scene};
 
 #[affine_model(dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1))]
@@ -53,10 +52,10 @@ pub(crate) struct UnevenDisc {
 /// Roundings of a hundred steps; the two motions are one, number by number in other units.
 const SAME: f64 = 1e-11;
 
-pub(super) fn cases(report: &mut StabilityReport, extent: Extent) -> affine_runtime::Result<()> {
+pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> {
     report.heading("fast spin, uneven masses, other units");
     spins(report);
-    masses(report, extent)?;
+    masses(report)?;
     units(report)
 }
 
@@ -97,9 +96,9 @@ fn spins(report: &mut StabilityReport) {
 }
 
 /// Columns of different mass on equal springs vibrate each at its own frequency: `cos(t/sqrt(J_A))`.
-fn masses(report: &mut StabilityReport, extent: Extent) -> affine_runtime::Result<()> {
+fn masses(report: &mut StabilityReport) -> affine_runtime::Result<()> {
     let phi = Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05);
-    for ratio in extent.up_to(1e6, &[1e-12, 1e-6, 1e6, 1e12]) {
+    for ratio in [1e-12_f64, 1e-6, 1e6, 1e12] {
         // The lightest column goes round once in a time 2 pi.
         let lightest = ratio.min(1.0);
         let masses = [1.0 / lightest, ratio / lightest, 1.0 / lightest];

@@ -10,8 +10,8 @@ use affine_runtime::scalar::Scalar;
 
 use crate::canonical::T0;
 use crate::families::{matrix, vector};
-use crate::reference::assert_close;
-use crate::tolerances::{POWER_BALANCE, UNDER_POTENTIAL};
+use affine_tests::reference::assert_close;
+use affine_tests::tolerances::{POWER_BALANCE, UNDER_POTENTIAL};
 
 /// `tr(G)/2`.
 #[derive(Clone)]

@@ -9,18 +9,18 @@ use affine_runtime::prelude::*;
 use affine_runtime::sampling;
 use affine_runtime::scalar::Scalar;
 
-use super::fields::{
-    Fibre, Field, Gyroscope, Kneading, Magnet, Spring, Stirring, Wall, Wind, blown, deflected, gyrated,
-    kneaded, stirred, under,
-};
 use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
 use crate::families::{matrix, vector};
-use crate::reference::{Reference, assert_close};
 use crate::stated::{
     body_inertia, body_translation, casimir2, dalembert_scalar, is_moving, phase_point, space_inertia,
     space_translation, states,
 };
-use crate::tolerances::{POWER_BALANCE, UNDER_POTENTIAL};
+use affine_tests::fields::{
+    Fibre, Field, Gyroscope, Kneading, Magnet, Spring, Stirring, Wall, Wind, blown, deflected, gyrated,
+    kneaded, stirred, under,
+};
+use affine_tests::reference::{Reference, assert_close};
+use affine_tests::tolerances::{POWER_BALANCE, UNDER_POTENTIAL};
 
 /// A model with forces, and the forces on its canonical momenta.
 trait Pushed<const N: usize>: Model<N> + Sized {

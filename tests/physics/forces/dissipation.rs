@@ -7,12 +7,12 @@ use affine_runtime::prelude::*;
 use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
 use crate::conserved::exists;
 use crate::families::{matrix, vector};
-use crate::reference::{Reference, assert_close};
 use crate::stated::{
     body_inertia, body_translation, casimir1_squared, casimir2, dalembert, diagonal, is_moving, phase_point,
     space_inertia, space_translation, states,
 };
-use crate::tolerances::{DAMPED, POWER_BALANCE};
+use affine_tests::reference::{Reference, assert_close};
+use affine_tests::tolerances::{DAMPED, POWER_BALANCE};
 
 /// A damped model, with both forms stated a second time for the oracle.
 trait Damped<const N: usize>: Model<N> + Sized {

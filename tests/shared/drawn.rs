@@ -15,13 +15,13 @@ use crate::tolerances::{ON_THE_GROUP, POWER_BALANCE};
 const DRAWS: u64 = 4;
 
 /// The fields that the statements have between them.
-pub(crate) struct Coefficients {
+pub struct Coefficients {
     values: [Rational; 4],
 }
 
 impl Coefficients {
     /// `a`, `b`, `c` of both signs, `k` positive, all between 1/8 and 1, such that what a statement asks holds.
-    pub(crate) fn random(random: &mut Random, regular: impl Fn(&Self) -> bool) -> Self {
+    pub fn random(random: &mut Random, regular: impl Fn(&Self) -> bool) -> Self {
         loop {
             let mut one = || rational((1 - 2 * random.integer(0, 1)) * random.integer(4, 32), 32);
             let [a, b, c, k] = [one(), one(), one(), one()];
@@ -34,7 +34,7 @@ impl Coefficients {
     }
 
     /// A field.
-    pub(crate) fn value(&self, name: &str) -> Rational {
+    pub fn value(&self, name: &str) -> Rational {
         let [a, b, c, k] = &self.values;
         match name {
             "a" => a.clone(),
@@ -46,21 +46,27 @@ impl Coefficients {
     }
 
     /// The same as the model has it.
-    pub(crate) fn field(&self, name: &str) -> f64 {
+    pub fn field(&self, name: &str) -> f64 {
         rounded(&self.value(name))
     }
 }
 
 /// A statement of a constrained model, with a second one of its kinetic energy for the oracle.
-pub(crate) trait Drawn<const N: usize>: Model<N> + Sized {
+pub trait Drawn<const N: usize>: Model<N> + Sized {
+    /// Its group.
     const CONSTRAINT: Constraint;
+    /// Does its centre move?
     const TRANSLATION: bool;
     /// Roundings of the equations, per condition of the constrained mass matrix.
     const ROUNDING: f64;
 
+    /// A model with random coefficients, and its kinetic energy.
     fn draw(random: &mut Random) -> (Self, Kinetic);
+    /// The potential by its plain definition.
     fn potential(place: &Place) -> Differential;
+    /// The phase point of a start.
     fn at_spin(&self, start: &Start<N>) -> affine_runtime::Result<Self::Point<f64>>;
+    /// The phase point with the placement of another and these velocities.
     fn at_speed(
         &self,
         point: &Self::Point<f64>,
@@ -68,10 +74,12 @@ pub(crate) trait Drawn<const N: usize>: Model<N> + Sized {
         phi_dot: Matrix<N>,
     ) -> affine_runtime::Result<Self::Point<f64>>;
 
+    /// Models with different coefficients.
     fn models() -> impl Iterator<Item = (Self, Kinetic)> {
         (0..DRAWS).map(|seed| Self::draw(&mut Random::new(5100 + seed)))
     }
 
+    /// Phase points on the group.
     fn points(&self) -> Vec<Self::Point<f64>> {
         starts::<N>(Self::CONSTRAINT).map(|start| self.at_spin(&start).unwrap()).collect()
     }
@@ -86,7 +94,7 @@ fn spin<const N: usize, M: Drawn<N>>() -> &'static str {
 }
 
 /// Velocities, energies, Hamilton's equations, and the way back from velocities.
-pub(crate) fn full_equations<const N: usize, M: Drawn<N>>() {
+pub fn full_equations<const N: usize, M: Drawn<N>>() {
     for (model, kinetic) in M::models() {
         for point in model.points() {
             let state = exact_state(spin::<N, M>(), &point);
@@ -119,7 +127,7 @@ pub(crate) fn full_equations<const N: usize, M: Drawn<N>>() {
 }
 
 /// `expand` undoes `reduce`; its derivative along the reduced equations is the vector field of the oracle.
-pub(crate) fn reduced_equations<const N: usize, M: Drawn<N>>() {
+pub fn reduced_equations<const N: usize, M: Drawn<N>>() {
     for (model, kinetic) in M::models() {
         for point in model.points() {
             let state = exact_state(spin::<N, M>(), &point);
@@ -133,7 +141,7 @@ pub(crate) fn reduced_equations<const N: usize, M: Drawn<N>>() {
 }
 
 /// Exactly what the motion conserves is listed, once. `held`: the potential depends on `x`.
-pub(crate) fn conserved_quantities<const N: usize, M: Drawn<N>>(held: bool) {
+pub fn conserved_quantities<const N: usize, M: Drawn<N>>(held: bool) {
     for (model, kinetic) in M::models().take(2) {
         let states: Vec<State> =
             model.points().iter().map(|point| exact_state(spin::<N, M>(), point)).collect();
@@ -153,7 +161,7 @@ pub(crate) fn conserved_quantities<const N: usize, M: Drawn<N>>(held: bool) {
 }
 
 /// A run stays on the group, and its energy where it was.
-pub(crate) fn runs<const N: usize, M: Drawn<N>>() {
+pub fn runs<const N: usize, M: Drawn<N>>() {
     for (model, _) in M::models().take(2) {
         for point in model.points().into_iter().take(2) {
             // Under an indefinite energy a body may escape, or its mass matrix degenerate, in finite time.
@@ -184,14 +192,15 @@ pub(crate) fn runs<const N: usize, M: Drawn<N>>() {
 
 /// Statements `name: n, Group key, centre (spec) regular |v| condition, |v| terms, => (potential) value;`, tested with
 /// coefficients that meet the condition.
+#[macro_export]
 macro_rules! drawn {
     ($rounding:expr; $($name:ident: $n:literal $constraint:ident $key:ident $centre:ident $held:literal ($($spec:tt)*)
         |$at:ident| $regular:expr, |$v:ident| $terms:expr $(=> ($($potential:tt)*))?, $energy:expr;)*) => { $(
         mod $name {
             #[allow(clippy::wildcard_imports)]
             use super::*;
-            use crate::group::Start;
-            use crate::drawn::{Coefficients, Drawn};
+            use $crate::group::Start;
+            use $crate::drawn::{Coefficients, Drawn};
 
             #[affine_model(dim = $n, constraint = $key, $($spec)* $(, potential = $($potential)*)?)]
             #[allow(dead_code, reason = "one list of fields serves every statement; each reads its own")]
@@ -199,7 +208,7 @@ macro_rules! drawn {
 
             impl Drawn<$n> for PreparedBody {
                 const CONSTRAINT: Constraint = Constraint::$constraint;
-                const TRANSLATION: bool = drawn!(@translation $centre);
+                const TRANSLATION: bool = $crate::drawn!(@translation $centre);
                 const ROUNDING: f64 = $rounding;
 
                 fn draw(random: &mut Random) -> (Self, Kinetic) {
@@ -213,29 +222,29 @@ macro_rules! drawn {
                     energy(place)
                 }
                 fn at_spin(&self, start: &Start<$n>) -> affine_runtime::Result<Self::Point<f64>> {
-                    drawn!(@point $centre self start)
+                    $crate::drawn!(@point $centre self start)
                 }
                 fn at_speed(&self, point: &Self::Point<f64>, x_dot: Vector<$n>, phi_dot: Matrix<$n>)
                     -> affine_runtime::Result<Self::Point<f64>> {
-                    drawn!(@velocity $centre self point x_dot phi_dot)
+                    $crate::drawn!(@velocity $centre self point x_dot phi_dot)
                 }
             }
 
             #[test]
             fn full_equations() {
-                crate::drawn::full_equations::<$n, PreparedBody>();
+                $crate::drawn::full_equations::<$n, PreparedBody>();
             }
             #[test]
             fn reduced_equations() {
-                crate::drawn::reduced_equations::<$n, PreparedBody>();
+                $crate::drawn::reduced_equations::<$n, PreparedBody>();
             }
             #[test]
             fn conserved_quantities() {
-                crate::drawn::conserved_quantities::<$n, PreparedBody>($held);
+                $crate::drawn::conserved_quantities::<$n, PreparedBody>($held);
             }
             #[test]
             fn runs() {
-                crate::drawn::runs::<$n, PreparedBody>();
+                $crate::drawn::runs::<$n, PreparedBody>();
             }
         }
     )* };

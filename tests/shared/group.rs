@@ -14,14 +14,19 @@ const SAMPLES: u64 = 4;
 
 /// A placement on the group, a matrix `spin` of its algebra, position and momentum of the centre.
 #[derive(Clone, Copy)]
-pub(crate) struct Start<const N: usize> {
-    pub(crate) x: Vector<N>,
-    pub(crate) phi: Matrix<N>,
-    pub(crate) p: Vector<N>,
-    pub(crate) spin: Matrix<N>,
+pub struct Start<const N: usize> {
+    /// `x`
+    pub x: Vector<N>,
+    /// `phi`
+    pub phi: Matrix<N>,
+    /// `p`
+    pub p: Vector<N>,
+    /// A matrix of the algebra.
+    pub spin: Matrix<N>,
 }
 
-pub(crate) fn starts<const N: usize>(constraint: Constraint) -> impl Iterator<Item = Start<N>> {
+/// Random starts.
+pub fn starts<const N: usize>(constraint: Constraint) -> impl Iterator<Item = Start<N>> {
     (0..SAMPLES).map(move |seed| {
         let mut random = Random::new(77 + seed);
         let mut square = || Matrix::<N>::from_row_slice(&random.matrix(N, N).to_f64());
@@ -54,7 +59,7 @@ pub(crate) fn starts<const N: usize>(constraint: Constraint) -> impl Iterator<It
 }
 
 /// The components of a group of the plain array: of a projected momentum those that determine the others.
-pub(crate) fn assert_components(reference: &Reference, n: usize, name: &str, rate: &[f64], rounding: f64) {
+pub fn assert_components(reference: &Reference, n: usize, name: &str, rate: &[f64], rounding: f64) {
     let (expected, size) = reference.rate(name);
     let independent: Vec<f64> = match (expected.len() == n * n, rate.len()) {
         (true, len) if len == n * n - 1 => expected[..len].to_vec(),
@@ -72,7 +77,7 @@ pub(crate) fn assert_components(reference: &Reference, n: usize, name: &str, rat
 
 /// The listed quantities are those that exist under the constraint, acting through its multiplier or not, and do not change
 /// along the motions.
-pub(crate) fn assert_listed(
+pub fn assert_listed(
     n: usize,
     (constraint, multiplier): (Constraint, bool),
     listed: &[Conserved],
@@ -99,7 +104,7 @@ pub(crate) fn assert_listed(
 }
 
 /// Is the observable, at the projected momentum, a number or another observable?
-pub(crate) fn has_another_name(constraint: Constraint, multiplier: bool, observable: Observable) -> bool {
+pub fn has_another_name(constraint: Constraint, multiplier: bool, observable: Observable) -> bool {
     use Observable as O;
     let deviators = [O::Deviator, O::ComovingDeviator, O::DeviatorCasimir2, O::DeviatorCasimir3];
     let more: &[Observable] = match constraint {
@@ -115,10 +120,7 @@ pub(crate) fn has_another_name(constraint: Constraint, multiplier: bool, observa
 }
 
 /// How far a placement is from the group.
-pub(crate) fn off_the_group<const N: usize>(
-    constraint: Constraint,
-    point: &(impl Phase<N> + Euclidean),
-) -> f64 {
+pub fn off_the_group<const N: usize>(constraint: Constraint, point: &(impl Phase<N> + Euclidean)) -> f64 {
     let green = point.phi().tr_mul(point.phi());
     match constraint {
         // ln det phi = n q
@@ -130,11 +132,13 @@ pub(crate) fn off_the_group<const N: usize>(
     }
 }
 
-pub(crate) fn none(_place: &Place) -> Differential {
+/// No potential.
+pub fn none(_place: &Place) -> Differential {
     Differential::constant(0.0)
 }
 
-pub(crate) fn diagonal(entries: &[i64]) -> Exact {
+/// The diagonal matrix of halves of these numbers.
+pub fn diagonal(entries: &[i64]) -> Exact {
     let n = entries.len();
     (0..n).fold(Exact::zeros(n, n), |sum, a| &sum + &Exact::unit(n, a, a).scaled(&rational(entries[a], 2)))
 }

@@ -5,28 +5,30 @@ use affine_runtime::prelude::*;
 use affine_runtime::scalar::Real;
 
 /// Exact derivatives at a point, with the sizes that rounding errors of each are measured by.
-pub(crate) struct Reference {
-    pub(crate) expected: Expected,
+pub struct Reference {
+    /// The derivatives.
+    pub expected: Expected,
     /// Condition of the mass matrix.
-    pub(crate) condition: f64,
+    pub condition: f64,
     state: State,
     /// What forces add to the sizes; all zero without.
     potential: Slopes,
 }
 
 impl Reference {
-    pub(crate) fn new(kinetic: &Kinetic, state: &State) -> Self {
+    /// Of a kinetic energy without forces.
+    pub fn new(kinetic: &Kinetic, state: &State) -> Self {
         Self::of(kinetic.expected(state).unwrap(), kinetic.condition(&state.phi).unwrap(), state)
     }
 
     /// Exact derivatives from elsewhere, with the factor by which rounding errors of the velocity are amplified.
-    pub(crate) fn of(expected: Expected, condition: f64, state: &State) -> Self {
+    pub fn of(expected: Expected, condition: f64, state: &State) -> Self {
         let potential = Slopes { value: 0.0, t: 0.0, x: Vec::new(), phi: Vec::new() };
         Reference { expected, condition, state: state.clone(), potential }
     }
 
     /// The motion under a potential.
-    pub(crate) fn under(
+    pub fn under(
         kinetic: &Kinetic,
         state: &State,
         t: f64,
@@ -41,7 +43,7 @@ impl Reference {
     }
 
     /// The motion under a constraint and a potential.
-    pub(crate) fn confined(
+    pub fn confined(
         kinetic: &Kinetic,
         constraint: Constraint,
         state: &State,
@@ -58,7 +60,7 @@ impl Reference {
     }
 
     /// The motion with a dissipation function, stated as a kinetic energy is.
-    pub(crate) fn damped(kinetic: &Kinetic, state: &State, dissipation: &Kinetic) -> Self {
+    pub fn damped(kinetic: &Kinetic, state: &State, dissipation: &Kinetic) -> Self {
         let free = kinetic.motion(state).unwrap();
         let motion = free.clone().damped(dissipation).unwrap();
         let push = |before: &Exact, after: &Exact| (after - before).to_f64();
@@ -72,7 +74,7 @@ impl Reference {
     }
 
     /// The motion with forces on `p` and, row-major, on `Pi`.
-    pub(crate) fn pushed(kinetic: &Kinetic, state: &State, on_p: &[f64], on_pi: &[f64]) -> Self {
+    pub fn pushed(kinetic: &Kinetic, state: &State, on_p: &[f64], on_pi: &[f64]) -> Self {
         let motion = kinetic.motion(state).unwrap().pushed(on_p, on_pi).unwrap();
         Reference {
             expected: motion.expected().unwrap(),
@@ -82,14 +84,14 @@ impl Reference {
     }
 
     /// The summands' size of `H`.
-    pub(crate) fn energy_size(&self) -> f64 {
+    pub fn energy_size(&self) -> f64 {
         let (p, pi) = (norm(&self.state.p.to_f64()), norm(&self.state.pi.to_f64()));
         p * norm(&self.expected.x_dot) + pi * norm(&self.expected.phi_dot) + self.potential.value.abs()
     }
 
     /// The exact derivative of a quantity named as in the layouts, and the size of its summands. Those of the
     /// momenta are products with `|Omega| <= |phi_dot| |phi^-1|` and the fluxes `p x_dot^T`.
-    pub(crate) fn rate(&self, name: &str) -> (&[f64], f64) {
+    pub fn rate(&self, name: &str) -> (&[f64], f64) {
         let State { phi, p, pi, .. } = &self.state;
         let size = |matrix: &Exact| norm(&matrix.to_f64());
         let expected = &self.expected;
@@ -114,14 +116,14 @@ impl Reference {
     }
 
     /// Holds the derivative of the named quantity against the exact one.
-    pub(crate) fn assert_rate(&self, name: &str, found: &[f64], tolerance: f64) {
+    pub fn assert_rate(&self, name: &str, found: &[f64], tolerance: f64) {
         let (expected, size) = self.rate(name);
         assert_close(name, found, expected, size, tolerance * self.condition);
     }
 }
 
 /// The point as exact rationals, its own affine spin (named as in the layout) taken at its word.
-pub(crate) fn exact_state<const N: usize>(spin: &str, point: &impl Phase<N>) -> State {
+pub fn exact_state<const N: usize>(spin: &str, point: &impl Phase<N>) -> State {
     let (x, p) = (column(&point.x()), column(&point.p()));
     let phi = square(point.phi());
     match spin {
@@ -141,7 +143,7 @@ fn column<const N: usize>(vector: &Vector<N>) -> Exact {
 }
 
 /// `|found - expected| <= tolerance size`.
-pub(crate) fn assert_close(what: &str, found: &[f64], expected: &[f64], size: f64, tolerance: f64) {
+pub fn assert_close(what: &str, found: &[f64], expected: &[f64], size: f64, tolerance: f64) {
     assert_eq!(found.len(), expected.len(), "{what}: components");
     let difference: Vec<f64> = found.iter().zip(expected).map(|(f, e)| f - e).collect();
     let error = norm(&difference);
@@ -153,11 +155,11 @@ pub(crate) fn assert_close(what: &str, found: &[f64], expected: &[f64], size: f6
 }
 
 /// Frobenius norm.
-pub(crate) fn norm(entries: &[f64]) -> f64 {
+pub fn norm(entries: &[f64]) -> f64 {
     entries.iter().fold(0.0, |length, entry| f64::hypot(length, *entry))
 }
 
 /// Row-major entries.
-pub(crate) fn entries<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Vec<T> {
+pub fn entries<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Vec<T> {
     matrix.transpose().as_slice().to_vec()
 }

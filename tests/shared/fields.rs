@@ -11,8 +11,9 @@ use crate::reference::entries;
 
 /// `Q = c (x_dot phi[1]^T - Omega Ct) cos t`, which needs everything that a force is told.
 #[derive(Clone)]
-pub(crate) struct Stirring {
-    pub(crate) strength: f64,
+pub struct Stirring {
+    /// `c`
+    pub strength: f64,
 }
 
 impl<const N: usize> Force<N> for Stirring {
@@ -26,8 +27,9 @@ impl<const N: usize> Force<N> for Stirring {
 
 /// `Q_hat = c phi^T phi_dot`.
 #[derive(Clone)]
-pub(crate) struct Kneading {
-    pub(crate) strength: f64,
+pub struct Kneading {
+    /// `c`
+    pub strength: f64,
 }
 
 impl<const N: usize> Force<N> for Kneading {
@@ -39,8 +41,9 @@ impl<const N: usize> Force<N> for Kneading {
 
 /// `Q_tr = c (tr phi, ..) - x_dot`.
 #[derive(Clone)]
-pub(crate) struct Wind {
-    pub(crate) strength: f64,
+pub struct Wind {
+    /// `c`
+    pub strength: f64,
 }
 
 impl<const N: usize> Force<N> for Wind {
@@ -53,8 +56,9 @@ impl<const N: usize> Force<N> for Wind {
 
 /// `Q_tr = c J x_dot`, `J` skew: a magnetic field.
 #[derive(Clone)]
-pub(crate) struct Magnet {
-    pub(crate) strength: f64,
+pub struct Magnet {
+    /// `c`
+    pub strength: f64,
 }
 
 impl<const N: usize> Force<N> for Magnet {
@@ -71,8 +75,9 @@ impl<const N: usize> Force<N> for Magnet {
 
 /// `Q_hat = c (Omega_hat_12, -Omega_hat_11; ..)`: `tr(Q_hat Omega_hat) = 0` although `Q_hat` is not skew.
 #[derive(Clone)]
-pub(crate) struct Gyroscope {
-    pub(crate) strength: f64,
+pub struct Gyroscope {
+    /// `c`
+    pub strength: f64,
 }
 
 impl<const N: usize> Force<N> for Gyroscope {
@@ -92,8 +97,9 @@ impl<const N: usize> Force<N> for Gyroscope {
 
 /// `U = c tr G`, isotropic.
 #[derive(Clone)]
-pub(crate) struct Spring {
-    pub(crate) strength: f64,
+pub struct Spring {
+    /// `c`
+    pub strength: f64,
 }
 
 impl<const N: usize> Potential<N> for Spring {
@@ -110,8 +116,9 @@ impl<const N: usize> Potential<N> for Spring {
 
 /// `U = c G_11^2`, a function of `G`.
 #[derive(Clone)]
-pub(crate) struct Fibre {
-    pub(crate) strength: f64,
+pub struct Fibre {
+    /// `c`
+    pub strength: f64,
 }
 
 impl<const N: usize> Potential<N> for Fibre {
@@ -130,8 +137,9 @@ impl<const N: usize> Potential<N> for Fibre {
 
 /// `U = c Ct_12^2`, a function of `Ct`.
 #[derive(Clone)]
-pub(crate) struct Wall {
-    pub(crate) strength: f64,
+pub struct Wall {
+    /// `c`
+    pub strength: f64,
 }
 
 impl<const N: usize> Potential<N> for Wall {
@@ -154,8 +162,9 @@ impl<const N: usize> Potential<N> for Wall {
 
 /// `U = c x_1 tr G`.
 #[derive(Clone)]
-pub(crate) struct Field {
-    pub(crate) strength: f64,
+pub struct Field {
+    /// `c`
+    pub strength: f64,
 }
 
 impl<const N: usize> Potential<N> for Field {
@@ -174,7 +183,7 @@ impl<const N: usize> Potential<N> for Field {
 }
 
 /// What acts on the canonical momenta at a motion, `on_p` and `on_pi` row-major.
-pub(crate) fn canonical<const N: usize>(
+pub fn canonical<const N: usize>(
     q: Option<Matrix<N>>,
     q_hat: Option<Matrix<N>>,
     q_tr: Option<Vector<N>>,
@@ -187,7 +196,8 @@ pub(crate) fn canonical<const N: usize>(
     (q_tr.unwrap_or_else(Vector::<N>::zeros).as_slice().to_vec(), entries(&push))
 }
 
-pub(crate) fn stirred<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+/// The force of [`Stirring`] with `c = 0.75` on `p` and `Pi`.
+pub fn stirred<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
     let omega = m.phi_dot * m.phi.try_inverse().unwrap();
     let friction = omega * m.phi * m.phi.transpose();
     let along = (m.x_dot * Vector::<N>::from_element(1.0).transpose()
@@ -196,29 +206,32 @@ pub(crate) fn stirred<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
     canonical(Some((along - friction) * (0.75 * m.t.cos())), None, None, &m.phi)
 }
 
-pub(crate) fn kneaded<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+/// That of [`Kneading`].
+pub fn kneaded<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
     canonical(None, Some(m.phi.tr_mul(&m.phi_dot) * 0.75), None, &m.phi)
 }
 
-pub(crate) fn blown<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+/// That of [`Wind`].
+pub fn blown<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
     canonical(None, None, Some(m.phi.diagonal() * 0.75 - m.x_dot), &m.phi)
 }
 
 /// The force on `Pi` of a skew form in the body: `S phi_dot^T`.
-pub(crate) fn gyrated<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+pub fn gyrated<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
     let mut s = Matrix::<N>::zeros();
     (s[(0, 1)], s[(1, 0)]) = (0.75, -0.75);
     (vec![0.0; N], entries(&(s * m.phi_dot.transpose())))
 }
 
-pub(crate) fn deflected<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
+/// That of [`Magnet`].
+pub fn deflected<const N: usize>(m: &Motion<N>) -> (Vec<f64>, Vec<f64>) {
     let mut force = Vector::<N>::zeros();
     (force[0], force[1]) = (0.75 * m.x_dot[1], -0.75 * m.x_dot[0]);
     canonical(None, None, Some(force), &m.phi)
 }
 
 /// The forces of a potential by forward differentiation of its plain definition.
-pub(crate) fn under<const N: usize>(
+pub fn under<const N: usize>(
     m: &Motion<N>,
     energy: fn(&OraclePlace) -> Differential,
 ) -> (Vec<f64>, Vec<f64>) {

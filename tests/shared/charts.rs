@@ -9,10 +9,10 @@ use crate::dual::Dual;
 use crate::reference::{Reference, assert_close, entries, exact_state, norm};
 
 /// Time of the start.
-pub(crate) const T0: f64 = 0.25;
+pub const T0: f64 = 0.25;
 
 /// The components of a plain array, group after group.
-pub(crate) fn groups<'a, T>(layout: &'static [Group], array: &'a [T]) -> Vec<(&'static str, &'a [T])> {
+pub fn groups<'a, T>(layout: &'static [Group], array: &'a [T]) -> Vec<(&'static str, &'a [T])> {
     let mut rest = array;
     let parts = layout.iter().map(|group| {
         let (part, after) = rest.split_at(group.len);
@@ -25,7 +25,7 @@ pub(crate) fn groups<'a, T>(layout: &'static [Group], array: &'a [T]) -> Vec<(&'
 }
 
 /// `point` is that of `state`.
-pub(crate) fn assert_charts_lead_back<const N: usize, M: Model<N>>(
+pub fn assert_charts_lead_back<const N: usize, M: Model<N>>(
     model: &M,
     point: &M::Point<f64>,
     state: &State,
@@ -47,7 +47,7 @@ pub(crate) fn assert_charts_lead_back<const N: usize, M: Model<N>>(
 /// Of everything a point has, in every frame; at a time away from the start, by which the pieces that commute have
 /// moved the point. There the reduced state of the start stands for another point, as good as any; `reference` is the
 /// exact motion through it.
-pub(crate) fn assert_reduced_equations_move<const N: usize, M: Model<N>>(
+pub fn assert_reduced_equations_move<const N: usize, M: Model<N>>(
     model: &M,
     start: &M::Point<f64>,
     tolerance: f64,
@@ -85,7 +85,7 @@ pub(crate) fn assert_reduced_equations_move<const N: usize, M: Model<N>>(
 }
 
 /// Does the quantity exist for such a model?
-pub(crate) fn exists(quantity: Observable, n: usize, translation: bool) -> bool {
+pub fn exists(quantity: Observable, n: usize, translation: bool) -> bool {
     use Observable::{
         Casimir3, ComovingLinearMomentum, DeviatorCasimir3, LinearMomentum, OrbitalAngularMomentum,
         TotalAffineMomentum, TotalAngularMomentum,
@@ -102,11 +102,11 @@ pub(crate) fn exists(quantity: Observable, n: usize, translation: bool) -> bool 
 }
 
 /// `N x N`, from row-major entries.
-pub(crate) fn matrix<const N: usize>(entries: &[f64]) -> Matrix<N> {
+pub fn matrix<const N: usize>(entries: &[f64]) -> Matrix<N> {
     Matrix::from_row_slice(entries)
 }
 
 /// A vector.
-pub(crate) fn vector<const N: usize>(entries: &[f64]) -> Vector<N> {
+pub fn vector<const N: usize>(entries: &[f64]) -> Vector<N> {
     Vector::from_column_slice(entries)
 }

@@ -8,15 +8,15 @@ use affine_runtime::scalar::{Real, Scalar};
 use num_traits::{One, Zero};
 
 /// Number of coefficients.
-pub(crate) const LENGTH: usize = 9;
+pub const LENGTH: usize = 9;
 
 /// `sum_k c_k t^k`, terms from `t^LENGTH` on left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Jet(pub(crate) [f64; LENGTH]);
+pub struct Jet(pub [f64; LENGTH]);
 
 impl Jet {
     /// A number that does not change.
-    pub(crate) fn fixed(value: f64) -> Self {
+    pub fn fixed(value: f64) -> Self {
         let mut jet = [0.0; LENGTH];
         jet[0] = value;
         Jet(jet)

@@ -8,14 +8,16 @@ use num_traits::{One, Zero};
 
 /// `value + epsilon slope`, `epsilon^2 = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Dual {
-    pub(crate) value: f64,
-    pub(crate) slope: f64,
+pub struct Dual {
+    /// The number.
+    pub value: f64,
+    /// Its derivative.
+    pub slope: f64,
 }
 
 impl Dual {
     /// A number that does not change.
-    pub(crate) fn fixed(value: f64) -> Self {
+    pub fn fixed(value: f64) -> Self {
         Dual { value, slope: 0.0 }
     }
 

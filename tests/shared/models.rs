@@ -2,27 +2,31 @@
 
 use affine_runtime::prelude::*;
 
+/// In a potential that holds its centre; equations of second order.
 #[affine_model(
     dim = 2,
     kinetic(dalembert = [[1, 0.25], [0.25, 2]], space_translation = 2),
     potential = tr(G)/2 - ln(det) + x[1]^2/2 + x[2]^4/4 + x[1]*phi[1,2],
     emit(nystrom),
 )]
-pub(crate) struct Anchored;
+pub struct Anchored;
 
+/// An affine metric and inertia in the body; power series.
 #[affine_model(
     dim = 2,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 2),
     potential = hyperbolic_dilatation(10) + neo_hookean(0.5) + x[1]^2/2,
     emit(taylor),
 )]
-pub(crate) struct Vibrating;
+pub struct Vibrating;
 
+/// On linear springs; exact flows.
 #[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = tr(G)/2 + norm(x)^2/2, emit(splitting))]
-pub(crate) struct Springs;
+pub struct Springs;
 
+/// Without forces; a closed form.
 #[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, space_translation = 2))]
-pub(crate) struct Free;
+pub struct Free;
 
 /// Pushed by a potential that depends on time, and braked.
 #[affine_model(
@@ -31,8 +35,9 @@ pub(crate) struct Free;
     potential = (1 + sin(3*t)/2)*tr(G)/2 - ln(det) + x[1]^2*cos(t),
     dissipation(dalembert = 0.1, space_translation = 0.2),
 )]
-pub(crate) struct Driven;
+pub struct Driven;
 
+/// A symmetric top on the rotations.
 #[affine_model(
     dim = 3,
     constraint = rigid,
@@ -40,21 +45,25 @@ pub(crate) struct Driven;
     potential = 0.7*phi[3,3] + norm(x)^2/2,
     emit(splitting),
 )]
-pub(crate) struct Top;
+pub struct Top;
 
+/// An incompressible body, kept so by a multiplier.
 #[affine_model(
     dim = 2,
     constraint = isochoric,
     kinetic(dalembert = 1, space_translation = 1),
     potential = tr(G)/2 + norm(x)^2/2,
 )]
-pub(crate) struct Droplet;
+pub struct Droplet;
 
 /// A model, a start, and all methods that serve it.
-pub(crate) struct Served<M, P> {
-    pub(crate) model: M,
-    pub(crate) start: P,
-    pub(crate) methods: Vec<Method>,
+pub struct Served<M, P> {
+    /// The model.
+    pub model: M,
+    /// The start.
+    pub start: P,
+    /// The methods, those of equal steps with the step that was asked for.
+    pub methods: Vec<Method>,
 }
 
 type Point<M, const N: usize> = <M as Model<N>>::Point<f64>;
@@ -87,7 +96,8 @@ fn centre() -> (Vector<2>, Vector<2>) {
     (Vector::<2>::new(0.4, -0.3), Vector::<2>::new(0.2, 0.5))
 }
 
-pub(crate) fn anchored(step: f64) -> Served<Anchored, Point<Anchored, 2>> {
+/// [`Anchored`], its start and its methods.
+pub fn anchored(step: f64) -> Served<Anchored, Point<Anchored, 2>> {
     let (x, p) = centre();
     let start = Anchored.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
     let nystrom = [Method::RungeKuttaNystrom8, Method::RungeKuttaNystrom12];
@@ -95,14 +105,16 @@ pub(crate) fn anchored(step: f64) -> Served<Anchored, Point<Anchored, 2>> {
     Served { model: Anchored, start, methods }
 }
 
-pub(crate) fn vibrating(step: f64) -> Served<Vibrating, Point<Vibrating, 2>> {
+/// [`Vibrating`], its start and its methods.
+pub fn vibrating(step: f64) -> Served<Vibrating, Point<Vibrating, 2>> {
     let (x, p) = centre();
     let start = Vibrating.at_momentum(x, placement(), p, Comoving(momentum())).unwrap();
     let orders = [None, Some(12)].map(|order| Method::Taylor { order });
     Served { model: Vibrating, start, methods: explicit_and(orders.into_iter().chain([gauss(3, step)])) }
 }
 
-pub(crate) fn springs(step: f64) -> Served<Springs, Point<Springs, 2>> {
+/// [`Springs`], its start and its methods.
+pub fn springs(step: f64) -> Served<Springs, Point<Springs, 2>> {
     let (x, p) = centre();
     let start = Springs.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
     let pieces = [2, 4, 6, 8].map(|order| Method::Splitting { order, step });
@@ -110,19 +122,22 @@ pub(crate) fn springs(step: f64) -> Served<Springs, Point<Springs, 2>> {
     Served { model: Springs, start, methods }
 }
 
-pub(crate) fn driven(step: f64) -> Served<Driven, Point<Driven, 2>> {
+/// [`Driven`], its start and its methods.
+pub fn driven(step: f64) -> Served<Driven, Point<Driven, 2>> {
     let (x, p) = centre();
     let start = Driven.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
     Served { model: Driven, start, methods: explicit_and([gauss(2, step), gauss(3, step)]) }
 }
 
-pub(crate) fn free(step: f64) -> Served<Free, Point<Free, 2>> {
+/// [`Free`], its start and its methods.
+pub fn free(step: f64) -> Served<Free, Point<Free, 2>> {
     let (x, p) = centre();
     let start = Free.at_momentum(x, placement(), p, Comoving(momentum())).unwrap();
     Served { model: Free, start, methods: explicit_and([Method::ClosedForm, gauss(2, step)]) }
 }
 
-pub(crate) fn top(step: f64) -> Served<Top, Point<Top, 3>> {
+/// [`Top`], its start and its methods.
+pub fn top(step: f64) -> Served<Top, Point<Top, 3>> {
     let omega = Matrix::<3>::new(0.0, -2.0, 0.1, 2.0, 0.0, -0.3, -0.1, 0.3, 0.0);
     let (x, v) = (Vector::<3>::new(0.4, -0.3, 0.1), Vector::<3>::new(0.2, 0.5, -0.1));
     let start = Top.at_velocity(x, Matrix::<3>::identity(), v, omega).unwrap();
@@ -132,7 +147,8 @@ pub(crate) fn top(step: f64) -> Served<Top, Point<Top, 3>> {
     Served { model: Top, start, methods }
 }
 
-pub(crate) fn droplet(step: f64) -> Served<Droplet, Point<Droplet, 2>> {
+/// [`Droplet`], its start and its methods.
+pub fn droplet(step: f64) -> Served<Droplet, Point<Droplet, 2>> {
     let (x, v) = (Vector::<2>::new(0.4, -0.3), Vector::<2>::new(0.2, 0.5));
     let phi = Matrix::<2>::new(2.0, 0.0, 0.0, 0.5);
     let start = Droplet.at_velocity(x, phi, v, Matrix::<2>::new(0.4, 0.0, 0.6, -0.1)).unwrap();
