@@ -4,6 +4,8 @@
 //! that it derives (`range`). `algebra` and `ir` know neither Rust syntax nor mechanics, `mechanics` never sees tokens,
 //! `emit` does no algebra. Which module may use which stands in `ARCHITECTURE.md`, and a test reads it.
 
+pub mod symbol;
+
 pub mod diagnostics;
 
 pub mod spec;

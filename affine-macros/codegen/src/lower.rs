@@ -16,7 +16,8 @@ use crate::mechanics::dissipation::Dissipation;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::term::{Coefficient, Frame, Term, TermKind};
-use crate::spec::{self, Expression, ExpressionKind, FIELD, Spec, Value, field_entry};
+use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
+use crate::symbol::Symbol;
 
 pub(crate) use base_functions::{difference_of, energy};
 pub use constant::{LARGEST_POWER, constant, integer};
@@ -26,7 +27,7 @@ pub use potential::potential;
 
 /// Does the expression depend on more than fields?
 pub(crate) fn moves(arena: &Arena, expr: Expr) -> bool {
-    arena.any_symbol(expr, &mut |symbol| arena.name(symbol).is_some_and(|name| !name.starts_with(FIELD)))
+    arena.any_symbol(expr, &mut |symbol| !arena.is_parameter(symbol))
 }
 
 /// The terms of a quadratic form in dimension `n` that are not exactly zero, each with its place in `written`.
@@ -137,10 +138,10 @@ pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<
     let mut of = |operand: &Expression| expression(arena, n, operand);
     match &e.kind {
         ExpressionKind::Number(value) => Some(arena.constant(value.clone())),
-        ExpressionKind::Symbol(name) => Some(arena.symbol(&format!("{FIELD}{name}"))),
+        ExpressionKind::Symbol(name) => Some(arena.symbol(Symbol::Field(name.to_string()))),
         // One symbol for both triangles: `prepare()` refuses a field that is not symmetric.
         ExpressionKind::FieldEntry(field, row, column) => {
-            Some(arena.symbol(&field_entry(field, *row.min(column), *row.max(column))))
+            Some(arena.symbol(Symbol::Entry(field.to_string(), *row.min(column), *row.max(column))))
         }
         ExpressionKind::Negate(a) => {
             let a = of(a)?;

@@ -27,7 +27,7 @@ pub mod mixed;
 pub mod momentum_side;
 pub mod notation;
 pub mod potential;
-pub mod quantity;
+
 pub mod reduce;
 pub mod second_order;
 pub mod separation;

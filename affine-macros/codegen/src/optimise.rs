@@ -182,5 +182,7 @@ fn composite_atoms(
     varies: &impl Fn(Expr) -> bool,
 ) -> FxHashSet<Expr> {
     let atoms = polynomials.iter().flat_map(|p| p.terms().flat_map(|(monomial, _)| monomial.iter().copied()));
-    atoms.filter(|atom| arena.name(*atom).is_none() && arena.any_symbol(*atom, &mut |s| varies(s))).collect()
+    atoms
+        .filter(|atom| arena.as_symbol(*atom).is_none() && arena.any_symbol(*atom, &mut |s| varies(s)))
+        .collect()
 }

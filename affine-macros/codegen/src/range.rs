@@ -9,6 +9,7 @@ use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
 use crate::ir::build::Builder;
 use crate::lower;
 use crate::spec::{Expression, Spec};
+use crate::symbol::Quantity;
 
 /// Every number of the model keeps its digits as a double. One that does not is blamed on the smallest expressions that
 /// have such a number themselves; where only the derivation makes it, on the expression with the number farthest from 1.
@@ -69,7 +70,7 @@ fn sources(spec: &Spec) -> Vec<Source<'_>> {
         whole: &potential.energy,
         dim,
         lower: |arena, n, part| {
-            let difference = arena.symbol("d");
+            let difference = arena.symbol(Quantity::Difference);
             lower::energy(arena, n, part, Some(difference))
         },
     });

@@ -9,6 +9,7 @@ use rustc_hash::FxHashMap;
 use super::fault::never_missing;
 use super::function::Function;
 use super::rational::Rational;
+use crate::symbol::{Aspect, Quantity, Symbol};
 
 /// Handle of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -19,8 +20,8 @@ pub struct Expr(u32);
 pub enum Node {
     /// An exact number.
     Constant(Rational),
-    /// A named indeterminate.
-    Symbol(String),
+    /// An indeterminate.
+    Symbol(Symbol),
     /// `constant + sum of coefficient * term`; at least two summands or one coefficient other than 1.
     Sum(Rational, Vec<(Expr, Rational)>),
     /// Product of `base^exponent`; at least two factors or one exponent other than 1.
@@ -65,9 +66,18 @@ impl Arena {
         self.intern(Node::Constant(value))
     }
 
-    /// A named indeterminate; the same name is the same expression.
-    pub fn symbol(&mut self, name: &str) -> Expr {
-        self.intern(Node::Symbol(name.to_owned()))
+    /// An indeterminate.
+    pub fn symbol(&mut self, symbol: impl Into<Symbol>) -> Expr {
+        self.intern(Node::Symbol(symbol.into()))
+    }
+
+    /// The symbol of what is said about one.
+    #[track_caller]
+    pub fn about(&mut self, aspect: Aspect, symbol: Expr) -> Expr {
+        match self.as_symbol(symbol).cloned() {
+            Some(of) => self.symbol(of.seen(aspect)),
+            None => never_missing(None, "only of symbols something is said", symbol),
+        }
     }
 
     /// The number an expression is, if it is one.
@@ -79,20 +89,33 @@ impl Arena {
         }
     }
 
-    /// Name of a symbol, if the expression is one.
+    /// The symbol that an expression is, if it is one.
     #[must_use]
-    pub fn name(&self, expr: Expr) -> Option<&str> {
+    pub fn as_symbol(&self, expr: Expr) -> Option<&Symbol> {
         match self.node(expr) {
-            Node::Symbol(name) => Some(name),
+            Node::Symbol(symbol) => Some(symbol),
             _ => None,
         }
+    }
+
+    /// The quantity that an expression is a component of, if it is a symbol of one.
+    #[must_use]
+    pub fn quantity(&self, expr: Expr) -> Option<Quantity> {
+        self.as_symbol(expr).and_then(Symbol::quantity)
+    }
+
+    /// Is it a parameter of the model?
+    #[must_use]
+    pub fn is_parameter(&self, expr: Expr) -> bool {
+        self.as_symbol(expr).is_some_and(Symbol::is_parameter)
     }
 
     /// Name of an expression that is a symbol.
     #[must_use]
     #[track_caller]
-    pub fn symbol_name(&self, symbol: Expr) -> &str {
-        never_missing(self.name(symbol), "only symbols are asked for their names", "")
+    pub fn symbol_name(&self, symbol: Expr) -> String {
+        let name = self.as_symbol(symbol).map(Symbol::to_string);
+        never_missing(name, "only symbols are asked for their names", String::new())
     }
 
     /// Sum of expressions with rational coefficients.
@@ -355,10 +378,10 @@ impl Arena {
     }
 
     /// Calls `visit` once for every symbol below `expr`.
-    pub fn for_each_symbol(&self, expr: Expr, visit: &mut impl FnMut(&str)) {
+    pub fn for_each_symbol(&self, expr: Expr, visit: &mut impl FnMut(&Symbol)) {
         match self.node(expr) {
             Node::Constant(_) => {}
-            Node::Symbol(name) => visit(name),
+            Node::Symbol(symbol) => visit(symbol),
             Node::Sum(_, terms) => terms.iter().for_each(|(term, _)| self.for_each_symbol(*term, visit)),
             Node::Product(factors) => factors.iter().for_each(|(b, _)| self.for_each_symbol(*b, visit)),
             Node::Function(_, argument) => self.for_each_symbol(*argument, visit),

@@ -5,20 +5,21 @@ use std::collections::BTreeMap;
 use super::arena::{Arena, Expr, Node};
 use super::polynomial::{Monomial, Polynomial};
 use super::rational::Rational;
+use crate::symbol::Quantity;
 
 /// Named constants that stand for polynomials in slower quantities.
 #[derive(Clone, Debug)]
 pub struct Constants {
-    stem: &'static str,
+    of: Quantity,
     /// Symbols and their definitions, each once up to sign.
     pub entries: Vec<(Expr, Polynomial)>,
 }
 
 impl Constants {
-    /// No constants yet; they will be named `stem_1`, `stem_2`, ...
+    /// No constants yet; they will be the components 1, 2, ... of a quantity.
     #[must_use]
-    pub fn new(stem: &'static str) -> Self {
-        Self { stem, entries: Vec::new() }
+    pub fn new(of: Quantity) -> Self {
+        Self { of, entries: Vec::new() }
     }
 
     /// Is the symbol one of these constants?
@@ -61,7 +62,7 @@ impl Constants {
         polynomial: &Polynomial,
         varies: &impl Fn(Expr) -> bool,
     ) -> Polynomial {
-        if !polynomial.mentions(|atom| arena.name(atom).is_none()) {
+        if !polynomial.mentions(|atom| arena.as_symbol(atom).is_none()) {
             return polynomial.clone();
         }
         let mut bound = Polynomial::zero();
@@ -78,7 +79,7 @@ impl Constants {
 
     fn bind_atom(&mut self, arena: &mut Arena, atom: Expr, varies: &impl Fn(Expr) -> bool) -> Expr {
         let slow = |arena: &Arena, below: Expr| !arena.any_symbol(below, &mut |s| varies(s));
-        if arena.name(atom).is_some() || slow(arena, atom) {
+        if arena.as_symbol(atom).is_some() || slow(arena, atom) {
             return atom;
         }
         let mut inner = |arena: &mut Arena, below: Expr| {
@@ -114,7 +115,7 @@ impl Constants {
         if let Some((symbol, _)) = self.entries.iter().find(|(_, known)| *known == value) {
             return (*symbol, sign);
         }
-        let symbol = arena.symbol(&format!("{}_{}", self.stem, self.entries.len() + 1));
+        let symbol = arena.symbol(self.of.at([self.entries.len() + 1]));
         self.entries.push((symbol, value));
         (symbol, sign)
     }

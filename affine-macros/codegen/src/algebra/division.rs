@@ -77,11 +77,12 @@ fn intersection(a: &[Expr], b: &[Expr]) -> Monomial {
 mod tests {
     use super::{content, quotient};
     use crate::algebra::{Arena, Polynomial, Rational};
+    use crate::symbol::Quantity;
 
     #[test]
     fn factors_are_found_and_others_are_not() {
         let mut arena = Arena::new();
-        let [x, y, z] = ["x", "y", "z"].map(|name| Polynomial::atom(arena.symbol(name)));
+        let [x, y, z] = [1, 2, 3].map(|k| Polynomial::atom(arena.symbol(Quantity::Position.at([k]))));
         let sum = |a: &Polynomial, b: &Polynomial, weight: i64| {
             let mut sum = a.clone();
             sum.add_scaled(b, &Rational::from(weight));

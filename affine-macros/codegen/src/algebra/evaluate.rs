@@ -6,6 +6,7 @@ use super::arena::{Arena, Expr, Node};
 use super::function::Function;
 use super::polynomial::Polynomial;
 use super::rational::Rational;
+use crate::symbol::Symbol;
 
 /// A field to evaluate in.
 pub trait Field: Clone {
@@ -73,10 +74,10 @@ impl Field for f64 {
 }
 
 /// Value of an expression; `None` where a symbol has no value or a reciprocal does not exist.
-pub fn evaluate<F: Field>(arena: &Arena, expr: Expr, value: &impl Fn(&str) -> Option<F>) -> Option<F> {
+pub fn evaluate<F: Field>(arena: &Arena, expr: Expr, value: &impl Fn(&Symbol) -> Option<F>) -> Option<F> {
     match arena.node(expr) {
         Node::Constant(number) => Some(F::from_rational(number)),
-        Node::Symbol(name) => value(name),
+        Node::Symbol(symbol) => value(symbol),
         Node::Function(function, argument) => evaluate(arena, *argument, value)?.apply(*function),
         Node::Sum(constant, terms) => {
             let mut sum = F::from_rational(constant);
@@ -103,7 +104,7 @@ pub fn evaluate<F: Field>(arena: &Arena, expr: Expr, value: &impl Fn(&str) -> Op
 pub fn evaluate_polynomial<F: Field>(
     arena: &Arena,
     polynomial: &Polynomial,
-    value: &impl Fn(&str) -> Option<F>,
+    value: &impl Fn(&Symbol) -> Option<F>,
 ) -> Option<F> {
     let mut sum = F::from_rational(&Rational::ZERO);
     for (monomial, c) in polynomial.terms() {

@@ -1,5 +1,6 @@
 //! Factored forms of polynomials: fewer operations for the same value.
 
+use crate::symbol::Quantity;
 use std::collections::BTreeMap;
 
 use super::arena::{Arena, Expr};
@@ -18,7 +19,7 @@ pub fn complete_sums(
     for form in nearly.iter().flatten() {
         let sharing = nearly.iter().flatten().filter(|other| other.atoms == form.atoms).count();
         if sharing > 1 && !sums.iter().any(|(atoms, _)| *atoms == form.atoms) {
-            let symbol = arena.symbol(&format!("sum_{}", sums.len() + 1));
+            let symbol = arena.symbol(Quantity::SharedSum.at([sums.len() + 1]));
             sums.push((form.atoms.clone(), symbol));
         }
     }
@@ -102,7 +103,7 @@ pub fn scale_atoms(
             let (number, constants) = &weight;
             let mut product = constants.clone();
             product.push(*atom);
-            let symbol = arena.symbol(&format!("scaled_{}", scaled.len() + 1));
+            let symbol = arena.symbol(Quantity::Scaled.at([scaled.len() + 1]));
             scaled.push((symbol, Polynomial::term(product, number.clone())));
             symbols.entry(weight.clone()).or_default().push((*atom, symbol));
         }

@@ -2,15 +2,17 @@
 
 use super::arena::{Arena, Expr};
 use super::rational::Rational;
+use crate::symbol::Symbol;
 
 /// A matrix of expressions, row after row.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Matrix(pub Vec<Vec<Expr>>);
 
 impl Matrix {
-    /// The matrix of symbols `name_11`, `name_12`, ...
-    pub fn symbols(arena: &mut Arena, name: &str, n: usize) -> Self {
-        Self((1..=n).map(|i| (1..=n).map(|j| arena.symbol(&format!("{name}_{i}{j}"))).collect()).collect())
+    /// The matrix of the components `11`, `12`, ... of a symbol.
+    pub fn symbols(arena: &mut Arena, of: impl Into<Symbol>, n: usize) -> Self {
+        let of = of.into();
+        Self((1..=n).map(|i| (1..=n).map(|j| arena.symbol(of.at([i, j]))).collect()).collect())
     }
 
     /// Number of rows.

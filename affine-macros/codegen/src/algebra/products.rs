@@ -1,5 +1,6 @@
 //! Products that several polynomials share.
 
+use crate::symbol::Quantity;
 use std::collections::BTreeMap;
 
 use super::arena::{Arena, Expr};
@@ -20,7 +21,7 @@ pub fn share_products(arena: &mut Arena, polynomials: &mut [Polynomial]) -> Vec<
         return shared;
     }
     while let Some((left, right)) = most_shared(polynomials) {
-        let symbol = arena.symbol(&format!("product_{}", shared.len() + 1));
+        let symbol = arena.symbol(Quantity::SharedProduct.at([shared.len() + 1]));
         let product = Polynomial::term(vec![left, right], Rational::ONE);
         for polynomial in polynomials.iter_mut() {
             let mut replaced = Polynomial::zero();

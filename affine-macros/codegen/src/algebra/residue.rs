@@ -6,6 +6,7 @@ use super::arena::{Arena, Expr};
 use super::evaluate::{Field, evaluate};
 use super::function::Function;
 use super::rational::Rational;
+use crate::symbol::Symbol;
 
 /// A residue modulo the Mersenne prime `2^61 - 1`; none for fractions whose denominator it divides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,14 +40,18 @@ impl Residue {
 /// Is the expression zero whatever its symbols are, by its values at two points? Not where it has none.
 #[must_use]
 pub fn vanishes(arena: &Arena, expr: Expr) -> bool {
-    POINTS.iter().all(|point| at(arena, expr, &|name| Residue::sample(&format!("{name}{point}"))) == Some(0))
+    POINTS
+        .iter()
+        .all(|point| at(arena, expr, &|symbol| Residue::sample(&format!("{symbol}{point}"))) == Some(0))
 }
 
 /// Does the value of the expression change with the symbols that are not `kept`, at two points? Also where it has none.
 #[must_use]
-pub fn depends_on(arena: &Arena, expr: Expr, kept: &impl Fn(&str) -> Option<Residue>) -> bool {
+pub fn depends_on(arena: &Arena, expr: Expr, kept: &impl Fn(&Symbol) -> Option<Residue>) -> bool {
     let value = |point: &str| {
-        at(arena, expr, &|name| kept(name).unwrap_or_else(|| Residue::sample(&format!("{name}{point}"))))
+        at(arena, expr, &|symbol| {
+            kept(symbol).unwrap_or_else(|| Residue::sample(&format!("{symbol}{point}")))
+        })
     };
     let [one, other] = POINTS.map(value);
     one.is_none() || one != other
@@ -55,8 +60,8 @@ pub fn depends_on(arena: &Arena, expr: Expr, kept: &impl Fn(&str) -> Option<Resi
 /// Endings of names, which make other samples of them.
 const POINTS: [&str; 2] = ["", "'"];
 
-fn at(arena: &Arena, expr: Expr, value: &dyn Fn(&str) -> Residue) -> Option<u64> {
-    evaluate(arena, expr, &|name| Some(value(name)))?.0
+fn at(arena: &Arena, expr: Expr, value: &dyn Fn(&Symbol) -> Residue) -> Option<u64> {
+    evaluate(arena, expr, &|symbol| Some(value(symbol)))?.0
 }
 
 fn product(a: u64, b: u64) -> u64 {

@@ -3,6 +3,7 @@
 use super::arena::{Arena, Expr, Node};
 use super::function::Function;
 use super::rational::Rational;
+use crate::symbol::Symbol;
 
 impl Arena {
     /// The expression with symbols replaced; `None` where a divisor becomes zero.
@@ -33,11 +34,11 @@ impl Arena {
 
     /// Is the value `>= 0` for all symbols, those of `positive` being so; and is it never zero?
     #[must_use]
-    pub fn sign(&self, expr: Expr, positive: &dyn Fn(&str) -> bool) -> Option<Sign> {
+    pub fn sign(&self, expr: Expr, positive: &dyn Fn(&Symbol) -> bool) -> Option<Sign> {
         match self.node(expr) {
             Node::Constant(value) if value.is_zero() => None,
             Node::Constant(value) => Some(Sign { negative: value.is_negative(), strict: true }),
-            Node::Symbol(name) => positive(name).then_some(Sign { negative: false, strict: true }),
+            Node::Symbol(symbol) => positive(symbol).then_some(Sign { negative: false, strict: true }),
             Node::Sum(constant, terms) => {
                 let own = (!constant.is_zero()).then_some((constant.is_negative(), true));
                 let mut signs: Vec<(bool, bool)> = own.into_iter().collect();

@@ -9,11 +9,11 @@ use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function};
 use crate::diagnostics::{Diagnostics, PotentialMistake};
 use crate::lower;
-use crate::mechanics::potential::TIME;
 use crate::mechanics::potential::stretches::{
     canonical, exchanged, is_stretched, singular_at_coincidence, vanishes_at_coincidence,
 };
-use crate::spec::{Expression, ExpressionKind, FIELD, Spec};
+use crate::spec::{Expression, ExpressionKind, Spec};
+use crate::symbol::Quantity;
 
 /// Every rule; a potential that breaks one of symmetry is not asked for more.
 pub(super) fn potential(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) {
@@ -120,8 +120,8 @@ fn absolute_value(arena: &Arena, value: Expr) -> Option<Expr> {
 /// Does the expression change with the state? What changes with fields and the time alone is a factor of forces, and may
 /// have kinks.
 fn moves(arena: &Arena, expr: Expr) -> bool {
-    let is_state = |name: &str| name != TIME && !name.starts_with(FIELD);
-    arena.any_symbol(expr, &mut |symbol| arena.name(symbol).is_some_and(is_state))
+    let is_state = |symbol| arena.quantity(symbol) != Some(Quantity::Time) && !arena.is_parameter(symbol);
+    arena.any_symbol(expr, &mut { is_state })
 }
 
 /// A place where smoothness ends, as written.

@@ -5,6 +5,7 @@ use crate::mechanics::charts::Chart;
 use crate::mechanics::equations::System;
 use crate::mechanics::separation::{Separation, Slope};
 use crate::optimise::Batch;
+use crate::symbol::Aspect;
 
 /// The rates, and the power where the work is part of the motion.
 pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
@@ -27,9 +28,7 @@ pub(super) fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> 
     let half = Rational::HALF;
     for (a, b) in (0..chart.dim).flat_map(|a| (a + 1..chart.dim).map(move |b| (a, b))) {
         let (upper, lower) = (chart.m.0[a][b], chart.m.0[b][a]);
-        let mut symbol =
-            |part: &str| arena.symbol(&format!("{}_{part}_{}{}", chart.momentum.name(), a + 1, b + 1));
-        let (symmetric, skew) = (symbol("sym"), symbol("skew"));
+        let [symmetric, skew] = [Aspect::Symmetric, Aspect::Skew].map(|aspect| arena.about(aspect, upper));
         // s = (M_ab + M_ba)/2, w = M_ab - M_ba, so M_ab = s + w/2 and M_ba = s - w/2.
         let combined = |x: Expr, y: Expr, weight: &Rational| {
             let mut sum = Polynomial::atom(x);

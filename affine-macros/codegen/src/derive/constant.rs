@@ -20,11 +20,12 @@ use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::Kinetics;
 use crate::mechanics::loads::loads;
-use crate::mechanics::potential::{Base, DILATATION, Potential};
+use crate::mechanics::potential::{Base, Potential};
 use crate::mechanics::reduce;
 use crate::mechanics::shared::CentreVelocity;
 use crate::mechanics::weight::Weight;
 use crate::optimise::{Batch, straight_line};
+use crate::symbol::Quantity;
 
 /// Derives the model of an energy whose mass matrix is constant in one frame.
 pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
@@ -49,7 +50,7 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
     let potential = ways.as_ref().map(|ways| &ways.along_motions);
     let own = reduce::own_chart(arena, &h);
     let own_h = reduce::own_hamiltonian(&h, &own);
-    let mut coefficients = Constants::new("c");
+    let mut coefficients = Constants::new(Quantity::Coefficient);
 
     let Kept { moving: conserved_now, at_rest: conserved_at_rest, rotations } =
         kept(arena, &h, (&own, &own_h), potential, &forces);
@@ -129,7 +130,7 @@ pub(super) fn constant(form: Form, require_positive: bool) -> Option<Model> {
     let dilatation = reduction.separation.as_ref().map(|s| inline(arena, s.batch(), Vec::new()));
     if unitary {
         // Nothing but the lattice is emitted: no other coefficient is computed.
-        coefficients = Constants::new("c");
+        coefficients = Constants::new(Quantity::Coefficient);
     }
     let two_polar = asked
         .two_polar
@@ -293,7 +294,7 @@ fn point_inputs(
 
 /// Functions of the placement that potentials are evaluated with.
 pub(super) fn placement_inputs(arena: &mut Arena, n: usize) -> Vec<Expr> {
-    let mut inputs = vec![Base::MeanLogStretch.symbol(arena), arena.symbol(DILATATION)];
+    let mut inputs = vec![Base::MeanLogStretch.symbol(arena), arena.symbol(Quantity::Dilatation)];
     inputs.extend((0..n).map(|a| Base::LogStretch(a).symbol(arena)));
     inputs
 }
@@ -356,12 +357,12 @@ pub(super) fn legendre_batch(arena: &mut Arena, kinetic: &Kinetic) -> Batch {
     if let Some(group) = kinetic.confined() {
         momenta = group.projected(&momenta);
     }
-    let names = Matrix::symbols(arena, kinetic.frame.momentum_name(), n);
+    let names = Matrix::symbols(arena, kinetic.frame.momentum(), n);
     matrix_batch(arena, &names, &momenta)
 }
 
 pub(super) fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Batch {
-    let name = |s: &Expr| arena.symbol_name(*s).to_owned();
+    let name = |s: &Expr| arena.symbol_name(*s);
     let results = names.0.concat().iter().map(name).zip(values.concat()).collect();
     Batch { results, ..Batch::default() }
 }
@@ -392,7 +393,7 @@ fn energy_batch(
         let mass = Polynomial::normal_form(arena, t.mass);
         let half = Rational::HALF;
         for i in 1..=kinetic.dim {
-            let v = arena.symbol(&format!("v_{i}"));
+            let v = arena.symbol(Quantity::GivenVelocity.at([i]));
             energy.add_product(&Polynomial::term(vec![v, v], Rational::ONE), &mass, &half);
             inputs.push(v);
         }

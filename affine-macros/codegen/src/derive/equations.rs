@@ -1,7 +1,7 @@
 //! A first-order system, ready to be written down.
 
 use crate::ir::{Program, Value};
-use crate::mechanics::quantity::Quantity;
+use crate::symbol::Quantity;
 
 /// A first-order system as a program over a plain array.
 pub struct Equations {

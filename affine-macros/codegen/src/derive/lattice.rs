@@ -14,9 +14,9 @@ use crate::mechanics::asked::Asked;
 use crate::mechanics::describe::{Formula, Notation};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::{OnAxes, Potential};
-use crate::mechanics::quantity::Quantity;
 use crate::mechanics::two_polar::{self, Equations, Frames, Lattice, Pieces, Ratios, Stable, Variables};
 use crate::optimise::{Batch, straight_line};
+use crate::symbol::Quantity;
 
 /// The two-polar form of a doubly isotropic model.
 pub struct TwoPolar {
@@ -82,7 +82,7 @@ pub(super) fn two_polar(
         equations.add(on_axes);
     }
     let stable = Stable::new(arena, &lattice);
-    let name = |arena: &Arena, s: &Expr| arena.symbol_name(*s).to_owned();
+    let name = |arena: &Arena, s: &Expr| arena.symbol_name(*s);
     let names = |arena: &Arena, symbols: &[Expr]| symbols.iter().map(|s| name(arena, s)).collect::<Vec<_>>();
     let (place, momentum) = match lattice.variables {
         Variables::LogStretches | Variables::Angles => (Quantity::LogStretches, Quantity::LogStretchMomenta),
@@ -159,18 +159,18 @@ fn energy(equations: &Equations, stable: &Stable, potential: Option<&OnAxes>) ->
 
 /// Names of the frames' components.
 fn groups(arena: &Arena, frames: &Frames) -> Vec<(Quantity, Vec<String>)> {
-    let names =
-        |symbols: &[Expr]| symbols.iter().map(|s| arena.symbol_name(*s).to_owned()).collect::<Vec<_>>();
+    let names = |symbols: &[Expr]| symbols.iter().map(|s| arena.symbol_name(*s)).collect::<Vec<_>>();
     vec![(Quantity::LeftRotation, names(&frames.left)), (Quantity::RightRotation, names(&frames.right))]
 }
 
 /// The rates of the frames beside those of the state.
 fn framed(arena: &mut Arena, frames: &Frames, equations: &Equations, stable: &Stable, rates: Batch) -> Batch {
     let Batch { mut shared, mut results, .. } = rates;
-    for (stem, frame, angular) in
-        [("chi", &frames.left, &equations.chi), ("theta", &frames.right, &equations.theta)]
-    {
-        let symbols: Vec<Expr> = (1..=angular.len()).map(|k| arena.symbol(&format!("{stem}_{k}"))).collect();
+    for (of, frame, angular) in [
+        (Quantity::LeftAngular, &frames.left, &equations.chi),
+        (Quantity::RightAngular, &frames.right, &equations.theta),
+    ] {
+        let symbols: Vec<Expr> = (1..=angular.len()).map(|k| arena.symbol(of.at([k]))).collect();
         shared.extend(symbols.iter().copied().zip(angular.iter().map(|p| stable.rewritten(p))));
         let symbols: Vec<Polynomial> = symbols.into_iter().map(Polynomial::atom).collect();
         for (k, entry) in frame.iter().enumerate() {

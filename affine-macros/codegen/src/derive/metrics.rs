@@ -39,8 +39,8 @@ pub struct Preparation {
 
 /// A matrix that coefficients read.
 pub struct GivenMatrix {
-    /// The name that they have for it.
-    pub name: String,
+    /// Its number, which they bear.
+    pub number: usize,
     /// What it is made from.
     pub source: GivenSource,
 }
@@ -78,7 +78,7 @@ impl GivenMatrix {
             Source::SpaceInverse => GivenSource::SpaceInverse,
             Source::Body => GivenSource::Body,
         };
-        Self { name: matrix.name.clone(), source }
+        Self { number: matrix.number, source }
     }
 }
 

@@ -23,6 +23,7 @@ use crate::mechanics::reduce::{self, ClosedForm, Commuting, Reduction};
 use crate::mechanics::shared::CentreVelocity;
 use crate::mechanics::term::Frame;
 use crate::optimise::Batch;
+use crate::symbol::Quantity;
 
 use super::batch::batch;
 use super::prepared::{coefficient_program, damping};
@@ -50,7 +51,7 @@ pub(super) fn derive(form: MixedForm, require_positive: bool) -> Option<Model> {
     let potential = written.as_ref().map(|ways| &ways.along_motions);
     let kinetics = inner.kinetics(arena);
     let body = Body { inner, kinetics, masses, potential, forces: &forces, mixed: &mixed };
-    let mut coefficients = Constants::new("c");
+    let mut coefficients = Constants::new(Quantity::Coefficient);
     let chart = body.chart(arena, true);
     let at_points = written.as_ref().map(|ways| &ways.at_points);
     let systems = body.systems_under(arena, &chart, at_points)?;
@@ -199,16 +200,18 @@ impl Body<'_> {
         if self.masses.are_none() {
             return CentreVelocity::Fixed;
         }
-        let mut symbols =
-            |stem: &str| (1..=self.mixed.dim).map(|i| arena.symbol(&format!("{stem}_{i}"))).collect();
-        let x_dot = symbols("x_dot");
-        CentreVelocity::Defined { x_dot, v_hat: self.masses.body.map(|_| symbols("v_hat")) }
+        let mut symbols = |of: Quantity| (1..=self.mixed.dim).map(|i| arena.symbol(of.at([i]))).collect();
+        let x_dot = symbols(Quantity::CentreVelocity);
+        CentreVelocity::Defined {
+            x_dot,
+            v_hat: self.masses.body.map(|_| symbols(Quantity::ComovingCentreVelocity)),
+        }
     }
 
     /// The velocity `(dH/dM)^T` of the chart under the name that forces know, where the energy has another.
     fn velocity_names(&self, arena: &mut Arena, chart: &Chart) -> Load {
         let Inner::Varying(internal) = &self.inner else { return Load::default() };
-        let symbols = Matrix::symbols(arena, chart.momentum.velocity_name(), chart.dim).0.concat();
+        let symbols = Matrix::symbols(arena, chart.momentum.velocity(), chart.dim).0.concat();
         let values = internal.velocity.0.concat();
         let renamed = symbols.into_iter().zip(values).filter(|(name, symbol)| name != symbol);
         let shared = renamed.map(|(name, symbol)| (name, Polynomial::atom(symbol))).collect();

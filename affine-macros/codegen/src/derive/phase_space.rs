@@ -14,13 +14,13 @@ impl Model {
     /// Stem of the names of that spin's entries.
     #[must_use]
     pub fn spin_name(&self) -> &'static str {
-        self.frame.momentum_name()
+        self.frame.momentum().stem()
     }
 
     /// Stem of the names of that velocity's entries.
     #[must_use]
     pub fn velocity_name(&self) -> &'static str {
-        self.frame.velocity_name()
+        self.frame.velocity().stem()
     }
 
     /// The components of the velocity that geodesics are made of, where these are known in closed form: of an exponential

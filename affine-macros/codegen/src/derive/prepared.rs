@@ -10,6 +10,7 @@ use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::term::{Coefficient, TermKind};
 use crate::optimise::{Batch, straight_line};
+use crate::symbol::Quantity;
 
 use super::well_posed::{Condition, Damping, NumericBlock, Relation};
 
@@ -140,21 +141,20 @@ pub(super) fn summands(sum: &Polynomial) -> Vec<Polynomial> {
 pub(super) fn unbound(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
     let results = values.enumerate().map(|(k, p)| (format!("value_{}", k + 1), p)).collect();
     let batch = Batch { results, ..Batch::default() };
-    fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
+    fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|_| true))
 }
 
 pub(super) fn coefficient_program(arena: &mut Arena, coefficients: &Constants) -> Program {
-    let results =
-        coefficients.entries.iter().map(|(s, p)| (arena.symbol_name(*s).to_owned(), p.clone())).collect();
+    let results = coefficients.entries.iter().map(|(s, p)| (arena.symbol_name(*s), p.clone())).collect();
     let batch = Batch { results, ..Batch::default() };
-    fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
+    fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|_| true))
 }
 
 pub(super) fn numeric_blocks(arena: &mut Arena, h: &Hamiltonian, positive: bool) -> Vec<NumericBlock> {
     h.numeric_blocks
         .iter()
         .map(|block| {
-            let name = |s: Expr| arena.symbol_name(s).to_owned();
+            let name = |s: Expr| arena.symbol_name(s);
             let inverse = upper(block.form.len()).map(|(i, j)| name(block.inverse[i][j])).collect();
             NumericBlock { inverse, basis: block.basis.clone(), ..form_block(arena, &block.form, positive) }
         })

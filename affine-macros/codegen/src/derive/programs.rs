@@ -13,10 +13,10 @@ use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetics::Kinetics;
 use crate::mechanics::loads::loads;
 use crate::mechanics::potential::Potential;
-use crate::mechanics::quantity::Quantity;
 use crate::mechanics::reduce::{self, Layout, Reduction};
 use crate::mechanics::term::Frame;
 use crate::optimise::{Batch, straight_line};
+use crate::symbol::Quantity;
 
 use super::batch::{batch, split_batch};
 use super::equations::Equations;
@@ -80,9 +80,7 @@ pub(super) fn shortest(
     let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
     inputs.extend(time);
     let program = shortest_program(arena, ways, coefficients, &|a| inputs.contains(&a));
-    let name = |symbols: &[Expr]| -> Vec<String> {
-        symbols.iter().filter_map(|s| arena.name(*s).map(str::to_owned)).collect()
-    };
+    let name = |symbols: &[Expr]| -> Vec<String> { symbols.iter().map(|s| arena.symbol_name(*s)).collect() };
     let linear = chart.linear.map_or(Quantity::LinearMomentum, Linear::quantity);
     let groups = [
         (Quantity::Position, name(&chart.x)),
@@ -124,9 +122,9 @@ fn independent_momenta(chart: &Chart) -> Vec<Expr> {
 /// Entries of the affine momentum that a constraint makes linear in others.
 fn dependent(arena: &mut Arena, chart: &Chart) -> Program {
     let results = chart.dependent().into_iter();
-    let results = results.map(|(symbol, value)| (arena.symbol_name(symbol).to_owned(), value));
+    let results = results.map(|(symbol, value)| (arena.symbol_name(symbol), value));
     let batch = Batch { results: results.collect(), ..Batch::default() };
-    fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|_| true))
+    fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|_| true))
 }
 
 /// What is asked for beside the reduced equations, as programs over the same state.
@@ -182,7 +180,7 @@ pub(super) fn shortest_reduction(
     for candidate in candidates {
         let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
         states.extend(time);
-        let mut constants = Constants::new("k");
+        let mut constants = Constants::new(Quantity::Constant);
         let way = batch(arena, &candidate.system);
         let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
         let weight = program.operations().weight() + states.len();
@@ -194,15 +192,11 @@ pub(super) fn shortest_reduction(
     let pieces = pieces(arena, &reduction, &mut constants);
     let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {
-        results: constants
-            .entries
-            .iter()
-            .map(|(s, p)| (arena.symbol_name(*s).to_owned(), p.clone()))
-            .collect(),
+        results: constants.entries.iter().map(|(s, p)| (arena.symbol_name(*s), p.clone())).collect(),
         ..Batch::default()
     };
     let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
-    let name = |s: &Expr| arena.symbol_name(*s).to_owned();
+    let name = |s: &Expr| arena.symbol_name(*s);
     let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(name).collect())).collect();
     let fixed = reduction.fixed.iter().map(name).collect();
     let dependent = match reduction.layout {

@@ -14,6 +14,7 @@ use crate::mechanics::metric::{self, Definitions};
 use crate::mechanics::mixed::Factorisation;
 use crate::mechanics::term::Frame;
 use crate::optimise::{Batch, straight_line};
+use crate::symbol::{Aspect, Factorised, Quantity};
 
 use super::model::{Balance, BalancedQuantities, Metric};
 
@@ -41,7 +42,7 @@ pub(super) fn metric(
     };
     let (size, results) = (entries.len(), numbered(&entries));
     let entries = Batch { shared, results, ..Batch::default() }.pruned(arena);
-    let phi = Matrix::symbols(arena, "phi", dim).0.concat();
+    let phi = Matrix::symbols(arena, Quantity::Placement, dim).0.concat();
     let mut program = |batch: &Batch| fuse(&straight_line(arena, batch, coefficients, &|a| phi.contains(&a)));
     let entries = program(&entries);
     Some(Metric { size, entries, inverse: program(&inverse) })
@@ -63,7 +64,7 @@ fn joined(centre: &Square<Polynomial>, internal: &Square<Polynomial>) -> Square<
 /// `phi_dot = phi Oh`, `Sigma_hat = Pi phi` or `phi_dot = Om phi`, `Sigma = phi Pi` a polynomial in `phi`.
 fn inverse_of(arena: &mut Arena, h: &Hamiltonian) -> Batch {
     let n = h.dim;
-    let phi = Matrix::symbols(arena, "phi", n).0;
+    let phi = Matrix::symbols(arena, Quantity::Placement, n).0;
     let product = |left: Expr, right: Expr| Polynomial::term(vec![left, right], Rational::ONE);
     let pairs = || (0..n).flat_map(|k| (0..n).map(move |l| (k, l)));
     let slope = |i: usize, a: usize, b: usize, j: usize| {
@@ -108,15 +109,15 @@ fn inverse(
     chart: &Chart,
 ) -> Option<Batch> {
     let size = entries.len();
-    let factorisation = Factorisation::new(arena, "", entries, &mut shared, chart)?;
+    let factorisation = Factorisation::new(arena, Factorised::Internal, entries, &mut shared, chart)?;
     let columns: Square<Polynomial> = (0..size)
         .map(|column| {
             let mut unit = vec![Polynomial::zero(); size];
             unit[column] = Polynomial::constant(Rational::ONE);
             let column = column + 1;
             let solution: Vec<Expr> =
-                (1..=size).map(|row| arena.symbol(&format!("inverse_{row}_{column}"))).collect();
-            factorisation.solve(arena, &format!("{column}_"), &unit, &solution, &mut shared);
+                (1..=size).map(|row| arena.symbol(Quantity::InverseColumn.at([row, column]))).collect();
+            factorisation.solve(arena, Factorised::Column(column), &unit, &solution, &mut shared);
             solution.into_iter().map(Polynomial::atom).collect()
         })
         .collect();
@@ -230,7 +231,7 @@ impl Flow<'_> {
             (None, None) => Polynomial::zero(),
         };
         let slope = if value.terms().len() > 1 {
-            let rate = arena.symbol(&format!("rate_{}", arena.symbol_name(symbol)));
+            let rate = arena.about(Aspect::Rate, symbol);
             self.definitions.push((rate, value));
             Polynomial::atom(rate)
         } else {

@@ -40,7 +40,7 @@ impl Halves {
         varying.extend(potential.and_then(Potential::time));
         let names = |arena: &Arena, system: &System| -> Vec<String> {
             let symbols = system.rates.iter().map(|(_, symbol, _)| *symbol);
-            symbols.map(|s| arena.symbol_name(s).to_owned()).collect()
+            symbols.map(|s| arena.symbol_name(s)).collect()
         };
         let (positions, momenta) = (names(arena, &halves.positions), names(arena, &halves.momenta));
         let [velocity, force] = [&halves.positions, &halves.momenta].map(|system| {

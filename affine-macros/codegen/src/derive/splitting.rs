@@ -6,10 +6,10 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::Potential;
-use crate::mechanics::quantity::Quantity;
 use crate::mechanics::reduce::Reduction;
-use crate::mechanics::splitting::{Flow, Principal, TIME_OF_FLOW, splitting};
+use crate::mechanics::splitting::{Flow, Principal, splitting};
 use crate::optimise::{Batch, straight_line};
+use crate::symbol::Quantity;
 
 use super::batch::batch;
 use super::dilatation::DilatationalMotion;
@@ -101,7 +101,7 @@ impl Programs {
         let mut varying: Vec<Expr> =
             reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
         varying.extend(potential.and_then(Potential::time));
-        varying.push(arena.symbol(TIME_OF_FLOW));
+        varying.push(arena.symbol(Quantity::TimeOfFlow));
         let mut pieces = Vec::new();
         for piece in split.pieces {
             let flows = piece.flows.iter();
@@ -120,7 +120,7 @@ fn written(
     varying: &[Expr],
     constants: &mut Constants,
 ) -> FlowProgram {
-    let name = |arena: &Arena, s: Expr| arena.symbol_name(s).to_owned();
+    let name = |arena: &Arena, s: Expr| arena.symbol_name(s);
     let mut program = |arena: &mut Arena, batch: &Batch| {
         fuse(&straight_line(arena, batch, constants, &|atom| varying.contains(&atom)))
     };
@@ -180,7 +180,7 @@ fn principal(arena: &mut Arena, form: &Principal) -> PrincipalProgram {
     let size = form.values.len();
     let upper = (0..size).flat_map(|i| (i..size).map(move |j| form.form[i][j].clone()));
     let program = unbound(arena, upper);
-    let names = |list: &[Expr]| list.iter().map(|s| arena.symbol_name(*s).to_owned()).collect();
+    let names = |list: &[Expr]| list.iter().map(|s| arena.symbol_name(*s)).collect();
     let vectors = form.vectors.iter().map(|vector| names(vector)).collect();
     PrincipalProgram { program, values: names(&form.values), vectors }
 }

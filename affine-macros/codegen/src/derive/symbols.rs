@@ -2,12 +2,12 @@
 
 use crate::ir::Program;
 use crate::mechanics::carried::Carried;
-use crate::mechanics::potential::{DILATATION, TIME};
+use crate::symbol::Quantity;
 
 /// Does a program read the time?
 #[must_use]
 pub fn reads_time(program: &Program) -> bool {
-    program.inputs().contains(&TIME)
+    program.inputs().contains(&Quantity::Time.stem())
 }
 
 /// A function of `det phi` that programs read by a symbol of its own.
@@ -25,11 +25,12 @@ impl VolumeMeasure {
     /// Its symbol.
     #[must_use]
     pub fn symbol(self) -> &'static str {
-        match self {
-            Self::MeanLogStretch => Carried::MeanLogStretch.name(),
-            Self::Dilatation => DILATATION,
-            Self::InverseDilatation => Carried::InverseDilatation.name(),
-        }
+        let quantity = match self {
+            Self::MeanLogStretch => Quantity::MeanLogStretch,
+            Self::Dilatation => Quantity::Dilatation,
+            Self::InverseDilatation => Quantity::InverseDilatation,
+        };
+        quantity.stem()
     }
 }
 

@@ -83,7 +83,7 @@ impl Trajectory {
             comoving: pushed && linear == Some(Linear::Body),
             drift,
             momentum: reduction.chart.momentum.into(),
-            momentum_name: reduction.chart.momentum.name(),
+            momentum_name: reduction.chart.momentum.quantity().stem(),
             conserved: reduction.layout == Layout::Constant,
             fixed: model.fixed.clone(),
             rotation,

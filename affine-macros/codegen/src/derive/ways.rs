@@ -11,6 +11,7 @@ use crate::ir::rounding::Rounding;
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::potential::{Potential, Writing};
 use crate::optimise::{Batch, straight_line};
+use crate::symbol::Quantity;
 
 /// A way may lose so much, and so many times what the best one loses, where a body may be at rest and far from there. The bounds
 /// are sums over all operations; errors are a tenth of them.
@@ -153,15 +154,15 @@ impl Draft {
         let batch = batch.pruned(arena);
         let mut inputs: Vec<Expr> = [chart.phi.0.concat(), chart.x.clone()].concat();
         inputs.extend(potential.time());
-        let mut constants = Constants::new("c");
+        let mut constants = Constants::new(Quantity::Coefficient);
         let program = straight_line(arena, &batch, &mut constants, &|atom| inputs.contains(&atom));
         let parameters: Vec<(String, f64)> = constants
             .entries
             .iter()
             .map(|(symbol, form)| {
                 let form = form.expression(arena);
-                let value = evaluate(arena, form, &|name| Some(sample(name)));
-                (arena.symbol_name(*symbol).to_owned(), value.unwrap_or(f64::NAN))
+                let value = evaluate(arena, form, &|symbol| Some(sample(&symbol.to_string())));
+                (arena.symbol_name(*symbol), value.unwrap_or(f64::NAN))
             })
             .collect();
         let losses = PLACES.iter().map(|place| loss(&program, place, chart.dim, &parameters)).collect();

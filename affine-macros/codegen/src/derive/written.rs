@@ -135,7 +135,7 @@ written! {
     Bases { space, body; }
     Factor { matrix, inverse; axes }
     Preparation { metrics, matrices; }
-    GivenMatrix { source; name }
+    GivenMatrix { source; number }
     TwoPolar { rates, framed, energy, pieces, ratios; places, state, frames, couplings, formulas, dilatation_only }
     PiecePrograms { list; nystrom }
     PieceProgram { program; name, shifted, turned }

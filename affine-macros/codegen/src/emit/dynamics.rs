@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use crate::derive::{Components, VelocitySide};
 use crate::ir::Program;
-use crate::mechanics::quantity::Quantity;
+use crate::symbol::Quantity;
 
 use super::body::Body;
 use super::context::Context;

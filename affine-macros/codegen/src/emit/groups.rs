@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
 
-use crate::mechanics::quantity::Quantity;
+use crate::symbol::Quantity;
 
 use super::context::Context;
 use super::number::number;

@@ -95,7 +95,7 @@ pub(super) fn rebased(context: &Context) -> TokenStream {
     };
     let (rt, n) = (&context.names.rt, context.dim());
     let statement = |matrix: &GivenMatrix| {
-        let local = matrix_name(&matrix.name);
+        let local = matrix_name(matrix.number);
         let (entries, components, tensor) = match &matrix.source {
             GivenSource::Form { entries, components, tensor } => (entries, *components, *tensor),
             GivenSource::SpaceInverse => return quote!(let #local = #rt::rows(&bases.space_inverse);),

@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use crate::derive::{Components, VolumeMeasure};
 use crate::ir::Program;
-use crate::mechanics::quantity::Quantity;
+use crate::symbol::Quantity;
 
 use super::context::Context;
 use super::pattern::{components, pattern, reads};

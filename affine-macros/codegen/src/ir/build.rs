@@ -55,11 +55,11 @@ impl Builder {
     pub fn define(&mut self, arena: &Arena, symbol: Expr, value: Expr) {
         let made = self.lower(arena, value);
         self.lowered.insert(symbol, made);
-        if let Some(name) = arena.name(symbol)
+        if let Some(symbol) = arena.as_symbol(symbol)
             && !matches!(self.program.steps[made], Op::Input(_) | Op::Constant(_))
             && !self.program.names.iter().any(|(v, _)| *v == made)
         {
-            self.program.names.push((made, name.to_owned()));
+            self.program.names.push((made, symbol.to_string()));
         }
     }
 
@@ -75,7 +75,7 @@ impl Builder {
         for symbol in results.iter().flat_map(Group::entries) {
             self.lower(arena, *symbol);
         }
-        let name = |symbol: &Expr| arena.symbol_name(*symbol).to_owned();
+        let name = |symbol: &Expr| arena.symbol_name(*symbol);
         let results = results.iter().map(|group| group.map(name)).collect();
         self.program.calls.push(Call { callee, arguments, results });
     }
@@ -116,7 +116,7 @@ impl Builder {
         }
         let value = match arena.node(expr) {
             Node::Constant(number) => self.constant(number),
-            Node::Symbol(name) => self.step(Op::Input(name.clone())),
+            Node::Symbol(symbol) => self.step(Op::Input(symbol.to_string())),
             Node::Sum(constant, terms) => self.sum(arena, constant, terms),
             Node::Product(factors) => self.product(arena, factors),
             Node::Function(function, argument) => {

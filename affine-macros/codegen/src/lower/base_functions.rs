@@ -5,8 +5,9 @@ use super::constant::constant;
 use crate::algebra::arena::Node;
 use crate::algebra::ring::{Square, product};
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
-use crate::mechanics::potential::{Base, TIME};
-use crate::spec::{Expression, ExpressionKind, FIELD, MatrixName, numbered};
+use crate::mechanics::potential::Base;
+use crate::spec::{Expression, ExpressionKind, MatrixName, numbered};
+use crate::symbol::{Aspect, Quantity, Symbol};
 
 /// The symbolic value, with `difference` for `d`; `None` only for what the checks refuse.
 pub(crate) fn energy(arena: &mut Arena, n: usize, e: &Expression, difference: Option<Expr>) -> Option<Expr> {
@@ -121,11 +122,13 @@ fn applied(arena: &mut Arena, function: Function, argument: Expr) -> Expr {
 }
 
 /// Traces and diagonal entries of `G` and `Ct` are positive.
-pub(super) fn is_positive(name: &str) -> bool {
-    let name = name.strip_prefix(components::GIVEN).unwrap_or(name);
-    let diagonal = |entry: &str| matches!(entry, "11" | "22" | "33");
-    ["trace_1", "trace_2", "trace_3"].contains(&name)
-        || name.strip_prefix("green_").or_else(|| name.strip_prefix("finger_")).is_some_and(diagonal)
+pub(super) fn is_positive(symbol: &Symbol) -> bool {
+    match symbol {
+        Symbol::About(Aspect::Given, component) => is_positive(component),
+        Symbol::Component(Quantity::Trace, _) => true,
+        Symbol::Component(Quantity::Green | Quantity::Finger, entry) => entry.first() == entry.last(),
+        _ => false,
+    }
 }
 
 fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
@@ -137,7 +140,7 @@ fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
     };
     match name {
         "q" => Some(q),
-        TIME => Some(arena.symbol(TIME)),
+        "t" => Some(arena.symbol(Quantity::Time)),
         "D" => power(arena, 1),
         "det" => power(arena, n),
         "I1" => Some(Base::Trace.symbol(arena)),
@@ -156,7 +159,7 @@ fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
                 let q = Base::LogStretch(a.checked_sub(1)?).symbol(arena);
                 Some(arena.apply(Function::Exp, q))
             }
-            _ => Some(arena.symbol(&format!("{FIELD}{name}"))),
+            _ => Some(arena.symbol(Symbol::Field(name.to_owned()))),
         },
     }
 }

@@ -6,15 +6,12 @@
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::potential::Base;
-
-/// What stands before the name of a component in the user's bases.
-pub(super) const GIVEN: &str = "given_";
+use crate::symbol::Aspect;
 
 /// The symbol of a component in the user's bases.
 pub(super) fn symbol(arena: &mut Arena, base: Base) -> Expr {
     let own = base.symbol(arena);
-    let name = format!("{GIVEN}{}", arena.symbol_name(own));
-    arena.symbol(&name)
+    arena.about(Aspect::Given, own)
 }
 
 /// Expressions with these symbols replaced.

@@ -4,8 +4,9 @@
 use super::base_functions::{Reading, difference_of, is_positive, value};
 use super::constant::constant;
 use crate::algebra::{Arena, Expr, Function};
-use crate::mechanics::potential::{Bound, Guard, TIME};
+use crate::mechanics::potential::{Bound, Guard};
 use crate::spec::{Expression, ExpressionKind};
+use crate::symbol::Quantity;
 
 /// The guards of an energy, in the order of its parts, angles last; those that hold everywhere are left out.
 pub(super) fn guards(arena: &mut Arena, n: usize, energy: &Expression, given: bool) -> Vec<Guard> {
@@ -83,7 +84,7 @@ impl Guards<'_> {
     /// The argument of a periodic function, where it contains the time.
     fn turn(&mut self, part: &Expression, argument: &Expression, difference: Option<Expr>) {
         let Some(value) = self.value(argument, difference) else { return };
-        let time = self.arena.symbol(TIME);
+        let time = self.arena.symbol(Quantity::Time);
         let is_known = self.found.iter().any(|guard| guard.value == value && guard.bound == Bound::Angle);
         if !is_known && self.arena.any_symbol(value, &mut |symbol| symbol == time) {
             let (part, argument) = (part.to_string(), argument.to_string());

@@ -7,6 +7,7 @@
 
 use crate::algebra::ring::{Square, product, table, times, transpose};
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
+use crate::symbol::Quantity;
 
 use super::charts::{Chart, Coordinate};
 use super::equations::{Load, System};
@@ -73,20 +74,22 @@ impl Laws {
         };
         let mut shared = Shared { arena, list: Vec::new() };
         let phi_dot = atoms(&kinetics.velocity);
-        let push = shared.matrix("load", &table(n, |a, i| force(Coordinate::M(a, i))));
+        let push = shared.matrix(Quantity::Load, &table(n, |a, i| force(Coordinate::M(a, i))));
         let inverse = shared.inverse(&phi);
-        let upper = |shared: &mut Shared, name: &str, tensor: &Square<Polynomial>| {
-            shared.matrix(name, &product(tensor, &transpose(&inverse)))
+        let upper = |shared: &mut Shared, of: Quantity, tensor: &Square<Polynomial>| {
+            shared.matrix(of, &product(tensor, &transpose(&inverse)))
         };
-        let spin_hat = upper(&mut shared, "kinematical_spin", &pi);
-        let moment_hat = upper(&mut shared, "moment", &push);
+        let spin_hat = upper(&mut shared, Quantity::KinematicalSpin, &pi);
+        let moment_hat = upper(&mut shared, Quantity::Moment, &push);
         // phi_dot is linear in Pi, and acts on its body index alone: what it is of K_hat = Pi phi^-T is phi_dot^T phi^-T.
         let of_spin_hat = |atom: Expr| {
             let entry = (0..n * n).find(|k| h.momentum.0[k / n][k % n] == atom)?;
             Some(spin_hat[entry / n][entry % n].clone())
         };
-        let omega_hat =
-            shared.matrix("omega_hat", &table(n, |a, b| h.velocity[a][b].substitute(&of_spin_hat)));
+        let omega_hat = shared.matrix(
+            Quantity::ComovingAffineVelocity,
+            &table(n, |a, b| h.velocity[a][b].substitute(&of_spin_hat)),
+        );
         let negative = |entry: &Polynomial| entry.scaled(&Rational::MINUS_ONE);
         let inertia_hat = product(&spin_hat, &transpose(&omega_hat));
         let centre = if chart.p.is_empty() {
@@ -94,8 +97,8 @@ impl Laws {
         } else {
             let momentum: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
             let forces: Vec<Polynomial> = (0..n).map(|i| force(Coordinate::P(i))).collect();
-            let forces = shared.vector("load", &forces);
-            let momentum_hat = shared.vector("momentum", &times(&inverse, &momentum));
+            let forces = shared.vector(Quantity::Load, &forces);
+            let momentum_hat = shared.vector(Quantity::ComovingMomentum, &times(&inverse, &momentum));
             let inertia_hat = times(&omega_hat, &momentum_hat).iter().map(negative).collect();
             let force_hat = times(&inverse, &forces);
             vec![momentum, forces, momentum_hat, inertia_hat, force_hat]

@@ -7,7 +7,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate, Momentum};
 use super::equations::System;
-use super::quantity::Quantity;
+use crate::symbol::Quantity;
 use isochoric::{inverts_the_placement, without_the_determinant};
 
 /// A function of `det phi` that is integrated beside `phi`.
@@ -22,17 +22,9 @@ pub enum Carried {
 impl Carried {
     const ALL: [Self; 2] = [Self::InverseDilatation, Self::MeanLogStretch];
 
-    /// Name of its symbol.
+    /// What it is.
     #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::InverseDilatation => "inverse_dilatation",
-            Self::MeanLogStretch => "q",
-        }
-    }
-
-    /// What it is in a state.
-    pub(super) fn quantity(self) -> Quantity {
+    pub fn quantity(self) -> Quantity {
         match self {
             Self::InverseDilatation => Quantity::InverseDilatation,
             Self::MeanLogStretch => Quantity::MeanLogStretch,
@@ -41,14 +33,14 @@ impl Carried {
 
     /// Its symbol.
     pub(super) fn symbol(self, arena: &mut Arena) -> Expr {
-        arena.symbol(self.name())
+        arena.symbol(self.quantity())
     }
 
     /// Those that a system carries.
     pub(super) fn of(arena: &Arena, system: &System) -> Vec<Self> {
         let is_state = |carried: &Self| {
             system.rates.iter().any(|(z, symbol, _)| {
-                matches!(z, Coordinate::Carried(_)) && arena.name(*symbol) == Some(carried.name())
+                matches!(z, Coordinate::Carried(_)) && arena.quantity(*symbol) == Some(carried.quantity())
             })
         };
         Self::ALL.into_iter().filter(is_state).collect()
@@ -69,7 +61,7 @@ pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: 
     let symbols = Carried::ALL.map(|carried| carried.symbol(arena));
     let [takes_r, takes_q] = symbols.map(|symbol| tidied.shared.iter().any(|(known, _)| *known == symbol));
     let inverts = inverts_the_placement(arena, chart, &tidied);
-    let inverse_det = arena.symbol("inverse_det");
+    let inverse_det = arena.symbol(Quantity::InverseDeterminant);
     let takes_r = takes_r || tidied.shared.iter().any(|(known, _)| *known == inverse_det);
     if !(takes_r || takes_q || inverts) {
         return None;
@@ -101,17 +93,17 @@ pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: 
 
 /// `tr(phi^-1 phi') = tr O`.
 fn trace_of_velocity(arena: &mut Arena, chart: &Chart) -> Polynomial {
-    let stem = chart.momentum.velocity_name();
+    let velocity = chart.momentum.velocity();
     let mut trace = Polynomial::zero();
     for a in 1..=chart.dim {
-        trace.add_scaled(&Polynomial::atom(arena.symbol(&format!("{stem}_{a}{a}"))), &Rational::ONE);
+        trace.add_scaled(&Polynomial::atom(arena.symbol(velocity.at([a, a]))), &Rational::ONE);
     }
     trace
 }
 
 /// `tr(phi^-1 phi') = r sum_iA cof_iA phi'_iA` with the cofactors of `Psi = r phi`.
 fn flat_expansion(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> Polynomial {
-    let cofactors = Matrix::symbols(arena, "cofactor", chart.dim);
+    let cofactors = Matrix::symbols(arena, Quantity::Cofactor, chart.dim);
     let mut sum = Polynomial::zero();
     for (z, _, rate) in &system.rates {
         if let Coordinate::Phi(i, a) = *z {

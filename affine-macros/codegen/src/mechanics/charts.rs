@@ -4,8 +4,8 @@ use crate::algebra::ring::Square;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 
 use super::constraint::Constraint;
-use super::quantity::Quantity;
 use super::term::Frame;
+use crate::symbol::Quantity;
 
 /// The affine momentum of a chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,15 +36,6 @@ impl Linear {
         match self {
             Self::Space => Quantity::LinearMomentum,
             Self::Body => Quantity::ComovingLinearMomentum,
-        }
-    }
-
-    /// The paper's symbol.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Space => "p",
-            Self::Body => "p_hat",
         }
     }
 }
@@ -96,17 +87,6 @@ impl Momentum {
         }
     }
 
-    /// Stem of the names of the coordinates.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Momentum::Body => "sigma_hat",
-            Momentum::Space => "sigma",
-            Momentum::Total => "total",
-            Momentum::Canonical => "pi",
-        }
-    }
-
     /// What it is in a state.
     #[must_use]
     pub fn quantity(self) -> Quantity {
@@ -129,13 +109,13 @@ impl Momentum {
         }
     }
 
-    /// Stem of the names of the conjugate velocity `(dH/dM)^T`.
+    /// The conjugate velocity `(dH/dM)^T`.
     #[must_use]
-    pub fn velocity_name(self) -> &'static str {
+    pub fn velocity(self) -> Quantity {
         match self {
-            Momentum::Body => "omega_hat",
-            Momentum::Space | Momentum::Total => "omega",
-            Momentum::Canonical => "velocity",
+            Momentum::Body => Quantity::ComovingAffineVelocity,
+            Momentum::Space | Momentum::Total => Quantity::AffineVelocity,
+            Momentum::Canonical => Quantity::FlatVelocity,
         }
     }
 }
@@ -144,13 +124,13 @@ impl Chart {
     /// The chart with the given momenta.
     pub fn new(arena: &mut Arena, dim: usize, momentum: Momentum, linear: Option<Linear>) -> Self {
         let mut vector =
-            |name: &str| -> Vec<Expr> { (1..=dim).map(|i| arena.symbol(&format!("{name}_{i}"))).collect() };
+            |of: Quantity| -> Vec<Expr> { (1..=dim).map(|i| arena.symbol(of.at([i]))).collect() };
         let (x, p) = match linear {
             None => (Vec::new(), Vec::new()),
-            Some(linear) => (vector("x"), vector(linear.name())),
+            Some(linear) => (vector(Quantity::Position), vector(linear.quantity())),
         };
-        let phi = Matrix::symbols(arena, "phi", dim);
-        let m = Matrix::symbols(arena, momentum.name(), dim);
+        let phi = Matrix::symbols(arena, Quantity::Placement, dim);
+        let m = Matrix::symbols(arena, momentum.quantity(), dim);
         Self { dim, confined: None, momentum, linear, x, phi, p, m }
     }
 

@@ -6,11 +6,11 @@
 use crate::algebra::kernel::{Asked, Callee, Group};
 use crate::algebra::ring::{Square, product, table, transpose};
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
+use crate::symbol::Quantity;
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::conserved::Candidate;
 use super::equations::Load;
-use super::potential::TIME;
 use super::shared::{CentreVelocity, Shared, atoms, frame_of};
 use super::term::Frame;
 
@@ -112,7 +112,7 @@ impl Custom {
             _ => centre,
         };
         forces.extend(centre.into_iter().enumerate().map(|(i, force)| (Coordinate::P(i), force)));
-        let work = work.map(|power| (shared.arena.symbol("work"), power));
+        let work = work.map(|power| (shared.arena.symbol(Quantity::Work), power));
         Load { shared: shared.list, kernels: vec![kernel], forces, work }
     }
 
@@ -126,7 +126,7 @@ impl Custom {
     ) -> Parts {
         let n = chart.dim;
         let phi_dot = shared.phi_dot(chart);
-        let phi_dot = shared.matrix("phi_dot", &phi_dot);
+        let phi_dot = shared.matrix(Quantity::PlacementVelocity, &phi_dot);
         let x_dot = shared.x_dot(chart, centre);
         let mut arguments = placed(shared.arena, chart);
         arguments.push(Group::Vector(or_zero(x_dot.clone(), n)));
@@ -149,11 +149,11 @@ impl Custom {
                     On::Space => (Frame::Space, "spatial_force"),
                     _ => (Frame::Body, "comoving_force"),
                 };
-                let symbols = self.matrix(shared.arena, "force", n);
+                let symbols = self.matrix(shared.arena, Quantity::FieldForce, n);
                 let force = atoms(&symbols);
                 let phi = atoms(&chart.phi);
                 if home == frame_of(chart) {
-                    let own = atoms(&Matrix::symbols(shared.arena, chart.momentum.velocity_name(), n));
+                    let own = atoms(&Matrix::symbols(shared.arena, chart.momentum.velocity(), n));
                     pair(&mut power, &force, &own);
                     affine = force;
                 } else {
@@ -161,7 +161,7 @@ impl Custom {
                         Frame::Space => product(&shared.inverse(&phi), &force),
                         _ => product(&force, &shared.inverse(&phi)),
                     };
-                    let push = shared.matrix(&format!("push_{}", self.place), &push);
+                    let push = shared.matrix(Quantity::FieldPush.at([self.place]), &push);
                     pair(&mut power, &push, &phi_dot);
                     affine = shared.on_own(chart, &push);
                 }
@@ -176,7 +176,8 @@ impl Custom {
     /// `Q_tr = -dU/dx` and the force `-(dU/dphi)^T` on `Pi`.
     fn slopes(&self, shared: &mut Shared, chart: &Chart, class: Class, moves: bool) -> Parts {
         let n = chart.dim;
-        let (along_x, along_phi) = (self.vector(shared.arena, n), self.matrix(shared.arena, "slope", n));
+        let (along_x, along_phi) =
+            (self.vector(shared.arena, n), self.matrix(shared.arena, Quantity::FieldSlope, n));
         let negative = |symbol: &Expr| Polynomial::term(vec![*symbol], Rational::MINUS_ONE);
         let push = table(n, |a, i| negative(&along_phi.0[i][a]));
         let affine = shared.on_own(chart, &push);
@@ -195,7 +196,7 @@ impl Custom {
     /// The energy of a potential at a point of a chart, and the call that gives it.
     pub fn energy(&self, arena: &mut Arena, chart: &Chart) -> Option<(Polynomial, Kernel)> {
         let Role::Potential { class, moves } = self.role else { return None };
-        let energy = arena.symbol(&format!("potential_{}", self.place));
+        let energy = arena.symbol(Quantity::FieldPotential.at([self.place]));
         let kernel = Kernel {
             callee: Callee::Custom(self.place, Asked::Energy(class.number(), moves)),
             arguments: placed(arena, chart),
@@ -259,11 +260,11 @@ impl Custom {
     }
 
     fn vector(&self, arena: &mut Arena, n: usize) -> Vec<Expr> {
-        (1..=n).map(|i| arena.symbol(&format!("pull_{}_{i}", self.place))).collect()
+        (1..=n).map(|i| arena.symbol(Quantity::FieldPull.at([self.place, i]))).collect()
     }
 
-    fn matrix(&self, arena: &mut Arena, stem: &str, n: usize) -> Matrix {
-        Matrix::symbols(arena, &format!("{stem}_{}", self.place), n)
+    fn matrix(&self, arena: &mut Arena, of: Quantity, n: usize) -> Matrix {
+        Matrix::symbols(arena, of.at([self.place]), n)
     }
 }
 
@@ -274,7 +275,7 @@ type Parts = (Kernel, Square<Polynomial>, Vec<Polynomial>, Option<Polynomial>);
 fn placed(arena: &mut Arena, chart: &Chart) -> Vec<Group<Polynomial>> {
     let x = chart.x.iter().map(|x| Polynomial::atom(*x)).collect();
     vec![
-        Group::Scalar(Polynomial::atom(arena.symbol(TIME))),
+        Group::Scalar(Polynomial::atom(arena.symbol(Quantity::Time))),
         Group::Vector(or_zero(x, chart.dim)),
         Group::Matrix(atoms(&chart.phi)),
     ]

@@ -8,6 +8,7 @@ mod invariance;
 
 use crate::algebra::ring::{Square, product, sum, table, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::symbol::Quantity;
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::equations::Load;
@@ -115,7 +116,7 @@ impl Dissipation {
             forces.push((Coordinate::M(a, b), force));
         }
         forces.extend(centre.into_iter().enumerate().map(|(i, force)| (Coordinate::P(i), force)));
-        let work = shared.arena.symbol("work");
+        let work = shared.arena.symbol(Quantity::Work);
         Load { shared: shared.list, kernels: Vec::new(), forces, work: Some((work, power)) }
     }
 
@@ -124,7 +125,7 @@ impl Dissipation {
     fn affine_force(&self, shared: &mut Shared, chart: &Chart) -> (Square<Polynomial>, Polynomial) {
         let n = self.dim;
         let phi = atoms(&chart.phi);
-        let own = atoms(&Matrix::symbols(shared.arena, chart.momentum.velocity_name(), n));
+        let own = atoms(&Matrix::symbols(shared.arena, chart.momentum.velocity(), n));
         let phi_dot = shared.phi_dot(chart);
         let zero = table(n, |_, _| Polynomial::zero());
         let (mut force, mut push, mut power) = (zero.clone(), zero, Polynomial::zero());
@@ -133,12 +134,16 @@ impl Dissipation {
             let at_home = frame == frame_of(chart);
             let velocity = match frame {
                 _ if at_home => own.clone(),
-                Frame::Body => product(&shared.inverse(&phi), &shared.matrix("phi_dot", &phi_dot)),
-                Frame::Space => product(&shared.matrix("phi_dot", &phi_dot), &shared.inverse(&phi)),
+                Frame::Body => {
+                    product(&shared.inverse(&phi), &shared.matrix(Quantity::PlacementVelocity, &phi_dot))
+                }
+                Frame::Space => {
+                    product(&shared.matrix(Quantity::PlacementVelocity, &phi_dot), &shared.inverse(&phi))
+                }
                 Frame::Flat => phi_dot.clone(),
             };
-            let velocity = if at_home { velocity } else { shared.matrix(frame.velocity_name(), &velocity) };
-            let drag = shared.matrix(drag_name(frame), &part.force(&velocity));
+            let velocity = if at_home { velocity } else { shared.matrix(frame.velocity(), &velocity) };
+            let drag = shared.matrix(drag(frame), &part.force(&velocity));
             for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
                 power.add_product(&drag[a][b], &velocity[b][a], &Rational::ONE);
             }
@@ -149,7 +154,7 @@ impl Dissipation {
                 Frame::Flat => push = sum(&push, &drag),
             }
         }
-        let push = shared.matrix("push", &push);
+        let push = shared.matrix(Quantity::Push, &push);
         let rest = shared.on_own(chart, &push);
         (sum(&force, &rest), power)
     }
@@ -176,7 +181,7 @@ impl Dissipation {
         let p_hat = match linear {
             Linear::Body => p.clone(),
             Linear::Space if self.centre.iter().any(|(frame, _)| frame != own) || *own == Frame::Body => {
-                shared.vector("p_hat", &times(&transpose(&phi), &p))
+                shared.vector(Quantity::ComovingLinearMomentum, &times(&transpose(&phi), &p))
             }
             Linear::Space => Vec::new(),
         };
@@ -196,7 +201,8 @@ impl Dissipation {
                 (false, Linear::Space, Frame::Space) => velocity.clone(),
                 (false, Linear::Space, _) => {
                     let inverse = shared.inverse(&phi);
-                    let v_hat = shared.vector("v_hat", &times(&inverse, &per_mass(&p)));
+                    let v_hat =
+                        shared.vector(Quantity::ComovingCentreVelocity, &times(&inverse, &per_mass(&p)));
                     times(&transpose(&inverse), &v_hat)
                 }
             };
@@ -204,7 +210,7 @@ impl Dissipation {
                 sum.add_product(slope, coefficient, &Rational::MINUS_ONE);
             }
         }
-        let force = shared.vector("drag_centre", &force);
+        let force = shared.vector(Quantity::CentreDrag, &force);
         for (force, velocity) in force.iter().zip(&velocity) {
             power.add_product(force, velocity, &Rational::ONE);
         }
@@ -226,7 +232,7 @@ impl Dissipation {
                     let inverse = shared.inverse(&atoms(&chart.phi));
                     let v_hat = match v_hat {
                         Some(known) => known.iter().map(|v| Polynomial::atom(*v)).collect(),
-                        None => shared.vector("v_hat", &times(&inverse, x_dot)),
+                        None => shared.vector(Quantity::ComovingCentreVelocity, &times(&inverse, x_dot)),
                     };
                     times(&transpose(&inverse), &v_hat)
                 }
@@ -236,7 +242,7 @@ impl Dissipation {
                 sum.add_product(slope, coefficient, &Rational::MINUS_ONE);
             }
         }
-        let force = shared.vector("drag_centre", &force);
+        let force = shared.vector(Quantity::CentreDrag, &force);
         for (force, velocity) in force.iter().zip(x_dot) {
             power.add_product(force, velocity, &Rational::ONE);
         }
@@ -244,11 +250,11 @@ impl Dissipation {
     }
 }
 
-/// Stem of the names of the force in a frame.
-fn drag_name(frame: Frame) -> &'static str {
+/// The force in a frame.
+fn drag(frame: Frame) -> Quantity {
     match frame {
-        Frame::Body => "drag_hat",
-        Frame::Space => "drag",
-        Frame::Flat => "drag_flat",
+        Frame::Body => Quantity::ComovingDrag,
+        Frame::Space => Quantity::Drag,
+        Frame::Flat => Quantity::FlatDrag,
     }
 }

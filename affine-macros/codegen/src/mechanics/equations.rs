@@ -113,7 +113,7 @@ impl System {
                 p.terms().len() == 0
                     || (p.terms().len() == 1
                         && p.terms().all(|(m, c)| {
-                            m.is_empty() || (m.len() == 1 && c.is_one() && arena.name(m[0]).is_some())
+                            m.is_empty() || (m.len() == 1 && c.is_one() && arena.as_symbol(m[0]).is_some())
                         }))
             })
             .cloned()

@@ -1,6 +1,7 @@
 //! Forces that no potential has: what they add to the equations, and what they leave as it is.
 
 use crate::algebra::{Arena, Expr};
+use crate::symbol::Quantity;
 
 use super::charts::Chart;
 use super::conserved::{Candidate, still};
@@ -9,7 +10,6 @@ use super::dissipation::Dissipation;
 use super::equations::Load;
 use super::hamiltonian::{Hamiltonian, Isotropic};
 use super::metric::Definitions;
-use super::potential::TIME;
 use super::shared::CentreVelocity;
 
 /// The forces of a model besides those of its potential.
@@ -79,7 +79,7 @@ impl Forces {
 
     /// The time as a symbol, where a field is told it: an input of every program with forces.
     pub fn time(&self, arena: &mut Arena) -> Option<Expr> {
-        (!self.customs.is_empty()).then(|| arena.symbol(TIME))
+        (!self.customs.is_empty()).then(|| arena.symbol(Quantity::Time))
     }
 
     /// Do they look the same from every direction of space?

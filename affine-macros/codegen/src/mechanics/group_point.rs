@@ -6,17 +6,18 @@
 //! the power [`POINTS`].
 
 use std::collections::HashMap;
+use std::fmt::Display;
 
 use crate::algebra::evaluate::{Field, evaluate_polynomial};
 use crate::algebra::fault::never_missing;
 use crate::algebra::residue::Residue;
 use crate::algebra::ring::{Ring, Square, adjugate, product, table};
-use crate::algebra::{Arena, Matrix, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::symbol::{Quantity, Symbol};
 
 use super::charts::Chart;
 use super::constraint::Constraint;
 use super::metric::Definitions;
-use super::weight::{INVERSE_SQUARE, SQUARE};
 
 /// Number of points that decide.
 const POINTS: usize = 3;
@@ -25,7 +26,7 @@ const POINTS: usize = 3;
 #[derive(Clone)]
 pub(super) struct GroupPoint {
     seed: usize,
-    values: HashMap<String, Residue>,
+    values: HashMap<Symbol, Residue>,
 }
 
 impl GroupPoint {
@@ -37,7 +38,7 @@ impl GroupPoint {
     fn new(arena: &Arena, chart: &Chart, group: Option<Constraint>, seed: usize) -> Self {
         let mut point = Self { seed, values: HashMap::new() };
         let scale = match group {
-            None | Some(Constraint::Conformal) => point.value("scale"),
+            None | Some(Constraint::Conformal) => point.random("scale"),
             Some(Constraint::Isochoric | Constraint::Rigid) => Residue::from_rational(&Rational::ONE),
         };
         let phi = match group {
@@ -58,17 +59,17 @@ impl GroupPoint {
         let momentum = group.map_or_else(|| momentum.clone(), |group| group.projected(&momentum));
         for (symbols, values) in [(&chart.phi, phi), (&chart.m, momentum)] {
             for (symbol, value) in symbols.0.iter().flatten().zip(values.concat()) {
-                point.values.insert(arena.symbol_name(*symbol).to_owned(), value);
+                point.values.extend(arena.as_symbol(*symbol).map(|symbol| (symbol.clone(), value)));
             }
         }
         let inverse = never_missing(scale.recip(), "a random dilatation is not zero", Residue::UNKNOWN);
         let of_the_dilatation = [
-            ("dilatation", scale),
-            ("inverse_dilatation", inverse),
-            (SQUARE, scale.mul(&scale)),
-            (INVERSE_SQUARE, inverse.mul(&inverse)),
+            (Quantity::Dilatation, scale),
+            (Quantity::InverseDilatation, inverse),
+            (Quantity::DilatationSquared, scale.mul(&scale)),
+            (Quantity::InverseDilatationSquared, inverse.mul(&inverse)),
         ];
-        point.values.extend(of_the_dilatation.map(|(name, value)| (name.to_owned(), value)));
+        point.values.extend(of_the_dilatation.map(|(quantity, value)| (quantity.into(), value)));
         point
     }
 
@@ -81,7 +82,7 @@ impl GroupPoint {
     pub(super) fn undeformed(arena: &Arena, chart: &Chart) -> Self {
         let one = table(chart.dim, |i, a| Residue::from_rational(&Rational::from(i64::from(i == a))));
         let entries = chart.phi.0.concat().into_iter().zip(one.concat());
-        let named = entries.map(|(symbol, value)| (arena.symbol_name(symbol).to_owned(), value));
+        let named = entries.filter_map(|(symbol, value)| Some((arena.as_symbol(symbol)?.clone(), value)));
         Self { seed: 0, values: named.collect() }
     }
 
@@ -89,25 +90,35 @@ impl GroupPoint {
     pub(super) fn define(&mut self, arena: &Arena, definitions: &Definitions) {
         for (symbol, definition) in definitions {
             let value = self.evaluate(arena, definition);
-            if let Some(name) = arena.name(*symbol) {
-                self.values.insert(name.to_owned(), value);
+            if let Some(symbol) = arena.as_symbol(*symbol) {
+                self.values.insert(symbol.clone(), value);
             }
         }
     }
 
     /// The value of a symbol.
-    pub(super) fn value(&self, name: &str) -> Residue {
-        let known = self.values.get(name).copied();
-        known.unwrap_or_else(|| Residue::sample(&format!("{} at point {}", name, self.seed)))
+    pub(super) fn value(&self, symbol: &Symbol) -> Residue {
+        let known = self.values.get(symbol).copied();
+        known.unwrap_or_else(|| self.random(symbol))
+    }
+
+    /// A value that depends on the name alone.
+    pub(super) fn random(&self, name: impl Display) -> Residue {
+        Residue::sample(&format!("{name} at point {}", self.seed))
     }
 
     fn sample(&self, arena: &Arena, symbols: &Matrix) -> Square<Residue> {
-        table(symbols.dim(), |i, j| self.value(arena.symbol_name(symbols.0[i][j])))
+        table(symbols.dim(), |i, j| self.of(arena, symbols.0[i][j]))
+    }
+
+    fn of(&self, arena: &Arena, symbol: Expr) -> Residue {
+        let value = arena.as_symbol(symbol).map(|symbol| self.value(symbol));
+        never_missing(value, "the coordinates of a chart are symbols", Residue::UNKNOWN)
     }
 
     /// The value of a polynomial.
     pub(super) fn evaluate(&self, arena: &Arena, polynomial: &Polynomial) -> Residue {
-        let value = evaluate_polynomial(arena, polynomial, &|name| Some(self.value(name)));
+        let value = evaluate_polynomial(arena, polynomial, &|symbol| Some(self.value(symbol)));
         never_missing(value, "a form of the energy has values on the group", Residue::UNKNOWN)
     }
 }

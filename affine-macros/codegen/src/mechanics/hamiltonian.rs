@@ -52,7 +52,7 @@ impl Hamiltonian {
     pub fn new(arena: &mut Arena, kinetic: &Kinetic, hessian: &Hessian) -> Option<Self> {
         let n = kinetic.dim;
         let inverse = hessian.inverse(arena)?;
-        let momentum = Matrix::symbols(arena, kinetic.frame.momentum_name(), n);
+        let momentum = Matrix::symbols(arena, kinetic.frame.momentum(), n);
         // X = (dT/dO)^T: the momentum conjugate to O_ab is X_ba.
         let conjugate: Vec<Expr> = momentum.transpose().0.into_iter().flatten().collect();
         let linear_form = |row: &Vec<Polynomial>| {

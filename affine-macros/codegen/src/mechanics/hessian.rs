@@ -3,6 +3,7 @@
 use crate::algebra::fault::never_missing;
 use crate::algebra::linear::{self, Inertia};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::symbol::Quantity;
 
 use super::direction::{BasisVector, Direction, entries, invariant};
 use super::kinetic::Kinetic;
@@ -245,7 +246,7 @@ impl Inverse {
         let b = self.numeric_blocks.len() + 1;
         let size = block.form.len();
         let mut symbol =
-            |i: usize, j: usize| arena.symbol(&format!("inverse_{b}_{}_{}", i.min(j) + 1, i.max(j) + 1));
+            |i: usize, j: usize| arena.symbol(Quantity::InverseBlock.at([b, i.min(j) + 1, i.max(j) + 1]));
         let inverse: Vec<Vec<Expr>> = (0..size).map(|i| (0..size).map(|j| symbol(i, j)).collect()).collect();
         self.numeric_blocks.push(NumericBlock {
             basis: block.velocities.clone(),

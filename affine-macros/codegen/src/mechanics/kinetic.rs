@@ -116,7 +116,7 @@ impl Kinetic {
         constraint: Option<Constraint>,
     ) -> Self {
         let form = |kind: TermKind| constraint.map_or(kind, |group| group.form_of(kind));
-        let velocity = Matrix::symbols(arena, frame.velocity_name(), dim);
+        let velocity = Matrix::symbols(arena, frame.velocity(), dim);
         let mut kinetic = Self {
             dim,
             constraint,

@@ -60,7 +60,7 @@ impl Load {
             found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
         };
         let projected = group.projected(&table(chart.dim, on_spin));
-        let velocity = Matrix::symbols(arena, chart.momentum.velocity_name(), chart.dim);
+        let velocity = Matrix::symbols(arena, chart.momentum.velocity(), chart.dim);
         let dependent = [chart.dependent(), group.dependent(&velocity)].concat();
         let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
         let each = |p: &Polynomial| p.substitute(&value);

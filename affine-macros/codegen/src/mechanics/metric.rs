@@ -5,15 +5,13 @@
 
 use crate::algebra::ring::{Square, adjugate, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::symbol::{Quantity, Symbol};
 
 use super::kinetic::Kinetic;
 use super::term::Frame;
 
 /// Quantities with their definitions, each in earlier ones.
 pub type Definitions = Vec<(Expr, Polynomial)>;
-
-/// Stem of the names of the entries of `phi^-1`.
-pub(super) const INVERSE: &str = "inverse_phi";
 
 /// The mass matrix in blocks: centre of mass and internal motion do not mix.
 #[derive(Clone, Debug)]
@@ -28,9 +26,10 @@ pub struct Metric {
 
 /// `phi^-1 = adj(phi)/det phi`, entry `[A][i]`, as quantities with their definitions.
 pub fn inverse_placement(arena: &mut Arena, dim: usize) -> (Matrix, Definitions) {
-    let phi = Matrix::symbols(arena, "phi", dim);
+    let phi = Matrix::symbols(arena, Quantity::Placement, dim);
     let phi: Square<Polynomial> = table(dim, |i, a| Polynomial::atom(phi.0[i][a]));
-    let (det, inverse_det) = (arena.symbol("det"), arena.symbol("inverse_det"));
+    let (det, inverse_det) =
+        (arena.symbol(Quantity::Determinant), arena.symbol(Quantity::InverseDeterminant));
     let cofactors = adjugate(&phi);
     let mut determinant = Polynomial::zero();
     for (entry, row) in phi[0].iter().zip(&cofactors) {
@@ -39,7 +38,7 @@ pub fn inverse_placement(arena: &mut Arena, dim: usize) -> (Matrix, Definitions)
     // A symbol is not the number zero.
     let reciprocal = Polynomial::atom(arena.reciprocal(det));
     let mut shared = vec![(det, determinant), (inverse_det, reciprocal)];
-    let inverse = Matrix::symbols(arena, INVERSE, dim);
+    let inverse = Matrix::symbols(arena, Quantity::InversePlacement, dim);
     for (symbol, cofactor) in inverse.0.iter().flatten().zip(cofactors.iter().flatten()) {
         shared.push((*symbol, cofactor.mul(&Polynomial::atom(inverse_det))));
     }
@@ -139,7 +138,7 @@ impl PullBack<'_> {
             );
         }
         match named {
-            true => self.named(&format!("space_inertia_{}{}", a + 1, b + 1), sum),
+            true => self.named(Quantity::SpaceInertia.at([a + 1, b + 1]), sum),
             false => sum,
         }
     }
@@ -149,12 +148,12 @@ impl PullBack<'_> {
         let (i, j) = (i.min(j), i.max(j));
         let mut sum = Polynomial::zero();
         self.inverse.0.iter().for_each(|row| sum.add_term(vec![row[i], row[j]], &Rational::ONE));
-        self.named(&format!("cauchy_{}{}", i + 1, j + 1), sum)
+        self.named(Quantity::Cauchy.at([i + 1, j + 1]), sum)
     }
 
     /// A quantity that is defined once.
-    fn named(&mut self, name: &str, value: Polynomial) -> Polynomial {
-        let symbol = self.arena.symbol(name);
+    fn named(&mut self, symbol: Symbol, value: Polynomial) -> Polynomial {
+        let symbol = self.arena.symbol(symbol);
         if !self.shared.iter().any(|(known, _)| *known == symbol) {
             self.shared.push((symbol, value));
         }

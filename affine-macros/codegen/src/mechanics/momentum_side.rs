@@ -77,7 +77,7 @@ impl Stated {
     /// groups are those of the Hamiltonian as stated.
     #[must_use]
     pub fn on_momenta(&self, arena: &mut Arena) -> Kinetic {
-        let spin = Matrix::symbols(arena, self.frame.momentum_name(), self.dim);
+        let spin = Matrix::symbols(arena, self.frame.momentum(), self.dim);
         let rows = atoms(&spin);
         let internal = self.parts.iter().map(|(place, part)| (*place, part.energy(&rows))).collect();
         Kinetic {
@@ -113,7 +113,7 @@ impl Stated {
                 constraint: None,
                 dim: self.dim,
                 frame: self.frame,
-                velocity: Matrix::symbols(arena, self.frame.velocity_name(), self.dim),
+                velocity: Matrix::symbols(arena, self.frame.velocity(), self.dim),
                 terms: Vec::new(),
                 internal: Vec::new(),
                 translation: self.mass(arena),
@@ -159,7 +159,7 @@ impl Stated {
 
     /// The Hamiltonian as it stands, for one that is no quadratic form.
     pub fn hamiltonian(&self, arena: &mut Arena) -> Hamiltonian {
-        let momentum = Matrix::symbols(arena, self.frame.momentum_name(), self.dim);
+        let momentum = Matrix::symbols(arena, self.frame.momentum(), self.dim);
         let invariants = self.invariants();
         let energy = invariants.energy(&atoms(&momentum));
         // O = (dH/dX)^T

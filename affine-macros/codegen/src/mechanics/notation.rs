@@ -15,18 +15,18 @@ mod symbols;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::algebra::{Arena, Expr, Polynomial};
+use crate::symbol::Symbol;
 
 use super::forces::Forces;
 use super::hessian::NumericBlock;
 use super::kinetic::Kinetic;
 use super::metrics::{Metrics, Rebased, Source};
-use field::entry_of_field;
 
 pub(super) use field::index as field_index;
 pub use formula::Formula;
 pub(super) use matrix_name::MatrixName;
 pub use names::Notation;
-pub use symbols::{FUNCTIONS, SYMBOLS, Symbol, is_symbol};
+pub use symbols::{FUNCTIONS, Letter, SYMBOLS, is_symbol};
 
 /// What the formulas of a model describe.
 pub struct Described<'a> {
@@ -119,9 +119,7 @@ impl<'a> Notation<'a> {
                 Source::Body => ("B", body),
                 Source::Form(..) => continue,
             };
-            let is_entry = |symbol: &Expr| {
-                arena.name(*symbol).and_then(entry_of_field).is_some_and(|(name, ..)| name == matrix.name)
-            };
+            let is_entry = |symbol: &Expr| matches!(arena.as_symbol(*symbol), Some(Symbol::Prepared(number, ..)) if *number == matrix.number);
             if used.iter().any(is_entry) {
                 let Formula { text, latex } = self.literal(arena, metric);
                 let text = format!("{letter}^T {letter} = {text}");

@@ -29,13 +29,13 @@ mod writing;
 
 use crate::algebra::residue::vanishes;
 use crate::algebra::{Arena, Expr};
+use crate::symbol::Quantity;
 
 use super::charts::Momentum;
 use super::conserved::Candidate;
 use super::constraint::Constraint;
 pub use axes::OnAxes;
-pub(super) use base::is_parameter;
-pub use base::{Base, DILATATION, TIME};
+pub use base::Base;
 pub use domain::{Bound, Guard};
 use invariance::Evidence;
 use restriction::restricted;
@@ -99,7 +99,7 @@ impl Potential {
 
     /// The time, where the energy depends on it.
     fn time_in(arena: &mut Arena, energy: Expr) -> Option<Expr> {
-        let time = arena.symbol(TIME);
+        let time = arena.symbol(Quantity::Time);
         arena.any_symbol(energy, &mut |symbol| symbol == time).then_some(time)
     }
 

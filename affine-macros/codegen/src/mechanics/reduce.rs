@@ -13,9 +13,9 @@ use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetics::Kinetics;
 use super::loads::{loads, of_potential};
 use super::potential::Potential;
-use super::quantity::Quantity;
 use super::separation::{Separation, shear_system};
 use super::term::Frame;
+use crate::symbol::Quantity;
 
 /// A piece of `H` that commutes with the rest and whose flow is known.
 #[derive(Clone, Debug)]
@@ -386,7 +386,7 @@ fn states(
     };
     let carried = |carried: Carried| {
         let is_it = |z: &Coordinate, s: Expr| {
-            matches!(z, Coordinate::Carried(_)) && arena.name(s) == Some(carried.name())
+            matches!(z, Coordinate::Carried(_)) && arena.quantity(s) == Some(carried.quantity())
         };
         let symbols = system.rates.iter().filter(|(z, s, _)| is_it(z, *s)).map(|(_, s, _)| *s).collect();
         (carried.quantity(), symbols)

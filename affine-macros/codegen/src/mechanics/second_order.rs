@@ -6,9 +6,9 @@ use super::charts::Coordinate;
 use super::equations::System;
 use super::hamiltonian::Hamiltonian;
 use super::potential::Potential;
-use super::quantity::Quantity;
 use super::reduce::Reduction;
 use super::splitting::{Flow, Piece, splitting};
+use crate::symbol::Quantity;
 
 /// A reduced system in halves.
 #[derive(Clone, Debug)]

@@ -11,11 +11,11 @@
 //! `O` itself is the state, split into symmetric and skew parts, so that no coefficient is left in `Psi'`.
 
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::symbol::Quantity;
 
 use super::charts::{Chart, Coordinate, Momentum};
 use super::equations::{Load, System};
 use super::hamiltonian::Isotropic;
-use super::potential::is_parameter;
 
 /// The motion of `q` with its momentum `p = tr Sigma`.
 #[derive(Clone, Debug)]
@@ -45,7 +45,8 @@ pub enum Slope {
 impl Slope {
     /// `U_dil'` as an expression in `q`, `D` and `1/D`.
     pub(super) fn derivative(&self, arena: &mut Arena) -> Option<Expr> {
-        let [q, up, down] = ["q", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
+        let [q, up, down] = [Quantity::MeanLogStretch, Quantity::Dilatation, Quantity::InverseDilatation]
+            .map(|quantity| arena.symbol(quantity));
         match self {
             Self::Zero => Some(arena.constant(Rational::ZERO)),
             Self::Linear(stiffness) => {
@@ -68,7 +69,7 @@ impl Slope {
     pub(super) fn of(arena: &mut Arena, slope: &Polynomial) -> Option<Self> {
         let powers = powers(arena, slope)?;
         // Not time, nor q inside other functions.
-        if powers.iter().any(|(_, c)| c.any_symbol(arena, &mut |s| !is_parameter(arena, s))) {
+        if powers.iter().any(|(_, c)| c.any_symbol(arena, &mut |s| !arena.is_parameter(s))) {
             return None;
         }
         match powers.as_slice() {
@@ -128,7 +129,8 @@ impl Slope {
 type Powers = Vec<((usize, i64), Polynomial)>;
 
 fn powers(arena: &mut Arena, slope: &Polynomial) -> Option<Powers> {
-    let [q, up, down] = ["q", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
+    let [q, up, down] = [Quantity::MeanLogStretch, Quantity::Dilatation, Quantity::InverseDilatation]
+        .map(|quantity| arena.symbol(quantity));
     let mut powers = Powers::new();
     for (monomial, weight) in slope.terms() {
         let count = |symbol: Expr| monomial.iter().filter(|atom| **atom == symbol).count();
@@ -151,7 +153,7 @@ fn powers(arena: &mut Arena, slope: &Polynomial) -> Option<Powers> {
 fn binding(arena: &Arena, coefficient: &Polynomial, opposite: Option<&Polynomial>) -> Polynomial {
     let mut part = Polynomial::zero();
     for (monomial, weight) in coefficient.terms() {
-        if monomial.iter().any(|atom| arena.any_symbol(*atom, &mut |s| !is_parameter(arena, s))) {
+        if monomial.iter().any(|atom| arena.any_symbol(*atom, &mut |s| !arena.is_parameter(s))) {
             continue;
         }
         let against = |(_, w): (_, &Rational)| -w;
@@ -174,11 +176,11 @@ pub(super) fn shear_system(
     load: &Load,
 ) -> Option<System> {
     let n = chart.dim;
-    let psi = Matrix::symbols(arena, "psi", n);
+    let psi = Matrix::symbols(arena, Quantity::IsochoricPlacement, n);
     let velocity = velocity(arena, n);
     let forces = forces(arena, chart, &psi, load);
     let mut system = System { shared: forces.shared, work: forces.work, ..System::default() };
-    let o = Matrix::symbols(arena, "isochoric", n);
+    let o = Matrix::symbols(arena, Quantity::IsochoricVelocity, n);
     for (a, b) in pairs(n) {
         system.shared.push((o.0[a][b], velocity[a][b].clone()));
     }
@@ -214,7 +216,7 @@ pub(super) fn shear_system(
     }
     let system = system.tidied(arena);
     let depends = |p: &Polynomial| {
-        p.any_symbol(arena, &mut |s| arena.name(s).is_some_and(|name| UNDEFORMED.contains(&name)))
+        p.any_symbol(arena, &mut |s| arena.quantity(s).is_some_and(|quantity| UNDEFORMED.contains(&quantity)))
     };
     let free =
         !system.shared.iter().any(|(_, p)| depends(p)) && !system.rates.iter().any(|(.., p)| depends(p));
@@ -222,14 +224,20 @@ pub(super) fn shear_system(
 }
 
 /// What is a constant at `det phi = 1`.
-const UNDEFORMED: [&str; 5] = ["det", "inverse_det", "dilatation", "inverse_dilatation", "q"];
+const UNDEFORMED: [Quantity; 5] = [
+    Quantity::Determinant,
+    Quantity::InverseDeterminant,
+    Quantity::Dilatation,
+    Quantity::InverseDilatation,
+    Quantity::MeanLogStretch,
+];
 
 /// The forces at `q = 0` with `Psi` for `phi`. Where they do not depend on `q`, nor `U_dil` on the time, neither does their
 /// power `dU/dt`.
 fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
-    let value_at_rest = UNDEFORMED.map(|name| {
-        let value = if name == "q" { Rational::ZERO } else { Rational::ONE };
-        (arena.symbol(name), arena.constant(value))
+    let value_at_rest = UNDEFORMED.map(|quantity| {
+        let value = if quantity == Quantity::MeanLogStretch { Rational::ZERO } else { Rational::ONE };
+        (arena.symbol(quantity), arena.constant(value))
     });
     let replaced: Vec<(Expr, Expr)> =
         pairs(chart.dim).map(|(i, a)| (chart.phi.0[i][a], psi.0[i][a])).chain(value_at_rest).collect();
@@ -272,9 +280,9 @@ fn velocity(arena: &mut Arena, n: usize) -> Vec<Vec<Polynomial>> {
 /// The symbol of the symmetric part above the diagonal and on it, of the skew part `w_ba`, `b < a`, below.
 fn part(arena: &mut Arena, a: usize, b: usize) -> Expr {
     if a <= b {
-        arena.symbol(&format!("shear_{}{}", a + 1, b + 1))
+        arena.symbol(Quantity::Shear.at([a + 1, b + 1]))
     } else {
-        arena.symbol(&format!("turn_{}{}", b + 1, a + 1))
+        arena.symbol(Quantity::Turn.at([b + 1, a + 1]))
     }
 }
 

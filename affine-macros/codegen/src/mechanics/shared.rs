@@ -2,6 +2,7 @@
 
 use crate::algebra::ring::{Square, adjugate, product, table, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::symbol::{Quantity, Symbol};
 
 use super::charts::{Chart, Linear, Momentum};
 use super::term::Frame;
@@ -30,27 +31,32 @@ pub(super) struct Shared<'a> {
 
 impl Shared<'_> {
     /// The value under a name; what needs no name has none.
-    pub(super) fn named(&mut self, name: &str, value: &Polynomial) -> Polynomial {
+    pub(super) fn named(&mut self, symbol: impl Into<Symbol>, value: &Polynomial) -> Polynomial {
         let is_name =
             value.terms().len() == 1 && value.terms().all(|(monomial, c)| monomial.len() == 1 && c.is_one());
         if value.is_zero() || is_name {
             return value.clone();
         }
-        let symbol = self.arena.symbol(name);
+        let symbol = self.arena.symbol(symbol);
         if !self.list.iter().any(|(known, _)| *known == symbol) {
             self.list.push((symbol, value.clone()));
         }
         Polynomial::atom(symbol)
     }
 
-    pub(super) fn vector(&mut self, stem: &str, values: &[Polynomial]) -> Vec<Polynomial> {
-        values.iter().enumerate().map(|(i, value)| self.named(&format!("{stem}_{}", i + 1), value)).collect()
+    pub(super) fn vector(&mut self, of: Quantity, values: &[Polynomial]) -> Vec<Polynomial> {
+        values.iter().enumerate().map(|(i, value)| self.named(of.at([i + 1]), value)).collect()
     }
 
-    pub(super) fn matrix(&mut self, stem: &str, values: &Square<Polynomial>) -> Square<Polynomial> {
+    pub(super) fn matrix(
+        &mut self,
+        of: impl Into<Symbol>,
+        values: &Square<Polynomial>,
+    ) -> Square<Polynomial> {
+        let of = of.into();
         let mut result = values.clone();
         for (i, j) in (0..values.len()).flat_map(|i| (0..values.len()).map(move |j| (i, j))) {
-            result[i][j] = self.named(&format!("{stem}_{}{}", i + 1, j + 1), &values[i][j]);
+            result[i][j] = self.named(of.at([i + 1, j + 1]), &values[i][j]);
         }
         result
     }
@@ -62,17 +68,17 @@ impl Shared<'_> {
         for (entry, row) in phi[0].iter().zip(&cofactors) {
             determinant.add_product(entry, &row[0], &Rational::ONE);
         }
-        self.named("det", &determinant);
-        let det = self.arena.symbol("det");
+        self.named(Quantity::Determinant, &determinant);
+        let det = self.arena.symbol(Quantity::Determinant);
         // A symbol is not the number zero.
         let reciprocal = Polynomial::atom(self.arena.reciprocal(det));
-        let inverse_det = self.arena.symbol("inverse_det");
+        let inverse_det = self.arena.symbol(Quantity::InverseDeterminant);
         if !self.list.iter().any(|(known, _)| *known == inverse_det) {
             self.list.push((inverse_det, reciprocal));
         }
         let inverse_det = Polynomial::atom(inverse_det);
         let inverse = table(phi.len(), |a, i| cofactors[a][i].mul(&inverse_det));
-        self.matrix("phi_inverse", &inverse)
+        self.matrix(Quantity::PlacementInverse, &inverse)
     }
 }
 
@@ -80,7 +86,7 @@ impl Shared<'_> {
     /// `phi_dot` through the affine velocity of the chart.
     pub(super) fn phi_dot(&mut self, chart: &Chart) -> Square<Polynomial> {
         let phi = atoms(&chart.phi);
-        let own = atoms(&Matrix::symbols(self.arena, chart.momentum.velocity_name(), chart.dim));
+        let own = atoms(&Matrix::symbols(self.arena, chart.momentum.velocity(), chart.dim));
         match frame_of(chart) {
             Frame::Body => product(&phi, &own),
             Frame::Space => product(&own, &phi),
@@ -104,7 +110,8 @@ impl Shared<'_> {
         match (linear, own) {
             (Linear::Body, _) => times(&phi, &per_mass),
             (Linear::Space, Frame::Body) => {
-                let v_hat = self.vector("v_hat", &times(&transpose(&phi), &per_mass));
+                let v_hat =
+                    self.vector(Quantity::ComovingCentreVelocity, &times(&transpose(&phi), &per_mass));
                 times(&phi, &v_hat)
             }
             (Linear::Space, _) => per_mass,

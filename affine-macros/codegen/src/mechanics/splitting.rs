@@ -45,7 +45,6 @@ use flows::{exact_flow, expanded};
 pub use squares::Principal;
 use squares::Squares;
 use summand::{Summand, joined, over_the_state};
-pub use turns::TIME_OF_FLOW;
 
 /// Pieces whose flows make up the motion, those of the kinetic energy first.
 #[derive(Clone, Debug)]

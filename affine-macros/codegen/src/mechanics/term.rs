@@ -1,6 +1,7 @@
 //! Terms of quadratic forms in velocities, and the frames that make their coefficients constant.
 
 use crate::algebra::{Expr, Matrix};
+use crate::symbol::Quantity;
 
 /// A term of the kinetic energy and its coefficient.
 #[derive(Clone, Debug)]
@@ -57,23 +58,23 @@ pub enum Frame {
 }
 
 impl Frame {
-    /// Stem of the names of the affine velocity.
+    /// The affine velocity of the frame.
     #[must_use]
-    pub fn velocity_name(self) -> &'static str {
+    pub fn velocity(self) -> Quantity {
         match self {
-            Frame::Body => "omega_hat",
-            Frame::Space => "omega",
-            Frame::Flat => "phi_dot",
+            Frame::Body => Quantity::ComovingAffineVelocity,
+            Frame::Space => Quantity::AffineVelocity,
+            Frame::Flat => Quantity::PlacementVelocity,
         }
     }
 
-    /// Stem of the names of the affine spin.
+    /// The affine spin of the frame.
     #[must_use]
-    pub fn momentum_name(self) -> &'static str {
+    pub fn momentum(self) -> Quantity {
         match self {
-            Frame::Body => "sigma_hat",
-            Frame::Space => "sigma",
-            Frame::Flat => "pi",
+            Frame::Body => Quantity::ComovingAffineSpin,
+            Frame::Space => Quantity::AffineSpin,
+            Frame::Flat => Quantity::CanonicalMomentum,
         }
     }
 }

@@ -5,14 +5,11 @@
 //! there is one with `D`: `-dH/dq = 2 H` acts on the trace of `Sigma_hat` as the slope of a potential in `q` does.
 
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::symbol::Quantity;
 
 use super::charts::{Chart, Coordinate};
 use super::equations::Load;
 use super::kinetic::Kinetic;
-
-/// Names of `D^2` and `D^-2`, which [group points](super::group_point) and formulas know.
-pub(super) const SQUARE: &str = "square";
-pub(super) const INVERSE_SQUARE: &str = "inverse_square";
 
 /// The weight of an energy.
 #[derive(Clone, Debug)]
@@ -33,10 +30,11 @@ impl Weight {
 
     /// `D^2` and `D^-2` of a placement in R+ SO(n).
     pub(super) fn squares(arena: &mut Arena, dim: usize) -> Self {
-        let [square, inverse] = [SQUARE, INVERSE_SQUARE].map(|name| arena.symbol(name));
+        let [square, inverse] = [Quantity::DilatationSquared, Quantity::InverseDilatationSquared]
+            .map(|quantity| arena.symbol(quantity));
         let mut length = Polynomial::zero();
         for i in 1..=dim {
-            let entry = arena.symbol(&format!("phi_{i}1"));
+            let entry = arena.symbol(Quantity::Placement.at([i, 1]));
             length.add_term(vec![entry, entry], &Rational::ONE);
         }
         // A symbol is not the number zero.

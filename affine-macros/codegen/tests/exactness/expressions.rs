@@ -2,17 +2,18 @@
 
 use affine_codegen::algebra::evaluate::evaluate;
 use affine_codegen::algebra::{Arena, Expr, Polynomial, Rational};
+use affine_codegen::symbol::{Quantity, Symbol};
 use affine_oracle::Random;
 
 use super::points::{fraction, own};
 
-/// Where to evaluate: a value for each symbol `a`, `b`, ...
+/// Where to evaluate: a value for each symbol `x_1`, `x_2`, ...
 pub(crate) struct Point(Vec<Rational>);
 
 const SYMBOLS: usize = 4;
 
 pub(crate) fn symbol(arena: &mut Arena, k: usize) -> Expr {
-    arena.symbol(["a", "b", "c", "d"][k])
+    arena.symbol(Quantity::Position.at([k + 1]))
 }
 
 impl Point {
@@ -20,14 +21,14 @@ impl Point {
         Point((0..SYMBOLS).map(|_| own(&fraction(random))).collect())
     }
 
-    pub(crate) fn value(&self, name: &str) -> Option<Rational> {
-        let k = ["a", "b", "c", "d"].iter().position(|n| *n == name)?;
+    pub(crate) fn value(&self, symbol: &Symbol) -> Option<Rational> {
+        let k = (0..SYMBOLS).find(|k| *symbol == Quantity::Position.at([k + 1]))?;
         Some(self.0[k].clone())
     }
 
     /// The value of an expression; `None` at a pole.
     pub(crate) fn of(&self, arena: &Arena, expr: Expr) -> Option<Rational> {
-        evaluate(arena, expr, &|name| self.value(name))
+        evaluate(arena, expr, &|symbol| self.value(symbol))
     }
 
     fn shifted(&self, k: usize, step: &Rational) -> Self {

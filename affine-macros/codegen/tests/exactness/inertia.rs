@@ -101,7 +101,7 @@ fn inverts(random: &mut Random, energy: &Anisotropic, model: &Model, coefficient
     let n = energy.j.len();
     let x = random.matrix(n, n);
     let o = energy.velocity(&x);
-    let (velocity, spin) = (model.frame.velocity_name(), model.frame.momentum_name());
+    let (velocity, spin) = (model.frame.velocity().stem(), model.frame.momentum().stem());
     let (mut inputs, mut expected) = (coefficients.clone(), Values::new());
     put(&mut inputs, spin, &x);
     put(&mut expected, velocity, &o);

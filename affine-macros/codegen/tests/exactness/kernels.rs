@@ -8,6 +8,7 @@ use affine_codegen::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use affine_codegen::ir::fuse::fuse;
 use affine_codegen::ir::{Op, Program};
 use affine_codegen::optimise::{Batch, straight_line};
+use affine_codegen::symbol::{Quantity, Symbol};
 
 use super::points::run;
 
@@ -15,7 +16,7 @@ use super::points::run;
 /// whole second call are not read.
 fn program(arena: &mut Arena) -> Program {
     let [x, doubled, first, second, idle] =
-        ["x", "doubled", "first", "second", "idle"].map(|name| arena.symbol(name));
+        ["x", "doubled", "first", "second", "idle"].map(|name| arena.symbol(Symbol::Field(name.to_owned())));
     let kernel = |argument: Expr, results: Vec<Expr>| Kernel {
         callee: Callee::Stretches,
         arguments: vec![Group::Matrix(vec![vec![Polynomial::atom(argument)]])],
@@ -26,14 +27,14 @@ fn program(arena: &mut Arena) -> Program {
         kernels: vec![kernel(first, vec![idle]), kernel(doubled, vec![first, second])],
         results: vec![("y".to_owned(), Polynomial::term(vec![x, first], Rational::ONE))],
     };
-    fuse(&straight_line(arena, &batch, &mut Constants::new("c"), &|atom| atom == x))
+    fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|atom| atom == x))
 }
 
 #[test]
 fn a_call_stands_before_what_reads_it() {
     let program = program(&mut Arena::new());
     let [call] = program.calls.as_slice() else { panic!("{:?}", program.calls) };
-    let read = program.steps.iter().position(|step| *step == Op::Input("first".to_owned())).unwrap();
+    let read = program.steps.iter().position(|step| *step == Op::Input("self.first".to_owned())).unwrap();
     assert!(call.operands().iter().all(|argument| *argument < read), "{program:?}");
     let [argument] = call.operands()[..] else { panic!("{call:?}") };
     assert!(matches!(program.steps[argument], Op::Mul(..) | Op::Add(..)), "{program:?}");
@@ -42,6 +43,8 @@ fn a_call_stands_before_what_reads_it() {
 #[test]
 fn results_are_inputs() {
     let program = program(&mut Arena::new());
-    let point = HashMap::from([("x", 3), ("first", 5)].map(|(name, k)| (name.to_owned(), Rational::from(k))));
+    let point = HashMap::from(
+        [("self.x", 3), ("self.first", 5)].map(|(name, k)| (name.to_owned(), Rational::from(k))),
+    );
     assert_eq!(run(&program, &point)["y"], Rational::from(15));
 }

@@ -13,11 +13,12 @@ use affine_codegen::ir::inverse_root::with_inverse_roots;
 use affine_codegen::ir::tangent::with_tangent;
 use affine_codegen::ir::{Op, Program};
 use affine_codegen::optimise::{Batch, straight_line};
+use affine_codegen::symbol::Quantity;
 use affine_oracle::Random;
 
 use super::points::{fraction, own, run};
 
-/// Polynomials in symbols that vary, `x1 ... x5`, and symbols that do not, `k1 ... k3`.
+/// Polynomials in symbols that vary, `x_1 ... x_5`, and symbols that do not, `k_1 ... k_3`.
 struct System {
     arena: Arena,
     polynomials: Vec<Polynomial>,
@@ -27,9 +28,9 @@ struct System {
 impl System {
     fn random(random: &mut Random) -> Self {
         let mut arena = Arena::new();
-        let moving: Vec<Expr> = (1..=5).map(|k| arena.symbol(&format!("x{k}"))).collect();
-        let fixed: Vec<Expr> = (1..=3).map(|k| arena.symbol(&format!("k{k}"))).collect();
-        let point = (1..=5).map(|k| format!("x{k}")).chain((1..=3).map(|k| format!("k{k}")));
+        let moving: Vec<Expr> = (1..=5).map(|k| arena.symbol(Quantity::Position.at([k]))).collect();
+        let fixed: Vec<Expr> = (1..=3).map(|k| arena.symbol(Quantity::Constant.at([k]))).collect();
+        let point = (1..=5).map(|k| format!("x_{k}")).chain((1..=3).map(|k| format!("k_{k}")));
         let point = point.map(|name| (name, own(&fraction(random)))).collect();
         // Few weights, so that sums share them as equations of motion do.
         let weights = [1, 1, 1, -1, 2, -3].map(Rational::from);
@@ -55,7 +56,8 @@ impl System {
     }
 
     fn value(&self, polynomial: &Polynomial) -> Rational {
-        evaluate_polynomial(&self.arena, polynomial, &|name| self.point.get(name).cloned()).unwrap()
+        evaluate_polynomial(&self.arena, polynomial, &|symbol| self.point.get(&symbol.to_string()).cloned())
+            .unwrap()
     }
 
     fn values(&self) -> Vec<Rational> {
@@ -66,12 +68,12 @@ impl System {
     fn define(&mut self, definitions: &[(Expr, Polynomial)]) {
         for (symbol, polynomial) in definitions {
             let value = self.value(polynomial);
-            self.point.insert(self.arena.name(*symbol).unwrap().to_owned(), value);
+            self.point.insert(self.arena.symbol_name(*symbol), value);
         }
     }
 
     fn moving(&self, atom: Expr) -> bool {
-        self.arena.name(atom).is_some_and(|name| name.starts_with('x'))
+        self.arena.quantity(atom) == Some(Quantity::Position)
     }
 }
 
@@ -111,7 +113,7 @@ fn binding_constants_keeps_the_value() {
         let mut system = System::random(&mut random);
         let expected = system.values();
         let names = varying(&system);
-        let mut constants = Constants::new("c");
+        let mut constants = Constants::new(Quantity::Coefficient);
         let bound: Vec<Polynomial> = system
             .polynomials
             .clone()
@@ -173,9 +175,9 @@ fn scaling_and_completing_keep_the_value() {
 /// `y_k = c (x1 + ... + x5) + d_k x_k`.
 fn nearly_shared(random: &mut Random) -> System {
     let mut system = System::random(random);
-    let atoms: Vec<Expr> = (1..=5).map(|k| system.arena.symbol(&format!("x{k}"))).collect();
+    let atoms: Vec<Expr> = (1..=5).map(|k| system.arena.symbol(Quantity::Position.at([k]))).collect();
     let (c, d) = (own(&fraction(random)), own(&fraction(random)));
-    let k1 = system.arena.symbol("k1");
+    let k1 = system.arena.symbol(Quantity::Constant.at([1]));
     system.polynomials = (0..4)
         .map(|odd| {
             let mut sum = Polynomial::zero();
@@ -201,7 +203,7 @@ fn completing_sums_shortens_programs() {
         let results = system.polynomials.iter().enumerate().map(|(k, p)| (format!("y{k}"), p.clone()));
         let batch = Batch { results: results.collect(), ..Batch::default() };
         let names = varying(&system);
-        let mut constants = Constants::new("c");
+        let mut constants = Constants::new(Quantity::Coefficient);
         let after = straight_line(&mut system.arena, &batch, &mut constants, &|a| names.contains(&a));
         let after = after.operations().weight();
         assert!(after <= before);
@@ -241,7 +243,7 @@ fn the_whole_pipeline_keeps_the_value() {
         let expected = system.values();
         let names = varying(&system);
         // The first polynomial becomes a quantity that the others share.
-        let shared = system.arena.symbol("xs");
+        let shared = system.arena.symbol(Quantity::Position.at([6]));
         let mut results: Vec<Polynomial> = system.polynomials.clone();
         let first = results[0].clone();
         results
@@ -250,7 +252,7 @@ fn the_whole_pipeline_keeps_the_value() {
             .for_each(|p| p.add_product(&Polynomial::atom(shared), &first, &Rational::ONE));
         let results = results.into_iter().enumerate().map(|(k, p)| (format!("y{k}"), p)).collect();
         let batch = Batch { shared: vec![(shared, first)], results, ..Batch::default() };
-        let mut constants = Constants::new("c");
+        let mut constants = Constants::new(Quantity::Coefficient);
         let program = straight_line(&mut system.arena, &batch, &mut constants, &|a| names.contains(&a));
         let square = &expected[0] * &expected[0];
         let expected: Vec<Rational> =
@@ -330,7 +332,7 @@ fn fusing_and_pruning_any_program() {
 #[test]
 fn operations_by_hand() {
     let mut arena = Arena::new();
-    let [x, y, z, w] = ["x", "y", "z", "w"].map(|name| arena.symbol(name));
+    let [x, y, z, w] = [1, 2, 3, 4].map(|k| arena.symbol(Quantity::Position.at([k])));
     let one = arena.constant(Rational::ONE);
     let below = arena.add(x, one);
     let quotient = arena.product(&[(w, 3), (below, -1)]).unwrap();
@@ -371,7 +373,7 @@ fn operations_by_hand() {
 fn powers_are_what_they_are() {
     for exponent in 1..=50 {
         let mut arena = Arena::new();
-        let [x, y] = ["x", "y"].map(|name| arena.symbol(name));
+        let [x, y] = [Quantity::Position, Quantity::LinearMomentum].map(|of| arena.symbol(of));
         let power = arena.product(&[(x, exponent), (y, -exponent)]).unwrap();
         for k in 0..4 {
             let ways = Ways { steps_through_powers: k % 2 == 1, inverts_divisors: k > 1 };
@@ -390,7 +392,7 @@ fn powers_are_what_they_are() {
 #[test]
 fn common_subexpressions_are_shared() {
     let mut arena = Arena::new();
-    let [x, y] = ["x", "y"].map(|name| arena.symbol(name));
+    let [x, y] = [Quantity::Position, Quantity::LinearMomentum].map(|of| arena.symbol(of));
     let sum = arena.add(x, y);
     let (square, cube) = (arena.mul(sum, sum), arena.pow(sum, 3).unwrap());
     let mut builder = Builder::new();

@@ -2,13 +2,14 @@
 
 use affine_codegen::algebra::evaluate::evaluate_polynomial;
 use affine_codegen::algebra::{Arena, Expr, Polynomial, Rational};
+use affine_codegen::symbol::Symbol;
 use affine_oracle::Random;
 
 use super::expressions::{Point, Tree, symbol};
 use super::points::{fraction, own};
 
 fn value(arena: &Arena, polynomial: &Polynomial, point: &Point) -> Option<Rational> {
-    evaluate_polynomial(arena, polynomial, &|name| point.value(name))
+    evaluate_polynomial(arena, polynomial, &|symbol| point.value(symbol))
 }
 
 /// A random polynomial of degree at most three in four symbols.
@@ -110,18 +111,16 @@ fn substitution() {
     for _ in 0..100 {
         let mut arena = Arena::new();
         let form = random_polynomial(&mut random, &mut arena);
-        // a and b are replaced, each by a polynomial that contains both again.
+        // x_1 and x_2 are replaced, each by a polynomial that contains both again.
         let images = [0, 1].map(|_| random_polynomial(&mut random, &mut arena));
-        let replaced = form.substitute(&|atom| match arena.name(atom) {
-            Some("a") => Some(images[0].clone()),
-            Some("b") => Some(images[1].clone()),
+        let replaced = form.substitute(&|atom| match arena.as_symbol(atom) {
+            Some(Symbol::Component(_, place)) if place[0] <= 2 => Some(images[place[0] - 1].clone()),
             _ => None,
         });
         let point = Point::random(&mut random);
-        let expected = evaluate_polynomial(&arena, &form, &|name| match name {
-            "a" => value(&arena, &images[0], &point),
-            "b" => value(&arena, &images[1], &point),
-            _ => point.value(name),
+        let expected = evaluate_polynomial(&arena, &form, &|symbol| match symbol {
+            Symbol::Component(_, place) if place[0] <= 2 => value(&arena, &images[place[0] - 1], &point),
+            _ => point.value(symbol),
         });
         assert_eq!(value(&arena, &replaced, &point), expected);
     }

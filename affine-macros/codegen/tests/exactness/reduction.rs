@@ -4,9 +4,9 @@ use affine_codegen::algebra::Rational;
 use affine_codegen::derive::Model;
 use affine_codegen::ir::Op;
 use affine_codegen::mechanics::charts::Momentum;
-use affine_codegen::mechanics::quantity::Quantity;
 use affine_codegen::mechanics::reduce::{ClosedForm, Commuting, Layout, Reduction};
 use affine_codegen::mechanics::term::Frame;
+use affine_codegen::symbol::Quantity;
 use affine_oracle::{Kinetic, Matrix, Observable, Random, Rational as Exact, State, rational};
 
 use super::derivation::point;
@@ -140,7 +140,7 @@ fn constants(model: &Model) -> Vec<String> {
     }
     match model.reduction.layout {
         Layout::Constant => {
-            let stem = model.reduction.chart.momentum.name();
+            let stem = model.reduction.chart.momentum.quantity().stem();
             names.extend((1..=n).flat_map(|i| (1..=n).map(move |j| format!("{stem}_{i}{j}"))));
         }
         Layout::Entries => names.extend(model.fixed.clone()),

@@ -43,7 +43,7 @@ fn written(
     stable: &Stable,
     program: &mut impl FnMut(&mut Arena, &Batch) -> Program,
 ) -> PieceProgram {
-    let name = |arena: &Arena, s: Expr| arena.symbol_name(s).to_owned();
+    let name = |arena: &Arena, s: Expr| arena.symbol_name(s);
     let shifted: Vec<String> = piece.shifts.iter().map(|(z, _)| name(arena, *z)).collect();
     let rates = shifted.iter().zip(&piece.shifts);
     let mut results: Vec<_> =

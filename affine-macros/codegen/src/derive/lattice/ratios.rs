@@ -6,6 +6,7 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::two_polar::Ratios;
 use crate::optimise::{Batch, straight_line};
+use crate::symbol::Quantity;
 
 /// The equations in ratios.
 pub struct RatioProgram {
@@ -19,7 +20,7 @@ pub struct RatioProgram {
 
 impl RatioProgram {
     pub(super) fn of(arena: &mut Arena, form: &Ratios) -> Self {
-        let name = |arena: &Arena, s: &Expr| arena.symbol_name(*s).to_owned();
+        let name = |arena: &Arena, s: &Expr| arena.symbol_name(*s);
         let state: Vec<Expr> = form.rates.iter().map(|(z, _)| *z).collect();
         let couplings: Vec<Expr> =
             form.couplings.iter().flatten().copied().filter(|z| !state.contains(z)).collect();
@@ -27,7 +28,7 @@ impl RatioProgram {
         let batch = Batch { shared: form.shared.clone(), results: results.collect(), ..Batch::default() };
         let varying: Vec<Expr> = state.iter().chain(&couplings).copied().collect();
         // Nothing depends on the coefficients of the model.
-        let mut none = Constants::new("c");
+        let mut none = Constants::new(Quantity::Coefficient);
         let program = fuse(&straight_line(arena, &batch, &mut none, &|atom| varying.contains(&atom)));
         let names = |symbols: &[Expr]| symbols.iter().map(|s| name(arena, s)).collect();
         Self { state: names(&state), couplings: names(&couplings), program }

@@ -11,6 +11,7 @@ use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::Factorisation;
 use crate::mechanics::term::TermKind;
 use crate::optimise::{Batch, straight_line};
+use crate::symbol::Quantity;
 
 use super::{Body, Inner};
 
@@ -33,7 +34,7 @@ impl Body<'_> {
         if parts.is_empty() {
             return Some(None);
         }
-        let phi = Matrix::symbols(arena, "phi", self.mixed.dim).0.concat();
+        let phi = Matrix::symbols(arena, Quantity::Placement, self.mixed.dim).0.concat();
         let mut blocks = Vec::new();
         for (factorisation, shared) in parts {
             for (block, count) in factorisation.blocks() {

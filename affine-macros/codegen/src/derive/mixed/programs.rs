@@ -16,6 +16,7 @@ use crate::mechanics::charts::Chart;
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::Legendre;
 use crate::optimise::Batch;
+use crate::symbol::Quantity;
 
 use super::{Body, Inner};
 
@@ -46,10 +47,10 @@ impl Body<'_> {
             let varies = |a: Expr| inputs.contains(&a) || phi.contains(&a);
             fuse(&shortest_program(arena, ways, coefficients, &varies))
         };
-        let velocities = Matrix::symbols(arena, self.inner.frame().velocity_name(), n);
-        let momenta = Matrix::symbols(arena, self.inner.frame().momentum_name(), n);
-        let [v, x_dot, p] = ["v", "x_dot", "p"]
-            .map(|stem| (1..=n).map(|i| arena.symbol(&format!("{stem}_{i}"))).collect::<Vec<_>>());
+        let velocities = Matrix::symbols(arena, self.inner.frame().velocity(), n);
+        let momenta = Matrix::symbols(arena, self.inner.frame().momentum(), n);
+        let [v, x_dot, p] = [Quantity::GivenVelocity, Quantity::CentreVelocity, Quantity::LinearMomentum]
+            .map(|of| (1..=n).map(|i| arena.symbol(of.at([i]))).collect::<Vec<_>>());
         let (legendre, [velocity, mut energy]) = self.internal(arena, &velocities, &momenta);
         self.centre_energy(arena, &v, &mut energy);
         let inputs = [velocities.0.concat(), v].concat();
@@ -124,7 +125,7 @@ impl Body<'_> {
         let (definitions, momentum, _) = self.masses.legendre(arena, x_dot);
         let results = momentum.into_iter().zip(1..).map(|(p, i): (Polynomial, usize)| (format!("p_{i}"), p));
         let momentum = Batch { shared: definitions, results: results.collect(), ..Batch::default() };
-        let named = |s: &Expr| (arena.symbol_name(*s).to_owned(), Polynomial::atom(*s));
+        let named = |s: &Expr| (arena.symbol_name(*s), Polynomial::atom(*s));
         Some([momentum, Batch { shared, results: x_dot.iter().map(named).collect(), ..Batch::default() }])
     }
 

@@ -6,14 +6,15 @@ use crate::algebra::ring::{Square, adjugate, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::equations::System;
-use crate::mechanics::weight::SQUARE;
+use crate::symbol::Quantity;
 
 /// Do the forces take the inverse of `phi`?
 pub(super) fn inverts_the_placement(arena: &mut Arena, chart: &Chart, tidied: &System) -> bool {
-    let inverse = Matrix::symbols(arena, "phi_inverse", chart.dim).0.concat();
+    let inverse = Matrix::symbols(arena, Quantity::PlacementInverse, chart.dim).0.concat();
     let takes = |symbol: Expr| tidied.shared.iter().any(|(known, _)| *known == symbol);
     // On a flat body negative powers of the determinant stand beside cofactors.
-    let powers = ["inverse_det", "inverse_dilatation"].map(|name| arena.symbol(name));
+    let powers =
+        [Quantity::InverseDeterminant, Quantity::InverseDilatation].map(|quantity| arena.symbol(quantity));
     let over_det = powers.into_iter().any(takes) && chart.momentum == Momentum::Canonical;
     over_det || inverse.into_iter().any(takes)
 }
@@ -47,10 +48,11 @@ impl Powers {
     fn new(arena: &mut Arena, chart: &Chart, r: Expr, isochoric: bool) -> Self {
         let n = exponent(chart.dim);
         let [det, inverse_det, d, swelling] =
-            ["det", "inverse_det", "dilatation", "swelling"].map(|name| arena.symbol(name));
+            [Quantity::Determinant, Quantity::InverseDeterminant, Quantity::Dilatation, Quantity::Swelling]
+                .map(|quantity| arena.symbol(quantity));
         let mut weights = vec![(det, n, false), (inverse_det, -n, false), (d, 1, false), (r, -1, false)];
         if isochoric {
-            let cofactors = Matrix::symbols(arena, "cofactor", chart.dim).0.concat();
+            let cofactors = Matrix::symbols(arena, Quantity::Cofactor, chart.dim).0.concat();
             weights.extend(cofactors.into_iter().map(|cofactor| (cofactor, n - 1, true)));
             // The factor of the cofactors takes their powers of D over.
             weights.push((swelling, 1 - n, true));
@@ -81,7 +83,7 @@ impl Powers {
 
     /// The same for what a function or a reciprocal is of.
     fn inside(&self, arena: &mut Arena, atom: Expr) -> Expr {
-        if arena.name(atom).is_some() {
+        if arena.as_symbol(atom).is_some() {
             return atom;
         }
         let n = exponent(self.n);
@@ -107,8 +109,10 @@ impl Powers {
 /// The system with `D = r D^2`, where `D^2` is the determinant with one row of `Psi` in place of that of `phi`: two
 /// multiplications more than `r^2 det phi`. In the plane `D = r det phi` has the range of `D^2` as it stands.
 fn through_the_square(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> System {
-    let [det, dilatation, square] = ["det", "dilatation", SQUARE].map(|name| arena.symbol(name));
-    let psi = Matrix::symbols(arena, "psi", chart.dim).0;
+    let [det, dilatation, square] =
+        [Quantity::Determinant, Quantity::Dilatation, Quantity::DilatationSquared]
+            .map(|quantity| arena.symbol(quantity));
+    let psi = Matrix::symbols(arena, Quantity::IsochoricPlacement, chart.dim).0;
     let adjugate = adjugate(&atoms(&chart.phi.0));
     let mut system = Powers::new(arena, chart, r, false).of_system(arena, system);
     system.shared.retain(|(symbol, _)| *symbol != det && *symbol != dilatation);
@@ -125,11 +129,12 @@ fn through_the_square(arena: &mut Arena, chart: &Chart, system: &System, r: Expr
 /// The system with `cof Psi` for the cofactors and powers of `D` and `r` for those of `det phi`.
 fn through_the_isochoric_part(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> System {
     let n = chart.dim;
-    let psi = Matrix::symbols(arena, "psi", n).0;
+    let psi = Matrix::symbols(arena, Quantity::IsochoricPlacement, n).0;
     let adjugate = adjugate(&atoms(&psi));
-    let cofactors = Matrix::symbols(arena, "cofactor", n).0;
-    let inverse = Matrix::symbols(arena, "phi_inverse", n).0;
-    let names = ["det", "inverse_det", "dilatation"].map(|name| arena.symbol(name));
+    let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n).0;
+    let inverse = Matrix::symbols(arena, Quantity::PlacementInverse, n).0;
+    let names = [Quantity::Determinant, Quantity::InverseDeterminant, Quantity::Dilatation]
+        .map(|quantity| arena.symbol(quantity));
     let [det, inverse_det, dilatation] = names;
     let mut system = Powers::new(arena, chart, r, true).of_system(arena, system);
     let inverts = system.shared.iter().any(|(symbol, _)| *symbol == inverse[0][0]);

@@ -8,8 +8,8 @@ use crate::algebra::ring::{Square, product, table, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::brackets::bracket;
 use crate::mechanics::charts::{Chart, Coordinate};
-use crate::mechanics::metric::INVERSE;
 use crate::mechanics::potential::Base;
+use crate::symbol::Quantity;
 
 /// The derivations of a chart.
 pub(super) struct Action {
@@ -66,7 +66,7 @@ impl Action {
 
 /// The entries of `psi = phi^-1` and of `G`.
 pub(super) fn of_the_placement(arena: &mut Arena, n: usize) -> Vec<Expr> {
-    let mut list = Matrix::symbols(arena, INVERSE, n).0.concat();
+    let mut list = Matrix::symbols(arena, Quantity::InversePlacement, n).0.concat();
     list.extend(
         (0..n).flat_map(|a| (0..n).map(move |b| (a, b))).map(|(a, b)| Base::Green(a, b).symbol(arena)),
     );

@@ -9,6 +9,7 @@ use crate::algebra::ring::{Square, product, table, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::term::{Coefficient, Frame, Term, TermKind};
+use crate::symbol::Symbol;
 
 use super::axes::{Axes, root_of_product};
 use super::congruent::Congruent;
@@ -17,8 +18,8 @@ use super::{Bases, Metrics};
 /// A matrix that is known when the model is prepared, as the bases are.
 #[derive(Clone, Debug)]
 pub struct Rebased {
-    /// The field that its symbols seem to be entries of; a number, which no field of the user's is.
-    pub name: String,
+    /// Its number, which its symbols bear.
+    pub number: usize,
     /// What `prepare()` makes it from.
     pub source: Source,
 }
@@ -111,14 +112,14 @@ impl Metrics {
             }
         };
         [(&space.inverse, Source::SpaceInverse), (&body.matrix, Source::Body)].map(|(pattern, source)| {
-            let name = (rebased.len() + 1).to_string();
+            let number = rebased.len() + 1;
             let mut entry = |i: usize, j: usize| match pattern[i][j].is_zero() {
                 true => arena.constant(Rational::ZERO),
-                false => arena.symbol(&format!("self.{name}[{},{}]", i + 1, j + 1)),
+                false => arena.symbol(Symbol::Prepared(number, i + 1, j + 1)),
             };
             let n = pattern.len();
             let symbols = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
-            rebased.push(Rebased { name, source });
+            rebased.push(Rebased { number, source });
             Matrix(symbols)
         })
     }
@@ -138,15 +139,14 @@ fn to_prepare(
     };
     let ones: Square<Polynomial> = given.iter().map(|row| row.iter().map(one).collect()).collect();
     let filled = changed(term, frame, [&space, &body], &ones);
-    let name = (rebased.len() + 1).to_string();
+    let number = rebased.len() + 1;
     let entries = given.iter().flatten().map(|entry| entry.expression(arena)).collect();
     let mut symbol = |r: usize, s: usize| match filled[r][s].is_zero() {
         true => arena.constant(Rational::ZERO),
-        // As the entries of a field are named.
-        false => arena.symbol(&format!("self.{name}[{},{}]", r.min(s) + 1, r.max(s) + 1)),
+        false => arena.symbol(Symbol::Prepared(number, r.min(s) + 1, r.max(s) + 1)),
     };
     let symbols = (0..given.len()).map(|r| (0..given.len()).map(|s| symbol(r, s)).collect()).collect();
-    rebased.push(Rebased { name, source: Source::Form(term.kind, entries) });
+    rebased.push(Rebased { number, source: Source::Form(term.kind, entries) });
     Matrix(symbols)
 }
 

@@ -8,13 +8,14 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Kinetics, Lagrangian, Part};
-use crate::mechanics::metric::{Definitions, INVERSE, inverse_placement};
+use crate::mechanics::metric::{Definitions, inverse_placement};
 use crate::mechanics::shared::atoms;
 use crate::mechanics::term::Frame;
+use crate::symbol::{Aspect, Factorised, Quantity};
 
 use super::Mixed;
 use super::factorisation::Factorisation;
-use super::parts::names;
+use super::parts::shares;
 use super::placed::{Placed, green, green_definitions};
 
 /// The masses of the translational energies.
@@ -68,7 +69,7 @@ impl Masses {
         let mut shared = green_definitions(arena, self.dim);
         let matrix = self.matrix(arena);
         let chart = Chart::new(arena, self.dim, Momentum::Canonical, None);
-        let factorisation = Factorisation::new(arena, "centre_", &matrix, &mut shared, &chart)?;
+        let factorisation = Factorisation::new(arena, Factorised::Centre, &matrix, &mut shared, &chart)?;
         Some((factorisation, shared))
     }
 
@@ -76,8 +77,13 @@ impl Masses {
     /// matrix is singular at every placement, or without translation.
     pub fn velocity(&self, arena: &mut Arena) -> Option<(Vec<Expr>, Definitions)> {
         let n = self.dim;
-        let [x_dot, v_hat, p, p_hat] = ["x_dot", "v_hat", "p", "p_hat"]
-            .map(|name| (1..=n).map(|i| arena.symbol(&format!("{name}_{i}"))).collect::<Vec<_>>());
+        let [x_dot, v_hat, p, p_hat] = [
+            Quantity::CentreVelocity,
+            Quantity::ComovingCentreVelocity,
+            Quantity::LinearMomentum,
+            Quantity::ComovingLinearMomentum,
+        ]
+        .map(|of| (1..=n).map(|i| arena.symbol(of.at([i]))).collect::<Vec<_>>());
         let mut shared = Definitions::new();
         let reciprocal = |arena: &mut Arena, mass: Expr| {
             let reciprocal = arena.pow(mass, -1)?;
@@ -104,7 +110,7 @@ impl Masses {
             _ => {
                 let (factorisation, definitions) = self.factorised(arena)?;
                 shared.extend(definitions);
-                factorisation.solve(arena, "centre_", &p_hat, &v_hat, &mut shared);
+                factorisation.solve(arena, Factorised::Centre, &p_hat, &v_hat, &mut shared);
             }
         }
         for (i, symbol) in x_dot.iter().enumerate() {
@@ -117,7 +123,7 @@ impl Masses {
     pub fn kinetics(&self, arena: &mut Arena, chart: &Chart) -> Option<Kinetics> {
         let (x_dot, inverse) = self.velocity(arena)?;
         let lagrangian = self.lagrangian(arena, chart, &x_dot);
-        let velocity = Matrix::symbols(arena, chart.momentum.velocity_name(), self.dim);
+        let velocity = Matrix::symbols(arena, chart.momentum.velocity(), self.dim);
         lagrangian.kinetics(arena, &velocity, &inverse).into_iter().next()
     }
 
@@ -144,10 +150,11 @@ impl Masses {
         let mut parts = Vec::new();
         parts.extend(self.space.map(|mass| part(arena, mass, x_dot.to_vec())));
         if let Some(mass) = self.body {
-            let psi = atoms(&Matrix::symbols(arena, INVERSE, n));
-            let v_hat: Vec<Expr> = (1..=n).map(|a| arena.symbol(&format!("v_hat_{a}"))).collect();
+            let psi = atoms(&Matrix::symbols(arena, Quantity::InversePlacement, n));
+            let v_hat: Vec<Expr> =
+                (1..=n).map(|a| arena.symbol(Quantity::ComovingCentreVelocity.at([a]))).collect();
             let definitions = times(&psi, &x_dot.iter().map(|v| Polynomial::atom(*v)).collect::<Vec<_>>());
-            let momenta = names(arena, "body", &chart.p);
+            let momenta = shares(arena, Aspect::InTheBody, &chart.p);
             parts.push(Part { definitions: Some(definitions), momenta, ..part(arena, mass, v_hat) });
         }
         let conjugate = x_dot.iter().enumerate().map(|(i, v)| (Coordinate::P(i), *v)).collect();
@@ -160,7 +167,7 @@ impl Masses {
         let half = Rational::HALF;
         let mut sum = Polynomial::zero();
         for (i, p) in chart.p.iter().enumerate() {
-            let x_dot = arena.symbol(&format!("x_dot_{}", i + 1));
+            let x_dot = arena.symbol(Quantity::CentreVelocity.at([i + 1]));
             sum.add_term(vec![x_dot, *p], &half);
         }
         sum
@@ -172,7 +179,7 @@ fn along(arena: &mut Arena, n: usize, factor: impl Fn(usize) -> ((usize, usize),
     let mut sum = Polynomial::zero();
     for k in 0..n {
         let ((i, a), symbol) = factor(k);
-        let phi = arena.symbol(&format!("phi_{}{}", i + 1, a + 1));
+        let phi = arena.symbol(Quantity::Placement.at([i + 1, a + 1]));
         sum.add_term(vec![phi, symbol], &Rational::ONE);
     }
     sum

@@ -12,6 +12,7 @@ use crate::mechanics::direction::{BasisVector, invariant};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metric::{Definitions, same_blocks};
 use crate::mechanics::term::Frame;
+use crate::symbol::{Factorised, Quantity};
 
 use super::Mixed;
 use super::factorisation::Factorisation;
@@ -44,16 +45,16 @@ pub(super) fn on_the_algebra(
         matrix = sum(&matrix, &placed.mass_matrix(arena, part, &basis));
     }
     let mut shared = placed.shared;
-    let factorisation = Factorisation::new(arena, "", &matrix, &mut shared, chart)?;
+    let factorisation = Factorisation::new(arena, Factorised::Internal, &matrix, &mut shared, chart)?;
     let dependent = chart.dependent();
     let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
     // The momentum conjugate to Oh_ab is Sigma_hat_ba.
     let conjugate = chart.m.transpose().0.concat();
     let momenta: Vec<Polynomial> =
         basis.iter().map(|e| along(e, |k| Polynomial::atom(conjugate[k])).substitute(&value)).collect();
-    let speeds: Vec<Expr> = (1..=basis.len()).map(|k| arena.symbol(&format!("speed_{k}"))).collect();
-    factorisation.solve(arena, "", &momenta, &speeds, &mut shared);
-    let velocity = Matrix::symbols(arena, Frame::Body.velocity_name(), n);
+    let speeds: Vec<Expr> = (1..=basis.len()).map(|k| arena.symbol(Quantity::Speed.at([k]))).collect();
+    factorisation.solve(arena, Factorised::Internal, &momenta, &speeds, &mut shared);
+    let velocity = Matrix::symbols(arena, Frame::Body.velocity(), n);
     for (k, symbol) in velocity.0.concat().into_iter().enumerate() {
         let mut entry = Polynomial::zero();
         for (e, speed) in basis.iter().zip(&speeds) {
@@ -103,7 +104,12 @@ impl Placed {
                 let mut velocities = Vec::with_capacity(basis.len());
                 for (k, e) in basis.iter().enumerate() {
                     let value = product(&product(&self.phi, &square(e, n)), &self.inverse);
-                    velocities.push(matrix(arena, &mut self.shared, &format!("turned_{}", k + 1), &value));
+                    velocities.push(matrix(
+                        arena,
+                        &mut self.shared,
+                        Quantity::TurnedVelocity.at([k + 1]),
+                        &value,
+                    ));
                 }
                 paired(&form, &velocities)
             }
@@ -145,7 +151,7 @@ impl Placed {
         let upper = table(n, |a, b| value[a.min(b)][a.max(b)].clone());
         let mut result = upper.clone();
         for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
-            let symbol = arena.symbol(&format!("space_inertia_{}{}", a + 1, b + 1));
+            let symbol = arena.symbol(Quantity::SpaceInertia.at([a + 1, b + 1]));
             self.shared.push((symbol, upper[a][b].clone()));
             result[a][b] = Polynomial::atom(symbol);
             result[b][a] = Polynomial::atom(symbol);

@@ -12,6 +12,7 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::group_point::GroupPoint;
 use crate::mechanics::metric::Definitions;
+use crate::symbol::{Factor, Factorised, Symbol};
 
 /// A direction in the space that the matrix acts on: indices and weights.
 type Direction = Vec<(usize, Rational)>;
@@ -62,7 +63,7 @@ impl Factorisation {
     /// factors to them. `None` where it is singular at every placement.
     pub fn new(
         arena: &mut Arena,
-        stem: &str,
+        of: Factorised,
         matrix: &Square<Polynomial>,
         shared: &mut Definitions,
         chart: &Chart,
@@ -76,8 +77,8 @@ impl Factorisation {
             blocks.push(match known {
                 Some(block) => Block { basis, ..block },
                 None => {
-                    let stem = format!("{stem}{}", letter(blocks.len()));
-                    factorised(arena, &stem, basis, form, shared)?
+                    let which = blocks.len();
+                    factorised(arena, (of, which), basis, form, shared)?
                 }
             });
         }
@@ -102,26 +103,24 @@ impl Factorisation {
         list
     }
 
-    /// Defines the symbols of `solution` as that of `matrix solution = right`, with what leads there; the names of that
-    /// begin with `stem`.
+    /// Defines the symbols of `solution` as that of `matrix solution = right`, with what leads there.
     pub fn solve(
         &self,
         arena: &mut Arena,
-        stem: &str,
+        of: Factorised,
         right: &[Polynomial],
         solution: &[Expr],
         shared: &mut Definitions,
     ) {
         let mut sums = vec![Polynomial::zero(); right.len()];
         for (which, block) in self.blocks.iter().enumerate() {
-            let stem = format!("{stem}{}", letter(which));
             let along = |direction: &Direction| {
                 let mut sum = Polynomial::zero();
                 direction.iter().for_each(|(k, weight)| sum.add_scaled(&right[*k], weight));
                 sum
             };
             let right: Vec<Polynomial> = block.basis.iter().map(along).collect();
-            let values = block.solve(arena, &stem, &right, solution, shared);
+            let values = block.solve(arena, (of, which), &right, solution, shared);
             for (direction, value) in block.basis.iter().zip(&values) {
                 direction.iter().for_each(|(k, weight)| sums[*k].add_scaled(value, weight));
             }
@@ -139,7 +138,7 @@ impl Block {
     fn solve(
         &self,
         arena: &mut Arena,
-        stem: &str,
+        (of, which): (Factorised, usize),
         right: &[Polynomial],
         solution: &[Expr],
         shared: &mut Definitions,
@@ -151,7 +150,12 @@ impl Block {
             for (j, earlier) in forward.iter().enumerate() {
                 value.add_product(&self.lower[k][j], earlier, &Rational::MINUS_ONE);
             }
-            forward.push(quantity(arena, &format!("forward_{stem}_{}", k + 1), value, shared));
+            forward.push(quantity(
+                arena,
+                Symbol::Factor(Factor::Forward, of, which, vec![k + 1]),
+                value,
+                shared,
+            ));
         }
         let mut values = vec![Polynomial::zero(); size];
         for k in (0..size).rev() {
@@ -159,13 +163,13 @@ impl Block {
             for (j, later) in values.iter().enumerate().skip(k + 1) {
                 value.add_product(&self.lower[j][k], later, &Rational::MINUS_ONE);
             }
-            let name = match self.basis[k].as_slice() {
+            let own = match self.basis[k].as_slice() {
                 // The direction of one entry alone has the value of that entry.
-                [(place, _)] if self.is_alone(*place) => arena.name(solution[*place]).map(str::to_owned),
+                [(place, _)] if self.is_alone(*place) => arena.as_symbol(solution[*place]).cloned(),
                 _ => None,
             };
-            let name = name.unwrap_or_else(|| format!("backward_{stem}_{}", k + 1));
-            values[k] = quantity(arena, &name, value, shared);
+            let own = own.unwrap_or_else(|| Symbol::Factor(Factor::Backward, of, which, vec![k + 1]));
+            values[k] = quantity(arena, own, value, shared);
         }
         values
     }
@@ -176,19 +180,14 @@ impl Block {
     }
 }
 
-/// Blocks are lettered.
-fn letter(block: usize) -> char {
-    u8::try_from(block).map_or('z', |block| (b'a' + block) as char)
-}
-
 /// A sum of several products gets a name; anything less stands for itself.
-fn quantity(arena: &mut Arena, name: &str, value: Polynomial, shared: &mut Definitions) -> Polynomial {
+fn quantity(arena: &mut Arena, symbol: Symbol, value: Polynomial, shared: &mut Definitions) -> Polynomial {
     let short =
         value.terms().len() == 0 || (value.terms().len() == 1 && value.terms().all(|(m, _)| m.len() <= 1));
     if short {
         return value;
     }
-    let symbol = arena.symbol(name);
+    let symbol = arena.symbol(symbol);
     shared.push((symbol, value));
     Polynomial::atom(symbol)
 }
@@ -282,7 +281,7 @@ fn complement(
 /// `L D L^T` of a form, column by column: `w_ij = K_ij - sum over k < j of l_ik w_jk`, `l_ij = w_ij/w_jj`.
 fn factorised(
     arena: &mut Arena,
-    stem: &str,
+    (of, which): (Factorised, usize),
     basis: Vec<Direction>,
     form: Square<Polynomial>,
     shared: &mut Definitions,
@@ -297,25 +296,26 @@ fn factorised(
             for k in 0..j {
                 value.add_product(&lower[i][k], &work[j][k], &Rational::MINUS_ONE);
             }
-            let name = match i == j {
-                true => format!("pivot_{stem}_{}", j + 1),
-                false => format!("rest_{stem}_{}{}", i + 1, j + 1),
+            let symbol = match i == j {
+                true => Symbol::Factor(Factor::Pivot, of, which, vec![j + 1]),
+                false => Symbol::Factor(Factor::Rest, of, which, vec![i + 1, j + 1]),
             };
-            work[i][j] = quantity(arena, &name, value, shared);
+            work[i][j] = quantity(arena, symbol, value, shared);
         }
         let pivot = work[j][j].expression(arena);
         let reciprocal = arena.pow(pivot, -1)?;
         let reciprocal = match arena.as_constant(reciprocal) {
             Some(number) => Polynomial::constant(number.clone()),
             None => {
-                let symbol = arena.symbol(&format!("inverse_pivot_{stem}_{}", j + 1));
+                let symbol = arena.symbol(Symbol::Factor(Factor::InversePivot, of, which, vec![j + 1]));
                 shared.push((symbol, Polynomial::normal_form(arena, reciprocal)));
                 Polynomial::atom(symbol)
             }
         };
         for i in j + 1..size {
             let value = work[i][j].mul(&reciprocal);
-            lower[i][j] = quantity(arena, &format!("lower_{stem}_{}{}", i + 1, j + 1), value, shared);
+            let symbol = Symbol::Factor(Factor::Lower, of, which, vec![i + 1, j + 1]);
+            lower[i][j] = quantity(arena, symbol, value, shared);
         }
         inverse_pivots.push(reciprocal);
     }

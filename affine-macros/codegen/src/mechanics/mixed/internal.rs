@@ -11,6 +11,7 @@ use crate::mechanics::kinetics::{Kinetics, Lagrangian};
 use crate::mechanics::metric::{Definitions, Metric};
 use crate::mechanics::shared::{atoms, frame_of};
 use crate::mechanics::term::Frame;
+use crate::symbol::Factorised;
 
 use super::Mixed;
 use super::confined::{Solved, on_the_algebra};
@@ -59,7 +60,7 @@ impl Internal {
         }
         let on_the_group = Placed::new(arena, mixed.dim, mixed.constraint).values(arena);
         let lagrangian = mixed.lagrangian(arena, &chart, on_the_group, true);
-        let velocity = Matrix::symbols(arena, frame_of(&chart).velocity_name(), mixed.dim);
+        let velocity = Matrix::symbols(arena, frame_of(&chart).velocity(), mixed.dim);
         Some(Self { shared, velocity, factorisation, energy, lagrangian })
     }
 
@@ -114,10 +115,10 @@ impl Internal {
 /// The velocity `phi_dot` of a motion that nothing confines.
 fn on_all_matrices(arena: &mut Arena, mixed: &Mixed, chart: &Chart) -> Option<Solved> {
     let Metric { mut shared, internal, .. } = Metric::new(arena, mixed.dim, &mixed.internal);
-    let factorisation = Factorisation::new(arena, "", &internal, &mut shared, chart)?;
+    let factorisation = Factorisation::new(arena, Factorised::Internal, &internal, &mut shared, chart)?;
     // The momentum conjugate to phi_dot_iA is Pi_Ai.
     let momenta = atoms(&chart.m.transpose()).concat();
-    let velocity = Matrix::symbols(arena, Frame::Flat.velocity_name(), mixed.dim).0.concat();
-    factorisation.solve(arena, "", &momenta, &velocity, &mut shared);
+    let velocity = Matrix::symbols(arena, Frame::Flat.velocity(), mixed.dim).0.concat();
+    factorisation.solve(arena, Factorised::Internal, &momenta, &velocity, &mut shared);
     Some(Solved { shared, components: momenta.into_iter().zip(velocity).collect(), factorisation })
 }

@@ -5,9 +5,10 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Lagrangian, Part};
-use crate::mechanics::metric::{Definitions, INVERSE, same_blocks};
+use crate::mechanics::metric::{Definitions, same_blocks};
 use crate::mechanics::shared::{atoms, frame_of};
 use crate::mechanics::term::Frame;
+use crate::symbol::{Aspect, Quantity};
 
 use super::Mixed;
 use super::placed::green;
@@ -22,7 +23,7 @@ impl Mixed {
         through_green: bool,
     ) -> Lagrangian {
         let n = self.dim;
-        let velocity = Matrix::symbols(arena, frame_of(chart).velocity_name(), n);
+        let velocity = Matrix::symbols(arena, frame_of(chart).velocity(), n);
         let conjugate = (0..n).flat_map(|a| (0..n).map(move |b| (a, b)));
         let conjugate = conjugate.map(|(a, b)| (Coordinate::M(a, b), velocity.0[b][a])).collect();
         let part = |energy: &Kinetic| internal(arena, chart, &velocity, energy, through_green);
@@ -39,18 +40,19 @@ fn internal(
     through_green: bool,
 ) -> Part {
     let n = chart.dim;
-    let name = of(energy.frame);
+    let share = share(energy.frame);
     let own = Part {
         velocities: energy.velocity.0.concat(),
         definitions: None,
         energy: energy.internal_energy(),
         slopes: Vec::new(),
-        momenta: names(arena, name, &chart.m.0.concat()),
+        momenta: shares(arena, share, &chart.m.0.concat()),
     };
     if energy.frame == frame_of(chart) {
         return own;
     }
-    let (phi, psi, o) = (chart.placement(), atoms(&Matrix::symbols(arena, INVERSE, n)), atoms(velocity));
+    let (phi, psi, o) =
+        (chart.placement(), atoms(&Matrix::symbols(arena, Quantity::InversePlacement, n)), atoms(velocity));
     let form = hessian(energy);
     let stands_in_the_body = (energy.frame, frame_of(chart)) == (Frame::Flat, Frame::Body);
     if through_green && stands_in_the_body && same_blocks(&form, n) {
@@ -68,8 +70,8 @@ fn internal(
         Frame::Flat => phi_dot,
     };
     // The momentum conjugate to O_ab is X_ba.
-    let slopes = Matrix::symbols(arena, energy.frame.momentum_name(), n).transpose().0.concat();
-    Part { definitions: Some(definitions.concat()), slopes: names(arena, name, &slopes), ..own }
+    let slopes = Matrix::symbols(arena, energy.frame.momentum(), n).transpose().0.concat();
+    Part { definitions: Some(definitions.concat()), slopes: shares(arena, share, &slopes), ..own }
 }
 
 /// `tr(phi_dot J phi_dot^T)/2 = tr(Oh J Oh^T G)/2`.
@@ -92,18 +94,16 @@ pub(super) fn hessian(part: &Kinetic) -> Square<Polynomial> {
     slopes.iter().map(|slope| slope.gradient(&velocities)).collect()
 }
 
-/// What the names of the quantities of a frame begin with.
-fn of(frame: Frame) -> &'static str {
+/// The share of the energies of a frame.
+fn share(frame: Frame) -> Aspect {
     match frame {
-        Frame::Body => "body",
-        Frame::Space => "space",
-        Frame::Flat => "flat",
+        Frame::Body => Aspect::InTheBody,
+        Frame::Space => Aspect::InSpace,
+        Frame::Flat => Aspect::InPlacement,
     }
 }
 
-/// The names of momenta for what a part has of them.
-pub(super) fn names(arena: &mut Arena, part: &str, momenta: &[Expr]) -> Vec<Expr> {
-    let name = |momentum: &Expr| format!("{part}_{}", arena.symbol_name(*momentum));
-    let names: Vec<String> = momenta.iter().map(name).collect();
-    names.iter().map(|name| arena.symbol(name)).collect()
+/// Symbols for what a part has of momenta.
+pub(super) fn shares(arena: &mut Arena, part: Aspect, momenta: &[Expr]) -> Vec<Expr> {
+    momenta.iter().map(|momentum| arena.about(part, *momentum)).collect()
 }

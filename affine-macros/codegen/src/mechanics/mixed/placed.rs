@@ -4,10 +4,11 @@ use crate::algebra::ring::{Square, adjugate, table, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::kinetics::named;
-use crate::mechanics::metric::{Definitions, INVERSE, inverse_placement};
+use crate::mechanics::metric::{Definitions, inverse_placement};
 use crate::mechanics::potential::Base;
 use crate::mechanics::shared::atoms;
 use crate::mechanics::weight::Weight;
+use crate::symbol::{Quantity, Symbol};
 
 /// A placement.
 pub(super) struct Placed {
@@ -24,7 +25,7 @@ pub(super) struct Placed {
 
 impl Placed {
     pub(super) fn new(arena: &mut Arena, n: usize, group: Option<Constraint>) -> Self {
-        let phi = atoms(&Matrix::symbols(arena, "phi", n));
+        let phi = atoms(&Matrix::symbols(arena, Quantity::Placement, n));
         let unit =
             |value: &Polynomial| table(n, |a, b| if a == b { value.clone() } else { Polynomial::zero() });
         let one = Polynomial::constant(Rational::ONE);
@@ -46,7 +47,7 @@ impl Placed {
                 let (square, inverse_square) = (Polynomial::atom(square), Polynomial::atom(inverse));
                 let mut shared = definitions;
                 let inverse = table(n, |a, i| phi[i][a].mul(&inverse_square));
-                let inverse = matrix(arena, &mut shared, INVERSE, &inverse);
+                let inverse = matrix(arena, &mut shared, Quantity::InversePlacement, &inverse);
                 Self { inverse, green: unit(&square), inverse_square: Some(inverse_square), shared, phi }
             }
             Some(Constraint::Isochoric) => {
@@ -54,7 +55,7 @@ impl Placed {
                 // det phi = 1
                 let inverse = match n {
                     2 => adjugate(&phi),
-                    _ => matrix(arena, &mut shared, INVERSE, &adjugate(&phi)),
+                    _ => matrix(arena, &mut shared, Quantity::InversePlacement, &adjugate(&phi)),
                 };
                 shared.extend(green_definitions(arena, n));
                 Self { inverse, green: green(arena, n), inverse_square: None, shared, phi }
@@ -65,7 +66,7 @@ impl Placed {
     /// The entries of `phi^-1` and `G` with what they are here.
     pub(super) fn values(&self, arena: &mut Arena) -> Definitions {
         let n = self.phi.len();
-        let inverse = Matrix::symbols(arena, INVERSE, n).0.concat();
+        let inverse = Matrix::symbols(arena, Quantity::InversePlacement, n).0.concat();
         let mut list: Definitions = inverse.into_iter().zip(self.inverse.concat()).collect();
         for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
             list.push((Base::Green(a, b).symbol(arena), self.green[a][b].clone()));
@@ -83,7 +84,7 @@ pub(super) fn green(arena: &mut Arena, n: usize) -> Square<Polynomial> {
 
 /// `G = phi^T phi`.
 pub(super) fn green_definitions(arena: &mut Arena, n: usize) -> Definitions {
-    let phi = Matrix::symbols(arena, "phi", n);
+    let phi = Matrix::symbols(arena, Quantity::Placement, n);
     let mut list = Definitions::new();
     for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
         let mut value = Polynomial::zero();
@@ -93,14 +94,14 @@ pub(super) fn green_definitions(arena: &mut Arena, n: usize) -> Definitions {
     list
 }
 
-/// A matrix by names `stem_11`, `stem_12`, ...; one whose entries are symbols already stays as it is.
+/// A matrix by symbols for its entries; one whose entries are symbols already stays as it is.
 pub(super) fn matrix(
     arena: &mut Arena,
     shared: &mut Definitions,
-    stem: &str,
+    of: impl Into<Symbol>,
     values: &Square<Polynomial>,
 ) -> Square<Polynomial> {
-    let symbols: Vec<Expr> = Matrix::symbols(arena, stem, values.len()).0.concat();
+    let symbols: Vec<Expr> = Matrix::symbols(arena, of, values.len()).0.concat();
     let values = named(&symbols, values.concat(), shared);
     values.chunks(symbols.len().isqrt().max(1)).map(<[Polynomial]>::to_vec).collect()
 }

@@ -4,6 +4,7 @@ use super::matrix_name::MatrixName;
 use super::symbols::{is_letter, is_symbol};
 use crate::algebra::text::Written;
 use crate::algebra::{Arena, Expr};
+use crate::symbol::Symbol;
 
 /// Names of letters that LaTeX has as commands.
 const GREEK: [&str; 34] = [
@@ -85,14 +86,10 @@ fn indexed(name: &str) -> (&str, Option<&str>) {
 
 /// The field of which all these are the entries.
 pub(super) fn field_of<'a>(arena: &'a Arena, rows: &[Vec<Expr>]) -> Option<&'a str> {
-    let name = |e: &Expr| Some(entry_of_field(arena.name(*e)?)?.0);
-    let field = name(rows.first()?.first()?)?;
-    rows.iter().flatten().all(|entry| name(entry) == Some(field)).then_some(field)
-}
-
-/// Field, row and column of the symbol of an entry of a matrix.
-pub(super) fn entry_of_field(symbol: &str) -> Option<(&str, usize, usize)> {
-    let (field, places) = symbol.strip_prefix("self.")?.strip_suffix(']')?.split_once('[')?;
-    let (row, column) = places.split_once(',')?;
-    Some((field, row.parse().ok()?, column.parse().ok()?))
+    let of = |e: &Expr| match arena.as_symbol(*e) {
+        Some(Symbol::Entry(field, ..)) => Some(field.as_str()),
+        _ => None,
+    };
+    let field = of(rows.first()?.first()?)?;
+    rows.iter().flatten().all(|entry| of(entry) == Some(field)).then_some(field)
 }

@@ -1,6 +1,6 @@
 //! Matrices of coefficients: which name each has, and what it is.
 
-use super::field::{self, entry_of_field, field_of};
+use super::field::{self, field_of};
 use super::formula::Formula;
 use super::matrix_name::{MatrixName, Named};
 use super::names::Notation;
@@ -9,6 +9,7 @@ use crate::mechanics::forces::Forces;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metrics::{Rebased, Source};
 use crate::mechanics::term::{Coefficient, Frame, Term};
+use crate::symbol::Symbol;
 
 /// What a matrix is a coefficient of.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -77,9 +78,11 @@ impl Notation<'_> {
 
     /// The matrix that `prepare()` carries to orthonormal bases, where it is one.
     fn carried(&self, arena: &Arena, rows: &[Vec<Expr>]) -> Option<&'_ Rebased> {
-        let name = |e: &Expr| Some(entry_of_field(arena.name(*e)?)?.0);
-        let name = rows.iter().flatten().find_map(name)?;
-        self.rebased.iter().find(|matrix| matrix.name == name)
+        let number = rows.iter().flatten().find_map(|entry| match arena.as_symbol(*entry) {
+            Some(Symbol::Prepared(number, ..)) => Some(*number),
+            _ => None,
+        })?;
+        self.rebased.iter().find(|matrix| matrix.number == number)
     }
 
     /// Its rows as the user gave them.
@@ -98,7 +101,7 @@ impl Notation<'_> {
         rows: &[Vec<Expr>],
     ) -> Named {
         let given = self.as_given(arena, rows);
-        let carried = self.carried(arena, rows).map(|matrix| matrix.name.clone());
+        let carried = self.carried(arena, rows).map(|matrix| matrix.number);
         if let Some(name) = field_of(arena, &given) {
             let name = field::matrix(name);
             return Named { rows: rows.to_vec(), name, definition: None, carried };

@@ -54,6 +54,6 @@ pub(super) struct Named {
     pub(super) name: MatrixName,
     /// What it is, where it is no field.
     pub(super) definition: Option<Formula>,
-    /// What its symbols seem to be entries of, where `prepare()` carries it to orthonormal bases.
-    pub(super) carried: Option<String>,
+    /// Its number among the matrices that `prepare()` carries to orthonormal bases.
+    pub(super) carried: Option<usize>,
 }

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::field::{self, entry_of_field};
+use super::field;
 use super::formula::Formula;
 use super::matrix_name::{MatrixName, Named};
 use super::{latex, symbols};
@@ -10,6 +10,7 @@ use crate::algebra::text::Written;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::custom::{Custom, On, Role};
 use crate::mechanics::metrics::{Metrics, Rebased, Source};
+use crate::symbol::{Quantity, Symbol};
 
 /// The names in the formulas of a model.
 pub struct Notation<'a> {
@@ -71,8 +72,8 @@ impl Notation<'_> {
 
     /// The symbol that this is a power of in formulas, and the exponent.
     pub(in crate::mechanics) fn power(&self, arena: &mut Arena, symbol: Expr) -> (Expr, i32) {
-        match arena.name(symbol).and_then(symbols::power) {
-            Some((base, exponent)) => (arena.symbol(&base), exponent),
+        match arena.as_symbol(symbol).and_then(Symbol::power) {
+            Some((base, exponent)) => (arena.symbol(base), exponent),
             None => (symbol, 1),
         }
     }
@@ -84,7 +85,7 @@ impl Notation<'_> {
 
     /// Do formulas write out what it stands for?
     pub(in crate::mechanics) fn is_written_out(&self, arena: &Arena, symbol: Expr) -> bool {
-        arena.name(symbol).is_some_and(symbols::is_written_out)
+        arena.quantity(symbol) == Some(Quantity::Swelling)
     }
 
     /// A polynomial in both notations.
@@ -95,66 +96,65 @@ impl Notation<'_> {
 
     /// Text and LaTeX of a symbol.
     fn written(&self, arena: &Arena, symbol: Expr) -> [Written; 2] {
-        let name = arena.symbol_name(symbol);
         if let Some((matrix, (row, column))) = self.inverses.get(&symbol) {
             return matrix.inverse_entry(*row, *column);
         }
-        if let Some((matrix, row, column)) = entry_of_field(name) {
-            return self.entry(matrix, row, column);
-        }
-        if let Some(field) = name.strip_prefix("self.") {
-            return field::number(field);
-        }
-        symbols::written(name)
-            .or_else(|| self.computed(name))
-            .unwrap_or_else(|| [Written::letter(name), Written::letter(field::typewriter(name))])
+        let known = arena.as_symbol(symbol).and_then(|symbol| match symbol {
+            Symbol::Field(field) => Some(field::number(field)),
+            Symbol::Entry(field, row, column) => Some(field::matrix(field).entry(*row, *column)),
+            Symbol::Prepared(number, row, column) => Some(self.prepared(*number, *row, *column)),
+            Symbol::Component(quantity, indices) => {
+                symbols::written(symbol).or_else(|| self.computed(*quantity, indices))
+            }
+            Symbol::About(..) | Symbol::Factor(..) => symbols::written(symbol),
+        });
+        known.unwrap_or_else(|| {
+            let name = arena.symbol_name(symbol);
+            let typewriter = Written::letter(field::typewriter(&name));
+            [Written::letter(name), typewriter]
+        })
     }
 
-    /// An entry of a field, or of a matrix that `prepare()` makes.
-    fn entry(&self, matrix: &str, row: usize, column: usize) -> [Written; 2] {
-        let made = self.rebased.iter().find(|rebased| rebased.name == matrix).map(|rebased| &rebased.source);
+    /// An entry of a matrix that `prepare()` makes.
+    fn prepared(&self, number: usize, row: usize, column: usize) -> [Written; 2] {
+        let made =
+            self.rebased.iter().find(|rebased| rebased.number == number).map(|rebased| &rebased.source);
         match made {
-            None => field::matrix(matrix).entry(row, column),
             Some(Source::SpaceInverse) => MatrixName::new("A", "A", true).inverse_entry(row, column),
             Some(Source::Body) => MatrixName::new("B", "B", true).entry(row, column),
-            Some(Source::Form(..)) => {
-                let of_it = |named: &&Named| named.carried.as_deref() == Some(matrix);
+            Some(Source::Form(..)) | None => {
+                let of_it = |named: &&Named| named.carried == Some(number);
                 let named = self.matrices.iter().find(of_it).map(|named| &named.name);
-                named.map_or_else(|| field::matrix(matrix), Clone::clone).entry(row, column)
+                let unnamed = || MatrixName::new(number.to_string(), number.to_string(), true);
+                named.map_or_else(unnamed, Clone::clone).entry(row, column)
             }
         }
     }
 
     /// What a field computes: forces, slopes and energies.
-    fn computed(&self, name: &str) -> Option<[Written; 2]> {
-        let (stem, index) = name.rsplit_once('_')?;
-        let (stem, index, place) = match stem.rsplit_once('_') {
-            Some((kind, place)) => (kind, Some(index), place),
-            None => (stem, None, index),
-        };
-        let place: usize = place.parse().ok()?;
-        let custom = self.customs.iter().find(|custom| custom.place == place)?;
+    fn computed(&self, quantity: Quantity, indices: &[usize]) -> Option<[Written; 2]> {
+        let (place, indices) = indices.split_first()?;
+        let custom = self.customs.iter().find(|custom| custom.place == *place)?;
         let [name, sub] = field::index(&custom.name);
-        let entry = |text: &str, latex: &str, index: &str| {
+        let index: String = indices.iter().map(usize::to_string).collect();
+        let entry = |text: &str, latex: &str| {
             [
                 Written::letter(format!("{text}[{name}]_{index}")),
                 Written::letter(format!("{latex}_{{{sub},{index}}}")),
             ]
         };
-        let slope = |of: &str, of_latex: &str, index: &str| {
+        let slope = |of: &str, of_latex: &str| {
             let latex = format!("\\frac{{\\partial U_{{{sub}}}}}{{\\partial {of_latex}_{{{index}}}}}");
             [Written::raised(format!("dU[{name}]/d{of}_{index}")), Written::raised(latex)]
         };
-        match (stem, index, custom.role) {
-            ("force", Some(index), Role::Force { on: On::Body, .. }) => {
-                Some(entry("Q_hat", "\\hat Q", index))
-            }
-            ("force", Some(index), Role::Force { .. }) => Some(entry("Q", "Q", index)),
-            ("pull", Some(index), Role::Force { .. }) => Some(entry("F", "F", index)),
-            ("push", Some(index), _) => Some(entry("N", "N", index)),
-            ("pull", Some(index), Role::Potential { .. }) => Some(slope("x", "x", index)),
-            ("slope", Some(index), Role::Potential { .. }) => Some(slope("phi", "\\varphi", index)),
-            ("potential", None, _) => {
+        match (quantity, custom.role) {
+            (Quantity::FieldForce, Role::Force { on: On::Body, .. }) => Some(entry("Q_hat", "\\hat Q")),
+            (Quantity::FieldForce, Role::Force { .. }) => Some(entry("Q", "Q")),
+            (Quantity::FieldPull, Role::Force { .. }) => Some(entry("F", "F")),
+            (Quantity::FieldPush, _) => Some(entry("N", "N")),
+            (Quantity::FieldPull, Role::Potential { .. }) => Some(slope("x", "x")),
+            (Quantity::FieldSlope, Role::Potential { .. }) => Some(slope("phi", "\\varphi")),
+            (Quantity::FieldPotential, _) => {
                 Some([Written::letter(format!("U[{name}]")), Written::letter(format!("U_{{{sub}}}"))])
             }
             _ => None,

@@ -2,6 +2,7 @@
 
 use crate::algebra::ring::{Square, table, transpose};
 use crate::algebra::{Arena, Polynomial, Rational};
+use crate::symbol::Quantity;
 
 use super::base::Base;
 use super::load::Draft;
@@ -56,9 +57,9 @@ impl Draft<'_> {
         slopes: Slopes,
         tensors: &Tensors<Polynomial>,
     ) -> Square<Polynomial> {
-        let first = self.named(arena, &Base::Trace.slope_name(), &of(slopes, Base::Trace));
-        let second = self.named(arena, &Base::TraceOfSquare.slope_name(), &of(slopes, Base::TraceOfSquare));
-        let third = self.named(arena, &Base::TraceOfCube.slope_name(), &of(slopes, Base::TraceOfCube));
+        let first = self.named(arena, Base::Trace.slope(), &of(slopes, Base::Trace));
+        let second = self.named(arena, Base::TraceOfSquare.slope(), &of(slopes, Base::TraceOfSquare));
+        let third = self.named(arena, Base::TraceOfCube.slope(), &of(slopes, Base::TraceOfCube));
         let mut stress = self.of_entries(arena, slopes);
         for (a, row) in stress.iter_mut().enumerate() {
             row[a].add_scaled(&first, &Rational::ONE);
@@ -82,11 +83,11 @@ impl Draft<'_> {
     fn swelling(&mut self, arena: &mut Arena, slope: &Polynomial) -> Polynomial {
         let over = self.means.over_det(slope);
         if self.means.is_of_volume(arena, slope) {
-            return self.named(arena, "swelling", &over);
+            return self.named(arena, Quantity::Swelling, &over);
         }
-        let pressure = self.named(arena, &Base::MeanLogStretch.slope_name(), slope);
-        let inverse_det = Polynomial::atom(arena.symbol("inverse_det"));
-        self.named(arena, "swelling", &pressure.mul(&inverse_det))
+        let pressure = self.named(arena, Base::MeanLogStretch.slope(), slope);
+        let inverse_det = Polynomial::atom(arena.symbol(Quantity::InverseDeterminant));
+        self.named(arena, Quantity::Swelling, &pressure.mul(&inverse_det))
     }
 
     /// The same with `G = 1 + M` on the diagonal, and there `s phi + v cof = (s + v) phi + v (cof - phi)`: what cancels is one
@@ -105,10 +106,10 @@ impl Draft<'_> {
         let mut joint = along.clone();
         joint.add_scaled(&swelling, &Rational::ONE);
         let splits = !swelling.is_zero() && !along.is_zero();
-        let second = self.named(arena, &Base::TraceOfSquare.slope_name(), &second);
+        let second = self.named(arena, Base::TraceOfSquare.slope(), &second);
         let mut stress = self.of_entries(arena, slopes);
         let counted = self.means.counted(arena, &along);
-        let own = self.named(arena, "stress", &counted);
+        let own = self.named(arena, Quantity::Stress, &counted);
         let Means::Strains(counting) = &self.means else { return stress };
         let strains = &counting.strains;
         for (a, row) in stress.iter_mut().enumerate() {
@@ -121,9 +122,9 @@ impl Draft<'_> {
         }
         let mut force = self.times_stress(arena, &tensors.phi, &stress);
         let counted = self.means.counted(arena, &swelling);
-        let volume = self.named(arena, "swelling", &counted);
+        let volume = self.named(arena, Quantity::Swelling, &counted);
         let offset = self.means.counted(arena, &joint);
-        let offset = if splits { self.named(arena, "offset", &offset) } else { Polynomial::zero() };
+        let offset = if splits { self.named(arena, Quantity::Offset, &offset) } else { Polynomial::zero() };
         let Means::Strains(counting) = &self.means else { return force };
         let strains = &counting.strains;
         for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
@@ -169,7 +170,7 @@ impl Draft<'_> {
             let entry = match form.terms().len() {
                 0 => continue,
                 1 if bare => form.clone(),
-                _ => self.named(arena, &format!("piola_{}{}", c + 1, d + 1), form),
+                _ => self.named(arena, Quantity::Piola.at([c + 1, d + 1]), form),
             };
             for (row, of_phi) in force.iter_mut().zip(phi) {
                 row[b].add_product(&of_phi[a], &entry, &Rational::ONE);
@@ -214,13 +215,13 @@ impl Draft<'_> {
             return self.about_the_inverse(arena, [&v, &a, &b]);
         }
         let offset = self.means.offset(arena, [&v, &a, &b]);
-        let offset = self.named(arena, "offset", &offset);
+        let offset = self.named(arena, Quantity::Offset, &offset);
         let Means::Strains(counting) = &self.means else { return self.empty() };
         let strains = &counting.strains;
         let mut mean = Polynomial::constant(Rational::ONE);
         let mut about = table(n, |_, _| Polynomial::zero());
         if counting.writing == Writing::Deviators {
-            mean = Polynomial::atom(arena.symbol("mean_square_stretch"));
+            mean = Polynomial::atom(arena.symbol(Quantity::MeanSquareStretch));
             about = strains.deviator(arena);
         } else {
             for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
@@ -229,8 +230,8 @@ impl Draft<'_> {
         }
         let mut along = a;
         along.add_product(&b, &mean, &Rational::from(2));
-        let along = self.named(arena, "stress", &along);
-        let second = self.named(arena, &Base::TraceOfSquare.slope_name(), &b);
+        let along = self.named(arena, Quantity::Stress, &along);
+        let second = self.named(arena, Base::TraceOfSquare.slope(), &b);
         let mut stress = self.empty();
         for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
             stress[a][b].add_product(&along, &about[a][b], &Rational::ONE);
@@ -248,9 +249,9 @@ impl Draft<'_> {
     fn about_the_inverse(&mut self, arena: &mut Arena, [v, a, b]: [&Polynomial; 3]) -> Square<Polynomial> {
         let n = self.chart.dim;
         let [offset, along, second] = self.means.about_the_inverse(arena, [v, a, b]);
-        let offset = self.named(arena, "offset", &offset);
-        let along = self.named(arena, "stress", &along);
-        let second = self.named(arena, &Base::TraceOfSquare.slope_name(), &second);
+        let offset = self.named(arena, Quantity::Offset, &offset);
+        let along = self.named(arena, Quantity::Stress, &along);
+        let second = self.named(arena, Base::TraceOfSquare.slope(), &second);
         let Means::Strains(counting) = &self.means else { return self.empty() };
         let (products, definitions) = counting.strains.times_inverse(arena);
         let mut stress = self.empty();

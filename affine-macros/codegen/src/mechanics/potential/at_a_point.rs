@@ -4,6 +4,7 @@ use crate::algebra::fault::never_missing;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::metric::Definitions;
+use crate::symbol::Quantity;
 
 use super::Potential;
 use super::base::Base;
@@ -50,10 +51,8 @@ impl Potential {
         let (excesses, strains) = strain_traces(arena, chart);
         shared.extend(excesses);
         let mut moved = Vec::new();
-        for (base, name, strain) in
-            [(Base::Trace, "strain_1", &strains[0]), (Base::TraceOfSquare, "strain_2", &strains[1])]
-        {
-            let excess = arena.symbol(name);
+        for (base, power, strain) in [(Base::Trace, 1, &strains[0]), (Base::TraceOfSquare, 2, &strains[1])] {
+            let excess = arena.symbol(Quantity::Strain.at([power]));
             shared.push((excess, strain.clone()));
             let mut value = Polynomial::atom(excess);
             value.add_term(Vec::new(), &n);
@@ -76,7 +75,7 @@ fn strain_traces(arena: &mut Arena, chart: &Chart) -> (Vec<(Expr, Polynomial)>, 
     for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
         excess[i][a] = Polynomial::atom(chart.phi.0[i][a]);
         if i == a {
-            let symbol = arena.symbol(&format!("excess_{}", i + 1));
+            let symbol = arena.symbol(Quantity::Excess.at([i + 1]));
             let mut difference = excess[i][a].clone();
             difference.add_term(Vec::new(), &Rational::MINUS_ONE);
             shared.push((symbol, difference));
@@ -85,7 +84,7 @@ fn strain_traces(arena: &mut Arena, chart: &Chart) -> (Vec<(Expr, Polynomial)>, 
     }
     let (mut trace, mut of_square) = (Polynomial::zero(), Polynomial::zero());
     for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
-        let symbol = arena.symbol(&format!("strain_{}{}", a.min(b) + 1, a.max(b) + 1));
+        let symbol = arena.symbol(Quantity::Strain.at([a.min(b) + 1, a.max(b) + 1]));
         if a <= b {
             let mut strain = green(&excess, a, b);
             strain.add_scaled(&excess[a][b], &Rational::ONE);

@@ -3,9 +3,10 @@
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::mechanics::symmetry::Side;
 use crate::mechanics::two_polar::{Lattice, Variables};
+use crate::symbol::Quantity;
 
 use super::Potential;
-use super::base::{Base, is_parameter};
+use super::base::Base;
 use super::rewriting::{about_undeformed, through_dilatation};
 use super::sums::Sums;
 
@@ -38,7 +39,8 @@ impl Potential {
 
     /// The potential on the principal axes, where it is isotropic: off-diagonal entries of tensors are zero there.
     pub fn on_axes(&self, arena: &mut Arena, lattice: &Lattice) -> OnAxes {
-        let stretches: Vec<Expr> = (1..=self.dim).map(|a| arena.symbol(&format!("stretch_{a}"))).collect();
+        let stretches: Vec<Expr> =
+            (1..=self.dim).map(|a| arena.symbol(Quantity::Stretches.at([a]))).collect();
         let diagonal = |arena: &mut Arena, expr: Expr| {
             let zeros = off_diagonal(arena, self.dim);
             let zero = arena.constant(Rational::ZERO);
@@ -57,8 +59,8 @@ impl Potential {
             let form = through_dilatation(arena, form);
             let form = sums.named(arena, form);
             let form = Polynomial::normal_form(arena, form).scaled(&base.weight(self.dim));
-            let moves = form.any_symbol(arena, &mut |s| !is_parameter(arena, s));
-            let symbol = arena.symbol(&base.slope_name());
+            let moves = form.any_symbol(arena, &mut |s| !arena.is_parameter(s));
+            let symbol = arena.symbol(base.slope());
             let slope = if moves { Polynomial::atom(symbol) } else { form.clone() };
             if moves {
                 axes.shared.push((symbol, form));
@@ -133,10 +135,10 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
     let (mut trace, mut of_square, mut of_cube) =
         (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
     for (a, stretch) in stretches.iter().enumerate() {
-        let inverse = arena.symbol(&format!("inverse_stretch_{}", a + 1));
+        let inverse = arena.symbol(Quantity::InverseStretch.at([a + 1]));
         // A symbol is not the number zero.
         list.push((inverse, Polynomial::atom(arena.reciprocal(*stretch))));
-        let square = arena.symbol(&format!("square_{}", a + 1));
+        let square = arena.symbol(Quantity::StretchSquared.at([a + 1]));
         list.push((square, Polynomial::term(vec![*stretch, *stretch], Rational::ONE)));
         trace.add_term(vec![square], &Rational::ONE);
         of_square.add_term(vec![square, square], &Rational::ONE);
@@ -149,7 +151,8 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
     list.push((Base::Trace.symbol(arena), trace));
     list.push((Base::TraceOfSquare.symbol(arena), of_square));
     list.push((Base::TraceOfCube.symbol(arena), of_cube));
-    let [q, d, inverse_d] = ["q", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
+    let [q, d, inverse_d] = [Quantity::MeanLogStretch, Quantity::Dilatation, Quantity::InverseDilatation]
+        .map(|quantity| arena.symbol(quantity));
     match lattice.variables {
         // U(n) has no potentials.
         Variables::LogStretches | Variables::Angles => {
@@ -164,7 +167,7 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
             list.push((inverse_d, Polynomial::atom(arena.apply(Function::Exp, opposite))));
         }
         Variables::Stretches => {
-            let det = arena.symbol("det");
+            let det = arena.symbol(Quantity::Determinant);
             list.push((det, Polynomial::term(stretches.to_vec(), Rational::ONE)));
             let root = arena.apply(if n == 2 { Function::Sqrt } else { Function::Cbrt }, det);
             list.push((d, Polynomial::atom(root)));
@@ -190,7 +193,7 @@ fn counted_from_undeformed(
         (Polynomial::constant(n.clone()), Polynomial::constant(n.clone()), Polynomial::constant(n));
     let mut list = Vec::new();
     for (a, place) in lattice.q.iter().enumerate() {
-        let strain = arena.symbol(&format!("strain_{}", a + 1));
+        let strain = arena.symbol(Quantity::Strain.at([a + 1]));
         let value = match lattice.variables {
             Variables::LogStretches | Variables::Angles => {
                 let twice = arena.scale(*place, &Rational::from(2));
@@ -200,7 +203,7 @@ fn counted_from_undeformed(
                 let one = arena.constant(Rational::ONE);
                 let factors = [arena.sub(*place, one), arena.add(*place, one)];
                 // The product stays one: its factors are exact near 1.
-                let names = ["less", "more"].map(|stem| arena.symbol(&format!("{stem}_{}", a + 1)));
+                let names = [Quantity::LessOne, Quantity::MoreOne].map(|of| arena.symbol(of.at([a + 1])));
                 for (name, factor) in names.iter().zip(factors) {
                     shared.push((*name, Polynomial::normal_form(arena, factor)));
                 }

@@ -1,6 +1,7 @@
 //! The functions of placement and position that potentials are written in.
 
 use crate::algebra::{Arena, Expr, Rational};
+use crate::symbol::{Quantity, Symbol};
 
 /// Functions of the placement and the position that potentials are written in, indices from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,20 +26,9 @@ pub enum Base {
     Position(usize),
 }
 
-/// Name of the symbol of `D = exp(q)`.
-pub const DILATATION: &str = "dilatation";
-
-/// Name of the symbol of the time.
-pub const TIME: &str = "t";
-
 /// The symbols `q_1, ..., q_n`.
 pub(super) fn log_stretches(arena: &mut Arena, n: usize) -> Vec<Expr> {
     (0..n).map(|a| Base::LogStretch(a).symbol(arena)).collect()
-}
-
-/// A parameter of the model: a field.
-pub(in crate::mechanics) fn is_parameter(arena: &Arena, symbol: Expr) -> bool {
-    arena.name(symbol).is_some_and(|name| name.starts_with("self."))
 }
 
 /// The directions of a derivative: the entries of an affine momentum.
@@ -68,21 +58,21 @@ impl Base {
 
     /// Its symbol in expressions.
     pub fn symbol(self, arena: &mut Arena) -> Expr {
-        arena.symbol(&self.name())
+        arena.symbol(self.quantity())
     }
 
-    /// The name of that symbol.
-    pub(super) fn name(self) -> String {
+    /// What that symbol stands for.
+    pub(super) fn quantity(self) -> Symbol {
         match self {
-            Self::MeanLogStretch => "q".to_owned(),
-            Self::LogStretch(a) => format!("q_{}", a + 1),
-            Self::Trace => "trace_1".to_owned(),
-            Self::TraceOfSquare => "trace_2".to_owned(),
-            Self::TraceOfCube => "trace_3".to_owned(),
-            Self::Green(a, b) => format!("green_{}{}", a.min(b) + 1, a.max(b) + 1),
-            Self::Finger(i, j) => format!("finger_{}{}", i.min(j) + 1, i.max(j) + 1),
-            Self::Placement(i, a) => format!("phi_{}{}", i + 1, a + 1),
-            Self::Position(i) => format!("x_{}", i + 1),
+            Self::MeanLogStretch => Quantity::MeanLogStretch.into(),
+            Self::LogStretch(a) => Quantity::LogStretches.at([a + 1]),
+            Self::Trace => Quantity::Trace.at([1]),
+            Self::TraceOfSquare => Quantity::Trace.at([2]),
+            Self::TraceOfCube => Quantity::Trace.at([3]),
+            Self::Green(a, b) => Quantity::Green.at([a.min(b) + 1, a.max(b) + 1]),
+            Self::Finger(i, j) => Quantity::Finger.at([i.min(j) + 1, i.max(j) + 1]),
+            Self::Placement(i, a) => Quantity::Placement.at([i + 1, a + 1]),
+            Self::Position(i) => Quantity::Position.at([i + 1]),
         }
     }
 
@@ -102,18 +92,18 @@ impl Base {
         along == Along::Placement && self.degree() != 0
     }
 
-    /// Name of the weighted slope.
-    pub(super) fn slope_name(self) -> String {
+    /// The symbol of the weighted slope.
+    pub(super) fn slope(self) -> Symbol {
         match self {
-            Self::MeanLogStretch => "pressure".to_owned(),
-            Self::LogStretch(a) => format!("tension_{}", a + 1),
-            Self::Trace => "stress_1".to_owned(),
-            Self::TraceOfSquare => "stress_2".to_owned(),
-            Self::TraceOfCube => "stress_3".to_owned(),
-            Self::Green(a, b) => format!("slope_green_{}{}", a + 1, b + 1),
-            Self::Finger(i, j) => format!("slope_finger_{}{}", i + 1, j + 1),
-            Self::Placement(i, a) => format!("slope_phi_{}{}", i + 1, a + 1),
-            Self::Position(i) => format!("slope_x_{}", i + 1),
+            Self::MeanLogStretch => Quantity::Pressure.into(),
+            Self::LogStretch(a) => Quantity::Tension.at([a + 1]),
+            Self::Trace => Quantity::Stress.at([1]),
+            Self::TraceOfSquare => Quantity::Stress.at([2]),
+            Self::TraceOfCube => Quantity::Stress.at([3]),
+            Self::Green(a, b) => Quantity::SlopeByGreen.at([a + 1, b + 1]),
+            Self::Finger(i, j) => Quantity::SlopeByFinger.at([i + 1, j + 1]),
+            Self::Placement(i, a) => Quantity::SlopeByPlacement.at([i + 1, a + 1]),
+            Self::Position(i) => Quantity::SlopeByPosition.at([i + 1]),
         }
     }
 }

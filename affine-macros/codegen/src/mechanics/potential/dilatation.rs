@@ -8,6 +8,7 @@ use super::rewriting::through_dilatation;
 use super::sums::Sums;
 use super::{Base, Potential};
 use crate::mechanics::separation::Slope;
+use crate::symbol::{Quantity, Symbol};
 
 impl Potential {
     /// `U_dil'(q)` where `U = U_dil(q) + U_sh(Psi)` and the closed form of its motion is known: the derivative along
@@ -27,17 +28,18 @@ impl Potential {
             }
         }
         let slope = arena.linear(&terms);
-        let others: Vec<String> = Base::all(self.dim).into_iter().map(Base::name).collect();
-        let kept = |name: &str| match name {
-            "inverse_dilatation" => Residue::sample("dilatation").recip(),
-            _ if name == "q" || !others.iter().any(|other| other == name) => Some(Residue::sample(name)),
-            _ => None,
+        let others: Vec<Symbol> = Base::all(self.dim).into_iter().map(Base::quantity).collect();
+        let sample = |symbol: &Symbol| Residue::sample(&symbol.to_string());
+        let kept = |symbol: &Symbol| match symbol.quantity() {
+            Some(Quantity::InverseDilatation) => sample(&Quantity::Dilatation.into()).recip(),
+            Some(Quantity::MeanLogStretch) => Some(sample(symbol)),
+            _ => (!others.contains(symbol)).then(|| sample(symbol)),
         };
         if depends_on(arena, slope, &kept) {
             return None;
         }
         let slope = Polynomial::normal_form(arena, slope);
-        let mut is_another = |symbol| arena.name(symbol).is_some_and(|name| kept(name).is_none());
+        let mut is_another = |symbol| arena.as_symbol(symbol).is_some_and(|symbol| kept(symbol).is_none());
         if slope.any_symbol(arena, &mut is_another) {
             return None;
         }
@@ -85,18 +87,18 @@ mod tests {
             Self(Arena::new(), Vec::new())
         }
 
-        fn plus(mut self, factors: &[(&str, i32)], weight: (i64, i64)) -> Self {
+        fn plus(mut self, factors: &[(Factor, i32)], weight: (i64, i64)) -> Self {
             let arena = &mut self.0;
-            let q = arena.symbol("q");
+            let q = arena.symbol(Quantity::MeanLogStretch);
             let factors: Vec<_> = factors
                 .iter()
-                .map(|(name, power)| match *name {
-                    "sinh q" => (arena.apply(Function::Sinh, q), *power),
-                    "exp q" => {
+                .map(|(factor, power)| match factor {
+                    Factor::Sinh => (arena.apply(Function::Sinh, q), *power),
+                    Factor::Exp => {
                         let argument = arena.scale(q, &Rational::from(i64::from(*power)));
                         (arena.apply(Function::Exp, argument), 1)
                     }
-                    name => (arena.symbol(name), *power),
+                    Factor::Symbol(symbol) => (arena.symbol(symbol.clone()), *power),
                 })
                 .collect();
             let product = arena.product(&factors).unwrap();
@@ -113,6 +115,20 @@ mod tests {
         }
     }
 
+    enum Factor {
+        Sinh,
+        Exp,
+        Symbol(Symbol),
+    }
+
+    fn base(base: Base) -> Factor {
+        Factor::Symbol(base.quantity())
+    }
+
+    fn kappa() -> Factor {
+        Factor::Symbol(Symbol::Field("kappa".to_owned()))
+    }
+
     fn hyperbolic(stiffness: Polynomial) -> Slope {
         Slope::Hyperbolic { stiffness, scale: Rational::ONE }
     }
@@ -124,40 +140,59 @@ mod tests {
     #[test]
     fn functions_of_q_are_taken_from_a_sum() {
         // kappa/2 sinh(q)^2 + 3/10 tr G: nothing of q is left.
-        let sum =
-            Sum::new().plus(&[("self.kappa", 1), ("sinh q", 2)], (1, 2)).plus(&[("trace_1", 1)], (3, 10));
+        let sum = Sum::new()
+            .plus(&[(kappa(), 1), (Factor::Sinh, 2)], (1, 2))
+            .plus(&[(base(Base::Trace), 1)], (3, 10));
         let (slope, rest) = sum.own().unwrap();
         assert!(matches!(slope, Slope::Hyperbolic { scale: Rational::ONE, .. }), "{slope:?}");
         assert_eq!(rest, 1);
         // 5 sinh(q)^2 + 3/10 exp(-2q): as much of both exponentials as is odd.
-        let sum = Sum::new().plus(&[("sinh q", 2)], (5, 1)).plus(&[("exp q", -2)], (3, 10));
+        let sum = Sum::new().plus(&[(Factor::Sinh, 2)], (5, 1)).plus(&[(Factor::Exp, -2)], (3, 10));
         assert_eq!(sum.own(), Some((hyperbolic(number(10)), 1)));
         // q^2 + x_1^2
-        let sum = Sum::new().plus(&[("q", 2)], (1, 1)).plus(&[("x_1", 2)], (1, 1));
+        let sum = Sum::new()
+            .plus(&[(base(Base::MeanLogStretch), 2)], (1, 1))
+            .plus(&[(base(Base::Position(0)), 2)], (1, 1));
         assert_eq!(sum.own(), Some((Slope::Linear(number(2)), 1)));
         // Single stretches.
-        let sum = Sum::new().plus(&[("q", 2)], (1, 1)).plus(&[("q_1", 2)], (1, 1));
+        let sum = Sum::new()
+            .plus(&[(base(Base::MeanLogStretch), 2)], (1, 1))
+            .plus(&[(base(Base::LogStretch(0)), 2)], (1, 1));
         assert_eq!(sum.own(), Some((Slope::Linear(number(2)), 1)));
     }
 
     #[test]
     fn the_stiffest_is_taken_and_what_binds() {
-        let trace = || Sum::new().plus(&[("trace_1", 1)], (1, 1));
-        let sum = trace().plus(&[("q", 2)], (3, 2)).plus(&[("sinh q", 2)], (5, 1));
+        let trace = || Sum::new().plus(&[(base(Base::Trace), 1)], (1, 1));
+        let sum = trace().plus(&[(base(Base::MeanLogStretch), 2)], (3, 2)).plus(&[(Factor::Sinh, 2)], (5, 1));
         assert_eq!(sum.own(), Some((hyperbolic(number(10)), 2)));
-        let sum = trace().plus(&[("q", 2)], (30, 1)).plus(&[("sinh q", 2)], (5, 1));
+        let sum =
+            trace().plus(&[(base(Base::MeanLogStretch), 2)], (30, 1)).plus(&[(Factor::Sinh, 2)], (5, 1));
         assert_eq!(sum.own(), Some((Slope::Linear(number(60)), 2)));
         // A field may be of any size.
-        let sum = trace().plus(&[("self.kappa", 1), ("q", 2)], (1, 2)).plus(&[("sinh q", 2)], (5, 1));
+        let sum = trace()
+            .plus(&[(kappa(), 1), (base(Base::MeanLogStretch), 2)], (1, 2))
+            .plus(&[(Factor::Sinh, 2)], (5, 1));
         assert!(matches!(sum.own(), Some((Slope::Linear(_), 2))));
         // What has no closed form, drives apart, changes in time or with anything else stays.
-        assert_eq!(trace().plus(&[("q", 1)], (-3, 1)).own(), None);
-        assert_eq!(trace().plus(&[("q", 2)], (-3, 1)).own(), None);
-        assert_eq!(trace().plus(&[("sinh q", 2)], (-1, 2)).own(), None);
-        assert_eq!(trace().plus(&[("q", 4)], (1, 1)).own(), None);
-        assert_eq!(trace().plus(&[("q", 2), ("t", 1)], (1, 1)).own(), None);
-        assert_eq!(trace().plus(&[("q", 2), ("x_1", 1)], (1, 1)).own(), None);
+        assert_eq!(trace().plus(&[(base(Base::MeanLogStretch), 1)], (-3, 1)).own(), None);
+        assert_eq!(trace().plus(&[(base(Base::MeanLogStretch), 2)], (-3, 1)).own(), None);
+        assert_eq!(trace().plus(&[(Factor::Sinh, 2)], (-1, 2)).own(), None);
+        assert_eq!(trace().plus(&[(base(Base::MeanLogStretch), 4)], (1, 1)).own(), None);
+        assert_eq!(
+            trace()
+                .plus(&[(base(Base::MeanLogStretch), 2), (Factor::Symbol(Quantity::Time.into()), 1)], (1, 1))
+                .own(),
+            None
+        );
+        assert_eq!(
+            trace().plus(&[(base(Base::MeanLogStretch), 2), (base(Base::Position(0)), 1)], (1, 1)).own(),
+            None
+        );
         // Alone, a function of q may do either.
-        assert_eq!(Sum::new().plus(&[("q", 2)], (-3, 1)).own(), Some((Slope::Linear(number(-6)), 0)));
+        assert_eq!(
+            Sum::new().plus(&[(base(Base::MeanLogStretch), 2)], (-3, 1)).own(),
+            Some((Slope::Linear(number(-6)), 0))
+        );
     }
 }

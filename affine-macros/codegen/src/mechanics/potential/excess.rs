@@ -2,10 +2,11 @@
 
 use crate::algebra::ring::{Ring, Square, adjugate};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::symbol::Quantity;
 
 /// The symbol of `tr(G/D^2) - n`.
 fn symbol(arena: &mut Arena) -> Expr {
-    arena.symbol("isochoric_excess")
+    arena.symbol(Quantity::IsochoricExcess)
 }
 
 /// `G/D^2` as a way of writing has it.
@@ -51,14 +52,14 @@ impl Isochoric {
         let mut deviator: Square<Polynomial> = vec![vec![Polynomial::zero(); n]; n];
         let mut square = Polynomial::zero();
         for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
-            let entry = arena.symbol(&format!("isochoric_deviator_{}{}", a.min(b) + 1, a.max(b) + 1));
+            let entry = arena.symbol(Quantity::IsochoricDeviator.at([a.min(b) + 1, a.max(b) + 1]));
             if a <= b {
                 list.push((entry, self.deviator[a][b].clone()));
             }
             deviator[a][b] = Polynomial::atom(entry);
             square.add_term(vec![entry, entry], &Rational::ONE);
         }
-        let of_square = arena.symbol("isochoric_deviator_squared");
+        let of_square = arena.symbol(Quantity::IsochoricDeviatorSquared);
         list.push((of_square, square));
         let one = arena.constant(Rational::ONE);
         let mut powers = vec![(one, Rational::ONE), (mean, Rational::ONE)];
@@ -80,5 +81,5 @@ impl Isochoric {
 
 /// The symbol of `tr(G/D^2)/n`.
 pub(super) fn mean_square(arena: &mut Arena) -> Expr {
-    arena.symbol("mean_square")
+    arena.symbol(Quantity::MeanSquare)
 }

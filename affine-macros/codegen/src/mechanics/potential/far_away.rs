@@ -3,10 +3,10 @@
 use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Function, Polynomial};
 use crate::mechanics::charts::Chart;
+use crate::symbol::Quantity;
 
 use super::Potential;
 use super::base::Base;
-use super::base::DILATATION;
 use super::rewriting::{exponential_of_dilatation, multiple_of_logarithm};
 use super::scaled::{collected, definitions, scaled_bases};
 use super::sums::{Sums, multiplied_out};
@@ -33,7 +33,7 @@ impl Potential {
         if !differs {
             return None;
         }
-        let d = arena.symbol(DILATATION);
+        let d = arena.symbol(Quantity::Dilatation);
         let energy = exponential_of_dilatation(arena, self.energy);
         let scaled = scaled_bases(arena, self.dim, d);
         let energy = arena.substitute(energy, &|symbol| {

@@ -10,6 +10,7 @@ use crate::mechanics::conserved::Candidate;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::group_point::GroupPoint;
 use crate::mechanics::symmetry::Side;
+use crate::symbol::{Quantity, Symbol};
 
 use super::base::{Along, Base};
 use super::principal::Principal;
@@ -76,24 +77,24 @@ impl Evidence {
 
 impl AtAPoint {
     fn new(arena: &Arena, n: usize, slopes: &[(Base, Expr)], point: &GroupPoint) -> Self {
-        let phi = table(n, |i, a| point.value(&format!("phi_{}{}", i + 1, a + 1)));
+        let phi = table(n, |i, a| point.value(&Quantity::Placement.at([i + 1, a + 1])));
         let (green, finger) = (table(n, |a, b| green(&phi, a, b)), table(n, |i, j| finger(&phi, i, j)));
-        let principal = Principal::on_unit_axes(n, |a, k| point.value(&format!("axis_{}{}", a + 1, k + 1)));
+        let principal = Principal::on_unit_axes(n, |a, k| point.value(&Quantity::Axis.at([a + 1, k + 1])));
         let squares = [product(&green, &green), product(&finger, &finger)];
         let tensors = Tensors { phi, green, finger, squares, cofactors: Vec::new(), principal };
         let mut known = tensors.values();
         for k in 1..=n {
-            let inverse = point.value(&format!("stretch_{k}")).recip();
+            let inverse = point.value(&Quantity::Stretches.at([k])).recip();
             let inverse = never_missing(inverse, "a random stretch is not zero", Residue::UNKNOWN);
-            known.insert(format!("inverse_stretch_{k}"), inverse);
+            known.insert(Quantity::InverseStretch.at([k]), inverse);
         }
-        let value = |name: &str| Some(known.get(name).copied().unwrap_or_else(|| point.value(name)));
+        let value = |symbol: &Symbol| Some(known.get(symbol).copied().unwrap_or_else(|| point.value(symbol)));
         let slopes: Vec<(Base, Residue)> = slopes
             .iter()
             .map(|(base, slope)| {
                 // What has no value is not taken for zero: nothing is conserved beside it.
                 let slope = evaluate(arena, *slope, &value);
-                let slope = slope.unwrap_or_else(|| point.value(&format!("slope of {}", base.name())));
+                let slope = slope.unwrap_or_else(|| point.random(format!("slope of {}", base.quantity())));
                 (*base, slope.mul(&Residue::from_rational(&base.weight(n))))
             })
             .collect();
@@ -114,7 +115,7 @@ impl AtAPoint {
             space: along(Along::Space),
             body: along(Along::Body),
             centre: (0..n).map(position).collect(),
-            orbital: table(n, |i, j| point.value(&format!("x_{}", i + 1)).mul(&position(j))),
+            orbital: table(n, |i, j| point.value(&Quantity::Position.at([i + 1])).mul(&position(j))),
         }
     }
 

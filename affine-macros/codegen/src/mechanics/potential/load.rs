@@ -4,9 +4,10 @@ use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::equations::Load;
+use crate::symbol::{Quantity, Symbol};
 
 use super::Potential;
-use super::base::{Along, Base, is_parameter};
+use super::base::{Along, Base};
 use super::excess::Isochoric;
 use super::principal;
 use super::pulled_back::PulledBack;
@@ -53,7 +54,7 @@ impl Potential {
         if chart.momentum == Momentum::Total {
             for (base, slope) in &slopes {
                 let Base::Position(b) = base else { continue };
-                let slope = draft.named(arena, &base.slope_name(), slope);
+                let slope = draft.named(arena, base.slope(), slope);
                 for (a, x) in chart.x.iter().enumerate() {
                     forces[a][*b].add_product(&slope, &Polynomial::atom(*x), &Rational::ONE);
                 }
@@ -90,7 +91,7 @@ impl Potential {
             let form = draft.means.prepared(arena, form, 0);
             let form = sums.named(arena, form);
             let power = draft.normal_form(arena, form);
-            draft.load.work = Some((arena.symbol("work"), power));
+            draft.load.work = Some((arena.symbol(Quantity::Work), power));
         }
         let slopes: Vec<(Base, Polynomial)> =
             named.into_iter().map(|(base, form)| (base, draft.normal_form(arena, form))).collect();
@@ -156,11 +157,16 @@ impl Draft<'_> {
     }
 
     /// A coefficient of a force: named where it moves, as it stands where it is of parameters alone.
-    pub(super) fn named(&mut self, arena: &mut Arena, name: &str, form: &Polynomial) -> Polynomial {
-        if !form.any_symbol(arena, &mut |s| !is_parameter(arena, s)) {
+    pub(super) fn named(
+        &mut self,
+        arena: &mut Arena,
+        symbol: impl Into<Symbol>,
+        form: &Polynomial,
+    ) -> Polynomial {
+        if !form.any_symbol(arena, &mut |s| !arena.is_parameter(s)) {
             return form.clone();
         }
-        let symbol = arena.symbol(name);
+        let symbol = arena.symbol(symbol);
         self.share(vec![(symbol, form.clone())]);
         Polynomial::atom(symbol)
     }
@@ -174,7 +180,7 @@ impl Draft<'_> {
             }
             _ => counted,
         };
-        self.named(arena, &base.slope_name(), &form)
+        self.named(arena, base.slope(), &form)
     }
 
     /// Takes `x . Ct x` for the entries of `Ct`, where slopes, sums and power have them nowhere else.
@@ -190,7 +196,7 @@ impl Draft<'_> {
         let Some(mut found) = PulledBack::of(arena, self.chart, slopes) else { return };
         slopes.retain(|(base, _)| !matches!(base, Base::Finger(..)));
         let slope = found.through(arena, &found.slope);
-        found.slope = self.named(arena, "slope_pulled_back", &slope);
+        found.slope = self.named(arena, Quantity::SlopeByPulledBack, &slope);
         let slopes = slopes.iter_mut().map(|(_, slope)| slope);
         let work = self.load.work.iter_mut().map(|(_, power)| power);
         for form in slopes.chain(sums.iter_mut().map(|(_, sum)| sum)).chain(work) {
@@ -235,7 +241,7 @@ impl Draft<'_> {
             if !body && *j != i {
                 continue;
             }
-            let slope = self.named(arena, &base.slope_name(), slope);
+            let slope = self.named(arena, base.slope(), slope);
             match body {
                 true => force.add_product(&slope, &Polynomial::atom(self.chart.phi.0[*j][i]), &Rational::ONE),
                 false => force.add_scaled(&slope, &Rational::ONE),
@@ -248,8 +254,8 @@ impl Draft<'_> {
     fn finished(mut self, arena: &mut Arena) -> Load {
         self.means.settle(arena, &mut self.load);
         let uses_root = {
-            let root =
-                ["dilatation", "inverse_dilatation", "excess_dilatation"].map(|name| arena.symbol(name));
+            let root = [Quantity::Dilatation, Quantity::InverseDilatation, Quantity::ExcessDilatation]
+                .map(|quantity| arena.symbol(quantity));
             let mut is_root = |symbol: Expr| root.contains(&symbol);
             let shared = self.load.shared.iter().map(|(_, form)| form);
             shared
@@ -272,7 +278,7 @@ impl Draft<'_> {
         let [left, right] = pulled_back.direction(self.along);
         for (b, entry) in right.iter().enumerate() {
             let weighted = pulled_back.slope.mul(&Polynomial::atom(*entry));
-            let weighted = self.named(arena, &format!("weighted_{}", b + 1), &weighted);
+            let weighted = self.named(arena, Quantity::Weighted.at([b + 1]), &weighted);
             for (row, entry) in forces.iter_mut().zip(left) {
                 row[b].add_product(&weighted, &Polynomial::atom(*entry), &Rational::ONE);
             }

@@ -2,8 +2,9 @@
 
 use crate::algebra::kernel::{Callee, Group};
 use crate::algebra::ring::{Ring, Square, table};
-use crate::algebra::{Arena, Expr, Function, Kernel, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Function, Kernel, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
+use crate::symbol::Quantity;
 
 use super::Base;
 use super::base::Along;
@@ -22,13 +23,8 @@ pub(super) struct Principal<R> {
 impl Principal<Polynomial> {
     /// Through what the kernel returns: `R`, and `W = phi R` with `L_k = W_k/Q_k`.
     pub(super) fn new(arena: &mut Arena, n: usize) -> Self {
-        let axis = table(n, |a, k| format!("axis_{}{}", a + 1, k + 1));
-        let stretched = table(n, |i, k| format!("stretched_{}{}", i + 1, k + 1));
-        let mut symbol = |name: &String| arena.symbol(name);
-        let mut symbols = |names: Square<String>| -> Square<Expr> {
-            names.iter().map(|row| row.iter().map(&mut symbol).collect()).collect()
-        };
-        let (axis, stretched) = (symbols(axis), symbols(stretched));
+        let [axis, stretched] =
+            [Quantity::Axis, Quantity::StretchedAxis].map(|of| Matrix::symbols(arena, of, n).0);
         let product = |factors: Vec<Expr>| Polynomial::term(factors, Rational::ONE);
         let each = |entry: &dyn Fn(usize, usize, usize) -> Vec<Expr>| {
             (0..n).map(|k| table(n, |a, b| product(entry(k, a, b)))).collect()
@@ -73,11 +69,8 @@ impl<R: Ring> Principal<R> {
 /// The kernel, and what else follows from it: `1/Q_k` and `q_k = ln Q_k`, or `q_k` as it `counts` from the undeformed state.
 pub(super) fn computed(arena: &mut Arena, chart: &Chart, counts: bool) -> (Kernel, Vec<(Expr, Polynomial)>) {
     let n = chart.dim;
-    let mut rows = |stem: &str| -> Square<Expr> {
-        let mut entry = |i: usize, k: usize| arena.symbol(&format!("{stem}_{}{}", i + 1, k + 1));
-        (0..n).map(|i| (0..n).map(|k| entry(i, k)).collect()).collect()
-    };
-    let (stretched, axes) = (rows("stretched"), rows("axis"));
+    let [stretched, axes] =
+        [Quantity::StretchedAxis, Quantity::Axis].map(|of| Matrix::symbols(arena, of, n).0);
     let stretches: Vec<Expr> = (0..n).map(|k| stretch(arena, k)).collect();
     let logarithms: Vec<Expr> = (0..n).map(|k| Base::LogStretch(k).symbol(arena)).collect();
     let mut results = vec![Group::Vector(stretches.clone()), Group::Matrix(stretched), Group::Matrix(axes)];
@@ -103,12 +96,12 @@ pub(super) fn computed(arena: &mut Arena, chart: &Chart, counts: bool) -> (Kerne
 
 /// `Q_k`
 pub(super) fn stretch(arena: &mut Arena, k: usize) -> Expr {
-    arena.symbol(&format!("stretch_{}", k + 1))
+    arena.symbol(Quantity::Stretches.at([k + 1]))
 }
 
 /// `1/Q_k`
 pub(super) fn inverse_stretch(arena: &mut Arena, k: usize) -> Expr {
-    arena.symbol(&format!("inverse_stretch_{}", k + 1))
+    arena.symbol(Quantity::InverseStretch.at([k + 1]))
 }
 
 /// `1/Q_k^2`

@@ -3,6 +3,7 @@
 
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
+use crate::symbol::Quantity;
 
 use super::base::{Along, Base};
 
@@ -36,11 +37,10 @@ impl PulledBack {
                 return None;
             }
         }
-        let mut vector =
-            |stem: &str| (1..=n).map(|k| arena.symbol(&format!("{stem}_{k}"))).collect::<Vec<_>>();
-        let (y, pushed) = (vector("pulled_back"), vector("pushed_forward"));
+        let mut vector = |of: Quantity| (1..=n).map(|k| arena.symbol(of.at([k]))).collect::<Vec<_>>();
+        let (y, pushed) = (vector(Quantity::PulledBack), vector(Quantity::PushedForward));
         let slope = slope.scaled(&Rational::from(2));
-        Some(Self { x, y, pushed, square: arena.symbol("pulled_back_square"), slope })
+        Some(Self { x, y, pushed, square: arena.symbol(Quantity::PulledBackSquare), slope })
     }
 
     /// The polynomial through these quantities instead of the entries of `Ct`.

@@ -4,20 +4,25 @@ use crate::algebra::arena::Node;
 use crate::algebra::fault::never_missing;
 use crate::algebra::rational::exponent;
 use crate::algebra::{Arena, Expr, Function, Rational};
+use crate::symbol::{Quantity, Symbol};
 
-use super::base::DILATATION;
-
-/// A logarithm `q` or `q_a`, as the name of its exponential.
-fn exponential(arena: &Arena, symbol: Expr) -> Option<String> {
-    match arena.name(symbol)? {
-        "q" => Some("dilatation".to_owned()),
-        name => Some(format!("stretch_{}", name.strip_prefix("q_")?)),
+/// Of a logarithm `q` or `q_a` the exponential and its reciprocal.
+fn exponentials(arena: &Arena, symbol: Expr) -> Option<[Symbol; 2]> {
+    match arena.as_symbol(symbol)? {
+        Symbol::Component(Quantity::MeanLogStretch, _) => {
+            Some([Quantity::Dilatation, Quantity::InverseDilatation].map(Symbol::from))
+        }
+        Symbol::Component(Quantity::LogStretches, axis) => {
+            let on_axis = |quantity| Symbol::Component(quantity, axis.clone());
+            Some([Quantity::Stretches, Quantity::InverseStretch].map(on_axis))
+        }
+        _ => None,
     }
 }
 
 /// The logarithm and the integer `k` of `k q` or `k q_a`.
 pub(super) fn multiple_of_logarithm(arena: &Arena, argument: Expr) -> Option<(Expr, i32)> {
-    let is_logarithm = |e: Expr| exponential(arena, e).is_some();
+    let is_logarithm = |e: Expr| exponentials(arena, e).is_some();
     if is_logarithm(argument) {
         return Some((argument, 1));
     }
@@ -33,8 +38,9 @@ pub(super) fn multiple_of_logarithm(arena: &Arena, argument: Expr) -> Option<(Ex
 /// root instead of a logarithm and an exponential each; those of `q_a` as powers of `Q_a` and `1/Q_a`.
 pub(super) fn through_dilatation(arena: &mut Arena, expr: Expr) -> Expr {
     let power = |arena: &mut Arena, q: Expr, k: i32| {
-        let name = never_missing(exponential(arena, q), "only logarithms have multiples", String::new());
-        let base = arena.symbol(&if k > 0 { name } else { format!("inverse_{name}") });
+        let none = || [Quantity::Dilatation, Quantity::InverseDilatation].map(Symbol::from);
+        let [up, down] = never_missing(exponentials(arena, q), "only logarithms have multiples", none());
+        let base = arena.symbol(if k > 0 { up } else { down });
         arena.power(base, exponent(k.unsigned_abs() as usize))
     };
     rewritten(arena, expr, &|arena, function, argument, exponent| {
@@ -55,8 +61,8 @@ pub(super) fn through_dilatation(arena: &mut Arena, expr: Expr) -> Expr {
 
 /// `exp(k q)` as a power of `D`, negative ones too; functions of `q_a` as they stand.
 pub(super) fn exponential_of_dilatation(arena: &mut Arena, expr: Expr) -> Expr {
-    let mean = arena.symbol("q");
-    let d = arena.symbol(DILATATION);
+    let mean = arena.symbol(Quantity::MeanLogStretch);
+    let d = arena.symbol(Quantity::Dilatation);
     rewritten(arena, expr, &|arena, function, argument, exponent| {
         let (q, k) = multiple_of_logarithm(arena, argument)?;
         if q != mean || function != Function::Exp {

@@ -5,9 +5,10 @@ use crate::algebra::arena::Node;
 use crate::algebra::ring::Square;
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
+use crate::symbol::Quantity;
 
 use super::base::Base;
-use super::tensors::{definitions_of_square, finger, green, squares};
+use super::tensors::{UNIT_SQUARES, definitions_of_square, finger, green, squares};
 
 impl Base {
     /// The power of `D` in it.
@@ -23,9 +24,14 @@ impl Base {
 
     /// The symbol of the same function of `Psi`.
     pub(super) fn unit(self, arena: &mut Arena) -> Expr {
-        let symbol = self.symbol(arena);
-        let name = format!("unit_{}", arena.symbol_name(symbol));
-        arena.symbol(&name)
+        let (unit, own) = match self {
+            Self::Placement(..) => (Quantity::UnitPlacement, self.quantity()),
+            Self::Green(..) => (Quantity::UnitGreen, self.quantity()),
+            Self::Finger(..) => (Quantity::UnitFinger, self.quantity()),
+            Self::Trace | Self::TraceOfSquare | Self::TraceOfCube => (Quantity::UnitTrace, self.quantity()),
+            Self::MeanLogStretch | Self::LogStretch(_) | Self::Position(_) => return self.symbol(arena),
+        };
+        arena.symbol(own.of(unit))
     }
 }
 
@@ -120,7 +126,7 @@ pub(super) fn definitions(arena: &mut Arena, chart: &Chart, inverse: Expr) -> Ve
     }
     let psi: Vec<Vec<Polynomial>> =
         psi.0.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
-    let squares = squares(arena, n, "unit_");
+    let squares = squares(arena, n, UNIT_SQUARES);
     for (base, square) in [Base::Green as fn(usize, usize) -> Base, Base::Finger].into_iter().zip(&squares) {
         let tensor: Square<Polynomial> = {
             let mut symbol = |a, b| Polynomial::atom(base(a, b).unit(arena));

@@ -2,12 +2,13 @@
 
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
+use crate::symbol::Quantity;
 
 use super::Base;
 
 /// The symbol of `I2`.
 pub(super) fn symbol(arena: &mut Arena) -> Expr {
-    arena.symbol("second_invariant")
+    arena.symbol(Quantity::SecondInvariant)
 }
 
 /// The polynomial with `2 I2` for `(tr G)^2 - tr G^2`, wherever that stands in it with one factor; `None` where it does not.

@@ -6,6 +6,7 @@
 use crate::algebra::ring::{Square, adjugate};
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
+use crate::symbol::{Quantity, Symbol};
 
 use super::Base;
 use super::principal;
@@ -38,11 +39,16 @@ impl Strains {
     pub(super) fn new(arena: &mut Arena, chart: &Chart, volume: Volume) -> Self {
         let n = chart.dim;
         let mut diagonal =
-            |stem: &str| -> Vec<Expr> { (1..=n).map(|a| arena.symbol(&format!("{stem}_{a}"))).collect() };
-        let [excess, green, finger, asymmetry, cofactor_excess] =
-            ["excess", "strain_on_axis", "spatial_strain_on_axis", "cofactor_difference", "cofactor_excess"]
-                .map(&mut diagonal);
-        let cofactors = Matrix::symbols(arena, "cofactor", n).0;
+            |of: Quantity| -> Vec<Expr> { (1..=n).map(|a| arena.symbol(of.at([a]))).collect() };
+        let [excess, green, finger, asymmetry, cofactor_excess] = [
+            Quantity::Excess,
+            Quantity::AxialStrain,
+            Quantity::SpatialAxialStrain,
+            Quantity::CofactorDifference,
+            Quantity::CofactorExcess,
+        ]
+        .map(&mut diagonal);
+        let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n).0;
         Self {
             n,
             phi: chart.placement(),
@@ -85,24 +91,25 @@ impl Strains {
             }
         }
         let [first, of_square, minors] =
-            ["strain_1", "strain_2", "strain_minors"].map(|name| arena.symbol(name));
+            [Quantity::Strain.at([1]), Quantity::Strain.at([2]), Quantity::StrainMinors.into()]
+                .map(|quantity| arena.symbol(quantity));
         let n = Rational::whole(self.n);
         list.push((Base::Trace.symbol(arena), Counted::from(n.clone(), atom(first))));
         list.push((Base::TraceOfSquare.symbol(arena), Counted::from(n, atom(of_square))));
         let nth = Rational::one_over(self.n);
         list.push((
-            arena.symbol("mean_square_stretch"),
+            arena.symbol(Quantity::MeanSquareStretch),
             Counted::from(1, Polynomial::term(vec![first], nth)),
         ));
         for small in self.deviator(arena).concat().iter().flat_map(Polynomial::atoms) {
             list.push((*small, Counted::vanishing(atom(*small))));
         }
-        let squared = arena.symbol("deviator_squared");
+        let squared = arena.symbol(Quantity::DeviatorSquared);
         list.push((squared, Counted::vanishing(atom(squared))));
         let mut second = atom(minors);
         second.add_term(vec![first], &Rational::whole(self.n - 1));
         let minors = Rational::whole(self.n * (self.n - 1) / 2);
-        list.push((arena.symbol("second_invariant"), Counted::from(minors, second)));
+        list.push((arena.symbol(Quantity::SecondInvariant), Counted::from(minors, second)));
         for k in 0..self.n {
             let q = Base::LogStretch(k).symbol(arena);
             list.push((q, Counted::vanishing(atom(q))));
@@ -115,7 +122,8 @@ impl Strains {
         let q = Base::MeanLogStretch.symbol(arena);
         list.push((q, Counted::vanishing(atom(q))));
         let Volume { det, inverse_det, d, inverse_d, .. } = self.volume;
-        let [excess_det, excess_d] = ["excess_det", "excess_dilatation"].map(|name| arena.symbol(name));
+        let [excess_det, excess_d] =
+            [Quantity::ExcessDeterminant, Quantity::ExcessDilatation].map(|quantity| arena.symbol(quantity));
         let minus = Rational::MINUS_ONE;
         list.push((det, Counted::from(1, atom(excess_det))));
         list.push((
@@ -159,7 +167,7 @@ impl Strains {
             let column = (self.green[a], Base::Green(a, a), squares(&|i| self.phi[i][a].clone()));
             let row = (self.finger[a], Base::Finger(a, a), squares(&|i| self.phi[a][i].clone()));
             for (symbol, base, beside) in [column, row] {
-                let shared = arena.symbol(&format!("beside_{}", base.name()));
+                let shared = arena.symbol(beside_diagonal(base));
                 list.push((shared, beside));
                 let with = |of: &Polynomial| {
                     let mut sum = of.clone();
@@ -175,7 +183,8 @@ impl Strains {
     /// Traces, of `G` or of `Ct`.
     fn invariants(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
         let [first, of_square, minors] =
-            ["strain_1", "strain_2", "strain_minors"].map(|name| arena.symbol(name));
+            [Quantity::Strain.at([1]), Quantity::Strain.at([2]), Quantity::StrainMinors.into()]
+                .map(|quantity| arena.symbol(quantity));
         let (mut sum, mut squares, mut products) =
             (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
         let strain = if self.spatial { &self.finger } else { &self.green };
@@ -203,7 +212,8 @@ impl Strains {
             list.push((self.cofactor_excess[a], self.cofactor_excess(a)));
         }
         let [excess, excess_d, beside] =
-            ["excess_det", "excess_dilatation", "beside_det"].map(|name| arena.symbol(name));
+            [Quantity::ExcessDeterminant, Quantity::ExcessDilatation, Quantity::BesideDeterminant]
+                .map(|quantity| arena.symbol(quantity));
         let adjugate = adjugate(&self.phi);
         let cofactor = |b: usize| match self.canonical {
             true => Polynomial::atom(self.cofactors[0][b]),
@@ -274,16 +284,15 @@ impl Strains {
     pub(super) fn times_inverse(&self, arena: &mut Arena) -> (Square<Polynomial>, Vec<(Expr, Polynomial)>) {
         let n = self.n;
         let base: fn(usize, usize) -> Base = if self.spatial { Base::Finger } else { Base::Green };
-        let mut symbols = |stem: &str| -> Square<Expr> {
-            let mut entry =
-                |a: usize, b: usize| arena.symbol(&format!("{stem}_{}{}", a.min(b) + 1, a.max(b) + 1));
+        let mut symbols = |of: Quantity| -> Square<Expr> {
+            let mut entry = |a: usize, b: usize| arena.symbol(of.at([a.min(b) + 1, a.max(b) + 1]));
             (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect()
         };
-        let (inverses, products) = (symbols("inverse_tensor"), symbols("inverse_strain"));
+        let (inverses, products) = (symbols(Quantity::InverseTensor), symbols(Quantity::InverseStrain));
         let mut entry = |a: usize, b: usize| Polynomial::atom(base(a, b).symbol(arena));
         let tensor: Square<Polynomial> = (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect();
         let adjugate = adjugate(&tensor);
-        let over = arena.symbol("inverse_det_squared");
+        let over = arena.symbol(Quantity::InverseDeterminantSquared);
         let mut list = vec![(over, Polynomial::term(vec![self.volume.inverse_det; 2], Rational::ONE))];
         for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
             list.push((inverses[a][b], adjugate[a][b].mul(&Polynomial::atom(over))));
@@ -312,7 +321,7 @@ impl Strains {
     /// The deviator of `G`, or of `Ct` where the chart reads that.
     pub(super) fn deviator(&self, arena: &mut Arena) -> Square<Polynomial> {
         let mut entry =
-            |a: usize, b: usize| arena.symbol(&format!("deviator_{}{}", a.min(b) + 1, a.max(b) + 1));
+            |a: usize, b: usize| arena.symbol(Quantity::Deviator.at([a.min(b) + 1, a.max(b) + 1]));
         (0..self.n).map(|a| (0..self.n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
     }
 
@@ -324,8 +333,8 @@ impl Strains {
         let mut diagonal = vec![Polynomial::zero(); n];
         for a in 0..n - 1 {
             let b = a + 1;
-            let mut symbol = |stem: &str| arena.symbol(&format!("{stem}_{}{}", a + 1, b + 1));
-            let [sum, of_squares] = ["phi_sum", "square_difference"].map(&mut symbol);
+            let [sum, of_squares] = [Quantity::PlacementSum, Quantity::SquareDifference]
+                .map(|of| arena.symbol(of.at([a + 1, b + 1])));
             let (difference, _) = difference(arena, a, b);
             let combined = |sign: Rational| {
                 let mut value = self.phi[a][a].clone();
@@ -334,7 +343,7 @@ impl Strains {
             };
             let mut squares = Polynomial::term(vec![difference, sum], Rational::ONE);
             for (index, sign) in [(a, Rational::ONE), (b, Rational::MINUS_ONE)] {
-                let beside = arena.symbol(&format!("beside_{}", base(index, index).name()));
+                let beside = arena.symbol(beside_diagonal(base(index, index)));
                 squares.add_term(vec![beside], &sign);
             }
             list.extend([
@@ -356,9 +365,9 @@ impl Strains {
             let symbol = symbols[a][b].terms().next().and_then(|(monomial, _)| monomial.first().copied());
             list.extend(symbol.filter(|_| a <= b).map(|symbol| (symbol, entry)));
         }
-        list.push((arena.symbol("deviator_squared"), square));
+        list.push((arena.symbol(Quantity::DeviatorSquared), square));
         let mean = Polynomial::term(vec![Base::Trace.symbol(arena)], part(1));
-        list.push((arena.symbol("mean_square_stretch"), mean));
+        list.push((arena.symbol(Quantity::MeanSquareStretch), mean));
     }
 
     /// The polynomial with invariants through the mean and the deviator: those of dilatations cancel exactly.
@@ -366,7 +375,8 @@ impl Strains {
         let n = Rational::whole(self.n);
         let minors = Rational::whole(self.n * (self.n - 1) / 2);
         let [mean, square, second] =
-            ["mean_square_stretch", "deviator_squared", "second_invariant"].map(|name| arena.symbol(name));
+            [Quantity::MeanSquareStretch, Quantity::DeviatorSquared, Quantity::SecondInvariant]
+                .map(|quantity| arena.symbol(quantity));
         let sum = |of_mean: Rational, of_square: Rational| {
             let mut sum = Polynomial::term(vec![mean, mean], of_mean);
             sum.add_term(vec![square], &of_square);
@@ -385,8 +395,17 @@ impl Strains {
 
 /// The symbol of the difference of two neighbours on the diagonal of `phi`, and its sign.
 fn difference(arena: &mut Arena, a: usize, b: usize) -> (Expr, Rational) {
-    let symbol = arena.symbol(&format!("phi_difference_{}{}", a.min(b) + 1, a.max(b) + 1));
+    let symbol = arena.symbol(Quantity::PlacementDifference.at([a.min(b) + 1, a.max(b) + 1]));
     (symbol, if a < b { Rational::ONE } else { Rational::MINUS_ONE })
+}
+
+/// The symbol of the part of a diagonal entry that has no diagonal entry of `phi`.
+fn beside_diagonal(base: Base) -> Symbol {
+    base.quantity().of(if matches!(base, Base::Finger(..)) {
+        Quantity::BesideFinger
+    } else {
+        Quantity::BesideGreen
+    })
 }
 
 fn plus(mut of: Polynomial, number: i64) -> Polynomial {

@@ -3,6 +3,7 @@
 
 use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::symbol::Quantity;
 
 /// Sums with the symbols that stand for them.
 #[derive(Default)]
@@ -96,7 +97,7 @@ impl Sums {
         if !raised.contains(&expr) || !matches!(arena.node(rebuilt), Node::Sum(..)) {
             return rebuilt;
         }
-        let symbol = arena.symbol(&format!("raised_{}", self.known.len() + 1));
+        let symbol = arena.symbol(Quantity::Raised.at([self.known.len() + 1]));
         self.known.push((symbol, rebuilt));
         symbol
     }

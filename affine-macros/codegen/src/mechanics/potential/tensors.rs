@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use crate::algebra::ring::{Ring, Square, adjugate};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
+use crate::symbol::{Quantity, Symbol};
 
 use super::base::{Along, Base};
 use super::principal::Principal;
@@ -23,8 +24,8 @@ pub(super) struct Tensors<R> {
 }
 
 impl<R: Ring> Tensors<R> {
-    /// The values of tensors and traces by the names of their symbols.
-    pub(super) fn values(&self) -> HashMap<String, R> {
+    /// The values of tensors and traces by their symbols.
+    pub(super) fn values(&self) -> HashMap<Symbol, R> {
         let n = self.phi.len();
         let mut values = HashMap::new();
         let (mut trace, mut of_square, mut of_cube) = (R::zero(), R::zero(), R::zero());
@@ -34,11 +35,11 @@ impl<R: Ring> Tensors<R> {
             if a == b {
                 trace.plus(&self.green[a][b], &Rational::ONE);
             }
-            values.insert(Base::Green(a, b).name(), self.green[a][b].clone());
-            values.insert(Base::Finger(a, b).name(), self.finger[a][b].clone());
+            values.insert(Base::Green(a, b).quantity(), self.green[a][b].clone());
+            values.insert(Base::Finger(a, b).quantity(), self.finger[a][b].clone());
         }
-        values.extend([(Base::Trace.name(), trace), (Base::TraceOfSquare.name(), of_square)]);
-        values.insert(Base::TraceOfCube.name(), of_cube);
+        values.extend([(Base::Trace.quantity(), trace), (Base::TraceOfSquare.quantity(), of_square)]);
+        values.insert(Base::TraceOfCube.quantity(), of_cube);
         values
     }
 }
@@ -56,7 +57,7 @@ pub(super) fn definitions(arena: &mut Arena, n: usize, chart: &Chart) -> Vec<(Ex
         let base = if spatial { Base::Finger(a, b) } else { Base::Green(a, b) };
         Polynomial::atom(base.symbol(arena))
     };
-    let squares = squares(arena, n, "");
+    let squares = squares(arena, n, SQUARES);
     for (base, of) in [(Base::Green as fn(usize, usize) -> Base, 0), (Base::Finger, 1)] {
         let tensor: Square<Polynomial> = {
             let mut symbol = |a, b| Polynomial::atom(base(a, b).symbol(arena));
@@ -80,11 +81,16 @@ pub(super) fn definitions(arena: &mut Arena, n: usize, chart: &Chart) -> Vec<(Ex
     list
 }
 
-/// The entries of `G^2` and `Ct^2` as symbols, of the tensors of a kind.
-pub(super) fn squares(arena: &mut Arena, n: usize, kind: &str) -> [Square<Polynomial>; 2] {
-    ["green_square", "finger_square"].map(|stem| {
-        let mut entry =
-            |a: usize, b: usize| arena.symbol(&format!("{kind}{stem}_{}{}", a.min(b) + 1, a.max(b) + 1));
+/// `G^2` and `Ct^2`.
+pub(super) const SQUARES: [Quantity; 2] = [Quantity::GreenSquare, Quantity::FingerSquare];
+
+/// Those of `Psi`.
+pub(super) const UNIT_SQUARES: [Quantity; 2] = [Quantity::UnitGreenSquare, Quantity::UnitFingerSquare];
+
+/// The entries of symmetric matrices as symbols.
+pub(super) fn squares(arena: &mut Arena, n: usize, of: [Quantity; 2]) -> [Square<Polynomial>; 2] {
+    of.map(|square| {
+        let mut entry = |a: usize, b: usize| arena.symbol(square.at([a.min(b) + 1, a.max(b) + 1]));
         (0..n).map(|a| (0..n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
     })
 }
@@ -175,7 +181,7 @@ fn entry_of_product<R: Ring>(left: &Square<R>, right: &Square<R>, a: usize, b: u
 
 /// The cofactors `d(det phi)/dphi_iA`.
 pub(super) fn cofactors(arena: &mut Arena, chart: &Chart) -> Vec<(Expr, Polynomial)> {
-    let symbols = Matrix::symbols(arena, "cofactor", chart.dim).transpose();
+    let symbols = Matrix::symbols(arena, Quantity::Cofactor, chart.dim).transpose();
     symbols.0.concat().into_iter().zip(adjugate(&chart.placement()).concat()).collect()
 }
 

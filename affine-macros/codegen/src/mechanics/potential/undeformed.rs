@@ -214,7 +214,7 @@ impl Undeformed {
         let mut values: HashMap<Expr, Polynomial> = HashMap::new();
         for atom in atoms {
             let counted = self.atom(arena, atom);
-            if arena.name(atom).is_none() && counted.vanishes() && !counted.is_constant() {
+            if arena.as_symbol(atom).is_none() && counted.vanishes() && !counted.is_constant() {
                 values.insert(atom, counted.change);
             }
         }

@@ -7,6 +7,7 @@ use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 
 use crate::algebra::ring::adjugate;
 use crate::mechanics::charts::{Chart, Momentum};
+use crate::symbol::Quantity;
 
 use super::Base;
 use super::scaled::collected;
@@ -23,8 +24,13 @@ pub(super) struct Volume {
 
 impl Volume {
     pub(super) fn new(arena: &mut Arena, n: usize) -> Self {
-        let [det, inverse_det, d, inverse_d] =
-            ["det", "inverse_det", "dilatation", "inverse_dilatation"].map(|name| arena.symbol(name));
+        let [det, inverse_det, d, inverse_d] = [
+            Quantity::Determinant,
+            Quantity::InverseDeterminant,
+            Quantity::Dilatation,
+            Quantity::InverseDilatation,
+        ]
+        .map(|quantity| arena.symbol(quantity));
         Self { n: exponent(n), det, inverse_det, d, inverse_d }
     }
 
@@ -149,7 +155,7 @@ impl Volume {
         // The forces on Pi contain the cofactors themselves; elsewhere the determinant alone is needed.
         let first_row: Vec<Polynomial> = match chart.momentum {
             Momentum::Canonical => {
-                let cofactors = Matrix::symbols(arena, "cofactor", n);
+                let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n);
                 cofactors.0[0].iter().map(|cofactor| Polynomial::atom(*cofactor)).collect()
             }
             _ => adjugate(&chart.placement()).iter().map(|row| row[0].clone()).collect(),

@@ -5,9 +5,10 @@ use crate::algebra::ring::{Square, table};
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::equations::Load;
+use crate::symbol::Quantity;
 
 use super::Potential;
-use super::base::{Base, is_parameter};
+use super::base::Base;
 use super::excess::{Isochoric, mean_square};
 use super::principal::Principal;
 use super::rewriting::through_dilatation;
@@ -15,7 +16,7 @@ use super::scaled::{self, scaled_bases};
 use super::second;
 use super::strain::Strains;
 use super::sums::Sums;
-use super::tensors::{Tensors, cofactors, definitions, squares};
+use super::tensors::{SQUARES, Tensors, UNIT_SQUARES, cofactors, definitions, squares};
 use super::undeformed::{Counted, Undeformed};
 use super::volume::Volume;
 
@@ -160,17 +161,14 @@ struct Steepness {
 impl Steepness {
     /// With the terms of the sums that stand in the product.
     fn of(arena: &Arena, monomial: &[Expr], sums: &[(Expr, Vec<Self>)]) -> Self {
-        let is_tensor =
-            |name: &str| ["trace_", "green_", "finger_", "phi_"].iter().any(|stem| name.starts_with(stem));
         let mut all = Self::default();
         for atom in monomial {
-            // By name: a symbol that is not needed would come into being.
-            match arena.name(*atom) {
-                Some("dilatation") => all.up += 1,
-                Some("inverse_dilatation") => all.down += 1,
+            match arena.quantity(*atom) {
+                Some(Quantity::Dilatation) => all.up += 1,
+                Some(Quantity::InverseDilatation) => all.down += 1,
                 _ => {}
             }
-            let mut found = |symbol: Expr| arena.name(symbol).is_some_and(is_tensor);
+            let mut found = |symbol: Expr| arena.quantity(symbol).is_some_and(Quantity::is_tensor);
             all.tensors |= arena.any_symbol(*atom, &mut found);
             let Some((_, terms)) = sums.iter().find(|(symbol, _)| symbol == atom) else { continue };
             let most = |power: fn(&Self) -> usize| terms.iter().map(power).max().unwrap_or(0);
@@ -236,7 +234,9 @@ impl Means {
         let Volume { det, inverse_det, d, inverse_d, .. } = self.volume();
         let known = [det, inverse_det, d, inverse_d];
         !form.any_symbol(arena, &mut |s| {
-            !(known.contains(&s) || arena.name(s) == Some("q") || is_parameter(arena, s))
+            !(known.contains(&s)
+                || arena.quantity(s) == Some(Quantity::MeanLogStretch)
+                || arena.is_parameter(s))
         })
     }
 
@@ -290,7 +290,7 @@ impl Means {
         }
         let small = undeformed.counted(arena, &form);
         // One more division is not worth it where other terms hide the sum.
-        let excess = arena.symbol("excess_dilatation");
+        let excess = arena.symbol(Quantity::ExcessDilatation);
         if counted || !small.any_symbol(arena, &mut |s| s == excess) { small } else { form }
     }
 
@@ -301,7 +301,7 @@ impl Means {
         let mut sum = v.clone();
         let deviates = *writing == Writing::Deviators;
         let mean = match deviates {
-            true => Polynomial::atom(arena.symbol("mean_square_stretch")),
+            true => Polynomial::atom(arena.symbol(Quantity::MeanSquareStretch)),
             false => Polynomial::constant(Rational::ONE),
         };
         sum.add_product(a, &mean, &Rational::ONE);
@@ -405,10 +405,10 @@ impl Means {
         };
         let (green, finger) = (symbols(Base::Green), symbols(Base::Finger));
         let phi = if unit { symbols(Base::Placement) } else { chart.placement() };
-        let cofactors = Matrix::symbols(arena, "cofactor", n).0;
+        let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n).0;
         let cofactors =
             cofactors.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
-        let squares = squares(arena, n, if unit { "unit_" } else { "" });
+        let squares = squares(arena, n, if unit { UNIT_SQUARES } else { SQUARES });
         Tensors { phi, green, finger, squares, cofactors, principal: Principal::new(arena, n) }
     }
 }

@@ -20,6 +20,7 @@ use crate::mechanics::direction::entries;
 use crate::mechanics::equations::System;
 use crate::mechanics::hessian::{Block, blocks};
 use crate::mechanics::reduce::Reduction;
+use crate::symbol::Quantity;
 
 use super::flows::{Flow, value_of};
 use super::summand::Summand;
@@ -113,8 +114,9 @@ impl Squares {
 impl Principal {
     fn symbols(arena: &mut Arena, b: usize, form: Vec<Vec<Polynomial>>) -> Self {
         let size = form.len();
-        let values = (1..=size).map(|k| arena.symbol(&format!("square_{b}_{k}"))).collect();
-        let mut vector = |k: usize| (1..=size).map(|i| arena.symbol(&format!("axis_{b}_{k}_{i}"))).collect();
+        let values = (1..=size).map(|k| arena.symbol(Quantity::BlockValue.at([b, k]))).collect();
+        let mut vector =
+            |k: usize| (1..=size).map(|i| arena.symbol(Quantity::BlockAxis.at([b, k, i]))).collect();
         let vectors = (1..=size).map(&mut vector).collect();
         Self { form, values, vectors }
     }
@@ -147,12 +149,12 @@ impl Square {
 fn name(arena: &mut Arena, form: &Polynomial, k: usize, block: &[Expr]) -> String {
     let known = |atom: Expr| block.contains(&atom);
     if form.mentions(|atom| !known(atom)) {
-        let names: Vec<&str> = block.iter().filter_map(|atom| arena.name(*atom)).collect();
+        let names: Vec<String> = block.iter().map(|atom| arena.symbol_name(*atom)).collect();
         return format!("square {k} of {}", names.join(", "));
     }
     let form = form.expression(arena);
     let text = arena.text(form);
-    if arena.name(form).is_some() { format!("{text}^2") } else { format!("({text})^2") }
+    if arena.as_symbol(form).is_some() { format!("{text}^2") } else { format!("({text})^2") }
 }
 
 /// The piece of squares that commute.
@@ -163,7 +165,7 @@ pub(super) fn piece(
 ) -> Option<(Vec<Summand>, Vec<Flow>)> {
     let turns = group.iter().enumerate();
     let turns = turns.map(|(k, square)| {
-        let rate = (arena.symbol(&format!("rate_{}", k + 1)), square.weight.mul(&square.form));
+        let rate = (arena.symbol(Quantity::FlowRate.at([k + 1])), square.weight.mul(&square.form));
         Turn::of(arena, reduction, &square.on_all, rate)
     });
     let turns: Vec<Turn> = turns.collect::<Option<_>>()?;

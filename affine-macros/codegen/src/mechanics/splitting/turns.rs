@@ -17,12 +17,10 @@ use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::equations::{Form, System};
 use crate::mechanics::kinetics::Kinetics;
 use crate::mechanics::reduce::Reduction;
+use crate::symbol::Quantity;
 
 use super::flows::{Flow, confined, expanded, generator, turns_along};
 use super::summand::over_the_state;
-
-/// The time that a flow lasts.
-pub const TIME_OF_FLOW: &str = "h";
 
 type Square = ring::Square<Polynomial>;
 
@@ -84,7 +82,7 @@ impl Turn {
 
     /// `1 + g E`, and `1 + d E` back.
     fn elongated(&self, arena: &mut Arena, reduction: &Reduction, trace: &Polynomial) -> Option<Flow> {
-        let [g, d] = ["growth", "decay"].map(|name| arena.symbol(name));
+        let [g, d] = [Quantity::Growth, Quantity::FlowDecay].map(|quantity| arena.symbol(quantity));
         let (kernel, [growth, decay]) = (self.kernel(arena, Callee::Elongation, trace, [g, d]), [g, d]);
         let factors = [growth, decay].map(|factor| times(&self.direction, &Polynomial::atom(factor)));
         let along_an_axis = self.direction.iter().flatten().filter(|entry| !entry.is_zero()).count() == 1;
@@ -104,7 +102,7 @@ impl Turn {
         reduction: &Reduction,
         (square, k): (&Square, &Polynomial),
     ) -> Option<Flow> {
-        let [u, v] = ["sine", "versine"].map(|name| arena.symbol(name));
+        let [u, v] = [Quantity::Sine, Quantity::Versine].map(|quantity| arena.symbol(quantity));
         let kernel = self.kernel(arena, Callee::Turn, k, [u, v]);
         let factors = [Rational::ONE, Rational::MINUS_ONE].map(|sign| {
             let odd = times(&self.direction, &Polynomial::atom(u).scaled(&sign));
@@ -124,7 +122,7 @@ impl Turn {
         parameter: &Polynomial,
         results: [Expr; 2],
     ) -> Kernel {
-        let h = arena.symbol(TIME_OF_FLOW);
+        let h = arena.symbol(Quantity::TimeOfFlow);
         let extent = Polynomial::term(vec![h, self.rate.0], Rational::ONE);
         let arguments = [extent, parameter.clone()].map(Group::Scalar).to_vec();
         Kernel { callee, arguments, results: results.map(Group::Scalar).to_vec() }
@@ -153,7 +151,7 @@ impl Turn {
 /// The flow of momenta whose `E` have no products: `exp(Y) = 1 + Y`.
 fn sheared(arena: &mut Arena, reduction: &Reduction, turns: &[Turn]) -> Option<Flow> {
     let generator = turns.iter().map(Turn::generator).reduce(|sum, y| ring::sum(&sum, &y))?;
-    let h = Polynomial::atom(arena.symbol(TIME_OF_FLOW));
+    let h = Polynomial::atom(arena.symbol(Quantity::TimeOfFlow));
     let factors = [Rational::ONE, Rational::MINUS_ONE].map(|sign| times(&generator, &h.scaled(&sign)));
     let rates = rises(&reduction.chart, &factors, turns.first()?.right);
     let shared = turns.iter().map(|turn| turn.rate.clone()).collect();

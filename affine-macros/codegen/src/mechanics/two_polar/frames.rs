@@ -1,6 +1,7 @@
 //! The frames `L` and `R` beside the lattice: `dL/dt = L chi_hat`, `dR/dt = R theta_hat`.
 
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::symbol::Quantity;
 
 /// Symbols of the frames: an angle each in the plane, the entries of `L` and `R` in space.
 #[derive(Clone, Debug)]
@@ -15,15 +16,17 @@ pub struct Frames {
 impl Frames {
     /// The symbols for `n` stretches.
     pub fn new(arena: &mut Arena, dim: usize) -> Self {
-        let mut of = |stem: &str| -> Vec<Expr> {
+        let mut of = |rotation: Quantity, angle: Quantity| -> Vec<Expr> {
             match dim {
-                2 => vec![arena.symbol(&format!("{stem}_angle"))],
-                _ => (0..dim * dim)
-                    .map(|k| arena.symbol(&format!("{stem}_{}{}", k / dim + 1, k % dim + 1)))
-                    .collect(),
+                2 => vec![arena.symbol(angle)],
+                _ => (0..dim * dim).map(|k| arena.symbol(rotation.at([k / dim + 1, k % dim + 1]))).collect(),
             }
         };
-        Self { dim, left: of("left"), right: of("right") }
+        Self {
+            dim,
+            left: of(Quantity::LeftRotation, Quantity::LeftAngle),
+            right: of(Quantity::RightRotation, Quantity::RightAngle),
+        }
     }
 
     /// All of them, `L` first.

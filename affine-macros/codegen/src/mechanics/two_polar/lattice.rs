@@ -4,6 +4,7 @@ use crate::algebra::fault::never_missing;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::term::Frame;
+use crate::symbol::Quantity;
 
 /// What is written on the diagonal of `D`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,19 +51,18 @@ impl Lattice {
     /// The lattice of a model: stretches for energies with constant coefficients in `phi_dot`, their logarithms for those
     /// in an affine velocity, angles for U(n).
     pub fn of(arena: &mut Arena, h: &Hamiltonian, unitary: bool) -> Self {
-        let (variables, stem) = match h.frame {
-            _ if unitary => (Variables::Angles, "q"),
-            Frame::Flat => (Variables::Stretches, "stretch"),
-            Frame::Body | Frame::Space => (Variables::LogStretches, "q"),
+        let (variables, place) = match h.frame {
+            _ if unitary => (Variables::Angles, Quantity::LogStretches),
+            Frame::Flat => (Variables::Stretches, Quantity::Stretches),
+            Frame::Body | Frame::Space => (Variables::LogStretches, Quantity::LogStretches),
         };
         let mut vector =
-            |stem: &str| -> Vec<Expr> { (1..=h.dim).map(|a| arena.symbol(&format!("{stem}_{a}"))).collect() };
-        let (q, p) = (vector(stem), vector("p"));
-        let mut skew = |stem: &str| -> Vec<Expr> {
-            let name = |(a, b): (usize, usize)| format!("{stem}_{}{}", a + 1, b + 1);
-            pairs(h.dim).map(|pair| arena.symbol(&name(pair))).collect()
+            |of: Quantity| -> Vec<Expr> { (1..=h.dim).map(|a| arena.symbol(of.at([a]))).collect() };
+        let (q, p) = (vector(place), vector(Quantity::LinearMomentum));
+        let mut skew = |of: Quantity| -> Vec<Expr> {
+            pairs(h.dim).map(|(a, b)| arena.symbol(of.at([a + 1, b + 1]))).collect()
         };
-        let (m, n) = (skew("m"), skew("n"));
+        let (m, n) = (skew(Quantity::SumCouplings), skew(Quantity::DifferenceCouplings));
         Self { dim: h.dim, variables, q, p, m, n }
     }
 

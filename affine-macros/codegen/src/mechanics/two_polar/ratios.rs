@@ -16,6 +16,7 @@ use crate::algebra::division::{content, quotient};
 use crate::algebra::fault::never_missing;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::hamiltonian::{Hamiltonian, Isotropic};
+use crate::symbol::Quantity;
 
 use super::{Coordinate, Equations, Lattice, Stable};
 
@@ -106,10 +107,11 @@ struct Symbols {
 impl Symbols {
     fn new(arena: &mut Arena, lattice: &Lattice) -> Self {
         let pairs: Vec<(usize, usize)> = lattice.pairs().collect();
-        let mut of = |stem: &str| -> Vec<Expr> {
-            pairs.iter().map(|(a, b)| arena.symbol(&format!("{stem}_{}{}", a + 1, b + 1))).collect()
+        let mut of_pairs = |of: Quantity| -> Vec<Expr> {
+            pairs.iter().map(|(a, b)| arena.symbol(of.at([a + 1, b + 1]))).collect()
         };
-        let [ratio, recip, u, w] = ["ratio", "recip", "u", "w"].map(&mut of);
+        let [ratio, recip, u, w] =
+            [Quantity::Ratio, Quantity::Reciprocal, Quantity::RatioU, Quantity::RatioW].map(&mut of_pairs);
         Self { pairs, ratio, recip, u, w }
     }
 
@@ -166,9 +168,13 @@ fn pair(
     shared: &mut Vec<(Expr, Polynomial)>,
 ) -> Pair {
     let (ratio, recip, u, w) = (symbols.ratio[k], symbols.recip[k], symbols.u[k], symbols.w[k]);
-    let mut named = |stem: &str| arena.symbol(&format!("{stem}_{}{}", at.0 + 1, at.1 + 1));
-    let [square, gap, even, twice, decay] = ["square", "gap", "even", "twice", "decay"].map(&mut named);
-    let [space, body, chi, theta] = ["space", "body", "chi", "theta"].map(&mut named);
+    let mut named = |of: Quantity| arena.symbol(of.at([at.0 + 1, at.1 + 1]));
+    let [square, gap, even, twice, decay] =
+        [Quantity::RatioSquare, Quantity::Gap, Quantity::Even, Quantity::Twice, Quantity::Decay]
+            .map(&mut named);
+    let [space, body, chi, theta] =
+        [Quantity::SpaceRatio, Quantity::BodyRatio, Quantity::LeftAngular, Quantity::RightAngular]
+            .map(&mut named);
     if let (Some(first), Some(second)) = (symbols.ratio_of(at.0, at.0 + 1), symbols.ratio_of(at.0 + 1, at.1))
     {
         shared.push((ratio, Polynomial::term(vec![first, second], Rational::ONE)));

@@ -12,6 +12,7 @@
 //! to the rounding of 1: what it couples are sums with terms of order 1.
 
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
+use crate::symbol::Quantity;
 
 use super::{Lattice, Variables};
 
@@ -58,8 +59,8 @@ impl Stable {
         stable
     }
 
-    fn define(&mut self, arena: &mut Arena, stem: &str, (a, b): (usize, usize), value: Polynomial) -> Expr {
-        let symbol = named(arena, stem, a, b);
+    fn define(&mut self, arena: &mut Arena, of: Quantity, (a, b): (usize, usize), value: Polynomial) -> Expr {
+        let symbol = named(arena, of, a, b);
         self.shared.push((symbol, value));
         symbol
     }
@@ -69,32 +70,32 @@ impl Stable {
             let apart = arena.sub(lattice.q[b], lattice.q[a]);
             let decayed = arena.apply(Function::ExpM1, apart);
             let gap = Polynomial::normal_form(arena, decayed).scaled(&Rational::MINUS_ONE);
-            (gap, one_and(named(arena, "gap", a, b), &Rational::MINUS_ONE))
+            (gap, one_and(named(arena, Quantity::Gap, a, b), &Rational::MINUS_ONE))
         } else {
             // t_ac = t_ab t_bc and d_ac = d_ab + t_ab d_bc: no further exponential, nothing cancels.
-            let mut gap = Polynomial::atom(named(arena, "gap", a, a + 1));
-            let (t, d) = (named(arena, "decay", a, a + 1), named(arena, "gap", a + 1, b));
+            let mut gap = Polynomial::atom(named(arena, Quantity::Gap, a, a + 1));
+            let (t, d) = (named(arena, Quantity::Decay, a, a + 1), named(arena, Quantity::Gap, a + 1, b));
             gap.add_term(vec![t, d], &Rational::ONE);
-            (gap, Polynomial::term(vec![t, named(arena, "decay", a + 1, b)], Rational::ONE))
+            (gap, Polynomial::term(vec![t, named(arena, Quantity::Decay, a + 1, b)], Rational::ONE))
         };
         let pair = (a, b);
-        let d = self.define(arena, "gap", pair, gap);
-        let t = self.define(arena, "decay", pair, decay);
-        let e = self.define(arena, "even", pair, one_and(t, &Rational::ONE));
+        let d = self.define(arena, Quantity::Gap, pair, gap);
+        let t = self.define(arena, Quantity::Decay, pair, decay);
+        let e = self.define(arena, Quantity::Even, pair, one_and(t, &Rational::ONE));
         let [over_d, over_e] = self.shared_reciprocals(arena, [d, e], pair);
         let term = |factors: Vec<Expr>| Polynomial::term(factors, Rational::ONE);
         Replacement::Decaying {
-            odd: self.define(arena, "repulsion", pair, term(vec![t, over_d, over_d])),
-            even: self.define(arena, "attraction", pair, term(vec![t, over_e, over_e])),
-            coth: self.define(arena, "coth", pair, term(vec![e, over_d])),
-            tanh: self.define(arena, "tanh", pair, term(vec![d, over_e])),
+            odd: self.define(arena, Quantity::Repulsion, pair, term(vec![t, over_d, over_d])),
+            even: self.define(arena, Quantity::Attraction, pair, term(vec![t, over_e, over_e])),
+            coth: self.define(arena, Quantity::Coth, pair, term(vec![e, over_d])),
+            tanh: self.define(arena, Quantity::Tanh, pair, term(vec![d, over_e])),
         }
     }
 
     fn reciprocals(&mut self, arena: &mut Arena, values: [Expr; 2], a: usize, b: usize) -> Replacement {
         let [odd, even] = values.map(|value| Polynomial::normal_form(arena, value));
-        let odd = self.define(arena, "gap", (a, b), odd);
-        let even = self.define(arena, "even", (a, b), even);
+        let odd = self.define(arena, Quantity::Gap, (a, b), odd);
+        let even = self.define(arena, Quantity::Even, (a, b), even);
         let [odd, even] = self.shared_reciprocals(arena, [odd, even], (a, b));
         Replacement::Reciprocals { odd, even }
     }
@@ -108,10 +109,11 @@ impl Stable {
     ) -> [Expr; 2] {
         // Symbols are not the number zero.
         let below = [d, e].map(|value| arena.reciprocal(value));
-        let r = self.define(arena, "recip", pair, Polynomial::term(below.to_vec(), Rational::ONE));
+        let r =
+            self.define(arena, Quantity::Reciprocal, pair, Polynomial::term(below.to_vec(), Rational::ONE));
         [
-            self.define(arena, "recip_gap", pair, Polynomial::term(vec![e, r], Rational::ONE)),
-            self.define(arena, "recip_even", pair, Polynomial::term(vec![d, r], Rational::ONE)),
+            self.define(arena, Quantity::GapReciprocal, pair, Polynomial::term(vec![e, r], Rational::ONE)),
+            self.define(arena, Quantity::EvenReciprocal, pair, Polynomial::term(vec![d, r], Rational::ONE)),
         ]
     }
 
@@ -171,6 +173,6 @@ fn one_and(symbol: Expr, sign: &Rational) -> Polynomial {
     sum
 }
 
-fn named(arena: &mut Arena, stem: &str, a: usize, b: usize) -> Expr {
-    arena.symbol(&format!("{stem}_{}{}", a + 1, b + 1))
+fn named(arena: &mut Arena, of: Quantity, a: usize, b: usize) -> Expr {
+    arena.symbol(of.at([a + 1, b + 1]))
 }

@@ -16,7 +16,7 @@ pub(super) type Named = HashMap<String, Number>;
 
 /// The value of a polynomial in symbols with known values.
 pub(super) fn value(arena: &Arena, polynomial: &Polynomial, inputs: &Named) -> Option<Number> {
-    evaluate_polynomial(arena, polynomial, &|name| inputs.get(name).copied())
+    evaluate_polynomial(arena, polynomial, &|symbol| inputs.get(&symbol.to_string()).copied())
 }
 
 /// A system at a point; definitions and calls are evaluated where something needs them.
@@ -40,18 +40,18 @@ impl<'a> AtPoint<'a> {
     }
 
     pub(super) fn of(&self, polynomial: &Polynomial) -> Option<Number> {
-        evaluate_polynomial(self.arena, polynomial, &|name| self.symbol(name))
+        evaluate_polynomial(self.arena, polynomial, &|symbol| self.symbol(&symbol.to_string()))
     }
 
     fn name(&self, symbol: Expr) -> String {
-        self.arena.name(symbol).expect("a symbol").to_owned()
+        self.arena.symbol_name(symbol)
     }
 
     fn symbol(&self, name: &str) -> Option<Number> {
         if let Some(known) = self.known.borrow().get(name) {
             return Some(*known);
         }
-        let is_it = |symbol: Expr| self.arena.name(symbol) == Some(name);
+        let is_it = |symbol: Expr| self.arena.symbol_name(symbol) == name;
         let value = match self.system.shared.iter().find(|(symbol, _)| is_it(*symbol)) {
             Some((_, definition)) => self.of(definition)?,
             None => {

@@ -4,9 +4,9 @@ use affine_codegen::algebra::Polynomial;
 use affine_codegen::algebra::kernel::Callee;
 use affine_codegen::mechanics::charts::{Chart, Linear, Momentum};
 use affine_codegen::mechanics::constraint::Constraint;
-use affine_codegen::mechanics::quantity::Quantity;
 use affine_codegen::mechanics::reduce::{Commuting, Layout, Reduction};
 use affine_codegen::mechanics::term::Frame;
+use affine_codegen::symbol::Quantity;
 use affine_oracle::Random;
 
 use super::equations::Named;
@@ -250,7 +250,7 @@ impl Point {
             Some(Linear::Body) => put_vector(&mut named, "p_hat", &self.phi.transpose().times(&self.p)),
             None => {}
         }
-        put(&mut named, taken.momentum.name(), &self.momentum);
+        put(&mut named, taken.momentum.quantity().stem(), &self.momentum);
         named
     }
 
@@ -278,7 +278,7 @@ impl Point {
             let share = Jet::constant(Number::integer(n as i64).inverse()) * self.expansion(dilatation);
             return &shear + &Table::identity(n).scaled(share);
         }
-        let moving = moving_table(&self.momentum, taken.momentum.name(), rates);
+        let moving = moving_table(&self.momentum, taken.momentum.quantity().stem(), rates);
         taken.confined.map_or(moving.clone(), |group| completed(group, &moving))
     }
 

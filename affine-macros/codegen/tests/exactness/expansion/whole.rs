@@ -12,10 +12,10 @@ use affine_codegen::mechanics::hamiltonian::Hamiltonian;
 use affine_codegen::mechanics::kinetics::Kinetics;
 use affine_codegen::mechanics::loads::loads;
 use affine_codegen::mechanics::potential::Potential;
-use affine_codegen::mechanics::quantity::Quantity;
 use affine_codegen::mechanics::reduce::{self, ClosedForm, Commuting, Layout, Reduction};
 use affine_codegen::mechanics::separation::{Separation, Slope as Separated};
 use affine_codegen::mechanics::term::Frame;
+use affine_codegen::symbol::Quantity;
 use affine_oracle::Random;
 
 use super::equations::{AtPoint, Named, value};
@@ -80,7 +80,7 @@ impl Whole {
                 block.form.iter().map(|row| row.iter().map(entry).collect()).collect();
             let inverse = Table::constant(&form).inverse().values().concat();
             let symbols = block.inverse.concat();
-            let name = |symbol| self.arena.name(symbol).expect("a symbol").to_owned();
+            let name = |symbol| self.arena.symbol_name(symbol);
             named.extend(symbols.into_iter().map(name).zip(inverse));
         }
         named
@@ -176,7 +176,7 @@ impl Whole {
         }
         let listed = |wanted: fn(&Coordinate) -> bool| -> Vec<Number> {
             let listed = reduction.system.rates.iter().filter(|(z, ..)| wanted(z));
-            listed.map(|(_, symbol, _)| rates[self.arena.name(*symbol).expect("a symbol")]).collect()
+            listed.map(|(_, symbol, _)| rates[&self.arena.symbol_name(*symbol)]).collect()
         };
         // p leaves the state as a whole.
         let pushes = listed(|z| matches!(z, Coordinate::P(_)));

@@ -1,0 +1,125 @@
+//! Every quantity that has a symbol of its own, with the stem of its name.
+
+macro_rules! quantities {
+    ($($quantity:ident $stem:literal)*) => {
+        /// A quantity, whose components are symbols. The runtime lists those that a state has as a whole: the generator is built
+        /// before it, and what it emits names each by the same word, so that one that is missing there does not compile.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Quantity {
+            $(#[doc = concat!("`", $stem, "`")] $quantity,)*
+        }
+
+        impl Quantity {
+            /// What the names of its symbols begin with.
+            #[must_use]
+            pub fn stem(self) -> &'static str {
+                match self {
+                    $(Self::$quantity => $stem,)*
+                }
+            }
+        }
+    };
+}
+
+quantities! {
+    Time "t" TimeOfFlow "h" Work "work" Coefficient "c" Constant "k"
+    Position "x" CentreVelocity "x_dot" ComovingCentreVelocity "v_hat" GivenVelocity "v"
+    Placement "phi" PlacementVelocity "phi_dot" FlatVelocity "velocity"
+    // `phi^-1` of forces through the determinant, and of sums of frames.
+    PlacementInverse "phi_inverse" InversePlacement "inverse_phi"
+    AffineVelocity "omega" ComovingAffineVelocity "omega_hat"
+    LinearMomentum "p" ComovingLinearMomentum "p_hat" CanonicalMomentum "pi"
+    AffineSpin "sigma" ComovingAffineSpin "sigma_hat" TotalAffineMomentum "total"
+    // Mass matrices, and the basis of velocities that a constraint leaves.
+    InverseBlock "inverse" InverseColumn "inverse" SpaceInertia "space_inertia" Cauchy "cauchy"
+    Speed "speed" TurnedVelocity "turned"
+    // Deformation.
+    Green "green" Finger "finger" Trace "trace" GreenSquare "green_square" FingerSquare "finger_square"
+    SecondInvariant "second_invariant" InverseTensor "inverse_tensor" Cofactor "cofactor"
+    Determinant "det" InverseDeterminant "inverse_det" InverseDeterminantSquared "inverse_det_squared"
+    Dilatation "dilatation" InverseDilatation "inverse_dilatation" MeanLogStretch "q"
+    DilatationSquared "square" InverseDilatationSquared "inverse_square"
+    LogStretches "q" Difference "d" LogStretchMomenta "p" Stretches "stretch" StretchMomenta "p"
+    InverseStretch "inverse_stretch" StretchSquared "square" Axis "axis" StretchedAxis "stretched"
+    // Of `Psi = phi/D`.
+    IsochoricPlacement "psi" IsochoricVelocity "isochoric" Shear "shear" Turn "turn"
+    UnitPlacement "unit_phi" UnitGreen "unit_green" UnitFinger "unit_finger" UnitTrace "unit_trace"
+    UnitGreenSquare "unit_green_square" UnitFingerSquare "unit_finger_square"
+    IsochoricExcess "isochoric_excess" MeanSquare "mean_square"
+    IsochoricDeviator "isochoric_deviator" IsochoricDeviatorSquared "isochoric_deviator_squared"
+    // Counted from the undeformed state.
+    Excess "excess" ExcessDeterminant "excess_det" ExcessDilatation "excess_dilatation"
+    Strain "strain" StrainMinors "strain_minors" AxialStrain "strain_on_axis"
+    SpatialAxialStrain "spatial_strain_on_axis" InverseStrain "inverse_strain"
+    CofactorDifference "cofactor_difference" CofactorExcess "cofactor_excess"
+    Deviator "deviator" DeviatorSquared "deviator_squared" MeanSquareStretch "mean_square_stretch"
+    PlacementSum "phi_sum" PlacementDifference "phi_difference" SquareDifference "square_difference"
+    BesideGreen "beside_green" BesideFinger "beside_finger" BesideDeterminant "beside_det"
+    LessOne "less" MoreOne "more"
+    // Potentials.
+    Raised "raised" Pressure "pressure" Tension "tension" Stress "stress" Piola "piola"
+    Swelling "swelling" Offset "offset" SlopeByGreen "slope_green" SlopeByFinger "slope_finger"
+    SlopeByPlacement "slope_phi" SlopeByPosition "slope_x" SlopeByPulledBack "slope_pulled_back"
+    PulledBack "pulled_back" PushedForward "pushed_forward" PulledBackSquare "pulled_back_square"
+    Weighted "weighted"
+    // Forces; the first index of a field's is its place among the fields that compute something.
+    Drag "drag" ComovingDrag "drag_hat" FlatDrag "drag_flat" CentreDrag "drag_centre" Push "push"
+    FieldForce "force" FieldPush "push" FieldPull "pull" FieldSlope "slope" FieldPotential "potential"
+    // Balance laws.
+    Load "load" KinematicalSpin "kinematical_spin" Moment "moment" ComovingMomentum "momentum"
+    // Two-polar decomposition.
+    SumCouplings "m" DifferenceCouplings "n" LeftRotation "left" RightRotation "right"
+    LeftAngle "left_angle" RightAngle "right_angle" LeftAngular "chi" RightAngular "theta"
+    Gap "gap" Decay "decay" Even "even" Repulsion "repulsion" Attraction "attraction" Coth "coth"
+    Tanh "tanh" Reciprocal "recip" GapReciprocal "recip_gap" EvenReciprocal "recip_even"
+    Ratio "ratio" RatioU "u" RatioW "w" RatioSquare "square" Twice "twice" SpaceRatio "space"
+    BodyRatio "body"
+    // Splittings.
+    BlockValue "square" BlockAxis "axis" FlowRate "rate" Growth "growth" FlowDecay "decay" Sine "sine"
+    Versine "versine"
+    // Sums and products that are computed once.
+    SharedSum "sum" SharedProduct "product" Scaled "scaled"
+}
+
+impl Quantity {
+    /// How many of the first indices are numbers of something, apart from the others in a name.
+    pub(super) fn numbers(self) -> usize {
+        match self {
+            Self::InverseBlock | Self::BlockAxis => 2,
+            Self::InverseColumn
+            | Self::BlockValue
+            | Self::TurnedVelocity
+            | Self::FieldForce
+            | Self::FieldPush
+            | Self::FieldPull
+            | Self::FieldSlope => 1,
+            _ => 0,
+        }
+    }
+
+    /// Is it a tensor of the placement, or a trace of one?
+    #[must_use]
+    pub fn is_tensor(self) -> bool {
+        use Quantity::{
+            Finger, FingerSquare, Green, GreenSquare, Placement, PlacementDifference, PlacementSum, Trace,
+        };
+        let tensors =
+            [Trace, Green, GreenSquare, Finger, FingerSquare, Placement, PlacementSum, PlacementDifference];
+        tensors.contains(&self)
+    }
+
+    /// The quantity that this is a power of, with the same indices, and the exponent.
+    #[must_use]
+    pub fn power(self) -> Option<(Self, i32)> {
+        match self {
+            Self::FlatVelocity => Some((Self::PlacementVelocity, 1)),
+            Self::UnitPlacement => Some((Self::IsochoricPlacement, 1)),
+            Self::InverseDilatation => Some((Self::Dilatation, -1)),
+            Self::DilatationSquared => Some((Self::Dilatation, 2)),
+            Self::InverseDilatationSquared => Some((Self::Dilatation, -2)),
+            Self::InverseDeterminant => Some((Self::Determinant, -1)),
+            Self::InverseStretch => Some((Self::Stretches, -1)),
+            _ => None,
+        }
+    }
+}
