@@ -1,0 +1,95 @@
+//! A field may be called what the derivation calls something else: its name changes nothing but the places where it stands.
+#![allow(clippy::unwrap_used)]
+
+use affine_codegen::expand;
+use proc_macro2::{Group, Ident, Literal, TokenStream, TokenTree};
+
+/// What no symbol is called.
+const ORDINARY: [&str; 2] = ["ordinary", "usual"];
+
+/// What symbols of the derivation, of printed formulas and of emitted code are called.
+const NAMES: [[&str; 2]; 7] = [
+    ["Omega", "inverse_1_1_1"],
+    ["c_1", "stretch_1"],
+    ["x_1", "d_phi_1_1"],
+    ["sigma_hat_11", "dilatation"],
+    ["coefficients", "point"],
+    ["matrix_usual", "work"],
+    ["k_1", "phi_11"],
+];
+
+/// The same beside no potential, whose notation has these.
+const NAMES_OF_POTENTIALS: [[&str; 2]; 2] = [["t", "q"], ["phi", "x"]];
+
+const KINETIC: [&str; 5] = [
+    "dim = 2, kinetic(dalembert = ordinary, space_translation = usual)",
+    "dim = 3, kinetic(casimir2 = ordinary, body_inertia = usual, body_translation = 1)",
+    "dim = 2, kinetic(dalembert = ordinary, space_inertia = usual)",
+    "dim = 2, kinetic(body_inertia = diag(ordinary, usual), casimir2 = 0.5), constraint = isochoric",
+    "dim = 2, kinetic(space_inertia = ordinary, body_translation = usual), dissipation(space_translation = usual)",
+];
+
+const WITH_POTENTIALS: [&str; 5] = [
+    "dim = 2, kinetic(dalembert = ordinary), potential = orthogonality(usual), emit(nystrom, tangent)",
+    "dim = 3, kinetic(dalembert = 1), potential = ordinary*ln(det)^2 + usual*tr(G^2)",
+    "dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), potential = hyperbolic_dilatation(ordinary) + neo_hookean(usual)",
+    "dim = 2, kinetic(body_inertia = ordinary, casimir2 = 1), potential = hyperbolic_dilatation(usual) + pairs(cos(d)), emit(splitting)",
+    "dim = 2, kinetic(body_inertia = 1, space_translation = 1), potential = ordinary*exp(usual*G[1,1]) + sin(usual*t)*norm(x)^2",
+];
+
+/// The expansion with these names of the fields.
+fn expansion(args: &str, names: [&str; 2]) -> TokenStream {
+    let item = "struct Model { ordinary: f64, usual: f64 }";
+    let [args, item] = [args, item].map(|text| renamed(text.parse().unwrap(), names));
+    expand(args, item)
+}
+
+/// The tokens with the ordinary names replaced, also within longer ones.
+fn renamed(tokens: TokenStream, names: [&str; 2]) -> TokenStream {
+    let replaced = |text: String| {
+        let pairs = ORDINARY.iter().zip(names);
+        pairs.fold(text, |text, (ordinary, name)| text.replace(ordinary, name))
+    };
+    let tree = |tree: TokenTree| match tree {
+        TokenTree::Group(group) => Group::new(group.delimiter(), renamed(group.stream(), names)).into(),
+        TokenTree::Ident(ident) => Ident::new(&replaced(ident.to_string()), ident.span()).into(),
+        TokenTree::Literal(literal) => said(&literal.to_string(), &replaced).unwrap_or(literal).into(),
+        punct @ TokenTree::Punct(_) => punct,
+    };
+    tokens.into_iter().map(tree).collect()
+}
+
+/// What a literal says: texts call a field by its name, or by `self` and its name where a symbol is written so. LaTeX has
+/// letters for some names and none for others.
+fn said(literal: &str, replaced: &impl Fn(String) -> String) -> Option<Literal> {
+    let text = literal.strip_prefix('"')?.strip_suffix('"')?;
+    let shown = if text.contains('\\') { String::new() } else { replaced(text.replace("self.", "")) };
+    Some(Literal::string(&shown))
+}
+
+fn change_nothing(specifications: &[&str], names: &[[&str; 2]]) {
+    for args in specifications {
+        let ordinary = expansion(args, ORDINARY);
+        assert!(!ordinary.to_string().contains("compile_error"), "{args} is refused");
+        for names in names {
+            let (found, expected) =
+                (renamed(expansion(args, *names), *names), renamed(ordinary.clone(), *names));
+            let (found, expected) = (found.to_string(), expected.to_string());
+            let place = found.bytes().zip(expected.bytes()).take_while(|(a, b)| a == b).count();
+            let around =
+                |text: &str| text.chars().skip(place.saturating_sub(120)).take(240).collect::<String>();
+            assert!(found == expected, "{args}, {names:?}:\n{}\n{}", around(&found), around(&expected));
+        }
+    }
+}
+
+#[test]
+fn names_of_fields_change_nothing() {
+    change_nothing(&KINETIC, &NAMES);
+    change_nothing(&KINETIC, &NAMES_OF_POTENTIALS);
+}
+
+#[test]
+fn names_of_fields_of_potentials_change_nothing() {
+    change_nothing(&WITH_POTENTIALS, &NAMES);
+}
