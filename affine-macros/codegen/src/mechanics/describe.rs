@@ -22,6 +22,24 @@ pub use hamiltonian::{hamiltonian, kinetic_energy_of_momenta};
 pub use left_out::{LeftOut, Scope, closed_form, left_out};
 pub use system::system;
 
+/// A summand, with its sign apart.
+#[derive(Clone)]
+pub(super) struct Summand {
+    pub(super) negative: bool,
+    pub(super) text: String,
+    pub(super) latex: String,
+}
+
+impl Summand {
+    pub(super) fn plus(text: impl Into<String>, latex: impl Into<String>) -> Self {
+        Self { negative: false, text: text.into(), latex: latex.into() }
+    }
+
+    pub(super) fn minus(text: impl Into<String>, latex: impl Into<String>) -> Self {
+        Self { negative: true, ..Self::plus(text, latex) }
+    }
+}
+
 /// The right-hand side of a formula under construction.
 #[derive(Default)]
 pub(super) struct Sum {
@@ -54,6 +72,11 @@ impl Sum {
             (false, false) => (format!("{text} "), format!("{latex}\\, ")),
         };
         self.push(negative, &format!("{text}{}", body.0), &format!("{latex}{}", body.1));
+    }
+
+    /// Adds summands with their signs.
+    pub(super) fn extend<'s>(&mut self, summands: impl IntoIterator<Item = &'s Summand>) {
+        summands.into_iter().for_each(|one| self.push(one.negative, &one.text, &one.latex));
     }
 
     /// Adds a summand or subtracts it.

@@ -2,8 +2,8 @@
 
 use super::hamiltonian::trace_coefficient;
 use super::inertia::inertial;
-use super::known_forms::known_forms;
-use super::{Formula, Notation, Sum, momentum_names, velocity_names};
+use super::known_forms::{Shape, known_forms};
+use super::{Formula, Notation, Sum, Summand, momentum_names, velocity_names};
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
@@ -35,15 +35,15 @@ pub fn equations(
     };
     let names = force_names(arena, notation, h, chart, potential, forces);
     let mut written: Vec<Polynomial> = Vec::new();
+    let mut projects = false;
     for group in groups(chart) {
         let derived: Vec<Polynomial> = group.coordinates.iter().map(|z| kinetics.rate(form, *z)).collect();
-        let matches =
-            |known: &Formula, components: &Vec<Polynomial>| (*components == derived).then(|| known.clone());
-        let known = known.iter().find_map(|k| matches(&k.value, &k.components));
+        let known = known.iter().find(|known| known.components == derived);
+        let known = known.map(|known| (known.value.clone(), known.shape));
         let known = match (known, &group.coordinates[0], chart.momentum) {
-            (Some(known), Coordinate::Phi(..), Momentum::Canonical) => {
+            (Some((known, shape)), Coordinate::Phi(..), Momentum::Canonical) => {
                 let inertial = inertial(arena, notation, h, kinetic).filter(|found| found.is_on_rows());
-                Some(inertial.map_or(known, |inertial| inertial.velocity[1].clone()))
+                Some((inertial.map_or(known, |inertial| inertial.velocity[1].clone()), shape))
             }
             (known, ..) => known,
         };
@@ -53,7 +53,13 @@ pub fn equations(
             Coordinate::X(_) | Coordinate::Phi(..) | Coordinate::Carried(_) => None,
         };
         match known {
-            Some(known) => list.push(group.rate(known, force)),
+            Some(known) => {
+                let (mut value, shape) = with_force(known, force);
+                if matches!(group.coordinates[0], Coordinate::M(..)) && h.constraint.is_some() {
+                    (value, projects) = under_constraint(h, value, shape);
+                }
+                list.push(value.of(group.left.0, group.left.1));
+            }
             None => {
                 list.extend(group.rates(arena, notation, chart, &derived, force));
                 written.extend(derived);
@@ -65,10 +71,9 @@ pub fn equations(
     }
     list.extend(notation.definitions(arena, written.iter()));
     list.extend(forces.formulas(arena, notation));
-    match h.constraint {
-        Some(group) => under_constraint(h, group, list),
-        None => list,
-    }
+    let constraint = h.constraint.and_then(|group| constraint(h, group, projects));
+    list.extend(constraint.map(|(text, latex)| Formula { text: text.to_owned(), latex: latex.to_owned() }));
+    list
 }
 
 /// Coordinates that one matrix or vector equation is for.
@@ -97,18 +102,6 @@ fn groups(chart: &Chart) -> Vec<Group> {
 }
 
 impl Group {
-    /// The equation of all of them, with the force by name.
-    fn rate(&self, known: Formula, force: Option<&ForceName>) -> Formula {
-        let (left, left_latex) = self.left;
-        let Some((name, name_latex, _)) = force else { return known.of(left, left_latex) };
-        let with = |kinetic: String, force: &str| match kinetic.as_str() {
-            "0" => force.to_owned(),
-            _ => format!("{kinetic} + {force}"),
-        };
-        let known = Formula { text: with(known.text, name), latex: with(known.latex, name_latex) };
-        known.of(left, left_latex)
-    }
-
     /// The equations of each of them.
     fn rates(
         &self,
@@ -140,44 +133,46 @@ impl Group {
     }
 }
 
-/// The equations with what a constraint makes of the rate of the affine momentum: a projection, or a multiplier.
-fn under_constraint(h: &Hamiltonian, group: Constraint, mut list: Vec<Formula>) -> Vec<Formula> {
-    let momentum = Momentum::of(h.frame);
-    let (_, _, rate, rate_latex) = momentum_names(momentum);
-    let (left, left_latex) = (format!("{rate} = "), format!("{rate_latex} = "));
-    let mut projects = false;
-    for formula in &mut list {
-        let (Some(text), Some(latex)) =
-            (formula.text.strip_prefix(&left), formula.latex.strip_prefix(&left_latex))
-        else {
-            continue;
+/// The rate of a group with the force by name.
+fn with_force((kinetic, shape): (Formula, Shape), force: Option<&ForceName>) -> (Formula, Shape) {
+    let Some((name, name_latex, _)) = force else { return (kinetic, shape) };
+    let with = |kinetic: String, force: &str| match shape {
+        Shape::Zero => force.to_owned(),
+        Shape::Commutator | Shape::Other => format!("{kinetic} + {force}"),
+    };
+    (Formula { text: with(kinetic.text, name), latex: with(kinetic.latex, name_latex) }, Shape::Other)
+}
+
+/// What a constraint makes of the rate of the affine momentum: a projection, or a multiplier; and whether it projects.
+fn under_constraint(h: &Hamiltonian, rate: Formula, shape: Shape) -> (Formula, bool) {
+    let Formula { text, latex } = rate;
+    if h.confined().is_none() {
+        let (text, latex) = match shape {
+            Shape::Zero => (String::new(), String::new()),
+            Shape::Commutator | Shape::Other => (format!("{text} + "), format!("{latex} + ")),
         };
-        if h.confined().is_none() {
-            let (text, latex) = if text == "0" { ("", "") } else { (text, latex) };
-            let plus = if text.is_empty() { "" } else { " + " };
-            *formula = Formula {
-                text: format!("{left}{text}{plus}Lambda phi^-1"),
-                latex: format!("{left_latex}{latex}{plus}\\Lambda\\,\\varphi^{{-1}}"),
-            };
+        let text = format!("{text}Lambda phi^-1");
+        return (Formula { text, latex: format!("{latex}\\Lambda\\,\\varphi^{{-1}}") }, false);
+    }
+    match shape {
         // [X, O] of a momentum that is projected and a velocity in the algebra is projected already.
-        } else if text.contains(" + ") || text.contains(" - ") || !text.contains('[') && text != "0" {
-            projects = true;
-            *formula = Formula {
-                text: format!("{left}P({text})"),
-                latex: format!("{left_latex}P\\left({latex}\\right)"),
-            };
+        Shape::Zero | Shape::Commutator => (Formula { text, latex }, false),
+        Shape::Other => {
+            let latex = format!("P\\left({latex}\\right)");
+            (Formula { text: format!("P({text})"), latex }, true)
         }
     }
-    let (text, latex) = match (h.confined().is_none(), projects) {
-        (true, _) => (
+}
+
+/// The constraint, or its projection where one is written.
+fn constraint(h: &Hamiltonian, group: Constraint, projects: bool) -> Option<(&'static str, &'static str)> {
+    match h.confined() {
+        None => Some((
             "det phi = 1, with the multiplier Lambda",
             "\\det\\varphi = 1\\text{, with the multiplier }\\Lambda",
-        ),
-        (false, true) => group.projection(),
-        (false, false) => return list,
-    };
-    list.push(Formula { text: text.to_owned(), latex: latex.to_owned() });
-    list
+        )),
+        Some(_) => projects.then(|| group.projection()),
+    }
 }
 
 /// Name in text and LaTeX, and definition, of the generalised forces on the linear and the affine momentum.
@@ -192,41 +187,34 @@ fn force_names(
     forces: &Forces,
 ) -> [Option<ForceName>; 2] {
     let (linear, of_linear) = match chart.linear {
-        Some(Linear::Body) => (("F_hat", "\\hat F"), ("-phi^T dU/dx", "-\\varphi^T \\partial U/\\partial x")),
-        _ => (("F", "F"), ("-dU/dx", "-\\partial U/\\partial x")),
+        Some(Linear::Body) => (("F_hat", "\\hat F"), ("phi^T dU/dx", "\\varphi^T \\partial U/\\partial x")),
+        _ => (("F", "F"), ("dU/dx", "\\partial U/\\partial x")),
     };
     let (affine, of_affine) = match chart.momentum {
         Momentum::Body => {
-            (("Q_hat", "\\hat Q"), ("-(dU/dphi)^T phi", "-(\\partial U/\\partial\\varphi)^T \\varphi"))
+            (("Q_hat", "\\hat Q"), ("(dU/dphi)^T phi", "(\\partial U/\\partial\\varphi)^T \\varphi"))
         }
         Momentum::Space | Momentum::Total => {
-            (("Q", "Q"), ("-phi (dU/dphi)^T", "-\\varphi (\\partial U/\\partial\\varphi)^T"))
+            (("Q", "Q"), ("phi (dU/dphi)^T", "\\varphi (\\partial U/\\partial\\varphi)^T"))
         }
-        Momentum::Canonical => (("N", "N"), ("-(dU/dphi)^T", "-(\\partial U/\\partial\\varphi)^T")),
+        Momentum::Canonical => (("N", "N"), ("(dU/dphi)^T", "(\\partial U/\\partial\\varphi)^T")),
     };
     let moves = potential.is_some_and(Potential::moves_the_centre);
-    let mut on_linear: Vec<(String, String)> = Vec::new();
-    let mut on_affine: Vec<(String, String)> = Vec::new();
-    let owned = |(text, latex): (&str, &str)| (text.to_owned(), latex.to_owned());
-    on_linear.extend(moves.then(|| owned(of_linear)));
+    let (mut on_linear, mut on_affine) = (Vec::new(), Vec::new());
+    on_linear.extend(moves.then(|| Summand::minus(of_linear.0, of_linear.1)));
     if h.weight.is_some() {
         let share = &Rational::from(2) * &Rational::one_over(h.dim);
         let mut sum = Sum::default();
         sum.add(arena, notation, &Polynomial::constant(share), ("T_int 1", "T_{\\mathrm{int}}\\,1"));
         let Formula { text, latex } = sum.value();
-        on_affine.push((text, latex));
+        on_affine.push(Summand::plus(text, latex));
     }
-    on_affine.extend(potential.map(|_| owned(of_affine)));
+    on_affine.extend(potential.map(|_| Summand::minus(of_affine.0, of_affine.1)));
     forces.name_on(chart, &mut on_linear, &mut on_affine);
-    let joined = |(name, latex): (&'static str, &'static str), parts: Vec<(String, String)>| {
-        let sum = |parts: Vec<String>| {
-            parts.into_iter().reduce(|sum, part| match part.strip_prefix('-') {
-                Some(size) => format!("{sum} - {size}"),
-                None => format!("{sum} + {part}"),
-            })
-        };
-        let (texts, formulas) = parts.into_iter().unzip();
-        Some((name, latex, Formula { text: sum(texts)?, latex: sum(formulas)? }))
+    let joined = |(name, latex): (&'static str, &'static str), parts: Vec<Summand>| {
+        let mut sum = Sum::default();
+        sum.extend(&parts);
+        (!parts.is_empty()).then(|| (name, latex, sum.value()))
     };
     [joined(linear, on_linear), joined(affine, on_affine)]
 }

@@ -7,17 +7,16 @@ use crate::mechanics::forces::Forces;
 use crate::mechanics::notation::{Formula, Notation, field_index};
 use crate::mechanics::term::Frame;
 
-use super::{Sum, quadratic_terms};
+use super::{Sum, Summand, quadratic_terms};
 
 impl Forces {
     /// Adds the names of the forces on the linear and the affine momentum of a chart, in text and LaTeX.
     pub(in crate::mechanics) fn name_on(
         &self,
         chart: &Chart,
-        linear: &mut Vec<(String, String)>,
-        affine: &mut Vec<(String, String)>,
+        linear: &mut Vec<Summand>,
+        affine: &mut Vec<Summand>,
     ) {
-        let own = |(text, latex): (&str, &str)| (text.to_owned(), latex.to_owned());
         for custom in &self.customs {
             let [on_linear, on_affine] = custom_names(custom, chart);
             linear.extend(on_linear);
@@ -25,17 +24,20 @@ impl Forces {
         }
         let Some(dissipation) = &self.dissipation else { return };
         if dissipation.slows_the_centre() {
-            linear.push(own(match chart.linear {
-                Some(Linear::Body) => ("-phi^T dR/d(dx/dt)", "-\\varphi^T \\partial R/\\partial\\dot x"),
-                _ => ("-dR/d(dx/dt)", "-\\partial R/\\partial\\dot x"),
-            }));
+            linear.push(match chart.linear {
+                Some(Linear::Body) => {
+                    Summand::minus("phi^T dR/d(dx/dt)", "\\varphi^T \\partial R/\\partial\\dot x")
+                }
+                _ => Summand::minus("dR/d(dx/dt)", "\\partial R/\\partial\\dot x"),
+            });
         }
         if !dissipation.parts.is_empty() {
-            affine.push(own(match chart.momentum {
-                Momentum::Body => ("-(dR/dOmega_hat)^T", "-(\\partial R/\\partial\\hat\\Omega)^T"),
-                Momentum::Space | Momentum::Total => ("-(dR/dOmega)^T", "-(\\partial R/\\partial\\Omega)^T"),
-                Momentum::Canonical => ("-(dR/d(dphi/dt))^T", "-(\\partial R/\\partial\\dot\\varphi)^T"),
-            }));
+            let (text, latex) = match chart.momentum {
+                Momentum::Body => ("(dR/dOmega_hat)^T", "(\\partial R/\\partial\\hat\\Omega)^T"),
+                Momentum::Space | Momentum::Total => ("(dR/dOmega)^T", "(\\partial R/\\partial\\Omega)^T"),
+                Momentum::Canonical => ("(dR/d(dphi/dt))^T", "(\\partial R/\\partial\\dot\\varphi)^T"),
+            };
+            affine.push(Summand::minus(text, latex));
         }
     }
 
@@ -109,15 +111,16 @@ fn symbols(custom: &Custom) -> (String, String) {
 }
 
 /// What a field adds to the forces on the linear and the affine momentum of a chart.
-fn custom_names(custom: &Custom, chart: &Chart) -> [Option<(String, String)>; 2] {
+fn custom_names(custom: &Custom, chart: &Chart) -> [Option<Summand>; 2] {
     let (name, latex) = symbols(custom);
     let around = |before: (&str, &str), after: (&str, &str)| {
-        Some((format!("{}{name}{}", before.0, after.0), format!("{}{latex}{}", before.1, after.1)))
+        let text = format!("{}{name}{}", before.0, after.0);
+        Some(Summand::plus(text, format!("{}{latex}{}", before.1, after.1)))
     };
     let (phi, inverse, none) = ((" phi", " \\varphi"), ("phi^-1 ", "\\varphi^{-1} "), ("", ""));
     let slope = |left: (&str, &str), right: (&str, &str)| {
-        let text = format!("-{}(d{name}/dphi)^T{}", left.0, right.0);
-        Some((text, format!("-{}(\\partial {latex}/\\partial\\varphi)^T{}", left.1, right.1)))
+        let text = format!("{}(d{name}/dphi)^T{}", left.0, right.0);
+        Some(Summand::minus(text, format!("{}(\\partial {latex}/\\partial\\varphi)^T{}", left.1, right.1)))
     };
     match (custom.role, chart.momentum) {
         (Role::Force { on: On::Centre, .. }, _) => {
@@ -138,11 +141,12 @@ fn custom_names(custom: &Custom, chart: &Chart) -> [Option<(String, String)>; 2]
         (Role::Force { .. }, _) => [None, around(none, none)],
         (Role::Potential { moves, .. }, momentum) => {
             let pull = match chart.linear {
-                Some(Linear::Body) => ("-phi^T ", "-\\varphi^T "),
-                _ => ("-", "-"),
+                Some(Linear::Body) => ("phi^T ", "\\varphi^T "),
+                _ => none,
             };
             let on_centre = moves.then(|| {
-                (format!("{}d{name}/dx", pull.0), format!("{}\\partial {latex}/\\partial x", pull.1))
+                let latex = format!("{}\\partial {latex}/\\partial x", pull.1);
+                Summand::minus(format!("{}d{name}/dx", pull.0), latex)
             });
             let on_affine = match momentum {
                 Momentum::Body => slope(none, phi),

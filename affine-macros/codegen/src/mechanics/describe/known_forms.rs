@@ -10,7 +10,17 @@ use crate::mechanics::term::Frame;
 /// A matrix or vector formula with its components.
 pub(super) struct Known {
     pub(super) value: Formula,
+    pub(super) shape: Shape,
     pub(super) components: Vec<Polynomial>,
+}
+
+/// What the constraints have to know of a formula.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shape {
+    Zero,
+    /// `[X, O]` of a momentum and a velocity: in the algebra where both are.
+    Commutator,
+    Other,
 }
 
 /// Balance laws of section 4 and (3.1), as candidates to compare the derived equations with.
@@ -30,19 +40,23 @@ pub(super) fn known_forms(
     let (x, x_latex, ..) = momentum_names(chart.momentum);
     let (omega, omega_latex) = velocity_names(chart.momentum);
     let mut known = Vec::new();
-    let mut add = |text: String, latex: String, components: Vec<Polynomial>| {
-        known.push(Known { value: Formula { text, latex }, components });
+    let mut add = |shape: Shape, text: String, latex: String, components: Vec<Polynomial>| {
+        known.push(Known { value: Formula { text, latex }, shape, components });
     };
-    add("0".into(), "0".into(), vec![Polynomial::zero(); n]);
-    add("0".into(), "0".into(), vec![Polynomial::zero(); n * n]);
-    add(format!("phi {omega}"), format!("\\varphi\\,{omega_latex}"), product(&phi, o).concat());
-    add(format!("{omega} phi"), format!("{omega_latex}\\,\\varphi"), product(o, &phi).concat());
-    add("(dH/dPi)^T".into(), "(\\partial H/\\partial \\Pi)^T".into(), o.concat());
+    add(Shape::Zero, "0".into(), "0".into(), vec![Polynomial::zero(); n]);
+    add(Shape::Zero, "0".into(), "0".into(), vec![Polynomial::zero(); n * n]);
+    let [comoving, spatial] = [product(&phi, o), product(o, &phi)].map(|velocity| velocity.concat());
+    add(Shape::Other, format!("phi {omega}"), format!("\\varphi\\,{omega_latex}"), comoving);
+    add(Shape::Other, format!("{omega} phi"), format!("{omega_latex}\\,\\varphi"), spatial);
+    add(Shape::Other, "(dH/dPi)^T".into(), "(\\partial H/\\partial \\Pi)^T".into(), o.concat());
     let (xo, ox) = (product(&m, o), product(o, &m));
     let body_commutator = difference(&xo, &ox);
     let space_commutator = difference(&ox, &xo);
-    add(format!("[{x}, {omega}]"), format!("[{x_latex}, {omega_latex}]"), body_commutator.concat());
-    add(format!("[{omega}, {x}]"), format!("[{omega_latex}, {x_latex}]"), space_commutator.concat());
+    let commutator = |a: &str, b: &str| format!("[{a}, {b}]");
+    let body = (commutator(x, omega), commutator(x_latex, omega_latex));
+    add(Shape::Commutator, body.0, body.1, body_commutator.concat());
+    let space = (commutator(omega, x), commutator(omega_latex, x_latex));
+    add(Shape::Commutator, space.0, space.1, space_commutator.concat());
     if let Some((frame, inverse_mass)) = &h.translation {
         known.extend(translation(arena, notation, chart, (*frame, inverse_mass), [&phi, &m, o], &p));
     }
@@ -65,23 +79,24 @@ fn translation(
     let ph: Vec<Polynomial> = if comoving { p.to_vec() } else { times(&transpose(phi), p) };
     let scaled = |v: &[Polynomial]| -> Vec<Polynomial> { v.iter().map(|c| c.mul(inverse_mass)).collect() };
     // rest + coefficient * body
-    let mut sum = |rest: (&str, &str), weight: &Polynomial, body: (&str, &str)| {
-        let mut sum = Sum::default();
-        if !rest.0.is_empty() {
-            sum.push(false, rest.0, rest.1);
-        }
-        sum.add(arena, notation, weight, body);
-        sum.value()
-    };
+    let mut sum =
+        |rest: (&str, &str), weight: &Polynomial, body: (&str, &str), components: Vec<Polynomial>| {
+            let mut sum = Sum::default();
+            if !rest.0.is_empty() {
+                sum.push(false, rest.0, rest.1);
+            }
+            sum.add(arena, notation, weight, body);
+            Known { value: sum.value(), shape: Shape::Other, components }
+        };
     let (one, none) = (Polynomial::constant(Rational::ONE), ("", ""));
     let minus = inverse_mass.scaled(&Rational::MINUS_ONE);
     let phi_p =
         if comoving { ("phi p_hat", "\\varphi \\hat p") } else { ("phi phi^T p", "\\varphi \\varphi^T p") };
     let turned = (format!("{omega}^T p_hat"), format!("{omega_latex}^T \\hat p"));
     let mut list = vec![
-        Known { value: sum(none, inverse_mass, ("p", "p")), components: scaled(p) },
-        Known { value: sum(none, inverse_mass, phi_p), components: scaled(&times(phi, &ph)) },
-        Known { value: sum(none, &one, (&turned.0, &turned.1)), components: times(&transpose(o), p) },
+        sum(none, inverse_mass, ("p", "p"), scaled(p)),
+        sum(none, inverse_mass, phi_p, scaled(&times(phi, &ph))),
+        sum(none, &one, (&turned.0, &turned.1), times(&transpose(o), p)),
     ];
     if frame == Frame::Body {
         let (xo, ox) = (product(m, o), product(o, m));
@@ -97,12 +112,9 @@ fn translation(
         let flat = difference(&zero, &outer(&scaled(&ph), p));
         let spatial = ("phi phi^T p p^T", "\\varphi\\varphi^T p\\,p^T");
         list.extend([
-            Known { value: sum((&in_body.0, &in_body.1), &minus, thrust), components: body.concat() },
-            Known { value: sum((&in_space.0, &in_space.1), &minus, spatial), components: space.concat() },
-            Known {
-                value: sum(none, &minus, ("phi^T p p^T", "\\varphi^T p\\,p^T")),
-                components: flat.concat(),
-            },
+            sum((&in_body.0, &in_body.1), &minus, thrust, body.concat()),
+            sum((&in_space.0, &in_space.1), &minus, spatial, space.concat()),
+            sum(none, &minus, ("phi^T p p^T", "\\varphi^T p\\,p^T"), flat.concat()),
         ]);
     }
     list

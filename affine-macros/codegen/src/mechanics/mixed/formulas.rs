@@ -3,7 +3,7 @@
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::describe::{Formula, Notation, Sum, energy_terms};
+use crate::mechanics::describe::{Formula, Notation, Sum, Summand, energy_terms};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::term::Frame;
@@ -18,8 +18,8 @@ fn formula(text: impl Into<String>, latex: impl Into<String>) -> Formula {
 /// Names of the forces that no potential has, on `p` and on `Pi`, in text and LaTeX.
 #[derive(Default)]
 pub struct ForceNames {
-    on_linear: Vec<(String, String)>,
-    on_affine: Vec<(String, String)>,
+    on_linear: Vec<Summand>,
+    on_affine: Vec<Summand>,
 }
 
 impl ForceNames {
@@ -30,21 +30,6 @@ impl ForceNames {
         forces.name_on(chart, &mut names.on_linear, &mut names.on_affine);
         names
     }
-}
-
-/// A summand with its sign apart.
-fn signed(name: &str) -> String {
-    match name.strip_prefix('-') {
-        Some(rest) => format!("- {rest}"),
-        None => format!("+ {name}"),
-    }
-}
-
-/// Summands that carry their signs as a sum.
-fn joined(summands: Vec<String>) -> String {
-    let sum = summands.join(" ");
-    let sum = sum.strip_prefix("+ ").unwrap_or(&sum);
-    sum.strip_prefix("- ").map_or_else(|| sum.to_owned(), |rest| format!("-{rest}"))
 }
 
 /// `T` as the sum of its terms, frame after frame.
@@ -97,7 +82,7 @@ pub fn internal_equations(
 ) -> Vec<Formula> {
     let has = |frame: Frame| mixed.internal.iter().any(|part| part.frame == frame);
     let mut parts: Vec<(&str, &str)> = Vec::new();
-    let mut rate: Vec<(String, String)> = Vec::new();
+    let mut rate = Sum::default();
     let mut momenta: Vec<(&str, &str)> = Vec::new();
     if has(Frame::Body) {
         momenta.push((
@@ -105,7 +90,7 @@ pub fn internal_equations(
             "\\hat\\Sigma = (\\partial T_{\\mathrm{body}}/\\partial\\hat\\Omega)^T",
         ));
         parts.push(("Sigma_hat phi^-1", "\\hat\\Sigma\\varphi^{-1}"));
-        rate.push(("- Omega_hat Sigma_hat phi^-1".into(), "- \\hat\\Omega\\hat\\Sigma\\varphi^{-1}".into()));
+        rate.push(true, "Omega_hat Sigma_hat phi^-1", "\\hat\\Omega\\hat\\Sigma\\varphi^{-1}");
     }
     if has(Frame::Space) {
         momenta.push((
@@ -113,7 +98,7 @@ pub fn internal_equations(
             "\\Sigma = (\\partial T_{\\mathrm{space}}/\\partial\\Omega)^T",
         ));
         parts.push(("phi^-1 Sigma", "\\varphi^{-1}\\Sigma"));
-        rate.push(("- phi^-1 Sigma Omega".into(), "- \\varphi^{-1}\\Sigma\\,\\Omega".into()));
+        rate.push(true, "phi^-1 Sigma Omega", "\\varphi^{-1}\\Sigma\\,\\Omega");
     }
     if has(Frame::Flat) {
         parts.push(("(dT_flat/dphi_dot)^T", "(\\partial T_{\\mathrm{flat}}/\\partial\\dot\\varphi)^T"));
@@ -128,19 +113,18 @@ pub fn internal_equations(
             true => (format!("({text})^T"), format!("({latex})^T")),
             false => ("p^T".to_owned(), "\\,p^T".to_owned()),
         };
-        rate.push((format!("- phi^-1 dx/dt {text}"), format!("- \\varphi^{{-1}}\\dot x {latex}")));
+        rate.push(true, &format!("phi^-1 dx/dt {text}"), &format!("\\varphi^{{-1}}\\dot x {latex}"));
     }
     if potential.is_some() {
-        rate.push(("+ N".into(), "+ N".into()));
+        rate.push(false, "N", "N");
     }
-    rate.extend(names.on_affine.iter().map(|(text, latex)| (signed(text), signed(latex))));
+    rate.extend(&names.on_affine);
     let mut list: Vec<Formula> = momenta.into_iter().map(|(text, latex)| formula(text, latex)).collect();
     list.push(formula(
         format!("Pi = {}, solved for dphi/dt", parts.iter().map(|p| p.0).collect::<Vec<_>>().join(" + ")),
         format!("\\Pi = {}", parts.iter().map(|p| p.1).collect::<Vec<_>>().join(" + ")),
     ));
-    let (text, tex): (Vec<String>, Vec<String>) = rate.into_iter().unzip();
-    list.push(formula(format!("dPi/dt = {}", joined(text)), format!("\\dot\\Pi = {}", joined(tex))));
+    list.push(rate.of("dPi/dt", "\\dot\\Pi"));
     if potential.is_some() {
         list.push(formula("N = -(dU/dphi)^T", "N = -(\\partial U/\\partial\\varphi)^T"));
     }
@@ -166,14 +150,14 @@ pub fn confined_equations(
     let has = |frame: Frame| mixed.internal.iter().any(|part| part.frame == frame);
     let mut momenta: Vec<Formula> = Vec::new();
     let mut parts: Vec<(&str, &str)> = Vec::new();
-    let mut rate: Vec<(String, String)> = Vec::new();
+    let mut rate = Sum::default();
     if has(Frame::Body) {
         momenta.push(formula(
             "X = (dT_body/dOmega_hat)^T",
             "X = (\\partial T_{\\mathrm{body}}/\\partial\\hat\\Omega)^T",
         ));
         parts.push(("X", "X"));
-        rate.push(("+ [X, Omega_hat]".into(), "+ [X, \\hat\\Omega]".into()));
+        rate.push(false, "[X, Omega_hat]", "[X, \\hat\\Omega]");
     }
     if has(Frame::Space) {
         let text = "Y = phi^-1 (dT_space/dOmega)^T phi";
@@ -186,19 +170,16 @@ pub fn confined_equations(
         let latex = "Z = (\\partial T_{\\mathrm{flat}}/\\partial\\dot\\varphi)^T\\varphi";
         momenta.push(formula(text, latex));
         parts.push(("Z", "Z"));
-        rate.push(("+ Z Omega_hat".into(), "+ Z\\hat\\Omega".into()));
+        rate.push(false, "Z Omega_hat", "Z\\hat\\Omega");
     }
     if let Some(mass) = masses.body {
-        let mut sum = Sum::default();
         let mass = Polynomial::normal_form(arena, mass).scaled(&Rational::MINUS_ONE);
-        sum.add(arena, notation, &mass, ("v_hat v_hat^T", "\\hat v\\hat v^T"));
-        let Formula { text, latex } = sum.value();
-        rate.push((signed(&text), signed(&latex)));
+        rate.add(arena, notation, &mass, ("v_hat v_hat^T", "\\hat v\\hat v^T"));
     }
     if potential.is_some() {
-        rate.push(("+ Q_hat".into(), "+ \\hat Q".into()));
+        rate.push(false, "Q_hat", "\\hat Q");
     }
-    rate.extend(names.on_affine.iter().map(|(text, latex)| (signed(text), signed(latex))));
+    rate.extend(&names.on_affine);
     let sum = |which: fn(&(&'static str, &'static str)) -> &'static str| {
         parts.iter().map(which).collect::<Vec<_>>().join(" + ")
     };
@@ -208,14 +189,8 @@ pub fn confined_equations(
         format!("\\hat\\Sigma = P ({})", sum(|p| p.1)),
     ));
     list.push(formula("dphi/dt = phi Omega_hat", "\\dot\\varphi = \\varphi\\hat\\Omega"));
-    if rate.is_empty() {
-        rate.push(("0".into(), "0".into()));
-    }
-    let (text, latex): (Vec<String>, Vec<String>) = rate.into_iter().unzip();
-    list.push(formula(
-        format!("dSigma_hat/dt = P ({})", joined(text)),
-        format!("\\dot{{\\hat\\Sigma}} = P ({})", joined(latex)),
-    ));
+    let Formula { text, latex } = rate.value();
+    list.push(formula(format!("dSigma_hat/dt = P ({text})"), format!("\\dot{{\\hat\\Sigma}} = P ({latex})")));
     let (text, latex) = group.projection();
     list.push(formula(text, latex));
     if potential.is_some() {
@@ -268,15 +243,10 @@ pub fn centre_equations(
     names: &ForceNames,
 ) -> Vec<Formula> {
     let Some(velocity) = centre_velocity(arena, notation, masses) else { return Vec::new() };
-    let mut forces: Vec<(String, String)> = Vec::new();
+    let mut force = Sum::default();
     if potential.is_some_and(Potential::moves_the_centre) {
-        forces.push(("- dU/dx".into(), "- \\partial U/\\partial x".into()));
+        force.push(true, "dU/dx", "\\partial U/\\partial x");
     }
-    forces.extend(names.on_linear.iter().map(|(text, latex)| (signed(text), signed(latex))));
-    if forces.is_empty() {
-        forces.push(("0".into(), "0".into()));
-    }
-    let (text, latex): (Vec<String>, Vec<String>) = forces.into_iter().unzip();
-    let force = formula(format!("dp/dt = {}", joined(text)), format!("\\dot p = {}", joined(latex)));
-    vec![velocity, force]
+    force.extend(&names.on_linear);
+    vec![velocity, force.of("dp/dt", "\\dot p")]
 }
