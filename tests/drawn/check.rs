@@ -3,7 +3,7 @@
 use affine_codegen::derive::Model;
 use affine_codegen::ir::Program;
 use affine_codegen::mechanics::potential::Bound;
-use affine_codegen::mechanics::quantity::Quantity;
+use affine_codegen::symbol::{Quantity, Symbol};
 use affine_oracle::Random;
 use qd::Quad;
 
@@ -99,7 +99,7 @@ impl Point<'_> {
         let pull = |i: usize| self.energy.slopes[1 + i];
         let groups = self.case.model.full.groups.iter();
         let listed = groups.flat_map(|(group, names)| {
-            let entry = |(k, name): (usize, &String)| {
+            let entry = |(k, symbol): (usize, &Symbol)| {
                 let (a, b) = (k / n, k % n);
                 let force = match *group {
                     Quantity::CanonicalMomentum => f[b][a].negated(),
@@ -110,7 +110,7 @@ impl Point<'_> {
                     Quantity::Position | Quantity::Placement => Rounded::ZERO,
                     other => panic!("{other:?} is no group"),
                 };
-                (format!("d_{name}"), force)
+                (format!("d_{symbol}"), force)
             };
             names.iter().enumerate().map(entry).collect::<Vec<_>>()
         });

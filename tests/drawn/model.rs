@@ -9,6 +9,7 @@ use affine_codegen::algebra::kernel::Callee;
 use affine_codegen::derive::{Model, derive};
 use affine_codegen::diagnostics::{Rejected, gate};
 use affine_codegen::ir::{Op, Program};
+use affine_codegen::symbol::{Quantity, Symbol};
 use affine_codegen::{check, range, spec};
 use affine_oracle::Random;
 use affine_runtime::scalar::Scalar;
@@ -141,12 +142,12 @@ impl Phase {
 
     /// What a program may read of the point.
     fn inputs(&self, model: &Model, reads: Reads) -> Named {
-        let groups = match reads {
-            Reads::State | Reads::Point => &model.full.groups,
-            Reads::Reduced => &model.reduced.groups,
-            Reads::Trajectory => &model.full.groups[..0],
+        let state = match reads {
+            Reads::State | Reads::Point => model.full.names(),
+            Reads::Reduced => model.reduced.names(),
+            Reads::Trajectory => Vec::new(),
         };
-        let mut names: Vec<&str> = groups.iter().flat_map(|(_, names)| names).map(String::as_str).collect();
+        let mut names: Vec<&str> = state.iter().map(String::as_str).collect();
         names.push("t");
         match reads {
             Reads::State => {}
@@ -169,10 +170,11 @@ impl Phase {
 
     fn results<F: Machine>(&self, program: &Program, inputs: &Named) -> Named {
         let called = self.called(program);
-        let read = |name: &str| {
-            let value = inputs.get(name).or_else(|| called.get(name)).copied();
+        let read = |symbol: &Symbol| {
+            let name = symbol.to_string();
+            let value = inputs.get(&name).or_else(|| called.get(&name)).copied();
             if value.is_none() {
-                self.unknown.borrow_mut().insert(name.to_owned());
+                self.unknown.borrow_mut().insert(name);
             }
             Some(F::from_quad(value.unwrap_or(Quad::NAN)))
         };
@@ -195,9 +197,13 @@ impl Phase {
             let values = [stretches.clone(), logarithms, stretched.concat(), axes.concat()].concat();
             // Of the placement itself.
             for operand in call.operands() {
-                assert!(matches!(&program.steps[operand], Op::Input(name) if name.starts_with("phi_")));
+                assert!(matches!(
+                    &program.steps[operand],
+                    Op::Input(Symbol::Component(Quantity::Placement, _))
+                ));
             }
-            let names = call.results.iter().flat_map(|group| group.entries().into_iter().cloned());
+            let names =
+                call.results.iter().flat_map(|group| group.entries().into_iter().map(Symbol::to_string));
             called.extend(names.zip(values));
         }
         called

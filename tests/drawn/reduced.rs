@@ -40,8 +40,8 @@ impl Point<'_> {
         let found = self.run(&model.reduced.program, Reads::Reduced);
         let terms = expected.values().map(|rate| rate.error).fold(1.0, f64::max);
         let error = self.forces().iter().map(|(_, force)| force.error).fold(terms, f64::max);
-        for name in model.reduced.groups.iter().flat_map(|(_, names)| names) {
-            let expected = Rounded { error, ..expected[name] };
+        for name in model.reduced.names() {
+            let expected = Rounded { error, ..expected[&name] };
             compare(&format!("reduced d_{name}"), found[&format!("d_{name}")], expected, mistakes);
         }
         true

@@ -13,6 +13,7 @@ pub mod tangent;
 pub mod taylor;
 
 use crate::algebra::{Function, Rational};
+use crate::symbol::Symbol;
 
 pub use call::Value;
 
@@ -21,8 +22,8 @@ use call::Call;
 /// One operation.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Op {
-    /// A named input.
-    Input(String),
+    /// An input.
+    Input(Symbol),
     /// An exact number.
     Constant(Rational),
     /// `a + b`
@@ -68,21 +69,25 @@ pub struct Program {
 }
 
 impl Program {
+    /// What it reads.
+    pub fn symbols(&self) -> impl Iterator<Item = &Symbol> {
+        self.steps.iter().filter_map(|step| match step {
+            Op::Input(symbol) => Some(symbol),
+            _ => None,
+        })
+    }
+
     /// The names of what it reads.
     #[must_use]
-    pub fn inputs(&self) -> Vec<&str> {
-        let inputs = self.steps.iter().filter_map(|step| match step {
-            Op::Input(name) => Some(name.as_str()),
-            _ => None,
-        });
-        inputs.collect()
+    pub fn inputs(&self) -> Vec<String> {
+        self.symbols().map(Symbol::to_string).collect()
     }
 
     /// Name of a value: what the derivation calls it, or its number.
     #[must_use]
     pub fn name(&self, value: Value) -> String {
-        if let Op::Input(name) = &self.steps[value] {
-            return name.clone();
+        if let Op::Input(symbol) = &self.steps[value] {
+            return symbol.to_string();
         }
         let named = self.names.iter().find(|(v, _)| *v == value).map(|(_, name)| name);
         let output = self.outputs.iter().find(|(_, v)| *v == value).map(|(name, _)| name);
@@ -113,7 +118,7 @@ impl Program {
     #[must_use]
     pub fn call_before(&self, value: Value) -> Option<&Call> {
         match &self.steps[value] {
-            Op::Input(name) => self.calls.iter().find(|call| call.provides(name)),
+            Op::Input(symbol) => self.calls.iter().find(|call| call.provides(symbol)),
             _ => None,
         }
     }
@@ -136,8 +141,9 @@ impl Program {
             result.steps.push(step.renumbered(&place));
         }
         let is_read = |call: &&Call| {
-            let read =
-                |(k, step): (usize, &Op)| needed[k] && matches!(step, Op::Input(name) if call.provides(name));
+            let read = |(k, step): (usize, &Op)| {
+                needed[k] && matches!(step, Op::Input(symbol) if call.provides(symbol))
+            };
             self.steps.iter().enumerate().any(read)
         };
         result.calls = self.calls.iter().filter(is_read).map(|call| call.renumbered(&place)).collect();

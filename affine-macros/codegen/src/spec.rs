@@ -33,7 +33,7 @@ pub use names::{Capability, Claim, Constraint, Named, PlacementGroup, Requiremen
 pub use spanned::Spanned;
 pub use statement::{Metric, Potential, Spec, Symmetry, Term, Value};
 pub(crate) use symbol::numbered;
-pub use symbol::{FIELD, POTENTIAL_SYMBOLS, SYMBOLS, Symbol, field_entry};
+pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
 
 /// Reads the attribute's arguments and the item below it.
 ///

@@ -28,6 +28,8 @@ pub enum Symbol {
 pub enum Aspect {
     /// Its rate.
     Rate,
+    /// Its change.
+    Change,
     /// Its value as the user gave it, where the model has another.
     Given,
     /// The share of the energies in the body in a momentum.
@@ -189,6 +191,7 @@ fn about(f: &mut Formatter<'_>, aspect: Aspect, of: &Symbol) -> Result {
         (Aspect::Symmetric, _) => "sym",
         (Aspect::Skew, _) => "skew",
         (Aspect::Rate, _) => "rate",
+        (Aspect::Change, _) => "change",
         (Aspect::Given, _) => "given",
         (Aspect::InTheBody, _) => "body",
         (Aspect::InSpace, _) => "space",

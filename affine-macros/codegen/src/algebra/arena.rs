@@ -74,10 +74,8 @@ impl Arena {
     /// The symbol of what is said about one.
     #[track_caller]
     pub fn about(&mut self, aspect: Aspect, symbol: Expr) -> Expr {
-        match self.as_symbol(symbol).cloned() {
-            Some(of) => self.symbol(of.seen(aspect)),
-            None => never_missing(None, "only of symbols something is said", symbol),
-        }
+        let of = self.symbol_of(symbol);
+        self.symbol(of.seen(aspect))
     }
 
     /// The number an expression is, if it is one.
@@ -110,12 +108,19 @@ impl Arena {
         self.as_symbol(expr).is_some_and(Symbol::is_parameter)
     }
 
+    /// The symbol that an expression is for sure.
+    #[must_use]
+    #[track_caller]
+    pub fn symbol_of(&self, expr: Expr) -> Symbol {
+        let symbol = self.as_symbol(expr).cloned();
+        never_missing(symbol, "only symbols are asked for what they stand for", Quantity::Difference.into())
+    }
+
     /// Name of an expression that is a symbol.
     #[must_use]
     #[track_caller]
     pub fn symbol_name(&self, symbol: Expr) -> String {
-        let name = self.as_symbol(symbol).map(Symbol::to_string);
-        never_missing(name, "only symbols are asked for their names", String::new())
+        self.symbol_of(symbol).to_string()
     }
 
     /// Sum of expressions with rational coefficients.

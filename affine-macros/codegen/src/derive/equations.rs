@@ -1,12 +1,12 @@
 //! A first-order system, ready to be written down.
 
 use crate::ir::{Program, Value};
-use crate::symbol::Quantity;
+use crate::symbol::{Quantity, Symbol};
 
 /// A first-order system as a program over a plain array.
 pub struct Equations {
     /// Groups of the array, with the symbols of their components.
-    pub groups: Vec<(Quantity, Vec<String>)>,
+    pub groups: Vec<(Quantity, Vec<Symbol>)>,
     /// Entries of the affine momentum that are linear in components of the array.
     pub dependent: Program,
     /// Array -> its rate.
@@ -22,14 +22,20 @@ impl Equations {
 
     /// The components of the groups, without what these are.
     #[must_use]
-    pub fn components(&self) -> Vec<Vec<String>> {
+    pub fn components(&self) -> Vec<Vec<Symbol>> {
         self.groups.iter().map(|(_, names)| names.clone()).collect()
     }
 
-    /// Names of the components of the array.
+    /// The components of the array.
+    #[must_use]
+    pub fn symbols(&self) -> Vec<Symbol> {
+        self.groups.iter().flat_map(|(_, symbols)| symbols.clone()).collect()
+    }
+
+    /// Their names.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
-        self.groups.iter().flat_map(|(_, names)| names.clone()).collect()
+        self.symbols().iter().map(Symbol::to_string).collect()
     }
 
     /// Are they `q' = V(p)`, `p' = F(t, q)`, that is `q'' = f(t, q)`?
@@ -39,18 +45,18 @@ impl Equations {
             self.of(&[Quantity::Position, Quantity::Placement]),
             self.of(&[Quantity::LinearMomentum, Quantity::CanonicalMomentum]),
         );
-        let read_by = |group: &[(String, Value)]| -> Vec<String> {
+        let read_by = |group: &[(String, Value)]| -> Vec<Symbol> {
             let program = Program { outputs: group.to_vec(), ..self.program.clone() };
-            program.without_dead_steps().inputs().into_iter().map(str::to_owned).collect()
+            program.without_dead_steps().symbols().cloned().collect()
         };
         let (by_velocities, by_forces) = (read_by(&positions.1), read_by(&momenta.1));
         self.has(Quantity::CanonicalMomentum)
-            && by_velocities.iter().all(|read| !self.names().contains(read) || momenta.0.contains(read))
+            && by_velocities.iter().all(|read| !self.symbols().contains(read) || momenta.0.contains(read))
             && by_forces.iter().all(|read| !momenta.0.contains(read))
     }
 
-    /// Names of the components of some groups, and their rates.
-    fn of(&self, quantities: &[Quantity]) -> (Vec<String>, Vec<(String, Value)>) {
+    /// The components of some groups, and their rates.
+    fn of(&self, quantities: &[Quantity]) -> (Vec<Symbol>, Vec<(String, Value)>) {
         let groups =
             self.groups.iter().flat_map(|(quantity, names)| names.iter().map(move |name| (quantity, name)));
         let rates = groups.zip(&self.program.outputs);

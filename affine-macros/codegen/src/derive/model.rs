@@ -19,6 +19,7 @@ use crate::mechanics::describe::{Formula, LeftOut};
 use crate::mechanics::reduce::{ClosedForm, Reduction};
 use crate::mechanics::symmetry::Group;
 use crate::mechanics::term::Frame;
+use crate::symbol::{Quantity, Symbol};
 
 /// Everything that is emitted about a model.
 pub struct Model {
@@ -177,13 +178,13 @@ impl Model {
     /// With what is derived from the reduced equations: recurrence and variational equations, where they are asked for,
     /// and vectors of four.
     pub(super) fn completed(mut self, asked: Asked) -> Self {
-        let states = self.reduced.names();
+        let states = self.reduced.symbols();
         let program = &self.reduced.program;
         self.taylor = asked.taylor.then(|| Recurrence::of(program, &states));
         self.tangent = asked.tangent.then(|| {
-            let own = (1..=self.trajectory.outputs.len()).map(|k| format!("k_{k}"));
-            let changing: Vec<String> = states.iter().cloned().chain(own).collect();
-            fuse(&with_tangent(program, &|name| changing.iter().any(|known| known == name)))
+            let changes =
+                |symbol: &Symbol| symbol.quantity() == Some(Quantity::Constant) || states.contains(symbol);
+            fuse(&with_tangent(program, &changes))
         });
         // Charts of groups take single components; Runge-Kutta-Nystrom steps and closed forms leave nothing to do.
         let is_closed = matches!(self.closed_form, Some((_, false)));

@@ -16,7 +16,7 @@ use crate::mechanics::potential::Potential;
 use crate::mechanics::reduce::{self, Layout, Reduction};
 use crate::mechanics::term::Frame;
 use crate::optimise::{Batch, straight_line};
-use crate::symbol::Quantity;
+use crate::symbol::{Quantity, Symbol};
 
 use super::batch::{batch, split_batch};
 use super::equations::Equations;
@@ -80,13 +80,13 @@ pub(super) fn shortest(
     let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
     inputs.extend(time);
     let program = shortest_program(arena, ways, coefficients, &|a| inputs.contains(&a));
-    let name = |symbols: &[Expr]| -> Vec<String> { symbols.iter().map(|s| arena.symbol_name(*s)).collect() };
+    let symbols = |list: &[Expr]| -> Vec<Symbol> { list.iter().map(|s| arena.symbol_of(*s)).collect() };
     let linear = chart.linear.map_or(Quantity::LinearMomentum, Linear::quantity);
     let groups = [
-        (Quantity::Position, name(&chart.x)),
-        (Quantity::Placement, name(&chart.phi.0.concat())),
-        (linear, name(&chart.p)),
-        (chart.momentum.quantity(), name(&independent_momenta(chart))),
+        (Quantity::Position, symbols(&chart.x)),
+        (Quantity::Placement, symbols(&chart.phi.0.concat())),
+        (linear, symbols(&chart.p)),
+        (chart.momentum.quantity(), symbols(&independent_momenta(chart))),
     ];
     Equations {
         groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),
@@ -197,7 +197,8 @@ pub(super) fn shortest_reduction(
     };
     let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
     let name = |s: &Expr| arena.symbol_name(*s);
-    let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(name).collect())).collect();
+    let symbol = |s: &Expr| arena.symbol_of(*s);
+    let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(symbol).collect())).collect();
     let fixed = reduction.fixed.iter().map(name).collect();
     let dependent = match reduction.layout {
         Layout::Constant => Program::default(),

@@ -7,7 +7,7 @@ use crate::symbol::Quantity;
 /// Does a program read the time?
 #[must_use]
 pub fn reads_time(program: &Program) -> bool {
-    program.inputs().contains(&Quantity::Time.stem())
+    program.symbols().any(|symbol| symbol.quantity() == Some(Quantity::Time))
 }
 
 /// A function of `det phi` that programs read by a symbol of its own.
@@ -22,15 +22,14 @@ pub enum VolumeMeasure {
 }
 
 impl VolumeMeasure {
-    /// Its symbol.
+    /// What it is.
     #[must_use]
-    pub fn symbol(self) -> &'static str {
-        let quantity = match self {
+    pub fn quantity(self) -> Quantity {
+        match self {
             Self::MeanLogStretch => Quantity::MeanLogStretch,
             Self::Dilatation => Quantity::Dilatation,
             Self::InverseDilatation => Quantity::InverseDilatation,
-        };
-        quantity.stem()
+        }
     }
 }
 

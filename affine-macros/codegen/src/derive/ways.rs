@@ -11,7 +11,7 @@ use crate::ir::rounding::Rounding;
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::potential::{Potential, Writing};
 use crate::optimise::{Batch, straight_line};
-use crate::symbol::Quantity;
+use crate::symbol::{Quantity, Symbol};
 
 /// A way may lose so much, and so many times what the best one loses, where a body may be at rest and far from there. The bounds
 /// are sums over all operations; errors are a tenth of them.
@@ -156,13 +156,13 @@ impl Draft {
         inputs.extend(potential.time());
         let mut constants = Constants::new(Quantity::Coefficient);
         let program = straight_line(arena, &batch, &mut constants, &|atom| inputs.contains(&atom));
-        let parameters: Vec<(String, f64)> = constants
+        let parameters: Vec<(Symbol, f64)> = constants
             .entries
             .iter()
             .map(|(symbol, form)| {
                 let form = form.expression(arena);
                 let value = evaluate(arena, form, &|symbol| Some(sample(&symbol.to_string())));
-                (arena.symbol_name(*symbol), value.unwrap_or(f64::NAN))
+                (arena.symbol_of(*symbol), value.unwrap_or(f64::NAN))
             })
             .collect();
         let losses = PLACES.iter().map(|place| loss(&program, place, chart.dim, &parameters)).collect();
@@ -196,20 +196,20 @@ fn best(drafts: &[Draft], near: bool) -> Option<Writing> {
 }
 
 /// What the program loses at a place.
-fn loss(program: &Program, place: &Place, n: usize, parameters: &[(String, f64)]) -> [f64; 2] {
-    let entry = |name: &str| {
-        let at = (0..n).flat_map(|i| (0..n).map(move |a| (i, a)));
-        at.into_iter().find(|(i, a)| name == format!("phi_{}{}", i + 1, a + 1))
+fn loss(program: &Program, place: &Place, n: usize, parameters: &[(Symbol, f64)]) -> [f64; 2] {
+    let entry = |symbol: &Symbol| match symbol {
+        Symbol::Component(Quantity::Placement, entry) => Some((entry[0] - 1, entry[1] - 1)),
+        _ => None,
     };
-    let input = |name: &str| {
-        let known = parameters.iter().find(|(known, _)| known == name).map(|(_, value)| *value);
-        let placed = entry(name).map(|(i, a)| place.placement(n, i, a));
+    let input = |symbol: &Symbol| match symbol.quantity() {
+        Some(Quantity::Placement) => entry(symbol).map(|(i, a)| place.placement(n, i, a)),
+        Some(Quantity::Time | Quantity::Position) => Some(sample(&symbol.to_string())),
         // What a call provides has no value here.
-        known.or(placed).or_else(|| (name == "t" || name.starts_with("x_")).then(|| sample(name)))
+        _ => parameters.iter().find(|(known, _)| known == symbol).map(|(_, value)| *value),
     };
     let norm = |list: &[f64]| list.iter().map(|value| value * value).sum::<f64>().sqrt();
     [false, true].map(|near| {
-        let size = |name: &str| entry(name).map_or(0.0, |(i, a)| place.size(n, (i, a), near));
+        let size = |symbol: &Symbol| entry(symbol).map_or(0.0, |(i, a)| place.size(n, (i, a), near));
         let Some(Rounding { results, own, of_inputs }) = program.rounding(&input, &size) else { return 0.0 };
         let size = results.iter().fold(0.0, |size: f64, result| size.max(result.abs()));
         let is_finite = results.iter().all(|result| result.is_finite());

@@ -13,6 +13,7 @@ use crate::ir::packed::Packed;
 use crate::ir::taylor::Recurrence;
 use crate::ir::{Op, Program};
 use crate::mechanics::metrics::{Bases, Factor};
+use crate::symbol::Symbol;
 
 /// What is written down.
 #[derive(Clone, Copy, Debug)]
@@ -42,11 +43,11 @@ pub trait Written {
     }
 
     /// The inputs of every program.
-    fn inputs(&self) -> Vec<&str> {
+    fn symbols(&self) -> Vec<&Symbol> {
         let mut inputs = Vec::new();
         self.visit(&mut |part| {
             if let Part::Program(program) = part {
-                inputs.extend(program.inputs());
+                inputs.extend(program.symbols());
             }
         });
         inputs

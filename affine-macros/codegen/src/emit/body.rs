@@ -102,7 +102,7 @@ impl Writer<'_> {
         };
         let arguments: Vec<TokenStream> =
             call.arguments.iter().map(|group| kernel::written(group, |v| self.expression(*v).0)).collect();
-        let read = self.program.inputs();
+        let read: Vec<_> = self.program.symbols().collect();
         let results = call.results.iter().map(|group| kernel::bound(group, &read));
         self.lets.extend(kernel::statement(self.scope, call.callee, arguments, results));
         self.called.push(call);
@@ -139,7 +139,7 @@ impl Writer<'_> {
             return (quote!(#name), Strength::Atom);
         }
         match &self.program.steps[value] {
-            Op::Input(name) => ((self.scope.input)(name), Strength::Atom),
+            Op::Input(symbol) => ((self.scope.input)(symbol), Strength::Atom),
             Op::Constant(number) => (self.scope.number.exact(number), Strength::Atom),
             Op::Neg(a) => {
                 let a = self.at_least(*a, Strength::Sign);

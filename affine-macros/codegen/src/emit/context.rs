@@ -6,6 +6,7 @@ use quote::{format_ident, quote, quote_spanned};
 use crate::derive::{ChangeOfBases, Components, Equations, Model};
 use crate::ir::Program;
 use crate::spec::{Custom, Role, Spec};
+use crate::symbol::{Quantity, Symbol};
 
 use super::body::{Body, body};
 use super::names::Names;
@@ -115,16 +116,16 @@ impl Context<'_> {
 
     /// A program whose inputs are variables of the same name, and coefficients that are read first.
     pub(super) fn body(&self, program: &Program, number: Number) -> Body {
-        let input = |name: &str| {
-            let name = format_ident!("{name}");
+        let input = |symbol: &Symbol| {
+            let name = format_ident!("{}", symbol.to_string());
             quote!(#name)
         };
         let rebased = self.model.metrics.is_some();
         let places: Vec<Span> = self.spec.customs.iter().map(place).collect();
         let scope = Scope { number, input: &input, rebased, places: &places, rt: &self.names.rt };
         let Body { lets, results } = body(program, &scope);
-        let coefficients = program.inputs().into_iter().filter_map(|name| {
-            let (index, name) = (coefficient_index(name)?, format_ident!("{name}"));
+        let coefficients = program.symbols().filter_map(|symbol| {
+            let (index, name) = (coefficient_index(symbol)?, format_ident!("{}", symbol.to_string()));
             let value = number.of_double(quote!(self.coefficients[#index]));
             Some(quote!(let #name = #value;))
         });
@@ -185,7 +186,9 @@ fn place(custom: &Custom) -> Span {
 }
 
 /// Index of `c_1`, `c_2`, ... in the prepared model.
-pub(super) fn coefficient_index(name: &str) -> Option<Literal> {
-    let index: usize = name.strip_prefix("c_")?.parse().ok()?;
-    Some(number(index.checked_sub(1)?))
+pub(super) fn coefficient_index(symbol: &Symbol) -> Option<Literal> {
+    match symbol {
+        Symbol::Component(Quantity::Coefficient, index) => Some(number(index.first()?.checked_sub(1)?)),
+        _ => None,
+    }
 }

@@ -15,7 +15,7 @@ pub(super) fn group(context: &Context, quantity: Quantity, len: &impl ToTokens) 
 }
 
 /// The groups of a state.
-pub(super) fn groups(context: &Context, groups: &[(Quantity, Vec<String>)]) -> TokenStream {
+pub(super) fn groups<C>(context: &Context, groups: &[(Quantity, Vec<C>)]) -> TokenStream {
     let entries = groups.iter().map(|(quantity, names)| group(context, *quantity, &number(names.len())));
     quote!(&[#(#entries),*])
 }

@@ -5,6 +5,7 @@ use quote::{format_ident, quote, quote_spanned};
 
 use super::scope::Scope;
 use crate::algebra::kernel::{Asked, Callee, Group};
+use crate::symbol::Symbol;
 
 /// The statement of a call. One group of results is bound by itself, several as a tuple. Fields of a model with metrics
 /// are told what they are asked in the user's bases, by the change `change` to orthonormal ones. A call of a field stands
@@ -74,14 +75,14 @@ pub(super) fn written<E>(group: &Group<E>, entry: impl Fn(&E) -> TokenStream) ->
 }
 
 /// The pattern of a group of results; what nothing reads is not bound.
-pub(super) fn bound(group: &Group<String>, read: &[&str]) -> TokenStream {
-    let is_read = |name: &String| read.contains(&name.as_str());
+pub(super) fn bound(group: &Group<Symbol>, read: &[&Symbol]) -> TokenStream {
+    let is_read = |symbol: &Symbol| read.contains(&symbol);
     if !group.entries().into_iter().any(is_read) {
         return quote!(_);
     }
-    written(group, |name| {
-        if is_read(name) {
-            let name = format_ident!("{name}");
+    written(group, |symbol| {
+        if is_read(symbol) {
+            let name = format_ident!("{}", symbol.to_string());
             quote!(#name)
         } else {
             quote!(_)

@@ -86,8 +86,8 @@ fn equations(context: &Context, packed: &Packed) -> TokenStream {
     let program = packed.read();
     let used = program.inputs();
     let (read, constants) = trajectory::coefficients(context, &used);
-    let coefficients = used.iter().filter_map(|name| {
-        let (index, name) = (coefficient_index(name)?, quote::format_ident!("{name}"));
+    let coefficients = program.symbols().filter_map(|symbol| {
+        let (index, name) = (coefficient_index(symbol)?, quote::format_ident!("{}", symbol.to_string()));
         Some(quote!(let #name = self.coefficients[#index];))
     });
     let clock = time(&program);

@@ -6,15 +6,20 @@ use quote::{format_ident, quote};
 use crate::derive::reads_time;
 use crate::ir::Program;
 
+/// Is a name among others?
+pub(super) fn contains(names: &[impl AsRef<str>], name: &str) -> bool {
+    names.iter().any(|known| known.as_ref() == name)
+}
+
 /// Does a program with these inputs read any of some names?
-pub(super) fn reads(used: &[&str], names: &[String]) -> bool {
-    names.iter().any(|name| used.contains(&name.as_str()))
+pub(super) fn reads(used: &[impl AsRef<str>], names: &[String]) -> bool {
+    names.iter().any(|name| contains(used, name))
 }
 
 /// Pattern that binds the components that `used` reads, in order.
-pub(super) fn pattern(components: &[String], used: &[&str]) -> TokenStream {
+pub(super) fn pattern(components: &[String], used: &[impl AsRef<str>]) -> TokenStream {
     let bind = components.iter().map(|name| {
-        if used.contains(&name.as_str()) {
+        if contains(used, name) {
             let name = format_ident!("{name}");
             quote!(#name)
         } else {

@@ -5,10 +5,10 @@ use quote::{format_ident, quote};
 
 use crate::derive::{Components, VolumeMeasure};
 use crate::ir::Program;
-use crate::symbol::Quantity;
+use crate::symbol::{Quantity, Symbol};
 
 use super::context::Context;
-use super::pattern::{components, pattern, reads};
+use super::pattern::{components, contains, pattern, reads};
 
 /// The model's own affine spin of `point`, as a matrix.
 pub(super) fn own_spin(context: &Context) -> TokenStream {
@@ -60,12 +60,13 @@ pub(super) fn bind_point(context: &Context, program: &Program) -> TokenStream {
 }
 
 /// `let` statements that bind these components of `point`.
-pub(super) fn bind_components(context: &Context, used: &[&str]) -> TokenStream {
+pub(super) fn bind_components(context: &Context, used: &[impl AsRef<str>]) -> TokenStream {
     let rt = &context.names.rt;
     let spin = own_spin(context);
     let mut lets = TokenStream::new();
-    for (group, names) in &context.model.full.groups {
-        if !reads(used, names) {
+    for (group, symbols) in &context.model.full.groups {
+        let names: Vec<String> = symbols.iter().map(Symbol::to_string).collect();
+        if !reads(used, &names) {
             continue;
         }
         let value = match *group {
@@ -75,7 +76,7 @@ pub(super) fn bind_components(context: &Context, used: &[&str]) -> TokenStream {
             Quantity::ComovingLinearMomentum => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
             _ => quote!(#rt::rows(&#spin)),
         };
-        lets.extend(bind_group(context, *group, names, used, &value));
+        lets.extend(bind_group(context, *group, &names, used, &value));
     }
     lets
 }
@@ -85,7 +86,7 @@ fn bind_group(
     context: &Context,
     group: Quantity,
     names: &[String],
-    used: &[&str],
+    used: &[impl AsRef<str>],
     value: &TokenStream,
 ) -> TokenStream {
     let stem = match group {
@@ -96,7 +97,7 @@ fn bind_group(
         Quantity::Placement => "phi",
         _ => context.model.spin_name(),
     };
-    let used: Vec<&str> = used.iter().copied().filter(|name| names.iter().any(|n| n == name)).collect();
+    let used: Vec<&str> = used.iter().map(AsRef::as_ref).filter(|name| contains(names, name)).collect();
     let rows = components(stem, context.model.dim);
     let rows = rows.iter().map(|row| pattern(row, &used));
     quote!(let [#(#rows),*] = #value;)
@@ -118,7 +119,7 @@ pub(super) fn at_placement(context: &Context, program: &Program) -> TokenStream 
     let rt = &context.names.rt;
     let used = program.inputs();
     let [mean, dilatation] = [VolumeMeasure::MeanLogStretch, VolumeMeasure::Dilatation].map(|measure| {
-        let is_read = used.contains(&measure.symbol());
+        let is_read = contains(&used, measure.quantity().stem());
         is_read.then(|| bind_measure(context, measure, &quote!(#rt::Phase::phi(point))))
     });
     let names: Vec<String> = (1..=context.model.dim).map(|a| format!("q_{a}")).collect();
@@ -135,7 +136,8 @@ pub(super) fn at_placement(context: &Context, program: &Program) -> TokenStream 
 
 /// The statement that binds a function of `det phi`.
 pub(super) fn bind_measure(context: &Context, measure: VolumeMeasure, phi: &TokenStream) -> TokenStream {
-    let (rt, t, symbol) = (&context.names.rt, &context.names.scalar, format_ident!("{}", measure.symbol()));
+    let (rt, t, symbol) =
+        (&context.names.rt, &context.names.scalar, format_ident!("{}", measure.quantity().stem()));
     let value = match measure {
         VolumeMeasure::MeanLogStretch => quote!(#rt::mean_log_stretch(#phi)),
         VolumeMeasure::Dilatation => quote!(#rt::dilatation(#phi)),

@@ -5,7 +5,8 @@ use quote::{format_ident, quote};
 
 use crate::derive::splitting::PrincipalProgram;
 use crate::derive::{Condition, Damping, NumericBlock, Relation, Written};
-use crate::spec::{FIELD, Field, Storage};
+use crate::spec::{Field, Storage};
+use crate::symbol::Symbol;
 
 use super::body::Body;
 use super::context::Context;
@@ -145,9 +146,9 @@ fn as_it_is(context: &Context) -> TokenStream {
 
 /// The fields that are numbers and that the model reads, each with its name, are finite.
 fn finite_fields(context: &Context, rt: &Ident) -> TokenStream {
-    let read = context.model.inputs();
+    let read = context.model.symbols();
     let fields = context.spec.item.fields.iter().map(|field| &field.ident);
-    let named = fields.filter(|field| read.contains(&format!("{FIELD}{field}").as_str())).map(|field| {
+    let named = fields.filter(|field| read.contains(&&Symbol::Field(field.to_string()))).map(|field| {
         let name = field.to_string();
         let name = name.trim_start_matches("r#");
         quote!((#name, self.#field))

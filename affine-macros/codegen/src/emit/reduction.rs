@@ -155,9 +155,8 @@ fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
 fn bind_state(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.model.dim);
     let mut used: Vec<String> = context.model.reduced.names();
-    used.extend(context.model.trajectory.inputs().into_iter().map(str::to_owned));
+    used.extend(context.model.trajectory.inputs());
     used.extend(parts.fixed.clone());
-    let used: Vec<&str> = used.iter().map(String::as_str).collect();
     let turned = |value: TokenStream| if parts.turn { quote!((turn * #value)) } else { value };
     let mut lets = TokenStream::new();
     let vector = |stem: &str| -> Vec<String> { (1..=n).map(|i| format!("{stem}_{i}")).collect() };

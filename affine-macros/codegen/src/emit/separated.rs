@@ -12,15 +12,7 @@ use super::pattern::{components, identifiers, pattern};
 pub(super) fn split(context: &Context, motion: DilatationalMotion) -> TokenStream {
     let rt = &context.names.rt;
     let n = context.model.dim;
-    let used: Vec<String> = context
-        .model
-        .reduced
-        .groups
-        .iter()
-        .flat_map(|(_, names)| names.clone())
-        .chain(context.model.fixed.clone())
-        .collect();
-    let used: Vec<&str> = used.iter().map(String::as_str).collect();
+    let used = [context.model.reduced.names(), context.model.fixed.clone()].concat();
     let psi = components("psi", n).into_iter().map(|row| pattern(&row, &used));
     let parts = part_names(n).into_iter().map(|row| pattern(&row, &used));
     let (inverse_alpha, inverse_alpha_lets) = inverse_alpha(context);

@@ -10,7 +10,7 @@ use crate::ir::{Op, Program, Value};
 use super::body::{Body, inner};
 use super::context::Context;
 use super::number::number;
-use super::pattern::{identifiers, pattern, reads};
+use super::pattern::{contains, identifiers, pattern, reads};
 use super::separated::closed_form;
 use super::trajectory::{coefficient_names, coefficients};
 
@@ -41,7 +41,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
             const DILATES: ::core::primitive::bool = true;
         )
     });
-    let is_read = |name: &str| programs().any(|program| program.inputs().contains(&name));
+    let is_read = |name: &str| programs().any(|program| contains(&program.inputs(), name));
     let time = if programs().any(reads_time) { quote!(t) } else { quote!(_t) };
     let constants = match coefficient_names(context).iter().any(|name| is_read(name)) {
         true => quote!(constants),
@@ -88,7 +88,7 @@ pub(super) fn capability(context: &Context) -> TokenStream {
 fn bound(context: &Context, program: &Program, more: &[String]) -> TokenStream {
     let mut used = program.inputs();
     let (read, _) = coefficients(context, &used);
-    used.extend(more.iter().map(String::as_str));
+    used.extend(more.iter().cloned());
     let states = context.model.reduced.names();
     let bind = reads(&used, &states).then(|| {
         let bound = pattern(&states, &used);

@@ -12,7 +12,7 @@ pub(super) fn coefficient_names(context: &Context) -> Vec<String> {
 }
 
 /// The statement that binds those of some inputs, and the name of the parameter that it takes them from.
-pub(super) fn coefficients(context: &Context, used: &[&str]) -> (TokenStream, TokenStream) {
+pub(super) fn coefficients(context: &Context, used: &[impl AsRef<str>]) -> (TokenStream, TokenStream) {
     let names = coefficient_names(context);
     if !reads(used, &names) {
         return (TokenStream::new(), quote!(_constants));

@@ -75,8 +75,7 @@ impl Builder {
         for symbol in results.iter().flat_map(Group::entries) {
             self.lower(arena, *symbol);
         }
-        let name = |symbol: &Expr| arena.symbol_name(*symbol);
-        let results = results.iter().map(|group| group.map(name)).collect();
+        let results = results.iter().map(|group| group.map(|symbol| arena.symbol_of(*symbol))).collect();
         self.program.calls.push(Call { callee, arguments, results });
     }
 
@@ -116,7 +115,7 @@ impl Builder {
         }
         let value = match arena.node(expr) {
             Node::Constant(number) => self.constant(number),
-            Node::Symbol(symbol) => self.step(Op::Input(symbol.to_string())),
+            Node::Symbol(symbol) => self.step(Op::Input(symbol.clone())),
             Node::Sum(constant, terms) => self.sum(arena, constant, terms),
             Node::Product(factors) => self.product(arena, factors),
             Node::Function(function, argument) => {

@@ -1,6 +1,7 @@
 //! Calls of runtime functions: their arguments are values of the program, their results are inputs of it.
 
 use crate::algebra::kernel::{Callee, Group};
+use crate::symbol::Symbol;
 
 /// A value: the index of the step that makes it.
 pub type Value = usize;
@@ -12,8 +13,8 @@ pub struct Call {
     pub callee: Callee,
     /// The arguments: earlier values, in groups.
     pub arguments: Vec<Group<Value>>,
-    /// Names of the inputs that it provides.
-    pub results: Vec<Group<String>>,
+    /// The inputs that it provides.
+    pub results: Vec<Group<Symbol>>,
 }
 
 impl Call {
@@ -28,8 +29,8 @@ impl Call {
 
     /// Does it provide the input?
     #[must_use]
-    pub fn provides(&self, input: &str) -> bool {
-        self.results.iter().any(|group| group.entries().into_iter().any(|name| name == input))
+    pub fn provides(&self, input: &Symbol) -> bool {
+        self.results.iter().any(|group| group.entries().contains(&input))
     }
 
     /// The values it reads.

@@ -2,6 +2,7 @@
 
 use crate::algebra::Function;
 use crate::algebra::evaluate::Field;
+use crate::symbol::Symbol;
 
 use super::{Op, Program, Value};
 
@@ -22,13 +23,13 @@ impl Program {
     /// A bound depends on no chance, as the error at a point does.
     pub fn rounding(
         &self,
-        input: &impl Fn(&str) -> Option<f64>,
-        size: &impl Fn(&str) -> f64,
+        input: &impl Fn(&Symbol) -> Option<f64>,
+        size: &impl Fn(&Symbol) -> f64,
     ) -> Option<Rounding> {
         let mut values: Vec<f64> = Vec::with_capacity(self.steps.len());
         for step in &self.steps {
             let value = match step {
-                Op::Input(name) => input(name)?,
+                Op::Input(symbol) => input(symbol)?,
                 Op::Constant(number) => f64::from_rational(number),
                 Op::Add(a, b) => values[*a] + values[*b],
                 Op::Sub(a, b) => values[*a] - values[*b],
@@ -50,7 +51,7 @@ impl Program {
                     continue;
                 }
                 match step {
-                    Op::Input(name) => of_inputs += slope.abs() * size(name),
+                    Op::Input(symbol) => of_inputs += slope.abs() * size(symbol),
                     Op::Constant(_) | Op::Neg(_) => {}
                     _ => own += (slope * value).abs(),
                 }
@@ -128,12 +129,13 @@ fn derivative(function: Function, a: f64, value: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::algebra::Rational;
+    use crate::symbol::Quantity;
 
     /// `(x - 1) (x + 1)` keeps its digits at `x = 1 + 1e-6`, `x^2 - 1` loses six of them.
     #[test]
     fn cancellation_is_seen() {
         let one = || Op::Constant(Rational::ONE);
-        let start = || vec![Op::Input("x".into()), one()];
+        let start = || vec![Op::Input(Quantity::Position.into()), one()];
         let of = |steps: Vec<Op>| {
             let last = steps.len() - 1;
             let program = Program { steps, outputs: vec![("f".into(), last)], ..Program::default() };

@@ -7,13 +7,14 @@
 use rustc_hash::FxHashMap;
 
 use crate::algebra::{Function, Rational};
+use crate::symbol::{Aspect, Symbol};
 
 use super::{Op, Program, Value};
 
 /// The results of `program`, then their changes. The input `x`, where `changing(x)`, changes by the input
 /// [`change_of`]`(x)`. What runtime functions provide does not change: programs that call some have no derivative here.
 #[must_use]
-pub fn with_tangent(program: &Program, changing: &impl Fn(&str) -> bool) -> Program {
+pub fn with_tangent(program: &Program, changing: &impl Fn(&Symbol) -> bool) -> Program {
     let mut builder = Builder { steps: program.steps.clone(), known: FxHashMap::default() };
     for (value, op) in program.steps.iter().enumerate() {
         builder.known.entry(op.clone()).or_insert(value);
@@ -60,10 +61,12 @@ impl Builder {
         value: Value,
         op: &Op,
         changes: &[Option<Value>],
-        changing: &impl Fn(&str) -> bool,
+        changing: &impl Fn(&Symbol) -> bool,
     ) -> Option<Value> {
         match *op {
-            Op::Input(ref name) => changing(name).then(|| self.step(Op::Input(change_of(name)))),
+            Op::Input(ref symbol) => {
+                changing(symbol).then(|| self.step(Op::Input(symbol.clone().seen(Aspect::Change))))
+            }
             Op::Constant(_) => None,
             Op::Add(a, b) => self.sum(changes[a], changes[b]),
             Op::Sub(a, b) => match (changes[a], changes[b]) {

@@ -16,6 +16,7 @@ mod recurrence;
 mod rules;
 
 use super::Program;
+use crate::symbol::Symbol;
 use lanes::Packed;
 
 pub use recurrence::{Column, Factor, Pass, Place, Recurrence, Rule, Series, Term, sums};
@@ -23,7 +24,7 @@ pub use recurrence::{Column, Factor, Pass, Place, Recurrence, Rule, Series, Term
 impl Recurrence {
     /// The recurrence of `y' = f(y)`: `states` are the inputs that move, in the order of the outputs, their rates.
     #[must_use]
-    pub fn of(program: &Program, states: &[String]) -> Self {
+    pub fn of(program: &Program, states: &[Symbol]) -> Self {
         let program = companions::completed(program);
         let draft = rules::Draft::of(&program, states);
         let Packed { lanes, mut row, vectors, full, inner, places } =

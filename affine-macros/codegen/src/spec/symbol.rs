@@ -32,15 +32,6 @@ pub enum Symbol<'a> {
     Field(&'a Field),
 }
 
-/// Stem of the symbols of fields in derivations: kept apart from the names that the derivation makes.
-pub const FIELD: &str = "self.";
-
-/// The symbol of an entry of a field of matrix type, indices from 1.
-#[must_use]
-pub fn field_entry(field: impl std::fmt::Display, row: usize, column: usize) -> String {
-    format!("{FIELD}{field}[{row},{column}]")
-}
-
 /// The symbols of all expressions besides the fields, with their meaning.
 pub const SYMBOLS: [(&str, &str); 1] = [("n", "the dimension")];
 

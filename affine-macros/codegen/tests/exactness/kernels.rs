@@ -34,7 +34,8 @@ fn program(arena: &mut Arena) -> Program {
 fn a_call_stands_before_what_reads_it() {
     let program = program(&mut Arena::new());
     let [call] = program.calls.as_slice() else { panic!("{:?}", program.calls) };
-    let read = program.steps.iter().position(|step| *step == Op::Input("self.first".to_owned())).unwrap();
+    let read =
+        program.steps.iter().position(|step| *step == Op::Input(Symbol::Field("first".to_owned()))).unwrap();
     assert!(call.operands().iter().all(|argument| *argument < read), "{program:?}");
     let [argument] = call.operands()[..] else { panic!("{call:?}") };
     assert!(matches!(program.steps[argument], Op::Mul(..) | Op::Add(..)), "{program:?}");

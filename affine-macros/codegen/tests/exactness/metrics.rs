@@ -4,6 +4,7 @@
 use affine_codegen::algebra::Rational as Number;
 use affine_codegen::derive::{ChangeOfBases, Model};
 use affine_codegen::mechanics::metrics::{Axes, root_of_product};
+use affine_codegen::symbol::{Quantity, Symbol};
 use affine_oracle::{Kinetic, Matrix, Random, Term, rational};
 
 use super::models::{derived, matrix_literal};
@@ -39,11 +40,12 @@ fn tensor_product(n: usize, left: &Matrix, right: &Matrix) -> Matrix {
 }
 
 /// The velocity that the model's program gives for a momentum in orthonormal bases.
-fn velocity(model: &Model, stem: &str, momentum: &Rows) -> Rows {
-    let input = |name: &str| {
-        let places = name.strip_prefix(stem)?.strip_prefix('_')?.as_bytes();
-        let index = |place: u8| usize::from(place - b'1');
-        Some(momentum[index(places[0])][index(places[1])].clone())
+fn velocity(model: &Model, spin: Quantity, momentum: &Rows) -> Rows {
+    let input = |symbol: &Symbol| match symbol {
+        Symbol::Component(own, places) if *own == spin => {
+            Some(momentum[places[0] - 1][places[1] - 1].clone())
+        }
+        _ => None,
     };
     let results = model.velocity.run(&input).unwrap();
     results.chunks(model.dim).map(<[Number]>::to_vec).collect()
@@ -88,24 +90,24 @@ fn velocities_beside_random_metrics() {
                 let (a, b) = (&bases.space, &bases.body);
                 let inverse = state.phi.inverse().unwrap();
                 // Momentum and velocity in the frame of the energy, and the factors that carry each.
-                let ((stem, momentum, outer), (velocity_of, factors)) = match kind {
+                let ((spin, momentum, outer), (velocity_of, factors)) = match kind {
                     "body_inertia" | "body_tensor" => (
-                        ("sigma_hat", &state.pi * &state.phi, (&b.matrix, &b.inverse)),
+                        (Quantity::ComovingAffineSpin, &state.pi * &state.phi, (&b.matrix, &b.inverse)),
                         (&inverse * &phi_dot, (&b.matrix, &b.inverse)),
                     ),
                     "space_inertia" | "space_tensor" => (
-                        ("sigma", &state.phi * &state.pi, (&a.matrix, &a.inverse)),
+                        (Quantity::AffineSpin, &state.phi * &state.pi, (&a.matrix, &a.inverse)),
                         (&phi_dot * &inverse, (&a.matrix, &a.inverse)),
                     ),
                     _ => (
-                        ("pi", state.pi.clone(), (&b.matrix, &a.inverse)),
+                        (Quantity::CanonicalMomentum, state.pi.clone(), (&b.matrix, &a.inverse)),
                         (phi_dot.clone(), (&a.matrix, &b.inverse)),
                     ),
                 };
                 let carried = |(left, right): (&Rows, &Rows), matrix: &Matrix| {
                     product(&product(left, &rows(matrix)), right)
                 };
-                let found = velocity(&model, stem, &carried(outer, &momentum));
+                let found = velocity(&model, spin, &carried(outer, &momentum));
                 let expected = carried(factors, &velocity_of);
                 let size = expected.concat().iter().fold(1.0_f64, |size, e| size.max(e.to_doubles().0.abs()));
                 for (found, expected) in found.concat().iter().zip(expected.concat()) {

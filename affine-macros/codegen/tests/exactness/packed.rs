@@ -4,6 +4,7 @@ use affine_codegen::algebra::Rational;
 use affine_codegen::derive::Model;
 use affine_codegen::ir::packed::{Four, Packed, Step};
 use affine_codegen::ir::{Op, Program};
+use affine_codegen::symbol::Symbol;
 use affine_oracle::Random;
 
 use super::models::{FAMILIES, Sample, TRANSLATIONS, derived};
@@ -14,8 +15,8 @@ fn agrees(model: &Model, random: &mut Random) -> Option<(Packed, usize)> {
     let program: &Program = &model.reduced.program;
     let (packed, cost) = Packed::cheapest(program, &model.reduced.components())?;
     let values: Vec<Rational> = program.steps.iter().map(|_| own(&fraction(random))).collect();
-    let input = |name: &str| {
-        let place = program.steps.iter().position(|op| matches!(op, Op::Input(known) if known == name))?;
+    let input = |symbol: &Symbol| {
+        let place = program.steps.iter().position(|op| matches!(op, Op::Input(known) if known == symbol))?;
         Some(values[place].clone())
     };
     let expected = program.run(&input);

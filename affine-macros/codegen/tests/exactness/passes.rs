@@ -13,7 +13,7 @@ use affine_codegen::ir::inverse_root::with_inverse_roots;
 use affine_codegen::ir::tangent::with_tangent;
 use affine_codegen::ir::{Op, Program};
 use affine_codegen::optimise::{Batch, straight_line};
-use affine_codegen::symbol::Quantity;
+use affine_codegen::symbol::{Quantity, Symbol};
 use affine_oracle::Random;
 
 use super::points::{fraction, own, run};
@@ -279,7 +279,7 @@ fn same_operations(program: &Program, fused: &Program) {
 fn random_program(random: &mut Random) -> Program {
     let mut program = Program::default();
     for k in 0..4 {
-        program.steps.push(Op::Input(format!("x{}", k + 1)));
+        program.steps.push(Op::Input(Quantity::Position.at([k + 1])));
     }
     program.steps.push(Op::Constant(own(&fraction(random))));
     for _ in 0..random.integer(5, 25) {
@@ -306,7 +306,7 @@ fn fusing_and_pruning_any_program() {
     let mut random = Random::new(76);
     let (mut fused_some, mut pruned_some) = (0, 0);
     for _ in 0..4 * ROUNDS {
-        let point = (1..=4).map(|k| (format!("x{k}"), own(&fraction(&mut random)))).collect();
+        let point = (1..=4).map(|k| (format!("x_{k}"), own(&fraction(&mut random)))).collect();
         let program = random_program(&mut random);
         let expected = outputs(&program, &point);
         let pruned = program.without_dead_steps();
@@ -380,7 +380,9 @@ fn powers_are_what_they_are() {
             let mut builder = Builder::by(ways);
             builder.output(&arena, "value", power);
             let (three, half) = (Rational::from(3), Rational::ratio(1, 2).unwrap());
-            let input = |name: &str| Some(if name == "x" { three.clone() } else { half.clone() });
+            let input = |symbol: &Symbol| {
+                Some(if symbol.quantity() == Some(Quantity::Position) { three.clone() } else { half.clone() })
+            };
             let found = builder.finish().run(&input);
             let expected = (0..exponent).fold(Rational::ONE, |value, _| &value * &Rational::from(6));
             assert_eq!(found, Some(vec![expected]), "x^{exponent}/y^{exponent}");
@@ -407,10 +409,10 @@ fn common_subexpressions_are_shared() {
 /// has a name, and a square root stay as they are.
 #[test]
 fn inverse_cube_roots() {
-    let input = |name: &str| Op::Input(name.to_owned());
+    let input = |of: Quantity| Op::Input(of.into());
     let steps = vec![
-        input("x"),
-        input("y"),
+        input(Quantity::Position),
+        input(Quantity::LinearMomentum),
         Op::Constant(Rational::ONE),
         Op::Call(Function::Cbrt, 0),
         Op::Div(2, 3),
@@ -437,7 +439,7 @@ fn inverse_cube_roots() {
     assert_eq!(inverted.names.len(), 1);
 
     // Values, and changes along a direction, which have a rule of their own.
-    let point = |name: &str| Some(if name.ends_with('x') { 0.7 } else { 1.9 });
+    let point = |symbol: &Symbol| Some(if symbol.to_string().ends_with('x') { 0.7 } else { 1.9 });
     let [plain, other] = [&program, &inverted].map(|program| program.run::<f64>(&point).unwrap());
     let along = |program: &Program| with_tangent(program, &|_| true).run::<f64>(&point).unwrap();
     for (plain, other) in [(plain, other), (along(&program), along(&inverted))] {

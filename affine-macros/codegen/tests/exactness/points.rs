@@ -92,8 +92,8 @@ pub(crate) fn velocities(kinetic: &Kinetic, state: &State, comoving: bool) -> Va
 /// Runs a program exactly; its results by name.
 pub(crate) fn run(program: &Program, inputs: &Values) -> Values {
     let results = program
-        .run::<Rational>(&|name| Some(inputs.get(name).unwrap_or_else(|| panic!("input {name}")).clone()))
-        .expect("no division by zero");
+        .run::<Rational>(&|symbol| inputs.get(&symbol.to_string()).cloned())
+        .expect("every input, and no division by zero");
     assert_eq!(results.len(), program.outputs.len());
     program.outputs.iter().map(|(name, _)| name.clone()).zip(results).collect()
 }

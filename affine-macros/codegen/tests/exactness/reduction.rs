@@ -2,7 +2,6 @@
 
 use affine_codegen::algebra::Rational;
 use affine_codegen::derive::Model;
-use affine_codegen::ir::Op;
 use affine_codegen::mechanics::charts::Momentum;
 use affine_codegen::mechanics::reduce::{ClosedForm, Commuting, Layout, Reduction};
 use affine_codegen::mechanics::term::Frame;
@@ -99,30 +98,26 @@ pub(crate) fn equations(what: &str, model: &Model, rest: &Kinetic, state: &State
     here.extend(coefficients.clone());
     let mut inputs = run(&model.trajectory, &here);
     inputs.extend(coefficients.clone());
-    let listed: Vec<&String> = model.reduced.groups.iter().flat_map(|(_, names)| names).collect();
+    let listed = model.reduced.names();
     for name in &listed {
-        inputs.insert((*name).clone(), here[*name].clone());
+        inputs.insert(name.clone(), here[name].clone());
     }
     let constants = constants(model);
-    let reads = model.trajectory.steps.iter().filter_map(|step| match step {
-        Op::Input(name) => Some(name),
-        _ => None,
-    });
-    for name in reads {
+    for name in model.trajectory.inputs() {
         // Turned space has p = (p_1, 0, 0).
         assert!(
             !model.reduction.turned || !["p_2", "p_3"].contains(&name.as_str()),
             "{what}: {name} is zero"
         );
         assert!(
-            constants.contains(name) || coefficients.contains_key(name),
+            constants.contains(&name) || coefficients.contains_key(&name),
             "{what}: the trajectory reads {name}"
         );
     }
     let expected = rates(&rest.motion(state).unwrap());
     let found = run(&model.reduced.program, &inputs);
     assert_eq!(found.len(), listed.len());
-    for name in listed {
+    for name in &listed {
         assert_eq!(found[&format!("d_{name}")], expected[name], "{what}: {name}");
     }
     // What is not integrated does not move.

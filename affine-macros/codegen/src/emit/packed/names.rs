@@ -11,7 +11,7 @@ pub(super) fn of_vectors(packed: &Packed) -> Vec<Option<String>> {
     let program = &packed.program;
     let mut taken: HashSet<String> = program.names.iter().map(|(_, name)| name.clone()).collect();
     taken.extend(program.steps.iter().filter_map(|op| match op {
-        Op::Input(name) if !components.contains(&name.as_str()) => Some(name.clone()),
+        Op::Input(symbol) => Some(symbol.to_string()).filter(|name| !components.contains(&name.as_str())),
         _ => None,
     }));
     let mut names = Vec::new();

@@ -152,10 +152,10 @@ impl Writer<'_> {
 
     /// A value of the scalar program, from its lane if it has one.
     fn value(&self, value: Value) -> (TokenStream, Strength) {
-        if let Op::Input(name) = &self.packed.program.steps[value]
+        if let Op::Input(symbol) = &self.packed.program.steps[value]
             && self.packed.lane(value).is_none()
         {
-            let name = format_ident!("{name}");
+            let name = format_ident!("{}", symbol.to_string());
             return (quote!(#name), Strength::Atom);
         }
         match self.packed.lane(value) {
@@ -181,8 +181,8 @@ impl Writer<'_> {
         let rt = &self.context.names.rt;
         let operand = |value: &Value| self.value(*value);
         match op {
-            Op::Input(name) => {
-                let name = format_ident!("{name}");
+            Op::Input(symbol) => {
+                let name = format_ident!("{}", symbol.to_string());
                 (quote!(#name), Strength::Atom)
             }
             Op::Constant(exact) => (Number::Double.exact(exact), Strength::Sign),

@@ -17,7 +17,7 @@ pub(super) fn renewed(context: &Context, list: &[VolumeMeasure]) -> TokenStream 
         let row = identifiers(&row);
         quote!([#(#row),*])
     });
-    let is_carried = |name: &str| list.iter().any(|carried| carried.symbol() == name);
+    let is_carried = |name: &str| list.iter().any(|carried| carried.quantity().stem() == name);
     let kept: Vec<&str> = all.iter().map(String::as_str).filter(|name| !is_carried(name)).collect();
     let bound = pattern(&all, &kept);
     let carried = computed(context, list, &quote!(&phi));

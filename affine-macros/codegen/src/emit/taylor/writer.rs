@@ -28,7 +28,7 @@ impl Writer<'_> {
     }
 
     /// A state vector's components that are read, bound to their names, and the parameter.
-    pub(super) fn bind(&self, used: &[&str], from: &str) -> (TokenStream, TokenStream) {
+    pub(super) fn bind(&self, used: &[impl AsRef<str>], from: &str) -> (TokenStream, TokenStream) {
         let names = self.states();
         if !reads(used, &names) {
             let unused = format_ident!("_{from}");

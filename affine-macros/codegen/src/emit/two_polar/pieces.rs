@@ -25,8 +25,7 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[Strin
         let place = if k + 1 == count { quote!(_) } else { quote!(#piece) };
         quote!(#place => { #body })
     });
-    let is_read =
-        |name: &String| pieces.list.iter().any(|piece| piece.program.inputs().contains(&name.as_str()));
+    let is_read = |name: &String| pieces.list.iter().any(|piece| piece.program.inputs().contains(name));
     let couplings = if form.couplings.iter().any(is_read) { quote!(couplings) } else { quote!(_couplings) };
     let turning = turning(context);
     quote! {

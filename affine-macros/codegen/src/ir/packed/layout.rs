@@ -1,12 +1,14 @@
 //! Which components of the state stand side by side.
 
+use crate::symbol::Symbol;
+
 /// Vectors of one group, by the indices of components.
 type Vectors = Vec<[Option<usize>; 4]>;
 
 /// The vectors of a state, group by group.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
-    names: Vec<String>,
+    names: Vec<Symbol>,
     groups: Vec<Vectors>,
     /// Other ways for a group.
     others: Vec<(usize, Vectors)>,
@@ -14,7 +16,7 @@ pub(super) struct Layout {
 
 impl Layout {
     /// Matrices by rows, all else in its order.
-    pub(super) fn in_rows(groups: &[Vec<String>]) -> Self {
+    pub(super) fn in_rows(groups: &[Vec<Symbol>]) -> Self {
         let (mut names, mut chosen, mut others) = (Vec::new(), Vec::new(), Vec::new());
         for (place, components) in groups.iter().enumerate() {
             let first = names.len();
@@ -30,7 +32,7 @@ impl Layout {
     }
 
     /// The components of the state.
-    pub(super) fn names(&self) -> &[String] {
+    pub(super) fn names(&self) -> &[Symbol] {
         &self.names
     }
 
@@ -61,11 +63,11 @@ fn in_order(first: usize, count: usize) -> Vectors {
 /// The lines of a matrix of dimension 3, `entry` being the indices of an entry. A component that a line of a symmetric
 /// matrix shares with an earlier one stands in both, and moves in both alike.
 fn lines(
-    components: &[String],
+    components: &[Symbol],
     first: usize,
     entry: impl Fn(usize, usize) -> (usize, usize),
 ) -> Option<Vectors> {
-    let places: Vec<(usize, usize)> = components.iter().map(|name| indices(name)).collect::<Option<_>>()?;
+    let places: Vec<(usize, usize)> = components.iter().map(indices).collect::<Option<_>>()?;
     if places.len() < 4 || !places.iter().any(|(i, j)| *i == 3 || *j == 3) {
         return None;
     }
@@ -85,10 +87,12 @@ fn lines(
 }
 
 /// `(1, 2)` of `phi_12`.
-fn indices(name: &str) -> Option<(usize, usize)> {
-    let (_, digits) = name.rsplit_once('_')?;
-    match *digits.as_bytes() {
-        [i @ b'1'..=b'3', j @ b'1'..=b'3'] => Some((usize::from(i - b'0'), usize::from(j - b'0'))),
+fn indices(symbol: &Symbol) -> Option<(usize, usize)> {
+    match symbol {
+        Symbol::Component(_, indices) => match **indices {
+            [i @ 1..=3, j @ 1..=3] => Some((i, j)),
+            _ => None,
+        },
         _ => None,
     }
 }

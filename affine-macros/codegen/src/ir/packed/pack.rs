@@ -3,6 +3,7 @@
 use super::cost::{self, OF_A_SUM};
 use super::vector::{Four, Index, Lane, Lanes, Vector};
 use crate::ir::{Op, Program, Value};
+use crate::symbol::{Quantity, Symbol};
 
 /// Vectors that are in no order yet.
 pub(super) struct Draft {
@@ -15,9 +16,9 @@ pub(super) struct Draft {
 }
 
 /// The vectors that make the rates of those of the state.
-pub(super) fn pack(program: &Program, names: &[String], state: Vec<[Option<usize>; 4]>) -> Draft {
+pub(super) fn pack(program: &Program, names: &[Symbol], state: Vec<[Option<usize>; 4]>) -> Draft {
     let input =
-        |name: &String| program.steps.iter().position(|op| matches!(op, Op::Input(own) if own == name));
+        |name: &Symbol| program.steps.iter().position(|op| matches!(op, Op::Input(own) if own == name));
     let inputs: Vec<Option<Value>> = names.iter().map(input).collect();
     let lanes_of = |vector: &[Option<usize>; 4], value: &dyn Fn(usize) -> Option<Value>| {
         vector.map(|component| component.and_then(value).map_or(Lane::Free, Lane::Of))
@@ -34,11 +35,11 @@ pub(super) fn pack(program: &Program, names: &[String], state: Vec<[Option<usize
 }
 
 /// Values that are the same at every state.
-fn fixed(program: &Program, state: &[String]) -> Vec<bool> {
+fn fixed(program: &Program, state: &[Symbol]) -> Vec<bool> {
     let mut fixed: Vec<bool> = Vec::with_capacity(program.steps.len());
     for op in &program.steps {
         let is_fixed = match op {
-            Op::Input(name) => name != "t" && !state.contains(name),
+            Op::Input(symbol) => symbol.quantity() != Some(Quantity::Time) && !state.contains(symbol),
             op => op.operands().into_iter().all(|v| fixed[v]),
         };
         fixed.push(is_fixed);

@@ -4,16 +4,17 @@ use super::vector::{Four, Lane, Packed, Step};
 use crate::algebra::Rational;
 use crate::algebra::evaluate::Field;
 use crate::ir::{Op, Program, Value};
+use crate::symbol::{Quantity, Symbol};
 
 impl Packed {
     /// The rates of the components, in their order; `None` where an input has no value, or a lane that is read none.
-    pub fn run<F: Field>(&self, input: &impl Fn(&str) -> Option<F>) -> Option<Vec<F>> {
+    pub fn run<F: Field>(&self, input: &impl Fn(&Symbol) -> Option<F>) -> Option<Vec<F>> {
         let mut run =
             Run { packed: self, scalars: vec![None; self.program.steps.len()], vectors: Vec::new() };
         run.vectors = vec![[const { None }; 4]; self.vectors.len()];
         for (value, op) in self.program.steps.iter().enumerate() {
-            if let Op::Input(name) = op {
-                run.scalars[value] = input(name);
+            if let Op::Input(symbol) = op {
+                run.scalars[value] = input(symbol);
             }
         }
         for step in &self.steps {
@@ -50,12 +51,15 @@ impl<F: Field> Run<'_, F> {
     fn scalar(&self, value: Value) -> Option<F> {
         let op = &self.packed.program.steps[value];
         let operands: Vec<Value> = op.operands();
-        let mut steps: Vec<Op> = (0..operands.len()).map(|k| Op::Input(k.to_string())).collect();
+        let mut steps: Vec<Op> = (0..operands.len()).map(|k| Op::Input(Quantity::Constant.at([k]))).collect();
         let mut place = vec![0; self.packed.program.steps.len()];
         operands.iter().enumerate().for_each(|(k, v)| place[*v] = k);
         steps.push(op.renumbered(&place));
         let alone = Program { outputs: vec![(String::new(), operands.len())], steps, ..Program::default() };
-        let input = |name: &str| self.value(*operands.get(name.parse::<usize>().ok()?)?);
+        let input = |symbol: &Symbol| {
+            let k = (0..operands.len()).find(|k| *symbol == Quantity::Constant.at([*k]))?;
+            self.value(operands[k])
+        };
         alone.run(&input)?.into_iter().next()
     }
 

@@ -3,11 +3,12 @@
 
 use super::super::{Op, Program, Value};
 use super::recurrence::{Column, Place, Rule, Series, Term};
+use crate::symbol::Symbol;
 
 /// The columns among the vectors of a row of slots.
 pub(super) fn find(
     program: &Program,
-    states: &[String],
+    states: &[Symbol],
     rules: &[(Value, Rule)],
     (slots, lanes): (&[Option<Series>], usize),
 ) -> Vec<Column> {
@@ -26,7 +27,7 @@ pub(super) fn find(
 }
 
 /// Where the rate of a state is found, if it is a lane and nothing else.
-fn rate(program: &Program, states: &[String], rules: &[(Value, Rule)], series: Series) -> Option<Place> {
+fn rate(program: &Program, states: &[Symbol], rules: &[(Value, Rule)], series: Series) -> Option<Place> {
     let Op::Input(name) = &program.steps[series.value] else { return None };
     let (_, rate) = &program.outputs[states.iter().position(|state| state == name)?];
     let (_, Rule::Sum(terms)) = rules.iter().find(|(value, _)| value == rate)? else { return None };

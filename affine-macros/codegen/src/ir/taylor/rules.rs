@@ -1,6 +1,7 @@
 //! Rules for coefficients: what moves, what is ready, which products there are.
 
 use crate::algebra::Function;
+use crate::symbol::Symbol;
 
 use super::super::{Op, Program, Value};
 use super::companions::companion_of;
@@ -67,7 +68,7 @@ pub(super) struct Draft {
 }
 
 impl Draft {
-    pub(super) fn of(program: &Program, states: &[String]) -> Self {
+    pub(super) fn of(program: &Program, states: &[Symbol]) -> Self {
         let reader = Reader::new(program, states);
         let mut draft = Self {
             ready: vec![false; program.steps.len()],
@@ -211,7 +212,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn new(program: &'a Program, states: &[String]) -> Self {
+    fn new(program: &'a Program, states: &[Symbol]) -> Self {
         let count = program.steps.len();
         let mut moving = vec![false; count];
         for (value, step) in program.steps.iter().enumerate() {
