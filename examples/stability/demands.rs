@@ -15,6 +15,12 @@ pub(crate) fn broken(report: &StabilityReport) -> Vec<String> {
     short.chain(SEPARABLE.iter().filter_map(|counts| steps_grow(report, *counts))).collect()
 }
 
+/// Do two reports have the same bytes?
+pub(crate) fn are_same(one: &StabilityReport, other: &StabilityReport) -> bool {
+    let same_picture = one.to_svg().is_ok_and(|svg| other.to_svg().is_ok_and(|again| svg == again));
+    same_picture && one.to_csv() == other.to_csv()
+}
+
 /// Where the dilatation separates, steps do not know its stiffness.
 fn steps_grow(
     report: &StabilityReport,
