@@ -3,6 +3,7 @@
 
 use affine_codegen::derive::{Model, derive};
 use affine_codegen::diagnostics::gate;
+use affine_codegen::symbol::{Quantity, Symbol};
 use affine_codegen::{check, expand, model, spec};
 use num_bigint::BigInt;
 use proc_macro2::{TokenStream, TokenTree};
@@ -178,9 +179,9 @@ proptest! {
             // c x^2 = 1 up to the square root of ten.
             let x = format!("1e{}", -exponent.div_euclid(2)).parse::<f64>().expect("a number");
             let expected = format!("1e{}", exponent.rem_euclid(2)).parse::<f64>().expect("a number");
-            let at = |name: &str| match name {
-                "phi_11" | "phi_22" => Some(1.0),
-                name => Some(if name == format!("x_{}", i + 1) { x } else { 0.0 }),
+            let at = |symbol: &Symbol| match symbol {
+                Symbol::Component(Quantity::Placement, entry) if entry[0] == entry[1] => Some(1.0),
+                other => Some(if *other == Quantity::Position.at([i + 1]) { x } else { 0.0 }),
             };
             let energy = model.hamiltonian.run::<f64>(&at).expect("an energy")[0];
             prop_assert!((energy - expected).abs() < 1e-12 * expected, "{}: U = {}", args, energy);

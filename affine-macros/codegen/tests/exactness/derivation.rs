@@ -50,7 +50,7 @@ pub(crate) fn check(what: &str, model: &Model, kinetic: &Kinetic, state: &State,
     }
     let size = n * n + if kinetic.has_translation() { n } else { 0 };
     agree(what, &run(&model.full.program, &here), "d_", &rates(&motion), 2 * size);
-    let listed: Vec<&String> = model.full.groups.iter().flat_map(|(_, names)| names).collect();
+    let listed = model.full.names();
     let computed: Vec<&str> =
         model.full.program.outputs.iter().map(|(name, _)| &name["d_".len()..]).collect();
     assert_eq!(listed, computed, "{what}: order of the state");

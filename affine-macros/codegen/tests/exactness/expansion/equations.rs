@@ -8,6 +8,7 @@ use affine_codegen::algebra::kernel::{Asked, Callee, Group};
 use affine_codegen::algebra::{Arena, Expr, Function, Polynomial};
 use affine_codegen::ir::Program;
 use affine_codegen::mechanics::equations::System;
+use affine_codegen::symbol::Symbol;
 
 use super::number::{Jet, Number, Table};
 
@@ -165,9 +166,9 @@ fn slopes(place: usize, class: u8, at: &[Number], phi: &Table) -> Vec<Number> {
 
 /// The results of a program by name; `None` where a function has no value.
 pub(super) fn run(program: &Program, inputs: &Named) -> Option<Named> {
-    let read = |name: &str| {
-        let value = inputs.get(name).copied();
-        Some(value.unwrap_or_else(|| panic!("{name} is read and not known")))
+    let read = |symbol: &Symbol| {
+        let value = inputs.get(&symbol.to_string()).copied();
+        Some(value.unwrap_or_else(|| panic!("{symbol} is read and not known")))
     };
     let results = program.run::<Number>(&read)?;
     Some(program.outputs.iter().map(|(name, _)| name.clone()).zip(results).collect())
