@@ -87,6 +87,16 @@ impl Arena {
         }
     }
 
+    /// Several of them.
+    pub fn symbols<S: Into<Symbol>, const N: usize>(&mut self, symbols: [S; N]) -> [Expr; N] {
+        symbols.map(|symbol| self.symbol(symbol))
+    }
+
+    /// The components 1 to `n` of a quantity.
+    pub fn components(&mut self, of: Quantity, n: usize) -> Vec<Expr> {
+        (1..=n).map(|k| self.symbol(of.at([k]))).collect()
+    }
+
     /// The symbol that an expression is, if it is one.
     #[must_use]
     pub fn as_symbol(&self, expr: Expr) -> Option<&Symbol> {

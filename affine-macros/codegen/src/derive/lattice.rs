@@ -170,7 +170,7 @@ fn framed(arena: &mut Arena, frames: &Frames, equations: &Equations, stable: &St
         (Quantity::LeftAngular, &frames.left, &equations.chi),
         (Quantity::RightAngular, &frames.right, &equations.theta),
     ] {
-        let symbols: Vec<Expr> = (1..=angular.len()).map(|k| arena.symbol(of.at([k]))).collect();
+        let symbols = arena.components(of, angular.len());
         shared.extend(symbols.iter().copied().zip(angular.iter().map(|p| stable.rewritten(p))));
         let symbols: Vec<Polynomial> = symbols.into_iter().map(Polynomial::atom).collect();
         for (k, entry) in frame.iter().enumerate() {

@@ -200,7 +200,7 @@ impl Body<'_> {
         if self.masses.are_none() {
             return CentreVelocity::Fixed;
         }
-        let mut symbols = |of: Quantity| (1..=self.mixed.dim).map(|i| arena.symbol(of.at([i]))).collect();
+        let mut symbols = |of: Quantity| arena.components(of, self.mixed.dim);
         let x_dot = symbols(Quantity::CentreVelocity);
         CentreVelocity::Defined {
             x_dot,

@@ -156,15 +156,20 @@ impl Draft {
         inputs.extend(potential.time());
         let mut constants = Constants::new(Quantity::Coefficient);
         let program = straight_line(arena, &batch, &mut constants, &|atom| inputs.contains(&atom));
-        let parameters: Vec<(Symbol, f64)> = constants
-            .entries
-            .iter()
-            .map(|(symbol, form)| {
-                let form = form.expression(arena);
-                let value = evaluate(arena, form, &|symbol| Some(sample(&symbol.to_string())));
-                (arena.symbol_of(*symbol), value.unwrap_or(f64::NAN))
-            })
-            .collect();
+        // Fields by their order, not by their names, which must not matter.
+        let mut fields: Vec<Symbol> = Vec::new();
+        let mut parameters: Vec<(Symbol, f64)> = Vec::new();
+        for (symbol, form) in &constants.entries {
+            let form = form.expression(arena);
+            arena.for_each_symbol(form, &mut |field| {
+                if !fields.contains(field) {
+                    fields.push(field.clone());
+                }
+            });
+            let place = |field: &Symbol| fields.iter().position(|known| known == field);
+            let value = evaluate(arena, form, &|field| Some(sample(&format!("field {}", place(field)?))));
+            parameters.push((arena.symbol_of(*symbol), value.unwrap_or(f64::NAN)));
+        }
         let losses = PLACES.iter().map(|place| loss(&program, place, chart.dim, &parameters)).collect();
         Self { writing, weight: program.operations().weight(), losses, calls: !program.calls.is_empty() }
     }

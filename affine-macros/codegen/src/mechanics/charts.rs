@@ -123,11 +123,11 @@ impl Momentum {
 impl Chart {
     /// The chart with the given momenta.
     pub fn new(arena: &mut Arena, dim: usize, momentum: Momentum, linear: Option<Linear>) -> Self {
-        let mut vector =
-            |of: Quantity| -> Vec<Expr> { (1..=dim).map(|i| arena.symbol(of.at([i]))).collect() };
         let (x, p) = match linear {
             None => (Vec::new(), Vec::new()),
-            Some(linear) => (vector(Quantity::Position), vector(linear.quantity())),
+            Some(linear) => {
+                (arena.components(Quantity::Position, dim), arena.components(linear.quantity(), dim))
+            }
         };
         let phi = Matrix::symbols(arena, Quantity::Placement, dim);
         let m = Matrix::symbols(arena, momentum.quantity(), dim);

@@ -45,8 +45,8 @@ pub enum Slope {
 impl Slope {
     /// `U_dil'` as an expression in `q`, `D` and `1/D`.
     pub(super) fn derivative(&self, arena: &mut Arena) -> Option<Expr> {
-        let [q, up, down] = [Quantity::MeanLogStretch, Quantity::Dilatation, Quantity::InverseDilatation]
-            .map(|quantity| arena.symbol(quantity));
+        let [q, up, down] =
+            arena.symbols([Quantity::MeanLogStretch, Quantity::Dilatation, Quantity::InverseDilatation]);
         match self {
             Self::Zero => Some(arena.constant(Rational::ZERO)),
             Self::Linear(stiffness) => {
@@ -129,8 +129,8 @@ impl Slope {
 type Powers = Vec<((usize, i64), Polynomial)>;
 
 fn powers(arena: &mut Arena, slope: &Polynomial) -> Option<Powers> {
-    let [q, up, down] = [Quantity::MeanLogStretch, Quantity::Dilatation, Quantity::InverseDilatation]
-        .map(|quantity| arena.symbol(quantity));
+    let [q, up, down] =
+        arena.symbols([Quantity::MeanLogStretch, Quantity::Dilatation, Quantity::InverseDilatation]);
     let mut powers = Powers::new();
     for (monomial, weight) in slope.terms() {
         let count = |symbol: Expr| monomial.iter().filter(|atom| **atom == symbol).count();

@@ -30,8 +30,8 @@ impl Weight {
 
     /// `D^2` and `D^-2` of a placement in R+ SO(n).
     pub(super) fn squares(arena: &mut Arena, dim: usize) -> Self {
-        let [square, inverse] = [Quantity::DilatationSquared, Quantity::InverseDilatationSquared]
-            .map(|quantity| arena.symbol(quantity));
+        let [square, inverse] =
+            arena.symbols([Quantity::DilatationSquared, Quantity::InverseDilatationSquared]);
         let mut length = Polynomial::zero();
         for i in 1..=dim {
             let entry = arena.symbol(Quantity::Placement.at([i, 1]));

@@ -50,7 +50,7 @@ impl Body<'_> {
         let velocities = Matrix::symbols(arena, self.inner.frame().velocity(), n);
         let momenta = Matrix::symbols(arena, self.inner.frame().momentum(), n);
         let [v, x_dot, p] = [Quantity::GivenVelocity, Quantity::CentreVelocity, Quantity::LinearMomentum]
-            .map(|of| (1..=n).map(|i| arena.symbol(of.at([i]))).collect::<Vec<_>>());
+            .map(|of| arena.components(of, n));
         let (legendre, [velocity, mut energy]) = self.internal(arena, &velocities, &momenta);
         self.centre_energy(arena, &v, &mut energy);
         let inputs = [velocities.0.concat(), v].concat();

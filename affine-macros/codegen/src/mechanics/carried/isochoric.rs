@@ -13,8 +13,7 @@ pub(super) fn inverts_the_placement(arena: &mut Arena, chart: &Chart, tidied: &S
     let inverse = Matrix::symbols(arena, Quantity::PlacementInverse, chart.dim).0.concat();
     let takes = |symbol: Expr| tidied.shared.iter().any(|(known, _)| *known == symbol);
     // On a flat body negative powers of the determinant stand beside cofactors.
-    let powers =
-        [Quantity::InverseDeterminant, Quantity::InverseDilatation].map(|quantity| arena.symbol(quantity));
+    let powers = arena.symbols([Quantity::InverseDeterminant, Quantity::InverseDilatation]);
     let over_det = powers.into_iter().any(takes) && chart.momentum == Momentum::Canonical;
     over_det || inverse.into_iter().any(takes)
 }
@@ -47,9 +46,12 @@ struct Powers {
 impl Powers {
     fn new(arena: &mut Arena, chart: &Chart, r: Expr, isochoric: bool) -> Self {
         let n = exponent(chart.dim);
-        let [det, inverse_det, d, swelling] =
-            [Quantity::Determinant, Quantity::InverseDeterminant, Quantity::Dilatation, Quantity::Swelling]
-                .map(|quantity| arena.symbol(quantity));
+        let [det, inverse_det, d, swelling] = arena.symbols([
+            Quantity::Determinant,
+            Quantity::InverseDeterminant,
+            Quantity::Dilatation,
+            Quantity::Swelling,
+        ]);
         let mut weights = vec![(det, n, false), (inverse_det, -n, false), (d, 1, false), (r, -1, false)];
         if isochoric {
             let cofactors = Matrix::symbols(arena, Quantity::Cofactor, chart.dim).0.concat();
@@ -110,8 +112,7 @@ impl Powers {
 /// multiplications more than `r^2 det phi`. In the plane `D = r det phi` has the range of `D^2` as it stands.
 fn through_the_square(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> System {
     let [det, dilatation, square] =
-        [Quantity::Determinant, Quantity::Dilatation, Quantity::DilatationSquared]
-            .map(|quantity| arena.symbol(quantity));
+        arena.symbols([Quantity::Determinant, Quantity::Dilatation, Quantity::DilatationSquared]);
     let psi = Matrix::symbols(arena, Quantity::IsochoricPlacement, chart.dim).0;
     let adjugate = adjugate(&atoms(&chart.phi.0));
     let mut system = Powers::new(arena, chart, r, false).of_system(arena, system);
@@ -133,8 +134,7 @@ fn through_the_isochoric_part(arena: &mut Arena, chart: &Chart, system: &System,
     let adjugate = adjugate(&atoms(&psi));
     let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n).0;
     let inverse = Matrix::symbols(arena, Quantity::PlacementInverse, n).0;
-    let names = [Quantity::Determinant, Quantity::InverseDeterminant, Quantity::Dilatation]
-        .map(|quantity| arena.symbol(quantity));
+    let names = arena.symbols([Quantity::Determinant, Quantity::InverseDeterminant, Quantity::Dilatation]);
     let [det, inverse_det, dilatation] = names;
     let mut system = Powers::new(arena, chart, r, true).of_system(arena, system);
     let inverts = system.shared.iter().any(|(symbol, _)| *symbol == inverse[0][0]);

@@ -83,7 +83,7 @@ impl Masses {
             Quantity::LinearMomentum,
             Quantity::ComovingLinearMomentum,
         ]
-        .map(|of| (1..=n).map(|i| arena.symbol(of.at([i]))).collect::<Vec<_>>());
+        .map(|of| arena.components(of, n));
         let mut shared = Definitions::new();
         let reciprocal = |arena: &mut Arena, mass: Expr| {
             let reciprocal = arena.pow(mass, -1)?;
@@ -151,8 +151,7 @@ impl Masses {
         parts.extend(self.space.map(|mass| part(arena, mass, x_dot.to_vec())));
         if let Some(mass) = self.body {
             let psi = atoms(&Matrix::symbols(arena, Quantity::InversePlacement, n));
-            let v_hat: Vec<Expr> =
-                (1..=n).map(|a| arena.symbol(Quantity::ComovingCentreVelocity.at([a]))).collect();
+            let v_hat: Vec<Expr> = arena.components(Quantity::ComovingCentreVelocity, n);
             let definitions = times(&psi, &x_dot.iter().map(|v| Polynomial::atom(*v)).collect::<Vec<_>>());
             let momenta = shares(arena, Aspect::InTheBody, &chart.p);
             parts.push(Part { definitions: Some(definitions), momenta, ..part(arena, mass, v_hat) });

@@ -52,7 +52,7 @@ pub(super) fn on_the_algebra(
     let conjugate = chart.m.transpose().0.concat();
     let momenta: Vec<Polynomial> =
         basis.iter().map(|e| along(e, |k| Polynomial::atom(conjugate[k])).substitute(&value)).collect();
-    let speeds: Vec<Expr> = (1..=basis.len()).map(|k| arena.symbol(Quantity::Speed.at([k]))).collect();
+    let speeds = arena.components(Quantity::Speed, basis.len());
     factorisation.solve(arena, Factorised::Internal, &momenta, &speeds, &mut shared);
     let velocity = Matrix::symbols(arena, Frame::Body.velocity(), n);
     for (k, symbol) in velocity.0.concat().into_iter().enumerate() {

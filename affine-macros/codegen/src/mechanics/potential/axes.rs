@@ -39,8 +39,7 @@ impl Potential {
 
     /// The potential on the principal axes, where it is isotropic: off-diagonal entries of tensors are zero there.
     pub fn on_axes(&self, arena: &mut Arena, lattice: &Lattice) -> OnAxes {
-        let stretches: Vec<Expr> =
-            (1..=self.dim).map(|a| arena.symbol(Quantity::Stretches.at([a]))).collect();
+        let stretches: Vec<Expr> = arena.components(Quantity::Stretches, self.dim);
         let diagonal = |arena: &mut Arena, expr: Expr| {
             let zeros = off_diagonal(arena, self.dim);
             let zero = arena.constant(Rational::ZERO);
@@ -151,8 +150,8 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
     list.push((Base::Trace.symbol(arena), trace));
     list.push((Base::TraceOfSquare.symbol(arena), of_square));
     list.push((Base::TraceOfCube.symbol(arena), of_cube));
-    let [q, d, inverse_d] = [Quantity::MeanLogStretch, Quantity::Dilatation, Quantity::InverseDilatation]
-        .map(|quantity| arena.symbol(quantity));
+    let [q, d, inverse_d] =
+        arena.symbols([Quantity::MeanLogStretch, Quantity::Dilatation, Quantity::InverseDilatation]);
     match lattice.variables {
         // U(n) has no potentials.
         Variables::LogStretches | Variables::Angles => {

@@ -254,8 +254,11 @@ impl Draft<'_> {
     fn finished(mut self, arena: &mut Arena) -> Load {
         self.means.settle(arena, &mut self.load);
         let uses_root = {
-            let root = [Quantity::Dilatation, Quantity::InverseDilatation, Quantity::ExcessDilatation]
-                .map(|quantity| arena.symbol(quantity));
+            let root = arena.symbols([
+                Quantity::Dilatation,
+                Quantity::InverseDilatation,
+                Quantity::ExcessDilatation,
+            ]);
             let mut is_root = |symbol: Expr| root.contains(&symbol);
             let shared = self.load.shared.iter().map(|(_, form)| form);
             shared

@@ -37,8 +37,7 @@ impl PulledBack {
                 return None;
             }
         }
-        let mut vector = |of: Quantity| (1..=n).map(|k| arena.symbol(of.at([k]))).collect::<Vec<_>>();
-        let (y, pushed) = (vector(Quantity::PulledBack), vector(Quantity::PushedForward));
+        let [y, pushed] = [Quantity::PulledBack, Quantity::PushedForward].map(|of| arena.components(of, n));
         let slope = slope.scaled(&Rational::from(2));
         Some(Self { x, y, pushed, square: arena.symbol(Quantity::PulledBackSquare), slope })
     }

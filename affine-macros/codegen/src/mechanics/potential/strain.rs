@@ -38,8 +38,6 @@ pub(super) struct Strains {
 impl Strains {
     pub(super) fn new(arena: &mut Arena, chart: &Chart, volume: Volume) -> Self {
         let n = chart.dim;
-        let mut diagonal =
-            |of: Quantity| -> Vec<Expr> { (1..=n).map(|a| arena.symbol(of.at([a]))).collect() };
         let [excess, green, finger, asymmetry, cofactor_excess] = [
             Quantity::Excess,
             Quantity::AxialStrain,
@@ -47,7 +45,7 @@ impl Strains {
             Quantity::CofactorDifference,
             Quantity::CofactorExcess,
         ]
-        .map(&mut diagonal);
+        .map(|of| arena.components(of, n));
         let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n).0;
         Self {
             n,
@@ -90,9 +88,11 @@ impl Strains {
                 list.push((*symbol, Counted::from(i64::from(a == b), atom(change))));
             }
         }
-        let [first, of_square, minors] =
-            [Quantity::Strain.at([1]), Quantity::Strain.at([2]), Quantity::StrainMinors.into()]
-                .map(|quantity| arena.symbol(quantity));
+        let [first, of_square, minors] = arena.symbols([
+            Quantity::Strain.at([1]),
+            Quantity::Strain.at([2]),
+            Quantity::StrainMinors.into(),
+        ]);
         let n = Rational::whole(self.n);
         list.push((Base::Trace.symbol(arena), Counted::from(n.clone(), atom(first))));
         list.push((Base::TraceOfSquare.symbol(arena), Counted::from(n, atom(of_square))));
@@ -122,8 +122,7 @@ impl Strains {
         let q = Base::MeanLogStretch.symbol(arena);
         list.push((q, Counted::vanishing(atom(q))));
         let Volume { det, inverse_det, d, inverse_d, .. } = self.volume;
-        let [excess_det, excess_d] =
-            [Quantity::ExcessDeterminant, Quantity::ExcessDilatation].map(|quantity| arena.symbol(quantity));
+        let [excess_det, excess_d] = arena.symbols([Quantity::ExcessDeterminant, Quantity::ExcessDilatation]);
         let minus = Rational::MINUS_ONE;
         list.push((det, Counted::from(1, atom(excess_det))));
         list.push((
@@ -182,9 +181,11 @@ impl Strains {
 
     /// Traces, of `G` or of `Ct`.
     fn invariants(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
-        let [first, of_square, minors] =
-            [Quantity::Strain.at([1]), Quantity::Strain.at([2]), Quantity::StrainMinors.into()]
-                .map(|quantity| arena.symbol(quantity));
+        let [first, of_square, minors] = arena.symbols([
+            Quantity::Strain.at([1]),
+            Quantity::Strain.at([2]),
+            Quantity::StrainMinors.into(),
+        ]);
         let (mut sum, mut squares, mut products) =
             (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
         let strain = if self.spatial { &self.finger } else { &self.green };
@@ -211,9 +212,11 @@ impl Strains {
             list.push((self.asymmetry[a], self.cofactor_difference(arena, a)));
             list.push((self.cofactor_excess[a], self.cofactor_excess(a)));
         }
-        let [excess, excess_d, beside] =
-            [Quantity::ExcessDeterminant, Quantity::ExcessDilatation, Quantity::BesideDeterminant]
-                .map(|quantity| arena.symbol(quantity));
+        let [excess, excess_d, beside] = arena.symbols([
+            Quantity::ExcessDeterminant,
+            Quantity::ExcessDilatation,
+            Quantity::BesideDeterminant,
+        ]);
         let adjugate = adjugate(&self.phi);
         let cofactor = |b: usize| match self.canonical {
             true => Polynomial::atom(self.cofactors[0][b]),
@@ -374,9 +377,11 @@ impl Strains {
     pub(super) fn through_deviator(&self, arena: &mut Arena, form: &Polynomial) -> Polynomial {
         let n = Rational::whole(self.n);
         let minors = Rational::whole(self.n * (self.n - 1) / 2);
-        let [mean, square, second] =
-            [Quantity::MeanSquareStretch, Quantity::DeviatorSquared, Quantity::SecondInvariant]
-                .map(|quantity| arena.symbol(quantity));
+        let [mean, square, second] = arena.symbols([
+            Quantity::MeanSquareStretch,
+            Quantity::DeviatorSquared,
+            Quantity::SecondInvariant,
+        ]);
         let sum = |of_mean: Rational, of_square: Rational| {
             let mut sum = Polynomial::term(vec![mean, mean], of_mean);
             sum.add_term(vec![square], &of_square);

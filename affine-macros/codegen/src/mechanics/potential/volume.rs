@@ -24,13 +24,12 @@ pub(super) struct Volume {
 
 impl Volume {
     pub(super) fn new(arena: &mut Arena, n: usize) -> Self {
-        let [det, inverse_det, d, inverse_d] = [
+        let [det, inverse_det, d, inverse_d] = arena.symbols([
             Quantity::Determinant,
             Quantity::InverseDeterminant,
             Quantity::Dilatation,
             Quantity::InverseDilatation,
-        ]
-        .map(|quantity| arena.symbol(quantity));
+        ]);
         Self { n: exponent(n), det, inverse_det, d, inverse_d }
     }
 

@@ -82,7 +82,7 @@ impl Turn {
 
     /// `1 + g E`, and `1 + d E` back.
     fn elongated(&self, arena: &mut Arena, reduction: &Reduction, trace: &Polynomial) -> Option<Flow> {
-        let [g, d] = [Quantity::Growth, Quantity::FlowDecay].map(|quantity| arena.symbol(quantity));
+        let [g, d] = arena.symbols([Quantity::Growth, Quantity::FlowDecay]);
         let (kernel, [growth, decay]) = (self.kernel(arena, Callee::Elongation, trace, [g, d]), [g, d]);
         let factors = [growth, decay].map(|factor| times(&self.direction, &Polynomial::atom(factor)));
         let along_an_axis = self.direction.iter().flatten().filter(|entry| !entry.is_zero()).count() == 1;
@@ -102,7 +102,7 @@ impl Turn {
         reduction: &Reduction,
         (square, k): (&Square, &Polynomial),
     ) -> Option<Flow> {
-        let [u, v] = [Quantity::Sine, Quantity::Versine].map(|quantity| arena.symbol(quantity));
+        let [u, v] = arena.symbols([Quantity::Sine, Quantity::Versine]);
         let kernel = self.kernel(arena, Callee::Turn, k, [u, v]);
         let factors = [Rational::ONE, Rational::MINUS_ONE].map(|sign| {
             let odd = times(&self.direction, &Polynomial::atom(u).scaled(&sign));

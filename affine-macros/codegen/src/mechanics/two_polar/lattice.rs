@@ -56,9 +56,7 @@ impl Lattice {
             Frame::Flat => (Variables::Stretches, Quantity::Stretches),
             Frame::Body | Frame::Space => (Variables::LogStretches, Quantity::LogStretches),
         };
-        let mut vector =
-            |of: Quantity| -> Vec<Expr> { (1..=h.dim).map(|a| arena.symbol(of.at([a]))).collect() };
-        let (q, p) = (vector(place), vector(Quantity::LinearMomentum));
+        let (q, p) = (arena.components(place, h.dim), arena.components(Quantity::LinearMomentum, h.dim));
         let mut skew = |of: Quantity| -> Vec<Expr> {
             pairs(h.dim).map(|(a, b)| arena.symbol(of.at([a + 1, b + 1]))).collect()
         };
