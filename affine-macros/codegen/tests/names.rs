@@ -8,7 +8,7 @@ use proc_macro2::{Group, Ident, Literal, TokenStream, TokenTree};
 const ORDINARY: [&str; 2] = ["ordinary", "usual"];
 
 /// What symbols of the derivation, of printed formulas and of emitted code are called.
-const NAMES: [[&str; 2]; 7] = [
+const NAMES: [[&str; 2]; 8] = [
     ["Omega", "inverse_1_1_1"],
     ["c_1", "stretch_1"],
     ["x_1", "d_phi_1_1"],
@@ -16,6 +16,7 @@ const NAMES: [[&str; 2]; 7] = [
     ["coefficients", "point"],
     ["matrix_usual", "work"],
     ["k_1", "phi_11"],
+    ["bases", "custom_1"],
 ];
 
 /// The same beside no potential, whose notation has these.
@@ -37,9 +38,31 @@ const WITH_POTENTIALS: [&str; 5] = [
     "dim = 2, kinetic(body_inertia = 1, space_translation = 1), potential = ordinary*exp(usual*G[1,1]) + sin(usual*t)*norm(x)^2",
 ];
 
+/// Of numbers.
+const NUMBERS: &str = "struct Model { ordinary: f64, usual: f64 }";
+
+/// A matrix, an inertia of metrics, and what computes something.
+const OTHERS: [[&str; 2]; 4] = [
+    [
+        "dim = 2, kinetic(body_inertia = usual, casimir2 = ordinary, body_translation = 1)",
+        "struct Model { ordinary: f64, usual: [[f64; 2]; 2] }",
+    ],
+    [
+        "dim = 2, kinetic(casimir2 = ordinary, body_inertia = 1), metrics(space = usual)",
+        "struct Model { ordinary: f64, usual: [[f64; 2]; 2] }",
+    ],
+    [
+        "dim = 2, kinetic(casimir2 = ordinary, body_inertia = 1), forces = custom(usual, spatial)",
+        "struct Model<F: Force> { ordinary: f64, usual: F }",
+    ],
+    [
+        "dim = 3, kinetic(casimir2 = 0.2, body_inertia = ordinary), potential = q^2 + custom(usual, isotropic)",
+        "struct Model<U: Potential> { ordinary: f64, usual: U }",
+    ],
+];
+
 /// The expansion with these names of the fields.
-fn expansion(args: &str, names: [&str; 2]) -> TokenStream {
-    let item = "struct Model { ordinary: f64, usual: f64 }";
+fn expansion([args, item]: [&str; 2], names: [&str; 2]) -> TokenStream {
     let [args, item] = [args, item].map(|text| renamed(text.parse().unwrap(), names));
     expand(args, item)
 }
@@ -67,13 +90,14 @@ fn said(literal: &str, replaced: &impl Fn(String) -> String) -> Option<Literal> 
     Some(Literal::string(&shown))
 }
 
-fn change_nothing(specifications: &[&str], names: &[[&str; 2]]) {
-    for args in specifications {
-        let ordinary = expansion(args, ORDINARY);
+fn change_nothing(specifications: &[[&str; 2]], names: &[[&str; 2]]) {
+    for specification in specifications {
+        let [args, _] = specification;
+        let ordinary = expansion(*specification, ORDINARY);
         assert!(!ordinary.to_string().contains("compile_error"), "{args} is refused");
         for names in names {
             let (found, expected) =
-                (renamed(expansion(args, *names), *names), renamed(ordinary.clone(), *names));
+                (renamed(expansion(*specification, *names), *names), renamed(ordinary.clone(), *names));
             let (found, expected) = (found.to_string(), expected.to_string());
             let place = found.bytes().zip(expected.bytes()).take_while(|(a, b)| a == b).count();
             let around =
@@ -85,11 +109,17 @@ fn change_nothing(specifications: &[&str], names: &[[&str; 2]]) {
 
 #[test]
 fn names_of_fields_change_nothing() {
-    change_nothing(&KINETIC, &NAMES);
-    change_nothing(&KINETIC, &NAMES_OF_POTENTIALS);
+    let kinetic = KINETIC.map(|args| [args, NUMBERS]);
+    change_nothing(&kinetic, &NAMES);
+    change_nothing(&kinetic, &NAMES_OF_POTENTIALS);
 }
 
 #[test]
 fn names_of_fields_of_potentials_change_nothing() {
-    change_nothing(&WITH_POTENTIALS, &NAMES);
+    change_nothing(&WITH_POTENTIALS.map(|args| [args, NUMBERS]), &NAMES);
+}
+
+#[test]
+fn names_of_matrices_and_of_what_computes_change_nothing() {
+    change_nothing(&OTHERS, &NAMES);
 }
