@@ -5,19 +5,18 @@ use std::collections::HashSet;
 use crate::ir::packed::{Four, Lane, Packed};
 use crate::ir::{Op, Value};
 
-/// A name for each vector that has one; of the vectors of the state, each has.
-pub(super) fn of_vectors(packed: &Packed) -> Vec<Option<String>> {
-    let components: Vec<&str> = (0..packed.state.len()).flat_map(|k| of_lanes(packed, k)).collect();
+/// A name for each vector that has one; of the vectors of the state, which has these components, each has.
+pub(super) fn of_vectors(packed: &Packed, components: &[String]) -> Vec<Option<String>> {
     let program = &packed.program;
     let mut taken: HashSet<String> = program.names.iter().map(|(_, name)| name.clone()).collect();
     taken.extend(program.steps.iter().filter_map(|op| match op {
-        Op::Input(symbol) => Some(symbol.to_string()).filter(|name| !components.contains(&name.as_str())),
+        Op::Input(symbol) => Some(symbol.to_string()).filter(|name| !components.contains(name)),
         _ => None,
     }));
     let mut names = Vec::new();
     for (index, vector) in packed.vectors.iter().enumerate() {
         let is_named = !matches!(vector.made, Four::All(_) | Four::Gathered(_) | Four::Neg(_));
-        let name = common(&of_lanes(packed, index)).filter(|_| is_named);
+        let name = common(&of_lanes(packed, components, index)).filter(|_| is_named);
         let name = match name.filter(|name| !taken.contains(name)) {
             None if matches!(vector.made, Four::State(_)) => Some(format!("state_{}", index + 1)),
             name => name,
@@ -30,12 +29,10 @@ pub(super) fn of_vectors(packed: &Packed) -> Vec<Option<String>> {
 
 /// Names of the values in the lanes of a vector; none where one has no name. Those of the state stand also where the
 /// equations do not read them.
-fn of_lanes(packed: &Packed, index: usize) -> Vec<&str> {
+fn of_lanes<'n>(packed: &'n Packed, components: &'n [String], index: usize) -> Vec<&'n str> {
     let vector = &packed.vectors[index];
     if let Four::State(place) = vector.made {
-        let own = packed.state[place].iter().flatten();
-        // The rates are the outputs, in the order of the components.
-        return own.filter_map(|k| packed.program.outputs[*k].0.strip_prefix("d_")).collect();
+        return packed.state[place].iter().flatten().map(|k| components[*k].as_str()).collect();
     }
     let lanes = vector.lanes.iter().filter(|lane| **lane != Lane::Free);
     let names = lanes.map(|lane| match lane {

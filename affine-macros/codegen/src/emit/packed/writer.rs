@@ -33,7 +33,7 @@ pub(super) fn written(context: &Context, packed: &Packed) -> Written {
     let mut writer = Writer {
         context,
         packed,
-        names: names::of_vectors(packed),
+        names: names::of_vectors(packed, &context.model.reduced.names()),
         uses: uses(packed),
         depth: HashMap::new(),
         bound: HashMap::new(),
