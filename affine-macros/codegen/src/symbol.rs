@@ -26,21 +26,21 @@ pub enum Symbol {
 /// What a symbol says about another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Aspect {
-    /// Its rate.
+    /// The rate of the symbol.
     Rate,
-    /// Its change.
+    /// The change of the symbol beside a neighbouring motion.
     Change,
-    /// Its value as the user gave it, where the model has another.
+    /// The component in the bases of the user, where the model has others.
     Given,
-    /// The share of the energies in the body in a momentum.
+    /// The part of a momentum that the energies in the body have.
     InTheBody,
-    /// The share of the energies in space.
+    /// The part of a momentum that the energies in space have.
     InSpace,
-    /// The share of the energies in `phi_dot`.
+    /// The part of a momentum that the energies in `phi_dot` have.
     InPlacement,
-    /// Of two entries of a matrix that mirror each other, half the sum.
+    /// Half the sum of two entries of a matrix that mirror each other.
     Symmetric,
-    /// Their difference.
+    /// The difference of two entries of a matrix that mirror each other.
     Skew,
 }
 
@@ -66,27 +66,23 @@ pub enum Factor {
 pub enum Factorised {
     /// The mass matrix of the internal motion.
     Internal,
-    /// That of the centre of mass.
+    /// The mass matrix of the centre of mass.
     Centre,
-    /// A column of the inverse of the former.
+    /// The internal mass matrix, solved for a column of its inverse.
     Column(usize),
 }
 
 impl Symbol {
-    /// The component of it with these indices behind its own.
+    /// Of a quantity the component with these indices behind its own; any other symbol as it is.
     #[must_use]
     pub fn at<const N: usize>(&self, indices: [usize; N]) -> Self {
         match self {
             Self::Component(quantity, own) => Self::Component(*quantity, [own, &indices[..]].concat()),
-            Self::About(aspect, of) => of.at(indices).seen(*aspect),
-            Self::Factor(factor, of, block, own) => {
-                Self::Factor(*factor, *of, *block, [own, &indices[..]].concat())
-            }
-            Self::Field(_) | Self::Entry(..) | Self::Prepared(..) => self.clone(),
+            other => other.clone(),
         }
     }
 
-    /// The component of another quantity with the same indices.
+    /// The component of another quantity with the same indices; any other symbol as it is.
     #[must_use]
     pub fn of(self, quantity: Quantity) -> Self {
         match self {

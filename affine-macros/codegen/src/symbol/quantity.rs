@@ -1,4 +1,5 @@
-//! Every quantity that has a symbol of its own, with the stem of its name.
+//! Every quantity that has a symbol of its own, with the stem of its name. What those are that formulas write, in words, stands in
+//! `mechanics/notation/symbols.rs`.
 
 macro_rules! quantities {
     ($($quantity:ident $stem:literal)*) => {
