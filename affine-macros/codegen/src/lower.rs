@@ -15,7 +15,7 @@ use crate::mechanics::custom::{Class, Custom, On, Role};
 use crate::mechanics::dissipation::Dissipation;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::metrics::{Metrics, Rebased};
-use crate::mechanics::term::{Coefficient, Frame, Term, TermKind};
+use crate::mechanics::term::{Coefficient, Frame, Term};
 use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
 use crate::symbol::Symbol;
 
@@ -40,7 +40,7 @@ pub fn terms(arena: &mut Arena, n: usize, written: &[spec::Term]) -> Vec<(usize,
         })
         .filter_map(|(place, term)| {
             let value = coefficient(arena, n, &term.value)?;
-            Some((place, Term { kind: kind(term.kind.value), value }))
+            Some((place, Term { kind: term.kind.value, value }))
         })
         .collect()
 }
@@ -91,23 +91,6 @@ fn custom_field(place: usize, written: &spec::Custom) -> Custom {
         spec::Role::General => potential(Class::General),
     };
     Custom { place, name: written.field.to_string(), role }
-}
-
-/// The term's form in the derivation.
-#[must_use]
-pub fn kind(kind: spec::TermKind) -> TermKind {
-    match kind {
-        spec::TermKind::Casimir2 => TermKind::Casimir2,
-        spec::TermKind::Casimir1Squared => TermKind::Casimir1Squared,
-        spec::TermKind::BodyInertia => TermKind::BodyInertia,
-        spec::TermKind::SpaceInertia => TermKind::SpaceInertia,
-        spec::TermKind::BodyTranslation => TermKind::BodyTranslation,
-        spec::TermKind::SpaceTranslation => TermKind::SpaceTranslation,
-        spec::TermKind::Dalembert => TermKind::Dalembert,
-        spec::TermKind::BodyTensor => TermKind::BodyTensor,
-        spec::TermKind::SpaceTensor => TermKind::SpaceTensor,
-        spec::TermKind::FlatTensor => TermKind::FlatTensor,
-    }
 }
 
 fn coefficient(arena: &mut Arena, n: usize, value: &Value) -> Option<Coefficient> {

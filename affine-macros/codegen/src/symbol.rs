@@ -1,10 +1,12 @@
 //! Symbols of formulas and programs. What a symbol is, is decided by its type; its name is made of that, in one place.
 
 mod quantity;
+mod term;
 
 use std::fmt::{Display, Formatter, Result};
 
 pub use quantity::Quantity;
+pub use term::{Frame, TermKind};
 
 /// An indeterminate; indices count from 1.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

@@ -4,7 +4,8 @@
 use affine_codegen::check;
 use affine_codegen::diagnostics::gate;
 use affine_codegen::expand;
-use affine_codegen::spec::{Claim, Named, POTENTIAL_SYMBOLS, SYMBOLS, Spec, Symbol, TermKind, Value, parse};
+use affine_codegen::spec::{Claim, Named, POTENTIAL_SYMBOLS, SYMBOLS, Spec, Symbol, Value, parse};
+use affine_codegen::symbol::TermKind;
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 

@@ -4,7 +4,8 @@ use crate::diagnostics::{CapabilityMistake, Diagnostics, PotentialMistake};
 use crate::mechanics::asked::Asked;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::potential::Potential;
-use crate::spec::{Capability, Named, Spanned, Spec, TermKind};
+use crate::spec::{Capability, Named, Spanned, Spec};
+use crate::symbol::TermKind;
 
 /// In ratios of stretches the lattice of the Casimirs is rational. What moves the places otherwise is not.
 pub(super) fn ratios(spec: &Spec, found: &mut Diagnostics) {

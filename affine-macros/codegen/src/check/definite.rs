@@ -24,7 +24,7 @@ pub(super) fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics
             let kernel = matrix_text(spec.dim.value, &kernel);
             let mistake = FormMistake::DegenerateTensor {
                 terms: internal_terms(spec).map(|t| t.kind.value.name()).collect::<Vec<_>>().join(" + "),
-                velocity: match internal_terms(spec).find_map(|t| frame_of(t.kind.value)) {
+                velocity: match internal_terms(spec).find_map(|t| t.kind.value.internal_frame()) {
                     Some(Frame::Space) => "Om",
                     Some(Frame::Flat) => "phi_dot",
                     _ => "Oh",
@@ -79,15 +79,6 @@ fn internal_terms(spec: &Spec) -> impl Iterator<Item = &spec::Term> {
 
 fn kinetic_terms(spec: &Spec) -> Written<'_> {
     Written { n: spec.dim.value, terms: internal_terms(spec).collect() }
-}
-
-fn frame_of(kind: spec::TermKind) -> Option<Frame> {
-    match kind {
-        spec::TermKind::BodyInertia | spec::TermKind::BodyTensor => Some(Frame::Body),
-        spec::TermKind::SpaceInertia | spec::TermKind::SpaceTensor => Some(Frame::Space),
-        spec::TermKind::Dalembert | spec::TermKind::FlatTensor => Some(Frame::Flat),
-        _ => None,
-    }
 }
 
 fn degenerate(spec: &Spec, kind: Direction) -> FormMistake {

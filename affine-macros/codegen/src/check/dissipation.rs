@@ -79,7 +79,7 @@ pub(super) fn semidefinite(spec: &Spec, dissipation: &Dissipation, found: &mut D
 }
 
 fn same_kind(written: &spec::Term, term: &crate::mechanics::term::Term) -> bool {
-    crate::lower::kind(written.kind.value) == term.kind
+    written.kind.value == term.kind
 }
 
 /// A velocity of the block on which `R` is negative.

@@ -2,7 +2,8 @@
 
 use crate::diagnostics::{Diagnostics, FormMistake};
 use crate::lower::constant;
-use crate::spec::{Claim, Constraint, Spec, Term, TermKind, Value};
+use crate::spec::{Claim, Constraint, Spec, Term, Value};
+use crate::symbol::{Frame, TermKind};
 
 /// Where H is derived by inverting a matrix that depends on phi: the terms that are not exactly zero have constant
 /// coefficients in different velocities. Internal and translational ones are inverted apart, and count apart. The
@@ -19,47 +20,26 @@ pub(super) fn are_mixed(spec: &Spec) -> bool {
         spec.kinetic.iter().filter(of_motion).filter(|term| !is_zero(term, spec.dim.value))
     };
     [false, true].into_iter().any(|translation| {
-        let frames: Vec<Frame> = terms(translation).map(|term| frame(term, constraint)).collect();
-        let has = |wanted: Frame| frames.contains(&wanted);
-        let affine = has(Frame::Comoving) || has(Frame::Spatial) || has(Frame::Both);
-        (has(Frame::Flat) && affine) || (has(Frame::Comoving) && has(Frame::Spatial))
+        let frames: Vec<Option<Frame>> = terms(translation).map(|term| frame(term, constraint)).collect();
+        let has = |wanted: Frame| frames.contains(&Some(wanted));
+        let affine = frames.iter().any(|frame| *frame != Some(Frame::Flat));
+        (has(Frame::Flat) && affine) || (has(Frame::Body) && has(Frame::Space))
     })
 }
 
-/// The velocity in which a term has constant coefficients.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Frame {
-    /// `Oh = phi^-1 phi_dot` and `phi^-1 x_dot`.
-    Comoving,
-    /// `Om = phi_dot phi^-1` and `x_dot`.
-    Spatial,
-    /// `Oh` as well as `Om`: the Casimirs.
-    Both,
-    /// `phi_dot`.
-    Flat,
-}
-
-fn frame(term: &Term, constraint: Option<Constraint>) -> Frame {
+/// The frame in which a term has constant coefficients; `None` where any of body and space will do.
+fn frame(term: &Term, constraint: Option<Constraint>) -> Option<Frame> {
     let scalar = matches!(term.value, Value::Scalar(_));
     match (constraint, term.kind.value) {
         // tr(Om Om^T) = tr(Oh Oh^T) where phi is a rotation up to scale, and G = 1 where it is one.
         (Some(Constraint::Rigid | Constraint::Conformal), TermKind::BodyInertia | TermKind::SpaceInertia)
             if scalar =>
         {
-            Frame::Both
+            None
         }
-        (Some(Constraint::Rigid), TermKind::Dalembert) => Frame::Comoving,
-        (Some(Constraint::Rigid), TermKind::BodyTranslation) => Frame::Spatial,
-        (_, kind) => unconfined(kind),
-    }
-}
-
-fn unconfined(kind: TermKind) -> Frame {
-    match kind {
-        TermKind::Casimir2 | TermKind::Casimir1Squared => Frame::Both,
-        TermKind::BodyInertia | TermKind::BodyTensor | TermKind::BodyTranslation => Frame::Comoving,
-        TermKind::SpaceInertia | TermKind::SpaceTensor | TermKind::SpaceTranslation => Frame::Spatial,
-        TermKind::Dalembert | TermKind::FlatTensor => Frame::Flat,
+        (Some(Constraint::Rigid), TermKind::Dalembert) => Some(Frame::Body),
+        (Some(Constraint::Rigid), TermKind::BodyTranslation) => Some(Frame::Space),
+        (_, kind) => kind.internal_frame().or(kind.translation_frame()),
     }
 }
 

@@ -4,7 +4,8 @@ use super::identity::equal;
 use crate::algebra::Rational;
 use crate::diagnostics::{Diagnostics, TermMistake};
 use crate::lower::constant;
-use crate::spec::{Expression, Named, Spec, Term, TermKind, Value};
+use crate::spec::{Expression, Named, Spec, Term, Value};
+use crate::symbol::TermKind;
 
 /// p = m x_dot: a zero mass leaves the velocity open. A negative mass is a legitimate indefinite energy beside
 /// affine terms, but not beside d'Alembert's, which is the energy of the same positive masses (2.1).

@@ -1,7 +1,8 @@
 //! Scalars, diagonals and matrices where they belong, and of the size that the dimension asks for.
 
 use crate::diagnostics::{Diagnostics, Region, TermMistake};
-use crate::spec::{Expression, Named, Spec, Term, TermKind, Value};
+use crate::spec::{Expression, Named, Spec, Term, Value};
+use crate::symbol::TermKind;
 
 /// Casimirs and masses are multiples of one invariant form, an inertia J is of any kind (4.17), a tensor has n^4
 /// entries.

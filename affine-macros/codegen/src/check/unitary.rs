@@ -1,7 +1,8 @@
 //! The rule of U(n).
 
 use crate::diagnostics::{CapabilityMistake, Diagnostics};
-use crate::spec::{Capability, Named, Spec, TermKind};
+use crate::spec::{Capability, Named, Spec};
+use crate::symbol::TermKind;
 
 /// On U(n) the Casimir terms stand, `-A/2 tr Om^2 - B/2 (tr Om)^2` (89): `Om` is anti-Hermitian, every other term breaks
 /// the symmetry from both sides that the lattice form rests on, and there are no coordinates of a centre or stretches

@@ -1,5 +1,7 @@
 //! The names of the specification language, and how a misspelt one finds its neighbour.
 
+use crate::symbol::TermKind;
+
 /// A closed set of names.
 pub trait Named: Copy + 'static {
     /// All members, in the order in which messages list them.
@@ -176,31 +178,6 @@ impl Named for Capability {
     }
 }
 
-/// The kinds of terms of a kinetic energy; `Oh = phi^-1 phi_dot`, `Om = phi_dot phi^-1`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TermKind {
-    /// `A/2 tr Om^2 = A/2 tr Oh^2`.
-    Casimir2,
-    /// `B/2 (tr Om)^2 = B/2 (tr Oh)^2`.
-    Casimir1Squared,
-    /// `1/2 tr(Oh J Oh^T)`, (4.17); `J = I 1` is (4.14).
-    BodyInertia,
-    /// `1/2 tr(Om J Om^T)`, (4.17); `J = I 1` is (4.15).
-    SpaceInertia,
-    /// `m/2 |phi^-1 x_dot|^2`, (4.4).
-    BodyTranslation,
-    /// `m/2 |x_dot|^2`, (4.5).
-    SpaceTranslation,
-    /// `1/2 tr(phi_dot J phi_dot^T)`, (2.1).
-    Dalembert,
-    /// `1/2 K[nA+B][nC+D] Oh[A][B] Oh[C][D]`, (4.1).
-    BodyTensor,
-    /// `1/2 K[nA+B][nC+D] Om[A][B] Om[C][D]`, (4.2).
-    SpaceTensor,
-    /// `1/2 K[nA+B][nC+D] phi_dot[A][B] phi_dot[C][D]`, the flat form of section 4.
-    FlatTensor,
-}
-
 impl Named for TermKind {
     const ALL: &'static [Self] = &[
         Self::Casimir2,
@@ -228,26 +205,6 @@ impl Named for TermKind {
             Self::SpaceTensor => "space_tensor",
             Self::FlatTensor => "flat_tensor",
         }
-    }
-}
-
-impl TermKind {
-    /// A kinetic energy of the centre of mass, in x_dot?
-    #[must_use]
-    pub fn is_translation(self) -> bool {
-        matches!(self, Self::BodyTranslation | Self::SpaceTranslation)
-    }
-
-    /// An n^2 x n^2 form over `Oh`, `Om` or `phi_dot`?
-    #[must_use]
-    pub fn is_tensor(self) -> bool {
-        matches!(self, Self::BodyTensor | Self::SpaceTensor | Self::FlatTensor)
-    }
-
-    /// `1/2 tr(O J O^T)` over `Oh`, `Om` or `phi_dot`, with `J` an n x n inertia or a multiple of the identity?
-    #[must_use]
-    pub fn is_inertia(self) -> bool {
-        matches!(self, Self::BodyInertia | Self::SpaceInertia | Self::Dalembert)
     }
 }
 

@@ -5,9 +5,9 @@ use proc_macro2::{Delimiter, TokenTree};
 use super::entries::{Piece, pieces, unwrapped};
 use super::expression::Expression;
 use super::expression_parser::{self, Language};
-use super::names::TermKind;
 use super::statement::Value;
 use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
+use crate::symbol::TermKind;
 
 /// How a term may look, in a message.
 pub(super) fn example(kind: TermKind) -> &'static str {
