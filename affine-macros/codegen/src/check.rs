@@ -28,11 +28,11 @@ mod two_polar;
 mod unitary;
 mod written;
 
+use crate::algebra::Arena;
 use crate::diagnostics::{Diagnostics, Reported};
-use crate::mechanics::form::Energy;
+use crate::lower;
+use crate::mechanics::form::Form;
 use crate::spec::Spec;
-
-pub use form::form;
 
 /// The rules that need only what the user wrote.
 ///
@@ -77,13 +77,16 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     found.verdict()
 }
 
-/// The rules on the kinetic energy as a quadratic form.
+/// The rules on the kinetic energy as a quadratic form, and on what acts beside it.
 ///
 /// # Errors
 /// [`Reported`] if any rule is broken; all broken ones are in the bag.
-pub fn energy(spec: &Spec, found: &mut Diagnostics) -> Result<Energy, Reported> {
-    match frames::are_mixed(spec) {
-        false => form(spec, found).map(Energy::from),
-        true => mixed::form(spec, found).map(|form| Energy::Mixed(Box::new(form))),
-    }
+pub fn energy(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
+    let mut arena = Arena::new();
+    let energy = match lower::stated(&mut arena, spec) {
+        Some(stated) => form::of_momenta(&mut arena, spec, stated, found)?,
+        None if frames::are_mixed(spec) => mixed::energy(&mut arena, spec, found)?,
+        None => form::of_one_frame(&mut arena, spec, found)?,
+    };
+    form::beside(arena, spec, energy, found)
 }

@@ -1,17 +1,19 @@
 //! The derivation of one model: from its quadratic form to straight-line programs, ready to be written down.
 
 mod batch;
+mod body;
 mod components;
-mod constant;
+mod conditions;
 mod dilatation;
 mod domain;
 mod equations;
+mod formulas;
 mod invariance;
 mod lattice;
 mod metrics;
-mod mixed;
 mod model;
 mod phase_space;
+mod point;
 mod prepared;
 mod programs;
 mod quantities;
@@ -24,7 +26,19 @@ mod ways;
 mod well_posed;
 mod written;
 
-use crate::mechanics::form::Energy;
+use crate::algebra::bind::Constants;
+use crate::ir::fuse::fuse;
+use crate::mechanics::describe::{Described, Notation};
+use crate::mechanics::form::Form;
+use crate::mechanics::motion::Motion;
+use crate::optimise::straight_line;
+use crate::symbol::Quantity;
+
+use body::{Body, Kept};
+use prepared::{coefficient_program, damping, numeric_blocks};
+use programs::Reduced;
+use quantities::Quantities;
+use ways::Ways;
 
 pub use components::Components;
 pub use dilatation::DilatationalMotion;
@@ -41,16 +55,93 @@ pub use well_posed::{Condition, Damping, NumericBlock, Relation};
 pub use written::{Part, Written};
 
 /// Derives a model; `None` only for energies that the checks refuse.
-pub fn derive(energy: impl Into<Energy>, require_positive: bool) -> Option<Model> {
-    let (model, asked) = match energy.into() {
-        Energy::Constant(form) => {
-            let asked = form.asked;
-            (constant::constant(*form, require_positive)?, asked)
-        }
-        Energy::Mixed(form) => {
-            let asked = form.asked;
-            (mixed::derive(*form, require_positive)?, asked)
-        }
+pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
+    let Form { mut arena, parts, mass, positive, stated, potential, forces, asked, .. } = form;
+    let arena = &mut arena;
+    let hessian = mass.constant().cloned();
+    let motion = Motion::new(arena, parts, mass, stated.as_ref())?;
+    let written = potential.map(|u| Ways::new(arena, &u, motion.dim(), &motion.momenta()));
+    let at_points = written.as_ref().map(|ways| &ways.at_points);
+    let potential = written.as_ref().map(|ways| &ways.along_motions);
+    let body = Body { motion: &motion, potential, forces: &forces };
+    let mut coefficients = Constants::new(Quantity::Coefficient);
+    let Kept { moving, at_rest, rotations } = body.kept(arena)?;
+    let closed_form = body.closed_form(arena);
+    let chart = motion.full_chart(arena);
+    let full = body.full_equations(arena, &chart, at_points, &mut coefficients)?;
+    let Reduced { reduction, equations: reduced, pieces, trajectory, fixed } =
+        body.shortest_reduction(arena, rotations, asked, &mut coefficients)?;
+    let described = Described {
+        energies: &motion.parts,
+        blocks: motion.numeric_blocks(),
+        forces: &forces,
+        metrics: form.metrics.as_ref(),
+        rebased: &form.rebased,
+    };
+    let notation = Notation::new(arena, &described);
+    let formulas = body.formulas(arena, &notation, &chart, &reduction, closed_form)?;
+    let programs = body.programs(arena, &chart, &mut coefficients)?;
+    let dilatation = reduction
+        .separation
+        .as_ref()
+        .map(|separation| fuse(&straight_line(arena, &separation.batch(), &mut coefficients, &|_| false)));
+    if form.unitary {
+        // Nothing but the lattice is emitted: no other coefficient is computed.
+        coefficients = Constants::new(Quantity::Coefficient);
+    }
+    let lattice = motion.hamiltonian().filter(|_| asked.two_polar);
+    let two_polar = lattice.map(|h| {
+        lattice::two_polar(arena, &notation, h, potential, (form.unitary, asked), &mut coefficients)
+    });
+    let regularity = conditions::regularity(arena, &motion, positive, require_positive, &mut coefficients)?;
+    let Quantities { metric, acceleration, balance } =
+        body.quantities(arena, &chart, asked, &mut coefficients)?;
+    let model = Model {
+        dim: motion.dim(),
+        constraint: motion.constraint(),
+        projected: motion.confined().is_some(),
+        frame: motion.frame(),
+        translation: motion.masses.frame(),
+        conditions: match &stated {
+            None => conditions::conditions(arena, &motion, hessian.as_ref(), require_positive),
+            Some(stated) => stated::conditions(arena, stated, require_positive),
+        },
+        coefficients: coefficient_program(arena, &coefficients),
+        numeric_blocks: numeric_blocks(arena, &motion, require_positive),
+        damping: damping(arena, &forces),
+        velocity_side: programs.velocity_side,
+        velocity: programs.velocity,
+        mass: programs.mass,
+        mixed_masses: programs.mixed_masses,
+        regularity,
+        metric,
+        acceleration,
+        balance,
+        hamiltonian: programs.hamiltonian,
+        hamiltonian_far_away: programs.hamiltonian_far_away,
+        domain: programs.domain,
+        power: programs.power,
+        full,
+        reduced,
+        reduction,
+        trajectory,
+        fixed,
+        closed_form,
+        isotropic: programs.isotropic,
+        dilatation,
+        conserved: moving,
+        conserved_at_rest: at_rest,
+        signature: conditions::signature(arena, &motion, hessian.as_ref(), positive, require_positive),
+        has_forces: !body.is_free(),
+        groups: (form.space_group, form.body_group),
+        metrics: form.metrics.map(|metrics| ChangeOfBases::of(arena, metrics, &form.rebased)),
+        formulas,
+        two_polar,
+        taylor: None,
+        tangent: None,
+        splitting: pieces.splitting,
+        second_order: pieces.second_order,
+        packed: None,
     };
     Some(model.completed(asked))
 }

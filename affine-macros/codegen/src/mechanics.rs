@@ -25,6 +25,7 @@ pub mod metric;
 pub mod metrics;
 pub mod mixed;
 pub mod momentum_side;
+pub mod motion;
 pub mod notation;
 pub mod potential;
 

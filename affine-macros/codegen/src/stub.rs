@@ -31,7 +31,7 @@ fn stand_in(args: TokenStream, item: &TokenStream) -> Option<TokenStream> {
         generics: input.generics,
         fields: field.into_iter().collect(),
     };
-    let form = gate(|found| check::form(&spec, found)).ok()?;
+    let form = gate(|found| check::energy(&spec, found)).ok()?;
     Some(emit::emit(&spec, &derive::derive(form, false)?))
 }
 

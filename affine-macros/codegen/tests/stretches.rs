@@ -14,7 +14,7 @@ fn mistakes(n: usize, potential: &str) -> Vec<&'static str> {
     let item: TokenStream = "struct M { c: f64 }".parse().unwrap();
     let checked = gate(|found| spec::parse(arguments(n, potential), item, found)).and_then(|spec| {
         gate(|found| check::as_written(&spec, found))?;
-        gate(|found| check::form(&spec, found)).map(|_| ())
+        gate(|found| check::energy(&spec, found)).map(|_| ())
     });
     match checked {
         Ok(()) => Vec::new(),

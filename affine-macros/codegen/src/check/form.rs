@@ -1,13 +1,13 @@
 //! Rules on the kinetic energy as a quadratic form, decided exactly.
 
-use super::{capabilities, definite, dissipation, momentum_side, two_polar};
+use super::{capabilities, definite, dissipation, momentum_side, smooth, two_polar};
 use crate::algebra::Arena;
 use crate::diagnostics::{ConstraintMistake, Diagnostics, FormMistake, Reported};
 use crate::lower;
 use crate::mechanics::asked::Asked;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
-use crate::mechanics::form::Form;
+use crate::mechanics::form::{Form, Mass, Positive};
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metrics::{Metrics, Rebased};
@@ -18,31 +18,95 @@ use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by, largest_group}
 use crate::mechanics::term::{Frame, Term};
 use crate::spec::{Capability, Claim, Named, Spec};
 
-/// Builds the form and holds it against every rule.
+/// A kinetic energy that was held against its own rules.
+pub(super) struct Energy {
+    pub(super) parts: Vec<Kinetic>,
+    pub(super) mass: Mass,
+    pub(super) positive: Positive,
+    pub(super) stated: Option<Stated>,
+    /// The parts of the energy as stated, on all of GL(n), where its terms may have different frames.
+    pub(super) free: Vec<Kinetic>,
+    pub(super) forces: Forces,
+    pub(super) metrics: Option<Metrics>,
+    pub(super) rebased: Vec<Rebased>,
+    /// The places of its terms in the specification.
+    pub(super) places: Vec<usize>,
+}
+
+/// The energy with what acts beside it, held against every rule.
+///
+/// # Errors
+/// [`Reported`] if any is broken; all broken ones are in the bag.
+pub(super) fn beside(
+    mut arena: Arena,
+    spec: &Spec,
+    energy: Energy,
+    found: &mut Diagnostics,
+) -> Result<Form, Reported> {
+    let Energy { parts, mass, positive, stated, free, mut forces, metrics, mut rebased, places } = energy;
+    let (arena_of, metrics_of) = (&mut arena, metrics.as_ref());
+    let group = parts.first().and_then(|part| part.constraint);
+    let potential = potential(arena_of, spec, group, (metrics_of, &mut rebased), found);
+    forces.driven = driven(spec, potential.as_ref());
+    capabilities::series(spec, potential.as_ref(), found);
+    capabilities::tangent(spec, potential.as_ref(), found);
+    let alone = match (&mass, parts.as_slice()) {
+        (Mass::Constant(_), [kinetic]) => Some(kinetic),
+        _ => None,
+    };
+    if let Some(kinetic) = alone {
+        capabilities::pieces(spec, kinetic, found);
+        capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
+    }
+    found.verdict()?;
+    // Under `phi -> c phi` the energies of affine frames scale by `1/c^2` against flat ones, and on either side only one
+    // affine frame is moved: a sum is invariant exactly if every part is.
+    let group = |side: Side| free.iter().map(|part| largest_group(part, side)).min().unwrap_or(Group::Affine);
+    let unitary = spec.group.is_some();
+    let two_polar = match alone.filter(|_| !unitary) {
+        Some(kinetic) => two_polar::asked(spec, kinetic, &places, potential.as_ref(), found)?,
+        None => unitary,
+    };
+    Ok(Form {
+        space_group: group(Side::Space),
+        body_group: group(Side::Body),
+        parts,
+        mass,
+        positive,
+        stated,
+        potential,
+        forces,
+        metrics,
+        rebased,
+        asked: Asked { two_polar, ..capabilities::asked_for(spec) },
+        unitary,
+        arena,
+    })
+}
+
+/// An energy whose mass matrix is constant in one frame.
 ///
 /// # Errors
 /// [`Reported`] if any rule is broken; all broken ones are in the bag.
-pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
-    let mut arena = Arena::new();
-    if let Some(stated) = lower::stated(&mut arena, spec) {
-        return momentum_form(arena, spec, stated, found);
-    }
+pub(super) fn of_one_frame(
+    arena: &mut Arena,
+    spec: &Spec,
+    found: &mut Diagnostics,
+) -> Result<Energy, Reported> {
     let (places, stated): (Vec<usize>, Vec<Term>) =
-        lower::terms(&mut arena, spec.dim.value, &spec.kinetic).into_iter().unzip();
-    let metrics = lower::metrics(&mut arena, spec);
+        lower::terms(arena, spec.dim.value, &spec.kinetic).into_iter().unzip();
+    let metrics = lower::metrics(arena, spec);
     let mut rebased = Vec::new();
     let terms = match &metrics {
-        Some(metrics) => metrics.orthonormal(&mut arena, &stated, &mut rebased),
+        Some(metrics) => metrics.orthonormal(arena, &stated, &mut rebased),
         None => stated.clone(),
     };
-    // Symmetries are those of the energy as stated, on all of GL(n), where its terms may have different frames.
-    let free =
-        spec.constraint.as_ref().map(|_| Mixed::new(&mut arena, spec.dim.value, &terms, Frame::Body, None));
+    let free = spec.constraint.as_ref().map(|_| Mixed::new(arena, spec.dim.value, &terms, Frame::Body, None));
     let placed = places.iter().copied().zip(terms).collect();
-    let (own_places, mut kinetic) = confined(&mut arena, spec, placed)
+    let (own_places, mut kinetic) = confined(arena, spec, placed)
         .filter(|(_, kinetic)| !kinetic.internal.is_empty())
         .ok_or_else(|| found.report(spec.kinetic_key, FormMistake::NoKineticEnergy))?;
-    kinetic.congruent = metrics.as_ref().and_then(|metrics| metrics.congruent(&mut arena, &kinetic, &stated));
+    kinetic.congruent = metrics.as_ref().and_then(|metrics| metrics.congruent(arena, &kinetic, &stated));
     let hessian = Hessian::new(&kinetic);
     nothing_vanishes(spec, std::slice::from_ref(&kinetic), &own_places, found);
     definite::invertible(spec, &hessian, found);
@@ -51,86 +115,65 @@ pub fn form(spec: &Spec, found: &mut Diagnostics) -> Result<Form, Reported> {
     for part in &free {
         claims(spec, part, |place| spec.kinetic[places[place]].kind.value.name(), found);
     }
-    let mut forces = forces(&mut arena, spec, kinetic.frame, (metrics.as_ref(), &mut rebased), found);
-    found.verdict()?;
-    super::smooth::potential(&mut arena, spec, found);
-    found.verdict()?;
-    let potential = potential(&mut arena, spec, kinetic.constraint, (metrics.as_ref(), &mut rebased), found);
-    forces.driven = driven(spec, potential.as_ref());
-    capabilities::series(spec, potential.as_ref(), found);
-    capabilities::tangent(spec, potential.as_ref(), found);
-    capabilities::pieces(spec, &kinetic, found);
-    capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
-    found.verdict()?;
-    let group = |side: Side| free.iter().map(|part| largest_group(part, side)).min().unwrap_or(Group::Affine);
-    let (space_group, body_group) = (group(Side::Space), group(Side::Body));
-    let unitary = spec.group.is_some();
-    let two_polar = unitary || two_polar::asked(spec, &kinetic, &places, potential.as_ref(), found)?;
-    Ok(Form {
-        arena,
-        kinetic,
+    let forces = forces(arena, spec, kinetic.frame, (metrics.as_ref(), &mut rebased), found);
+    smooth_beside(arena, spec, found)?;
+    Ok(Energy {
+        positive: Positive { internal: kinetic.is_dalembert(), centre: kinetic.is_dalembert() },
+        parts: vec![kinetic],
+        mass: Mass::Constant(hessian),
         stated: None,
-        hessian,
-        space_group,
-        body_group,
-        potential,
+        free,
         forces,
         metrics,
         rebased,
-        asked: Asked { two_polar, ..capabilities::asked_for(spec) },
-        unitary,
+        places,
     })
 }
 
-/// The same from a stated Hamiltonian. Groups and claims are decided on the form in the momenta.
-fn momentum_form(
-    mut arena: Arena,
+/// A stated Hamiltonian. Groups and claims are decided on the form in the momenta.
+///
+/// # Errors
+/// As [`of_one_frame`].
+pub(super) fn of_momenta(
+    arena: &mut Arena,
     spec: &Spec,
     stated: Stated,
     found: &mut Diagnostics,
-) -> Result<Form, Reported> {
+) -> Result<Energy, Reported> {
     momentum_side::invertible(spec, &stated, found);
     momentum_side::positive(spec, &stated, found);
-    momentum_side::nothing_vanishes(&mut arena, spec, &stated, found);
-    let on_momenta = stated.on_momenta(&mut arena);
+    momentum_side::nothing_vanishes(arena, spec, &stated, found);
+    let on_momenta = stated.on_momenta(arena);
     let name = |place: usize| {
         spec.hamiltonian.iter().flatten().nth(place).map_or("hamiltonian", |term| term.kind.value.name())
     };
     claims(spec, &on_momenta, name, found);
-    found.verdict()?;
-    super::smooth::potential(&mut arena, spec, found);
-    found.verdict()?;
-    let kinetic = stated
-        .kinetic(&mut arena)
-        .ok_or_else(|| found.report(spec.kinetic_key, FormMistake::NoKineticEnergy))?;
-    let metrics = lower::metrics(&mut arena, spec);
+    smooth_beside(arena, spec, found)?;
+    let kinetic =
+        stated.kinetic(arena).ok_or_else(|| found.report(spec.kinetic_key, FormMistake::NoKineticEnergy))?;
+    let metrics = lower::metrics(arena, spec);
     let mut rebased = Vec::new();
-    let mut forces = forces(&mut arena, spec, kinetic.frame, (metrics.as_ref(), &mut rebased), found);
-    let hessian = Hessian::new(&kinetic);
-    let space_group = largest_group(&on_momenta, Side::Space);
-    let body_group = largest_group(&on_momenta, Side::Body);
-    let potential = potential(&mut arena, spec, kinetic.constraint, (metrics.as_ref(), &mut rebased), found);
-    forces.driven = driven(spec, potential.as_ref());
-    capabilities::series(spec, potential.as_ref(), found);
-    capabilities::tangent(spec, potential.as_ref(), found);
-    capabilities::pieces(spec, &kinetic, found);
-    capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
-    found.verdict()?;
-    let two_polar = two_polar::asked(spec, &kinetic, &[], potential.as_ref(), found)?;
-    Ok(Form {
-        arena,
-        kinetic,
+    Ok(Energy {
+        forces: forces(arena, spec, kinetic.frame, (metrics.as_ref(), &mut rebased), found),
+        mass: Mass::Constant(Hessian::new(&kinetic)),
+        parts: vec![kinetic],
+        positive: Positive { internal: false, centre: false },
         stated: Some(stated),
-        hessian,
-        space_group,
-        body_group,
-        potential,
-        forces,
+        free: vec![on_momenta],
         metrics,
         rebased,
-        asked: Asked { two_polar, ..capabilities::asked_for(spec) },
-        unitary: false,
+        places: Vec::new(),
     })
+}
+
+/// The potential beside an energy without mistakes is smooth.
+///
+/// # Errors
+/// [`Reported`] if it is not, or anything was reported before.
+pub(super) fn smooth_beside(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> {
+    found.verdict()?;
+    smooth::potential(arena, spec, found);
+    found.verdict()
 }
 
 /// The forces besides those of the potential, the dissipation held against its rule.
@@ -151,7 +194,7 @@ pub(super) fn forces(
 
 /// Is the work of a potential that depends on the time, `dH/dt = dU/dt` at rest, part of the motion? The halves and kicks of
 /// the methods that take the equations apart have no place for it.
-pub(super) fn driven(spec: &Spec, potential: Option<&Potential>) -> bool {
+fn driven(spec: &Spec, potential: Option<&Potential>) -> bool {
     let apart = [Capability::Splitting, Capability::Nystrom];
     let taken_apart =
         super::forces::has_multiplier(spec) || apart.iter().any(|c| capabilities::asked(spec, *c));
@@ -192,7 +235,7 @@ pub(super) fn nothing_vanishes(spec: &Spec, parts: &[Kinetic], places: &[usize],
 
 /// The potential on the group that is left: one that is constant there moves nothing, and one without a value there is
 /// none.
-pub(super) fn potential(
+fn potential(
     arena: &mut Arena,
     spec: &Spec,
     group: Option<Constraint>,

@@ -1,24 +1,23 @@
 //! Rules on a kinetic energy whose mass matrix depends on the placement: what can be decided for all placements.
 
-use crate::algebra::Arena;
+use crate::algebra::{Arena, Expr};
 use crate::diagnostics::{CapabilityMistake, Diagnostics, FormMistake, Reported};
 use crate::lower;
-use crate::mechanics::form::{MixedForm, Positive};
+use crate::mechanics::form::{Mass, Positive};
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::mixed::{Internal, Masses, Mixed};
-use crate::mechanics::symmetry::Side;
 use crate::mechanics::term::{Frame, Term};
 use crate::spec::{Capability, Named, Requirement, Spec};
 
-use super::form::{self};
+use super::form::{self, Energy};
 use super::{capabilities, definite};
 
-/// Builds the form and holds it against every rule.
+/// Builds a sum of energies and holds it against its rules.
 ///
 /// # Errors
-/// [`Reported`] if any rule is broken; all broken ones are in the bag.
-pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Reported> {
+/// [`Reported`] if any is broken; all broken ones are in the bag.
+pub(super) fn energy(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) -> Result<Energy, Reported> {
     if spec.has_metrics() {
         found.report(spec.kinetic_key, FormMistake::SumBeside { key: "metrics(...)" });
     }
@@ -32,83 +31,67 @@ pub(super) fn form(spec: &Spec, found: &mut Diagnostics) -> Result<MixedForm, Re
     }
     capabilities::one_frame(spec, found);
     capabilities::on_the_group(spec, found);
-    let mut arena = Arena::new();
-    let stated = lower::terms(&mut arena, spec.dim.value, &spec.kinetic);
+    let stated = lower::terms(arena, spec.dim.value, &spec.kinetic);
     let (places, free): (Vec<usize>, Vec<Term>) = stated.iter().cloned().unzip();
-    let free = group.map(|_| Mixed::new(&mut arena, spec.dim.value, &free, Frame::Body, None));
+    let free = group.map(|_| Mixed::new(arena, spec.dim.value, &free, Frame::Body, None));
     let (own_places, terms): (Vec<usize>, Vec<Term>) = match group {
-        Some(group) => group.restated(&mut arena, stated),
+        Some(group) => group.restated(arena, stated),
         None => stated,
     }
     .into_iter()
     .unzip();
     let mut sums = [Frame::Body, Frame::Space]
-        .map(|casimirs| Mixed::new(&mut arena, spec.dim.value, &terms, casimirs, group));
-    let hessian = match sums[0].internal.as_slice() {
-        [one] if group.is_none() => {
-            let hessian = Hessian::new(one);
-            definite::invertible(spec, &hessian, found);
-            Some(hessian)
-        }
-        _ => {
-            regular_somewhere(spec, &mut arena, &sums[0], found);
-            None
-        }
-    };
+        .map(|casimirs| Mixed::new(arena, spec.dim.value, &terms, casimirs, group));
     // The Casimirs may stand beside either affine energy: one sum of squares is as good as another.
     let proved = sums.each_ref().map(is_positive);
     sums.swap(0, usize::from(!proved[0] && proved[1]));
     let [mixed, _] = sums;
-    let masses = Masses::of(&mixed);
-    let heavy = |mass| arena.as_constant(mass).is_some_and(|m| !m.is_negative());
-    let positive = Positive {
-        internal: proved.contains(&true),
-        centre: masses.body.into_iter().chain(masses.space).all(heavy),
+    let mass = match mixed.internal.as_slice() {
+        [one] if group.is_none() => {
+            let hessian = Hessian::new(one);
+            definite::invertible(spec, &hessian, found);
+            Ok(Mass::Constant(hessian))
+        }
+        _ => regular_somewhere(spec, arena, &mixed, found),
     };
+    let parts = mixed.parts();
+    let heavy = |mass: &Expr| arena.as_constant(*mass).is_some_and(|m| !m.is_negative());
+    let centre = Masses::of(&parts).list().iter().all(heavy);
+    let positive = Positive { internal: proved.contains(&true), centre };
     if !positive.internal {
         unproved(spec, &mixed, found);
     }
     form::nothing_vanishes(spec, &mixed.internal, &own_places, found);
     // Symmetries are those of the energy as stated, on all of GL(n).
-    let free = free.unwrap_or_else(|| mixed.clone());
-    for part in free.parts() {
-        form::claims(spec, &part, |place| spec.kinetic[places[place]].kind.value.name(), found);
+    let free = free.map_or_else(|| parts.clone(), |free| free.parts());
+    for part in &free {
+        form::claims(spec, part, |place| spec.kinetic[places[place]].kind.value.name(), found);
     }
-    let own = match (group, mixed.internal.as_slice()) {
+    let frame = match (group, mixed.internal.as_slice()) {
         (Some(_), _) => Frame::Body,
         (None, [one]) => one.frame,
         (None, _) => Frame::Flat,
     };
-    let mut forces = form::forces(&mut arena, spec, own, (None, &mut Vec::new()), found);
-    found.verdict()?;
-    super::smooth::potential(&mut arena, spec, found);
-    found.verdict()?;
-    let potential = form::potential(&mut arena, spec, group, (None, &mut Vec::new()), found);
-    forces.driven = form::driven(spec, potential.as_ref());
-    capabilities::series(spec, potential.as_ref(), found);
-    capabilities::tangent(spec, potential.as_ref(), found);
-    found.verdict()?;
-    Ok(MixedForm {
-        hessian,
-        positive,
-        space_group: free.largest_group(Side::Space),
-        body_group: free.largest_group(Side::Body),
-        mixed,
-        potential,
-        forces,
-        asked: capabilities::asked_for(spec),
-        arena,
-    })
+    let mut rebased = Vec::new();
+    let forces = form::forces(arena, spec, frame, (None, &mut rebased), found);
+    form::smooth_beside(arena, spec, found)?;
+    Ok(Energy { parts, mass: mass?, positive, stated: None, free, forces, metrics: None, rebased, places })
 }
 
 /// The momentum determines the velocity at some placement: the mass matrix is not singular everywhere. Where along a
 /// motion it becomes so is for the run to notice.
-fn regular_somewhere(spec: &Spec, arena: &mut Arena, mixed: &Mixed, found: &mut Diagnostics) {
-    if Internal::new(arena, mixed).is_none() {
+fn regular_somewhere(
+    spec: &Spec,
+    arena: &mut Arena,
+    mixed: &Mixed,
+    found: &mut Diagnostics,
+) -> Result<Mass, Reported> {
+    let internal = Internal::new(arena, mixed).ok_or_else(|| {
         let names = spec.kinetic.iter().filter(|term| !term.kind.value.is_translation());
-        let terms: Vec<&str> = names.map(|term| crate::spec::Named::name(term.kind.value)).collect();
-        found.report(spec.kinetic_key, FormMistake::DegenerateSum { terms: terms.join(" + ") });
-    }
+        let terms: Vec<&str> = names.map(|term| term.kind.value.name()).collect();
+        found.report(spec.kinetic_key, FormMistake::DegenerateSum { terms: terms.join(" + ") })
+    })?;
+    Ok(Mass::Factorised(Box::new(internal)))
 }
 
 /// A sum of positive semidefinite energies, one of them definite, is positive definite at every placement. Undecided

@@ -1,76 +1,73 @@
 //! Hamilton's equations and the reduced equations in their shortest forms.
 
 use crate::algebra::bind::Constants;
-use crate::algebra::{Arena, Expr, Polynomial};
+use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::asked::Asked;
-use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
+use crate::mechanics::charts::{Chart, Coordinate, Linear};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::equations::{Form, System};
-use crate::mechanics::forces::Forces;
-use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::kinetics::Kinetics;
-use crate::mechanics::loads::loads;
 use crate::mechanics::potential::Potential;
-use crate::mechanics::reduce::{self, Layout, Reduction};
-use crate::mechanics::term::Frame;
+use crate::mechanics::reduce::{Layout, Reduction};
 use crate::optimise::{Batch, straight_line};
 use crate::symbol::{Quantity, Symbol};
 
 use super::batch::{batch, split_batch};
+use super::body::Body;
 use super::equations::Equations;
 use super::second_order::Halves;
 use super::splitting::Programs;
 
-/// Chart and Hamiltonian of the equations that users of other codes write down: all momenta in the model's frames.
-pub(super) fn full_chart(arena: &mut Arena, h: &Hamiltonian) -> (Chart, Polynomial) {
-    let linear = h.translation.as_ref().map(|(frame, _)| match (frame, h.frame) {
-        (Frame::Body, Frame::Body) => Linear::Body,
-        _ => Linear::Space,
-    });
-    let chart = Chart::new(arena, h.dim, Momentum::of(h.frame), linear).under(h.confined());
-    let full = reduce::own_hamiltonian(h, &chart);
-    (chart, full)
-}
-
-/// The shortest of the ways to write the equations.
-pub(super) fn full_equations(
-    arena: &mut Arena,
-    h: &Hamiltonian,
-    chart: &Chart,
-    full_h: &Polynomial,
-    potential: Option<&Potential>,
-    forces: &Forces,
-    coefficients: &mut Constants,
-) -> Equations {
-    let mut loads = loads(arena, chart, h, potential, forces);
-    // The plain array has no place for the work.
-    loads.iter_mut().for_each(|load| load.work = None);
-    let kinetics = Kinetics::polynomial(arena, chart, full_h);
-    let mut through_velocity = kinetics.system(Form::ThroughVelocity);
-    loads.iter().for_each(|load| through_velocity.add(load));
-    let mut ways: Vec<Batch> = vec![batch(arena, &through_velocity)];
-    if !h.is_tensor() {
-        let mut expanded = kinetics.system(Form::Expanded);
-        loads.iter().for_each(|load| expanded.add(load));
-        ways.push(batch(arena, &expanded));
+impl Body<'_> {
+    /// Hamilton's equations of a chart under a potential in place of its own, in the shortest of several ways.
+    pub(super) fn full_equations(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        potential: Option<&Potential>,
+        coefficients: &mut Constants,
+    ) -> Option<Equations> {
         // Symmetric and skew parts are entries already where a constraint leaves only one of them.
-        if chart.confined.is_none_or(|group| group == Constraint::Isochoric) {
-            ways.push(split_batch(arena, chart, &expanded));
+        let parts = chart.confined.is_none_or(|group| group == Constraint::Isochoric);
+        let mut ways: Vec<Batch> = Vec::new();
+        for (system, form) in self.systems(arena, chart, potential)? {
+            // The plain array has no place for the work.
+            let system = System { work: None, ..system };
+            let system = if self.motion.hamiltonian().is_some() { system } else { system.tidied(arena) };
+            ways.push(batch(arena, &system));
+            if form == Form::Expanded && parts {
+                ways.push(split_batch(arena, chart, &system));
+            }
         }
+        let time = self.time(arena);
+        Some(shortest(arena, chart, &ways, time, coefficients))
     }
-    let time = time(arena, potential, forces);
-    shortest(arena, chart, &ways, time, coefficients)
-}
 
-/// The time as a symbol, where any force depends on it.
-fn time(arena: &mut Arena, potential: Option<&Potential>, forces: &Forces) -> Option<Expr> {
-    potential.and_then(Potential::time).or_else(|| forces.time(arena))
+    /// The reduction with the shortest equations, its programs, and those of what is asked for beside them.
+    pub(super) fn shortest_reduction(
+        &self,
+        arena: &mut Arena,
+        rotations: bool,
+        asked: Asked,
+        coefficients: &mut Constants,
+    ) -> Option<Reduced> {
+        let reductions = self.reductions(arena, rotations, asked)?;
+        let time = self.time(arena);
+        let (h, u) = (self.motion.hamiltonian(), self.potential);
+        let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
+            let split = h.filter(|_| asked.splitting);
+            let split = split.and_then(|h| Programs::of(arena, h, u, reduction, constants));
+            let halves = h.filter(|_| asked.nystrom);
+            let second_order = halves.and_then(|h| Halves::of(arena, h, u, reduction, constants));
+            Pieces { splitting: split, second_order }
+        };
+        shortest_reduction(arena, reductions, time, pieces, coefficients)
+    }
 }
 
 /// Equations over the coordinates of a chart, in the shortest of several ways.
-pub(super) fn shortest(
+fn shortest(
     arena: &mut Arena,
     chart: &Chart,
     ways: &[Batch],
@@ -145,31 +142,8 @@ pub(super) struct Reduced {
     pub(super) fixed: Vec<String>,
 }
 
-/// The reduction with the shortest equations, and its programs.
-pub(super) fn best_reduction(
-    arena: &mut Arena,
-    h: &Hamiltonian,
-    potential: Option<&Potential>,
-    forces: &Forces,
-    (rotations, asked): (bool, Asked),
-    coefficients: &mut Constants,
-) -> Option<Reduced> {
-    // The squares of an anisotropic energy move each momentum, also one that their sum conserves.
-    let in_squares = h.isotropic.is_none() && h.frame != Frame::Flat;
-    let halves = asked.nystrom || (asked.splitting && in_squares);
-    let pieces = asked.nystrom || asked.splitting;
-    let candidates = reduce::candidates(arena, h, potential, forces, (rotations, halves, pieces));
-    let time = time(arena, potential, forces);
-    let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
-        let split = asked.splitting.then(|| Programs::of(arena, h, potential, reduction, constants));
-        let halves = asked.nystrom.then(|| Halves::of(arena, h, potential, reduction, constants));
-        Pieces { splitting: split.flatten(), second_order: halves.flatten() }
-    };
-    shortest_reduction(arena, candidates, time, pieces, coefficients)
-}
-
 /// The reduction of several with the shortest equations, its programs, and those of its `pieces`.
-pub(super) fn shortest_reduction(
+fn shortest_reduction(
     arena: &mut Arena,
     candidates: Vec<Reduction>,
     time: Option<Expr>,
@@ -216,28 +190,4 @@ fn trajectory_symbols(reduction: &Reduction) -> Vec<Expr> {
         Layout::Entries => reduction.fixed.clone(),
     };
     [chart.p.clone(), momentum].concat()
-}
-
-/// The power of the forces at a point, with what it shares; `None` where there are no forces.
-pub(super) fn power_batch(
-    arena: &mut Arena,
-    h: &Hamiltonian,
-    chart: &Chart,
-    full_h: &Polynomial,
-    potential: Option<&Potential>,
-    forces: &Forces,
-) -> Option<Batch> {
-    let Kinetics { shared, .. } = Kinetics::polynomial(arena, chart, full_h);
-    let mut system = System { shared, ..System::default() };
-    // Another potential has no power.
-    let driving = potential.filter(|_| forces.driven);
-    loads(arena, chart, h, driving, forces).iter().for_each(|load| system.add(load));
-    let dependent = chart.dependent();
-    let system = system.substitute(&|atom| {
-        dependent.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone())
-    });
-    let (_, power) = system.work?;
-    let results = vec![("power".to_owned(), power)];
-    let batch = Batch { shared: system.shared, kernels: system.kernels, results };
-    Some(if driving.is_some() { batch.pruned(arena) } else { batch })
 }

@@ -5,28 +5,66 @@ use crate::algebra::ring::{Square, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::mechanics::asked::Asked;
 use crate::mechanics::balance::{CENTRE, INTERNAL, Laws};
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::equations::System;
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::kinetic::Kinetic;
-use crate::mechanics::metric::{self, Definitions};
-use crate::mechanics::mixed::Factorisation;
+use crate::mechanics::metric::Definitions;
+use crate::mechanics::mixed::{self, Factorisation};
+use crate::mechanics::motion::Motion;
+use crate::mechanics::reduce::own_hamiltonian;
 use crate::mechanics::term::Frame;
 use crate::optimise::{Batch, straight_line};
 use crate::symbol::{Aspect, Factorised, Quantity};
 
+use super::body::Body;
 use super::model::{Balance, BalancedQuantities, Metric};
 
-/// The mass matrix over `(x_dot, phi_dot)` of a sum of energies, and its inverse.
-pub(super) fn metric(
-    arena: &mut Arena,
-    parts: &[Kinetic],
-    hamiltonian: Option<&Hamiltonian>,
-    coefficients: &mut Constants,
-) -> Option<Metric> {
-    let dim = parts.first()?.dim;
-    let metric::Metric { mut shared, mut internal, centre } = metric::Metric::new(arena, dim, parts);
+/// What is asked for besides the equations.
+pub(super) struct Quantities {
+    pub(super) metric: Option<Metric>,
+    pub(super) acceleration: Option<Program>,
+    pub(super) balance: Option<Balance>,
+}
+
+impl Body<'_> {
+    /// What is asked for, its programs reading the coordinates of a chart.
+    pub(super) fn quantities(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        asked: Asked,
+        coefficients: &mut Constants,
+    ) -> Option<Quantities> {
+        let metric = match asked.metric {
+            true => Some(metric(arena, self.motion, coefficients)?),
+            false => None,
+        };
+        let time = self.time(arena);
+        let acceleration = match asked.acceleration {
+            true => {
+                let (system, _) = self.systems(arena, chart, self.potential)?.swap_remove(0);
+                Some(acceleration(arena, chart, &system, time, coefficients))
+            }
+            false => None,
+        };
+        let balance = match self.motion.hamiltonian().filter(|_| asked.balance) {
+            Some(h) => {
+                let loads = self.loads(arena, chart, self.potential)?;
+                let laws = Laws::new(arena, chart, h, &own_hamiltonian(h, chart), &loads);
+                Some(balance(arena, chart, &laws, time, coefficients))
+            }
+            None => None,
+        };
+        Some(Quantities { metric, acceleration, balance })
+    }
+}
+
+/// The mass matrix over `(x_dot, phi_dot)` of a motion, and its inverse.
+fn metric(arena: &mut Arena, motion: &Motion, coefficients: &mut Constants) -> Option<Metric> {
+    let (dim, hamiltonian) = (motion.dim(), motion.hamiltonian());
+    let mixed::Metric { mut shared, mut internal, centre } = mixed::Metric::new(arena, dim, &motion.parts);
     if let Some(weight) = hamiltonian.and_then(|h| h.weight.as_ref()) {
         let square = Polynomial::atom(weight.square);
         internal.iter_mut().flatten().for_each(|entry| *entry = entry.mul(&square));
@@ -97,7 +135,7 @@ fn inverse_of(arena: &mut Arena, h: &Hamiltonian) -> Batch {
             form.mul(inverse_mass)
         })
     });
-    let shared = h.weight.as_ref().map_or_else(Definitions::new, |weight| weight.definitions.clone());
+    let shared = h.weight_definitions();
     Batch { shared, results: numbered(&joined(&centre, &internal)), ..Batch::default() }.pruned(arena)
 }
 
@@ -135,7 +173,7 @@ fn numbered(entries: &[Vec<Polynomial>]) -> Vec<(String, Polynomial)> {
 }
 
 /// `x'' = sum over z of dx'/dz z'`, by the chain rule through every quantity on the way to `x'`.
-pub(super) fn acceleration(
+fn acceleration(
     arena: &mut Arena,
     chart: &Chart,
     system: &System,
@@ -156,7 +194,7 @@ pub(super) fn acceleration(
 }
 
 /// The quantities of the balance laws, entry after entry.
-pub(super) fn balance(
+fn balance(
     arena: &mut Arena,
     chart: &Chart,
     laws: &Laws,

@@ -152,6 +152,15 @@ impl Chart {
         self.confined.map_or_else(Vec::new, |group| group.dependent(&self.m))
     }
 
+    /// A polynomial in the entries of the affine momentum that determine the others.
+    #[must_use]
+    pub fn reduced(&self, polynomial: &Polynomial) -> Polynomial {
+        let dependent = self.dependent();
+        polynomial.substitute(&|atom| {
+            dependent.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone())
+        })
+    }
+
     /// The coordinates that determine the others, group after group.
     #[must_use]
     pub fn independent(&self) -> Vec<Coordinate> {

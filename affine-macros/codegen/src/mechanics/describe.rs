@@ -19,7 +19,7 @@ use crate::mechanics::term::{Coefficient, Frame, Term, TermKind};
 pub use super::notation::{Described, Formula, Notation};
 pub use equations::equations;
 pub use hamiltonian::{hamiltonian, kinetic_energy_of_momenta};
-pub use left_out::{LeftOut, Scope, closed_form, left_out};
+pub use left_out::{LeftOut, Scope, left_out};
 pub use system::system;
 
 /// A summand, with its sign apart.
@@ -105,15 +105,15 @@ impl Sum {
     }
 }
 
-/// `T` as the sum of its terms.
-pub fn kinetic_energy(arena: &mut Arena, notation: &Notation, kinetic: &Kinetic) -> Formula {
+/// `T` as the sum of its terms, frame after frame.
+pub fn kinetic_energy(arena: &mut Arena, notation: &Notation, parts: &[Kinetic]) -> Formula {
     let mut sum = Sum::default();
-    energy_terms(arena, notation, &mut sum, kinetic);
-    sum.of("T", "T").with(notation.matrices_in(&kinetic.terms))
+    parts.iter().for_each(|part| energy_terms(arena, notation, &mut sum, part));
+    sum.of("T", "T").with(notation.matrices_in(parts.iter().flat_map(|part| &part.terms)))
 }
 
 /// Adds the terms of a kinetic energy.
-pub(super) fn energy_terms(arena: &mut Arena, notation: &Notation, sum: &mut Sum, kinetic: &Kinetic) {
+fn energy_terms(arena: &mut Arena, notation: &Notation, sum: &mut Sum, kinetic: &Kinetic) {
     // With its weight the energy is that in phi_dot.
     let frame = if kinetic.is_weighted() { Frame::Flat } else { kinetic.frame };
     quadratic_terms(arena, notation, sum, frame, &kinetic.terms);

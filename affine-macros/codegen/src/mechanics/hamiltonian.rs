@@ -7,6 +7,7 @@ use super::constraint::Constraint;
 use super::direction::Direction;
 use super::hessian::{Hessian, NumericBlock};
 use super::kinetic::Kinetic;
+use super::metric::Definitions;
 use super::shared::CentreVelocity;
 use super::term::Frame;
 use super::weight::Weight;
@@ -125,6 +126,12 @@ impl Hamiltonian {
     #[must_use]
     pub fn confined(&self) -> Option<Constraint> {
         self.constraint.filter(|_| self.frame != Frame::Flat)
+    }
+
+    /// What defines the weight of the internal energy, if it has one.
+    #[must_use]
+    pub fn weight_definitions(&self) -> Definitions {
+        self.weight.as_ref().map_or_else(Definitions::new, |weight| weight.definitions.clone())
     }
 
     /// How the velocity of the centre of mass follows.

@@ -126,10 +126,7 @@ impl Hessian {
     /// The Hessian of the internal energy.
     #[must_use]
     pub fn new(kinetic: &Kinetic) -> Self {
-        let energy = kinetic.internal_energy();
-        let velocities: Vec<Expr> = kinetic.velocity.0.iter().flatten().copied().collect();
-        let gradient = energy.gradient(&velocities);
-        let matrix: Vec<Vec<Polynomial>> = gradient.iter().map(|slope| slope.gradient(&velocities)).collect();
+        let matrix = kinetic.form();
         let bases = match kinetic.confined() {
             None => vec![entries(kinetic.dim.pow(2)), invariant(kinetic.dim)],
             Some(group) => group.bases(kinetic.dim, invariant(kinetic.dim)),

@@ -1,5 +1,6 @@
 //! The kinetic energy, term by term, in the velocity of its frame.
 
+use crate::algebra::ring::Square;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::constraint::Constraint;
@@ -39,13 +40,6 @@ pub struct Translation {
 }
 
 impl Kinetic {
-    /// The dimension of the group, and `n` more with translation.
-    #[must_use]
-    pub fn degrees_of_freedom(&self) -> usize {
-        let internal = self.constraint.map_or(self.dim * self.dim, |group| group.dimension(self.dim));
-        internal + if self.translation.is_some() { self.dim } else { 0 }
-    }
-
     /// Is the energy that of positive masses alone, `1/2 tr(phi_dot J phi_dot^T)` (2.1)? Every other one may be
     /// indefinite.
     #[must_use]
@@ -147,6 +141,14 @@ impl Kinetic {
         let mut sum = Polynomial::zero();
         self.internal.iter().for_each(|(_, energy)| sum.add_scaled(energy, &Rational::ONE));
         sum
+    }
+
+    /// `d^2 T_int / dO_k dO_l` on the entries of the velocity, row-major.
+    #[must_use]
+    pub fn form(&self) -> Square<Polynomial> {
+        let velocities = self.velocity.0.concat();
+        let slopes = self.internal_energy().gradient(&velocities);
+        slopes.iter().map(|slope| slope.gradient(&velocities)).collect()
     }
 }
 

@@ -5,10 +5,11 @@
 //! canonical. Energies that agree on the internal motion and differ in the translation keep their own frame.
 
 mod centre;
-mod confined;
 mod factorisation;
 mod formulas;
 mod internal;
+mod laws;
+mod mass;
 mod parts;
 mod placed;
 
@@ -16,16 +17,17 @@ use crate::algebra::Arena;
 
 use super::constraint::Constraint;
 use super::kinetic::Kinetic;
-use super::symmetry::{Group, Side, largest_group};
 use super::term::{Frame, Term, TermKind};
 
 pub use centre::Masses;
 pub use factorisation::{Factorisation, SymmetricBlock};
 pub use formulas::{
-    ForceNames, centre_equations, confined_equations, confined_hamiltonian, energy, hamiltonian,
-    internal_equations, internal_hamiltonian,
+    ForceNames, centre_equations, confined_equations, confined_hamiltonian, hamiltonian, internal_equations,
+    internal_hamiltonian,
 };
 pub use internal::{Internal, Legendre};
+pub use laws::laws_hold;
+pub use mass::Metric;
 
 /// A sum of energies, each with constant coefficients in its frame.
 #[derive(Clone, Debug)]
@@ -87,20 +89,5 @@ impl Mixed {
     #[must_use]
     pub fn parts(&self) -> Vec<Kinetic> {
         [self.internal.clone(), self.translations.clone()].concat()
-    }
-
-    /// The largest of the named groups that leaves the energy invariant. Under `phi -> c phi` the energies of affine
-    /// frames scale by `1/c^2` against flat ones, and on either side only one affine frame is moved: the sum is
-    /// invariant exactly if every part is.
-    #[must_use]
-    pub fn largest_group(&self, side: Side) -> Group {
-        self.parts().iter().map(|part| largest_group(part, side)).min().unwrap_or(Group::Affine)
-    }
-
-    /// `n^2` or the dimension of the group, and `n` more with translation.
-    #[must_use]
-    pub fn degrees_of_freedom(&self) -> usize {
-        let internal = self.constraint.map_or(self.dim * self.dim, |group| group.dimension(self.dim));
-        internal + if self.translations.is_empty() { 0 } else { self.dim }
     }
 }

@@ -46,9 +46,7 @@ impl Weight {
     #[must_use]
     pub fn load(&self, chart: &Chart, internal: &Polynomial) -> Load {
         let share = &Rational::from(2) * &Rational::one_over(chart.dim);
-        let dependent = chart.dependent();
-        let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
-        let force = internal.substitute(&value).scaled(&share);
+        let force = chart.reduced(internal).scaled(&share);
         let forces = (0..chart.dim).map(|a| (Coordinate::M(a, a), force.clone())).collect();
         Load { shared: self.definitions.clone(), forces, ..Load::default() }
     }

@@ -17,7 +17,7 @@ use affine_codegen::algebra::fault::watch;
 use affine_codegen::check;
 use affine_codegen::derive::derive;
 use affine_codegen::diagnostics::gate;
-use affine_codegen::mechanics::form::Energy;
+use affine_codegen::mechanics::form::Form;
 use affine_codegen::spec;
 use affine_oracle::Random;
 
@@ -25,7 +25,7 @@ use drawn::{Drawn, FORCES, Forces, ITEM, SUMS, energies, families};
 use whole::Whole;
 
 /// The energy that the checks let through; `None` where they refuse it.
-fn accepted(drawn: &Drawn) -> Option<Energy> {
+fn accepted(drawn: &Drawn) -> Option<Form> {
     let spec = gate(|found| spec::parse(drawn.args.parse().unwrap(), ITEM.parse().unwrap(), found)).ok()?;
     gate(|found| check::as_written(&spec, found)).ok()?;
     gate(|found| check::energy(&spec, found)).ok()
@@ -44,8 +44,7 @@ fn every_way(random: &mut Random, drawn: &Drawn) -> Option<BTreeSet<&'static str
 }
 
 fn each_way(random: &mut Random, drawn: &Drawn) -> Option<BTreeSet<&'static str>> {
-    let Energy::Constant(form) = accepted(drawn)? else { panic!("{}", drawn.args) };
-    let mut whole = Whole::new(&drawn.args, *form);
+    let mut whole = Whole::new(&drawn.args, accepted(drawn)?);
     let mut taken = whole.check(random, false);
     if whole.has_halves() {
         taken.extend(whole.check(random, true));

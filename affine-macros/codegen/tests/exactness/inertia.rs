@@ -166,7 +166,7 @@ fn determinants_and_signs() {
             let determinant = energy.determinant();
             match &form {
                 Ok(form) => {
-                    let hessian = form.hessian.matrix.concat();
+                    let hessian = form.mass.constant().unwrap().matrix.concat();
                     let entries: Vec<Rational> =
                         hessian.iter().map(|entry| exact(&entry.as_constant().unwrap())).collect();
                     let hessian = Matrix::from_rationals(n * n, n * n, &entries);

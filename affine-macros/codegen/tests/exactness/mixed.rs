@@ -3,6 +3,10 @@
 use affine_codegen::check;
 use affine_codegen::derive::{Model, derive};
 use affine_codegen::diagnostics::gate;
+use affine_codegen::mechanics::form::Form;
+use affine_codegen::mechanics::kinetic::Kinetic as Part;
+use affine_codegen::mechanics::mixed::laws_hold;
+use affine_codegen::mechanics::motion::Motion;
 use affine_codegen::mechanics::reduce::Commuting;
 use affine_codegen::mechanics::term::Frame;
 use affine_codegen::spec;
@@ -84,12 +88,15 @@ fn term(random: &mut Random, n: usize, name: &str) -> (String, Term) {
     }
 }
 
-fn derived(args: &str) -> Model {
+fn form(args: &str) -> Form {
     let spec = gate(|found| spec::parse(args.parse().unwrap(), "struct Model;".parse().unwrap(), found))
         .unwrap_or_else(|_| panic!("{args}"));
     assert!(gate(|found| check::as_written(&spec, found)).is_ok(), "{args}");
-    let energy = gate(|found| check::energy(&spec, found)).unwrap_or_else(|_| panic!("{args}"));
-    derive(energy, false).expect("a derivation")
+    gate(|found| check::energy(&spec, found)).unwrap_or_else(|_| panic!("{args}"))
+}
+
+fn derived(args: &str) -> Model {
+    derive(form(args), false).expect("a derivation")
 }
 
 /// Every sum in the plane and in space.
@@ -265,4 +272,31 @@ fn sums_of_squares_are_positive_definite() {
         regular("casimir2 = 2, body_inertia = 1, body_translation = 1, space_translation = 2"),
         (Some((5, 1)), false)
     );
+}
+
+/// Terms that act on the rows of a velocity alone are one inertia: the mass matrix has their sum, whatever their names.
+#[test]
+fn inertias_of_one_frame_add_up() {
+    let program = |terms: &str| derived(&format!("dim = 2, kinetic(body_inertia = 1, {terms})")).full.program;
+    let tensor = "space_tensor = [[2, 1, 0, 0], [1, 3, 0, 0], [0, 0, 2, 1], [0, 0, 1, 3]]";
+    let sum = program(&format!("space_inertia = 1, {tensor}"));
+    assert_eq!(format!("{sum:?}"), format!("{:?}", program("space_inertia = [[3, 1], [1, 4]]")));
+}
+
+/// The sentences about the parts of a sum are held against the derived equations: they are true of all parts together, and
+/// of no fewer.
+#[test]
+fn laws_of_parts_hold_together() {
+    for group in ["", "constraint = isochoric, ", "constraint = rigid, ", "constraint = conformal, "] {
+        let inertia = if group.contains("rigid") { "dalembert = diag(1, 2)" } else { "dalembert = 2" };
+        let masses = "body_translation = 3, space_translation = 1";
+        let terms = format!("{inertia}, body_inertia = diag(1, 4), space_inertia = diag(2, 3), {masses}");
+        let Form { mut arena, parts, mass, .. } = form(&format!("dim = 2, {group}kinetic({terms})"));
+        let motion = Motion::new(&mut arena, parts, mass, None).expect("a regular energy");
+        let chart = motion.chart(&mut arena, true);
+        let loads = motion.loads(&mut arena, &chart).expect("equations");
+        let mut hold = |parts: &[Part]| laws_hold(&mut arena, (parts, &motion.masses), &chart, &loads);
+        assert!(hold(&motion.parts), "{group}");
+        assert!(!hold(&motion.parts[1..]), "{group}");
+    }
 }

@@ -309,7 +309,7 @@ fn is_translational(term: &Term) -> bool {
 pub(crate) fn form(args: &str, item: &str) -> Result<Form, Rejected> {
     let spec = gate(|found| spec::parse(args.parse().unwrap(), item.parse().unwrap(), found))?;
     gate(|found| check::as_written(&spec, found))?;
-    gate(|found| check::form(&spec, found))
+    gate(|found| check::energy(&spec, found))
 }
 
 /// The derivation of an accepted model.

@@ -93,15 +93,15 @@ fn generators(n: usize, group: Group) -> Vec<Breaker> {
 
 fn check(random: &mut Random, args: &str, terms: &[Term], n: usize) -> [Group; 2] {
     let kinetic = Kinetic::new(n, terms.to_vec()).unwrap();
-    let Form { kinetic: symbolic, space_group, body_group, .. } =
+    let Form { parts, space_group, body_group, .. } =
         form(args, "struct Model;").unwrap_or_else(|_| panic!("{args}"));
     let mut groups = [Group::Less; 2];
     for (k, (side, known)) in [(Side::Space, space_group), (Side::Body, body_group)].into_iter().enumerate() {
-        groups[k] = largest_group(&symbolic, side);
+        groups[k] = largest_group(&parts[0], side);
         assert_eq!(groups[k], by_force(random, &kinetic, side), "{side:?} of {args}");
         assert_eq!(groups[k], known);
         for group in [Group::Affine, Group::Metric] {
-            named(random, &symbolic, &kinetic, terms, (side, group));
+            named(random, &parts[0], &kinetic, terms, (side, group));
         }
     }
     groups

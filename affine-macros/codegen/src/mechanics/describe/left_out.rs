@@ -3,7 +3,6 @@
 use super::momentum_names;
 use crate::mechanics::carried::Carried;
 use crate::mechanics::charts::Momentum;
-use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::reduce::{ClosedForm, Commuting, Layout, Reduction};
 use crate::mechanics::separation::Slope;
 
@@ -36,10 +35,10 @@ impl Scope {
     }
 }
 
-/// What the reduction took out of the state, one sentence each.
-pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedForm, bool)>) -> Vec<LeftOut> {
+/// What the reduction took out of the state, one sentence each; `moves` where there is a centre of mass.
+pub fn left_out(moves: bool, reduction: &Reduction, closed: Option<(ClosedForm, bool)>) -> Vec<LeftOut> {
     let mut list = Vec::new();
-    if h.translation.is_none() {
+    if !moves {
         list.push(Scope::Model.without("x and p: the model has no translation"));
     }
     list.extend(reduction.commuting.iter().map(|piece| {
@@ -93,7 +92,7 @@ pub fn left_out(h: &Hamiltonian, reduction: &Reduction, closed: Option<(ClosedFo
 }
 
 /// What a closed form leaves out: all integration, or that of motions with `p = 0`.
-pub fn closed_form(only_at_rest: bool) -> LeftOut {
+fn closed_form(only_at_rest: bool) -> LeftOut {
     match only_at_rest {
         false => Scope::Model.without("integration: every motion has a closed form"),
         true => Scope::Rest.without("integration of motions with p = 0: they have a closed form"),

@@ -13,7 +13,6 @@ use crate::mechanics::shared::atoms;
 use crate::mechanics::term::Frame;
 use crate::symbol::{Aspect, Factorised, Quantity};
 
-use super::Mixed;
 use super::factorisation::Factorisation;
 use super::parts::shares;
 use super::placed::{Placed, green, green_definitions};
@@ -29,14 +28,15 @@ pub struct Masses {
 }
 
 impl Masses {
-    /// The masses of a mixed energy.
+    /// The masses of some energies.
     #[must_use]
-    pub fn of(mixed: &Mixed) -> Self {
+    pub fn of(parts: &[Kinetic]) -> Self {
         let mass = |frame: Frame| {
             let translation = |part: &Kinetic| part.translation.filter(|t| t.frame == frame);
-            mixed.translations.iter().find_map(translation).map(|t| t.mass)
+            parts.iter().find_map(translation).map(|t| t.mass)
         };
-        Self { dim: mixed.dim, body: mass(Frame::Body), space: mass(Frame::Space) }
+        let dim = parts.first().map_or(0, |part| part.dim);
+        Self { dim, body: mass(Frame::Body), space: mass(Frame::Space) }
     }
 
     /// Both frames have a mass: the matrix depends on the placement.
@@ -49,6 +49,25 @@ impl Masses {
     #[must_use]
     pub fn are_none(&self) -> bool {
         self.body.is_none() && self.space.is_none()
+    }
+
+    /// The masses, that of the body first.
+    #[must_use]
+    pub fn list(&self) -> Vec<Expr> {
+        self.body.into_iter().chain(self.space).collect()
+    }
+
+    /// The frame of the energy, of `x_dot` where there are two.
+    #[must_use]
+    pub fn frame(&self) -> Option<Frame> {
+        let body = self.body.map(|_| Frame::Body);
+        self.space.map(|_| Frame::Space).or(body)
+    }
+
+    /// The mass, where there is one.
+    #[must_use]
+    pub fn single(&self) -> Option<Expr> {
+        self.body.xor(self.space)
     }
 
     /// `m_body 1 + m_space G`.

@@ -3,12 +3,13 @@
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::describe::{Formula, Notation, Sum, Summand, energy_terms};
+use crate::mechanics::describe::{Formula, Notation, Sum, Summand};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::term::Frame;
 
-use super::{Masses, Mixed};
+use super::Masses;
+use super::laws::{Law, Words, law};
 
 /// A formula from text and LaTeX.
 fn formula(text: impl Into<String>, latex: impl Into<String>) -> Formula {
@@ -32,11 +33,30 @@ impl ForceNames {
     }
 }
 
-/// `T` as the sum of its terms, frame after frame.
-pub fn energy(arena: &mut Arena, notation: &Notation, mixed: &Mixed) -> Formula {
-    let (mut sum, parts) = (Sum::default(), mixed.parts());
-    parts.iter().for_each(|part| energy_terms(arena, notation, &mut sum, part));
-    sum.of("T", "T").with(notation.matrices_in(parts.iter().flat_map(|part| &part.terms)))
+/// The laws of the parts in words.
+struct Laws {
+    own: Vec<Formula>,
+    momentum: Formula,
+    rate: Sum,
+}
+
+impl Laws {
+    /// Those of parts in the velocities of some frames, on a group or on all placements.
+    fn of(frames: &[Frame], confined: bool) -> Self {
+        let laws: Vec<&Law> = frames.iter().map(|frame| law(*frame, confined)).collect();
+        let sum = |which: fn(&Words) -> &'static str| {
+            laws.iter().map(|law| which(&law.momentum)).collect::<Vec<_>>().join(" + ")
+        };
+        let mut rate = Sum::default();
+        for (negative, (text, latex)) in laws.iter().filter_map(|law| law.rate) {
+            rate.push(negative, text, latex);
+        }
+        Self {
+            own: laws.iter().filter_map(|law| law.own).map(|(text, latex)| formula(text, latex)).collect(),
+            momentum: formula(sum(|words| words.0), sum(|words| words.1)),
+            rate,
+        }
+    }
 }
 
 /// `H` through the velocities.
@@ -75,34 +95,11 @@ pub fn internal_hamiltonian() -> Formula {
 pub fn internal_equations(
     arena: &mut Arena,
     notation: &Notation,
-    mixed: &Mixed,
-    masses: &Masses,
-    potential: Option<&Potential>,
+    frames: &[Frame],
+    (masses, potential): (&Masses, Option<&Potential>),
     names: &ForceNames,
 ) -> Vec<Formula> {
-    let has = |frame: Frame| mixed.internal.iter().any(|part| part.frame == frame);
-    let mut parts: Vec<(&str, &str)> = Vec::new();
-    let mut rate = Sum::default();
-    let mut momenta: Vec<(&str, &str)> = Vec::new();
-    if has(Frame::Body) {
-        momenta.push((
-            "Sigma_hat = (dT_body/dOmega_hat)^T",
-            "\\hat\\Sigma = (\\partial T_{\\mathrm{body}}/\\partial\\hat\\Omega)^T",
-        ));
-        parts.push(("Sigma_hat phi^-1", "\\hat\\Sigma\\varphi^{-1}"));
-        rate.push(true, "Omega_hat Sigma_hat phi^-1", "\\hat\\Omega\\hat\\Sigma\\varphi^{-1}");
-    }
-    if has(Frame::Space) {
-        momenta.push((
-            "Sigma = (dT_space/dOmega)^T",
-            "\\Sigma = (\\partial T_{\\mathrm{space}}/\\partial\\Omega)^T",
-        ));
-        parts.push(("phi^-1 Sigma", "\\varphi^{-1}\\Sigma"));
-        rate.push(true, "phi^-1 Sigma Omega", "\\varphi^{-1}\\Sigma\\,\\Omega");
-    }
-    if has(Frame::Flat) {
-        parts.push(("(dT_flat/dphi_dot)^T", "(\\partial T_{\\mathrm{flat}}/\\partial\\dot\\varphi)^T"));
-    }
+    let Laws { own: mut list, momentum, mut rate } = Laws::of(frames, false);
     if masses.body.is_some() {
         let mut sum = Sum::default();
         sum.push(false, "p", "p");
@@ -119,10 +116,9 @@ pub fn internal_equations(
         rate.push(false, "N", "N");
     }
     rate.extend(&names.on_affine);
-    let mut list: Vec<Formula> = momenta.into_iter().map(|(text, latex)| formula(text, latex)).collect();
     list.push(formula(
-        format!("Pi = {}, solved for dphi/dt", parts.iter().map(|p| p.0).collect::<Vec<_>>().join(" + ")),
-        format!("\\Pi = {}", parts.iter().map(|p| p.1).collect::<Vec<_>>().join(" + ")),
+        format!("Pi = {}, solved for dphi/dt", momentum.text),
+        format!("\\Pi = {}", momentum.latex),
     ));
     list.push(rate.of("dPi/dt", "\\dot\\Pi"));
     if potential.is_some() {
@@ -142,36 +138,12 @@ pub fn confined_hamiltonian() -> Formula {
 pub fn confined_equations(
     arena: &mut Arena,
     notation: &Notation,
-    mixed: &Mixed,
+    frames: &[Frame],
     group: Constraint,
     (masses, potential): (&Masses, Option<&Potential>),
     names: &ForceNames,
 ) -> Vec<Formula> {
-    let has = |frame: Frame| mixed.internal.iter().any(|part| part.frame == frame);
-    let mut momenta: Vec<Formula> = Vec::new();
-    let mut parts: Vec<(&str, &str)> = Vec::new();
-    let mut rate = Sum::default();
-    if has(Frame::Body) {
-        momenta.push(formula(
-            "X = (dT_body/dOmega_hat)^T",
-            "X = (\\partial T_{\\mathrm{body}}/\\partial\\hat\\Omega)^T",
-        ));
-        parts.push(("X", "X"));
-        rate.push(false, "[X, Omega_hat]", "[X, \\hat\\Omega]");
-    }
-    if has(Frame::Space) {
-        let text = "Y = phi^-1 (dT_space/dOmega)^T phi";
-        let latex = "Y = \\varphi^{-1}(\\partial T_{\\mathrm{space}}/\\partial\\Omega)^T\\varphi";
-        momenta.push(formula(text, latex));
-        parts.push(("Y", "Y"));
-    }
-    if has(Frame::Flat) {
-        let text = "Z = (dT_flat/dphi_dot)^T phi";
-        let latex = "Z = (\\partial T_{\\mathrm{flat}}/\\partial\\dot\\varphi)^T\\varphi";
-        momenta.push(formula(text, latex));
-        parts.push(("Z", "Z"));
-        rate.push(false, "Z Omega_hat", "Z\\hat\\Omega");
-    }
+    let Laws { own: mut list, momentum, mut rate } = Laws::of(frames, true);
     if let Some(mass) = masses.body {
         let mass = Polynomial::normal_form(arena, mass).scaled(&Rational::MINUS_ONE);
         rate.add(arena, notation, &mass, ("v_hat v_hat^T", "\\hat v\\hat v^T"));
@@ -180,13 +152,9 @@ pub fn confined_equations(
         rate.push(false, "Q_hat", "\\hat Q");
     }
     rate.extend(&names.on_affine);
-    let sum = |which: fn(&(&'static str, &'static str)) -> &'static str| {
-        parts.iter().map(which).collect::<Vec<_>>().join(" + ")
-    };
-    let mut list = momenta;
     list.push(formula(
-        format!("Sigma_hat = P ({}), solved for Omega_hat", sum(|p| p.0)),
-        format!("\\hat\\Sigma = P ({})", sum(|p| p.1)),
+        format!("Sigma_hat = P ({}), solved for Omega_hat", momentum.text),
+        format!("\\hat\\Sigma = P ({})", momentum.latex),
     ));
     list.push(formula("dphi/dt = phi Omega_hat", "\\dot\\varphi = \\varphi\\hat\\Omega"));
     let Formula { text, latex } = rate.value();
@@ -238,8 +206,7 @@ fn centre_velocity(arena: &mut Arena, notation: &Notation, masses: &Masses) -> O
 pub fn centre_equations(
     arena: &mut Arena,
     notation: &Notation,
-    masses: &Masses,
-    potential: Option<&Potential>,
+    (masses, potential): (&Masses, Option<&Potential>),
     names: &ForceNames,
 ) -> Vec<Formula> {
     let Some(velocity) = centre_velocity(arena, notation, masses) else { return Vec::new() };

@@ -7,15 +7,16 @@ use crate::algebra::ring::{Square, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::constraint::Constraint;
+use crate::mechanics::direction::{BasisVector, entries, invariant};
 use crate::mechanics::kinetics::{Kinetics, Lagrangian};
-use crate::mechanics::metric::{Definitions, Metric};
-use crate::mechanics::shared::{atoms, frame_of};
+use crate::mechanics::metric::Definitions;
+use crate::mechanics::shared::frame_of;
 use crate::mechanics::term::Frame;
-use crate::symbol::Factorised;
+use crate::symbol::{Factorised, Quantity};
 
 use super::Mixed;
-use super::confined::{Solved, on_the_algebra};
 use super::factorisation::Factorisation;
+use super::mass::{along, mass_matrix};
 use super::placed::Placed;
 
 /// The Legendre transformation of the internal motion.
@@ -40,6 +41,8 @@ pub struct Internal {
     pub factorisation: Factorisation,
     /// `tr(M O)/2`.
     pub energy: Polynomial,
+    /// The energies.
+    mixed: Mixed,
     /// The energy as its forces are derived from it.
     lagrangian: Lagrangian,
 }
@@ -49,10 +52,7 @@ impl Internal {
     pub fn new(arena: &mut Arena, mixed: &Mixed) -> Option<Self> {
         let momentum = if mixed.constraint.is_some() { Momentum::Body } else { Momentum::Canonical };
         let chart = Chart::new(arena, mixed.dim, momentum, None).under(mixed.constraint);
-        let Solved { shared, components, factorisation } = match mixed.constraint {
-            None => on_all_matrices(arena, mixed, &chart)?,
-            Some(group) => on_the_algebra(arena, mixed, &chart, group)?,
-        };
+        let Solved { shared, components, factorisation } = Solved::new(arena, mixed, &chart)?;
         let half = Rational::HALF;
         let mut energy = Polynomial::zero();
         for (momentum, speed) in &components {
@@ -61,7 +61,7 @@ impl Internal {
         let on_the_group = Placed::new(arena, mixed.dim, mixed.constraint).values(arena);
         let lagrangian = mixed.lagrangian(arena, &chart, on_the_group, true);
         let velocity = Matrix::symbols(arena, frame_of(&chart).velocity(), mixed.dim);
-        Some(Self { shared, velocity, factorisation, energy, lagrangian })
+        Some(Self { shared, velocity, factorisation, energy, mixed: mixed.clone(), lagrangian })
     }
 
     /// The group that the motion is confined to.
@@ -82,7 +82,8 @@ impl Internal {
     }
 
     /// The Legendre transformation, in each form that may be the shortest.
-    pub fn legendre(&self, arena: &mut Arena, mixed: &Mixed) -> [Legendre; 2] {
+    pub fn legendre(&self, arena: &mut Arena) -> [Legendre; 2] {
+        let mixed = &self.mixed;
         let placed = Placed::new(arena, mixed.dim, mixed.constraint);
         let on_the_group = placed.values(arena);
         // Where G is no multiple of 1, nothing else here needs it.
@@ -112,13 +113,47 @@ impl Internal {
     }
 }
 
-/// The velocity `phi_dot` of a motion that nothing confines.
-fn on_all_matrices(arena: &mut Arena, mixed: &Mixed, chart: &Chart) -> Option<Solved> {
-    let Metric { mut shared, internal, .. } = Metric::new(arena, mixed.dim, &mixed.internal);
-    let factorisation = Factorisation::new(arena, Factorised::Internal, &internal, &mut shared, chart)?;
-    // The momentum conjugate to phi_dot_iA is Pi_Ai.
-    let momenta = atoms(&chart.m.transpose()).concat();
-    let velocity = Matrix::symbols(arena, Frame::Flat.velocity(), mixed.dim).0.concat();
-    factorisation.solve(arena, Factorised::Internal, &momenta, &velocity, &mut shared);
-    Some(Solved { shared, components: momenta.into_iter().zip(velocity).collect(), factorisation })
+/// An inverse Legendre transformation.
+struct Solved {
+    /// Quantities on the way from placement and momentum to the velocity, all of its entries included.
+    shared: Definitions,
+    /// Momenta and velocities along a basis.
+    components: Vec<(Polynomial, Expr)>,
+    /// The factorised mass matrix on that basis.
+    factorisation: Factorisation,
+}
+
+impl Solved {
+    /// The velocity of a chart; `None` where the mass matrix is singular at every placement.
+    fn new(arena: &mut Arena, mixed: &Mixed, chart: &Chart) -> Option<Self> {
+        let n = mixed.dim;
+        let basis = match chart.confined {
+            None => entries(n * n),
+            // The first basis that there is: its vectors have the fewest entries.
+            Some(group) => group.bases(n, invariant(n)).swap_remove(0),
+        };
+        let mut placed = Placed::new(arena, n, chart.confined);
+        let matrix = mass_matrix(arena, &mut placed, &mixed.internal, frame_of(chart), &basis);
+        let mut shared = placed.shared;
+        let factorisation = Factorisation::new(arena, Factorised::Internal, &matrix, &mut shared, chart)?;
+        // The momentum conjugate to O_ab is M_ba.
+        let conjugate = chart.m.transpose().0.concat();
+        let momentum = |e: &BasisVector| chart.reduced(&along(e, |k| Polynomial::atom(conjugate[k])));
+        let momenta: Vec<Polynomial> = basis.iter().map(momentum).collect();
+        let velocity = Matrix::symbols(arena, frame_of(chart).velocity(), n).0.concat();
+        let speeds: Vec<Expr> = match chart.confined {
+            None => velocity.clone(),
+            Some(_) => (1..=basis.len()).map(|k| arena.symbol(Quantity::Speed.at([k]))).collect(),
+        };
+        factorisation.solve(arena, Factorised::Internal, &momenta, &speeds, &mut shared);
+        for (k, symbol) in velocity.into_iter().enumerate().filter(|(_, symbol)| !speeds.contains(symbol)) {
+            let mut entry = Polynomial::zero();
+            for (e, speed) in basis.iter().zip(&speeds) {
+                let here = e.entries.iter().filter(|(place, _)| *place == k);
+                here.for_each(|(_, weight)| entry.add_term(vec![*speed], weight));
+            }
+            shared.push((symbol, entry));
+        }
+        Some(Self { shared, components: momenta.into_iter().zip(speeds).collect(), factorisation })
+    }
 }

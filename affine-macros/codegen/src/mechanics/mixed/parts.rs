@@ -5,12 +5,13 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Lagrangian, Part};
-use crate::mechanics::metric::{Definitions, same_blocks};
+use crate::mechanics::metric::Definitions;
 use crate::mechanics::shared::{atoms, frame_of};
 use crate::mechanics::term::Frame;
 use crate::symbol::{Aspect, Quantity};
 
 use super::Mixed;
+use super::mass::same_blocks;
 use super::placed::green;
 
 impl Mixed {
@@ -53,7 +54,7 @@ fn internal(
     }
     let (phi, psi, o) =
         (chart.placement(), atoms(&Matrix::symbols(arena, Quantity::InversePlacement, n)), atoms(velocity));
-    let form = hessian(energy);
+    let form = energy.form();
     let stands_in_the_body = (energy.frame, frame_of(chart)) == (Frame::Flat, Frame::Body);
     if through_green && stands_in_the_body && same_blocks(&form, n) {
         let green = green(arena, n);
@@ -85,13 +86,6 @@ fn by_rows(form: &Square<Polynomial>, oh: &Square<Polynomial>, green: &Square<Po
         }
     }
     energy
-}
-
-/// The Hessian of an energy in the velocity of its frame.
-pub(super) fn hessian(part: &Kinetic) -> Square<Polynomial> {
-    let velocities = part.velocity.0.concat();
-    let slopes = part.internal_energy().gradient(&velocities);
-    slopes.iter().map(|slope| slope.gradient(&velocities)).collect()
 }
 
 /// The share of the energies of a frame.

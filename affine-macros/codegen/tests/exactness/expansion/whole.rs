@@ -11,6 +11,7 @@ use affine_codegen::mechanics::form::Form;
 use affine_codegen::mechanics::hamiltonian::Hamiltonian;
 use affine_codegen::mechanics::kinetics::Kinetics;
 use affine_codegen::mechanics::loads::loads;
+use affine_codegen::mechanics::motion::Motion;
 use affine_codegen::mechanics::potential::Potential;
 use affine_codegen::mechanics::reduce::{self, ClosedForm, Commuting, Layout, Reduction};
 use affine_codegen::mechanics::separation::{Separation, Slope as Separated};
@@ -40,11 +41,9 @@ pub(super) struct Whole {
 
 impl Whole {
     pub(super) fn new(args: &str, form: Form) -> Self {
-        let Form { mut arena, kinetic, hessian, stated, potential, forces, .. } = form;
-        let h = match stated.filter(|stated| stated.is_cubic()) {
-            Some(stated) => stated.hamiltonian(&mut arena),
-            None => Hamiltonian::new(&mut arena, &kinetic, &hessian).expect("a regular energy"),
-        };
+        let Form { mut arena, parts, mass, stated, potential, forces, .. } = form;
+        let motion = Motion::new(&mut arena, parts, mass, stated.as_ref()).expect("a regular energy");
+        let h = motion.hamiltonian().expect("one frame").clone();
         let own = reduce::own_chart(&mut arena, &h);
         let energy = reduce::own_hamiltonian(&h, &own);
         let kinetics = Kinetics::polynomial(&mut arena, &own, &energy);

@@ -1,0 +1,223 @@
+//! Legendre transformation and energies at one point.
+
+use std::slice::from_ref;
+
+use crate::algebra::bind::Constants;
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::ir::Program;
+use crate::ir::fuse::fuse;
+use crate::mechanics::charts::Chart;
+use crate::mechanics::metric::Definitions;
+use crate::mechanics::mixed::Legendre;
+use crate::mechanics::potential::{Base, Potential};
+use crate::optimise::Batch;
+use crate::symbol::Quantity;
+
+use super::body::Body;
+use super::domain::{Domain, domain};
+use super::model::{MixedMasses, VelocitySide};
+use super::programs::shortest_program;
+
+/// The programs of one point.
+pub(super) struct Programs {
+    pub(super) velocity_side: Option<VelocitySide>,
+    pub(super) velocity: Program,
+    pub(super) mass: Option<Program>,
+    pub(super) mixed_masses: Option<MixedMasses>,
+    pub(super) hamiltonian: Program,
+    pub(super) hamiltonian_far_away: Option<Program>,
+    pub(super) domain: Option<Domain>,
+    pub(super) power: Option<Program>,
+    pub(super) isotropic: Option<Program>,
+}
+
+impl Body<'_> {
+    /// The programs of a point of a chart.
+    pub(super) fn programs(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        coefficients: &mut Constants,
+    ) -> Option<Programs> {
+        let (n, frame) = (chart.dim, self.motion.frame());
+        let phi = chart.phi.0.concat();
+        let point = self.point(arena, chart);
+        let domain = domain(arena, chart, self.potential, coefficients, &point);
+        let mut program = |arena: &mut Arena, ways: &[Batch], inputs: &[Expr]| {
+            let varies = |a: Expr| inputs.contains(&a) || phi.contains(&a);
+            fuse(&shortest_program(arena, ways, coefficients, &varies))
+        };
+        let velocities = Matrix::symbols(arena, frame.velocity(), n);
+        let momenta = Matrix::symbols(arena, frame.momentum(), n);
+        let [v, x_dot, p] = [Quantity::GivenVelocity, Quantity::CentreVelocity, Quantity::LinearMomentum]
+            .map(|of| (1..=n).map(|i| arena.symbol(of.at([i]))).collect::<Vec<_>>());
+        let forms = self.motion.legendre(arena);
+        let kinetic_energy = forms.first().map(|form| self.kinetic_energy(arena, form, &v));
+        let legendre = |Legendre { shared, momentum, .. }: Legendre| {
+            Batch { shared, ..matrix_batch(arena, &momenta, &momentum) }.pruned(arena)
+        };
+        let legendre: Vec<Batch> = forms.into_iter().map(legendre).collect();
+        let moving = [velocities.0.concat(), v].concat();
+        let legendre = kinetic_energy.is_some().then(|| program(arena, &legendre, &moving));
+        let (shared, values) = self.motion.velocity(arena);
+        let velocity = Batch { shared, ..matrix_batch(arena, &velocities, &values) };
+        let velocity = program(arena, from_ref(&velocity), &momenta.0.concat());
+        let velocity_side = legendre.zip(kinetic_energy).map(|(legendre, energy)| VelocitySide {
+            legendre,
+            kinetic_energy: program(arena, from_ref(&energy), &moving),
+        });
+        let power = self.power(arena, chart)?.map(|batch| program(arena, from_ref(&batch), &point));
+        let near = self.potential.map(|u| u.energy_at_a_point(arena, chart));
+        let near = self.hamiltonian(arena, chart, near)?;
+        let far_away = match self.potential.and_then(|u| u.energy_far_away(arena, chart)) {
+            Some(value) => Some(self.hamiltonian(arena, chart, Some(value))?),
+            None => None,
+        };
+        let hamiltonian = program(arena, from_ref(&near), &point);
+        let hamiltonian_far_away = far_away.map(|batch| program(arena, from_ref(&batch), &point));
+        let mass = self.mass(arena).map(|batch| program(arena, from_ref(&batch), &[]));
+        let mixed_masses = match self.motion.masses.are_mixed() {
+            true => {
+                let [momentum, velocity] = self.centre(arena, &x_dot)?;
+                let momentum = program(arena, from_ref(&momentum), &x_dot);
+                Some(MixedMasses { momentum, velocity: program(arena, from_ref(&velocity), &p) })
+            }
+            false => None,
+        };
+        let isotropic = self.isotropic().map(|batch| program(arena, from_ref(&batch), &[]));
+        Some(Programs {
+            velocity_side,
+            velocity,
+            mass,
+            mixed_masses,
+            hamiltonian,
+            hamiltonian_far_away,
+            domain,
+            power,
+            isotropic,
+        })
+    }
+
+    /// What functions of a point read.
+    fn point(&self, arena: &mut Arena, chart: &Chart) -> Vec<Expr> {
+        let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+        if self.potential.is_some() {
+            inputs.extend(placement_inputs(arena, chart.dim));
+        }
+        inputs.extend(self.time(arena));
+        inputs
+    }
+
+    /// `1/m` where there is one mass, and `m` where momenta are determined by velocities.
+    fn mass(&self, arena: &mut Arena) -> Option<Batch> {
+        let mass = self.motion.masses.single()?;
+        let reciprocal = arena.pow(mass, -1)?;
+        let mut results = vec![("inverse_mass".into(), Polynomial::normal_form(arena, reciprocal))];
+        if self.motion.determines_momentum() {
+            results.push(("mass".into(), Polynomial::normal_form(arena, mass)));
+        }
+        Some(Batch { results, ..Batch::default() })
+    }
+
+    /// The Legendre transformation of a centre of mass with two masses, and its inverse.
+    fn centre(&self, arena: &mut Arena, x_dot: &[Expr]) -> Option<[Batch; 2]> {
+        let (_, shared) = self.motion.masses.velocity(arena)?;
+        let (definitions, momentum, _) = self.motion.masses.legendre(arena, x_dot);
+        let results = momentum.into_iter().zip(1..).map(|(p, i): (Polynomial, usize)| (format!("p_{i}"), p));
+        let momentum = Batch { shared: definitions, results: results.collect(), ..Batch::default() };
+        let named = |s: &Expr| (arena.symbol_name(*s), Polynomial::atom(*s));
+        Some([momentum, Batch { shared, results: x_dot.iter().map(named).collect(), ..Batch::default() }])
+    }
+
+    /// `1/alpha`, `1/beta`, `1/mu` of an isotropic energy, and the coefficient of `C(3)/3` where there is one.
+    fn isotropic(&self) -> Option<Batch> {
+        let iso = self.motion.polynomial()?.1.isotropic.as_ref()?;
+        let named = [
+            ("inverse_alpha", &iso.casimir2),
+            ("inverse_beta", &iso.casimir1_squared),
+            ("inverse_mu", &iso.skew),
+        ];
+        let mut results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
+        if !iso.casimir3.is_zero() {
+            results.push(("casimir3".to_owned(), iso.casimir3.clone()));
+        }
+        Some(Batch { results, ..Batch::default() })
+    }
+
+    /// `T_int + m/2 |v|^2` with `v` in the frame of the translation; with two masses `v = x_dot`.
+    fn kinetic_energy(&self, arena: &mut Arena, form: &Legendre, v: &[Expr]) -> Batch {
+        let mut energy = Batch { shared: form.shared.clone(), ..result("energy", form.energy.clone()) };
+        if self.motion.masses.are_mixed() {
+            let (shared, _, of_both) = self.motion.masses.legendre(arena, v);
+            join(&mut energy, &of_both, shared);
+        } else if let Some(mass) = self.motion.masses.single() {
+            let mass = Polynomial::normal_form(arena, mass);
+            for v in v {
+                let square = Polynomial::term(vec![*v, *v], Rational::ONE);
+                energy.results[0].1.add_product(&square, &mass, &Rational::HALF);
+            }
+        }
+        energy.pruned(arena)
+    }
+
+    /// `H` at a point of a chart, from the value of the potential and what that shares.
+    fn hamiltonian(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        potential: Option<(Polynomial, Definitions)>,
+    ) -> Option<Batch> {
+        let (shared, energy) = self.motion.energy(arena, chart)?;
+        let mut batch = Batch { shared, ..result("energy", energy) };
+        if let Some((value, shared)) = potential {
+            join(&mut batch, &value, shared);
+        }
+        for custom in &self.forces.customs {
+            if let Some((value, kernel)) = custom.energy(arena, chart) {
+                join(&mut batch, &value, Definitions::new());
+                batch.kernels.push(kernel);
+            }
+        }
+        Some(batch)
+    }
+
+    /// The power of the forces that no potential has, and of the time in a potential, where it is accounted for.
+    fn power(&self, arena: &mut Arena, chart: &Chart) -> Option<Option<Batch>> {
+        if self.forces.is_empty() && !self.forces.driven {
+            return Some(None);
+        }
+        // Another potential has no power.
+        let driving: Option<&Potential> = self.potential.filter(|_| self.forces.driven);
+        let (system, _) = self.systems(arena, chart, driving)?.swap_remove(0);
+        let Some((_, power)) = system.work else { return Some(None) };
+        let batch = Batch { shared: system.shared, kernels: system.kernels, ..result("power", power) };
+        Some(Some(batch.pruned(arena)))
+    }
+}
+
+/// Functions of the placement that potentials are evaluated with.
+fn placement_inputs(arena: &mut Arena, n: usize) -> Vec<Expr> {
+    let mut inputs = vec![Base::MeanLogStretch.symbol(arena), arena.symbol(Quantity::Dilatation)];
+    inputs.extend((0..n).map(|a| Base::LogStretch(a).symbol(arena)));
+    inputs
+}
+
+/// Adds to the first result a value with what it shares.
+fn join(batch: &mut Batch, value: &Polynomial, shared: Definitions) {
+    batch.results[0].1.add_scaled(value, &Rational::ONE);
+    for (symbol, definition) in shared {
+        if !batch.shared.iter().any(|(known, _)| *known == symbol) {
+            batch.shared.push((symbol, definition));
+        }
+    }
+}
+
+fn result(name: &str, polynomial: Polynomial) -> Batch {
+    Batch { results: vec![(name.to_owned(), polynomial)], ..Batch::default() }
+}
+
+fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Batch {
+    let name = |s: &Expr| arena.symbol_name(*s);
+    let results = names.0.concat().iter().map(name).zip(values.concat()).collect();
+    Batch { results, ..Batch::default() }
+}

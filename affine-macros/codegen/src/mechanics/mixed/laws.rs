@@ -1,0 +1,203 @@
+//! What each part of a sum of energies adds to the momentum and to its rate, as a sentence and as numbers: the sentences are
+//! stated after their values were compared with those of the derived equations, modulo a prime.
+
+use crate::algebra::evaluate::Field;
+use crate::algebra::residue::Residue;
+use crate::algebra::ring::{Ring, Square, difference, outer, product, sum, table, times, transpose};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::mechanics::charts::{Chart, Coordinate};
+use crate::mechanics::equations::Load;
+use crate::mechanics::group_point::{GroupPoint, inverse};
+use crate::mechanics::kinetic::Kinetic;
+use crate::mechanics::shared::frame_of;
+use crate::mechanics::term::Frame;
+
+use super::Masses;
+
+/// A formula as text and in LaTeX.
+pub(super) type Words = (&'static str, &'static str);
+
+/// What a part adds.
+pub(super) struct Law {
+    /// Its momentum in its own frame, where that has a name.
+    pub(super) own: Option<Words>,
+    /// Its momentum in the frame of the sum.
+    pub(super) momentum: Words,
+    /// What it adds to the rate, and whether it takes it away.
+    pub(super) rate: Option<(bool, Words)>,
+    /// Momentum and rate.
+    value: fn(&Placed) -> [Square<Residue>; 2],
+}
+
+/// A part at a point: `X = (dT/dO)^T`, its velocity `O`, that of the sum, `phi` and `phi^-1`.
+struct Placed {
+    x: Square<Residue>,
+    o: Square<Residue>,
+    velocity: Square<Residue>,
+    phi: Square<Residue>,
+    psi: Square<Residue>,
+}
+
+const BODY: Law = Law {
+    own: Some((
+        "Sigma_hat = (dT_body/dOmega_hat)^T",
+        "\\hat\\Sigma = (\\partial T_{\\mathrm{body}}/\\partial\\hat\\Omega)^T",
+    )),
+    momentum: ("Sigma_hat phi^-1", "\\hat\\Sigma\\varphi^{-1}"),
+    rate: Some((true, ("Omega_hat Sigma_hat phi^-1", "\\hat\\Omega\\hat\\Sigma\\varphi^{-1}"))),
+    value: |at| {
+        let momentum = product(&at.x, &at.psi);
+        [momentum.clone(), negative(&product(&at.o, &momentum))]
+    },
+};
+
+const SPACE: Law = Law {
+    own: Some((
+        "Sigma = (dT_space/dOmega)^T",
+        "\\Sigma = (\\partial T_{\\mathrm{space}}/\\partial\\Omega)^T",
+    )),
+    momentum: ("phi^-1 Sigma", "\\varphi^{-1}\\Sigma"),
+    rate: Some((true, ("phi^-1 Sigma Omega", "\\varphi^{-1}\\Sigma\\,\\Omega"))),
+    value: |at| {
+        let momentum = product(&at.psi, &at.x);
+        [momentum.clone(), negative(&product(&momentum, &at.o))]
+    },
+};
+
+const FLAT: Law = Law {
+    own: None,
+    momentum: ("(dT_flat/dphi_dot)^T", "(\\partial T_{\\mathrm{flat}}/\\partial\\dot\\varphi)^T"),
+    rate: None,
+    value: |at| [at.x.clone(), zero(&at.x)],
+};
+
+const BODY_ON_A_GROUP: Law = Law {
+    own: Some(("X = (dT_body/dOmega_hat)^T", "X = (\\partial T_{\\mathrm{body}}/\\partial\\hat\\Omega)^T")),
+    momentum: ("X", "X"),
+    rate: Some((false, ("[X, Omega_hat]", "[X, \\hat\\Omega]"))),
+    value: |at| [at.x.clone(), difference(&product(&at.x, &at.o), &product(&at.o, &at.x))],
+};
+
+const SPACE_ON_A_GROUP: Law = Law {
+    own: Some((
+        "Y = phi^-1 (dT_space/dOmega)^T phi",
+        "Y = \\varphi^{-1}(\\partial T_{\\mathrm{space}}/\\partial\\Omega)^T\\varphi",
+    )),
+    momentum: ("Y", "Y"),
+    rate: None,
+    value: |at| [product(&product(&at.psi, &at.x), &at.phi), zero(&at.x)],
+};
+
+const FLAT_ON_A_GROUP: Law = Law {
+    own: Some((
+        "Z = (dT_flat/dphi_dot)^T phi",
+        "Z = (\\partial T_{\\mathrm{flat}}/\\partial\\dot\\varphi)^T\\varphi",
+    )),
+    momentum: ("Z", "Z"),
+    rate: Some((false, ("Z Omega_hat", "Z\\hat\\Omega"))),
+    value: |at| {
+        let momentum = product(&at.x, &at.phi);
+        [momentum.clone(), product(&momentum, &at.velocity)]
+    },
+};
+
+/// That of a part in the velocity of a frame, on a group or on all placements.
+pub(super) fn law(frame: Frame, confined: bool) -> &'static Law {
+    match (frame, confined) {
+        (Frame::Body, false) => &BODY,
+        (Frame::Space, false) => &SPACE,
+        (Frame::Flat, false) => &FLAT,
+        (Frame::Body, true) => &BODY_ON_A_GROUP,
+        (Frame::Space, true) => &SPACE_ON_A_GROUP,
+        (Frame::Flat, true) => &FLAT_ON_A_GROUP,
+    }
+}
+
+/// Are the laws of the parts, and that of the centre of mass, the equations that `loads` are in a chart with spatial `p`?
+pub fn laws_hold(
+    arena: &mut Arena,
+    (parts, masses): (&[Kinetic], &Masses),
+    chart: &Chart,
+    loads: &[Load],
+) -> bool {
+    let velocity = Matrix::symbols(arena, frame_of(chart).velocity(), chart.dim);
+    let masses = [masses.body, masses.space]
+        .map(|mass| mass.map_or_else(Polynomial::zero, |mass| Polynomial::normal_form(arena, mass)));
+    let points = GroupPoint::all(arena, chart, chart.confined);
+    points.into_iter().all(|mut point| {
+        loads.iter().for_each(|load| point.define(arena, &load.shared));
+        hold_at(arena, &point, (parts, &masses), (chart, &velocity), loads)
+    })
+}
+
+fn hold_at(
+    arena: &Arena,
+    point: &GroupPoint,
+    (parts, [body, space]): (&[Kinetic], &[Polynomial; 2]),
+    (chart, velocity): (&Chart, &Matrix),
+    loads: &[Load],
+) -> bool {
+    let n = chart.dim;
+    let value = |p: &Polynomial| point.evaluate(arena, p);
+    let of = |m: &Matrix| table(n, |a, b| value(&Polynomial::atom(m.0[a][b])));
+    let derived = |z: Coordinate| {
+        let forces = loads.iter().flat_map(|load| &load.forces).filter(|(known, _)| *known == z);
+        forces.fold(Residue::zero(), |mut sum, (_, force)| {
+            sum.plus(&value(force), &Rational::ONE);
+            sum
+        })
+    };
+    let projected =
+        |m: Square<Residue>| chart.confined.map_or_else(|| m.clone(), |group| group.projected(&m));
+    let (phi, velocity) = (of(&chart.phi), of(velocity));
+    let psi = inverse(&phi);
+    let phi_dot = if frame_of(chart) == Frame::Body { product(&phi, &velocity) } else { velocity.clone() };
+    let (mut momentum, mut rate) = (zero(&phi), zero(&phi));
+    for part in parts.iter().filter(|part| !part.internal.is_empty()) {
+        let o = match part.frame {
+            Frame::Body => product(&psi, &phi_dot),
+            Frame::Space => product(&phi_dot, &psi),
+            Frame::Flat => phi_dot.clone(),
+        };
+        let form: Vec<Vec<Residue>> = part.form().iter().map(|row| row.iter().map(value).collect()).collect();
+        let slopes = times(&form, &o.concat());
+        let x = table(n, |a, b| slopes[n * b + a]);
+        let at = Placed { x, o, velocity: velocity.clone(), phi: phi.clone(), psi: psi.clone() };
+        let [m, m_dot] = (law(part.frame, chart.confined.is_some()).value)(&at);
+        (momentum, rate) = (sum(&momentum, &m), sum(&rate, &m_dot));
+    }
+    let p: Vec<Residue> = chart.p.iter().map(|p: &Expr| value(&Polynomial::atom(*p))).collect();
+    let x_dot: Vec<Residue> = (0..p.len()).map(|i| derived(Coordinate::X(i))).collect();
+    let v_hat = times(&psi, &x_dot);
+    let (body, space) = (scaled(&v_hat, value(body)), scaled(&x_dot, value(space)));
+    let p_hat = times(&transpose(&phi), &p);
+    let of_both: Vec<Residue> = plus(&body, &times(&transpose(&phi), &space));
+    if !p.is_empty() {
+        // On a group as p - m_space x_dot = phi^-T m_body v_hat.
+        let pulled = if chart.confined.is_some() { body } else { plus(&p, &scaled(&space, minus_one())) };
+        rate = difference(&rate, &outer(&v_hat, &pulled));
+    }
+    projected(momentum) == of(&chart.m)
+        && projected(rate) == projected(table(n, |a, b| derived(Coordinate::M(a, b))))
+        && of_both == p_hat
+}
+
+fn minus_one() -> Residue {
+    Residue::from_rational(&Rational::MINUS_ONE)
+}
+
+fn zero(like: &Square<Residue>) -> Square<Residue> {
+    table(like.len(), |_, _| Residue::zero())
+}
+
+fn negative(m: &Square<Residue>) -> Square<Residue> {
+    difference(&zero(m), m)
+}
+
+fn scaled(v: &[Residue], factor: Residue) -> Vec<Residue> {
+    v.iter().map(|entry| entry.mul(&factor)).collect()
+}
+
+fn plus(a: &[Residue], b: &[Residue]) -> Vec<Residue> {
+    a.iter().zip(b).map(|(a, b)| a.add(b)).collect()
+}
