@@ -163,7 +163,9 @@ pub trait Model<const N: usize> {
     }
 
     /// The closed form of the trajectory through `point` at time `t0`, where the model and the scene have one.
-    fn geodesic(&self, t0: f64, point: &Self::Point<f64>) -> Option<crate::geodesic::Geodesic<N>>;
+    fn geodesic(&self, _t0: f64, _point: &Self::Point<f64>) -> Option<crate::geodesic::Geodesic<N>> {
+        None
+    }
     /// The phase point at time `t` on a closed-form trajectory that started at `start`.
     fn on_geodesic(
         &self,
@@ -378,6 +380,11 @@ pub struct Operations {
     pub exp: usize,
     /// Logarithms.
     pub ln: usize,
+}
+
+impl Operations {
+    /// No operation of any kind.
+    pub const NONE: Self = Self { mul: 0, add: 0, div: 0, sqrt: 0, exp: 0, ln: 0 };
 }
 
 /// A quantity that a model may conserve.

@@ -44,6 +44,20 @@ pub trait Scalar:
         self * factor + term
     }
 
+    /// `self + a * b`, as [`fma`](Self::fma) has it.
+    #[inline(always)]
+    #[must_use]
+    fn plus(self, a: Self, b: Self) -> Self {
+        a.fma(b, self)
+    }
+
+    /// `self - a * b`, as [`fma`](Self::fma) has it.
+    #[inline(always)]
+    #[must_use]
+    fn minus(self, a: Self, b: Self) -> Self {
+        (-a).fma(b, self)
+    }
+
     /// Square root.
     #[must_use]
     fn sqrt(self) -> Self;

@@ -2,6 +2,7 @@
 
 mod body;
 mod closed_form;
+mod common;
 mod constructors;
 mod context;
 mod description;
@@ -38,6 +39,7 @@ use quote::quote;
 use crate::derive::{ChangeOfBases, Equations, Model};
 use crate::spec::Spec;
 
+use common::Function;
 use context::Context;
 use names::{Names, runtime};
 use number::number;
@@ -48,7 +50,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let has_fields = !model.coefficients.outputs.is_empty() || bases_of_fields;
     let names = Names::new(spec, has_fields);
     let runtime = runtime(spec.runtime.as_ref());
-    let context = Context { spec, model, names: &names, has_fields };
+    let context = Context { spec, model, names: &names, has_fields, common: Function::of(model) };
     let item = &spec.item.tokens;
     let rt = &names.rt;
     let prepared_type = prepare::prepared_type(&context);
@@ -66,6 +68,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
         };
     }
     let constants = reduction::constants_type(&context);
+    let function = context.function();
     let implementation = model_impl(&context);
     let constructors = constructors::inherent(&context);
     let unprepared = refused::unprepared(&context);
@@ -88,6 +91,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #unprepared
             #bases
             #constants
+            #function
             #implementation
             #constructors
             #splitting

@@ -2,9 +2,11 @@
 
 pub mod build;
 pub mod call;
+pub mod common;
 pub mod count;
 pub mod fuse;
 pub mod inverse_root;
+pub mod naming;
 pub mod packed;
 pub mod quotient;
 pub mod rounding;
@@ -89,9 +91,15 @@ impl Program {
         if let Op::Input(symbol) = &self.steps[value] {
             return symbol.to_string();
         }
-        let named = self.names.iter().find(|(v, _)| *v == value).map(|(_, name)| name);
-        let output = self.outputs.iter().find(|(_, v)| *v == value).map(|(name, _)| name);
-        named.or(output).cloned().unwrap_or_else(|| format!("v{value}"))
+        self.own_name(value).map_or_else(|| format!("v{value}"), str::to_owned)
+    }
+
+    /// What the derivation calls a value that is computed.
+    #[must_use]
+    pub fn own_name(&self, value: Value) -> Option<&str> {
+        let is_value = |(v, _): &&(Value, String)| *v == value;
+        let output = self.outputs.iter().find(|(_, v)| *v == value).map(|(name, _)| name.as_str());
+        self.names.iter().find(is_value).map(|(_, name)| name.as_str()).or(output)
     }
 
     /// How often each value is read, by steps, by calls and as a result.

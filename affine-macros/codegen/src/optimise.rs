@@ -71,13 +71,15 @@ pub fn straight_line(
     let scaled = scale_atoms(arena, &mut polynomials, &moving);
     let mut sharing = polynomials.clone();
     let products = share_products(arena, &mut sharing);
+    let nameless = [&sums, &scaled, &products].into_iter().flatten().map(|(symbol, _)| *symbol);
+    let nameless: Vec<Expr> = nameless.collect();
     let named: Vec<_> = sums.into_iter().chain(scaled).collect();
     let mut programs = ways(arena, &Forms::new(batch, &polynomials, named.clone()));
     if !products.is_empty() {
         let named = named.into_iter().chain(products).collect();
         programs.extend(ways(arena, &Forms::new(batch, &sharing, named)));
     }
-    shortest(programs)
+    shortest(programs).named_by_formulas(&nameless.iter().map(|s| arena.symbol_name(*s)).collect())
 }
 
 /// What a program computes, in the forms that are to be factored.

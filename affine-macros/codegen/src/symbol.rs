@@ -17,6 +17,8 @@ pub enum Symbol {
     Entry(String, usize, usize),
     /// An entry of a matrix that `prepare()` makes: the number of the matrix, row and column.
     Prepared(usize, usize, usize),
+    /// A result of another program, by the name that it has there.
+    Result(String),
     /// A component of a quantity, or all of it.
     Component(Quantity, Vec<usize>),
     /// Something else about another symbol.
@@ -151,6 +153,7 @@ impl Display for Symbol {
             Self::Field(name) => write!(f, "self.{name}"),
             Self::Entry(name, row, column) => write!(f, "self.{name}[{row},{column}]"),
             Self::Prepared(matrix, row, column) => write!(f, "self.{matrix}[{row},{column}]"),
+            Self::Result(name) => f.write_str(name),
             Self::Component(quantity, indices) => component(f, *quantity, "", indices),
             Self::About(aspect, of) => about(f, *aspect, of),
             Self::Factor(factor, of, block, indices) => {

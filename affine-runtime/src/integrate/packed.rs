@@ -28,11 +28,18 @@ impl<V: Vectors> Four<V> {
         Self { vectors, lanes }
     }
 
-    /// `self factor + summand`, as [`Scalar::fma`](crate::scalar::Scalar::fma) of doubles rounds it.
+    /// `self + a b`, as [`Scalar::plus`](crate::scalar::Scalar::plus) of doubles rounds it.
     #[must_use]
     #[inline(always)]
-    pub fn fma(self, factor: Self, summand: Self) -> Self {
-        Self { lanes: self.vectors.plus_product(summand.lanes, self.lanes, factor.lanes), ..self }
+    pub fn plus(self, a: Self, b: Self) -> Self {
+        Self { lanes: self.vectors.plus_product(self.lanes, a.lanes, b.lanes), ..self }
+    }
+
+    /// `self - a b`, as [`Scalar::minus`](crate::scalar::Scalar::minus) of doubles rounds it.
+    #[must_use]
+    #[inline(always)]
+    pub fn minus(self, a: Self, b: Self) -> Self {
+        Self { lanes: self.vectors.minus_product(self.lanes, a.lanes, b.lanes), ..self }
     }
 }
 

@@ -4,6 +4,7 @@ use crate::ir::{Program, Value};
 use crate::symbol::{Quantity, Symbol};
 
 /// A first-order system as a program over a plain array.
+#[derive(PartialEq, Eq)]
 pub struct Equations {
     /// Groups of the array, with the symbols of their components.
     pub groups: Vec<(Quantity, Vec<Symbol>)>,

@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
 use crate::ir::call::Call;
+use crate::ir::naming::Namer;
 use crate::ir::{Op, Program, Value};
 
 use super::kernel;
@@ -45,7 +46,7 @@ pub(super) fn body(program: &Program, scope: &Scope) -> Body {
         called: Vec::new(),
         bound: FxHashMap::default(),
         lets: TokenStream::new(),
-        temporaries: 0,
+        namer: Namer::new(program),
         roots: 0,
     };
     writer.constants();
@@ -70,17 +71,17 @@ struct Writer<'a> {
     called: Vec<&'a Call>,
     bound: FxHashMap<Value, Ident>,
     lets: TokenStream,
-    temporaries: usize,
+    namer: Namer<'a>,
     /// Numbers that have no short name.
     roots: usize,
 }
 
 impl Writer<'_> {
-    /// Numbers first, named by their exact value.
+    /// Numbers first, named by their exact value; none and one stand where they are read.
     fn constants(&mut self) {
         for (value, step) in self.program.steps.iter().enumerate() {
             if let Op::Constant(number) = step
-                && !self.ends_with(value)
+                && !(number.is_zero() || number.is_one() || self.ends_with(value))
             {
                 let name = name_of(number, &mut self.roots);
                 let exact = self.scope.number.exact(number);
@@ -116,15 +117,12 @@ impl Writer<'_> {
         let named = self.program.names.iter().find(|(v, _)| *v == value).map(|(_, n)| n.clone());
         let result = self.program.outputs.iter().find(|(_, v)| *v == value).map(|(n, _)| n.clone());
         let sign_only = matches!(step, Op::Neg(_));
-        let inner =
-            step.operands().into_iter().filter(|v| !self.bound.contains_key(v)).map(|v| self.depth[v]);
-        self.depth[value] = inner.max().unwrap_or(0) + usize::from(!sign_only);
+        self.depth[value] = self.nested(step);
         let name = match (named, result) {
             (_, Some(_)) if self.ends_with(value) => return,
             (_, Some(name)) | (Some(name), None) => name,
             (None, None) if (self.uses[value] > 1 || self.depth[value] >= DEEPEST) && !sign_only => {
-                self.temporaries += 1;
-                format!("t{}", self.temporaries)
+                self.namer.name(value)
             }
             _ => return,
         };
@@ -132,6 +130,19 @@ impl Writer<'_> {
         let (expression, _) = self.expression(value);
         self.lets.extend(quote!(let #name = #expression;));
         self.bound.insert(value, name);
+    }
+
+    /// How deep the expression of a step is nested in those of its operands.
+    fn nested(&self, step: &Op) -> usize {
+        let depth = |v: &Value| if self.bound.contains_key(v) { 0 } else { self.depth[*v] };
+        match (step, self.scope.number) {
+            // A sum stands before the product that it gets, not around it.
+            (Op::MulAdd(a, b, sum), Number::Generic(_)) => (1 + depth(a).max(depth(b))).max(depth(sum)),
+            _ => {
+                let deepest = step.operands().iter().map(depth).max().unwrap_or(0);
+                deepest + usize::from(!matches!(step, Op::Neg(_)))
+            }
+        }
     }
 
     fn expression(&self, value: Value) -> (TokenStream, Strength) {
@@ -156,9 +167,14 @@ impl Writer<'_> {
                 (quote!(#a * #b + #c), Strength::Sum)
             }
             Op::MulAdd(a, b, c) => {
-                let a = self.at_least(*a, Strength::Atom);
-                let (b, c) = (self.expression(*b).0, self.expression(*c).0);
-                (quote!(#a.fma(#b, #c)), Strength::Atom)
+                let sum = self.at_least(*c, Strength::Atom);
+                let (a, method) = match &self.program.steps[*a] {
+                    Op::Neg(inner) if !self.bound.contains_key(a) => (inner, "minus"),
+                    _ => (a, "plus"),
+                };
+                let (a, b, method) =
+                    (self.expression(*a).0, self.expression(*b).0, format_ident!("{method}"));
+                (quote!(#sum.#method(#a, #b)), Strength::Atom)
             }
         }
     }

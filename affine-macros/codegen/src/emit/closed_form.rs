@@ -7,21 +7,16 @@ use crate::derive::{Components, Trajectory};
 
 use super::body::Body;
 use super::context::Context;
+use super::number::Number;
 use super::point::own_spin;
 
-/// `geodesic`: the closed form where the model and the scene have one.
+/// `geodesic`: the closed form where the model and the scene have one. The trait says that there is none.
 pub(super) fn geodesic(context: &Context) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.dim());
     let drifts = Trajectory::of(context.model).drift;
     let f64 = quote!(#rt::f64);
     let none = quote!(::core::option::Option::None);
-    let Some((components, needs_rest)) = context.model.geodesics() else {
-        return quote! {
-            fn geodesic(&self, _t0: #f64, _point: &Self::Point<#f64>) -> ::core::option::Option<#rt::Geodesic<#n>> {
-                #none
-            }
-        };
-    };
+    let Some((components, needs_rest)) = context.model.geodesics() else { return TokenStream::new() };
     let rest = needs_rest.then(|| {
         quote! {
             if #rt::Phase::p(point) != #rt::Vector::<#n>::zeros() {
@@ -31,9 +26,9 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
     });
     let drift = match (&context.model.mass, drifts) {
         (Some(program), true) => {
-            let body = context.double(&program.only("inverse_mass"));
-            let (lets, inverse_mass) = (&body.lets, body.result());
-            quote!(#lets let inverse_mass = #inverse_mass; let drift = #rt::Phase::p(point) * inverse_mass;)
+            let p = quote!(#rt::Phase::p(point));
+            let (lets, drift) = context.times(p, (program, "inverse_mass"), Number::Double);
+            quote!(#lets let drift = #drift;)
         }
         _ => quote!(let drift = #rt::Vector::<#n>::zeros();),
     };

@@ -8,6 +8,7 @@ use crate::ir::Program;
 
 use super::body::Body;
 use super::context::Context;
+use super::number::Number;
 use super::pattern::{components, pattern};
 use super::point::{affine_velocity, placement, wrapper};
 use super::{mixed, quantities, refused};
@@ -187,14 +188,12 @@ fn legendre(context: &Context, program: &Program) -> TokenStream {
 fn momentum_of_centre(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
     let Some(program) = &context.model.mass else { return mixed::momentum_of_centre(context) };
-    let body = context.double(&program.only("mass"));
-    let (lets, mass) = (&body.lets, body.result());
-    let p = match context.model.centre() {
-        Some(Components::Comoving) => quote! {
-            let to_body = #rt::inverse(&phi);
-            let p = to_body.tr_mul(&(to_body * x_dot)) * mass;
-        },
-        _ => quote!(let p = x_dot * mass;),
+    let (first, velocity) = match context.model.centre() {
+        Some(Components::Comoving) => {
+            (quote!(let to_body = #rt::inverse(&phi);), quote!(to_body.tr_mul(&(to_body * x_dot))))
+        }
+        _ => (TokenStream::new(), quote!(x_dot)),
     };
-    quote!(#lets let mass = #mass; #p)
+    let (lets, p) = context.times(velocity, (program, "mass"), Number::Double);
+    quote!(#first #lets let p = #p;)
 }

@@ -4,11 +4,12 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 
 use crate::derive::{ChangeOfBases, Components, Equations, Model};
-use crate::ir::Program;
-use crate::spec::{Custom, Role, Spec};
+use crate::ir::{Op, Program};
+use crate::spec::{Capability, Custom, Role, Spec};
 use crate::symbol::{Quantity, Symbol};
 
 use super::body::{Body, body};
+use super::common::Function;
 use super::names::Names;
 use super::number::{Number, number};
 use super::pattern::identifiers;
@@ -21,6 +22,8 @@ pub(super) struct Context<'a> {
     pub(super) names: &'a Names,
     /// Do coefficients depend on fields?
     pub(super) has_fields: bool,
+    /// What several programs call.
+    pub(super) common: Option<Function>,
 }
 
 impl Context<'_> {
@@ -34,6 +37,15 @@ impl Context<'_> {
             Components::Comoving => quote!(#rt::Body),
             Components::Spatial => quote!(#rt::Space),
             Components::TwoPoint => quote!(#rt::Canonical),
+        }
+    }
+
+    /// How right-hand sides are inlined: lanes become vectors of the processor only inside of a function that is compiled for
+    /// it.
+    pub(super) fn inline(&self) -> TokenStream {
+        match self.spec.emit.iter().any(|capability| capability.value == Capability::Lanes) {
+            true => quote!(#[inline(always)]),
+            false => quote!(#[inline]),
         }
     }
 
@@ -114,16 +126,22 @@ impl Context<'_> {
         self.body(program, Number::Double)
     }
 
-    /// A program whose inputs are variables of the same name, and coefficients that are read first.
-    pub(super) fn body(&self, program: &Program, number: Number) -> Body {
+    /// A program over a number, whose inputs are variables of the same name.
+    pub(super) fn written(&self, program: &Program, number: Number) -> Body {
         let input = |symbol: &Symbol| {
             let name = format_ident!("{}", symbol.to_string());
             quote!(#name)
         };
         let rebased = self.model.metrics.is_some();
         let places: Vec<Span> = self.spec.customs.iter().map(place).collect();
-        let scope = Scope { number, input: &input, rebased, places: &places, rt: &self.names.rt };
-        let Body { lets, results } = body(program, &scope);
+        body(program, &Scope { number, input: &input, rebased, places: &places, rt: &self.names.rt })
+    }
+
+    /// The same with coefficients that are read first, and what several programs compute called.
+    pub(super) fn body(&self, program: &Program, number: Number) -> Body {
+        let called = self.common.as_ref().and_then(|function| function.called_by(program));
+        let (call, rest) = called.unzip();
+        let Body { lets, results } = self.written(rest.as_ref().unwrap_or(program), number);
         let coefficients = program.symbols().filter_map(|symbol| {
             let (index, name) = (coefficient_index(symbol)?, format_ident!("{}", symbol.to_string()));
             let value = number.of_double(quote!(self.coefficients[#index]));
@@ -135,7 +153,34 @@ impl Context<'_> {
             Some(self.computing(&name, custom))
         });
         let change = self.change_for(program, number);
-        Body { lets: coefficients.chain(change).chain(fields).chain([lets]).collect(), results }
+        Body { lets: coefficients.chain(change).chain(fields).chain(call).chain([lets]).collect(), results }
+    }
+
+    /// What several programs call, as an item.
+    pub(super) fn function(&self) -> Option<TokenStream> {
+        let number = Number::Generic(&self.names.scalar);
+        let item = |function: &Function| {
+            function.item(&self.written(function.program(), number), self.names, &self.inline())
+        };
+        self.common.as_ref().map(item)
+    }
+
+    /// A value times a result of a program: statements, and the product; no factor 1.
+    pub(super) fn times(
+        &self,
+        value: TokenStream,
+        (program, factor): (&Program, &str),
+        number: Number,
+    ) -> (TokenStream, TokenStream) {
+        let program = program.only(factor);
+        if let [Op::Constant(one)] = program.steps.as_slice()
+            && one.is_one()
+        {
+            return (TokenStream::new(), value);
+        }
+        let body = self.body(&program, number);
+        let (lets, name, result) = (&body.lets, format_ident!("{factor}"), body.result());
+        (quote!(#lets let #name = #result;), quote!(#value * #name))
     }
 
     /// The bases over a scalar, or over the one that is asked for where they stand.

@@ -3,6 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use crate::derive::Equations;
 use crate::ir::count::Operations;
 
 use super::context::Context;
@@ -21,18 +22,7 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         format!("`{}`", formulas.hamiltonian.text),
         String::new(),
     ];
-    lines.extend([
-        format!("Hamilton's equations, {}:", counts(model.full.program.operations())),
-        "```text".to_owned(),
-    ]);
-    lines.extend(formulas.equations.iter().map(|f| f.text.clone()));
-    lines.extend([
-        "```".to_owned(),
-        format!("Reduced equations, {}:", counts(model.reduced.program.operations())),
-        "```text".to_owned(),
-    ]);
-    lines.extend(formulas.reduced.iter().map(|f| f.text.clone()));
-    lines.push("```".to_owned());
+    lines.extend(equations(context));
     if !formulas.left_out.is_empty() {
         lines.push("Left out of the state:".to_owned());
         lines.extend(formulas.left_out.iter().map(|left_out| format!("- {}", left_out.what)));
@@ -76,6 +66,24 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
     lines.into_iter().map(indented).collect()
 }
 
+/// What the equations cost, and where they stand: in the description, which programs print.
+fn equations(context: &Context) -> Vec<String> {
+    let (full, reduced) = (&context.model.full, &context.model.reduced);
+    let counted = |what: &str, where_they_stand: &str, equations: &Equations| {
+        format!("{what}, `DESCRIPTION.{where_they_stand}`: {}.", counts(equations.program.operations()))
+    };
+    let mut lines = match full == reduced {
+        true => vec![counted("Hamilton's equations, which are the reduced ones too", "equations", full)],
+        false => vec![
+            counted("Hamilton's equations", "equations", full),
+            String::new(),
+            counted("Reduced equations", "reduced_equations", reduced),
+        ],
+    };
+    lines.push(String::new());
+    lines
+}
+
 /// A line of documentation as `///` writes it.
 pub(super) fn indented(line: String) -> String {
     if line.is_empty() { line } else { format!(" {line}") }
@@ -104,8 +112,31 @@ pub(super) fn counts(operations: Operations) -> String {
 /// Operation counts as an expression.
 pub(super) fn operations(context: &Context, o: Operations) -> TokenStream {
     let rt = &context.names.rt;
-    let [mul, add, div, sqrt, exp, ln] = [o.mul, o.add, o.div, o.sqrt, o.exp, o.ln].map(number);
-    quote!(#rt::Operations { mul: #mul, add: #add, div: #div, sqrt: #sqrt, exp: #exp, ln: #ln })
+    let counts =
+        [("mul", o.mul), ("add", o.add), ("div", o.div), ("sqrt", o.sqrt), ("exp", o.exp), ("ln", o.ln)];
+    let taken = counts.iter().filter(|(_, count)| *count > 0).map(|(name, count)| {
+        let (name, count) = (format_ident!("{name}"), number(*count));
+        quote!(#name: #count)
+    });
+    let others = counts.iter().any(|(_, count)| *count == 0).then(|| quote!(..#rt::Operations::NONE));
+    let fields = taken.chain(others);
+    quote!(#rt::Operations { #(#fields),* })
+}
+
+/// What the plain array and the reduced state have both, as the values of two fields, and the statement before these where it
+/// is the same of both.
+fn of_both<D: PartialEq + ?Sized>(
+    [full, reduced]: [(&str, &D); 2],
+    ty: &TokenStream,
+    written: impl Fn(&D) -> TokenStream,
+) -> (TokenStream, TokenStream) {
+    let [name, other] = [full.0, reduced.0].map(|name| format_ident!("{name}"));
+    let value = written(full.1);
+    if full.1 == reduced.1 {
+        return (quote!(let #name: #ty = #value;), quote!(#name, #other: #name,));
+    }
+    let differing = written(reduced.1);
+    (TokenStream::new(), quote!(#name: #value, #other: #differing,))
 }
 
 /// A formula as an expression.
@@ -121,8 +152,6 @@ pub(super) fn constant(context: &Context) -> TokenStream {
     let formulas = &model.formulas;
     let kinetic_energy = formula(context, &formulas.kinetic_energy.text, &formulas.kinetic_energy.latex);
     let hamiltonian = formula(context, &formulas.hamiltonian.text, &formulas.hamiltonian.latex);
-    let equations = formulas.equations.iter().map(|f| formula(context, &f.text, &f.latex));
-    let reduced_equations = formulas.reduced.iter().map(|f| formula(context, &f.text, &f.latex));
     let left_out = formulas.left_out.iter().map(|left_out| {
         let (what, scope) = (&left_out.what, format_ident!("{}", format!("{:?}", left_out.scope)));
         quote!(#rt::LeftOut { what: #what, scope: #rt::Scope::#scope })
@@ -136,39 +165,60 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         }
         None => quote!(::core::option::Option::None),
     };
-    let conserved = |names: &[String]| {
-        let names = identifiers(names);
-        quote!(&[#(#rt::Conserved::#names),*])
-    };
-    let (now, at_rest) = (conserved(&model.conserved_names()), conserved(&model.conserved_names_at_rest()));
-    let (full, reduced) = (groups(context, &model.full.groups), groups(context, &model.reduced.groups));
+    let both = [
+        of_both(
+            [("equations", &formulas.equations), ("reduced_equations", &formulas.reduced)],
+            &quote!(&[#rt::Formula]),
+            |list| {
+                let list = list.iter().map(|f| formula(context, &f.text, &f.latex));
+                quote!(&[#(#list),*])
+            },
+        ),
+        of_both(
+            [
+                ("conserved", &model.conserved_names()),
+                ("conserved_at_rest", &model.conserved_names_at_rest()),
+            ],
+            &quote!(&[#rt::Conserved]),
+            |names| {
+                let names = identifiers(names);
+                quote!(&[#(#rt::Conserved::#names),*])
+            },
+        ),
+        of_both(
+            [("full", &model.full.groups), ("reduced", &model.reduced.groups)],
+            &quote!(&[#rt::Group]),
+            |list| groups(context, list),
+        ),
+        of_both(
+            [
+                ("full_operations", &model.full.program.operations()),
+                ("reduced_operations", &model.reduced.program.operations()),
+            ],
+            &quote!(#rt::Operations),
+            |count| operations(context, *count),
+        ),
+    ];
+    let (shared, fields): (TokenStream, TokenStream) = both.into_iter().unzip();
     let constraint = match context.constraint() {
         Some(group) => quote!(::core::option::Option::Some(#group)),
         None => quote!(::core::option::Option::None),
     };
     // The multiplier of a constraint depends on the velocity.
     let second_order = model.constraint.is_none() && model.reduced.is_second_order();
-    let full_operations = operations(context, model.full.program.operations());
-    let reduced_operations = operations(context, model.reduced.program.operations());
-    quote! {
+    let description = quote! {
         #rt::Description {
             name: #name,
             kinetic_energy: #kinetic_energy,
             hamiltonian: #hamiltonian,
-            equations: &[#(#equations),*],
-            reduced_equations: &[#(#reduced_equations),*],
+            #fields
             signature: #signature,
-            conserved: #now,
-            conserved_at_rest: #at_rest,
-            full: #full,
-            reduced: #reduced,
-            full_operations: #full_operations,
-            reduced_operations: #reduced_operations,
             constraint: #constraint,
             second_order: #second_order,
             domain: #domain,
             angles: #angles,
             left_out: &[#(#left_out),*],
         }
-    }
+    };
+    if shared.is_empty() { description } else { quote!({ #shared #description }) }
 }

@@ -10,6 +10,7 @@ use crate::symbol::Quantity;
 use super::body::Body;
 use super::context::Context;
 use super::mixed;
+use super::number::Number;
 use super::pattern::{components, identifiers, pattern, time};
 use super::point::{
     affine_velocity, at_placement, bind_components, bind_point, own_spin, placement, wrapper,
@@ -44,15 +45,11 @@ fn velocity(context: &Context) -> TokenStream {
     let (mass, x_dot) = match (&context.model.mass, context.model.centre()) {
         (None, Some(_)) => mixed::velocity_of_centre(context),
         (Some(program), Some(components)) => {
-            let body = context.generic(&program.only("inverse_mass"));
-            let (lets, inverse_mass) = (&body.lets, body.result());
-            let x_dot = match components {
-                Components::Comoving => {
-                    quote!(#rt::Phase::phi(point) * #rt::Phase::p_hat(point).0.0 * inverse_mass)
-                }
-                _ => quote!(#rt::Phase::p(point) * inverse_mass),
+            let momentum = match components {
+                Components::Comoving => quote!(#rt::Phase::phi(point) * #rt::Phase::p_hat(point).0.0),
+                _ => quote!(#rt::Phase::p(point)),
             };
-            (quote!(#lets let inverse_mass = #inverse_mass;), x_dot)
+            context.times(momentum, (program, "inverse_mass"), Number::Generic(t))
         }
         _ => (TokenStream::new(), quote!(#rt::Vector::<#n, #t>::zeros())),
     };
@@ -229,15 +226,19 @@ fn flat(context: &Context) -> TokenStream {
     }
 }
 
+/// Is there a constraint that momenta are not projected to? It is kept by a multiplier.
+pub(super) fn has_multiplier(context: &Context) -> bool {
+    context.constraint().is_some() && !context.model.projected
+}
+
 fn hamilton_equations(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.full.program;
     let bound = pattern(&context.model.full.names(), &program.inputs());
     let time = time(program);
     let Body { lets, results } = context.generic(program);
-    // A constraint that momenta are not projected to is kept by a multiplier.
-    let has_multiplier = context.constraint().is_some() && !context.model.projected;
-    let (name, refusal) = match has_multiplier {
+    let inline = context.inline();
+    let (name, refusal) = match has_multiplier(context) {
         false => (quote!(hamilton_equations), TokenStream::new()),
         true => {
             let refusal = quote! {
@@ -251,7 +252,7 @@ fn hamilton_equations(context: &Context) -> TokenStream {
     quote! {
         #refusal
 
-        #[inline]
+        #inline
         fn #name<#t: #rt::Scalar>(&self, #time: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
             let #bound = *full;
             #lets

@@ -78,7 +78,8 @@ pub(super) fn prepared(context: &Context) -> (TokenStream, TokenStream) {
         let Body { lets, results } = over_fields(rt, program);
         let rows = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
         let condition = format!("{name} > 0");
-        quote!({ #lets #rt::orthonormal::<#n>([#(#rows),*], #condition)? })
+        let bases = quote!(#rt::orthonormal::<#n>([#(#rows),*], #condition)?);
+        if lets.is_empty() { bases } else { quote!({ #lets #bases }) }
     };
     let (space, body) = (orthonormal("g", space), orthonormal("eta", body));
     let runtime = runtime(context.spec.runtime.as_ref());

@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 
 use crate::algebra::Rational;
 use crate::algebra::fault::never_missing;
+use crate::ir::naming::of_number;
 
 /// What a body computes with.
 #[derive(Clone, Copy)]
@@ -19,6 +20,8 @@ impl Number<'_> {
     /// The number, to double-double precision where it is generic.
     pub(super) fn exact(self, number: &Rational) -> TokenStream {
         match self {
+            Self::Generic(scalar) if number.is_zero() => quote!(#scalar::zero()),
+            Self::Generic(scalar) if number.is_one() => quote!(#scalar::one()),
             Self::Generic(scalar) => exact(scalar, number),
             Self::Double => literal(number.to_doubles().0, "f64"),
         }
@@ -51,14 +54,12 @@ pub(super) fn exact_table(scalar: &Ident, rows: &[Vec<Rational>]) -> TokenStream
 
 /// The name of a number; `roots` counts those that have no short one.
 pub(super) fn name_of(number: &Rational, roots: &mut usize) -> Ident {
-    match number {
-        zero if zero.is_zero() => format_ident!("zero"),
-        one if one.is_one() => format_ident!("one"),
-        root if root.is_long() => {
+    match of_number(number) {
+        Some(name) => format_ident!("{name}"),
+        None => {
             *roots += 1;
             format_ident!("root{roots}")
         }
-        _ => format_ident!("r{}", number.to_string().replace('/', "_").replace('-', "m")),
     }
 }
 

@@ -1,17 +1,17 @@
-//! Reduction, reduced equations, expansion, and closed forms.
+//! Reduction, reduced equations and expansion.
 
 mod carried;
 mod expansion;
+mod plain;
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::derive::{AffineMomentum, Components, Trajectory};
-use crate::spec::Capability;
 
 use super::body::Body;
 use super::context::Context;
-use super::number::number;
+use super::number::{Number, number};
 use super::pattern::{components, identifiers, pattern, reads, time};
 use super::point::{projected, spin};
 use super::separated;
@@ -67,9 +67,12 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
     }
 }
 
-/// `reduce`, `reduced_equations`, `expand`, `geodesic`, `on_geodesic`.
+/// `reduce`, `reduced_equations`, `expand`, `renewed`.
 pub(super) fn methods(context: &Context) -> TokenStream {
     let parts = Trajectory::of(context.model);
+    if plain::is_plain(context, &parts) {
+        return plain::methods(context, &parts);
+    }
     let reduce = reduce(context, &parts);
     let equations = reduced_equations(context, &parts);
     let expand = expansion::expand(context, &parts);
@@ -194,22 +197,16 @@ fn bind_state(context: &Context, parts: &Trajectory) -> TokenStream {
 
 /// Generators of what moves in closed form: `-W/mu`, `p/m`.
 fn whirl(context: &Context, parts: &Trajectory) -> TokenStream {
+    let t = &context.names.scalar;
     let mut lets = TokenStream::new();
     if let (Some(side), Some(program)) = (parts.rotation, &context.model.isotropic) {
-        let body = context.generic(&program.only("inverse_mu"));
-        let (inner, inverse_mu) = (&body.lets, body.result());
         let spin = spin(context, side);
-        lets.extend(quote! {
-            #inner
-            let spin = #spin;
-            let inverse_mu = #inverse_mu;
-            let whirl = (spin.transpose() - spin) * inverse_mu;
-        });
+        let (inner, whirl) = context.times(quote!(skew), (program, "inverse_mu"), Number::Generic(t));
+        lets.extend(quote!(#inner let spin = #spin; let skew = spin.transpose() - spin; let whirl = #whirl;));
     }
     if let (true, Some(program)) = (parts.drift, &context.model.mass) {
-        let body = context.generic(&program.only("inverse_mass"));
-        let (inner, inverse_mass) = (&body.lets, body.result());
-        lets.extend(quote!(#inner let inverse_mass = #inverse_mass; let drift = p * inverse_mass;));
+        let (inner, drift) = context.times(quote!(p), (program, "inverse_mass"), Number::Generic(t));
+        lets.extend(quote!(#inner let drift = #drift;));
     }
     lets
 }
@@ -228,11 +225,7 @@ fn reduced_equations(context: &Context, parts: &Trajectory) -> TokenStream {
     let bind = reads_state.then(|| quote!(let #bound = *reduced;));
     let Body { lets, results } = context.generic(program);
     let time = time(program);
-    // Lanes become vectors of the processor only inside of a function that is compiled for it.
-    let inline = match context.spec.emit.iter().any(|capability| capability.value == Capability::Lanes) {
-        true => quote!(#[inline(always)]),
-        false => quote!(#[inline]),
-    };
+    let inline = context.inline();
     quote! {
         #inline
         fn reduced_equations<#t: #rt::Scalar>(

@@ -21,6 +21,7 @@ mod polynomials;
 mod potentials;
 mod rational;
 mod reduction;
+mod sharing;
 mod singular;
 mod symmetry;
 mod tensors;

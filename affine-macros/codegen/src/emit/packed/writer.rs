@@ -9,6 +9,7 @@ use super::names;
 use crate::emit::body::{DEEPEST, Strength, inner};
 use crate::emit::context::Context;
 use crate::emit::number::{Number, name_of, number};
+use crate::ir::naming::Namer;
 use crate::ir::packed::{Four, Index, Lane, Packed, Step};
 use crate::ir::{Op, Value};
 
@@ -38,7 +39,8 @@ pub(super) fn written(context: &Context, packed: &Packed) -> Written {
         depth: HashMap::new(),
         bound: HashMap::new(),
         lets: TokenStream::new(),
-        temporaries: 0,
+        namer: Namer::new(&packed.program),
+        partial: 0,
     };
     let state = writer.state();
     writer.constants();
@@ -80,7 +82,9 @@ struct Writer<'a> {
     depth: HashMap<Step, usize>,
     bound: HashMap<Step, Ident>,
     lets: TokenStream,
-    temporaries: usize,
+    namer: Namer<'a>,
+    /// Vectors without a name.
+    partial: usize,
 }
 
 impl Writer<'_> {
@@ -101,12 +105,13 @@ impl Writer<'_> {
         bound
     }
 
-    /// Numbers first, named by their exact value.
+    /// Numbers first, named by their exact value; none and one stand where they are read.
     fn constants(&mut self) {
         let mut roots = 0;
         for step in &self.packed.steps {
             if let Step::Scalar(value) = step
                 && let Op::Constant(exact) = &self.packed.program.steps[*value]
+                && !(exact.is_zero() || exact.is_one())
             {
                 let (name, exact) = (name_of(exact, &mut roots), Number::Double.exact(exact));
                 self.lets.extend(quote!(let #name = #exact;));
@@ -132,10 +137,13 @@ impl Writer<'_> {
         let name = match self.name(step) {
             Some(name) => name,
             None if is_light || (uses < 2 && depth + 1 < DEEPEST) => return,
-            None => {
-                self.temporaries += 1;
-                format!("t{}", self.temporaries)
-            }
+            None => match step {
+                Step::Scalar(value) => self.namer.name(value),
+                Step::Vector(_) => {
+                    self.partial += 1;
+                    format!("partial_{}", self.partial)
+                }
+            },
         };
         let (name, (expression, _)) = (format_ident!("{name}"), self.expression(step));
         self.lets.extend(quote!(let #name = #expression;));
@@ -197,7 +205,12 @@ impl Writer<'_> {
             }
             Op::Mul(a, b) => product(operand(a), operand(b)),
             Op::Div(a, b) => infix(operand(a), quote!(/), operand(b), (Strength::Product, Strength::Sign)),
-            Op::MulAdd(a, b, c) => fused(operand(a), operand(b), operand(c)),
+            Op::MulAdd(a, b, sum) => match &self.packed.program.steps[*a] {
+                Op::Neg(inner) if !self.bound.contains_key(&Step::Scalar(*a)) => {
+                    fused(operand(sum), "minus", operand(inner), operand(b))
+                }
+                _ => fused(operand(sum), "plus", operand(a), operand(b)),
+            },
         }
     }
 
@@ -225,7 +238,12 @@ impl Writer<'_> {
                 infix(operand(a), inner(quote!(-)), operand(b), (Strength::Sum, Strength::Product))
             }
             Four::Mul(a, b) => product(operand(a), operand(b)),
-            Four::MulAdd(a, b, c) => fused(operand(a), operand(b), operand(c)),
+            Four::MulAdd(a, b, sum) => match self.packed.vectors[a].made {
+                Four::Neg(inner) if !self.bound.contains_key(&Step::Vector(a)) => {
+                    fused(operand(sum), "minus", operand(inner), operand(b))
+                }
+                _ => fused(operand(sum), "plus", operand(a), operand(b)),
+            },
         }
     }
 
@@ -258,11 +276,13 @@ fn product(a: (TokenStream, Strength), b: (TokenStream, Strength)) -> (TokenStre
     infix(a, inner(quote!(*)), b, (Strength::Product, Strength::Product))
 }
 
+/// A sum and one product more.
 fn fused(
-    a: (TokenStream, Strength),
+    sum: (TokenStream, Strength),
+    method: &str,
+    (a, _): (TokenStream, Strength),
     (b, _): (TokenStream, Strength),
-    (c, _): (TokenStream, Strength),
 ) -> (TokenStream, Strength) {
-    let a = at_least(a, Strength::Atom);
-    (quote!(#a.fma(#b, #c)), Strength::Atom)
+    let (sum, method) = (at_least(sum, Strength::Atom), format_ident!("{method}"));
+    (quote!(#sum.#method(#a, #b)), Strength::Atom)
 }

@@ -1,0 +1,100 @@
+//! What several methods compute alike, in a function: a mass matrix is factorised in one place.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::derive::Model;
+use crate::ir::Program;
+use crate::ir::common::Common;
+
+use super::body::Body;
+use super::names::Names;
+use super::number::number;
+use super::pattern::{components, identifiers, pattern};
+
+/// The function that gives the velocity of a momentum, and what the equations read that it is computed from.
+pub(super) struct Function {
+    common: Common,
+    /// The matrices that it reads, with the names of their entries, row by row.
+    matrices: Vec<(Ident, Vec<Vec<String>>)>,
+}
+
+impl Function {
+    /// That of a model, where energies or equations share much with the velocity.
+    pub(super) fn of(model: &Model) -> Option<Self> {
+        let energies = [Some(&model.hamiltonian), model.hamiltonian_far_away.as_ref(), model.power.as_ref()];
+        let equations = [Some(&model.full.program), Some(&model.reduced.program)];
+        let common = Common::of(&model.velocity, energies.into_iter().chain(equations).flatten())?;
+        let inputs = common.program.inputs();
+        let is_read = |rows: &[Vec<String>]| rows.iter().flatten().all(|name| inputs.contains(name));
+        let matrices = ["phi", model.spin_name()]
+            .map(|stem| (format_ident!("{stem}"), components(stem, model.dim)))
+            .into_iter()
+            .filter(|(_, rows)| is_read(rows))
+            .collect();
+        Some(Self { common, matrices })
+    }
+
+    /// The call by a program, and what is left of it.
+    pub(super) fn called_by(&self, program: &Program) -> Option<(TokenStream, Program)> {
+        let rest = self.common.taken_from(program)?;
+        let results: Vec<String> = self.common.program.outputs.iter().map(|(name, _)| name.clone()).collect();
+        let results = pattern(&results, &rest.inputs());
+        let numbers = self.numbers();
+        let numbers = (!numbers.is_empty()).then(|| quote!([#(#numbers),*]));
+        let arguments = self.matrices.iter().map(|(_, rows)| entries(rows)).chain(numbers);
+        Some((quote!(let #results = velocity_of_momentum(#(#arguments),*);), rest))
+    }
+
+    /// What it computes.
+    pub(super) fn program(&self) -> &Program {
+        &self.common.program
+    }
+
+    /// The function as an item, from its body.
+    pub(super) fn item(
+        &self,
+        Body { lets, results }: &Body,
+        names: &Names,
+        inline: &TokenStream,
+    ) -> TokenStream {
+        let (rt, t, read) = (&names.rt, &names.scalar, self.numbers());
+        let (count, given) = (number(read.len()), number(results.len()));
+        let bound = self.matrices.iter().map(|(matrix, rows)| {
+            let rows = entries(rows);
+            quote!(let #rows = #matrix;)
+        });
+        let matrices = self.matrices.iter().map(|(matrix, rows)| {
+            let n = number(rows.len());
+            quote!(#matrix: [[#t; #n]; #n])
+        });
+        let numbers = (!read.is_empty()).then(|| quote!([#(#read),*]: [#t; #count]));
+        let parameters = matrices.chain(numbers);
+        quote! {
+            /// The velocity of a momentum, and what the equations read that it is computed from.
+            #inline
+            fn velocity_of_momentum<#t: #rt::Scalar>(#(#parameters),*) -> [#t; #given] {
+                #(#bound)*
+                #lets
+                [#(#results),*]
+            }
+        }
+    }
+
+    /// What it reads beside matrices.
+    fn numbers(&self) -> Vec<Ident> {
+        let entries: Vec<&String> =
+            self.matrices.iter().flat_map(|(_, rows)| rows.iter().flatten()).collect();
+        let inputs = self.common.program.inputs().into_iter();
+        identifiers(&inputs.filter(|name| !entries.contains(&name)).collect::<Vec<_>>())
+    }
+}
+
+/// A matrix or the pattern of one.
+fn entries(rows: &[Vec<String>]) -> TokenStream {
+    let rows = rows.iter().map(|row| {
+        let row = identifiers(row);
+        quote!([#(#row),*])
+    });
+    quote!([#(#rows),*])
+}

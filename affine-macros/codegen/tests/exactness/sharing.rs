@@ -1,0 +1,48 @@
+//! What several programs compute alike, taken out of them, leaves the exact value of every result.
+
+use std::collections::HashMap;
+
+use affine_codegen::algebra::Rational;
+use affine_codegen::ir::Program;
+use affine_codegen::ir::common::Common;
+use affine_codegen::symbol::Symbol;
+use affine_oracle::Random;
+
+use super::models::derived;
+use super::points::{fraction, own};
+
+/// A sum of frames, whose mass matrix is factorised, one with other frames, and an inertia tensor with a full inverse.
+const MODELS: [&str; 3] = [
+    "dim = 3, kinetic(body_inertia = 1, space_inertia = diag(1, 1.5, 2))",
+    "dim = 2, kinetic(dalembert = 2, casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 3)",
+    "dim = 3, kinetic(casimir2 = 0.2, body_inertia = [[2, 0.5, 0.25], [0.5, 3, 0.75], [0.25, 0.75, 4]])",
+];
+
+#[test]
+fn what_is_shared_keeps_the_value() {
+    let mut random = Random::new(97);
+    let mut taken = 0;
+    for args in MODELS {
+        let model = derived(args, "struct Model;");
+        let others = [&model.hamiltonian, &model.full.program, &model.reduced.program];
+        let Some(common) = Common::of(&model.velocity, others) else { continue };
+        for program in others.into_iter().chain([&model.velocity]) {
+            let Some(rest) = common.taken_from(program) else { continue };
+            let mut point: HashMap<String, Rational> =
+                program.inputs().into_iter().map(|name| (name, own(&fraction(&mut random)))).collect();
+            let run = |program: &Program, point: &HashMap<String, Rational>| {
+                program
+                    .run(&|symbol: &Symbol| point.get(&symbol.to_string()).cloned())
+                    .expect("every input has a value")
+            };
+            let expected = run(program, &point);
+            let shared = run(&common.program, &point);
+            let names = common.program.outputs.iter().map(|(name, _)| name.clone());
+            point.extend(names.zip(shared));
+            assert_eq!(run(&rest, &point), expected, "{args}");
+            assert!(rest.steps.len() < program.steps.len(), "{args}");
+            taken += 1;
+        }
+    }
+    assert!(taken >= 6, "{taken}");
+}
