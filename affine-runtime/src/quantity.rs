@@ -88,9 +88,4 @@ impl Quantity {
     pub(crate) const fn is_placement(self) -> bool {
         matches!(self, Self::Placement | Self::IsochoricPlacement)
     }
-
-    /// Functions of `det phi` that are integrated beside the placement.
-    pub(crate) const fn is_carried(self) -> bool {
-        matches!(self, Self::InverseDilatation | Self::MeanLogStretch)
-    }
 }

@@ -212,8 +212,9 @@ impl Why {
             && (holds(Quantity::Position) || !holds(Quantity::LinearMomentum));
         let is_canonical = |quantity: Quantity| {
             use Quantity::{CanonicalMomentum, LinearMomentum, Placement, Position};
+            // Functions of `det phi` that are integrated beside the placement follow from it.
             matches!(quantity, Position | Placement | LinearMomentum | CanonicalMomentum)
-                || quantity.is_carried()
+                || matches!(quantity, Quantity::InverseDilatation | Quantity::MeanLogStretch)
         };
         paired && groups.iter().all(|group| is_canonical(group.quantity))
     }
