@@ -66,21 +66,23 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
     lines.into_iter().map(indented).collect()
 }
 
-/// What the equations cost, and where they stand: in the description, which programs print.
+/// Hamilton's equations, and what they cost. The reduced ones are long, and stand in the description alone, which programs
+/// print.
 fn equations(context: &Context) -> Vec<String> {
     let (full, reduced) = (&context.model.full, &context.model.reduced);
-    let counted = |what: &str, where_they_stand: &str, equations: &Equations| {
-        format!("{what}, `DESCRIPTION.{where_they_stand}`: {}.", counts(equations.program.operations()))
+    let counted =
+        |what: &str, equations: &Equations| format!("{what}, {}", counts(equations.program.operations()));
+    let what = match full == reduced {
+        true => "Hamilton's equations, which are the reduced ones too",
+        false => "Hamilton's equations",
     };
-    let mut lines = match full == reduced {
-        true => vec![counted("Hamilton's equations, which are the reduced ones too", "equations", full)],
-        false => vec![
-            counted("Hamilton's equations", "equations", full),
-            String::new(),
-            counted("Reduced equations", "reduced_equations", reduced),
-        ],
-    };
-    lines.push(String::new());
+    let mut lines = vec![format!("{}:", counted(what, full)), "```text".to_owned()];
+    lines.extend(context.model.formulas.equations.iter().map(|f| f.text.clone()));
+    lines.push("```".to_owned());
+    if full != reduced {
+        lines.push(format!("{}: `DESCRIPTION.reduced_equations`.", counted("Reduced equations", reduced)));
+        lines.push(String::new());
+    }
     lines
 }
 
