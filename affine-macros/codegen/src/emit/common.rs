@@ -52,12 +52,7 @@ impl Function {
     }
 
     /// The function as an item, from its body.
-    pub(super) fn item(
-        &self,
-        Body { lets, results }: &Body,
-        names: &Names,
-        inline: &TokenStream,
-    ) -> TokenStream {
+    pub(super) fn item(&self, Body { lets, results }: &Body, names: &Names) -> TokenStream {
         let (rt, t, read) = (&names.rt, &names.scalar, self.numbers());
         let (count, given) = (number(read.len()), number(results.len()));
         let bound = self.matrices.iter().map(|(matrix, rows)| {
@@ -72,7 +67,8 @@ impl Function {
         let parameters = matrices.chain(numbers);
         quote! {
             /// The velocity of a momentum, and what the equations read that it is computed from.
-            #inline
+            // Its results stay in registers only inside of what reads them.
+            #[inline(always)]
             fn velocity_of_momentum<#t: #rt::Scalar>(#(#parameters),*) -> [#t; #given] {
                 #(#bound)*
                 #lets

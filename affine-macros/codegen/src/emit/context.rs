@@ -159,9 +159,7 @@ impl Context<'_> {
     /// What several programs call, as an item.
     pub(super) fn function(&self) -> Option<TokenStream> {
         let number = Number::Generic(&self.names.scalar);
-        let item = |function: &Function| {
-            function.item(&self.written(function.program(), number), self.names, &self.inline())
-        };
+        let item = |function: &Function| function.item(&self.written(function.program(), number), self.names);
         self.common.as_ref().map(item)
     }
 

@@ -30,17 +30,14 @@ pub use vector::{Four, Index, Lane, Lanes, Packed, Step, Vector};
 const MOST_STEPS: usize = 384;
 /// Where it was not measured whether it pays: states of the plane.
 const FEWEST: usize = 12;
-/// A factorised mass matrix is a chain of divisions with little beside each that vectors could do meanwhile.
-const MOST_DIVISIONS: usize = 2;
 
 impl Packed {
     /// The right-hand side whose results are the rates of the components of `groups`, in their order; `None` where
-    /// scalars do as well, where it is long or divides again and again, or where it calls functions of the runtime.
+    /// scalars do as well, where it is long, or where it calls functions of the runtime.
     #[must_use]
     pub fn of(program: &Program, groups: &[Vec<Symbol>]) -> Option<Self> {
         let components: usize = groups.iter().map(Vec::len).sum();
-        let divisions = program.operations().div;
-        if components < FEWEST || program.steps.len() > MOST_STEPS || divisions > MOST_DIVISIONS {
+        if components < FEWEST || program.steps.len() > MOST_STEPS {
             return None;
         }
         let scalar = program.steps.iter().map(cost::of_number).sum::<usize>()
