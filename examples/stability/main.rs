@@ -21,8 +21,12 @@ fn main() -> affine_runtime::Result<ExitCode> {
     // A folder that cannot be made shows in the first file that cannot be written.
     let _ = fs::create_dir_all(output);
     let extent = match std::env::args().nth(1).as_deref() {
+        None => Extent::Full,
         Some("long") => Extent::Long,
-        _ => Extent::Full,
+        Some(other) => {
+            eprintln!("no `{other}` here: `long` takes long runs, nothing takes the others");
+            return Ok(ExitCode::FAILURE);
+        }
     };
     let report = scenes::report(extent)?;
     println!("{report}");

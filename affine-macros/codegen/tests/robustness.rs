@@ -171,7 +171,7 @@ fn answered(args: TokenStream, item: TokenStream) -> Result<bool, TestCaseError>
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig::with_cases(500))]
 
     #[test]
     fn on_any_arguments(args in any_stream()) {

@@ -20,7 +20,7 @@ pub struct Expr(u32);
 pub enum Node {
     /// An exact number.
     Constant(Rational),
-    /// An indeterminate.
+    /// A symbol, which stands for any number.
     Symbol(Symbol),
     /// `constant + sum of coefficient * term`; at least two summands or one coefficient other than 1.
     Sum(Rational, Vec<(Expr, Rational)>),
@@ -66,7 +66,7 @@ impl Arena {
         self.intern(Node::Constant(value))
     }
 
-    /// An indeterminate.
+    /// The expression of a symbol.
     pub fn symbol(&mut self, symbol: impl Into<Symbol>) -> Expr {
         self.intern(Node::Symbol(symbol.into()))
     }
@@ -87,7 +87,7 @@ impl Arena {
         }
     }
 
-    /// Several of them.
+    /// The expressions of several symbols, in their order.
     pub fn symbols<S: Into<Symbol>, const N: usize>(&mut self, symbols: [S; N]) -> [Expr; N] {
         symbols.map(|symbol| self.symbol(symbol))
     }

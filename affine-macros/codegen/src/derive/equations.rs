@@ -33,7 +33,7 @@ impl Equations {
         self.groups.iter().flat_map(|(_, symbols)| symbols.clone()).collect()
     }
 
-    /// Their names.
+    /// Names of the components of the array.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
         self.symbols().iter().map(Symbol::to_string).collect()

@@ -22,7 +22,7 @@ pub enum VolumeMeasure {
 }
 
 impl VolumeMeasure {
-    /// What it is.
+    /// The quantity that its symbol stands for.
     #[must_use]
     pub fn quantity(self) -> Quantity {
         match self {

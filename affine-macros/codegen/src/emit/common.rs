@@ -6,13 +6,14 @@ use quote::{format_ident, quote};
 use crate::derive::Model;
 use crate::ir::Program;
 use crate::ir::common::Common;
+use crate::symbol::Quantity;
 
 use super::body::Body;
 use super::names::Names;
 use super::number::number;
 use super::pattern::{components, identifiers, pattern};
 
-/// The function that gives the velocity of a momentum, and what the equations read that it is computed from.
+/// The function that gives the velocity of a momentum, and after it the intermediate results that other methods go on with.
 pub(super) struct Function {
     common: Common,
     /// The matrices that it reads, with the names of their entries, row by row.
@@ -25,12 +26,14 @@ impl Function {
         let energies = [Some(&model.hamiltonian), model.hamiltonian_far_away.as_ref(), model.power.as_ref()];
         let equations = [Some(&model.full.program), Some(&model.reduced.program)];
         let common = Common::of(&model.velocity, energies.into_iter().chain(equations).flatten())?;
-        let inputs = common.program.inputs();
-        let is_read = |rows: &[Vec<String>]| rows.iter().flatten().all(|name| inputs.contains(name));
-        let matrices = ["phi", model.spin_name()]
-            .map(|stem| (format_ident!("{stem}"), components(stem, model.dim)))
+        let places = || (1..=model.dim).flat_map(|i| (1..=model.dim).map(move |j| [i, j]));
+        let is_read = |matrix: &Quantity| {
+            places().all(|place| common.program.symbols().any(|read| *read == matrix.at(place)))
+        };
+        let matrices = [Quantity::Placement, model.frame.momentum()]
             .into_iter()
-            .filter(|(_, rows)| is_read(rows))
+            .filter(is_read)
+            .map(|matrix| (format_ident!("{}", matrix.stem()), components(matrix.stem(), model.dim)))
             .collect();
         Some(Self { common, matrices })
     }
@@ -66,7 +69,7 @@ impl Function {
         let numbers = (!read.is_empty()).then(|| quote!([#(#read),*]: [#t; #count]));
         let parameters = matrices.chain(numbers);
         quote! {
-            /// The velocity of a momentum, and what the equations read that it is computed from.
+            /// The velocity that belongs to a momentum, and after it the intermediate results that other methods go on with.
             // Its results stay in registers only inside of what reads them.
             #[inline(always)]
             fn velocity_of_momentum<#t: #rt::Scalar>(#(#parameters),*) -> [#t; #given] {

@@ -6,7 +6,7 @@ use quote::quote;
 use super::context::Context;
 use super::pattern::{pattern, reads};
 
-/// Their names.
+/// Names of the coefficients of a trajectory: `k_1`, `k_2`, ..
 pub(super) fn coefficient_names(context: &Context) -> Vec<String> {
     (1..=context.model.trajectory.outputs.len()).map(|k| format!("k_{k}")).collect()
 }

@@ -22,7 +22,7 @@ pub enum Carried {
 impl Carried {
     const ALL: [Self; 2] = [Self::InverseDilatation, Self::MeanLogStretch];
 
-    /// What it is.
+    /// The quantity that its symbol stands for.
     #[must_use]
     pub fn quantity(self) -> Quantity {
         match self {
