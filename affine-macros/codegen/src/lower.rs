@@ -10,7 +10,6 @@ mod potential;
 
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 
-use crate::mechanics::constraint::Constraint;
 use crate::mechanics::custom::{Class, Custom, On, Role};
 use crate::mechanics::dissipation::Dissipation;
 use crate::mechanics::forces::Forces;
@@ -43,16 +42,6 @@ pub fn terms(arena: &mut Arena, n: usize, written: &[spec::Term]) -> Vec<(usize,
             Some((place, Term { kind: term.kind.value, value }))
         })
         .collect()
-}
-
-/// The group that the motion is confined to.
-#[must_use]
-pub fn constraint(constraint: spec::Constraint) -> Constraint {
-    match constraint {
-        spec::Constraint::Isochoric => Constraint::Isochoric,
-        spec::Constraint::Rigid => Constraint::Rigid,
-        spec::Constraint::Conformal => Constraint::Conformal,
-    }
 }
 
 /// The forces besides those of the potential, for a kinetic energy that is constant in the frame `own`; matrices that

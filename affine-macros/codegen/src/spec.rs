@@ -29,7 +29,7 @@ pub use item::{Field, Item};
 pub use matrix_field::Storage;
 pub use momentum_side::MomentumKind;
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
-pub use names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, nearest};
+pub use names::{Capability, Claim, Named, PlacementGroup, Requirement, nearest};
 pub use spanned::Spanned;
 pub use statement::{Metric, Potential, Spec, Symmetry, Term, Value};
 pub(crate) use symbol::numbered;

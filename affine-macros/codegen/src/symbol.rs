@@ -1,10 +1,12 @@
 //! Symbols of formulas and programs. What a symbol is, is decided by its type; its name is made of that, in one place.
 
+mod constraint;
 mod quantity;
 mod term;
 
 use std::fmt::{Display, Formatter, Result};
 
+pub use constraint::Constraint;
 pub use quantity::Quantity;
 pub use term::{Frame, TermKind};
 

@@ -4,7 +4,6 @@ use super::written::{Written, eigenvalue_name, matrix_text};
 use crate::algebra::Rational;
 use crate::algebra::linear::negative_direction;
 use crate::diagnostics::{ConstraintMistake, Diagnostics, ForceMistake};
-use crate::lower;
 use crate::mechanics::direction::Direction;
 use crate::mechanics::dissipation::{Dissipation, Part};
 use crate::mechanics::hessian::{Block, Hessian};
@@ -27,7 +26,7 @@ pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
 /// traceless.
 pub(super) fn nothing_vanishes(spec: &Spec, dissipation: &Dissipation, found: &mut Diagnostics) {
     let Some(constraint) = spec.constraint else { return };
-    let group = Some(lower::constraint(constraint.value));
+    let group = Some(constraint.value);
     for Part { form, .. } in dissipation.parts.iter().filter(|part| part.form.frame != Frame::Flat) {
         for (place, energy) in &form.internal {
             let alone =

@@ -2,8 +2,8 @@
 
 use super::frames;
 use crate::diagnostics::{Diagnostics, ForceMistake, Region};
-use crate::spec::{Capability, Constraint, Custom, MomentumKind, Spec};
-use crate::symbol::TermKind;
+use crate::spec::{Capability, Custom, MomentumKind, Spec};
+use crate::symbol::{Constraint, TermKind};
 
 /// The forces are derived, and what they leave conserved is decided, in orthonormal bases, projected under a constraint.
 /// The equations of an isochoric body with `dalembert` are those without the constraint, to which the method adds the

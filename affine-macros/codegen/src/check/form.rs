@@ -204,7 +204,7 @@ fn driven(spec: &Spec, potential: Option<&Potential>) -> bool {
 /// The energy of a motion that may be confined to a group, with the places of its terms; `None` without a common frame,
 /// which such energies have.
 fn confined(arena: &mut Arena, spec: &Spec, stated: Vec<(usize, Term)>) -> Option<(Vec<usize>, Kinetic)> {
-    let group = spec.constraint.as_ref().map(|constraint| lower::constraint(constraint.value));
+    let group = spec.constraint.as_ref().map(|constraint| constraint.value);
     let restated = match group {
         Some(group) => group.restated(arena, stated),
         None => stated,

@@ -2,8 +2,8 @@
 
 use crate::diagnostics::{Diagnostics, FormMistake};
 use crate::lower::constant;
-use crate::spec::{Claim, Constraint, Spec, Term, Value};
-use crate::symbol::{Frame, TermKind};
+use crate::spec::{Claim, Spec, Term, Value};
+use crate::symbol::{Constraint, Frame, TermKind};
 
 /// Where H is derived by inverting a matrix that depends on phi: the terms that are not exactly zero have constant
 /// coefficients in different velocities. Internal and translational ones are inverted apart, and count apart. The

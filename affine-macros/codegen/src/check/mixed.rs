@@ -21,7 +21,7 @@ pub(super) fn energy(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) ->
     if spec.has_metrics() {
         found.report(spec.kinetic_key, FormMistake::SumBeside { key: "metrics(...)" });
     }
-    let group = spec.constraint.as_ref().map(|constraint| lower::constraint(constraint.value));
+    let group = spec.constraint.as_ref().map(|constraint| constraint.value);
     if let Some(lattice) = spec.emit.iter().find(|capability| capability.value == Capability::TwoPolar) {
         let part = "terms of different frames".to_owned();
         found.report(

@@ -21,11 +21,11 @@ impl Model {
     pub fn confinement(&self) -> Option<(String, [String; 2])> {
         let (n, constraint) = (self.dim, self.constraint?);
         let surviving = [self.groups.0, self.groups.1].map(|group| match group {
-            Group::Affine => constraint.name(n),
+            Group::Affine => constraint.group_name(n),
             Group::Metric => format!("SO({n})"),
             Group::Less => format!("a proper subgroup of SO({n})"),
         });
-        Some((constraint.name(n), surviving))
+        Some((constraint.group_name(n), surviving))
     }
 
     /// Names of the conserved quantities.

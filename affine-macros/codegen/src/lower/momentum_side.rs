@@ -41,6 +41,6 @@ pub fn stated(arena: &mut Arena, spec: &Spec) -> Option<Stated> {
     }
     let moving = translation.as_ref().map(|(_, frame, _)| *frame);
     let frame = norm.or(moving).unwrap_or(Frame::Body);
-    let constraint = spec.constraint.as_ref().map(|constraint| super::constraint(constraint.value));
+    let constraint = spec.constraint.as_ref().map(|constraint| constraint.value);
     Some(Stated { dim: n, constraint, frame, parts, translation })
 }

@@ -14,21 +14,12 @@ use crate::algebra::{Expr, Matrix, Polynomial, Rational};
 use super::direction::{BasisVector, Direction};
 use super::term::TermKind;
 
-/// The subgroup that the motion is confined to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Constraint {
-    /// SL(n): `det phi = 1`; `g` is traceless.
-    Isochoric,
-    /// SO(n): `phi^T phi = 1`; `g` is skew.
-    Rigid,
-    /// R+ SO(n): `phi^T phi` is a multiple of the identity; `g` is skew plus multiples of the identity.
-    Conformal,
-}
+pub use crate::symbol::Constraint;
 
 impl Constraint {
     /// Name of the group.
     #[must_use]
-    pub fn name(self, n: usize) -> String {
+    pub fn group_name(self, n: usize) -> String {
         match self {
             Self::Isochoric => format!("SL({n})"),
             Self::Rigid => format!("SO({n})"),

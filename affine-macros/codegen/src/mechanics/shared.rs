@@ -78,7 +78,7 @@ impl Shared<'_> {
         }
         let inverse_det = Polynomial::atom(inverse_det);
         let inverse = table(phi.len(), |a, i| cofactors[a][i].mul(&inverse_det));
-        self.matrix(Quantity::PlacementInverse, &inverse)
+        self.matrix(Quantity::InversePlacement, &inverse)
     }
 }
 

@@ -9,12 +9,12 @@ use super::expression_parser::{self, Language};
 use super::item::Item;
 use super::keys::{Key, Side};
 use super::momentum_side::{self, MomentumKind};
-use super::names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement, nearest};
+use super::names::{Capability, Claim, Named, PlacementGroup, Requirement, nearest};
 use super::spanned::Spanned;
 use super::statement::{Metric, Potential, Spec, Symmetry, Term};
 use super::value;
 use crate::diagnostics::{Diagnostics, NotationMistake, Region, Reported};
-use crate::symbol::TermKind;
+use crate::symbol::{Constraint, TermKind};
 
 /// Terms that `hamiltonian(...)` has, and `kinetic(...)` and `dissipation(...)` have not.
 const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];

@@ -1,6 +1,6 @@
 //! The names of the specification language, and how a misspelt one finds its neighbour.
 
-use crate::symbol::TermKind;
+use crate::symbol::{Constraint, TermKind};
 
 /// A closed set of names.
 pub trait Named: Copy + 'static {
@@ -59,17 +59,6 @@ impl Named for PlacementGroup {
             Self::Unitary => "unitary",
         }
     }
-}
-
-/// The group that the motion is confined to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Constraint {
-    /// SL(n).
-    Isochoric,
-    /// SO(n).
-    Rigid,
-    /// R+ SO(n).
-    Conformal,
 }
 
 impl Named for Constraint {

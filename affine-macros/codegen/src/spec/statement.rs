@@ -4,10 +4,10 @@ use super::custom::Custom;
 use super::expression::Expression;
 use super::item::Item;
 use super::momentum_side::MomentumKind;
-use super::names::{Capability, Claim, Constraint, Named, PlacementGroup, Requirement};
+use super::names::{Capability, Claim, Named, PlacementGroup, Requirement};
 use super::spanned::Spanned;
 use crate::diagnostics::Region;
-use crate::symbol::TermKind;
+use crate::symbol::{Constraint, TermKind};
 
 /// A model as stated by the attribute and the struct below it.
 pub struct Spec {

@@ -26,9 +26,7 @@ quantities! {
     Time "t" TimeOfFlow "h" Work "work" Coefficient "c" Constant "k"
     Position "x" CentreVelocity "x_dot" ComovingCentreVelocity "v_hat" GivenVelocity "v"
     Placement "phi" PlacementVelocity "phi_dot" FlatVelocity "velocity"
-    // `phi^-1` of forces through the determinant, and of sums of frames.
-    PlacementInverse "phi_inverse" InversePlacement "inverse_phi"
-    AffineVelocity "omega" ComovingAffineVelocity "omega_hat"
+    InversePlacement "phi_inverse" AffineVelocity "omega" ComovingAffineVelocity "omega_hat"
     LinearMomentum "p" ComovingLinearMomentum "p_hat" CanonicalMomentum "pi"
     AffineSpin "sigma" ComovingAffineSpin "sigma_hat" TotalAffineMomentum "total"
     // Mass matrices, and the basis of velocities that a constraint leaves.

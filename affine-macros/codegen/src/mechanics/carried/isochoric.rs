@@ -10,7 +10,7 @@ use crate::symbol::Quantity;
 
 /// Do the forces take the inverse of `phi`?
 pub(super) fn inverts_the_placement(arena: &mut Arena, chart: &Chart, tidied: &System) -> bool {
-    let inverse = Matrix::symbols(arena, Quantity::PlacementInverse, chart.dim).0.concat();
+    let inverse = Matrix::symbols(arena, Quantity::InversePlacement, chart.dim).0.concat();
     let takes = |symbol: Expr| tidied.shared.iter().any(|(known, _)| *known == symbol);
     // On a flat body negative powers of the determinant stand beside cofactors.
     let powers = arena.symbols([Quantity::InverseDeterminant, Quantity::InverseDilatation]);
@@ -133,7 +133,7 @@ fn through_the_isochoric_part(arena: &mut Arena, chart: &Chart, system: &System,
     let psi = Matrix::symbols(arena, Quantity::IsochoricPlacement, n).0;
     let adjugate = adjugate(&atoms(&psi));
     let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n).0;
-    let inverse = Matrix::symbols(arena, Quantity::PlacementInverse, n).0;
+    let inverse = Matrix::symbols(arena, Quantity::InversePlacement, n).0;
     let names = arena.symbols([Quantity::Determinant, Quantity::InverseDeterminant, Quantity::Dilatation]);
     let [det, inverse_det, dilatation] = names;
     let mut system = Powers::new(arena, chart, r, true).of_system(arena, system);

@@ -119,7 +119,7 @@ pub const SYMBOLS: &[Letter] = &[
     whole("v_hat", "\\hat v", "the co-moving velocity phi^-1 dx/dt"),
     whole("phi", "\\varphi", "the placement"),
     of(Quantity::Placement, "phi_#", "\\varphi_{#}", "its entries"),
-    raised(of(Quantity::PlacementInverse, "phi_inverse_#", "\\varphi^{-1}_{#}", "entries of phi^-1")),
+    raised(of(Quantity::InversePlacement, "phi_inverse_#", "\\varphi^{-1}_{#}", "entries of phi^-1")),
     whole("phi_dot", "\\dot\\varphi", "the velocity of the placement"),
     of(Quantity::PlacementVelocity, "phi_dot_#", "\\dot\\varphi_{#}", "its entries"),
     whole("Omega", "\\Omega", "the affine velocity dphi/dt phi^-1"),
