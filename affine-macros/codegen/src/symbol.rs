@@ -8,7 +8,7 @@ use std::fmt::{Display, Formatter, Result};
 
 pub use constraint::Constraint;
 pub use quantity::Quantity;
-pub use term::{Frame, TermKind};
+pub use term::{Frame, Pattern, TermKind};
 
 /// An indeterminate; indices count from 1.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

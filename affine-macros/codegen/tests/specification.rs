@@ -4,7 +4,7 @@
 use affine_codegen::check;
 use affine_codegen::diagnostics::gate;
 use affine_codegen::expand;
-use affine_codegen::spec::{Claim, Named, POTENTIAL_SYMBOLS, SYMBOLS, Spec, Symbol, Value, parse};
+use affine_codegen::spec::{Claim, POTENTIAL_SYMBOLS, SYMBOLS, Spec, Symbol, Value, parse};
 use affine_codegen::symbol::TermKind;
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
@@ -107,7 +107,7 @@ fn every_term_is_read_in_both_dimensions() {
                     struct M;
                 ),
             );
-            assert!(spec.term(*kind).is_some());
+            assert!(spec.term(kind).is_some());
         }
     }
 }

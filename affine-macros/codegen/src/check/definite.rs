@@ -6,7 +6,7 @@ use crate::mechanics::direction::Direction;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::term::Frame;
-use crate::spec::{self, Named, Requirement, Spec};
+use crate::spec::{self, Requirement, Spec};
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic
 /// form is zero, and a tensor has no kernel. Blocks with fields are left to `prepare()`.

@@ -4,7 +4,7 @@ use super::identity::equal;
 use crate::algebra::Rational;
 use crate::diagnostics::{Diagnostics, TermMistake};
 use crate::lower::constant;
-use crate::spec::{Expression, Named, Spec, Term, Value};
+use crate::spec::{Expression, Spec, Term, Value};
 use crate::symbol::TermKind;
 
 /// p = m x_dot: a zero mass leaves the velocity open. A negative mass is a legitimate indefinite energy beside

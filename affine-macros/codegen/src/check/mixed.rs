@@ -8,7 +8,7 @@ use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::mixed::{Internal, Masses, Mixed};
 use crate::mechanics::term::{Frame, Term};
-use crate::spec::{Capability, Named, Requirement, Spec};
+use crate::spec::{Capability, Requirement, Spec};
 
 use super::form::{self, Energy};
 use super::{capabilities, definite};

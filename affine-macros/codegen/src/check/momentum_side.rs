@@ -20,7 +20,8 @@ pub(super) fn scalars(spec: &Spec, found: &mut Diagnostics) {
             term: term.kind.value.name(),
             found: written,
             takes: "a scalar: it multiplies one invariant of the affine spin or of p".to_owned(),
-            instead: "write one expression, as in `casimir2 = 5/6`; inertias and tensors are stated in `kinetic(...)`",
+            instead: "write one expression, as in `casimir2 = 5/6`; inertias and tensors are stated in `kinetic(...)`"
+                .to_owned(),
         };
         found.report(term.span, mistake);
     }

@@ -1,8 +1,8 @@
 //! Scalars, diagonals and matrices where they belong, and of the size that the dimension asks for.
 
 use crate::diagnostics::{Diagnostics, Region, TermMistake};
-use crate::spec::{Expression, Named, Spec, Term, Value};
-use crate::symbol::TermKind;
+use crate::spec::{Expression, Spec, Term, Value};
+use crate::symbol::{Frame, Pattern, TermKind};
 
 /// Casimirs and masses are multiples of one invariant form, an inertia J is of any kind (4.17), a tensor has n^4
 /// entries.
@@ -13,46 +13,44 @@ pub(super) fn shapes(spec: &Spec, found: &mut Diagnostics) {
             Value::Diagonal(_) => "a diagonal matrix",
             Value::Matrix(_) => "a matrix",
         };
-        let (fits, takes, instead) = accepted(term);
-        if !fits {
-            let mistake = TermMistake::TermShape {
-                term: term.kind.value.name(),
-                found: written,
-                takes: takes.to_owned(),
-                instead,
-            };
+        if let Some((takes, instead)) = refused(term) {
+            let name = term.kind.value.name();
+            let mistake = TermMistake::TermShape { term: name, found: written, takes, instead };
             found.report(term.span, mistake);
         }
     }
 }
 
-fn accepted(term: &Term) -> (bool, &'static str, &'static str) {
-    let scalar = matches!(term.value, Value::Scalar(_));
-    match term.kind.value {
-        TermKind::Casimir2 | TermKind::Casimir1Squared => (
-            scalar,
+/// What the term takes, and what to write, where it is given something else.
+fn refused(term: &Term) -> Option<(String, String)> {
+    let kind = term.kind.value;
+    let scalar = |takes: &str, instead: &str| match term.value {
+        Value::Scalar(_) => None,
+        _ => Some((takes.to_owned(), instead.to_owned())),
+    };
+    match (kind.pattern(), &term.value) {
+        (Pattern::TraceOfSquare | Pattern::SquareOfTrace, _) => scalar(
             "a scalar: it multiplies one invariant of the affine velocity",
             "write one expression, as in `casimir2 = a + 1/2`",
         ),
-        TermKind::BodyTranslation | TermKind::SpaceTranslation => {
-            (scalar, "a scalar, the mass", "write one expression, as in `body_translation = m`")
+        (Pattern::Centre, _) => {
+            scalar("a scalar, the mass", "write one expression, as in `body_translation = m`")
         }
-        TermKind::BodyInertia | TermKind::SpaceInertia | TermKind::Dalembert => (true, "", ""),
-        TermKind::BodyTensor => (
-            matches!(term.value, Value::Matrix(_)),
-            "an n^2 x n^2 nested matrix K, the form 1/2 K[(A,B),(C,D)] Oh[A,B] Oh[C,D]",
-            "write `[[...], ...]`, or `body_inertia` for 1/2 tr(Oh J Oh^T)",
-        ),
-        TermKind::SpaceTensor => (
-            matches!(term.value, Value::Matrix(_)),
-            "an n^2 x n^2 nested matrix K, the form 1/2 K[(A,B),(C,D)] Om[A,B] Om[C,D]",
-            "write `[[...], ...]`, or `space_inertia` for 1/2 tr(Om J Om^T)",
-        ),
-        TermKind::FlatTensor => (
-            matches!(term.value, Value::Matrix(_)),
-            "an n^2 x n^2 nested matrix K, the form 1/2 K[(A,B),(C,D)] phi_dot[A,B] phi_dot[C,D]",
-            "write `[[...], ...]`, or `dalembert` for 1/2 tr(phi_dot J phi_dot^T)",
-        ),
+        (Pattern::Rows, _) | (Pattern::Pairs, Value::Matrix(_)) => None,
+        (Pattern::Pairs, _) => {
+            let o = match kind.internal_frame() {
+                Some(Frame::Space) => "Om",
+                Some(Frame::Flat) => "phi_dot",
+                _ => "Oh",
+            };
+            let same =
+                |other: &TermKind| other.is_inertia() && other.internal_frame() == kind.internal_frame();
+            let inertia = TermKind::ALL.into_iter().find(same).map_or("", TermKind::name);
+            Some((
+                format!("an n^2 x n^2 nested matrix K, the form 1/2 K[(A,B),(C,D)] {o}[A,B] {o}[C,D]"),
+                format!("write `[[...], ...]`, or `{inertia}` for 1/2 tr({o} J {o}^T)"),
+            ))
+        }
     }
 }
 
@@ -62,10 +60,10 @@ pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
     let n = spec.dim.value;
     for term in spec.forms() {
         let kind = term.kind.value;
-        let (expected, because) = match kind {
-            kind if kind.is_inertia() => (n, format!("n = {n}")),
-            kind if kind.is_tensor() => (n * n, format!("n^2 = {}", n * n)),
-            _ => continue,
+        let (expected, because) = match kind.pattern() {
+            Pattern::Rows => (n, format!("n = {n}")),
+            Pattern::Pairs => (n * n, format!("n^2 = {}", n * n)),
+            Pattern::TraceOfSquare | Pattern::SquareOfTrace | Pattern::Centre => continue,
         };
         for (at, counted, actual) in counts(&term.value, term.span, expected) {
             if actual != expected {

@@ -2,7 +2,7 @@
 
 use super::identity::equal;
 use crate::diagnostics::{Diagnostics, TermMistake};
-use crate::spec::{Expression, Named, Spec, Term, Value};
+use crate::spec::{Expression, Spec, Term, Value};
 
 /// K[(A,B),(C,D)] = K[(C,D),(A,B)]: T sees only the part of K that is symmetric under exchange of the pairs,
 /// so a tensor without this symmetry has a slip in it. The row and column of (A,B) are n(A-1)+B.

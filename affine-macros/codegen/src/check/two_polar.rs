@@ -4,7 +4,7 @@ use crate::diagnostics::{CapabilityMistake, Diagnostics, Reported};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by};
-use crate::spec::{Capability, Named, Spec};
+use crate::spec::{Capability, Spec};
 
 /// Is `two_polar` asked for? The stretches and `M`, `N` move by themselves only in doubly isotropic models: kinetic and
 /// potential energy unchanged by O(n) in space and in the body, (6.2) to (6.5).

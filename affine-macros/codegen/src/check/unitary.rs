@@ -2,7 +2,7 @@
 
 use crate::diagnostics::{CapabilityMistake, Diagnostics};
 use crate::spec::{Capability, Named, Spec};
-use crate::symbol::TermKind;
+use crate::symbol::Pattern;
 
 /// On U(n) the Casimir terms stand, `-A/2 tr Om^2 - B/2 (tr Om)^2` (89): `Om` is anti-Hermitian, every other term breaks
 /// the symmetry from both sides that the lattice form rests on, and there are no coordinates of a centre or stretches
@@ -12,7 +12,7 @@ pub(super) fn casimirs_alone(spec: &Spec, found: &mut Diagnostics) {
         return;
     }
     for term in &spec.kinetic {
-        if !matches!(term.kind.value, TermKind::Casimir2 | TermKind::Casimir1Squared) {
+        if !matches!(term.kind.value.pattern(), Pattern::TraceOfSquare | Pattern::SquareOfTrace) {
             found.report(term.kind.span, CapabilityMistake::UnitaryTerm { part: term.kind.value.name() });
         }
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::algebra::Rational;
 use crate::diagnostics::Directions;
 use crate::mechanics::direction::Direction;
-use crate::spec::{self, Named, Value};
+use crate::spec::{self, Value};
 
 /// The internal terms of a quadratic form as the user wrote them.
 pub(super) struct Written<'a> {

@@ -63,7 +63,7 @@ pub enum NotationMistake {
         /// The key.
         key: &'static str,
         /// How it may look.
-        example: &'static str,
+        example: String,
     },
     /// A key without its parenthesised list.
     ExpectedList {

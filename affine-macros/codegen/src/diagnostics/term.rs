@@ -15,7 +15,7 @@ pub enum TermMistake {
         /// What the term takes.
         takes: String,
         /// What to write.
-        instead: &'static str,
+        instead: String,
     },
     /// A matrix of the wrong size.
     MatrixSize {
@@ -106,7 +106,7 @@ impl TermMistake {
     pub(super) fn text(&self) -> Text {
         match self {
             Self::TermShape { term, found, takes, instead } => {
-                text(format!("`{term}` is given {found}"), format!("`{term}` takes {takes}"), *instead)
+                text(format!("`{term}` is given {found}"), format!("`{term}` takes {takes}"), instead.clone())
             }
             Self::MatrixSize { term, counted, found, expected, because } => text(
                 format!("the matrix of `{term}` has {found} {counted}, not {expected}"),

@@ -5,7 +5,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::constraint::Constraint;
 use super::metrics::Congruent;
-use super::term::{Coefficient, Frame, Term, TermKind};
+use super::term::{Coefficient, Frame, Pattern, Term, TermKind};
 
 /// A kinetic energy with constant coefficients in one internal and at most one translational frame.
 #[derive(Clone, Debug)]
@@ -181,9 +181,9 @@ fn internal_energy(arena: &mut Arena, o: &Matrix, term: &Term) -> Polynomial {
         Coefficient::Scalar(c) => {
             let c = Polynomial::normal_form(arena, *c);
             for (a, b) in pairs() {
-                match term.kind {
-                    TermKind::Casimir2 => add(o.0[a][b], &c, o.0[b][a]),
-                    TermKind::Casimir1Squared => add(o.0[a][a], &c, o.0[b][b]),
+                match term.kind.pattern() {
+                    Pattern::TraceOfSquare => add(o.0[a][b], &c, o.0[b][a]),
+                    Pattern::SquareOfTrace => add(o.0[a][a], &c, o.0[b][b]),
                     _ => add(o.0[a][b], &c, o.0[a][b]),
                 }
             }

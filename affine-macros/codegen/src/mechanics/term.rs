@@ -2,7 +2,7 @@
 
 use crate::algebra::{Expr, Matrix};
 
-pub use crate::symbol::{Frame, TermKind};
+pub use crate::symbol::{Frame, Pattern, TermKind};
 
 /// A term of the kinetic energy and its coefficient.
 #[derive(Clone, Debug)]

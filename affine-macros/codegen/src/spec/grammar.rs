@@ -159,8 +159,10 @@ fn expect_value(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Piece, Rep
         Body::Value(piece) if !piece.tokens.is_empty() => Ok(piece),
         Body::Refused(reported) => Err(reported),
         _ => {
-            let mistake =
-                NotationMistake::ExpectedValue { key: entry.key.name(), example: entry.key.example() };
+            let mistake = NotationMistake::ExpectedValue {
+                key: entry.key.name(),
+                example: entry.key.example().to_owned(),
+            };
             Err(found.report(entry.at, mistake))
         }
     }
@@ -213,14 +215,14 @@ fn claim(entry: &Entry<Side>, found: &mut Diagnostics) -> Option<Spanned<Claim>>
                 Side::Space => ("space", "space = affine"),
                 Side::Body => ("body", "body = metric"),
             };
-            found.report(entry.at, NotationMistake::ExpectedValue { key, example });
+            found.report(entry.at, NotationMistake::ExpectedValue { key, example: example.to_owned() });
             return None;
         }
     };
     member("claim", piece.tokens.clone(), piece.at, found)
 }
 
-/// A list of terms: its key, the terms that belong to the other side, and how a term may look.
+/// A list of terms: its key, the terms that belong to the other side, and a value that a term may have.
 struct TermList<K> {
     name: &'static str,
     elsewhere: &'static [&'static str],
@@ -228,7 +230,7 @@ struct TermList<K> {
 }
 
 const KINETIC: TermList<TermKind> =
-    TermList { name: "kinetic", elsewhere: &MOMENTUM_TERMS, example: value::example };
+    TermList { name: "kinetic", elsewhere: &MOMENTUM_TERMS, example: TermKind::example };
 const HAMILTONIAN: TermList<MomentumKind> =
     TermList { name: "hamiltonian", elsewhere: &VELOCITY_TERMS, example: momentum_side::example };
 const DISSIPATION: TermList<TermKind> = TermList { name: "dissipation", ..KINETIC };
@@ -255,7 +257,7 @@ fn terms<K: Named + PartialEq>(
             _ => {
                 let mistake = NotationMistake::ExpectedValue {
                     key: entry.key.name(),
-                    example: (side.example)(entry.key),
+                    example: format!("{} = {}", entry.key.name(), (side.example)(entry.key)),
                 };
                 found.report(entry.at, mistake);
             }
@@ -281,7 +283,10 @@ fn metrics(list: Result<Group, Reported>, found: &mut Diagnostics) -> [Option<Me
             }
             Body::Refused(_) => {}
             _ => {
-                found.report(entry.at, NotationMistake::ExpectedValue { key: side, example });
+                found.report(
+                    entry.at,
+                    NotationMistake::ExpectedValue { key: side, example: example.to_owned() },
+                );
             }
         }
     }

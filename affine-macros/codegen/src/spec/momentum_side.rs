@@ -53,15 +53,15 @@ impl MomentumKind {
     }
 }
 
-/// How a term may look, in a message.
+/// A value that a term may have, in a message.
 pub(super) fn example(kind: MomentumKind) -> &'static str {
     match kind {
-        MomentumKind::Casimir2 => "casimir2 = 5/6",
-        MomentumKind::Casimir1Squared => "casimir1_squared = -1/18",
-        MomentumKind::VorticitySquared => "vorticity_squared = 25/24",
-        MomentumKind::SpinSquared => "spin_squared = 25/24",
-        MomentumKind::BodyTranslation => "body_translation = 1/2",
-        MomentumKind::SpaceTranslation => "space_translation = 1/2",
-        MomentumKind::Casimir3 => "casimir3 = 0.1",
+        MomentumKind::Casimir2 => "5/6",
+        MomentumKind::Casimir1Squared => "-1/18",
+        MomentumKind::VorticitySquared => "25/24",
+        MomentumKind::SpinSquared => "25/24",
+        MomentumKind::BodyTranslation => "1/2",
+        MomentumKind::SpaceTranslation => "1/2",
+        MomentumKind::Casimir3 => "0.1",
     }
 }

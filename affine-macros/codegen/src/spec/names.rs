@@ -168,32 +168,10 @@ impl Named for Capability {
 }
 
 impl Named for TermKind {
-    const ALL: &'static [Self] = &[
-        Self::Casimir2,
-        Self::Casimir1Squared,
-        Self::BodyInertia,
-        Self::SpaceInertia,
-        Self::BodyTranslation,
-        Self::SpaceTranslation,
-        Self::Dalembert,
-        Self::BodyTensor,
-        Self::SpaceTensor,
-        Self::FlatTensor,
-    ];
+    const ALL: &'static [Self] = &TermKind::ALL;
 
     fn name(self) -> &'static str {
-        match self {
-            Self::Casimir2 => "casimir2",
-            Self::Casimir1Squared => "casimir1_squared",
-            Self::BodyInertia => "body_inertia",
-            Self::SpaceInertia => "space_inertia",
-            Self::BodyTranslation => "body_translation",
-            Self::SpaceTranslation => "space_translation",
-            Self::Dalembert => "dalembert",
-            Self::BodyTensor => "body_tensor",
-            Self::SpaceTensor => "space_tensor",
-            Self::FlatTensor => "flat_tensor",
-        }
+        TermKind::name(self)
     }
 }
 

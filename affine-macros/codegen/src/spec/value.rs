@@ -7,23 +7,6 @@ use super::expression::Expression;
 use super::expression_parser::{self, Language};
 use super::statement::Value;
 use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
-use crate::symbol::TermKind;
-
-/// How a term may look, in a message.
-pub(super) fn example(kind: TermKind) -> &'static str {
-    match kind {
-        TermKind::Casimir2 => "casimir2 = 0.2",
-        TermKind::Casimir1Squared => "casimir1_squared = 0.1",
-        TermKind::BodyInertia => "body_inertia = 1",
-        TermKind::SpaceInertia => "space_inertia = 1",
-        TermKind::BodyTranslation => "body_translation = 1",
-        TermKind::SpaceTranslation => "space_translation = 1",
-        TermKind::Dalembert => "dalembert = diag(1, 2, 3)",
-        TermKind::BodyTensor => "body_tensor = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
-        TermKind::SpaceTensor => "space_tensor = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
-        TermKind::FlatTensor => "flat_tensor = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
-    }
-}
 
 pub(super) fn parse(piece: Piece, found: &mut Diagnostics) -> Result<Value, Reported> {
     let Piece { tokens, at } = piece;

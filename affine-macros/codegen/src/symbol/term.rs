@@ -60,43 +60,112 @@ impl Frame {
     }
 }
 
+/// How a quadratic form reads the velocity `O` of its frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pattern {
+    /// `c/2 tr O^2`.
+    TraceOfSquare,
+    /// `c/2 (tr O)^2`.
+    SquareOfTrace,
+    /// `1/2 tr(O J O^T)`, with `J` an n x n inertia or a multiple of the identity.
+    Rows,
+    /// `1/2 K[nA+B][nC+D] O[A][B] O[C][D]`, a form on pairs of indices.
+    Pairs,
+    /// `m/2 |v|^2` of the velocity `v` of the centre of mass, `x_dot` or `phi^-1 x_dot`.
+    Centre,
+}
+
+/// What is known of a kind of term.
+struct Row {
+    /// Its name in a specification.
+    name: &'static str,
+    /// The frame that makes its coefficients constant; `None` where any of body and space does.
+    frame: Option<Frame>,
+    pattern: Pattern,
+    /// A value that it may have, in messages.
+    example: &'static str,
+}
+
+const UNIT_TENSOR: &str = "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]";
+
 impl TermKind {
-    /// The frame that makes the term's coefficients constant; `None` where any of body and space does.
-    #[must_use]
-    pub fn internal_frame(self) -> Option<Frame> {
+    /// All kinds, in the order in which messages list them.
+    pub const ALL: [TermKind; 10] = [
+        TermKind::Casimir2,
+        TermKind::Casimir1Squared,
+        TermKind::BodyInertia,
+        TermKind::SpaceInertia,
+        TermKind::BodyTranslation,
+        TermKind::SpaceTranslation,
+        TermKind::Dalembert,
+        TermKind::BodyTensor,
+        TermKind::SpaceTensor,
+        TermKind::FlatTensor,
+    ];
+
+    /// The table of the kinds.
+    fn row(self) -> Row {
+        let row = |name, frame, pattern, example| Row { name, frame, pattern, example };
+        let [body, space, flat] = [Frame::Body, Frame::Space, Frame::Flat].map(Some);
         match self {
-            TermKind::BodyInertia | TermKind::BodyTensor => Some(Frame::Body),
-            TermKind::SpaceInertia | TermKind::SpaceTensor => Some(Frame::Space),
-            TermKind::Dalembert | TermKind::FlatTensor => Some(Frame::Flat),
-            _ => None,
+            TermKind::Casimir2 => row("casimir2", None, Pattern::TraceOfSquare, "0.2"),
+            TermKind::Casimir1Squared => row("casimir1_squared", None, Pattern::SquareOfTrace, "0.1"),
+            TermKind::BodyInertia => row("body_inertia", body, Pattern::Rows, "1"),
+            TermKind::SpaceInertia => row("space_inertia", space, Pattern::Rows, "1"),
+            TermKind::Dalembert => row("dalembert", flat, Pattern::Rows, "diag(1, 2, 3)"),
+            TermKind::BodyTensor => row("body_tensor", body, Pattern::Pairs, UNIT_TENSOR),
+            TermKind::SpaceTensor => row("space_tensor", space, Pattern::Pairs, UNIT_TENSOR),
+            TermKind::FlatTensor => row("flat_tensor", flat, Pattern::Pairs, UNIT_TENSOR),
+            TermKind::BodyTranslation => row("body_translation", body, Pattern::Centre, "1"),
+            TermKind::SpaceTranslation => row("space_translation", space, Pattern::Centre, "1"),
         }
     }
 
-    /// `1/2 K[(A,B),(C,D)] O[A,B] O[C,D]`, a form on pairs of indices?
+    /// Its name in a specification.
     #[must_use]
-    pub fn is_tensor(self) -> bool {
-        matches!(self, TermKind::BodyTensor | TermKind::SpaceTensor | TermKind::FlatTensor)
+    pub fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    /// A value that it may have, as written in a specification.
+    #[must_use]
+    pub fn example(self) -> &'static str {
+        self.row().example
+    }
+
+    /// How it reads the velocity of its frame.
+    #[must_use]
+    pub fn pattern(self) -> Pattern {
+        self.row().pattern
+    }
+
+    /// The frame that makes the coefficients of an internal term constant; `None` where any of body and space does.
+    #[must_use]
+    pub fn internal_frame(self) -> Option<Frame> {
+        self.row().frame.filter(|_| !self.is_translation())
     }
 
     /// The frame of a translational term.
     #[must_use]
     pub fn translation_frame(self) -> Option<Frame> {
-        match self {
-            TermKind::BodyTranslation => Some(Frame::Body),
-            TermKind::SpaceTranslation => Some(Frame::Space),
-            _ => None,
-        }
+        self.row().frame.filter(|_| self.is_translation())
+    }
+
+    /// `1/2 K[(A,B),(C,D)] O[A,B] O[C,D]`, a form on pairs of indices?
+    #[must_use]
+    pub fn is_tensor(self) -> bool {
+        self.pattern() == Pattern::Pairs
     }
 
     /// A kinetic energy of the centre of mass, in x_dot?
     #[must_use]
     pub fn is_translation(self) -> bool {
-        self.translation_frame().is_some()
+        self.pattern() == Pattern::Centre
     }
 
     /// `1/2 tr(O J O^T)` over `Oh`, `Om` or `phi_dot`, with `J` an n x n inertia or a multiple of the identity?
     #[must_use]
     pub fn is_inertia(self) -> bool {
-        self.internal_frame().is_some() && !self.is_tensor()
+        self.pattern() == Pattern::Rows
     }
 }
