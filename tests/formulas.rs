@@ -7,6 +7,7 @@ use std::sync::LazyLock;
 
 use affine_codegen::expand;
 use affine_codegen::mechanics::notation::{SYMBOLS, is_symbol};
+use affine_tests::specimens::{BY_EQUATIONS, IN_FULL};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use pulldown_latex::{Parser, Storage};
 
@@ -70,16 +71,8 @@ fn literal(token: TokenTree) -> Option<String> {
 
 /// The models of all snapshots.
 fn snapshots() -> Vec<Described> {
-    let folder = std::fs::read_dir("snapshots").expect("the snapshots");
-    let mut paths: Vec<_> = folder.map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    assert!(paths.len() > 100);
-    let read = |path: &std::path::PathBuf| {
-        let snapshot = std::fs::read_to_string(path).unwrap();
-        let (_, code) = snapshot.split_once("\n---\n").expect("a head and the code");
-        Described::new(&path.file_stem().unwrap().to_string_lossy(), code.parse().unwrap())
-    };
-    paths.iter().map(read).collect()
+    let specimens = [IN_FULL, BY_EQUATIONS].concat();
+    specimens.iter().map(|model| Described::derived(model.args, &model.item())).collect()
 }
 
 /// Models with names that are easily taken for something else.

@@ -10,4 +10,5 @@ pub mod group;
 pub mod jet;
 pub mod models;
 pub mod reference;
+pub mod specimens;
 pub mod tolerances;

@@ -1,0 +1,108 @@
+//! What tells a model from others of the same shape: its documentation, its reduced equations, and how long each item is.
+
+use std::fmt::Write;
+
+use quote::ToTokens;
+use syn::{Attribute, Expr, ExprStruct, FieldValue, ImplItem, Item, ItemImpl, Member, Stmt};
+
+use crate::items;
+
+/// The struct where it has fields, documentation, reduced equations, and lines of each item.
+pub(crate) fn of(file: &syn::File) -> String {
+    let blocks = items::all(file).into_iter().filter_map(|item| match item {
+        Item::Impl(block) => Some(block),
+        _ => None,
+    });
+    let described: String = blocks.map(|block| described(&block)).collect();
+    assert!(!described.is_empty(), "a model is documented");
+    let mut text = fields(&file.items) + &described;
+    let mut heads: Vec<(String, String)> = Vec::new();
+    for item in items::of(file) {
+        let (head, name) = item.shape.split_once(": ").unwrap_or(("free", &item.shape));
+        let word =
+            if head.starts_with("struct") { name.to_owned() } else { format!("{name} {}", item.lines) };
+        match heads.iter_mut().find(|(known, _)| known == head) {
+            Some((_, words)) => *words += &format!(", {word}"),
+            None => heads.push((head.to_owned(), word)),
+        }
+    }
+    for (head, words) in heads {
+        writeln!(text, "{head}: {words}").expect("a string can be written");
+    }
+    text
+}
+
+fn fields(items: &[Item]) -> String {
+    match items {
+        [Item::Struct(model), ..] if !model.fields.is_empty() => {
+            prettyplease::unparse(&syn::parse2(model.to_token_stream()).expect("a struct"))
+        }
+        _ => String::new(),
+    }
+}
+
+/// The documentation of an implementation, and what the description of a model says besides.
+fn described(block: &ItemImpl) -> String {
+    let lines = block.attrs.iter().filter_map(documentation);
+    let (heading, lines): (Vec<String>, Vec<String>) = lines
+        .filter(|line| !line.is_empty() && !line.starts_with("```"))
+        .partition(|line| line.ends_with("`DESCRIPTION.reduced_equations`."));
+    let text: String = lines.iter().chain(&heading).map(|line| format!("{line}\n")).collect();
+    let constant = block.items.iter().find_map(|item| match item {
+        ImplItem::Const(constant) if constant.ident == "DESCRIPTION" => Some(&constant.expr),
+        _ => None,
+    });
+    text + &constant.map(|description| undocumented(literal(description))).unwrap_or_default()
+}
+
+/// What the documentation leaves to the description.
+fn undocumented(description: &ExprStruct) -> String {
+    let field = |name: &str| {
+        let is_named = |field: &&FieldValue| matches!(&field.member, Member::Named(known) if known == name);
+        &description.fields.iter().find(is_named).unwrap_or_else(|| panic!("no `{name}`")).expr
+    };
+    let mut text = String::new();
+    for equation in elements(field("reduced_equations")) {
+        // Where they are Hamilton's equations, they are shared with these.
+        let start = equation.split_once("text : \"").map_or(equation.as_str(), |(_, text)| text);
+        let text_alone = start.split_once('"').map_or(start, |(text, _)| text);
+        writeln!(text, "- {text_alone}").expect("a string can be written");
+    }
+    let facts = ["full", "reduced", "domain", "angles"].map(|name| {
+        let values: Vec<String> = elements(field(name))
+            .iter()
+            .map(|value| value.replace(' ', "").replace("rt::", "").replace("Group::new(Quantity::", "("))
+            .collect();
+        format!("{name}: {}", values.join(" "))
+    });
+    text + &facts.join(", ") + "\n"
+}
+
+/// The struct literal at the end of a block.
+fn literal(expression: &Expr) -> &ExprStruct {
+    match expression {
+        Expr::Struct(literal) => literal,
+        Expr::Block(block) => match block.block.stmts.last() {
+            Some(Stmt::Expr(last, None)) => literal(last),
+            _ => panic!("a block without a value"),
+        },
+        _ => panic!("neither a block nor a struct literal"),
+    }
+}
+
+/// The elements of a slice, or the value itself.
+fn elements(expression: &Expr) -> Vec<String> {
+    match expression {
+        Expr::Reference(reference) => elements(&reference.expr),
+        Expr::Array(array) => {
+            array.elems.iter().map(|element| element.to_token_stream().to_string()).collect()
+        }
+        other => vec![other.to_token_stream().to_string()],
+    }
+}
+
+fn documentation(attribute: &Attribute) -> Option<String> {
+    let pair = attribute.meta.require_name_value().ok().filter(|pair| pair.path.is_ident("doc"))?;
+    let Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(line), .. }) = &pair.value else { return None };
+    Some(line.value().trim().to_owned())
+}
