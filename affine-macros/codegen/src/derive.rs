@@ -28,13 +28,14 @@ mod written;
 
 use crate::algebra::bind::Constants;
 use crate::ir::fuse::fuse;
+use crate::mechanics::body::Body;
 use crate::mechanics::describe::{Described, Notation};
 use crate::mechanics::form::Form;
 use crate::mechanics::motion::Motion;
 use crate::optimise::straight_line;
 use crate::symbol::Quantity;
 
-use body::{Body, Kept};
+use body::Kept;
 use prepared::{coefficient_program, damping, numeric_blocks};
 use programs::Reduced;
 use quantities::Quantities;
@@ -82,7 +83,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let formulas = body.formulas(arena, &notation, &chart, &reduction, closed_form)?;
     let programs = body.programs(arena, &chart, &mut coefficients)?;
     let dilatation = reduction
-        .separation
+        .dilatation
         .as_ref()
         .map(|separation| fuse(&straight_line(arena, &separation.batch(), &mut coefficients, &|_| false)));
     if form.unitary {

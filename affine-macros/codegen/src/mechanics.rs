@@ -2,9 +2,10 @@
 
 pub mod asked;
 pub mod balance;
+pub mod body;
 pub mod brackets;
-pub mod carried;
 pub mod charts;
+pub mod closed_form;
 pub mod conserved;
 pub mod constraint;
 pub mod custom;
@@ -28,8 +29,7 @@ pub mod momentum_side;
 pub mod motion;
 pub mod notation;
 pub mod potential;
-
-pub mod reduce;
+pub mod reduction;
 pub mod second_order;
 pub mod separation;
 pub mod shared;

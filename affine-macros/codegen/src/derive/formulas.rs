@@ -1,13 +1,15 @@
 //! A derivation as formulas.
 
 use crate::algebra::Arena;
+use crate::mechanics::body::Body;
 use crate::mechanics::charts::Chart;
+use crate::mechanics::closed_form::ClosedForm;
 use crate::mechanics::describe::{self, Formula, Notation};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::mixed::{self, ForceNames};
-use crate::mechanics::reduce::{ClosedForm, Reduction, own_hamiltonian};
+use crate::mechanics::reduction::Reduction;
+use crate::mechanics::reduction::left_out::Scope;
 
-use super::body::Body;
 use super::model::Formulas;
 
 impl Body<'_> {
@@ -27,7 +29,7 @@ impl Body<'_> {
         };
         let (hamiltonian, equations, reduced) = match (motion.polynomial(), motion.hamiltonian()) {
             (Some(energy @ (kinetic, _)), Some(h)) => {
-                let full = own_hamiltonian(h, chart);
+                let full = h.energy_in(chart);
                 let hamiltonian =
                     describe::hamiltonian(arena, notation, (h, kinetic), self.potential, self.forces);
                 let (energy, acting) = ((energy.1, kinetic), (self.potential, self.forces));
@@ -53,7 +55,10 @@ impl Body<'_> {
                 (hamiltonian, self.with_forces(arena, notation, equations.clone()), equations)
             }
         };
-        let left_out = describe::left_out(!motion.masses.are_none(), reduction, closed);
+        let pinned = motion.masses.are_none();
+        let pinned = pinned.then(|| Scope::Model.without("x and p: the model has no translation"));
+        let closed = closed.map(|(_, only_at_rest)| ClosedForm::left_out(only_at_rest));
+        let left_out = pinned.into_iter().chain(reduction.left_out()).chain(closed).collect();
         Some(Formulas { kinetic_energy, hamiltonian, equations, reduced, left_out })
     }
 

@@ -2,7 +2,7 @@
 
 use super::components::Components;
 use super::model::Model;
-use crate::mechanics::reduce::ClosedForm;
+use crate::mechanics::closed_form::ClosedForm;
 
 impl Model {
     /// The components of the affine spin that points hold, and of the affine velocity that goes with it.

@@ -6,6 +6,7 @@ use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::mechanics::body::Body;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::Legendre;
@@ -13,7 +14,6 @@ use crate::mechanics::potential::{Base, Potential};
 use crate::optimise::Batch;
 use crate::symbol::Quantity;
 
-use super::body::Body;
 use super::domain::{Domain, domain};
 use super::model::{MixedMasses, VelocitySide};
 use super::programs::shortest_program;

@@ -5,16 +5,16 @@ use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::asked::Asked;
+use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Linear};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::equations::{Form, System};
 use crate::mechanics::potential::Potential;
-use crate::mechanics::reduce::{Layout, Reduction};
+use crate::mechanics::reduction::Reduction;
 use crate::optimise::{Batch, straight_line};
 use crate::symbol::{Quantity, Symbol};
 
 use super::batch::{batch, split_batch};
-use super::body::Body;
 use super::equations::Equations;
 use super::second_order::Halves;
 use super::splitting::Programs;
@@ -173,10 +173,10 @@ fn shortest_reduction(
     let name = |s: &Expr| arena.symbol_name(*s);
     let symbol = |s: &Expr| arena.symbol_of(*s);
     let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(symbol).collect())).collect();
-    let fixed = reduction.fixed.iter().map(name).collect();
-    let dependent = match reduction.layout {
-        Layout::Constant => Program::default(),
-        Layout::Entries => dependent(arena, &reduction.chart),
+    let fixed = reduction.conserved.components.iter().map(name).collect();
+    let dependent = match reduction.conserved.affine {
+        true => Program::default(),
+        false => dependent(arena, &reduction.chart),
     };
     let equations = Equations { groups, dependent, program: fuse(&program) };
     Some(Reduced { reduction, equations, pieces, trajectory, fixed })
@@ -184,10 +184,7 @@ fn shortest_reduction(
 
 /// What `trajectory` reads: `p` where the state depends on it, and the constant part of the affine momentum.
 fn trajectory_symbols(reduction: &Reduction) -> Vec<Expr> {
-    let chart = &reduction.chart;
-    let momentum = match reduction.layout {
-        Layout::Constant => chart.m.0.concat(),
-        Layout::Entries => reduction.fixed.clone(),
-    };
+    let (chart, conserved) = (&reduction.chart, &reduction.conserved);
+    let momentum = if conserved.affine { chart.m.0.concat() } else { conserved.components.clone() };
     [chart.p.clone(), momentum].concat()
 }

@@ -7,18 +7,17 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::asked::Asked;
 use crate::mechanics::balance::{CENTRE, INTERNAL, Laws};
+use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::equations::System;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::{self, Factorisation};
 use crate::mechanics::motion::Motion;
-use crate::mechanics::reduce::own_hamiltonian;
 use crate::mechanics::term::Frame;
 use crate::optimise::{Batch, straight_line};
 use crate::symbol::{Aspect, Factorised, Quantity};
 
-use super::body::Body;
 use super::model::{Balance, BalancedQuantities, Metric};
 
 /// What is asked for besides the equations.
@@ -52,7 +51,7 @@ impl Body<'_> {
         let balance = match self.motion.hamiltonian().filter(|_| asked.balance) {
             Some(h) => {
                 let loads = self.loads(arena, chart, self.potential)?;
-                let laws = Laws::new(arena, chart, h, &own_hamiltonian(h, chart), &loads);
+                let laws = Laws::new(arena, chart, h, &h.energy_in(chart), &loads);
                 Some(balance(arena, chart, &laws, time, coefficients))
             }
             None => None,

@@ -7,7 +7,7 @@ use crate::ir::fuse::fuse;
 use crate::mechanics::equations::System;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::Potential;
-use crate::mechanics::reduce::Reduction;
+use crate::mechanics::reduction::Reduction;
 use crate::mechanics::second_order::second_order;
 use crate::optimise::straight_line;
 

@@ -6,7 +6,7 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::Potential;
-use crate::mechanics::reduce::Reduction;
+use crate::mechanics::reduction::Reduction;
 use crate::mechanics::splitting::{Flow, Principal, splitting};
 use crate::optimise::{Batch, straight_line};
 use crate::symbol::Quantity;

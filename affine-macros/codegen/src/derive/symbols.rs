@@ -1,7 +1,7 @@
 //! Symbols of programs that stand for functions of time and placement.
 
 use crate::ir::Program;
-use crate::mechanics::carried::Carried;
+use crate::mechanics::reduction::carried::Carried;
 use crate::symbol::Quantity;
 
 /// Does a program read the time?

@@ -5,7 +5,7 @@ use super::dilatation::DilatationalMotion;
 use super::model::Model;
 use super::symbols::VolumeMeasure;
 use crate::mechanics::charts::{Linear, Momentum};
-use crate::mechanics::reduce::{Commuting, Layout};
+use crate::mechanics::reduction::Commuting;
 
 /// What a trajectory of the reduced equations has.
 pub struct Trajectory {
@@ -66,17 +66,14 @@ impl Trajectory {
     #[must_use]
     pub fn of(model: &Model) -> Self {
         let reduction = &model.reduction;
-        let rotation = reduction.commuting.iter().find_map(|piece| match piece {
-            Commuting::Vorticity(_) => Some(Components::Comoving),
-            Commuting::Spin(_) => Some(Components::Spatial),
-            Commuting::Drift(_) => None,
-        });
+        let Commuting { rotation, drift } = &reduction.commuting;
+        let rotation = rotation.as_ref().map(|rotation| rotation.frame.into());
+        let drift = drift.is_some();
         let linear = reduction.chart.linear;
         let pushed = linear.is_some_and(|linear| model.reduced.has(linear.quantity()));
-        let drift = reduction.commuting.iter().any(|piece| matches!(piece, Commuting::Drift(_)));
         Self {
             origin: rotation.is_some() || drift,
-            turn: reduction.turned,
+            turn: reduction.turn.is_some(),
             placed: linear.is_some(),
             linear: model.translation.is_some() && !pushed,
             pushed,
@@ -84,10 +81,10 @@ impl Trajectory {
             drift,
             momentum: reduction.chart.momentum.into(),
             momentum_name: reduction.chart.momentum.quantity().stem(),
-            conserved: reduction.layout == Layout::Constant,
+            conserved: reduction.conserved.affine,
             fixed: model.fixed.clone(),
             rotation,
-            dilatation: reduction.separation.as_ref().map(|separation| (&separation.slope).into()),
+            dilatation: reduction.dilatation.as_ref().map(|separation| (&separation.slope).into()),
             carried: reduction.carried.iter().copied().map(VolumeMeasure::from).collect(),
             coefficients: model.trajectory.outputs.len(),
         }

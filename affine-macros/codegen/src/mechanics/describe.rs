@@ -6,7 +6,6 @@ mod forces;
 mod hamiltonian;
 mod inertia;
 mod known_forms;
-mod left_out;
 mod system;
 
 use crate::algebra::arena::Node;
@@ -19,7 +18,6 @@ use crate::mechanics::term::{Coefficient, Frame, Term, TermKind};
 pub use super::notation::{Described, Formula, Notation};
 pub use equations::equations;
 pub use hamiltonian::{hamiltonian, kinetic_energy_of_momenta};
-pub use left_out::{LeftOut, Scope, left_out};
 pub use system::system;
 
 /// A summand, with its sign apart.

@@ -157,6 +157,14 @@ impl Hamiltonian {
         }
     }
 
+    /// `H` in a chart of the model's own frame.
+    #[must_use]
+    pub fn energy_in(&self, chart: &Chart) -> Polynomial {
+        let mut sum = self.internal();
+        sum.add_scaled(&self.translation_in(chart), &Rational::ONE);
+        sum
+    }
+
     /// The affine momenta in which it is a polynomial, each for one frame.
     #[must_use]
     pub fn momenta(&self) -> Vec<Momentum> {

@@ -1,4 +1,4 @@
-//! Everything that is added to Hamilton's equations of a mass matrix that is constant in one frame.
+//! What potential and forces add to Hamilton's equations.
 
 use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial};
@@ -7,26 +7,12 @@ use super::charts::{Chart, Coordinate};
 use super::constraint::Constraint;
 use super::equations::Load;
 use super::forces::Forces;
-use super::hamiltonian::Hamiltonian;
 use super::potential::Potential;
 use super::shared::CentreVelocity;
 
-/// What the weight of the energy, the potential and the forces add to Hamilton's equations of a chart; under a constraint
-/// all of it projected. The power of the forces comes with it, and where it is accounted for `dU/dt` of a potential that
-/// depends on the time: `dH/dt` is their sum.
-pub fn loads(
-    arena: &mut Arena,
-    chart: &Chart,
-    h: &Hamiltonian,
-    potential: Option<&Potential>,
-    forces: &Forces,
-) -> Vec<Load> {
-    let mut loads: Vec<Load> = h.weight.iter().map(|weight| weight.load(chart, &h.internal())).collect();
-    loads.extend(beside(arena, chart, &h.centre_velocity(), potential, forces));
-    loads
-}
-
-/// The same but for the weight, whatever the energy; `centre` says how the velocity of the centre of mass is known.
+/// What the potential and the forces add to Hamilton's equations of a chart, under a constraint projected; `centre` says how
+/// the velocity of the centre of mass is known. The power of the forces comes with it, and where it is accounted for `dU/dt`
+/// of a potential that depends on the time: `dH/dt` is their sum.
 pub fn beside(
     arena: &mut Arena,
     chart: &Chart,

@@ -19,7 +19,6 @@ use super::kinetics::Kinetics;
 use super::metric::Definitions;
 use super::mixed::{Internal, Legendre, Masses};
 use super::momentum_side::Stated;
-use super::reduce::own_hamiltonian;
 use super::shared::{CentreVelocity, atoms};
 use super::term::Frame;
 use crate::symbol::Quantity;
@@ -102,6 +101,12 @@ impl Motion {
         }
     }
 
+    /// Does a constraint act through its multiplier?
+    #[must_use]
+    pub fn has_multiplier(&self) -> bool {
+        self.constraint().is_some() && self.confined().is_none()
+    }
+
     /// The frame of velocity and momentum.
     #[must_use]
     pub fn frame(&self) -> Frame {
@@ -180,13 +185,20 @@ impl Motion {
         }
     }
 
+    /// Those of what is left of it once the skew part of an isotropic energy, on demand, and the energy of a centre of mass
+    /// that the chart does not have are split off; none where that is no polynomial in the chart.
+    pub fn kinetics_without(&self, arena: &mut Arena, chart: &Chart, skew: bool) -> Vec<(Kinetics, Form)> {
+        let Some(h) = self.hamiltonian() else { return self.kinetics(arena, chart) };
+        let Some(mut energy) = h.internal_in(chart, skew) else { return Vec::new() };
+        energy.add_scaled(&h.translation_in(chart), &Rational::ONE);
+        in_both_forms(Kinetics::polynomial(arena, chart, &energy), h)
+    }
+
     /// The equations of what is inverted, with one mass where that is part of it.
     fn internal_kinetics(&self, arena: &mut Arena, chart: &Chart) -> Vec<(Kinetics, Form)> {
         match &self.inverse {
             Inverse::Polynomial(h) => {
-                let kinetics = Kinetics::polynomial(arena, chart, &own_hamiltonian(h, chart));
-                let expanded = (!h.is_tensor()).then(|| (kinetics.clone(), Form::Expanded));
-                [(kinetics, Form::ThroughVelocity)].into_iter().chain(expanded).collect()
+                in_both_forms(Kinetics::polynomial(arena, chart, &h.energy_in(chart)), h)
             }
             Inverse::Factorised(internal) => {
                 let ways = internal.kinetics(arena).into_iter();
@@ -257,7 +269,7 @@ impl Motion {
     /// `H` of the motion at a point of a chart, with what leads there.
     pub fn energy(&self, arena: &mut Arena, chart: &Chart) -> Option<(Definitions, Polynomial)> {
         let (mut shared, mut energy) = match &self.inverse {
-            Inverse::Polynomial(h) => (h.weight_definitions(), chart.reduced(&own_hamiltonian(h, chart))),
+            Inverse::Polynomial(h) => (h.weight_definitions(), chart.reduced(&h.energy_in(chart))),
             Inverse::Factorised(internal) => (internal.shared.clone(), internal.energy.clone()),
         };
         if chart.linear.is_some() && !self.moves_in_hamiltonian() {
@@ -281,6 +293,12 @@ impl Motion {
             _ => Vec::new(),
         }
     }
+}
+
+/// Through the velocity, and expanded but for tensors, in which nothing cancels.
+fn in_both_forms(kinetics: Kinetics, h: &Hamiltonian) -> Vec<(Kinetics, Form)> {
+    let expanded = (!h.is_tensor()).then(|| (kinetics.clone(), Form::Expanded));
+    [(kinetics, Form::ThroughVelocity)].into_iter().chain(expanded).collect()
 }
 
 /// `X_ab = dT/dO_ba`, projected under a constraint, and `T_int`, both with the weight of the energy.

@@ -6,7 +6,7 @@ use super::charts::Coordinate;
 use super::equations::System;
 use super::hamiltonian::Hamiltonian;
 use super::potential::Potential;
-use super::reduce::Reduction;
+use super::reduction::Reduction;
 use super::splitting::{Flow, Piece, splitting};
 use crate::symbol::Quantity;
 

@@ -1,20 +1,8 @@
-//! The dilatation apart from the shear: `phi = e^q Psi`, `det Psi = 1`.
-//!
-//! Where the kinetic energy is isotropic up to a commuting rotation and `U = U_dil(q) + U_sh(Psi)`, the dilatation is
-//! a motion of one degree of freedom that is known in closed form, and what is left to integrate is
-//! (Slawianowski et al., section 5)
-//!
-//! ```text
-//! Psi' = Psi O  (co-moving)  or  O Psi  (spatial),   O = sigma/alpha,   sigma the traceless part of the affine spin
-//! ```
-//!
-//! `O` itself is the state, split into symmetric and skew parts, so that no coefficient is left in `Psi'`.
+//! A dilatation that moves by itself, `q'' = -U_dil'(q)/m`, in closed form.
 
-use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::symbol::Quantity;
 
-use super::charts::{Chart, Coordinate, Momentum};
-use super::equations::{Load, System};
 use super::hamiltonian::Isotropic;
 
 /// The motion of `q` with its momentum `p = tr Sigma`.
@@ -76,7 +64,7 @@ impl Slope {
             [] => Some(Self::Zero),
             [((1, 0), stiffness)] => Some(Self::Linear(stiffness.clone())),
             [((0, low), lower), ((0, high), upper)] if *low == -*high => {
-                sum(lower, upper, &Rational::ONE).is_zero().then(|| Self::hyperbolic(upper, *high))?
+                (*lower == upper.scaled(&Rational::MINUS_ONE)).then(|| Self::hyperbolic(upper, *high))?
             }
             _ => None,
         }
@@ -166,140 +154,11 @@ fn binding(arena: &Arena, coefficient: &Polynomial, opposite: Option<&Polynomial
     part
 }
 
-/// The system of `Psi` and `O` in place of `phi` and an affine spin; `load` are the forces of the potential in the
-/// chart, `casimirs` the kinetic energy without the rotation that commutes. `None` where the forces still depend on
-/// the dilatation.
-pub(super) fn shear_system(
-    arena: &mut Arena,
-    chart: &Chart,
-    casimirs: &Isotropic,
-    load: &Load,
-) -> Option<System> {
-    let n = chart.dim;
-    let psi = Matrix::symbols(arena, Quantity::IsochoricPlacement, n);
-    let velocity = velocity(arena, n);
-    let forces = forces(arena, chart, &psi, load);
-    let mut system = System { shared: forces.shared, work: forces.work, ..System::default() };
-    let o = Matrix::symbols(arena, Quantity::IsochoricVelocity, n);
-    for (a, b) in pairs(n) {
-        system.shared.push((o.0[a][b], velocity[a][b].clone()));
-    }
-    for (i, a) in pairs(n) {
-        let mut rate = Polynomial::zero();
-        for k in 0..n {
-            let product = match chart.momentum {
-                Momentum::Space => vec![o.0[i][k], psi.0[k][a]],
-                _ => vec![psi.0[i][k], o.0[k][a]],
-            };
-            rate.add_term(product, &Rational::ONE);
-        }
-        system.rates.push((Coordinate::Phi(i, a), psi.0[i][a], rate));
-    }
-    let force = |a: usize, b: usize| {
-        let found = forces.forces.iter().find(|(z, _)| *z == Coordinate::M(a, b));
-        found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
-    };
-    let nth = Rational::one_over(n);
-    let half = Rational::HALF;
-    let mut mean = Polynomial::zero();
-    (0..n).for_each(|a| mean.add_scaled(&force(a, a), &nth));
-    for (a, b) in pairs(n) {
-        let mut rate = match (a < b, a == b) {
-            (true, _) => sum(&force(a, b), &force(b, a), &Rational::ONE).scaled(&half),
-            (_, true) => sum(&force(a, a), &mean, &Rational::MINUS_ONE),
-            _ => sum(&force(b, a), &force(a, b), &Rational::MINUS_ONE).scaled(&half),
-        };
-        rate = rate.mul(&casimirs.casimir2);
-        if (a, b) != (n - 1, n - 1) {
-            system.rates.push((Coordinate::M(a, b), part(arena, a, b), rate));
-        }
-    }
-    let system = system.tidied(arena);
-    let depends = |p: &Polynomial| {
-        p.any_symbol(arena, &mut |s| arena.quantity(s).is_some_and(|quantity| UNDEFORMED.contains(&quantity)))
-    };
-    let free =
-        !system.shared.iter().any(|(_, p)| depends(p)) && !system.rates.iter().any(|(.., p)| depends(p));
-    free.then_some(system)
-}
-
-/// What is a constant at `det phi = 1`.
-const UNDEFORMED: [Quantity; 5] = [
-    Quantity::Determinant,
-    Quantity::InverseDeterminant,
-    Quantity::Dilatation,
-    Quantity::InverseDilatation,
-    Quantity::MeanLogStretch,
-];
-
-/// The forces at `q = 0` with `Psi` for `phi`. Where they do not depend on `q`, nor `U_dil` on the time, neither does their
-/// power `dU/dt`.
-fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
-    let value_at_rest = UNDEFORMED.map(|quantity| {
-        let value = if quantity == Quantity::MeanLogStretch { Rational::ZERO } else { Rational::ONE };
-        (arena.symbol(quantity), arena.constant(value))
-    });
-    let replaced: Vec<(Expr, Expr)> =
-        pairs(chart.dim).map(|(i, a)| (chart.phi.0[i][a], psi.0[i][a])).chain(value_at_rest).collect();
-    let value = |atom: Expr| replaced.iter().find(|(s, _)| *s == atom).map(|(_, value)| *value);
-    let defined = |symbol: Expr| value_at_rest.iter().any(|(s, _)| *s == symbol);
-    let mut at_rest = |form: &Polynomial| {
-        let form = form.expression(arena);
-        // Dilatations of a placement have no part in what vanishes.
-        let form = arena.replaced(form, &value);
-        Polynomial::normal_form(arena, form)
-    };
-    let shared = load.shared.iter().filter(|(symbol, _)| !defined(*symbol));
-    Load {
-        shared: shared.map(|(symbol, form)| (*symbol, at_rest(form))).collect(),
-        forces: load.forces.iter().map(|(z, form)| (*z, at_rest(form))).collect(),
-        work: load.work.as_ref().map(|(symbol, power)| (*symbol, at_rest(power))),
-        ..Load::default()
-    }
-}
-
-/// `O_ab` in its parts: `s_ab + w_ab`, `s_ab - w_ab`, `s_aa`, and the last diagonal entry from the trace.
-fn velocity(arena: &mut Arena, n: usize) -> Vec<Vec<Polynomial>> {
-    let mut rows = vec![vec![Polynomial::zero(); n]; n];
-    for (a, b) in pairs(n) {
-        let symbol = |arena: &mut Arena, a, b| Polynomial::atom(part(arena, a, b));
-        rows[a][b] = match (a < b, a == b) {
-            (true, _) => sum(&symbol(arena, a, b), &symbol(arena, b, a), &Rational::ONE),
-            (_, true) if a + 1 < n => symbol(arena, a, a),
-            (_, true) => {
-                let mut rest = Polynomial::zero();
-                (0..a).for_each(|c| rest.add_scaled(&symbol(arena, c, c), &Rational::MINUS_ONE));
-                rest
-            }
-            _ => sum(&symbol(arena, b, a), &symbol(arena, a, b), &Rational::MINUS_ONE),
-        };
-    }
-    rows
-}
-
-/// The symbol of the symmetric part above the diagonal and on it, of the skew part `w_ba`, `b < a`, below.
-fn part(arena: &mut Arena, a: usize, b: usize) -> Expr {
-    if a <= b {
-        arena.symbol(Quantity::Shear.at([a + 1, b + 1]))
-    } else {
-        arena.symbol(Quantity::Turn.at([b + 1, a + 1]))
-    }
-}
-
-fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
-}
-
-fn sum(left: &Polynomial, right: &Polynomial, weight: &Rational) -> Polynomial {
-    let mut sum = left.clone();
-    sum.add_scaled(right, weight);
-    sum
-}
-
 impl Isotropic {
     /// `1/m` of `p^2/(2 m)`, the energy of the dilatational momentum `p = tr Sigma`: `1/(n alpha) + 1/beta`.
     pub(super) fn inverse_dilatational_mass(&self, n: usize) -> Polynomial {
-        let nth = Rational::one_over(n);
-        sum(&self.casimir2.scaled(&nth), &self.casimir1_squared, &Rational::ONE)
+        let mut inverse = self.casimir2.scaled(&Rational::one_over(n));
+        inverse.add_scaled(&self.casimir1_squared, &Rational::ONE);
+        inverse
     }
 }

@@ -37,7 +37,7 @@ use super::equations::{Form, System};
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetics::Kinetics;
 use super::potential::Potential;
-use super::reduce::{Commuting, Reduction, gauge};
+use super::reduction::Reduction;
 use super::separation::Separation;
 use super::term::Frame;
 pub use flows::Flow;
@@ -74,7 +74,7 @@ pub fn splitting(
     reduction: &Reduction,
 ) -> Option<Splitting> {
     let own = own_dilatation(arena, h, potential, reduction);
-    let summands = match (&reduction.separation, &own) {
+    let summands = match (&reduction.dilatation, &own) {
         (Some(_), _) => separated(arena, reduction),
         (None, Some(own)) => summands(arena, &own.h, Some(&own.rest), reduction)?,
         (None, None) => summands(arena, h, potential, reduction)?,
@@ -147,7 +147,7 @@ fn own_dilatation(
     let chart = &reduction.chart;
     let iso = h.isotropic.as_ref()?;
     let moves_itself = chart.momentum != Momentum::Canonical && iso.casimir3.is_zero();
-    if reduction.separation.is_some() || h.constraint.is_some() || !moves_itself || iso.casimir2.is_zero() {
+    if reduction.dilatation.is_some() || h.constraint.is_some() || !moves_itself || iso.casimir2.is_zero() {
         return None;
     }
     let states: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
@@ -166,7 +166,7 @@ fn own_dilatation(
     let nth = -&Rational::one_over(chart.dim);
     // tr M^2 - (tr M)^2/n, of the traceless momentum.
     h.isotropic.as_mut()?.casimir1_squared = iso.casimir2.scaled(&nth);
-    let gauge = gauge(chart, reduction.turned, reduction.layout);
+    let gauge = reduction.gauge();
     let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
     let spin = spin.iter().map(|entry| entry.substitute(&value)).collect();
     Some(OwnDilatation { separation: Separation { slope, inverse_mass }, spin, energy, h, rest })
@@ -185,8 +185,7 @@ fn summands(
         Some(iso) => {
             let spin = spatial_or_own(chart);
             energies.push(("Casimirs", iso.casimirs(&spin)));
-            let split_off = reduction.commuting.iter().any(|c| !matches!(c, Commuting::Drift(_)));
-            if !split_off && !iso.skew.is_zero() {
+            if reduction.commuting.rotation.is_none() && !iso.skew.is_zero() {
                 let name = if h.frame == Frame::Body { "vorticity" } else { "spin" };
                 energies.push((name, iso.skew_norm(&spin)));
             }
@@ -242,7 +241,7 @@ fn separated(arena: &Arena, reduction: &Reduction) -> Vec<Summand> {
 fn is_nystrom(reduction: &Reduction, groups: &[(Vec<Summand>, Vec<Flow>)]) -> bool {
     let [(first, _), (_, flows)] = groups else { return false };
     let [Flow::Shift(kick)] = flows.as_slice() else { return false };
-    if reduction.separation.is_some() {
+    if reduction.dilatation.is_some() {
         // tr sigma^2/(2 alpha), see `separated` in the reduction.
         return true;
     }

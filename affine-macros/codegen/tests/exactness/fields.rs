@@ -48,7 +48,7 @@ fn every_family_with_fields() {
                 for _ in 0..if large { 1 } else { 2 } {
                     let mut state = point(&mut random, &sample.kinetic);
                     check(&args, &model, &sample.kinetic, &state, &coefficients);
-                    if model.reduction.turned {
+                    if model.reduction.turn.is_some() {
                         state = turned(state);
                     }
                     if !rest.has_translation() {

@@ -7,7 +7,6 @@ use affine_codegen::mechanics::form::Form;
 use affine_codegen::mechanics::kinetic::Kinetic as Part;
 use affine_codegen::mechanics::mixed::laws_hold;
 use affine_codegen::mechanics::motion::Motion;
-use affine_codegen::mechanics::reduce::Commuting;
 use affine_codegen::mechanics::term::Frame;
 use affine_codegen::spec;
 use affine_oracle::{Kinetic, Matrix, Observable, Random, State, Term, rational};
@@ -186,9 +185,8 @@ fn programs_agree(sum: &Sum, model: &Model, state: &State) {
 /// The reduced equations: those of the energy that a free centre of mass leaves, at a point in turned space.
 fn reduction_agrees(sum: &Sum, model: &Model, state: &State) {
     let reduction = &model.reduction;
-    let drifts = reduction.commuting.iter().any(|piece| matches!(piece, Commuting::Drift(_)));
-    let mut state = if reduction.turned { turned(state.clone()) } else { state.clone() };
-    let rest = match drifts {
+    let mut state = if reduction.turn.is_some() { turned(state.clone()) } else { state.clone() };
+    let rest = match reduction.commuting.drift.is_some() {
         false => sum.kinetic.clone(),
         true => {
             state = State { x: Matrix::zeros(model.dim, 1), ..state.at_rest() };

@@ -3,7 +3,8 @@
 use affine_codegen::algebra::Rational;
 use affine_codegen::derive::Model;
 use affine_codegen::mechanics::charts::Momentum;
-use affine_codegen::mechanics::reduce::{ClosedForm, Commuting, Layout, Reduction};
+use affine_codegen::mechanics::closed_form::ClosedForm;
+use affine_codegen::mechanics::reduction::{Commuting, Reduction};
 use affine_codegen::mechanics::term::Frame;
 use affine_codegen::symbol::Quantity;
 use affine_oracle::{Kinetic, Matrix, Observable, Random, Rational as Exact, State, rational};
@@ -12,21 +13,13 @@ use super::derivation::point;
 use super::models::{FAMILIES, Internal, Sample, TRANSLATIONS, Translation};
 use super::points::{Values, coordinates, exact, rates, run};
 
-fn is_skew(piece: &Commuting) -> bool {
-    matches!(piece, Commuting::Vorticity(_) | Commuting::Spin(_))
-}
-
-fn is_drift(piece: &Commuting) -> bool {
-    matches!(piece, Commuting::Drift(_))
-}
-
 /// The energy of the reduced equations.
 pub(crate) fn rest(sample: &Sample, reduction: &Reduction) -> Kinetic {
-    let skew = reduction.commuting.iter().any(is_skew);
-    let drift = reduction.commuting.iter().any(is_drift);
+    let Commuting { rotation, drift } = &reduction.commuting;
+    let skew = rotation.is_some();
     assert!(!skew || matches!(sample.internal, Internal::Body | Internal::Space));
     let mut terms = if skew { sample.without_skew_part() } else { sample.internal_terms() };
-    if !drift {
+    if drift.is_none() {
         terms.extend(sample.translational_term());
     }
     Kinetic::new(sample.n, terms).unwrap()
@@ -50,12 +43,17 @@ fn split_energy(reduction: &Reduction, kinetic: &Kinetic, state: &State) -> Exac
     let norm = |observable: Observable| observable.value(kinetic, state).unwrap().entry(0, 0);
     let half = rational(1, 2);
     let mut sum = rational(0, 1);
-    for piece in &reduction.commuting {
-        let (inverse, square) = match piece {
-            Commuting::Vorticity(mu) => (mu, norm(Observable::VorticityNorm)),
-            Commuting::Spin(mu) => (mu, norm(Observable::SpinNorm)),
-            Commuting::Drift(m) => (m, (&state.p.transpose() * &state.p).entry(0, 0)),
+    let Commuting { rotation, drift } = &reduction.commuting;
+    let rotation = rotation.iter().map(|rotation| {
+        let square = match rotation.frame {
+            Frame::Body => norm(Observable::VorticityNorm),
+            _ => norm(Observable::SpinNorm),
         };
+        (&rotation.inverse_mass, square)
+    });
+    let square = (&state.p.transpose() * &state.p).entry(0, 0);
+    let drift = drift.iter().map(|drift| (&drift.inverse_mass, square.clone()));
+    for (inverse, square) in rotation.chain(drift) {
         sum += exact(&inverse.as_constant().unwrap()) * square * &half;
     }
     sum
@@ -73,7 +71,7 @@ fn every_family_is_reduced_exactly() {
                 let rest = rest(&sample, &model.reduction);
                 for _ in 0..2 {
                     let mut state = point(&mut random, &sample.kinetic);
-                    if model.reduction.turned {
+                    if model.reduction.turn.is_some() {
                         turns += 1;
                         state = turned(state);
                     }
@@ -106,7 +104,7 @@ pub(crate) fn equations(what: &str, model: &Model, rest: &Kinetic, state: &State
     for name in model.trajectory.inputs() {
         // Turned space has p = (p_1, 0, 0).
         assert!(
-            !model.reduction.turned || !["p_2", "p_3"].contains(&name.as_str()),
+            !model.reduction.turn.is_some() || !["p_2", "p_3"].contains(&name.as_str()),
             "{what}: {name} is zero"
         );
         assert!(
@@ -133,13 +131,11 @@ fn constants(model: &Model) -> Vec<String> {
     if model.reduction.chart.linear.is_some() {
         names.extend((1..=n).map(|i| format!("p_{i}")));
     }
-    match model.reduction.layout {
-        Layout::Constant => {
-            let stem = model.reduction.chart.momentum.quantity().stem();
-            names.extend((1..=n).flat_map(|i| (1..=n).map(move |j| format!("{stem}_{i}{j}"))));
-        }
-        Layout::Entries => names.extend(model.fixed.clone()),
+    if model.reduction.conserved.affine {
+        let stem = model.reduction.chart.momentum.quantity().stem();
+        names.extend((1..=n).flat_map(|i| (1..=n).map(move |j| format!("{stem}_{i}{j}"))));
     }
+    names.extend(model.fixed.clone());
     names
 }
 
@@ -160,13 +156,13 @@ fn each_family_reduces_as_far_as_it_can() {
                     || (internal == Internal::Space && translation == Translation::Body);
                 // Spatial translation commutes with everything internal.
                 let drift = translation == Translation::Space;
-                assert_eq!(reduction.commuting.iter().any(is_drift), drift, "{what}");
+                assert_eq!(reduction.commuting.drift.is_some(), drift, "{what}");
                 // |S|^2 does not commute with |phi^T p|^2; vorticity is conserved by both translations.
                 let skew = matches!(internal, Internal::Body)
                     || (internal == Internal::Space && translation != Translation::Body);
-                assert_eq!(reduction.commuting.iter().any(is_skew), skew, "{what}");
-                let split_spin = reduction.commuting.iter().any(|c| matches!(c, Commuting::Spin(_)));
-                assert_eq!(split_spin, skew && internal == Internal::Space, "{what}");
+                let frame = if internal == Internal::Space { Frame::Space } else { Frame::Body };
+                let rotation = reduction.commuting.rotation.as_ref().map(|rotation| rotation.frame);
+                assert_eq!(rotation, skew.then_some(frame), "{what}");
                 let moving = translation == Translation::Body;
                 let rotations = !matches!(
                     internal,
@@ -178,9 +174,9 @@ fn each_family_reduces_as_far_as_it_can() {
                         | Internal::FlatSum
                 );
                 let turns = moving && rotations;
-                assert_eq!(reduction.turned, turns, "{what}");
+                assert_eq!(reduction.turn.is_some(), turns, "{what}");
                 if (isotropic && !(clash && moving)) || (flat && !moving) {
-                    assert_eq!(reduction.layout, Layout::Constant, "{what}");
+                    assert!(reduction.conserved.affine, "{what}");
                 }
                 let x_in_state = model.reduced.has(Quantity::Position);
                 assert_eq!(x_in_state, moving, "{what}");

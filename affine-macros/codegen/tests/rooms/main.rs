@@ -50,7 +50,8 @@ fn arrows_are_followed() {
     let uses = |from: &str, to: &str| arrows.of[from].contains(to);
     // Through a re-export, `crate::algebra::Arena`; in the middle of an expression, `super::` in a nested module; by a child.
     assert!(
-        uses("ir/rounding.rs", "algebra/rational.rs") && uses("mechanics/reduce.rs", "mechanics/charts.rs")
+        uses("ir/rounding.rs", "algebra/rational.rs")
+            && uses("mechanics/reduction.rs", "mechanics/charts.rs")
     );
     assert!(uses("emit/kernel.rs", "algebra/kernel.rs") && uses("lib.rs", "derive.rs"));
     assert!(

@@ -19,7 +19,7 @@ use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::direction::entries;
 use crate::mechanics::equations::System;
 use crate::mechanics::hessian::{Block, blocks};
-use crate::mechanics::reduce::Reduction;
+use crate::mechanics::reduction::Reduction;
 use crate::symbol::Quantity;
 
 use super::flows::{Flow, value_of};

@@ -2,7 +2,7 @@
 
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::equations::System;
-use crate::mechanics::reduce::{Reduction, gauge};
+use crate::mechanics::reduction::Reduction;
 
 /// A summand of `H` with its equations over the reduced state.
 pub(super) struct Summand {
@@ -15,7 +15,7 @@ pub(super) struct Summand {
 /// The equations that move components of the reduced state; `None` where they move anything else that is kept as a
 /// constant.
 pub(super) fn over_the_state(arena: &Arena, reduction: &Reduction, system: System) -> Option<System> {
-    let gauge = gauge(&reduction.chart, reduction.turned, reduction.layout);
+    let gauge = reduction.gauge();
     let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
     let mut system = system.substitute(&value);
     system.rates.retain(|(_, _, rate)| !rate.is_zero());

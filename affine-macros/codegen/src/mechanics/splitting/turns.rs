@@ -16,7 +16,7 @@ use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::equations::{Form, System};
 use crate::mechanics::kinetics::Kinetics;
-use crate::mechanics::reduce::Reduction;
+use crate::mechanics::reduction::Reduction;
 use crate::symbol::Quantity;
 
 use super::flows::{Flow, confined, expanded, generator, turns_along};

@@ -4,7 +4,7 @@ use affine_codegen::algebra::Polynomial;
 use affine_codegen::algebra::kernel::Callee;
 use affine_codegen::mechanics::charts::{Chart, Linear, Momentum};
 use affine_codegen::mechanics::constraint::Constraint;
-use affine_codegen::mechanics::reduce::{Commuting, Layout, Reduction};
+use affine_codegen::mechanics::reduction::Reduction;
 use affine_codegen::mechanics::term::Frame;
 use affine_codegen::symbol::Quantity;
 use affine_oracle::Random;
@@ -24,7 +24,8 @@ pub(super) struct Taken {
     turned: bool,
     /// Is `p` state, and with that any vector later on?
     pushed: bool,
-    layout: Layout,
+    /// Is all of the affine momentum conserved?
+    affine: bool,
     /// Do the forces read single stretches?
     single: bool,
     /// `1/mu` of `|Vort|^2/(2 mu)` (body) or `|S|^2/(2 mu)` (space).
@@ -42,29 +43,24 @@ impl Taken {
         dilatation: Option<Dilatation>,
         number: &dyn Fn(&Polynomial) -> Number,
     ) -> Self {
-        let (mut rotation, mut drift) = (None, None);
-        for piece in &reduction.commuting {
-            match piece {
-                Commuting::Vorticity(mu) => rotation = Some((Frame::Body, number(mu))),
-                Commuting::Spin(mu) => rotation = Some((Frame::Space, number(mu))),
-                Commuting::Drift(mass) => drift = Some(number(mass)),
-            }
-        }
+        let rotation = reduction.commuting.rotation.as_ref();
+        let rotation = rotation.map(|rotation| (rotation.frame, number(&rotation.inverse_mass)));
+        let drift = reduction.commuting.drift.as_ref().map(|drift| number(&drift.inverse_mass));
         let pushed = reduction
             .states
             .iter()
             .any(|(group, _)| [Quantity::LinearMomentum, Quantity::ComovingLinearMomentum].contains(group));
-        let chart = Self::of(confined, &reduction.chart, reduction.layout);
+        let chart = Self::of(confined, &reduction.chart, reduction.conserved.affine);
         let single = reduction
             .system
             .kernels
             .iter()
             .any(|kernel| matches!(kernel.callee, Callee::Stretches | Callee::LogStretches));
-        Self { turned: reduction.turned, pushed, single, rotation, drift, dilatation, ..chart }
+        Self { turned: reduction.turn.is_some(), pushed, single, rotation, drift, dilatation, ..chart }
     }
 
     /// What a chart leaves out.
-    pub(super) fn of(confined: Option<Constraint>, chart: &Chart, layout: Layout) -> Self {
+    pub(super) fn of(confined: Option<Constraint>, chart: &Chart, affine: bool) -> Self {
         Self {
             dim: chart.dim,
             confined,
@@ -72,7 +68,7 @@ impl Taken {
             linear: chart.linear,
             turned: false,
             pushed: true,
-            layout,
+            affine,
             single: false,
             rotation: None,
             drift: None,
@@ -200,7 +196,7 @@ impl Point {
             momentum = projected(group, &momentum);
         }
         // I(O)_13 = 0 where I(O) is constant.
-        if turned && taken.momentum == Momentum::Total && taken.layout == Layout::Constant && n == 3 {
+        if turned && taken.momentum == Momentum::Total && taken.affine && n == 3 {
             momentum.0[0][2] = Jet::constant(Number::ZERO);
         }
         if taken.dilatation.is_some() {

@@ -3,17 +3,20 @@
 use std::collections::BTreeSet;
 
 use affine_codegen::algebra::{Arena, Polynomial};
+use affine_codegen::mechanics::body::Body;
 use affine_codegen::mechanics::charts::{Chart, Coordinate, Momentum};
+use affine_codegen::mechanics::closed_form::ClosedForm;
 use affine_codegen::mechanics::conserved::{Candidate, candidates, still};
 use affine_codegen::mechanics::equations::{Form as Way, System};
 use affine_codegen::mechanics::forces::Forces;
 use affine_codegen::mechanics::form::Form;
 use affine_codegen::mechanics::hamiltonian::Hamiltonian;
 use affine_codegen::mechanics::kinetics::Kinetics;
-use affine_codegen::mechanics::loads::loads;
+use affine_codegen::mechanics::loads::beside;
 use affine_codegen::mechanics::motion::Motion;
 use affine_codegen::mechanics::potential::Potential;
-use affine_codegen::mechanics::reduce::{self, ClosedForm, Commuting, Layout, Reduction};
+use affine_codegen::mechanics::reduction::drift::Drift;
+use affine_codegen::mechanics::reduction::{Reduction, Wanted, reductions};
 use affine_codegen::mechanics::separation::{Separation, Slope as Separated};
 use affine_codegen::mechanics::term::Frame;
 use affine_codegen::symbol::Quantity;
@@ -29,6 +32,7 @@ pub(super) const TRIES: usize = 40;
 pub(super) struct Whole {
     args: String,
     arena: Arena,
+    motion: Motion,
     h: Hamiltonian,
     potential: Option<Potential>,
     forces: Forces,
@@ -44,20 +48,20 @@ impl Whole {
         let Form { mut arena, parts, mass, stated, potential, forces, .. } = form;
         let motion = Motion::new(&mut arena, parts, mass, stated.as_ref()).expect("a regular energy");
         let h = motion.hamiltonian().expect("one frame").clone();
-        let own = reduce::own_chart(&mut arena, &h);
-        let energy = reduce::own_hamiltonian(&h, &own);
+        let own = motion.chart(&mut arena, true);
+        let energy = h.energy_in(&own);
         let kinetics = Kinetics::polynomial(&mut arena, &own, &energy);
         let mut full = kinetics.system(Way::ThroughVelocity);
-        let loads = loads(&mut arena, &own, &h, potential.as_ref(), &forces);
-        loads.iter().for_each(|load| full.add(load));
+        let weight: Vec<_> = h.weight.iter().map(|weight| weight.load(&own, &h.internal())).collect();
+        let acting = beside(&mut arena, &own, &h.centre_velocity(), potential.as_ref(), &forces);
+        weight.iter().chain(&acting).for_each(|load| full.add(load));
         let keeps = |candidate| potential.as_ref().is_none_or(|u| u.keeps(candidate));
-        let motion: Vec<_> =
-            h.weight.iter().map(|weight| weight.load(&own, &h.internal())).chain([kinetics.load()]).collect();
-        let kept = still(&arena, &own, &motion, candidates(&own));
+        let moving: Vec<_> = weight.into_iter().chain([kinetics.load()]).collect();
+        let kept = still(&arena, &own, &moving, candidates(&own));
         let rotations = kept.contains(&Candidate::TotalAngularMomentum)
             && keeps(Candidate::TotalAngularMomentum)
             && forces.are_isotropic_in_space();
-        Self { args: args.to_owned(), arena, h, potential, forces, own, full, rotations }
+        Self { args: args.to_owned(), arena, motion, h, potential, forces, own, full, rotations }
     }
 
     /// Are the equations ever asked for with a momentum for each position?
@@ -100,14 +104,16 @@ impl Whole {
                 }
             },
         };
-        let dilatation = reduction.separation.as_ref().map(dilatation);
+        let dilatation = reduction.dilatation.as_ref().map(dilatation);
         Taken::new(self.h.confined(), reduction, dilatation, &number)
     }
 
     /// Every way to reduce the motion against the whole one, with a momentum for each position or not; what they take out.
     pub(super) fn check(&mut self, random: &mut Random, halves: bool) -> BTreeSet<&'static str> {
-        let Self { arena, h, potential, forces, rotations, .. } = self;
-        let ways = reduce::candidates(arena, h, potential.as_ref(), forces, (*rotations, halves, false));
+        let Self { arena, motion, potential, forces, rotations, .. } = self;
+        let body = Body { motion, potential: potential.as_ref(), forces };
+        let wanted = Wanted { rotations: *rotations, halves, pieces: false };
+        let ways = reductions(arena, &body, wanted).expect("equations");
         assert!(!ways.is_empty(), "{}", self.args);
         let rests: Vec<bool> = ways.iter().map(|way| self.check_one(random, way)).collect();
         for (way, resting) in ways.iter().zip(&rests) {
@@ -186,8 +192,9 @@ impl Whole {
     /// The closed form of the motion without forces: it is found exactly where `Sigma' = [Sigma, W]` with the generator `W`
     /// of the rotation that the skew part of the energy makes, for `Pi` where that rests.
     pub(super) fn check_closed_form(&mut self, random: &mut Random) {
-        let pieces = reduce::commuting(&mut self.arena, &self.h, None, &self.forces);
-        let found = reduce::closed_form(&self.h, &pieces);
+        let Self { arena, motion, h, forces, .. } = self;
+        let drift = Drift::of(arena, &Body { motion, potential: None, forces });
+        let found = ClosedForm::of(h).map(|form| (form, h.translation.is_some() && drift.is_none()));
         let form = match self.h.frame {
             Frame::Body => ClosedForm::Body,
             Frame::Space => ClosedForm::Space,
@@ -206,7 +213,7 @@ impl Whole {
     /// Has the motion through a random point the closed form?
     fn is_closed(&self, random: &mut Random, at_rest: bool) -> bool {
         let coefficients = self.coefficients(random);
-        let taken = Taken::of(self.h.confined(), &self.own, Layout::Entries);
+        let taken = Taken::of(self.h.confined(), &self.own, false);
         let point = Point::random(random, &taken);
         let point = if at_rest { point.at_rest() } else { point };
         let mut here = point.reduced(&taken);
@@ -234,17 +241,17 @@ fn sizes(reduction: &Reduction) -> Vec<(Quantity, usize)> {
 
 /// What a reduction takes out of the state.
 fn left_out(reduction: &Reduction) -> Vec<&'static str> {
-    let pieces = reduction.commuting.iter().map(|piece| match piece {
-        Commuting::Vorticity(_) => "|Vort|^2",
-        Commuting::Spin(_) => "|S|^2",
-        Commuting::Drift(_) => "drift",
+    let rotation = reduction.commuting.rotation.as_ref().map(|rotation| match rotation.frame {
+        Frame::Body => "|Vort|^2",
+        _ => "|S|^2",
     });
-    let mut list: Vec<&'static str> = pieces.collect();
+    let drift = reduction.commuting.drift.as_ref().map(|_| "drift");
+    let mut list: Vec<&'static str> = rotation.into_iter().chain(drift).collect();
     let chart = &reduction.chart;
     let pushed = sizes(reduction)
         .iter()
         .any(|(group, _)| [Quantity::LinearMomentum, Quantity::ComovingLinearMomentum].contains(group));
-    let slope = reduction.separation.as_ref().map(|separation| match separation.slope {
+    let slope = reduction.dilatation.as_ref().map(|separation| match separation.slope {
         Separated::Zero => "free dilatation",
         Separated::Linear(_) => "harmonic dilatation",
         Separated::Hyperbolic { .. } => "hyperbolic dilatation",
@@ -252,9 +259,9 @@ fn left_out(reduction: &Reduction) -> Vec<&'static str> {
     let said = |holds: bool, what: &'static str| holds.then_some(what);
     list.extend(slope);
     list.extend(said(chart.linear.is_some() && !pushed, "p"));
-    list.extend(said(reduction.turned, "turn of space"));
-    list.extend(said(reduction.layout == Layout::Constant, chart.momentum.symbol()));
-    list.extend(said(!reduction.fixed.is_empty(), "entries"));
+    list.extend(said(reduction.turn.is_some(), "turn of space"));
+    list.extend(said(reduction.conserved.affine, chart.momentum.symbol()));
+    list.extend(said(!reduction.conserved.components.is_empty(), "entries"));
     list.extend(said(!reduction.carried.is_empty(), "root or logarithm"));
     list
 }

@@ -5,9 +5,12 @@ mod isochoric;
 
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
-use super::charts::{Chart, Coordinate, Momentum};
-use super::equations::System;
+use crate::mechanics::body::Body;
+use crate::mechanics::charts::{Chart, Coordinate, Momentum};
+use crate::mechanics::equations::System;
 use crate::symbol::Quantity;
+
+use super::left_out::{LeftOut, Scope};
 use isochoric::{inverts_the_placement, without_the_determinant};
 
 /// A function of `det phi` that is integrated beside `phi`.
@@ -20,8 +23,6 @@ pub enum Carried {
 }
 
 impl Carried {
-    const ALL: [Self; 2] = [Self::InverseDilatation, Self::MeanLogStretch];
-
     /// The quantity that its symbol stands for.
     #[must_use]
     pub fn quantity(self) -> Quantity {
@@ -31,34 +32,39 @@ impl Carried {
         }
     }
 
-    /// Its symbol.
-    pub(super) fn symbol(self, arena: &mut Arena) -> Expr {
-        arena.symbol(self.quantity())
-    }
-
-    /// Those that a system carries.
-    pub(super) fn of(arena: &Arena, system: &System) -> Vec<Self> {
-        let is_state = |carried: &Self| {
-            system.rates.iter().any(|(z, symbol, _)| {
-                matches!(z, Coordinate::Carried(_)) && arena.quantity(*symbol) == Some(carried.quantity())
-            })
-        };
-        Self::ALL.into_iter().filter(is_state).collect()
+    pub(super) fn left_out(self) -> LeftOut {
+        Scope::Carried.without(match self {
+            Self::InverseDilatation => "the root of det phi: 1/D = (det phi)^(-1/n) is integrated beside phi",
+            Self::MeanLogStretch => "the logarithm of det phi: q = ln(det phi)/n is integrated beside phi",
+        })
     }
 }
 
-/// A system with functions of `det phi` as state.
-pub(super) struct Carrying {
-    pub(super) system: System,
-    /// Do its forces take `phi^-1`?
-    pub(super) inverts: bool,
+/// A system without roots and logarithms of `det phi`, and as it is where that may be shorter.
+pub(super) fn systems(
+    arena: &mut Arena,
+    body: &Body,
+    chart: &Chart,
+    system: System,
+) -> Vec<(Vec<Carried>, System)> {
+    // On a group det phi is 1, or stands for itself. A factorised mass matrix takes phi^-1 in any case.
+    let as_it_is = body.motion.constraint().is_some() || body.motion.hamiltonian().is_none();
+    let carrying = if as_it_is { None } else { carrying_the_dilatation(arena, chart, &system) };
+    let Some((rootless, inverts)) = carrying else { return vec![(Vec::new(), system)] };
+    let is_state = |carried: &Carried| {
+        rootless.rates.iter().any(|(_, symbol, _)| arena.quantity(*symbol) == Some(carried.quantity()))
+    };
+    let carried = [Carried::InverseDilatation, Carried::MeanLogStretch].into_iter().filter(is_state);
+    let rootless = (carried.collect(), rootless);
+    // Forces with phi^-1 must not form det phi, however short their equations were with it.
+    if inverts { vec![rootless] } else { vec![rootless, (Vec::new(), system)] }
 }
 
 /// The system with `r' = -(r/n) tr(phi^-1 phi')` in place of the root, `q' = tr(phi^-1 phi')/n` in place of the
-/// logarithm; `None` where nothing takes either. Where forces take `phi^-1`, `r` is carried in any case.
-pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) -> Option<Carrying> {
+/// logarithm, and whether forces take `phi^-1`: then `r` is carried in any case. `None` where nothing takes any of them.
+fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) -> Option<(System, bool)> {
     let tidied = system.clone().tidied(arena);
-    let symbols = Carried::ALL.map(|carried| carried.symbol(arena));
+    let symbols = arena.symbols([Quantity::InverseDilatation, Quantity::MeanLogStretch]);
     let [takes_r, takes_q] = symbols.map(|symbol| tidied.shared.iter().any(|(known, _)| *known == symbol));
     let inverts = inverts_the_placement(arena, chart, &tidied);
     let inverse_det = arena.symbol(Quantity::InverseDeterminant);
@@ -88,7 +94,7 @@ pub(super) fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: 
         let rate = expansion.scaled(&Rational::ratio(1, order)?);
         system.rates.push((Coordinate::Carried(q), q, rate));
     }
-    Some(Carrying { system, inverts })
+    Some((system, inverts))
 }
 
 /// `tr(phi^-1 phi') = tr O`.

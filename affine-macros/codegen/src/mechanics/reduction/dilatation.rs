@@ -1,0 +1,199 @@
+//! A mean stretch that moves by itself: it follows its closed form, and `Psi`, `det Psi = 1`, is left.
+//!
+//! Where the kinetic energy is isotropic up to a commuting rotation and `U = U_dil(q) + U_sh(Psi)`, what is left to integrate is
+//! (Slawianowski et al., section 5)
+//!
+//! ```text
+//! Psi' = Psi O  (co-moving)  or  O Psi  (spatial),   O = sigma/alpha,   sigma the traceless part of the affine spin
+//! ```
+//!
+//! `O` itself is the state, split into symmetric and skew parts, so that no coefficient is left in `Psi'`.
+
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::mechanics::body::Body;
+use crate::mechanics::charts::{Chart, Coordinate, Momentum};
+use crate::mechanics::equations::{Load, System};
+use crate::mechanics::hamiltonian::Isotropic;
+use crate::mechanics::loads::of_potential;
+use crate::mechanics::separation::{Separation, Slope};
+use crate::symbol::Quantity;
+
+use super::left_out::{LeftOut, Scope};
+
+/// The systems of a motion without its dilatation, in the charts that admit them; `turns` and `drifts` tell what else is split
+/// off. None where the dilatation is coupled to anything.
+pub(super) fn systems(
+    arena: &mut Arena,
+    body: &Body,
+    turns: bool,
+    drifts: bool,
+) -> Vec<(Chart, Separation, System)> {
+    let Some((iso, separation)) = separated(arena, body, turns, drifts) else { return Vec::new() };
+    let system = |momentum| {
+        let chart = Chart::new(arena, body.motion.dim(), momentum, None);
+        let load = of_potential(arena, &chart, body.potential?, body.forces);
+        let system = shear_system(arena, &chart, iso, &load)?;
+        Some((chart, separation.clone(), system))
+    };
+    [Momentum::Body, Momentum::Space].into_iter().filter_map(system).collect()
+}
+
+/// The energy and the motion of the dilatation.
+fn separated<'a>(
+    arena: &mut Arena,
+    body: &Body<'a>,
+    turns: bool,
+    drifts: bool,
+) -> Option<(&'a Isotropic, Separation)> {
+    let h = body.motion.hamiltonian()?;
+    let iso = h.isotropic.as_ref()?;
+    // Proved of potentials that are formulas alone: forces couple the dilatation to the rest, or are unknown.
+    let alone =
+        body.forces.is_empty() && (h.translation.is_none() || drifts) && (iso.skew.is_zero() || turns);
+    // With C(3) the velocity is no multiple of the traceless momentum.
+    if !alone || h.constraint.is_some() || !iso.casimir3.is_zero() {
+        return None;
+    }
+    let slope = body.potential?.dilatational_slope(arena)?;
+    Some((iso, Separation { slope, inverse_mass: iso.inverse_dilatational_mass(h.dim) }))
+}
+
+/// `rests` where `w` is conserved.
+pub(super) fn left_out(motion: &Separation, chart: &Chart, rests: bool) -> Vec<LeftOut> {
+    let path = match motion.slope {
+        Slope::Zero => "moves freely",
+        Slope::Linear(_) => "swings harmonically",
+        Slope::Hyperbolic { .. } => "moves by an elliptic function",
+    };
+    let name = chart.momentum.symbol();
+    let dilatation = Scope::Reduction.without(format!(
+        "the dilatation: phi = e^q Psi with det Psi = 1, and q {path}; the state is Psi with O, the traceless part \
+         of {name} over alpha, in parts O = s + w, symmetric and skew"
+    ));
+    [dilatation].into_iter().chain(rests.then(|| Scope::Reduction.without("w: conserved"))).collect()
+}
+
+/// The system of `Psi` and `O` in place of `phi` and an affine spin; `load` are the forces of the potential in the
+/// chart, `casimirs` the kinetic energy without the rotation that commutes. `None` where the forces still depend on
+/// the dilatation.
+fn shear_system(arena: &mut Arena, chart: &Chart, casimirs: &Isotropic, load: &Load) -> Option<System> {
+    let n = chart.dim;
+    let psi = Matrix::symbols(arena, Quantity::IsochoricPlacement, n);
+    let velocity = velocity(arena, n);
+    let forces = forces(arena, chart, &psi, load);
+    let mut system = System { shared: forces.shared, work: forces.work, ..System::default() };
+    let o = Matrix::symbols(arena, Quantity::IsochoricVelocity, n);
+    for (a, b) in pairs(n) {
+        system.shared.push((o.0[a][b], velocity[a][b].clone()));
+    }
+    for (i, a) in pairs(n) {
+        let mut rate = Polynomial::zero();
+        for k in 0..n {
+            let product = match chart.momentum {
+                Momentum::Space => vec![o.0[i][k], psi.0[k][a]],
+                _ => vec![psi.0[i][k], o.0[k][a]],
+            };
+            rate.add_term(product, &Rational::ONE);
+        }
+        system.rates.push((Coordinate::Phi(i, a), psi.0[i][a], rate));
+    }
+    let force = |a: usize, b: usize| {
+        let found = forces.forces.iter().find(|(z, _)| *z == Coordinate::M(a, b));
+        found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
+    };
+    let nth = Rational::one_over(n);
+    let half = Rational::HALF;
+    let mut mean = Polynomial::zero();
+    (0..n).for_each(|a| mean.add_scaled(&force(a, a), &nth));
+    for (a, b) in pairs(n) {
+        let mut rate = match (a < b, a == b) {
+            (true, _) => sum(&force(a, b), &force(b, a), &Rational::ONE).scaled(&half),
+            (_, true) => sum(&force(a, a), &mean, &Rational::MINUS_ONE),
+            _ => sum(&force(b, a), &force(a, b), &Rational::MINUS_ONE).scaled(&half),
+        };
+        rate = rate.mul(&casimirs.casimir2);
+        if (a, b) != (n - 1, n - 1) {
+            system.rates.push((Coordinate::M(a, b), part(arena, a, b), rate));
+        }
+    }
+    let system = system.tidied(arena);
+    let depends = |p: &Polynomial| {
+        p.any_symbol(arena, &mut |s| arena.quantity(s).is_some_and(|quantity| UNDEFORMED.contains(&quantity)))
+    };
+    let free =
+        !system.shared.iter().any(|(_, p)| depends(p)) && !system.rates.iter().any(|(.., p)| depends(p));
+    free.then_some(system)
+}
+
+/// What is a constant at `det phi = 1`.
+const UNDEFORMED: [Quantity; 5] = [
+    Quantity::Determinant,
+    Quantity::InverseDeterminant,
+    Quantity::Dilatation,
+    Quantity::InverseDilatation,
+    Quantity::MeanLogStretch,
+];
+
+/// The forces at `q = 0` with `Psi` for `phi`. Where they do not depend on `q`, nor `U_dil` on the time, neither does their
+/// power `dU/dt`.
+fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
+    let value_at_rest = UNDEFORMED.map(|quantity| {
+        let value = if quantity == Quantity::MeanLogStretch { Rational::ZERO } else { Rational::ONE };
+        (arena.symbol(quantity), arena.constant(value))
+    });
+    let replaced: Vec<(Expr, Expr)> =
+        pairs(chart.dim).map(|(i, a)| (chart.phi.0[i][a], psi.0[i][a])).chain(value_at_rest).collect();
+    let value = |atom: Expr| replaced.iter().find(|(s, _)| *s == atom).map(|(_, value)| *value);
+    let defined = |symbol: Expr| value_at_rest.iter().any(|(s, _)| *s == symbol);
+    let mut at_rest = |form: &Polynomial| {
+        let form = form.expression(arena);
+        // Dilatations of a placement have no part in what vanishes.
+        let form = arena.replaced(form, &value);
+        Polynomial::normal_form(arena, form)
+    };
+    let shared = load.shared.iter().filter(|(symbol, _)| !defined(*symbol));
+    Load {
+        shared: shared.map(|(symbol, form)| (*symbol, at_rest(form))).collect(),
+        forces: load.forces.iter().map(|(z, form)| (*z, at_rest(form))).collect(),
+        work: load.work.as_ref().map(|(symbol, power)| (*symbol, at_rest(power))),
+        ..Load::default()
+    }
+}
+
+/// `O_ab` in its parts: `s_ab + w_ab`, `s_ab - w_ab`, `s_aa`, and the last diagonal entry from the trace.
+fn velocity(arena: &mut Arena, n: usize) -> Vec<Vec<Polynomial>> {
+    let mut rows = vec![vec![Polynomial::zero(); n]; n];
+    for (a, b) in pairs(n) {
+        let symbol = |arena: &mut Arena, a, b| Polynomial::atom(part(arena, a, b));
+        rows[a][b] = match (a < b, a == b) {
+            (true, _) => sum(&symbol(arena, a, b), &symbol(arena, b, a), &Rational::ONE),
+            (_, true) if a + 1 < n => symbol(arena, a, a),
+            (_, true) => {
+                let mut rest = Polynomial::zero();
+                (0..a).for_each(|c| rest.add_scaled(&symbol(arena, c, c), &Rational::MINUS_ONE));
+                rest
+            }
+            _ => sum(&symbol(arena, b, a), &symbol(arena, a, b), &Rational::MINUS_ONE),
+        };
+    }
+    rows
+}
+
+/// The symbol of the symmetric part above the diagonal and on it, of the skew part `w_ba`, `b < a`, below.
+fn part(arena: &mut Arena, a: usize, b: usize) -> Expr {
+    if a <= b {
+        arena.symbol(Quantity::Shear.at([a + 1, b + 1]))
+    } else {
+        arena.symbol(Quantity::Turn.at([b + 1, a + 1]))
+    }
+}
+
+fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
+}
+
+fn sum(left: &Polynomial, right: &Polynomial, weight: &Rational) -> Polynomial {
+    let mut sum = left.clone();
+    sum.add_scaled(right, weight);
+    sum
+}

@@ -1,0 +1,29 @@
+//! A centre of mass that moves freely: it is where it was, and `t p/m` further.
+
+use crate::algebra::{Arena, Polynomial};
+use crate::mechanics::body::Body;
+
+use super::left_out::{LeftOut, Scope};
+
+/// `|p|^2/(2 m)`, which commutes with all that contains neither `x` nor `p`, as the internal energy does not.
+#[derive(Clone, Debug)]
+pub struct Drift {
+    /// `1/m`.
+    pub inverse_mass: Polynomial,
+}
+
+impl Drift {
+    /// That of a motion whose centre of mass nothing acts on.
+    pub fn of(arena: &mut Arena, body: &Body) -> Option<Self> {
+        let masses = &body.motion.masses;
+        let free = masses.body.is_none()
+            && body.potential.is_none_or(|u| !u.moves_the_centre())
+            && body.forces.leave_the_centre();
+        let reciprocal = arena.pow(masses.space.filter(|_| free)?, -1)?;
+        Some(Self { inverse_mass: Polynomial::normal_form(arena, reciprocal) })
+    }
+
+    pub(super) fn left_out() -> LeftOut {
+        Scope::Reduction.without("x and p: the centre of mass moves freely, x = x0 + t p/m")
+    }
+}

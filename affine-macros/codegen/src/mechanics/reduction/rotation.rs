@@ -1,0 +1,54 @@
+//! The rotation that the skew part of an isotropic energy makes: it is applied exactly.
+
+use crate::algebra::{Arena, Polynomial, Rational};
+use crate::mechanics::body::Body;
+use crate::mechanics::brackets::poisson;
+use crate::mechanics::charts::{Chart, Momentum};
+use crate::mechanics::conserved::Candidate;
+use crate::mechanics::hamiltonian::spatial_or_own;
+use crate::mechanics::term::Frame;
+
+use super::left_out::{LeftOut, Scope};
+
+/// `|W|^2/(2 mu)`, which commutes with the rest of `H`.
+#[derive(Clone, Debug)]
+pub struct Rotation {
+    /// With the vorticity, `phi -> phi exp(-t Vort/mu)`, or with the spin, `phi -> exp(-t S/mu) phi`.
+    pub frame: Frame,
+    /// `1/mu`.
+    pub inverse_mass: Polynomial,
+}
+
+impl Rotation {
+    /// That of a motion, where it is proved to commute with the rest of the energy, the potential and the forces.
+    pub(super) fn of(arena: &mut Arena, body: &Body) -> Option<Self> {
+        let h = body.motion.hamiltonian()?;
+        let iso = h.isotropic.as_ref().filter(|iso| !iso.skew.is_zero())?;
+        let chart = body.motion.chart(arena, true);
+        let spin = spatial_or_own(&chart);
+        let mut rest = iso.casimirs(&spin);
+        rest.add_scaled(&h.translation_in(&chart), &Rational::ONE);
+        let norm = match h.frame {
+            Frame::Body => Candidate::Vorticity,
+            _ => Candidate::Spin,
+        };
+        let commutes = poisson(&chart, &iso.skew_norm(&spin), &rest).is_zero()
+            && body.potential.is_none_or(|u| u.keeps(norm))
+            && body.forces.commute_with_rotation(&chart, h, iso);
+        commutes.then(|| Self { frame: h.frame, inverse_mass: iso.skew.clone() })
+    }
+
+    /// Does it turn the affine momentum of a chart?
+    pub(super) fn turns(&self, chart: &Chart) -> bool {
+        chart.momentum == Momentum::of(self.frame)
+    }
+
+    pub(super) fn left_out(&self) -> LeftOut {
+        Scope::Reduction.without(match self.frame {
+            Frame::Body => {
+                "the |Vort|^2/(2 mu) of H: it commutes with the rest and is applied exactly, phi -> phi exp(-t Vort/mu)"
+            }
+            _ => "the |S|^2/(2 mu) of H: it commutes with the rest and is applied exactly, phi -> exp(-t S/mu) phi",
+        })
+    }
+}
