@@ -16,50 +16,37 @@
 //! of collective and internal modes, Part I*.
 #![cfg_attr(not(feature = "std"), no_std)]
 
-pub mod balance;
-mod breathing;
-pub mod capability;
-mod condition;
-pub mod conserved;
-mod constraint;
 #[cfg(feature = "std")]
 pub mod counting;
-mod custom;
-pub mod decompose;
-mod dissipation;
-pub mod dual;
-mod elliptic;
-pub mod error;
-pub mod force;
-pub mod frames;
-pub mod geodesic;
-pub mod integrate;
-pub mod kinematics;
-pub mod lanes;
 pub mod lattice;
-mod matrix_field;
-pub mod metrics;
-pub mod model;
-pub mod potential;
-mod quantity;
-mod reduction;
-mod regularity;
+mod private;
 #[cfg(feature = "report")]
 pub mod report;
-pub mod sampling;
-pub mod scalar;
 pub mod signature;
 #[cfg(feature = "std")]
 pub mod simulate;
-pub mod state;
-mod unprepared;
 pub mod variation;
 #[cfg(all(feature = "std", not(feature = "report")))]
 mod without_report;
 
+pub use affine_core::{
+    balance, capability, conserved, decompose, dual, error, force, frames, geodesic, kinematics, metrics,
+    model, potential, sampling, scalar, state, system,
+};
+pub use affine_integrators as integrate;
+pub use affine_integrators::lanes;
+
+/// What of the other crates is for this one alone.
+mod inner {
+    pub(crate) use affine_core::__private::numerics::*;
+    pub(crate) use affine_integrators::__private::runs::*;
+}
+
+/// What emitted code uses besides the public traits. No stable interface: it changes with the macro.
 #[doc(hidden)]
-#[path = "private.rs"]
-pub mod __private;
+pub mod __private {
+    pub use crate::private::*;
+}
 
 pub use error::{Error, Result};
 pub use model::Model;

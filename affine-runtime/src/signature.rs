@@ -1,8 +1,8 @@
 //! The signature of a kinetic energy whose coefficients are known when the model is prepared.
 
 use crate::frames::{Matrix, Vector};
+use crate::inner::jacobi;
 use crate::model::{Constraint, Model, Quantity, Velocity};
-use crate::reduction::jacobi;
 
 /// Degrees of freedom of the largest model: nine of the placement and three of the centre.
 const LARGEST: usize = 12;

@@ -13,12 +13,12 @@ mod ensemble;
 mod event;
 mod fingerprint;
 mod follow;
-mod halt;
 mod layout;
 mod mechanics;
 mod methods;
 mod motion;
 mod orientation;
+mod outcome;
 mod output;
 mod point;
 mod power_balance;
@@ -27,7 +27,6 @@ mod recorder;
 mod root;
 mod round_trip;
 mod run;
-mod setting;
 mod settings;
 mod signature;
 mod standing;
@@ -40,14 +39,14 @@ mod witness;
 
 use core::ops::ControlFlow;
 
+pub use crate::error::{Callback, Reason, Setting, Stop};
 pub use checkpoint::Checkpoint;
 pub use conservation::{Conservation, Drift};
 pub use ensemble::{Ends, Ensemble};
 pub use event::{Direction, Event, Occurrence};
-pub use halt::{Callback, Halt, Outcome, Reason, Stop};
+pub use outcome::{Halt, Outcome};
 pub use power_balance::PowerBalance;
 pub use round_trip::RoundTrip;
-pub use setting::Setting;
 pub use trajectory::{Computation, Trajectory};
 pub use why::Why;
 

@@ -2,7 +2,8 @@
 
 use crate::capability::Tangent;
 use crate::dual::Dual;
-use crate::integrate::{Failure, RungeKutta8, norm, sound};
+use crate::inner::{norm, sound};
+use crate::integrate::{Failure, RungeKutta8};
 use crate::model::StateVector;
 
 /// A motion and its derivative with respect to the start, along one direction.

@@ -312,6 +312,11 @@ impl fmt::Display for StopReason {
     }
 }
 
-crate::error::debug_as_displayed!([const N: usize] LatticeStop<N>);
+/// As it is displayed: a `main` that returns an error prints that.
+impl<const N: usize> core::fmt::Debug for LatticeStop<N> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        core::fmt::Display::fmt(self, f)
+    }
+}
 
 impl<const N: usize> core::error::Error for LatticeStop<N> {}

@@ -2,7 +2,7 @@
 
 use super::axes::Axis;
 use super::palette::category_count;
-use crate::integrate::larger;
+use crate::inner::larger;
 use crate::simulate::{Drift, Trajectory};
 use crate::state::Phase;
 

@@ -1,6 +1,7 @@
 //! How many steps keep the tolerance that they were chosen for.
 
-use crate::integrate::{ErrorNorm, norm};
+use crate::inner::norm;
+use crate::integrate::ErrorNorm;
 use crate::model::Model;
 use crate::simulate::{Method, Simulation, Trajectory};
 

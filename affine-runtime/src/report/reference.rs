@@ -3,7 +3,7 @@
 use qd::Quad;
 
 use crate::error::{Error, Result};
-use crate::integrate::norm;
+use crate::inner::norm;
 use crate::model::{Description, Model, StateVector};
 use crate::simulate::has_multiplier;
 

@@ -5,7 +5,7 @@ mod table;
 
 use crate::error::Error;
 use crate::frames::Matrix;
-use crate::integrate::{larger, norm};
+use crate::inner::{larger, norm};
 
 /// What a result is held against. None of them is the method under test at another tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,8 +7,9 @@ use super::local_error::share_above;
 use super::reference::reference_solution;
 use super::{method_name, save};
 use crate::error::Result;
+use crate::inner::norm;
+use crate::integrate::Statistics;
 use crate::integrate::splitting::Pieces;
-use crate::integrate::{Statistics, norm};
 use crate::model::{Conserved, Group, Model};
 use crate::simulate::{Halt, Method, Reason, Simulation, Stop, Trajectory};
 

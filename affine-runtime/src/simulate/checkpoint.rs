@@ -1,8 +1,8 @@
 //! Where a run was interrupted, as numbers from which it goes on with the same bits.
 
 use super::standing::Memory;
+use crate::inner::Tape;
 use crate::integrate::Statistics;
-use crate::integrate::tape::Tape;
 use crate::state::Phase;
 
 /// The state of an interrupted run between two steps, and what has been done of the step after.

@@ -3,13 +3,13 @@
 use super::Method;
 use super::collapse::rate_of_determinant;
 use super::follow::WITHIN_A_STEP;
-use super::halt::Reason;
 use super::mechanics::Course;
 use super::recorder::Recorder;
 use super::watcher::{At, Sampling};
+use crate::error::Reason;
 use crate::geodesic::{Geodesic, Motion};
-use crate::integrate::larger;
-use crate::kinematics::LogDeterminant;
+use crate::inner::LogDeterminant;
+use crate::inner::larger;
 use crate::state::Phase;
 
 /// Part of the way to a collapse within which an event that follows belongs to it: times of a collapse and of the zero of

@@ -1,10 +1,10 @@
 //! When a body collapses.
 
-use super::halt::Reason;
 use super::mechanics::Mechanics;
+use crate::error::Reason;
 use crate::frames::Matrix;
-use crate::integrate::norm;
-use crate::kinematics::LogDeterminant;
+use crate::inner::LogDeterminant;
+use crate::inner::norm;
 use crate::state::Phase;
 
 /// A step that fails where `det phi` falls to zero within this part of the time since the start has run into the collapse.

@@ -5,7 +5,7 @@ use core::fmt;
 use super::power_balance::PowerBalance;
 use super::trajectory::Trajectory;
 use crate::conserved::{Components, evaluate, scale};
-use crate::integrate::larger;
+use crate::inner::larger;
 use crate::model::Conserved;
 use crate::state::Phase;
 

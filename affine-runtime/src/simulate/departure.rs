@@ -1,7 +1,7 @@
 //! To which side a function goes that begins at zero.
 
 use super::standing::Side;
-use crate::integrate::larger;
+use crate::inner::larger;
 
 /// Where it is looked at first: a part of the interval, and some roundings of time.
 const NEAREST: f64 = 1.0 / ((1_u64 << 40) as f64);

@@ -3,10 +3,11 @@
 use core::f64::consts::TAU;
 
 use super::collapse::first_failure;
-use super::halt::Reason;
 use super::mechanics::Mechanics;
 use super::motion::Motion;
-use crate::integrate::{Failure, norm};
+use crate::error::Reason;
+use crate::inner::norm;
+use crate::integrate::Failure;
 use crate::model::{Bound, Description, Guard};
 use crate::state::Phase;
 
@@ -43,8 +44,8 @@ impl Domain {
         }
         let values = values(model, (t, point));
         for (guard, value) in guards.iter().zip(&values) {
-            if !guard.admits(*value, *value) {
-                return Err(guard.left(*value, t));
+            if !admits(guard, *value, *value) {
+                return Err(left(guard, *value, t));
             }
         }
         let rates = rates(model, (t, point), &values);
@@ -67,7 +68,7 @@ impl Domain {
         let rates = rates(model, (t, &point), &values);
         let holds = |values: &[f64]| {
             let signs = self.guards.iter().zip(&self.values).zip(values);
-            signs.into_iter().position(|((guard, before), now)| !guard.admits(*now, *before))
+            signs.into_iter().position(|((guard, before), now)| !admits(guard, *now, *before))
         };
         let length = t - self.t;
         let comes_near = (0..self.guards.len()).any(|k| {
@@ -88,7 +89,7 @@ impl Domain {
                     first_failure(good, sample, |t| at(t).is_ok_and(|values| holds(&values).is_none()));
                 let there = at(edge).map_err(reason)?;
                 let lost = holds(&there).unwrap_or(0);
-                return Err(self.guards[lost].left(there[lost], edge));
+                return Err(left(&self.guards[lost], there[lost], edge));
             }
             good = sample;
         }
@@ -103,23 +104,21 @@ impl Domain {
             let (value, rate) = (self.values[*k], self.rates[*k] * (self.t - since).signum());
             rate * value < 0.0 && (value / rate).abs() <= at_hand
         })?;
-        Some(self.guards[lost].left(self.values[lost], self.t))
+        Some(left(&self.guards[lost], self.values[lost], self.t))
     }
 }
 
-impl Guard {
-    /// May the function have a value, with one that it had before?
-    fn admits(&self, value: f64, before: f64) -> bool {
-        match self.bound {
-            Bound::Positive => value > 0.0,
-            Bound::NotNegative => value >= 0.0,
-            Bound::NotZero => value != 0.0 && value.signum() == before.signum(),
-        }
+/// May a function have a value, with one that it had before?
+fn admits(guard: &Guard, value: f64, before: f64) -> bool {
+    match guard.bound {
+        Bound::Positive => value > 0.0,
+        Bound::NotNegative => value >= 0.0,
+        Bound::NotZero => value != 0.0 && value.signum() == before.signum(),
     }
+}
 
-    fn left(&self, value: f64, t: f64) -> Reason {
-        Reason::Domain { guard: *self, value, t }
-    }
+fn left(guard: &Guard, value: f64, t: f64) -> Reason {
+    Reason::Domain { guard: *guard, value, t }
 }
 
 /// The largest part of a turn that an angle of the potential makes by the time alone, with that part of the potential.

@@ -4,18 +4,18 @@ mod bodies;
 
 use core::fmt;
 
-use super::halt::Stop;
 use super::layout::placement_in;
 use super::mechanics::Moving;
 use super::methods::automatic;
 use super::motion::WithWork;
 use super::orientation::passes_through_zero;
 use super::point::is_clearly_positive;
-use super::setting::Setting;
 use super::settings::Plan;
 use super::witness::Witness;
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
 use crate::capability::InLanes;
+use crate::error::Setting;
+use crate::error::Stop;
 use crate::lanes::{Lanes, Widest};
 use crate::model::Model;
 use crate::state::Phase;

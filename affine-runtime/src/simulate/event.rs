@@ -5,7 +5,7 @@ use core::fmt;
 use crate::decompose::log_stretches;
 use crate::error::Result;
 use crate::frames::Matrix;
-use crate::kinematics::LogDeterminant;
+use crate::inner::LogDeterminant;
 use crate::metrics::Bases;
 use crate::state::Phase;
 

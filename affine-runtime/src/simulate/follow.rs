@@ -2,7 +2,6 @@
 
 use super::collapse::{failing, first_failure, rate_of_determinant};
 use super::domain::{Domain, turns};
-use super::halt::Reason;
 use super::motion::Motion;
 use super::orientation::{Moment, keeps_orientation, passes_through_zero};
 use super::output::Schedule;
@@ -10,6 +9,7 @@ use super::point::{check, is_clearly_positive};
 use super::recorder::Recorder;
 use super::signature::Signature;
 use super::watcher::Sampling;
+use crate::error::Reason;
 use crate::frames::Matrix;
 use crate::state::Phase;
 

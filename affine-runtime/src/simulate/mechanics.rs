@@ -1,8 +1,8 @@
 //! What a run asks of a model.
 
 use super::Method;
-use super::halt::Reason;
 use super::recorder::Recorder;
+use crate::error::Reason;
 use crate::frames::Matrix;
 use crate::geodesic::Geodesic;
 use crate::metrics::Bases;

@@ -1,20 +1,19 @@
 //! The integrators, each begun on the state that it steps.
 
-use super::halt::Reason;
 use super::layout::{Layout, carries_dilatation, has_multiplier, is_canonical, moves_on_group, placement_in};
 use super::mechanics::Course;
 use super::motion::{Expanded, Expansion};
 use super::range::in_range;
 use super::recorder::Recorder;
-use super::setting::Setting;
 use super::stepper::{Explicit, Stepper};
 use super::stiffness::{PiecesOf, Trial, adaptive, stiffness};
 use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
-use crate::capability::is_emitted;
+use crate::error::Reason;
+use crate::error::Setting;
+use crate::inner::is_emitted;
 use crate::integrate::gauss::Tableau as Collocation;
 use crate::integrate::lie::{Chart, Coordinates, Flat};
 use crate::integrate::nystrom::Tableau;
-use crate::integrate::packed::Packing;
 use crate::integrate::rattle::{Composition, Reaction};
 use crate::integrate::runge_kutta::{Field, InVectors, Pair, RungeKutta};
 use crate::integrate::{
@@ -22,6 +21,7 @@ use crate::integrate::{
 };
 use crate::model::{Constraint, Group, Model, StateVector};
 use crate::state::Phase;
+use crate::system::Packing;
 
 /// Follows the motion of `model` by the best method there is, or one that the automatic choice has.
 pub(super) fn automatic<const N: usize, M: Model<N>>(

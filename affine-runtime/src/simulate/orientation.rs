@@ -1,13 +1,13 @@
 //! Whether a body in a flat metric keeps its orientation throughout a step, not only at its ends.
 
-use super::halt::Reason;
 use super::layout::{carries_dilatation, is_free_in_pi};
 use super::mechanics::Mechanics;
 use super::motion::Motion;
 use super::point::check;
+use crate::error::Reason;
 use crate::frames::Matrix;
-use crate::integrate::norm;
-use crate::kinematics::LogDeterminant;
+use crate::inner::LogDeterminant;
+use crate::inner::norm;
 use crate::model::Description;
 use crate::state::Phase;
 

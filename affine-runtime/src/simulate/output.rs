@@ -1,7 +1,7 @@
 //! Output times.
 
-use super::setting::Setting;
-use crate::integrate::parts;
+use crate::error::Setting;
+use crate::inner::parts;
 
 /// More outputs than that are taken for a slip of the pen.
 const MOST_OUTPUTS: f64 = 1e8;

@@ -2,11 +2,11 @@
 
 use core::ops::ControlFlow;
 
-use super::halt::{Callback, Reason};
 use super::mechanics::Mechanics;
+use crate::error::{Callback, Reason};
 use crate::frames::Matrix;
-use crate::integrate::{larger, norm, sum_of_squares};
-use crate::kinematics::LogDeterminant;
+use crate::inner::LogDeterminant;
+use crate::inner::{larger, norm, sum_of_squares};
 use crate::state::Phase;
 
 /// Part of `|phi|^n` above which a determinant is positive whatever the rounding of a few products.

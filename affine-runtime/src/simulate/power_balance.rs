@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::trajectory::Trajectory;
-use crate::integrate::larger;
+use crate::inner::larger;
 use crate::model::Quantity;
 use crate::state::Phase;
 

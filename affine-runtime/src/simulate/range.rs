@@ -1,9 +1,9 @@
 //! Where `det phi` leaves the range of numbers, and with it methods that form it.
 
-use super::halt::Reason;
 use super::point::is_clearly_positive;
+use crate::error::Reason;
 use crate::frames::Matrix;
-use crate::kinematics::LogDeterminant;
+use crate::inner::LogDeterminant;
 
 /// Refuses a placement, in orthonormal bases, at which `det phi` or its inverse is no normal number: a force that underflows would be left out
 /// without a word.

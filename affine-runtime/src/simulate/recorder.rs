@@ -3,7 +3,6 @@
 use super::checkpoint::{Bits, Place};
 use super::domain::Domain;
 use super::event::{Action, Occurrence};
-use super::halt::{Callback, Reason};
 use super::mechanics::Mechanics;
 use super::motion::{Motion, WithWork};
 use super::output::{Schedule, without_steps};
@@ -15,7 +14,9 @@ use super::watcher::{At, Met, Sampling, Watcher};
 use super::witness::Witness;
 use super::{Observe, Progress, Watch};
 use crate::error::Error;
-use crate::integrate::{Failure, larger, norm};
+use crate::error::{Callback, Reason};
+use crate::inner::{larger, norm};
+use crate::integrate::Failure;
 use crate::state::Phase;
 
 /// Samples of a step after which it tells how far it has come.

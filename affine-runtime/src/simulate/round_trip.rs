@@ -2,11 +2,11 @@
 
 use core::fmt;
 
-use super::halt::Outcome;
+use super::outcome::Outcome;
 use super::output::Output;
 use super::trajectory::Trajectory;
 use super::{Settings, Simulation};
-use crate::integrate::larger;
+use crate::inner::larger;
 use crate::model::Model;
 use crate::state::Phase;
 

@@ -2,16 +2,17 @@
 
 use super::checkpoint::{Checkpoint, Place};
 use super::fingerprint::fingerprint;
-use super::halt::{Halt, Outcome, Reason, Stop};
 use super::layout::total;
 use super::mechanics::{Course, Mechanics};
+use super::outcome::{Halt, Outcome};
 use super::point::{check, energy_scale};
 use super::recorder::{Recorder, Turn};
-use super::setting::Setting;
 use super::settings::{Plan, Settings};
 use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;
 use super::{Method, NEAR_DEGENERATE, Simulation};
+use crate::error::Setting;
+use crate::error::{Reason, Stop};
 use crate::integrate::Statistics;
 use crate::model::{Model, StateVector};
 use crate::state::Phase;

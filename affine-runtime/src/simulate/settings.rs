@@ -3,12 +3,12 @@
 use super::checkpoint::Checkpoint;
 use super::event::Event;
 use super::output::{Output, Schedule};
-use super::setting::Setting;
 use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Observe, Watch};
+use crate::error::Setting;
+use crate::inner::step_count;
 use crate::integrate::gauss::Tableau;
 use crate::integrate::rattle::Composition;
 use crate::integrate::splitting::Sweeps;
-use crate::integrate::step_count;
 use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER};
 use crate::model::{Constraint, Description};
 

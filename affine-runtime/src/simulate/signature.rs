@@ -1,6 +1,6 @@
 //! A mass matrix that depends on the placement keeps its signature along a motion, or the run ends.
 
-use super::halt::Reason;
+use crate::error::Reason;
 use crate::model::Regularity;
 
 /// Where a run cannot go on and the weakest pivot is this small, that is why: velocities grow without bound there, and

@@ -1,8 +1,9 @@
 //! Whether a motion is stiff in what a piece of it has in closed form.
 
 use super::mechanics::Course;
-use crate::capability::is_emitted;
-use crate::integrate::splitting::{EVALUATIONS_OF_FASTEST, Pieces, fastest};
+use crate::inner::is_emitted;
+use crate::inner::{EVALUATIONS_OF_FASTEST, fastest};
+use crate::integrate::splitting::Pieces;
 use crate::integrate::{AdaptiveSplitting, Failure};
 use crate::model::Model;
 

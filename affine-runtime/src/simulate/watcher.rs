@@ -3,12 +3,12 @@
 use super::accumulation::Changes;
 use super::departure::departure;
 use super::event::{Action, Direction, Event};
-use super::halt::Reason;
 use super::motion::WithWork;
 use super::point::check;
 use super::root::root;
 use super::standing::{Memory, Side, Standing};
-use crate::integrate::larger;
+use crate::error::Reason;
+use crate::inner::larger;
 use crate::metrics::Bases;
 use crate::state::Phase;
 

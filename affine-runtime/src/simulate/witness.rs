@@ -1,9 +1,9 @@
 //! The energy as a witness: a motion that has lost it is not the one that was asked for.
 
-use super::halt::Reason;
 use super::mechanics::Mechanics;
 use super::point::energy_bound;
-use crate::integrate::{larger, norm};
+use crate::error::Reason;
+use crate::inner::{larger, norm};
 use crate::model::{Conserved, Description, Quantity};
 use crate::state::Phase;
 

@@ -1,0 +1,257 @@
+//! Values of conserved quantities at a phase point.
+
+use crate::frames::{Matrix, Vector};
+use crate::kinematics::Kinematics;
+use crate::model::Conserved;
+use crate::norm::norm;
+use crate::state::{Euclidean, Phase};
+
+/// Independent components of a quantity: at most nine, in the dimensions 2 and 3.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Components {
+    values: [f64; 9],
+    len: usize,
+}
+
+impl Components {
+    /// The components: a vector's, a matrix's row by row, the entries above the diagonal of a skew matrix row by
+    /// row, or one number.
+    #[must_use]
+    pub fn as_slice(&self) -> &[f64] {
+        &self.values[..self.len]
+    }
+
+    /// Euclidean norm: Frobenius for a matrix, `sqrt(-tr(S^2)/2)` for a skew matrix.
+    #[must_use]
+    pub fn norm(&self) -> f64 {
+        norm(self.as_slice())
+    }
+
+    /// Euclidean norm of the difference to the same quantity elsewhere.
+    #[must_use]
+    pub fn distance(&self, other: &Self) -> f64 {
+        let differences = self.as_slice().iter().zip(other.as_slice()).map(|(a, b)| a - b);
+        Self::collect(differences).norm()
+    }
+
+    fn collect(components: impl Iterator<Item = f64>) -> Self {
+        let mut collected = Self { values: [0.0; 9], len: 0 };
+        for (place, component) in collected.values.iter_mut().zip(components) {
+            *place = component;
+            collected.len += 1;
+        }
+        collected
+    }
+
+    fn number(value: f64) -> Self {
+        Self::collect(core::iter::once(value))
+    }
+
+    fn vector<const N: usize>(v: &Vector<N>) -> Self {
+        Self::collect(v.iter().copied())
+    }
+
+    fn matrix<const N: usize>(m: &Matrix<N>) -> Self {
+        Self::collect((0..N * N).map(|k| m[(k / N, k % N)]))
+    }
+
+    fn skew<const N: usize>(m: &Matrix<N>) -> Self {
+        let above = (0..N * N).map(|k| (k / N, k % N)).filter(|(a, b)| a < b);
+        Self::collect(above.map(|(a, b)| m[(a, b)]))
+    }
+}
+
+/// The quantity at a phase point (Slawianowski et al., sections 2 and 5); `None` for the energy, which
+/// belongs to the model and not to the point.
+#[must_use]
+pub fn evaluate<const N: usize, P: Phase<N> + Euclidean>(
+    quantity: Conserved,
+    point: &P,
+) -> Option<Components> {
+    Some(match quantity {
+        Conserved::Energy => return None,
+        Conserved::LinearMomentum => Components::vector(&point.p()),
+        Conserved::ComovingLinearMomentum => Components::vector(&point.p_hat().0.0),
+        Conserved::OrbitalAngularMomentum => Components::skew(&point.orbital_angular_momentum().0.0),
+        Conserved::TotalAffineMomentum => Components::matrix(&point.total_affine_momentum().0.0),
+        Conserved::TotalAngularMomentum => Components::skew(&point.total_angular_momentum().0.0),
+        Conserved::AffineSpin => Components::matrix(&point.sigma().0.0),
+        Conserved::Deviator => Components::matrix(&point.sigma().deviator().0.0),
+        Conserved::Spin => Components::skew(&point.spin().0.0),
+        Conserved::SpinNorm => Components::number(point.spin().norm_squared()),
+        Conserved::ComovingAffineSpin => Components::matrix(&point.sigma_hat().0.0),
+        Conserved::ComovingDeviator => Components::matrix(&point.sigma_hat().deviator().0.0),
+        Conserved::Vorticity => Components::skew(&point.vorticity().0.0),
+        Conserved::VorticityNorm => Components::number(point.vorticity().norm_squared()),
+        Conserved::CanonicalMomentum => Components::matrix(&point.pi().0.0),
+        Conserved::Casimir1 => Components::number(point.casimir(1)),
+        Conserved::Casimir2 => Components::number(point.casimir(2)),
+        Conserved::Casimir3 => Components::number(point.casimir(3)),
+        Conserved::DeviatorCasimir2 => Components::number(point.shear_casimir(2)),
+        Conserved::DeviatorCasimir3 => Components::number(point.shear_casimir(3)),
+    })
+}
+
+/// The size of what the quantity is made of at a phase point, against which its drift is read: `|Sigma|^2` for
+/// `tr Sigma^2`, `|x| |p| + |Sigma|` for the total affine momentum, so that a quantity that vanishes has a scale
+/// too. `None` for the energy.
+#[must_use]
+pub fn scale<const N: usize, P: Phase<N> + Euclidean>(quantity: Conserved, point: &P) -> Option<f64> {
+    let sigma = || norm(point.sigma().0.0.as_slice());
+    let sigma_hat = || norm(point.sigma_hat().0.0.as_slice());
+    let p = || norm(point.p().as_slice());
+    let orbital = || norm(point.x().as_slice()) * p();
+    Some(match quantity {
+        Conserved::Energy => return None,
+        Conserved::LinearMomentum => p(),
+        Conserved::ComovingLinearMomentum => norm(point.phi().as_slice()) * p(),
+        Conserved::OrbitalAngularMomentum => orbital(),
+        Conserved::TotalAffineMomentum | Conserved::TotalAngularMomentum => orbital() + sigma(),
+        Conserved::AffineSpin | Conserved::Deviator | Conserved::Spin | Conserved::Casimir1 => sigma(),
+        Conserved::SpinNorm | Conserved::Casimir2 | Conserved::DeviatorCasimir2 => square(sigma()),
+        Conserved::Casimir3 | Conserved::DeviatorCasimir3 => sigma() * square(sigma()),
+        Conserved::ComovingAffineSpin | Conserved::ComovingDeviator | Conserved::Vorticity => sigma_hat(),
+        Conserved::VorticityNorm => square(sigma_hat()),
+        Conserved::CanonicalMomentum => norm(point.pi().0.0.as_slice()),
+    })
+}
+
+impl Conserved {
+    /// The formula.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Energy => "H",
+            Self::LinearMomentum => "p",
+            Self::ComovingLinearMomentum => "p_hat = phi^T p",
+            Self::OrbitalAngularMomentum => "x p^T - p x^T",
+            Self::TotalAffineMomentum => "I = x p^T + Sigma",
+            Self::TotalAngularMomentum => "I - I^T",
+            Self::AffineSpin => "Sigma",
+            Self::Deviator => "sigma = Sigma - (tr Sigma/n) 1",
+            Self::Spin => "S = Sigma - Sigma^T",
+            Self::SpinNorm => "|S|^2",
+            Self::ComovingAffineSpin => "Sigma_hat",
+            Self::ComovingDeviator => "Sigma_hat - (tr Sigma_hat/n) 1",
+            Self::Vorticity => "Vort = Sigma_hat - Sigma_hat^T",
+            Self::VorticityNorm => "|Vort|^2",
+            Self::CanonicalMomentum => "Pi",
+            Self::Casimir1 => "C(1) = tr Sigma",
+            Self::Casimir2 => "C(2) = tr Sigma^2",
+            Self::Casimir3 => "C(3) = tr Sigma^3",
+            Self::DeviatorCasimir2 => "tr sigma^2",
+            Self::DeviatorCasimir3 => "tr sigma^3",
+        }
+    }
+
+    /// The name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Energy => "energy",
+            Self::LinearMomentum => "linear momentum",
+            Self::ComovingLinearMomentum => "co-moving linear momentum",
+            Self::OrbitalAngularMomentum => "orbital angular momentum",
+            Self::TotalAffineMomentum => "total affine momentum",
+            Self::TotalAngularMomentum => "total angular momentum",
+            Self::AffineSpin => "affine spin",
+            Self::Deviator => "deviator of the affine spin",
+            Self::Spin => "spin",
+            Self::SpinNorm => "squared spin",
+            Self::ComovingAffineSpin => "co-moving affine spin",
+            Self::ComovingDeviator => "co-moving deviator",
+            Self::Vorticity => "vorticity",
+            Self::VorticityNorm => "squared vorticity",
+            Self::CanonicalMomentum => "canonical momentum",
+            Self::Casimir1 => "first Casimir",
+            Self::Casimir2 => "second Casimir",
+            Self::Casimir3 => "third Casimir",
+            Self::DeviatorCasimir2 => "second deviator Casimir",
+            Self::DeviatorCasimir3 => "third deviator Casimir",
+        }
+    }
+}
+
+fn square(value: f64) -> f64 {
+    value * value
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::frames::{Body, Canonical, Frame, Space};
+    use crate::state::{Centre, Phase, PhasePoint, Pinned};
+
+    /// `phi = [[2, 1], [0, 1]]`, `Pi = [[1, 2], [3, 4]]`, so `Sigma = phi Pi = [[5, 8], [3, 4]]` and
+    /// `Sigma_hat = Pi phi = [[2, 3], [6, 7]]`; `x = (1, 2)`, `p = (3, -1)`.
+    fn point() -> PhasePoint<2, Canonical, Centre<2>> {
+        let centre = Centre { x: Vector::<2>::new(1.0, 2.0), p: Vector::<2>::new(3.0, -1.0) };
+        PhasePoint::new(Matrix::<2>::new(2.0, 1.0, 0.0, 1.0), Matrix::<2>::new(1.0, 2.0, 3.0, 4.0), centre)
+    }
+
+    #[test]
+    fn planar_values_by_hand() {
+        let expected: [(Conserved, &[f64], f64); 17] = [
+            (Conserved::LinearMomentum, &[3.0, -1.0], 10.0),
+            (Conserved::ComovingLinearMomentum, &[6.0, 2.0], 60.0),
+            (Conserved::OrbitalAngularMomentum, &[-7.0], 50.0),
+            (Conserved::TotalAffineMomentum, &[8.0, 7.0, 9.0, 2.0], f64::NAN),
+            (Conserved::TotalAngularMomentum, &[-2.0], f64::NAN),
+            (Conserved::AffineSpin, &[5.0, 8.0, 3.0, 4.0], 114.0),
+            (Conserved::Deviator, &[0.5, 8.0, 3.0, -0.5], 114.0),
+            (Conserved::Spin, &[5.0], 114.0),
+            (Conserved::SpinNorm, &[25.0], 12996.0),
+            (Conserved::ComovingAffineSpin, &[2.0, 3.0, 6.0, 7.0], 98.0),
+            (Conserved::ComovingDeviator, &[-2.5, 3.0, 6.0, 2.5], 98.0),
+            (Conserved::Vorticity, &[-3.0], 98.0),
+            (Conserved::VorticityNorm, &[9.0], 9604.0),
+            (Conserved::CanonicalMomentum, &[1.0, 2.0, 3.0, 4.0], 30.0),
+            (Conserved::Casimir1, &[9.0], 114.0),
+            (Conserved::Casimir2, &[89.0], 12996.0),
+            (Conserved::DeviatorCasimir2, &[48.5], 12996.0),
+        ];
+        for (quantity, components, square_of_scale) in expected {
+            let value = evaluate(quantity, &point()).unwrap();
+            assert_eq!(value.as_slice(), components, "{quantity:?}");
+            let scale = scale(quantity, &point()).unwrap();
+            if square_of_scale.is_nan() {
+                assert!((scale - (50f64.sqrt() + 114f64.sqrt())).abs() < 1e-14, "{quantity:?}");
+            } else {
+                assert!((scale * scale / square_of_scale - 1.0).abs() < 1e-14, "{quantity:?}");
+            }
+        }
+        assert_eq!(evaluate(Conserved::Energy, &point()), None);
+        assert_eq!(scale(Conserved::Energy, &point()), None);
+    }
+
+    #[test]
+    fn spatial_values_by_hand() {
+        // m^2 = [[-1, 8, 2], [-3, 7, 5], [3, 2, 4]]; the deviator is m - 2.
+        let m = Matrix::<3>::new(1.0, 2.0, 0.0, -1.0, 3.0, 1.0, 1.0, 0.0, 2.0);
+        let point = PhasePoint::<3, Space, Pinned>::new(Matrix::<3>::identity(), m, Pinned);
+        let number = |quantity| evaluate(quantity, &point).unwrap().as_slice().to_vec();
+        assert_eq!(number(Conserved::Casimir1), [6.0]);
+        assert_eq!(number(Conserved::Casimir2), [10.0]);
+        assert_eq!(number(Conserved::Casimir3), [18.0]);
+        assert_eq!(number(Conserved::DeviatorCasimir2), [-2.0]);
+        assert_eq!(number(Conserved::DeviatorCasimir3), [6.0]);
+        assert_eq!(number(Conserved::Spin), [3.0, -1.0, 1.0], "entries 12, 13, 23");
+        assert_eq!(number(Conserved::SpinNorm), [11.0]);
+        assert_eq!(number(Conserved::LinearMomentum), [0.0; 3], "a pinned body");
+    }
+
+    #[test]
+    fn frames_agree() {
+        fn same<F: Frame>(stored: Matrix<2>) {
+            let Centre { x, p } = Centre { x: point().x(), p: point().p() };
+            let other = PhasePoint::<2, F, _>::new(*point().phi(), stored, Centre { x, p });
+            for quantity in [Conserved::AffineSpin, Conserved::Vorticity, Conserved::CanonicalMomentum] {
+                let (a, b) = (evaluate(quantity, &other).unwrap(), evaluate(quantity, &point()).unwrap());
+                assert!(a.distance(&b) < 1e-14, "{quantity:?}");
+            }
+        }
+        same::<Space>(Matrix::<2>::new(5.0, 8.0, 3.0, 4.0));
+        same::<Body>(Matrix::<2>::new(2.0, 3.0, 6.0, 7.0));
+    }
+}

@@ -1,0 +1,212 @@
+//! Settings of a run that make no sense.
+
+use core::fmt;
+
+use super::debug_as_displayed;
+use crate::divisor::{HIGHEST_ORDER, LOWEST_ORDER};
+
+/// A setting of a simulation that makes no sense.
+#[derive(Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Setting {
+    /// No end time was given.
+    NoEnd,
+    /// A time is not finite.
+    Time {
+        /// Name of the time in the settings.
+        name: &'static str,
+        /// Its value.
+        given: f64,
+    },
+    /// The interval is so short, or so long, that numbers in it are not: its length is 0, or at least 1e-300 and a double.
+    Interval {
+        /// Start of the interval.
+        t0: f64,
+        /// End of the interval.
+        t_end: f64,
+    },
+    /// The tolerance is not in `1e-15 <= eps < 1`.
+    Tolerance {
+        /// Its value.
+        given: f64,
+    },
+    /// No step is allowed.
+    NoSteps,
+    /// Gauss collocation is available with 2, 3, 4 and 6 stages.
+    Stages {
+        /// The number of stages asked for.
+        given: usize,
+    },
+    /// RATTLE and splitting are available with the orders 2, 4, 6 and 8, Taylor polynomials with 2 to 32.
+    Order {
+        /// The order asked for.
+        given: usize,
+    },
+    /// RATTLE was asked for, and the model is not isochoric.
+    NotIsochoric {
+        /// Name of the model.
+        model: &'static str,
+    },
+    /// RATTLE was asked for, and the Hamiltonian is not `T(Pi) + U(phi)`.
+    NotSeparable {
+        /// Name of the model.
+        model: &'static str,
+    },
+    /// The start is off the constraint `det phi = 1` or its velocity off `tr(phi^-1 phi_dot) = 0`.
+    OffConstraint {
+        /// The larger of the two relative defects.
+        defect: f64,
+    },
+    /// The method needs a capability that the model was not given.
+    NotEmitted {
+        /// Name of the model.
+        model: &'static str,
+        /// What `emit(...)` should list.
+        key: &'static str,
+    },
+    /// An event asks for a component that vectors of this dimension do not have.
+    EventIndex {
+        /// Name of the event.
+        event: &'static str,
+        /// The index.
+        index: usize,
+    },
+    /// The checkpoint is of a run with another model, other parameters, start, method, tolerance, interval, outputs or
+    /// events.
+    Checkpoint {
+        /// Name of the model.
+        model: &'static str,
+    },
+    /// The length of a fixed step is not positive, not finite, or lost in the rounding of times.
+    Step {
+        /// Its value.
+        given: f64,
+        /// Start of the interval.
+        t0: f64,
+        /// End of the interval.
+        t_end: f64,
+    },
+    /// The spacing of outputs is not positive, not finite, or much too fine for the interval.
+    OutputSpacing {
+        /// The spacing.
+        dt: f64,
+        /// Start of the interval.
+        t0: f64,
+        /// End of the interval.
+        t_end: f64,
+    },
+    /// An output time lies outside the interval.
+    OutputOutside {
+        /// Its index in the list.
+        index: usize,
+        /// The time.
+        t: f64,
+        /// Start of the interval.
+        t0: f64,
+        /// End of the interval.
+        t_end: f64,
+    },
+    /// Output times do not follow one another in the direction of time.
+    OutputOrder {
+        /// Index of the later one in the list.
+        index: usize,
+        /// The time.
+        t: f64,
+        /// The time listed before it.
+        before: f64,
+    },
+    /// `Method::ClosedForm` was asked for and there is none.
+    NoClosedForm {
+        /// Name of the model.
+        model: &'static str,
+    },
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Setting::NoEnd => f.write_str("no end time: a run needs one; say `.until(t_end)`"),
+            Setting::Time { name, given } => write!(f, "{name} is {given}: times are finite numbers"),
+            Setting::Interval { t0, t_end } => write!(
+                f,
+                "the interval from {t0:e} to {t_end:e}: its length is 0, or at least 1e-300 and at most 1.7e308; choose \
+                 another unit of time"
+            ),
+            Setting::Tolerance { given } => write!(
+                f,
+                "tolerance {given:e}: it is a relative error per step, at least 1e-15 (what rounding leaves of \
+                 double precision) and below 1; 1e-6 to 1e-13 are common"
+            ),
+            Setting::NoSteps => f.write_str("max_steps(0) allows no step: give a positive number"),
+            Setting::Stages { given } => write!(
+                f,
+                "Gauss collocation with {given} stages: give 2, 3, 4 or 6 stages, of orders 4, 6, 8 and 12"
+            ),
+            Setting::Order { given } => write!(
+                f,
+                "order {given}: RATTLE and splitting have the orders 2, 4, 6 and 8; Taylor series have {LOWEST_ORDER} to \
+                 {HIGHEST_ORDER}, or `None` for the one that suits the tolerance"
+            ),
+            Setting::NotIsochoric { model } => write!(
+                f,
+                "{model} is not confined to det phi = 1, the constraint that RATTLE keeps: use Method::Automatic, or \
+                 say `constraint = isochoric`"
+            ),
+            Setting::NotSeparable { model } => write!(
+                f,
+                "the Hamiltonian of {model} is not T(Pi) + U(phi) with T quadratic, as in the model of d'Alembert: use \
+                 Method::Gauss or Method::Automatic, which take steps on the group"
+            ),
+            Setting::OffConstraint { defect } => write!(
+                f,
+                "the start is off det phi = 1, or its velocity off tr(phi^-1 phi_dot) = 0, by {defect:e}: scale phi by \
+                 det(phi)^(-1/n), and take the part of the velocity along phi away"
+            ),
+            Setting::NotEmitted { model, key } => write!(
+                f,
+                "{model} was not given `{key}`: write `emit({key})` in its `#[affine_model(...)]`, or use \
+                 Method::Automatic, which takes what there is"
+            ),
+            Setting::EventIndex { event, index } => {
+                write!(
+                    f,
+                    "the event `{event}` asks for component {index}: components are counted from 1 to n"
+                )
+            }
+            Setting::Checkpoint { model } => write!(
+                f,
+                "the checkpoint is not of this run of {model}: resume with the model, its parameters, the start, method, \
+                 tolerance, times, outputs and events of the run that was interrupted"
+            ),
+            Setting::Step { given, t0, t_end } => write!(
+                f,
+                "a step of {given:e} between {t0} and {t_end}: it is a positive number, coarser than the rounding of \
+                 times; twenty steps to the shortest period are a good start"
+            ),
+            Setting::OutputSpacing { dt, t0, t_end } => write!(
+                f,
+                "output every {dt:e} between {t0} and {t_end}: the spacing is a positive number, coarser than the \
+                 rounding of times, and gives at most 1e8 outputs"
+            ),
+            Setting::OutputOutside { index, t, t0, t_end } => write!(
+                f,
+                "output time {t} (number {index} of the list, from 0) lies outside the run from {t0} to {t_end}: \
+                 drop it or extend the run"
+            ),
+            Setting::OutputOrder { index, t, before } => write!(
+                f,
+                "output time {t} (number {index} of the list, from 0) does not come after {before}: list each time \
+                 once, in the direction of the run"
+            ),
+            Setting::NoClosedForm { model } => write!(
+                f,
+                "{model} has no closed form from this start: use Method::Automatic, which takes one only where it \
+                 exists"
+            ),
+        }
+    }
+}
+
+debug_as_displayed!([] Setting);
+
+impl std::error::Error for Setting {}

@@ -1,0 +1,393 @@
+//! What the macro generates for a model, as a trait.
+
+use core::fmt::Debug;
+
+use crate::frames::{Matrix, Vector};
+use crate::metrics::{Bases, Tensor};
+pub use crate::quantity::{Group, Quantity};
+pub use crate::regularity::Regularity;
+use crate::scalar::{Real, Scalar};
+use crate::state::Phase;
+pub use crate::system::StateVector;
+use crate::system::{NotEmitted, Packing, Pieces, SecondOrder, Series};
+
+/// A model of an affinely-rigid body in dimension `N`: Legendre transformation, Hamiltonian, Hamilton's
+/// equations and the reduced system that is integrated.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a prepared model of an affinely-rigid body in dimension {N}",
+    label = "no Hamilton equations here",
+    note = "put `#[affine_model(...)]` on the struct; a struct with fields becomes a model by `.prepare()?`"
+)]
+pub trait Model<const N: usize> {
+    /// Names, equations, counts and conserved quantities, as derived.
+    const DESCRIPTION: Description;
+
+    /// A phase point of this model.
+    type Point<T: Real>: Phase<N, T>;
+    /// What is integrated: the state variables left once everything conserved and everything solvable in
+    /// closed form is taken out; see [`Description::reduced`] for the layout.
+    type Reduced<T: Scalar>: StateVector<T>;
+    /// What one trajectory conserves.
+    type Constants<T: Scalar>: Copy + Debug;
+    /// Phase point as a plain array in the model's own frames; see [`Description::full`] for the layout.
+    type Full<T: Scalar>: StateVector<T>;
+
+    /// The velocities `(x_dot, phi_dot)` of a phase point: the inverse Legendre transformation.
+    fn velocity<T: Real>(&self, point: &Self::Point<T>) -> Velocity<N, T>;
+    /// The kinetic energy `T` of velocities at the placement `phi`. With `casimir3` in `hamiltonian(...)` there is no
+    /// such function, for several momenta have one velocity: `T = tr(X O) + p.v - H_kin` is one of the momenta, and a
+    /// call of this method does not compile.
+    fn kinetic_energy<T: Real>(&self, phi: &Matrix<N, T>, velocity: &Velocity<N, T>) -> T;
+    /// The Hamiltonian `H` of a phase point at time `t`, which only a potential that contains the time reads.
+    fn hamiltonian<T: Real>(&self, t: T, point: &Self::Point<T>) -> T;
+
+    /// The power of the forces that no potential has, `-2 R` of a dissipation function `R`, and `dU/dt` at rest of a
+    /// potential that contains the time: `dH/dt`. Zero for a model without either.
+    fn power<T: Real>(&self, _t: T, _point: &Self::Point<T>) -> T {
+        T::zero()
+    }
+
+    /// The values of the functions of [`Description::domain`], one after the other, and of the angles of
+    /// [`Description::angles`] after them.
+    fn domain(&self, _t: f64, _point: &Self::Point<f64>, _each: &mut dyn FnMut(f64)) {}
+
+    /// The point as a plain array.
+    fn flatten<T: Real>(&self, point: &Self::Point<T>) -> Self::Full<T>;
+    /// The point from a plain array, unchecked.
+    fn unflatten<T: Real>(&self, full: &Self::Full<T>) -> Self::Point<T>;
+    /// Hamilton's equations over the plain array: its time derivative.
+    ///
+    /// Not for `dalembert` under `constraint = isochoric`, whose motion is kept on `det phi = 1` by a multiplier that the
+    /// methods of a `Simulation` solve for: a call does not compile there.
+    fn hamilton_equations<T: Scalar>(&self, t: T, full: &Self::Full<T>) -> Self::Full<T>;
+    /// The same without the multiplier of a constraint, for the methods that solve for it.
+    #[doc(hidden)]
+    fn free_equations<T: Scalar>(&self, t: T, full: &Self::Full<T>) -> Self::Full<T> {
+        self.hamilton_equations(t, full)
+    }
+
+    /// The reduced state and the constants of the trajectory that passes through `point` at time `t0`.
+    fn reduce<T: Real>(&self, t0: T, point: &Self::Point<T>) -> (Self::Reduced<T>, Self::Constants<T>);
+    /// Time derivative of the reduced state: straight-line code.
+    fn reduced_equations<T: Scalar>(
+        &self,
+        t: T,
+        constants: &Self::Constants<T>,
+        reduced: &Self::Reduced<T>,
+    ) -> Self::Reduced<T>;
+    /// The phase point of a reduced state at time `t`.
+    fn expand<T: Real>(
+        &self,
+        t: T,
+        constants: &Self::Constants<T>,
+        reduced: &Self::Reduced<T>,
+    ) -> Self::Point<T>;
+
+    /// The reduced state with what is a function of the rest computed anew: `1/D = (det phi)^(-1/n)` and `q`, which
+    /// some reduced equations carry along instead of taking a root or a logarithm.
+    #[must_use]
+    fn renewed<T: Real>(&self, reduced: &Self::Reduced<T>) -> Self::Reduced<T> {
+        *reduced
+    }
+
+    /// Signs and weakest pivot of the mass matrix at a placement, for a model whose kinetic energy has a mass matrix
+    /// that depends on it and is not known to be definite; `None` for every other one, which is regular everywhere.
+    fn regularity(&self, _phi: &Matrix<N>) -> Option<Regularity> {
+        None
+    }
+
+    /// Condition number of the kinetic energy: the quotient of the largest and the least factor between momentum and
+    /// velocity, in absolute value, over the directions that a constraint leaves free. `|I+A|`, `|I-A|` and `|I+A+nB|` are
+    /// such factors. Momenta that are known to `eps` give velocities that are known to `eps` times it, and so the other way.
+    ///
+    /// That of the internal part, in the model's own frame, where it is the same at every placement; of a sum of energies in
+    /// different frames it is the one at `phi` where [`regularity`](Self::regularity) is asked for, else at `phi = 1`. Of a Hamiltonian with `casimir3` it is that of the motions of small
+    /// momentum. `None` where these have no velocity, where numbers overflow, and where `phi` has no inverse.
+    fn condition(&self, phi: &Matrix<N>) -> Option<f64>
+    where
+        Self: Sized,
+    {
+        crate::condition::condition(self, phi)
+    }
+
+    /// The bases of space and body in which the model's metrics are the identity, from the user's own; `None` where
+    /// they are the identity there. Plain arrays, reduced states and closed forms stand in them, phase points do not.
+    fn bases(&self) -> Option<Bases<N>> {
+        None
+    }
+
+    /// The point in bases in which the metrics are the identity: `phi' = A phi B^-1`, with `g = A^T A`, `eta = B^T B`. What
+    /// needs the metrics is read off it: deformation tensors, strains, invariants, stretches, `q`, spin and vorticity. The
+    /// point itself of a model without `metrics(...)`.
+    ///
+    /// ```
+    /// use affine_runtime::prelude::*;
+    ///
+    /// #[affine_model(
+    ///     dim = 2,
+    ///     metrics(space = diag(4, 1), body = diag(1, 1)),
+    ///     kinetic(casimir2 = 0.2, body_inertia = 1),
+    ///     potential = tr(G),
+    /// )]
+    /// struct Body;
+    ///
+    /// let point = Body.at_momentum(Matrix::<2>::identity(), Comoving(Matrix::<2>::zeros()))?;
+    /// let orthonormal = Body.orthonormal(&point);
+    /// assert_eq!(orthonormal.green().0.0.trace(), 5.0); // as in the potential
+    /// assert_eq!(Body.hamiltonian(0.0, &point), 5.0);
+    /// assert_eq!(Body.components(orthonormal.green()), Matrix::<2>::new(4.0, 0.0, 0.0, 1.0)); // g_ij phi_iA phi_jB
+    /// # Ok::<(), affine_runtime::Error>(())
+    /// ```
+    ///
+    /// What is read off the point itself would use other metrics, and does not compile:
+    ///
+    /// ```compile_fail,E0277
+    /// # use affine_runtime::prelude::*;
+    /// # #[affine_model(dim = 2, metrics(space = diag(4, 1), body = diag(1, 1)), kinetic(casimir2 = 0.2, body_inertia = 1))]
+    /// # struct Body;
+    /// # let point = Body.at_momentum(Matrix::<2>::identity(), Comoving(Matrix::<2>::zeros())).unwrap();
+    /// let trace = point.green().0.0.trace();
+    /// ```
+    fn orthonormal<T: Real>(&self, point: &Self::Point<T>) -> <Self::Point<T> as Phase<N, T>>::InOrthonormal {
+        point.in_orthonormal(self.bases().map(|bases| bases.over()).as_ref())
+    }
+
+    /// Components of a tensor in the model's own bases, of one that was read off an [`orthonormal`](Self::orthonormal) point:
+    /// `G_AB = g_ij phi^i_A phi^j_B`, `C_ij = eta_AB (phi^-1)^A_i (phi^-1)^B_j`, `S^i_j = Sigma^i_j - g^ik Sigma^l_k g_lj`,
+    /// `Vort` likewise with `eta`.
+    fn components(&self, tensor: impl Tensor<N>) -> Matrix<N> {
+        tensor.components(self.bases().as_ref())
+    }
+
+    /// The closed form of the trajectory through `point` at time `t0`, where the model and the scene have one.
+    fn geodesic(&self, _t0: f64, _point: &Self::Point<f64>) -> Option<crate::geodesic::Geodesic<N>> {
+        None
+    }
+    /// The phase point at time `t` on a closed-form trajectory that started at `start`.
+    fn on_geodesic(
+        &self,
+        geodesic: &crate::geodesic::Geodesic<N>,
+        t: f64,
+        start: &Self::Point<f64>,
+    ) -> Self::Point<f64> {
+        geodesic.point(t, start)
+    }
+
+    /// The Taylor coefficients of the reduced motion, where `emit(taylor)` asked for them.
+    fn taylor(&self) -> Option<impl Series<Self::Reduced<f64>, Self::Constants<f64>>> {
+        None::<NotEmitted>
+    }
+
+    /// The exact flows of the pieces of the reduced motion, where `emit(splitting)` asked for them.
+    fn splitting(&self) -> Option<impl Pieces<Self::Reduced<f64>, Self::Constants<f64>>> {
+        None::<NotEmitted>
+    }
+
+    /// The reduced equations as `q' = V(p)`, `p' = F(t, q)`, where `emit(nystrom)` asked for them.
+    fn second_order(&self) -> Option<impl SecondOrder<Self::Reduced<f64>, Self::Constants<f64>>> {
+        None::<NotEmitted>
+    }
+
+    /// The reduced equations in vectors of four doubles, where that takes fewer instructions.
+    fn packing(&self) -> Option<impl Packing<Self::Reduced<f64>, Self::Constants<f64>>> {
+        None::<NotEmitted>
+    }
+}
+
+/// Velocities of centre of mass and placement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Velocity<const N: usize, T: Real = f64> {
+    /// `x_dot`; zero for a model without translation.
+    pub x_dot: Vector<N, T>,
+    /// `phi_dot`.
+    pub phi_dot: Matrix<N, T>,
+}
+
+/// A model whose momenta are a function of the velocities, as the `at_velocity` of a model with `C(3)` in its
+/// Hamiltonian asks of it in vain; nothing implements it.
+#[diagnostic::on_unimplemented(
+    message = "the velocity does not determine the momentum of `{Self}`",
+    label = "no Legendre transformation from velocities",
+    note = "with `casimir3` the velocity is quadratic in the momentum: several momenta, or none, have a given velocity",
+    note = "use `at_momentum`; `velocity()` gives the velocity of a phase point"
+)]
+pub trait VelocityDeterminesMomentum {
+    /// What follows from it.
+    fn never<T>(&self) -> T;
+}
+
+/// The group to which a motion is confined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Constraint {
+    /// SL(n): `det phi = 1`.
+    Isochoric,
+    /// SO(n): `phi^T phi = 1`.
+    Rigid,
+    /// R+ SO(n): `phi^T phi` is a multiple of 1.
+    Conformal,
+}
+
+/// What was derived about a model; made by the macro alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Description {
+    /// Name of the user's type.
+    pub name: &'static str,
+    /// The kinetic energy.
+    pub kinetic_energy: Formula,
+    /// The Hamiltonian.
+    pub hamiltonian: Formula,
+    /// Hamilton's equations in the model's frames.
+    pub equations: &'static [Formula],
+    /// The reduced equations.
+    pub reduced_equations: &'static [Formula],
+    /// Numbers of positive and negative directions of the kinetic metric, internal and translational; `None`
+    /// where they depend on the fields' values.
+    pub signature: Option<(usize, usize)>,
+    /// What every motion conserves.
+    pub conserved: &'static [Conserved],
+    /// What motions with `p = 0` conserve; the same list for a model without translation.
+    pub conserved_at_rest: &'static [Conserved],
+    /// Components of the plain array, group after group.
+    pub full: &'static [Group],
+    /// Components of the reduced state, group after group.
+    pub reduced: &'static [Group],
+    /// Operations of Hamilton's equations.
+    pub full_operations: Operations,
+    /// Operations of the reduced equations.
+    pub reduced_operations: Operations,
+    /// The group to which the motion is confined; `None` for all of GL+(n).
+    pub constraint: Option<Constraint>,
+    /// Are the reduced equations `q'' = f(t, q)`, as `emit(nystrom)` integrates them?
+    pub second_order: bool,
+    /// Functions of the state that keep their sign where the potential has a value; empty where that is everywhere.
+    pub domain: &'static [Guard],
+    /// Parts of the potential with an angle that the time turns, as written: `cos(w*t)`. [`Model::domain`] gives the angles.
+    pub angles: &'static [&'static str],
+    /// What was taken out of the state.
+    pub left_out: &'static [LeftOut],
+}
+
+/// Something that is not integrated, and in which runs it is not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeftOut {
+    /// What it is and why, in words.
+    pub what: &'static str,
+    /// The runs.
+    pub scope: Scope,
+}
+
+/// The runs that leave something out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Every run of the model.
+    Model,
+    /// Those by the reduced equations, [`Model::reduced_equations`].
+    Reduction,
+    /// Those by methods that integrate what the reduced state carries along, see [`Model::renewed`].
+    Carried,
+    /// Those with `p = 0`.
+    Rest,
+}
+
+/// A part of a potential that has a value only where a function of the state keeps its sign. The values of these functions
+/// are those of [`Model::domain`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guard {
+    /// The part, as written: `ln(q)`, `1/x[1]`.
+    pub part: &'static str,
+    /// The function, as written: `q`, `x[1]`.
+    pub argument: &'static str,
+    /// The signs that it may have.
+    pub bound: Bound,
+}
+
+/// The signs that a function of the state may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// Above zero: the argument of a logarithm.
+    Positive,
+    /// Zero or above: the argument of a root.
+    NotNegative,
+    /// The sign that it has at the start: a divisor.
+    NotZero,
+}
+
+/// A formula as text and as LaTeX.
+///
+/// Fields have the names that they have in the struct. One that is written like a symbol of the mechanics stands as
+/// `self.name`, in LaTeX in typewriter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Formula {
+    /// Plain text.
+    pub text: &'static str,
+    /// LaTeX, without delimiters.
+    pub latex: &'static str,
+}
+
+/// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Multiplications.
+    pub mul: usize,
+    /// Additions and subtractions.
+    pub add: usize,
+    /// Divisions.
+    pub div: usize,
+    /// Square and cube roots.
+    pub sqrt: usize,
+    /// Exponentials, hyperbolic and trigonometric functions.
+    pub exp: usize,
+    /// Logarithms.
+    pub ln: usize,
+}
+
+impl Operations {
+    /// No operation of any kind.
+    pub const NONE: Self = Self { mul: 0, add: 0, div: 0, sqrt: 0, exp: 0, ln: 0 };
+}
+
+/// A quantity that a model may conserve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Conserved {
+    /// Energy `H`.
+    Energy,
+    /// Linear momentum `p`.
+    LinearMomentum,
+    /// Co-moving linear momentum `p_hat = phi^T p`.
+    ComovingLinearMomentum,
+    /// Orbital angular momentum `x p^T - p x^T`.
+    OrbitalAngularMomentum,
+    /// Total affine momentum `I(O) = x p^T + Sigma`.
+    TotalAffineMomentum,
+    /// Total angular momentum `I(O) - I(O)^T`.
+    TotalAngularMomentum,
+    /// Spatial affine spin `Sigma`.
+    AffineSpin,
+    /// Traceless part of `Sigma`.
+    Deviator,
+    /// Spin `S = Sigma - Sigma^T`.
+    Spin,
+    /// `|S|^2 = -tr(S^2)/2`.
+    SpinNorm,
+    /// Co-moving affine spin `Sigma_hat`.
+    ComovingAffineSpin,
+    /// Traceless part of `Sigma_hat`.
+    ComovingDeviator,
+    /// Vorticity `Sigma_hat - Sigma_hat^T`.
+    Vorticity,
+    /// `|Vort|^2 = -tr(Vort^2)/2`.
+    VorticityNorm,
+    /// Canonical momentum `Pi`.
+    CanonicalMomentum,
+    /// Casimir `C(1) = tr Sigma`, the dilatational momentum.
+    Casimir1,
+    /// Casimir `C(2) = tr Sigma^2`.
+    Casimir2,
+    /// Casimir `C(3) = tr Sigma^3`; only for `n = 3`.
+    Casimir3,
+    /// `tr sigma^2` of the traceless part.
+    DeviatorCasimir2,
+    /// `tr sigma^3` of the traceless part; only for `n = 3`.
+    DeviatorCasimir3,
+}

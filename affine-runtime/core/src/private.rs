@@ -1,0 +1,149 @@
+//! What emitted code uses besides the public traits. No stable interface: it changes with the macro.
+
+pub use core::primitive::{f64, usize};
+
+pub use crate::balance::{Balance, CentreBalance};
+pub use crate::breathing::Breathing;
+pub use crate::capability::{
+    Emitted, InLanes, PackedEquations, SecondOrderEquations, Splitting, Tangent, Taylor,
+};
+pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
+pub use crate::custom::{
+    as_force, as_potential, comoving_force, comoving_force_in, potential_energy, potential_energy_in,
+    potential_slopes, potential_slopes_in, spatial_force, spatial_force_in, translational_force,
+    translational_force_in,
+};
+pub use crate::decompose::{log_stretches, principal_log_stretches, principal_stretches, skew_exponential};
+pub use crate::dissipation::{semidefinite, semidefinite_form};
+pub use crate::divisor::{Divisor, over};
+pub use crate::dual::Dual;
+pub use crate::error::Result;
+pub use crate::force;
+pub use crate::frames::{
+    Body, Canonical, Comoving, Matrix, Momentum, OfCentre, Space, Spatial, TwoPoint, Vector, inverse,
+};
+pub use crate::geodesic::{Geodesic, Motion};
+pub use crate::kinematics::{dilatation, far_from_undeformed, isochoric_part, mean_log_stretch};
+pub use crate::lanes::{Lanes, gathered, in_lane};
+pub use crate::matrix_field::symmetric_part;
+pub use crate::metrics::{
+    Bases, form_in_given_bases, inverse_in_given_bases, orthonormal, rebased_inertia, rebased_tensor,
+    told_in_given_bases,
+};
+pub use crate::model::{
+    Bound, Conserved, Constraint, Description, Formula, Group, Guard, LeftOut, Model, Operations, Quantity,
+    Regularity, Scope, Velocity, VelocityDeterminesMomentum,
+};
+pub use crate::packed::{Four, Packed};
+pub use crate::reduction::{
+    Condition, finite, finite_fields, from_shear_and_turn, inverse_form, principal_axes, shear_and_turn,
+    total_affine_momentum, total_size, turn, well_posed,
+};
+pub use crate::regularity::regular;
+pub use crate::scalar::{Real, Scalar};
+pub use crate::state::{Centre, Given, Phase, PhasePoint, Pinned};
+pub use crate::system::{Packing, Pieces, SecondOrder, Series};
+pub use crate::unprepared::{IsPrepared, Unprepared};
+pub use crate::vectors::Vectors;
+
+use crate::frames::Frame;
+use crate::state::{Basis, Translation};
+
+/// The phase point with placement `phi`, a momentum given in any frame, and `centre`.
+///
+/// # Errors
+/// [`Error::Placement`](crate::Error::Placement) unless `phi` is finite and `det phi > 0`;
+/// [`Error::NotFinite`](crate::Error::NotFinite) with the name of the momentum, `x` or `p` that is not finite.
+pub fn phase_point<const N: usize, F: Frame, C: Translation<N, T>, T: Real, B: Basis>(
+    phi: Matrix<N, T>,
+    momentum: impl Momentum<N, T>,
+    centre: C,
+) -> Result<PhasePoint<N, F, C, T, B>> {
+    PhasePoint::checked(phi, momentum, centre)
+}
+
+/// The same point, unchecked: integrators watch over their states themselves.
+pub fn point<const N: usize, F: Frame, C: Translation<N, T>, T: Real, B: Basis>(
+    phi: Matrix<N, T>,
+    momentum: impl Momentum<N, T>,
+    centre: C,
+) -> PhasePoint<N, F, C, T, B> {
+    PhasePoint::with_momentum(phi, momentum, centre)
+}
+
+/// Stops the compilation of a call of `kinetic_energy`.
+///
+/// ```compile_fail,E0080
+/// use affine_runtime::model::Velocity;
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(dim = 3, hamiltonian(casimir2 = 1, casimir3 = 0.1))]
+/// struct Cubic;
+///
+/// let velocity = Velocity { x_dot: Vector::<3>::zeros(), phi_dot: Matrix::<3>::identity() };
+/// let _ = Cubic.kinetic_energy(&Matrix::<3>::identity(), &velocity);
+/// ```
+///
+/// # Panics
+/// Always, and only while the compiler evaluates it.
+#[allow(clippy::panic, reason = "evaluated by the compiler alone: the panic is the error message")]
+pub const fn no_kinetic_energy_of_velocities<T>() -> T {
+    panic!(
+        "with `casimir3` several momenta have one velocity, and T is no function of velocities; on momenta it is tr(X O) - H"
+    )
+}
+
+/// Stops the compilation of a call of `hamilton_equations` for a motion that a multiplier keeps on its constraint.
+///
+/// ```compile_fail,E0080
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(dim = 2, constraint = isochoric, kinetic(dalembert = 1), potential = tr(G))]
+/// struct Drop;
+///
+/// let start = Drop.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
+/// let _ = Drop.hamilton_equations(0.0, &Drop.flatten(&start));
+/// ```
+///
+/// # Panics
+/// Always, and only while the compiler evaluates it.
+#[allow(clippy::panic, reason = "evaluated by the compiler alone: the panic is the error message")]
+pub const fn no_equations_without_multiplier<T>() -> T {
+    panic!(
+        "`dalembert` under `constraint = isochoric` is kept on det phi = 1 by a multiplier, which is not in the plain \
+         equations; run a `Simulation`, or state the same energy by `flat_tensor`, whose equations contain it"
+    )
+}
+
+/// The rows of a matrix.
+pub fn rows<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> [[T; N]; N] {
+    core::array::from_fn(|i| core::array::from_fn(|j| matrix[(i, j)]))
+}
+
+/// The matrix with the given rows.
+pub fn matrix<const N: usize, T: Scalar>(rows: [[T; N]; N]) -> Matrix<N, T> {
+    Matrix::from_fn(|i, j| rows[i][j])
+}
+
+/// The components of a vector.
+pub fn components<const N: usize, T: Real>(vector: &Vector<N, T>) -> [T; N] {
+    core::array::from_fn(|i| vector[i])
+}
+
+/// The vector with the given components.
+pub fn vector<const N: usize, T: Real>(components: [T; N]) -> Vector<N, T> {
+    Vector::from(components)
+}
+
+/// What the integrators, and what stands on them, use besides the public traits.
+pub mod numerics {
+    pub use crate::decompose::exponential::{LN2_HIGH, LN2_LOW, SERIES};
+    pub use crate::divisor::{Divisor, HIGHEST_ORDER, LOWEST_ORDER};
+    pub use crate::kinematics::LogDeterminant;
+    pub use crate::norm::{IN_RANGE, larger, norm, scaled_norm, square, sum_of_squares};
+    pub use crate::reduction::jacobi;
+    pub use crate::scalar::inverse_cbrt::of_regular;
+    pub use crate::system::NotEmitted;
+    pub use crate::system::is_emitted;
+    pub use crate::vectors::{Portable, Vectors};
+}

@@ -1,0 +1,180 @@
+//! Motions as integrators see them: vectors of numbers, their equations, and what more can be known of these.
+
+use core::fmt::Debug;
+
+use crate::scalar::Scalar;
+use crate::vectors::Vectors;
+
+/// A fixed-size vector of numbers that integrators step.
+pub trait StateVector<T>: Copy + Debug + PartialEq + AsRef<[T]> + AsMut<[T]> + Send + Sync {
+    /// Number of components.
+    const LEN: usize;
+    /// All components zero.
+    fn zeros() -> Self;
+}
+
+impl<T: Scalar, const D: usize> StateVector<T> for [T; D] {
+    const LEN: usize = D;
+    fn zeros() -> Self {
+        [T::zero(); D]
+    }
+}
+
+/// `value + carry`, the carry being what rounding left out of the value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sum<S> {
+    /// The state.
+    pub value: S,
+    /// What is to be added to it.
+    pub carry: S,
+}
+
+impl<S: StateVector<f64>> Sum<S> {
+    /// A state as it stands.
+    #[must_use]
+    pub fn of(value: S) -> Self {
+        Self { value, carry: S::zeros() }
+    }
+
+    /// The sum with `rise` added, rounded once.
+    #[must_use]
+    #[inline(always)]
+    pub fn plus(&self, rise: &S) -> Self {
+        let mut sum = *self;
+        for (c, (value, carry)) in sum.value.as_mut().iter_mut().zip(sum.carry.as_mut()).enumerate() {
+            let before = *value;
+            let rise = *carry + rise.as_ref()[c];
+            *value = before + rise;
+            *carry = (before - *value) + rise;
+        }
+        sum
+    }
+}
+
+/// Taylor coefficients of the solutions of `y' = f(t, y)`, where `f` depends on constants `C`.
+pub trait Series<S, C> {
+    /// What is kept of each order.
+    type Row: StateVector<f64>;
+
+    /// Fills in all coefficients `y_k unit^k` after the first, which is the state, `at` a time and with a unit of time; as
+    /// many rows as coefficients, less one. The unit, a power of two, keeps them in the range of numbers.
+    fn coefficients(&self, at: (f64, f64), constants: &C, coefficients: &mut [S], rows: &mut [Self::Row]);
+
+    /// The same coefficients, on the vectors of a processor where that is worth the while.
+    #[inline(always)]
+    fn coefficients_on<V: Vectors>(
+        &self,
+        _vectors: V,
+        (t, unit): (f64, f64),
+        constants: &C,
+        coefficients: &mut [S],
+        rows: &mut [Self::Row],
+    ) {
+        self.coefficients((t, unit), constants, coefficients, rows);
+    }
+}
+
+/// Exact flows of the pieces of a motion whose equations depend on constants `C`.
+pub trait Pieces<S, C> {
+    /// Number of pieces.
+    const COUNT: usize;
+    /// There are two pieces, `A` and `B`, with `[B, [B, [B, A]]] = 0`.
+    const NYSTROM: bool;
+    /// The first piece contains a dilatation in closed form: where that is stiff, it is much larger than the others.
+    const DILATES: bool;
+
+    /// Moves the state along a piece for the time `h`; `t` is the time that a potential reads.
+    fn flow(&self, piece: usize, t: f64, h: f64, constants: &C, state: &mut Sum<S>);
+}
+
+/// A motion with `q' = V(p)`, linear in the momenta, and `p' = F(t, q)`, whose equations depend on constants `C`.
+///
+/// A state holds the positions, then as many momenta, then what is a function of the positions.
+pub trait SecondOrder<S, C> {
+    /// The positions, or the momenta.
+    type Half: StateVector<f64>;
+
+    /// `V(p)`, linear.
+    fn drift(&self, constants: &C, momenta: &Self::Half) -> Self::Half;
+
+    /// `F(t, q)`.
+    fn force(&self, t: f64, constants: &C, positions: &Self::Half) -> Self::Half;
+
+    /// The state with what is a function of the positions computed anew.
+    fn renewed(&self, state: &S) -> S;
+}
+
+/// `y' = f(t, y)` of states `S` in vectors, where `f` depends on constants `C`.
+pub trait Packing<S, C> {
+    /// A state in vectors.
+    type Packed: StateVector<f64>;
+
+    /// The state in vectors; some components may stand in several lanes, and some lanes may hold none.
+    fn packed(&self, state: &S) -> Self::Packed;
+
+    /// The state of vectors.
+    fn unpacked(&self, packed: &Self::Packed) -> S;
+
+    /// `f(t, y)`, with the bits that it has over single components.
+    fn slope(&self, vectors: impl Vectors, t: f64, constants: &C, packed: &Self::Packed) -> Self::Packed;
+}
+
+/// A capability that was not emitted: there is no such value.
+#[derive(Clone, Copy, Debug)]
+pub enum NotEmitted {}
+
+/// Whether there are values of a capability's type, [`NotEmitted`] being the one without: only then does `Option<R>` have
+/// to tell two cases apart. What is done under this condition is not compiled for models that have no use for it.
+pub const fn is_emitted<R>() -> bool {
+    size_of::<Option<R>>() != 0
+}
+
+impl<S, C> Series<S, C> for NotEmitted {
+    type Row = [f64; 0];
+
+    fn coefficients(&self, _: (f64, f64), _: &C, _: &mut [S], _: &mut [[f64; 0]]) {
+        match *self {}
+    }
+}
+
+impl<S, C> Pieces<S, C> for NotEmitted {
+    const COUNT: usize = 0;
+    const NYSTROM: bool = false;
+    const DILATES: bool = false;
+
+    fn flow(&self, _: usize, _: f64, _: f64, _: &C, _: &mut Sum<S>) {
+        match *self {}
+    }
+}
+
+impl<S, C> SecondOrder<S, C> for NotEmitted {
+    type Half = [f64; 0];
+
+    fn drift(&self, _: &C, _: &[f64; 0]) -> [f64; 0] {
+        match *self {}
+    }
+
+    fn force(&self, _: f64, _: &C, _: &[f64; 0]) -> [f64; 0] {
+        match *self {}
+    }
+
+    fn renewed(&self, _: &S) -> S {
+        match *self {}
+    }
+}
+
+impl<S, C> Packing<S, C> for NotEmitted {
+    type Packed = [f64; 0];
+
+    fn packed(&self, _: &S) -> [f64; 0] {
+        match *self {}
+    }
+
+    fn unpacked(&self, _: &[f64; 0]) -> S {
+        match *self {}
+    }
+
+    fn slope(&self, _: impl Vectors, _: f64, _: &C, _: &[f64; 0]) -> [f64; 0] {
+        match *self {}
+    }
+}

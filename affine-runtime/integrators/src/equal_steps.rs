@@ -1,0 +1,207 @@
+//! Equal steps: the times of a method whose accuracy is its step, and what all such methods do alike.
+
+use super::Failure;
+use super::tape::Tape;
+
+/// Parts are equal and none is longer than asked for; a length that divides the interval up to this many roundings
+/// of its ends, of itself and of the quotient is taken as it is.
+const ROUNDINGS: f64 = 4.0;
+/// More steps than numbers that a double counts exactly.
+const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
+
+/// The times `t0 + k h` from `t0` to `t_end`, `h = (t_end - t0)/n`, `n = ceil(|t_end - t0|/step)`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Times {
+    t0: f64,
+    t_end: f64,
+    h: f64,
+    count: u64,
+}
+
+impl Times {
+    /// # Errors
+    /// [`Failure::Time`] where one of the times is not finite; [`Failure::StepUnderflow`] where `step` is not positive, or
+    /// gives more steps than there are floating-point times.
+    pub(super) fn new(t0: f64, t_end: f64, step: f64) -> Result<Self, Failure> {
+        if let Some(given) = [t0, t_end].into_iter().find(|t| !t.is_finite()) {
+            return Err(Failure::Time { given });
+        }
+        let count = step_count(t0, t_end, step).ok_or(Failure::StepUnderflow)?;
+        let h = if count == 0 { 0.0 } else { (t_end - t0) / count as f64 };
+        Ok(Self { t0, t_end, h, count })
+    }
+
+    /// Length of the steps, negative backward in time.
+    pub(super) fn length(&self) -> f64 {
+        self.h
+    }
+
+    fn at(&self, taken: u64) -> f64 {
+        if taken == self.count { self.t_end } else { self.t0 + taken as f64 * self.h }
+    }
+}
+
+/// The steps taken, with the points where the last one began and ended.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EqualSteps<P> {
+    times: Times,
+    taken: u64,
+    begin: P,
+    end: P,
+    failure: Option<Failure>,
+}
+
+impl<P: Copy> EqualSteps<P> {
+    /// Before the first step.
+    pub(super) fn at(times: Times, start: P) -> Self {
+        Self { times, taken: 0, begin: start, end: start, failure: None }
+    }
+
+    /// Where the next step begins: time, point and length; `None` at `t_end`.
+    ///
+    /// # Errors
+    /// The failure of an earlier step.
+    pub(super) fn next(&self) -> Result<Option<(f64, P, f64)>, Failure> {
+        match self.failure {
+            Some(failure) => Err(failure),
+            None if self.is_finished() => Ok(None),
+            None => Ok(Some((self.t(), self.end, self.times.h))),
+        }
+    }
+
+    /// Goes to the end of a step; where it failed, the point stays, now and ever after.
+    ///
+    /// # Errors
+    /// That of the step.
+    pub(super) fn take(&mut self, outcome: Result<P, Failure>) -> Result<(), Failure> {
+        match outcome {
+            Ok(end) => {
+                (self.begin, self.end) = (self.end, end);
+                self.taken += 1;
+                Ok(())
+            }
+            Err(failure) => {
+                self.failure = Some(failure);
+                Err(failure)
+            }
+        }
+    }
+
+    /// Where the last step began, for a shorter one to the time `t`: point, time and length; `None` where the point
+    /// reached is the one at `t`, or the only one.
+    pub(super) fn again_to(&self, t: f64) -> Option<(f64, P, f64)> {
+        if self.taken == 0 || t == self.t() {
+            return None;
+        }
+        let begin = self.times.at(self.taken - 1);
+        Some((begin, self.begin, t - begin))
+    }
+
+    /// Time reached.
+    pub(super) fn t(&self) -> f64 {
+        self.times.at(self.taken)
+    }
+
+    /// Point reached.
+    pub(super) fn end(&self) -> &P {
+        &self.end
+    }
+
+    /// `t_end` is reached.
+    pub(super) fn is_finished(&self) -> bool {
+        self.taken == self.times.count
+    }
+
+    /// Steps taken.
+    pub(super) fn taken(&self) -> u64 {
+        self.taken
+    }
+
+    /// The times.
+    pub(super) fn times(&self) -> &Times {
+        &self.times
+    }
+
+    /// Everything that the next steps depend on; `point` hands over a point.
+    pub(super) fn exchange<T: Tape>(&mut self, tape: &mut T, point: impl FnOnce(&mut T, &mut P)) {
+        tape.bits(&mut self.taken);
+        point(tape, &mut self.end);
+        self.begin = self.end;
+    }
+}
+
+/// `ceil(|t_end - t0|/step)`; `None` where the step is not positive or is lost in the rounding of times.
+pub fn step_count(t0: f64, t_end: f64, step: f64) -> Option<u64> {
+    let span = (t_end - t0).abs();
+    let latest = if t0.abs() > t_end.abs() { t0.abs() } else { t_end.abs() };
+    if span == 0.0 && step > 0.0 {
+        return Some(0);
+    }
+    if !(step > 0.0 && span / step < MOST_STEPS && step > 4.0 * f64::EPSILON * latest) {
+        return None;
+    }
+    let count = parts(t0, t_end, step);
+    // One step where it is longer than the interval, infinite steps included.
+    Some(if count > 1.0 { count as u64 } else { 1 })
+}
+
+/// `ceil(|t_end - t0|/part)`, and the nearest whole number where rounding alone may have made it another.
+///
+/// Times are numbers: of `from(k dt)` and `until((k + 1) dt)` each is rounded, by as much more than `dt` itself as it is
+/// larger.
+pub fn parts(t0: f64, t_end: f64, part: f64) -> f64 {
+    let span = (t_end - t0).abs();
+    let exact = span / part;
+    let whole = libm::round(exact);
+    let roundings = ROUNDINGS * f64::EPSILON * ((t0.abs() + t_end.abs()) / part + exact);
+    if (exact - whole).abs() <= roundings { whole } else { libm::ceil(exact) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::step_count;
+
+    #[test]
+    fn frames_have_the_steps_that_they_are_divided_into() {
+        for frames_a_second in [24.0, 30.0, 60.0, 144.0, 1000.0] {
+            for offset in [0.0, 0.1, -5e3, 1e4 + 0.7] {
+                for steps in 1..=9_u32 {
+                    let dt = 1.0 / frames_a_second;
+                    let step = dt / f64::from(steps);
+                    for frame in 0..2000 {
+                        let [begin, end] = [0, 1].map(|k| offset + f64::from(frame + k) * dt);
+                        assert_eq!(
+                            step_count(begin, end, step),
+                            Some(u64::from(steps)),
+                            "{begin} {end} {step}"
+                        );
+                        assert_eq!(step_count(end, begin, step), Some(u64::from(steps)), "backward");
+                    }
+                }
+            }
+        }
+        // Times that are summed.
+        let (dt, mut t) = (1.0 / 60.0, 0.0);
+        for _ in 0..10_000 {
+            let next = t + dt;
+            assert_eq!(step_count(t, next, 0.25 * dt), Some(4), "{t}");
+            t = next;
+        }
+    }
+
+    #[test]
+    fn no_step_is_longer_than_asked_for() {
+        assert_eq!(step_count(0.0, 1.0, 0.3), Some(4));
+        assert_eq!(
+            step_count(0.0, 1.0, 1.0 / (4.0 + 1e-12)),
+            Some(5),
+            "a difference that is none of rounding"
+        );
+        assert_eq!(step_count(1e4, 1e4 + 1.0, 1.0 / (4.0 + 1e-9)), Some(5));
+        assert_eq!(step_count(0.0, 1.0, f64::INFINITY), Some(1));
+        assert_eq!(step_count(2.0, 2.0, 0.1), Some(0));
+        for step in [0.0, -1.0, f64::NAN, 1e-17] {
+            assert_eq!(step_count(0.0, 1.0, step), None, "{step}");
+        }
+    }
+}

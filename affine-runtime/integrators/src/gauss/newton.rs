@@ -1,0 +1,191 @@
+//! Newton's corrections of the stage equations: `(1 - h M (x) J) dL = r`, `M_ij = b_i a_ij/b_j`.
+//!
+//! By the eigenvalues of `M` the system falls apart into one of dimension `dim y` for each mode,
+//! `(1 - h lambda J) u = sum_j left_j r_j`, `dL_i = sum_modes Re(right_i u)`, as in Hairer, Wanner, Solving Ordinary
+//! Differential Equations II, section IV.8. The Jacobian `J` is made of differences: its errors change how fast the
+//! corrections converge, not what they converge to.
+
+use nalgebra::Complex;
+
+use super::coefficients::{MOST_STAGES, Mode, Tableau};
+use affine_core::model::StateVector;
+use affine_core::scalar::Scalar;
+
+/// Components of the largest state for which there is room: memory is fixed, so that nothing allocates. The
+/// placement, its momentum and the centre of mass of a body in space have 24.
+pub(super) const CAPACITY: usize = 32;
+/// Modes of the largest method.
+const MODES: usize = 3;
+/// Relative change for the differences: balances rounding, `eps/change`, and curvature, `change`.
+const CHANGE: f64 = 1.5e-8;
+
+type Entry = Complex<f64>;
+type Square = [[Entry; CAPACITY]; CAPACITY];
+
+const ZERO: Entry = Complex::new(0.0, 0.0);
+
+/// The Jacobian and the factors of the systems.
+#[derive(Clone, Copy)]
+pub(super) struct Newton<S> {
+    tableau: &'static Tableau,
+    /// Column by column; valid where `known`.
+    columns: [S; CAPACITY],
+    known: bool,
+    factors: [Factors; MODES],
+    /// The step length of the factors; NaN before there are any.
+    h: f64,
+}
+
+impl<S: StateVector<f64>> Newton<S> {
+    pub(super) fn new(tableau: &'static Tableau) -> Self {
+        Self {
+            tableau,
+            columns: [S::zeros(); CAPACITY],
+            known: false,
+            factors: [Factors::NONE; MODES],
+            h: f64::NAN,
+        }
+    }
+
+    /// The state is not too large.
+    pub(super) const FITS: bool = S::LEN <= CAPACITY;
+
+    /// There is a Jacobian, of this step or an earlier one.
+    pub(super) fn is_known(&self) -> bool {
+        self.known
+    }
+
+    /// The next iteration needs a new Jacobian.
+    pub(super) fn forget(&mut self) {
+        self.known = false;
+    }
+
+    /// The Jacobian of `f` at `(t, y)`, where components change by about `extent` within a step. One evaluation,
+    /// and one for each component.
+    pub(super) fn differentiate(&mut self, f: &impl Fn(f64, &S) -> S, t: f64, y: &S, extent: &S) {
+        let slope = f(t, y);
+        let size = y.as_ref().iter().fold(0.0, |largest: f64, y| largest.max(y.abs()));
+        for (c, column) in self.columns.iter_mut().enumerate().take(S::LEN) {
+            let own = y.as_ref()[c].abs() + extent.as_ref()[c].abs();
+            let scale = if own > 0.0 {
+                own
+            } else if size > 0.0 {
+                size
+            } else {
+                1.0
+            };
+            let mut changed = *y;
+            changed.as_mut()[c] += CHANGE * scale;
+            // What the sum really changed by.
+            let change = changed.as_ref()[c] - y.as_ref()[c];
+            *column = f(t, &changed);
+            for (entry, slope) in column.as_mut().iter_mut().zip(slope.as_ref()) {
+                *entry = (*entry - slope) / change;
+            }
+        }
+        self.known = true;
+        self.h = f64::NAN;
+    }
+
+    /// Factors for steps of length `h`. `false` where a system is singular or not finite.
+    #[must_use]
+    pub(super) fn prepare(&mut self, h: f64) -> bool {
+        if self.h == h {
+            return true;
+        }
+        self.h = f64::NAN;
+        for (mode, factors) in self.tableau.modes.iter().zip(&mut self.factors) {
+            let factor = Complex::new(mode.eigenvalue.0, mode.eigenvalue.1) * h;
+            for (c, column) in self.columns.iter().enumerate().take(S::LEN) {
+                for (r, entry) in column.as_ref().iter().enumerate() {
+                    let diagonal = if r == c { 1.0 } else { 0.0 };
+                    factors.entries[r][c] = -factor * *entry + diagonal;
+                }
+            }
+            if !factors.eliminate(S::LEN) {
+                return false;
+            }
+        }
+        self.h = h;
+        true
+    }
+
+    /// `dL` from the defects `r`.
+    pub(super) fn correction(&self, defects: &[S; MOST_STAGES]) -> [S; MOST_STAGES] {
+        let stages = self.tableau.stages();
+        let mut correction = [S::zeros(); MOST_STAGES];
+        for (Mode { right, left, .. }, factors) in self.tableau.modes.iter().zip(&self.factors) {
+            let mut u = [ZERO; CAPACITY];
+            for (i, u) in u.iter_mut().enumerate().take(S::LEN) {
+                for (left, defect) in left.iter().zip(defects).take(stages) {
+                    *u += Complex::new(left.0, left.1) * defect.as_ref()[i];
+                }
+            }
+            factors.solve(&mut u, S::LEN);
+            for (right, correction) in right.iter().zip(&mut correction).take(stages) {
+                for (value, u) in correction.as_mut().iter_mut().zip(&u) {
+                    *value += right.0 * u.re - right.1 * u.im;
+                }
+            }
+        }
+        correction
+    }
+}
+
+/// `P A = L U` with the unit diagonal of `L` left out.
+#[derive(Clone, Copy)]
+struct Factors {
+    entries: Square,
+    pivots: [usize; CAPACITY],
+}
+
+impl Factors {
+    const NONE: Self = Self { entries: [[ZERO; CAPACITY]; CAPACITY], pivots: [0; CAPACITY] };
+
+    /// Gaussian elimination in place, with the largest entry of each column as the pivot.
+    fn eliminate(&mut self, dimension: usize) -> bool {
+        let size = |entry: Entry| Scalar::abs(entry.re) + Scalar::abs(entry.im);
+        for k in 0..dimension {
+            let mut pivot = k;
+            for r in k + 1..dimension {
+                if size(self.entries[r][k]) > size(self.entries[pivot][k]) {
+                    pivot = r;
+                }
+            }
+            self.pivots[k] = pivot;
+            self.entries.swap(k, pivot);
+            let largest = size(self.entries[k][k]);
+            if !(largest > 0.0 && largest.is_finite()) {
+                return false;
+            }
+            let inverse = Complex::new(1.0, 0.0) / self.entries[k][k];
+            let row = self.entries[k];
+            for below in &mut self.entries[k + 1..dimension] {
+                let factor = below[k] * inverse;
+                below[k] = factor;
+                for c in k + 1..dimension {
+                    below[c] -= factor * row[c];
+                }
+            }
+        }
+        true
+    }
+
+    fn solve(&self, u: &mut [Entry; CAPACITY], dimension: usize) {
+        // Multipliers moved with their rows in the elimination: the whole permutation comes first.
+        for k in 0..dimension {
+            u.swap(k, self.pivots[k]);
+        }
+        for r in 0..dimension {
+            for c in 0..r {
+                u[r] -= self.entries[r][c] * u[c];
+            }
+        }
+        for r in (0..dimension).rev() {
+            for c in r + 1..dimension {
+                u[r] -= self.entries[r][c] * u[c];
+            }
+            u[r] /= self.entries[r][r];
+        }
+    }
+}

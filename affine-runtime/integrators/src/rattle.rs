@@ -1,0 +1,240 @@
+//! RATTLE on `det phi = 1` and its symmetric compositions: explicit but for one number, symplectic, with a fixed step.
+
+mod composition;
+mod constraint;
+mod layout;
+mod reaction;
+
+pub use composition::Composition;
+pub use reaction::Reaction;
+
+use core::fmt;
+
+use super::equal_steps::{EqualSteps, Times};
+use super::finite::is_finite;
+use super::lie::{Sum, adjugate};
+use super::tape::Tape;
+use super::{Failure, Statistics};
+use affine_core::frames::Matrix;
+use affine_core::model::{Group, StateVector};
+use constraint::{Motion, multiplier};
+use layout::Layout;
+
+/// How far a start may be off the constraint and the hidden constraint: what the rounding of input leaves. It is taken
+/// out before the first step.
+const START: f64 = 1e-10;
+
+/// Integration of Hamilton's equations of `H = T(Pi) + U(t, phi)` under `det phi = 1`, from `t0` to `t_end`, in either
+/// direction of time, in equal steps that are compositions of steps `h` of RATTLE (H. Andersen, J. Comput. Phys. 52
+/// (1983) 24-34; Hairer, Lubich, Wanner, Geometric Numerical Integration, section VII.1.4):
+///
+/// ```text
+/// Pi_1/2 = Pi - h/2 (dU/dphi)^T + mu adj(phi),         phi_1 = phi + h T'(Pi_1/2),       mu such that det phi_1 = 1
+/// Pi_1   = Pi_1/2 - h/2 (dU/dphi_1)^T + nu adj(phi_1),            nu such that tr(phi_1^-1 T'(Pi_1)) = 0
+/// ```
+///
+/// Orders 2, 4, 6, 8 by [`Composition`]. A step is symmetric and symplectic on the constrained phase space. `mu` is
+/// iterated to rounding by Newton's method, and `nu` is linear: both constraints hold to rounding at each step, whatever
+/// the number of steps. Multipliers change neither spin nor vorticity, whose conservation is that of the free steps:
+/// exact up to rounding where `U` is invariant. States are summed with compensation.
+///
+/// Where a step is far too long for the motion, `mu` need not be unique: the one found is the one that the iteration leads
+/// to from the multiplier of the step before.
+///
+/// The equations are those of the body without constraint: the state holds the groups `phi` and `Pi`, with `x` and `p`
+/// or without, and its time derivative is `T'(Pi)` and the force. A multiple of `adj(phi)` in the force is immaterial.
+/// One evaluation for each step of RATTLE; at the start two and one for each component of the momenta, from which the
+/// matrix of `T'` is read.
+#[derive(Clone)]
+pub struct Rattle<const N: usize, S, F> {
+    f: F,
+    layout: Layout<N>,
+    composition: &'static Composition,
+    steps: EqualSteps<Point<S>>,
+    evaluations: u64,
+    residual: f64,
+}
+
+/// A state with the forces there.
+#[derive(Clone, Copy)]
+struct Point<S> {
+    state: Sum<S>,
+    rates: S,
+    /// The last multiplier over its step: where the next one is looked for.
+    multiplier: f64,
+}
+
+impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
+    /// The integration at its start; `groups` lay out the state.
+    ///
+    /// # Errors
+    /// [`Failure::NotSeparable`] unless the groups are `phi` and `Pi`, with `x` and `p` or without, and velocities are
+    /// linear in the momenta and independent of the placement; [`Failure::OffConstraint`] where the start is not on the
+    /// constraints; [`Failure::NotFinite`]; [`Failure::StepUnderflow`] where `step` is not positive, or gives more
+    /// steps than there are floating-point times.
+    pub fn new(
+        f: F,
+        groups: &[Group],
+        composition: &'static Composition,
+        (t0, y0): (f64, S),
+        t_end: f64,
+        step: f64,
+    ) -> Result<Self, Failure> {
+        let times = Times::new(t0, t_end, step)?;
+        if !is_finite(&y0) {
+            return Err(Failure::NotFinite);
+        }
+        let layout = Layout::of(groups, &f, (t0, &y0))?;
+        let mut state = y0;
+        let defect = constraint::settle(&layout, &mut state);
+        if defect.is_nan() {
+            return Err(Failure::NotFinite);
+        }
+        if defect > START {
+            return Err(Failure::OffConstraint { defect });
+        }
+        let rates = f(t0, &state);
+        if !is_finite(&rates) {
+            return Err(Failure::NotFinite);
+        }
+        let start = Point { state: Sum::of(state), rates, multiplier: 0.0 };
+        Ok(Self {
+            f,
+            evaluations: layout.evaluations() + 1,
+            layout,
+            composition,
+            steps: EqualSteps::at(times, start),
+            residual: 0.0,
+        })
+    }
+
+    /// Takes one step; does nothing at `t_end`, which the last step hits exactly.
+    ///
+    /// # Errors
+    /// [`Failure::NoSolution`], with what is left of `det phi - 1`, or [`Failure::NotFinite`], now and ever after; the
+    /// state stays that of the last step.
+    pub fn advance(&mut self) -> Result<(), Failure> {
+        let Some((t, begin, h)) = self.steps.next()? else { return Ok(()) };
+        let end = self.composed(t, begin, h);
+        self.steps.take(end)
+    }
+
+    /// The state at a time within the last step, by a shorter step of the same method from its beginning, which leaves
+    /// the steps as they are. The state reached where no step has been taken.
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance), but the integration can go on.
+    pub fn at(&mut self, t: f64) -> Result<S, Failure> {
+        match self.steps.again_to(t) {
+            None => Ok(*self.y()),
+            Some((from, begin, h)) => self.composed(from, begin, h).map(|between| between.state.value),
+        }
+    }
+
+    /// Everything that the next steps depend on.
+    #[doc(hidden)]
+    pub fn exchange(&mut self, tape: &mut impl Tape) {
+        self.steps.exchange(tape, |tape, end| {
+            tape.sum(&mut end.state);
+            tape.state(&mut end.rates);
+            tape.number(&mut end.multiplier);
+        });
+        tape.number(&mut self.residual);
+        tape.bits(&mut self.evaluations);
+    }
+
+    /// Time reached.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.steps.t()
+    }
+
+    /// State reached.
+    #[must_use]
+    pub fn y(&self) -> &S {
+        &self.steps.end().state.value
+    }
+
+    /// `t_end` is reached.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        self.steps.is_finished()
+    }
+
+    /// Cost so far, with that of [`at`](Self::at). No step is rejected.
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
+        Statistics { steps: self.steps.taken(), evaluations: self.evaluations, ..Statistics::default() }
+    }
+
+    /// Largest `|det phi - 1|` that the iteration left, relative to the products in the determinant.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.residual
+    }
+
+    /// One step of the composition.
+    fn composed(&mut self, t: f64, begin: Point<S>, h: f64) -> Result<Point<S>, Failure> {
+        let mut point = begin;
+        let mut part = 0.0;
+        for weight in self.composition.weights() {
+            let from = t + part * h;
+            part += weight;
+            point = self.step(from + weight * h, point, weight * h)?;
+        }
+        Ok(point)
+    }
+
+    /// One step of RATTLE, which ends at the time `end`.
+    fn step(&mut self, end: f64, begin: Point<S>, h: f64) -> Result<Point<S>, Failure> {
+        let normal = self.normal(&begin.state.value);
+        let mut state = begin.state.plus(&self.layout.kick(&begin.rates, 0.5 * h));
+        let free = self.layout.drift(&state.value, h);
+        let along = self.layout.drift(&normal, h);
+        let motion = Motion {
+            phi: self.layout.placement(&begin.state.value),
+            carry: self.layout.placement(&begin.state.carry),
+            free: self.layout.placement(&free),
+            along: self.layout.placement(&along),
+        };
+        let found = multiplier(&motion, begin.multiplier * h)?;
+        self.residual = if found.residual > self.residual { found.residual } else { self.residual };
+        let mut rise = free;
+        for ((rise, along), normal) in rise.as_mut().iter_mut().zip(along.as_ref()).zip(normal.as_ref()) {
+            *rise += found.value * (along + normal);
+        }
+        state = state.plus(&rise);
+
+        let rates = (self.f)(end, &state.value);
+        self.evaluations += 1;
+        state = state.plus(&self.layout.kick(&rates, 0.5 * h));
+        let normal = self.normal(&state.value);
+        state = constraint::tangent(&self.layout, state, &normal);
+        if !is_finite(&rates) || !is_finite(&state.value) {
+            return Err(Failure::NotFinite);
+        }
+        Ok(Point { state, rates, multiplier: found.value / h })
+    }
+
+    /// The momentum `adj(phi)`, along which the constraint acts.
+    fn normal(&self, state: &S) -> S {
+        self.layout.momentum(&adjugate(&self.layout.placement(state)))
+    }
+}
+
+impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> fmt::Debug for Rattle<N, S, F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Rattle")
+            .field("order", &self.composition.order())
+            .field("t", &self.t())
+            .field("y", self.y())
+            .field("steps", self.steps.times())
+            .field("statistics", &self.statistics())
+            .finish_non_exhaustive()
+    }
+}
+
+/// The placement matrix of a group of components.
+fn matrix<const N: usize>(components: &[f64]) -> Matrix<N> {
+    Matrix::<N>::from_row_slice(components)
+}

@@ -1,0 +1,349 @@
+//! Embedded explicit Runge-Kutta methods of orders 8 and 5 with step size control and dense output.
+
+mod dormand_prince_54;
+mod dormand_prince_853;
+mod field;
+#[cfg(feature = "std")]
+pub(crate) mod in_lanes;
+mod judged;
+mod pair;
+pub(crate) mod start;
+mod step;
+#[cfg(test)]
+mod trees;
+
+use field::called;
+pub use field::{Field, InVectors, Stages};
+use judged::Judged;
+pub use pair::{DormandPrince54, DormandPrince853, Pair};
+pub use step::{Dense, OneStep, Step};
+
+use core::fmt;
+
+use super::error_norm::ErrorNorm;
+use super::finite::is_finite;
+use super::lie::{Coordinates, Flat, Sum};
+use super::step_size::{Controller, next_time, shortest};
+use super::tape::Tape;
+use super::taylor::{Portable, Vectors};
+use super::widest::{Work, roomiest, widest};
+use super::{Failure, Statistics};
+use affine_core::model::{Group, StateVector};
+use affine_core::system::Packing;
+use start::Start;
+
+/// The method of Dormand and Prince of order 8.
+///
+/// With `e_5`, `e_3` the differences to the embedded solutions of orders 5 and 3, the estimated error is
+/// `h |e_5|^2 / sqrt(|e_5|^2 + 0.01 |e_3|^2)`, which is of order `h^8` (Hairer, Norsett, Wanner, Solving Ordinary
+/// Differential Equations I, (10.17)).
+///
+/// Cost: 12 evaluations per accepted step, 11 (or 12, where only the slope at its end is not finite) per rejected
+/// one, 3 for the dense output of a step.
+pub type RungeKutta8<S, F, C = Flat, L = S> = RungeKutta<DormandPrince853, S, F, C, L>;
+
+/// The method of Dormand and Prince of order 5, the usual baseline.
+///
+/// The estimated error is the difference to the embedded solution of order 4, of order `h^5`. Cost: 6 evaluations per
+/// step, accepted or rejected; the dense output is free. At one tolerance it errs some tens of times more than order 8, see
+/// [`Method::RungeKutta5`](../enum.Method.html#variant.RungeKutta5).
+pub type RungeKutta5<S, F, C = Flat, L = S> = RungeKutta<DormandPrince54, S, F, C, L>;
+
+/// Adaptive integration of `y' = f(t, y)` from `t0` to `t_end`, in either direction of time, by an embedded explicit
+/// Runge-Kutta method: [`RungeKutta8`] or [`RungeKutta5`].
+///
+/// A step is accepted when its estimated error, relative to the tolerance in the [`ErrorNorm`], is at most 1. The
+/// tolerance bounds the error of each step; what accumulates depends on the problem.
+///
+/// Cost: that of the steps; at the start 2 evaluations, and one for each component of a momentum.
+#[derive(Clone)]
+pub struct RungeKutta<P, S, F, C = Flat, L = S> {
+    field: F,
+    coordinates: C,
+    error_norm: ErrorNorm,
+    tolerance: f64,
+    controller: Controller,
+    /// In the coordinates around `begin`.
+    step: OneStep<P, L>,
+    begin: Sum<S>,
+    /// The state reached.
+    end: Sum<S>,
+    /// Its time derivative.
+    rate: S,
+    /// That of the state at the end of an attempted step.
+    trial_rate: S,
+    length: f64,
+    t_end: f64,
+    failure: Option<Failure>,
+    statistics: Statistics,
+}
+
+impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta<P, S, F> {
+    /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`].
+    ///
+    /// # Errors
+    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite; [`Failure::Time`] for an interval and
+    /// [`Failure::Tolerance`] for a tolerance that make no sense.
+    pub fn new(
+        f: F,
+        groups: &'static [Group],
+        start: (f64, S),
+        t_end: f64,
+        tolerance: f64,
+    ) -> Result<Self, Failure> {
+        Self::within(Flat, f, groups, start, t_end, tolerance)
+    }
+}
+
+impl<P: Pair, S: StateVector<f64>, K, R: Packing<S, K>> RungeKutta<P, S, InVectors<R, K>, Flat, R::Packed> {
+    /// The integration at its start, with steps in vectors of four.
+    ///
+    /// # Errors
+    /// As [`new`](RungeKutta::new).
+    pub fn in_vectors(
+        field: InVectors<R, K>,
+        groups: &'static [Group],
+        start: (f64, S),
+        t_end: f64,
+        tolerance: f64,
+    ) -> Result<Self, Failure> {
+        Self::begun(Flat, field, groups, start, t_end, tolerance)
+    }
+}
+
+impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> RungeKutta<P, S, F, C> {
+    /// The integration at its start, in other coordinates: on a group, in the chart around the beginning of each step.
+    /// Errors are those of the state itself, in the norm of `groups`.
+    ///
+    /// # Errors
+    /// As [`new`](RungeKutta::new).
+    pub fn within(
+        coordinates: C,
+        f: F,
+        groups: &'static [Group],
+        start: (f64, S),
+        t_end: f64,
+        tolerance: f64,
+    ) -> Result<Self, Failure> {
+        Self::begun(coordinates, f, groups, start, t_end, tolerance)
+    }
+}
+
+impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>>
+    RungeKutta<P, S, F, C, L>
+{
+    fn begun(
+        coordinates: C,
+        field: F,
+        groups: &'static [Group],
+        (t0, y0): (f64, S),
+        t_end: f64,
+        tolerance: f64,
+    ) -> Result<Self, Failure> {
+        let f = |t: f64, y: &S| called(|| field.rate(t, y));
+        let (start, evaluations) = Start::of::<P>(&f, groups, (t0, &y0), t_end, tolerance)?;
+        let Start { slope, error_norm, length } = start;
+        let statistics = Statistics { evaluations, ..Statistics::default() };
+        let controller = Controller::of(P::ERROR_ORDER, P::MARGIN);
+        let begin = Sum::of(y0);
+        let origin = coordinates.origin(&begin).value;
+        let velocity = coordinates.velocity(&y0, &origin, &slope);
+        let step = OneStep::at(t0, field.stored(&origin), field.stored(&velocity));
+        Ok(Self {
+            field,
+            coordinates,
+            error_norm,
+            tolerance,
+            controller,
+            step,
+            begin,
+            end: begin,
+            rate: slope,
+            trial_rate: slope,
+            length,
+            t_end,
+            failure: None,
+            statistics,
+        })
+    }
+
+    /// Takes one accepted step; does nothing at `t_end`, which the last step hits exactly.
+    ///
+    /// # Errors
+    /// [`Failure`], now and ever after; the state stays that of the last accepted step.
+    // Not optimised a second time as a part of its only caller.
+    #[inline(never)]
+    pub fn advance(&mut self) -> Result<(), Failure> {
+        if let Some(failure) = self.failure {
+            return Err(failure);
+        }
+        if self.is_finished() {
+            return Ok(());
+        }
+        if const { P::SUMS_ARE_LONG && F::IS_IN_VECTORS } {
+            roomiest(Advance(self))
+        } else {
+            widest(Advance(self))
+        }
+    }
+
+    /// One accepted step, all of it on the vectors of a processor: what is done between two steps is as long as an
+    /// evaluation or two.
+    #[inline(always)]
+    fn accepted(&mut self, vectors: impl Vectors) -> Result<(), Failure> {
+        self.begin_next();
+        loop {
+            let end = next_time(self.step.time(), self.length, self.t_end);
+            if end == self.step.time() {
+                self.failure = Some(Failure::StepUnderflow);
+                return Err(Failure::StepUnderflow);
+            }
+            self.statistics.evaluations += P::EVALUATIONS + u64::from(P::NEEDS_END);
+            let (reached, mut error) = self.attempt(vectors, end);
+            if error <= 1.0 {
+                if !P::NEEDS_END {
+                    self.statistics.evaluations += 1;
+                }
+                self.rate = self.trial_rate;
+                let slope = *self.step.end_slope();
+                self.step.accept_with(slope);
+                if is_finite(&slope) {
+                    self.end = reached;
+                    self.statistics.steps += 1;
+                    self.length = self.step.length().abs() * self.controller.accept(error);
+                    return Ok(());
+                }
+                error = f64::NAN;
+            }
+            self.statistics.rejected += 1;
+            self.length = self.step.length().abs() * self.controller.reject(error);
+            if self.length <= shortest(self.step.time(), self.t_end) {
+                self.step.withdraw();
+                let failure = if error.is_finite() { Failure::StepUnderflow } else { Failure::NotFinite };
+                self.failure = Some(failure);
+                return Err(failure);
+            }
+        }
+    }
+
+    /// Dense output over the last accepted step: [`Pair::DENSE_EVALUATIONS`].
+    pub fn dense(&mut self) -> Dense<S, C> {
+        self.statistics.evaluations += P::DENSE_EVALUATIONS;
+        let dense = self.step.dense_in(&self.field.stages(Portable, self.coordinates, &self.begin));
+        dense.read(|stored| self.field.read(stored)).around(self.coordinates, self.begin, self.end.value)
+    }
+
+    /// Everything that the next steps depend on, of an integration between two steps.
+    #[doc(hidden)]
+    pub fn exchange(&mut self, tape: &mut impl Tape) {
+        let mut t = self.t();
+        tape.number(&mut t);
+        tape.sum(&mut self.end);
+        tape.state(&mut self.rate);
+        tape.number(&mut self.length);
+        self.controller.exchange(tape);
+        tape.statistics(&mut self.statistics);
+        let origin = self.coordinates.origin(&self.end).value;
+        let velocity = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
+        self.step = OneStep::at(t, self.field.stored(&origin), self.field.stored(&velocity));
+        self.begin = self.end;
+    }
+
+    /// Time reached.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.step.end_time()
+    }
+
+    /// State reached.
+    #[must_use]
+    pub fn y(&self) -> &S {
+        &self.end.value
+    }
+
+    /// `t_end` is reached.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        self.t() == self.t_end
+    }
+
+    /// Cost so far.
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
+        self.statistics
+    }
+
+    /// Computes a step to the time `end`: the state there, and its error. Where the step is good, the slope there too.
+    #[inline(always)]
+    fn attempt(&mut self, vectors: impl Vectors, end: f64) -> (Sum<S>, f64) {
+        self.step.attempt_in(&self.field.stages(vectors, self.coordinates, &self.begin), end);
+        let reached = self.coordinates.state(&self.begin, &self.field.read(self.step.trial_end()));
+        if P::NEEDS_END {
+            self.slope_at(vectors, end, &reached.value);
+        }
+        let error = self.error(vectors, &reached.value);
+        if !P::NEEDS_END && error <= 1.0 {
+            self.slope_at(vectors, end, &reached.value);
+        }
+        (reached, error)
+    }
+
+    /// The slope at the end of the attempted step.
+    #[inline(always)]
+    fn slope_at(&mut self, vectors: impl Vectors, end: f64, reached: &S) {
+        let (rate, slope) = self.field.at(vectors, self.coordinates, end, (reached, self.step.trial_end()));
+        self.trial_rate = rate;
+        self.step.set_end(slope);
+    }
+
+    /// Turns to the next step, in coordinates around the state reached.
+    #[inline(always)]
+    fn begin_next(&mut self) {
+        let origin = self.coordinates.origin(&self.end).value;
+        let velocity = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
+        self.begin = self.end;
+        self.step.begin_next_at(self.field.stored(&origin), self.field.stored(&velocity));
+    }
+
+    /// Estimated error of the attempted step relative to the tolerance; NaN where something is not finite.
+    #[inline(always)]
+    fn error(&self, vectors: impl Vectors, reached: &S) -> f64 {
+        let stages = self.field.stages(vectors, self.coordinates, &self.begin);
+        let (first, second) = self.step.error_slopes(&stages);
+        // One by one: what arrays are mapped by is not compiled for the vectors of the processor.
+        let first = self.coordinates.change(&self.begin, &self.field.read(&first));
+        let second = self.coordinates.change(&self.begin, &self.field.read(&second));
+        let relative = P::largest(&Judged {
+            error_norm: &self.error_norm,
+            length: self.step.length().abs(),
+            states: [self.begin.value.as_ref(), reached.as_ref()],
+            slopes: [first.as_ref(), second.as_ref()],
+        });
+        self.step.length().abs() / self.tolerance * relative
+    }
+}
+
+impl<P: Pair, S: StateVector<f64>, F, C, L: StateVector<f64>> fmt::Debug for RungeKutta<P, S, F, C, L> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(P::NAME)
+            .field("t", &self.step.end_time())
+            .field("y", &self.end.value)
+            .field("t_end", &self.t_end)
+            .field("tolerance", &self.tolerance)
+            .field("statistics", &self.statistics)
+            .finish_non_exhaustive()
+    }
+}
+
+/// An accepted step of an integration.
+struct Advance<'a, P, S, F, C, L>(&'a mut RungeKutta<P, S, F, C, L>);
+
+impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>> Work
+    for Advance<'_, P, S, F, C, L>
+{
+    type Output = Result<(), Failure>;
+    #[inline(always)]
+    fn run(self, vectors: impl Vectors) -> Result<(), Failure> {
+        self.0.accepted(vectors)
+    }
+}

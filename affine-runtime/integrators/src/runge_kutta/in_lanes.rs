@@ -1,0 +1,402 @@
+//! The method of order 8 for several bodies at once, each in a lane with steps of its own.
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::dormand_prince_853::*;
+use super::pair::{DormandPrince853, E3, Pair};
+use super::start::Start;
+use crate::error_norm::{NormInLanes, Squares};
+use crate::lanes::Lanes;
+use crate::lanes::parts::{part, parts, plus, set_part};
+use crate::step_size::Controller;
+use crate::step_size::in_lanes::{Clocks, fate};
+use affine_core::__private::numerics::IN_RANGE;
+use affine_core::model::{Group, StateVector};
+
+const STAGES: usize = 13;
+/// Place of the slope at the end of a step, which is the first of the next.
+const AT_END: usize = 12;
+
+/// `y' = f(t, y)` in lanes. A trait, since a closure cannot be made part of the function that is compiled for the
+/// processor's vectors: what is called from there is compiled for the vectors of every processor.
+pub trait Equations<T, S> {
+    /// What states consist of.
+    const GROUPS: &'static [Group];
+
+    /// Writes `f(t, y)`; to be `#[inline(always)]`. In place, since states of many lanes are long.
+    fn slope(&self, t: T, y: &S, slope: &mut S);
+
+    /// A step may end at the state in a lane; to be `#[inline(always)]`.
+    fn is_sound(&self, y: &S, lane: usize) -> bool;
+}
+
+/// Bodies in lanes: [`RungeKutta8`](super::RungeKutta8) of each, operation by operation, at its own time and with its own
+/// steps. A lane that is done is given the next body, while the others are on their way.
+pub struct RungeKutta8InLanes<T, S, F> {
+    f: F,
+    norm: NormInLanes<T>,
+    tolerance: f64,
+    clocks: Clocks<T>,
+    y: S,
+    trial: S,
+    stages: [S; STAGES],
+}
+
+/// What happens to the body in a lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// It has come to the end.
+    Arrived,
+    /// It cannot go on, or not in lanes.
+    Stuck,
+}
+
+impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F> {
+    /// Lanes without bodies, for motions to `t_end` of at most so many steps. All are to be given one before the first
+    /// step: there is no motion from a state of zeros.
+    pub fn new(f: F, t_end: f64, tolerance: f64, max_steps: u64) -> Self {
+        const { assert!(T::LANES.is_multiple_of(8), "lanes fill the vectors of every processor") }
+        Self {
+            f,
+            norm: NormInLanes::new(F::GROUPS),
+            tolerance,
+            clocks: Clocks::new(
+                Controller::of(DormandPrince853::ERROR_ORDER, DormandPrince853::MARGIN),
+                t_end,
+                max_steps,
+            ),
+            y: S::zeros(),
+            trial: S::zeros(),
+            stages: [S::zeros(); STAGES],
+        }
+    }
+
+    /// The equations.
+    pub fn equations(&mut self) -> &mut F {
+        &mut self.f
+    }
+
+    /// Puts a body into a lane.
+    pub fn start<R: StateVector<f64>>(&mut self, lane: usize, (t0, y0): (f64, &R), start: &Start<R>) {
+        let from = y0.as_ref().iter().zip(start.slope.as_ref());
+        for ((y, slope), (y0, slope0)) in self.y.as_mut().iter_mut().zip(self.stages[0].as_mut()).zip(from) {
+            y.set_lane(lane, *y0);
+            slope.set_lane(lane, *slope0);
+        }
+        self.norm.set_lane(lane, &start.error_norm);
+        self.clocks.start(lane, t0, start.length);
+    }
+
+    /// Stops what moves in a lane.
+    pub fn rest(&mut self, lane: usize) {
+        self.clocks.rest(lane);
+    }
+
+    /// Tries one step in every lane; what becomes of a body, where its way ends.
+    pub fn advance(&mut self) -> impl Iterator<Item = (usize, Fate)> + use<T, S, F> {
+        let fates = Arch::new().dispatch(Trial(self));
+        (0..T::LANES).filter_map(move |lane| match fates.lane(lane) {
+            fate::UNDER_WAY => None,
+            fate::ARRIVED => Some((lane, Fate::Arrived)),
+            _ => Some((lane, Fate::Stuck)),
+        })
+    }
+
+    /// States reached.
+    pub fn y(&self) -> &S {
+        &self.y
+    }
+
+    #[inline(always)]
+    fn step<V: Simd>(&mut self, simd: V) -> T {
+        let h = self.clocks.end - self.clocks.t;
+        self.stage::<V, 2, 1>(simd, h, &A2);
+        self.stage::<V, 3, 2>(simd, h, &A3);
+        self.stage::<V, 4, 2>(simd, h, &A4);
+        self.stage::<V, 5, 3>(simd, h, &A5);
+        self.stage::<V, 6, 3>(simd, h, &A6);
+        self.stage::<V, 7, 4>(simd, h, &A7);
+        self.stage::<V, 8, 5>(simd, h, &A8);
+        self.stage::<V, 9, 6>(simd, h, &A9);
+        self.stage::<V, 10, 7>(simd, h, &A10);
+        self.stage::<V, 11, 8>(simd, h, &A11);
+        self.stage::<V, 12, 9>(simd, h, &A12);
+        self.moved(simd, h, &B);
+        self.f.slope(self.clocks.end, &self.trial, &mut self.stages[AT_END]);
+        let (error, doubt) = self.error(simd, h.abs());
+        self.turn(simd, error, doubt)
+    }
+
+    #[inline(always)]
+    fn stage<V: Simd, const NUMBER: usize, const TERMS: usize>(
+        &mut self,
+        simd: V,
+        h: T,
+        row: &[(usize, f64); TERMS],
+    ) {
+        let (_, node) = NODES[NUMBER - 2];
+        let mut time = self.clocks.end;
+        if node != 1.0 {
+            time = self.clocks.t + T::constant(node, 0.0) * h;
+        }
+        self.at_stage(simd, h, row);
+        self.f.slope(time, &self.trial, &mut self.stages[NUMBER - 1]);
+    }
+
+    /// The trial states at the stage of a row: the last one enters last.
+    #[inline(always)]
+    fn at_stage<V: Simd, const TERMS: usize>(&mut self, simd: V, h: T, row: &[(usize, f64); TERMS]) {
+        let (last, newest) = row[TERMS - 1];
+        for k in 0..parts::<V, T>() {
+            let h = part(simd, &h, k);
+            let of_newest = simd.mul_f64s(h, simd.splat_f64s(newest));
+            for i in 0..S::LEN {
+                let mut at = part(simd, &self.y.as_ref()[i], k);
+                if TERMS > 1 {
+                    at = plus(simd, combination(simd, &self.stages, (i, k), row, TERMS - 1), h, at);
+                }
+                let slope = part(simd, &self.stages[last - 1].as_ref()[i], k);
+                set_part(simd, &mut self.trial.as_mut()[i], k, plus(simd, slope, of_newest, at));
+            }
+        }
+    }
+
+    /// The trial states at the end of the step, rounded once.
+    #[inline(always)]
+    fn moved<V: Simd, const TERMS: usize>(&mut self, simd: V, h: T, row: &[(usize, f64); TERMS]) {
+        for k in 0..parts::<V, T>() {
+            let h = part(simd, &h, k);
+            for i in 0..S::LEN {
+                let sum = combination(simd, &self.stages, (i, k), row, TERMS);
+                let y = part(simd, &self.y.as_ref()[i], k);
+                set_part(simd, &mut self.trial.as_mut()[i], k, plus(simd, sum, h, y));
+            }
+        }
+    }
+
+    /// Estimated errors relative to the tolerance, of steps of these lengths; and 1 where squares leave the range of
+    /// numbers, so that a body has to be looked at alone.
+    #[inline(always)]
+    fn error<V: Simd>(&self, simd: V, h: T) -> (T, T) {
+        let (before, after) = (self.y.as_ref(), self.trial.as_ref());
+        let (mut largest, mut doubt, mut start) = (T::zero(), T::zero(), 0);
+        for (g, group) in F::GROUPS.iter().enumerate() {
+            let range = start..start + group.len;
+            start = range.end;
+            let mut value = T::zero();
+            for k in 0..parts::<V, T>() {
+                let zero = simd.splat_f64s(0.0);
+                let mut sizes = zero;
+                let mut squares = Squares::<V, 2>::new(simd, range.len());
+                for (i, component) in range.clone().enumerate() {
+                    let of_fifth = combination(simd, &self.stages, (component, k), &E5, E5.len());
+                    let of_third = combination(simd, &self.stages, (component, k), &E3, E3.len());
+                    sizes = simd.add_f64s(sizes, simd.abs_f64s(of_fifth));
+                    squares.add(simd, i, [of_fifth, of_third]);
+                }
+                let [fifth, third] = squares.sums(simd);
+                // As the pair has it.
+                let size = simd.add_f64s(fifth, simd.mul_f64s(simd.splat_f64s(0.01), third));
+                let error = simd.div_f64s(fifth, simd.sqrt_f64s(size));
+                let is_zero = simd.equal_f64s(fifth, zero);
+                set_part(simd, &mut value, k, simd.select_f64s(is_zero, zero, error));
+                let in_range = simd.and_m64s(
+                    simd.greater_than_or_equal_f64s(fifth, simd.splat_f64s(*IN_RANGE.start())),
+                    simd.less_than_or_equal_f64s(fifth, simd.splat_f64s(*IN_RANGE.end())),
+                );
+                let is_plain = simd.or_m64s(in_range, simd.equal_f64s(sizes, zero));
+                let before = part(simd, &doubt, k);
+                set_part(simd, &mut doubt, k, simd.select_f64s(is_plain, before, simd.splat_f64s(1.0)));
+            }
+            largest = self.norm.larger(simd, largest, (g, group, range), value, (h, before, after));
+        }
+        (h / T::constant(self.tolerance, 0.0) * largest, doubt)
+    }
+
+    /// Accepts the steps with errors of at most 1 whose slopes at the end are finite; what becomes of the lanes.
+    #[inline(always)]
+    fn turn<V: Simd>(&mut self, simd: V, error: T, doubt: T) -> T {
+        let (mut errors, mut unsound) = (T::zero(), doubt);
+        for lane in 0..T::LANES {
+            unsound.set_lane(lane, if self.f.is_sound(&self.trial, lane) { unsound.lane(lane) } else { 1.0 });
+        }
+        let (zero, one) = (simd.splat_f64s(0.0), simd.splat_f64s(1.0));
+        for k in 0..parts::<V, T>() {
+            let mut not_finite = zero;
+            for slope in self.stages[AT_END].as_ref() {
+                // 0, or NaN once one of them is not finite.
+                not_finite = simd.add_f64s(not_finite, simd.mul_f64s(zero, part(simd, slope, k)));
+            }
+            let error = simd.add_f64s(part(simd, &error, k), not_finite);
+            // Accepted, and then given up.
+            let is_plain = simd.equal_f64s(part(simd, &doubt, k), zero);
+            let error = simd.select_f64s(is_plain, error, zero);
+            let is_accepted = simd.less_than_or_equal_f64s(error, one);
+            set_part(simd, &mut errors, k, error);
+            for i in 0..S::LEN {
+                let (slope, trial) = (self.stages[AT_END].as_ref()[i], self.trial.as_ref()[i]);
+                let (first, y) = (&mut self.stages[0].as_mut()[i], &mut self.y.as_mut()[i]);
+                for (kept, next) in [(first, slope), (y, trial)] {
+                    let (before, after) = (part(simd, kept, k), part(simd, &next, k));
+                    set_part(simd, kept, k, simd.select_f64s(is_accepted, after, before));
+                }
+            }
+        }
+        self.clocks.turn(errors, unsound)
+    }
+}
+
+/// Component `i` of the slopes in a vector of lanes, each times the coefficient that a row has for it: of its first terms,
+/// whose number is known where this is compiled.
+#[inline(always)]
+fn combination<V: Simd, T: Lanes, S: StateVector<T>, const TERMS: usize>(
+    simd: V,
+    stages: &[S; STAGES],
+    (i, k): (usize, usize),
+    row: &[(usize, f64); TERMS],
+    terms: usize,
+) -> V::f64s {
+    let mut sum = simd.splat_f64s(0.0);
+    for (term, (stage, coefficient)) in row.iter().enumerate().take(terms) {
+        let slope = part(simd, &stages[stage - 1].as_ref()[i], k);
+        let coefficient = simd.splat_f64s(*coefficient);
+        sum = if term == 0 { simd.mul_f64s(slope, coefficient) } else { plus(simd, slope, coefficient, sum) };
+    }
+    sum
+}
+
+/// A step in every lane.
+struct Trial<'a, T, S, F>(&'a mut RungeKutta8InLanes<T, S, F>);
+
+impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> WithSimd for Trial<'_, T, S, F> {
+    type Output = T;
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, simd: V) -> T {
+        self.0.step(simd)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::F64x8;
+    use crate::{Failure, RungeKutta8};
+    use affine_core::model::Quantity;
+    use affine_core::scalar::Scalar;
+
+    const GROUPS: &[Group] = &[Group::new(Quantity::Position, 1), Group::new(Quantity::Other("v"), 1)];
+    const T_END: f64 = 20.0;
+    const TOLERANCE: f64 = 1e-10;
+
+    /// `x'' = -x^3`: the larger the amplitude, the faster.
+    fn slope<T: Scalar>([x, v]: &[T; 2]) -> [T; 2] {
+        [*v, -(*x * *x * *x)]
+    }
+
+    struct Duffing;
+
+    impl Equations<F64x8, [F64x8; 2]> for Duffing {
+        const GROUPS: &'static [Group] = GROUPS;
+        #[inline(always)]
+        fn slope(&self, _t: F64x8, y: &[F64x8; 2], rates: &mut [F64x8; 2]) {
+            *rates = slope(y);
+        }
+        #[inline(always)]
+        fn is_sound(&self, _y: &[F64x8; 2], _lane: usize) -> bool {
+            true
+        }
+    }
+
+    fn start(y: &[f64; 2]) -> Result<Start<[f64; 2]>, Failure> {
+        let start = Start::of::<DormandPrince853>(&|_, y| slope(y), GROUPS, (0.0, y), T_END, TOLERANCE);
+        start.map(|(start, _)| start)
+    }
+
+    /// One body after the other through eight lanes: each is there as many attempts as it takes alone, and none waits.
+    #[test]
+    fn no_lane_waits_for_another() -> Result<(), Failure> {
+        let bodies: Vec<[f64; 2]> = (0..21).map(|k| [0.1 * 1.3_f64.powi(k), 0.0]).collect();
+        let mut alone = Vec::new();
+        for y in &bodies {
+            let mut integration = RungeKutta8::new(|_, y| slope(y), GROUPS, (0.0, *y), T_END, TOLERANCE)?;
+            while !integration.is_finished() {
+                integration.advance()?;
+            }
+            let cost = integration.statistics();
+            alone.push((*integration.y(), cost.steps + cost.rejected));
+        }
+        let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 1_000_000);
+        let (mut waiting, mut begun, mut found) = (8..bodies.len(), Vec::new(), vec![None; bodies.len()]);
+        for lane in 0..8 {
+            lanes.start(lane, (0.0, &bodies[lane]), &start(&bodies[lane])?);
+            begun.push((lane, 0));
+        }
+        for attempt in 1_u64.. {
+            for (lane, fate) in lanes.advance() {
+                let (body, begin) = begun[lane];
+                assert_eq!(fate, Fate::Arrived);
+                found[body] = Some((lanes.y().map(|component| component.lane(lane)), attempt - begin));
+                match waiting.next() {
+                    Some(next) => {
+                        lanes.start(lane, (0.0, &bodies[next]), &start(&bodies[next])?);
+                        begun[lane] = (next, attempt);
+                    }
+                    None => lanes.rest(lane),
+                }
+            }
+            if found.iter().all(Option::is_some) {
+                break;
+            }
+        }
+        let alone: Vec<_> = alone.into_iter().map(Some).collect();
+        assert_eq!(found, alone);
+        let attempts: Vec<u64> = alone.iter().flatten().map(|(_, attempts)| *attempts).collect();
+        assert_eq!((attempts[0], attempts[20]), (18, 2515), "slow and fast bodies");
+        Ok(())
+    }
+
+    /// States after some attempts on one kind of vectors, with the fates on the way, as bits.
+    fn course(attempt: impl Fn(Trial<'_, F64x8, [F64x8; 2], Duffing>) -> F64x8) -> Result<Vec<u64>, Failure> {
+        let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 1_000_000);
+        for lane in 0..8 {
+            let y = [1.5_f64.powi(lane as i32), 0.1];
+            lanes.start(lane, (0.0, &y), &start(&y)?);
+        }
+        let mut seen = Vec::new();
+        for _ in 0..60 {
+            let fates = attempt(Trial(&mut lanes));
+            let numbers = [fates, lanes.y[0], lanes.y[1], lanes.clocks.t];
+            seen.extend(numbers.iter().flat_map(|lanes| lanes.as_slice()).map(|number| number.to_bits()));
+        }
+        Ok(seen)
+    }
+
+    #[test]
+    fn vectors_of_any_width_round_the_same() -> Result<(), Failure> {
+        let widest = course(|trial| Arch::new().dispatch(trial))?;
+        assert_eq!(course(|trial| pulp::Scalar::vectorize(pulp::Scalar, trial))?, widest);
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = pulp::x86::V3::try_new() {
+            assert_eq!(course(|trial| Simd::vectorize(avx2, trial))?, widest);
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn a_lane_of_too_many_steps_is_stuck() -> Result<(), Failure> {
+        let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 3);
+        for lane in 0..8 {
+            let y = [if lane == 5 { 1.0 } else { 1e-6 }, 0.0];
+            lanes.start(lane, (0.0, &y), &start(&y)?);
+        }
+        let mut fates = Vec::new();
+        for _ in 0..3 {
+            for (lane, fate) in lanes.advance() {
+                fates.push((lane, fate));
+                lanes.rest(lane);
+            }
+        }
+        assert!(fates.contains(&(5, Fate::Stuck)), "{fates:?}");
+        Ok(())
+    }
+}

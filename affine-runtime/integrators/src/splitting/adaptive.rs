@@ -1,0 +1,316 @@
+//! Splitting with steps as long as a tolerance allows.
+
+use core::fmt;
+
+use super::{Pieces, Sweeps, composed, of_order};
+use crate::error_norm::ErrorNorm;
+use crate::finite::is_finite;
+use crate::lie::Sum;
+use crate::step_size::{Controller, next_time, shortest};
+use crate::tape::Tape;
+use crate::{Failure, Statistics, sound};
+use affine_core::__private::numerics::norm;
+use affine_core::model::{Group, StateVector};
+
+/// The order of steps where none is given: on problem P7 with stiffnesses from 1e4 to 1e8 the least work of orders 2, 4 and 6
+/// at nearly all errors from 1e-3 to 1e-9.
+pub const ORDER: usize = 4;
+/// The error of two halves is their difference to the whole over `2^p - 1`, where steps resolve the motion. Steps that pass
+/// over many turns of a stiff dilatation do not, and what is gained by halving them is that of order 2 at best.
+const GAIN_BY_HALVING: f64 = 3.0;
+/// Differences up to this part of the state may be what the flows of a whole step and of two halves round differently: they
+/// are some dozens, of a few roundings each.
+const ROUNDING: f64 = 256.0 * f64::EPSILON;
+/// A first step tries so many times what the fastest motion takes to turn by a radian.
+const FIRST: f64 = 1e3;
+
+/// Splitting from `t0` to `t_end`, in either direction of time, in steps by their error: the difference between one step
+/// and two halves of it, which are what is kept. Relative to the tolerance in the [`ErrorNorm`] it is at most 3.
+///
+/// Every flow is a symplectic (Poisson) map, and so is each step, but not the motion as a whole: a step depends on the state
+/// from which it starts, and the energy error may drift as that of other adaptive methods does. What each piece conserves
+/// is conserved up to rounding, as by [`Splitting`](super::Splitting): momenta of symmetries that all pieces share, and
+/// Casimirs.
+///
+/// It is for pieces of which one has a stiff motion in closed form: its steps need not resolve that. The error that is left
+/// by not resolving it is part of the estimate, and is no power of the step: steps whose halves fall upon the same phase of a
+/// fast motion err more than longer ones do, and changes of their lengths get by these.
+///
+/// Flows round the state, by the more the larger the momenta are that cancel in them, and shorter steps do not round less.
+/// Where a shorter step has a difference of a few roundings that is not smaller in proportion, it is accepted, and from then
+/// on twice that difference is: a tolerance next to rounding is met as far as rounding allows, and changes nothing from
+/// 2e-14 on.
+///
+/// Cost: three steps of the composition for a step, of which [`Statistics`] count the flows of the last piece; at the start
+/// one evaluation for each component of a momentum, and a few more.
+#[derive(Clone)]
+pub struct AdaptiveSplitting<S, C, P> {
+    pieces: P,
+    constants: C,
+    sweeps: Sweeps,
+    error_norm: ErrorNorm,
+    tolerance: f64,
+    /// The difference that steps may have by rounding alone, as far as it has been seen.
+    rounding: f64,
+    controller: Controller,
+    begin: (f64, Sum<S>),
+    end: (f64, Sum<S>),
+    length: f64,
+    t_end: f64,
+    failure: Option<Failure>,
+    statistics: Statistics,
+}
+
+impl<S: StateVector<f64>, C, P: Pieces<S, C>> AdaptiveSplitting<S, C, P> {
+    /// The integration at its start, of order 2, 4, 6 or 8, [`ORDER`] where none is given; `None` for other orders.
+    /// `f` are the equations of the whole motion, which are looked at here alone; `groups` lay out the state vector for the
+    /// [`ErrorNorm`].
+    ///
+    /// # Errors
+    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite; [`Failure::Time`] for an interval and
+    /// [`Failure::Tolerance`] for a tolerance that make no sense.
+    pub fn new(
+        (pieces, constants): (P, C),
+        order: Option<usize>,
+        (f, groups): (&impl Fn(f64, &S) -> S, &'static [Group]),
+        (t0, y0): (f64, S),
+        t_end: f64,
+        tolerance: f64,
+    ) -> Option<Result<Self, Failure>> {
+        let sweeps = of_order::<S, C, P>(order.unwrap_or(ORDER))?;
+        let slope = f(t0, &y0);
+        let is_sound = sound(t0, t_end, tolerance).and_then(|()| match is_finite(&y0) && is_finite(&slope) {
+            true => Ok(()),
+            false => Err(Failure::NotFinite),
+        });
+        if let Err(failure) = is_sound {
+            return Some(Err(failure));
+        }
+        let (error_norm, probes) = ErrorNorm::probed(groups, f, (t0, &y0, &slope));
+        let span = (t_end - t0).abs();
+        let first = FIRST / fastest(f, (t0, &y0));
+        let start = (t0, Sum::of(y0));
+        Some(Ok(Self {
+            pieces,
+            constants,
+            sweeps,
+            error_norm,
+            tolerance,
+            rounding: 0.0,
+            controller: Controller::of(sweeps.order() as f64 + 1.0, 1.0),
+            begin: start,
+            end: start,
+            length: if first < span { first } else { span },
+            t_end,
+            failure: None,
+            statistics: Statistics { evaluations: 1 + probes + EVALUATIONS, ..Statistics::default() },
+        }))
+    }
+
+    /// Takes one accepted step; does nothing at `t_end`, which the last step hits exactly.
+    ///
+    /// # Errors
+    /// [`Failure`], now and ever after; the state stays that of the last accepted step.
+    pub fn advance(&mut self) -> Result<(), Failure> {
+        if let Some(failure) = self.failure {
+            return Err(failure);
+        }
+        if self.is_finished() {
+            return Ok(());
+        }
+        self.accepted().inspect_err(|failure| self.failure = Some(*failure))
+    }
+
+    fn accepted(&mut self) -> Result<(), Failure> {
+        let (t, _) = self.end;
+        let mut longer = (f64::INFINITY, 0.0);
+        loop {
+            let until = next_time(t, self.length, self.t_end);
+            if until == t {
+                return Err(Failure::StepUnderflow);
+            }
+            let (reached, difference) = self.attempt(until);
+            let tried = (until - t).abs();
+            if is_of_rounding((tried, difference), longer) {
+                self.rounding = 2.0 * difference;
+            }
+            longer = (tried, difference);
+            let error = self.error(difference);
+            if error <= 1.0 {
+                (self.begin, self.end) = (self.end, (until, reached));
+                self.statistics.steps += 1;
+                self.length = tried * self.controller.accept(error);
+                return Ok(());
+            }
+            self.statistics.rejected += 1;
+            self.length = tried * self.controller.reject(error);
+            if self.length <= shortest(t, self.t_end) {
+                return Err(if error.is_finite() { Failure::StepUnderflow } else { Failure::NotFinite });
+            }
+        }
+    }
+
+    /// A first step of a length is within the tolerance; it is counted, and not taken.
+    #[doc(hidden)]
+    pub fn allows(&mut self, length: f64) -> bool {
+        let (t, _) = self.end;
+        let (_, difference) = self.attempt(t + length.copysign(self.t_end - t));
+        self.error(difference) <= 1.0
+    }
+
+    /// The error of a step relative to what it may be.
+    fn error(&self, difference: f64) -> f64 {
+        let allowed = GAIN_BY_HALVING * self.tolerance;
+        difference / if self.rounding > allowed { self.rounding } else { allowed }
+    }
+
+    /// The state after two halves of a step to a time, and its difference to that after the whole step; NaN where something
+    /// is not finite.
+    fn attempt(&mut self, until: f64) -> (Sum<S>, f64) {
+        let (t, start) = self.end;
+        let h = until - t;
+        let whole = self.composed(t, start, h).value;
+        let reached = self.in_halves(t, start, h);
+        let (before, after) = (start.value.as_ref(), reached.value.as_ref());
+        let mut difference = whole;
+        for (difference, value) in difference.as_mut().iter_mut().zip(after) {
+            *difference -= value;
+        }
+        let of_group = |range| norm(&difference.as_ref()[range]);
+        let relative = self.error_norm.largest(h.abs(), before, after, of_group);
+        (reached, if is_finite(&reached.value) { relative } else { f64::NAN })
+    }
+
+    fn in_halves(&mut self, t: f64, start: Sum<S>, h: f64) -> Sum<S> {
+        let half = self.composed(t, start, 0.5 * h);
+        self.composed(t + 0.5 * h, half, 0.5 * h)
+    }
+
+    fn composed(&mut self, t: f64, begin: Sum<S>, h: f64) -> Sum<S> {
+        let (end, evaluations) = composed(&self.pieces, &self.sweeps, &self.constants, (t, begin), h);
+        self.statistics.evaluations += evaluations;
+        end
+    }
+
+    /// The state at a time within the last step, by two shorter halves from its beginning, which leave the steps as they are.
+    ///
+    /// # Errors
+    /// [`Failure::NotFinite`], but the integration can go on.
+    pub fn at(&mut self, t: f64) -> Result<S, Failure> {
+        let (from, begin) = self.begin;
+        if t == self.t() || from == self.t() {
+            return Ok(*self.y());
+        }
+        let between = self.in_halves(from, begin, t - from).value;
+        if is_finite(&between) { Ok(between) } else { Err(Failure::NotFinite) }
+    }
+
+    /// Everything that the next steps depend on.
+    #[doc(hidden)]
+    pub fn exchange(&mut self, tape: &mut impl Tape) {
+        tape.number(&mut self.end.0);
+        tape.sum(&mut self.end.1);
+        tape.number(&mut self.length);
+        tape.number(&mut self.rounding);
+        self.controller.exchange(tape);
+        tape.statistics(&mut self.statistics);
+        self.begin = self.end;
+    }
+
+    /// Order of the composition.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.sweeps.order()
+    }
+
+    /// Time reached.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.end.0
+    }
+
+    /// State reached.
+    #[must_use]
+    pub fn y(&self) -> &S {
+        &self.end.1.value
+    }
+
+    /// `t_end` is reached.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        self.t() == self.t_end
+    }
+
+    /// Cost so far, with that of [`at`](Self::at).
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
+        self.statistics
+    }
+}
+
+impl<S: StateVector<f64>, C, P: Pieces<S, C>> fmt::Debug for AdaptiveSplitting<S, C, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("AdaptiveSplitting")
+            .field("order", &self.order())
+            .field("t", &self.t())
+            .field("y", self.y())
+            .field("t_end", &self.t_end)
+            .field("tolerance", &self.tolerance)
+            .field("statistics", &self.statistics())
+            .finish_non_exhaustive()
+    }
+}
+
+/// A step has about the difference that a longer one from the same state had: what a composition errs by falls with the
+/// third power of the length at least, rounding does not.
+fn is_of_rounding((tried, difference): (f64, f64), (length, before): (f64, f64)) -> bool {
+    difference <= ROUNDING && difference * length > before * tried && before > 0.0
+}
+
+/// Evaluations of [`fastest`].
+pub const EVALUATIONS: u64 = 4;
+/// Changes that slopes are compared over, relative to the state: half of the digits.
+const SMALL: f64 = 1e-8;
+
+/// The rate `omega` of the fastest motion near a state: `omega^2 = |A^3 y|/|A y|` with the derivative `A` of `f`, which a
+/// stiff oscillation with `A^2 = -omega^2` dominates. The change along the state itself changes the dilatation.
+pub fn fastest<S: StateVector<f64>>(f: &impl Fn(f64, &S) -> S, (t, y): (f64, &S)) -> f64 {
+    let slope = f(t, y);
+    let mut along = *y;
+    let mut sizes = [0.0; 3];
+    for size in &mut sizes {
+        let scale = SMALL * norm(y.as_ref()) / norm(along.as_ref());
+        let mut moved = *y;
+        for (moved, along) in moved.as_mut().iter_mut().zip(along.as_ref()) {
+            *moved += scale * along;
+        }
+        along = f(t, &moved);
+        for (along, slope) in along.as_mut().iter_mut().zip(slope.as_ref()) {
+            *along = (*along - slope) / scale;
+        }
+        *size = norm(along.as_ref());
+    }
+    let [first, _, third] = sizes;
+    let squared = third / first;
+    if squared.is_finite() { libm::sqrt(squared) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two oscillators, one of them fast, with a force between them, in units that differ by far.
+    #[test]
+    fn the_fastest_rate() {
+        for (rate, size) in [(1e2, 1.0), (1e5, 1e-3), (1e7, 1e6)] {
+            let f = |_: f64, y: &[f64; 4]| {
+                let [slow, p, fast, q] = *y;
+                [p, size * fast - slow, q, slow / size - rate * rate * fast]
+            };
+            let found = fastest(&f, (0.0, &[1.0, 0.3, 1e-3, 0.2]));
+            // What the slow one adds.
+            assert!((found / rate - 1.0).abs() < 0.01, "{found:e} for {rate:e}");
+        }
+        assert_eq!(fastest(&|_: f64, _: &[f64; 4]| [0.0; 4], (0.0, &[1.0; 4])), 0.0);
+    }
+}

@@ -1,0 +1,108 @@
+//! Vectors of four doubles, as processors have them.
+
+use affine_core::__private::Vectors;
+use wide::f64x4;
+
+/// The vectors that every processor of the target has.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Baseline;
+
+impl Vectors for Baseline {
+    const IS_LAST_RESORT: bool =
+        cfg!(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")));
+    #[inline(always)]
+    fn whole(self, vector: [f64; 4]) -> [f64; 4] {
+        vector
+    }
+    #[inline(always)]
+    fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x4::from));
+        one.mul_add(by, other * with).into()
+    }
+    #[inline(always)]
+    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        f64x4::from(left).mul_add(f64x4::from(right), f64x4::from(sum)).into()
+    }
+    #[inline(always)]
+    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        f64x4::from(left).mul_neg_add(f64x4::from(right), f64x4::from(sum)).into()
+    }
+    #[inline(always)]
+    fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        (f64x4::from(sum) + f64x4::from(self.pair(one, other))).into()
+    }
+    #[inline(always)]
+    fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        (f64x4::from(sum) - f64x4::from(self.pair(one, other))).into()
+    }
+}
+
+/// AVX2: found at run time on targets that do not promise it, so nothing is fused there either.
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx2(pub(crate) pulp::x86::V3);
+
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+impl Vectors for Avx2 {
+    #[inline(always)]
+    fn whole(self, vector: [f64; 4]) -> [f64; 4] {
+        // The factor is gone when the compiler has seen that all of the vector is read.
+        pulp::cast(self.0.mul_f64x4(pulp::cast(vector), self.0.splat_f64x4(1.0)))
+    }
+    #[inline(always)]
+    fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        let [one, other] = [one, other].map(|[a, b]| self.0.mul_f64x4(pulp::cast(a), pulp::cast(b)));
+        pulp::cast(self.0.add_f64x4(one, other))
+    }
+    #[inline(always)]
+    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        let product = self.0.mul_f64x4(pulp::cast(left), pulp::cast(right));
+        pulp::cast(self.0.add_f64x4(pulp::cast(sum), product))
+    }
+    #[inline(always)]
+    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        let product = self.0.mul_f64x4(pulp::cast(left), pulp::cast(right));
+        pulp::cast(self.0.sub_f64x4(pulp::cast(sum), product))
+    }
+    #[inline(always)]
+    fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        pulp::cast(self.0.add_f64x4(pulp::cast(sum), pulp::cast(self.pair(one, other))))
+    }
+    #[inline(always)]
+    fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        pulp::cast(self.0.sub_f64x4(pulp::cast(sum), pulp::cast(self.pair(one, other))))
+    }
+}
+
+/// AVX-512, of which the vectors of AVX2 have use for the registers.
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx512(pub(crate) pulp::x86::V4);
+
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+impl Vectors for Avx512 {
+    #[inline(always)]
+    fn whole(self, vector: [f64; 4]) -> [f64; 4] {
+        Vectors::whole(Avx2(*self.0), vector)
+    }
+    #[inline(always)]
+    fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        Vectors::pair(Avx2(*self.0), one, other)
+    }
+    #[inline(always)]
+    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        Vectors::plus_product(Avx2(*self.0), sum, left, right)
+    }
+    #[inline(always)]
+    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        Vectors::minus_product(Avx2(*self.0), sum, left, right)
+    }
+    #[inline(always)]
+    fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        Vectors::plus_pair(Avx2(*self.0), sum, one, other)
+    }
+    #[inline(always)]
+    fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        Vectors::minus_pair(Avx2(*self.0), sum, one, other)
+    }
+}
