@@ -3,8 +3,9 @@
 //! The macro runs unoptimised in its users' builds, where big integers cost microseconds each; nearly every
 //! coefficient of a kinetic energy fits a word.
 
+mod rounded;
+
 use std::cmp::Ordering;
-use std::fmt;
 use std::ops::{Add, Mul, Neg, Sub};
 
 use num_bigint::BigInt;
@@ -152,82 +153,10 @@ impl Rational {
         }
     }
 
-    /// Does it have more digits than anyone reads, as what stands for an irrational number has?
-    #[must_use]
-    pub fn is_long(&self) -> bool {
-        match &self.0 {
-            Repr::Small(..) => false,
-            Repr::Big(b) => b.numer().bits() + b.denom().bits() > 256,
-        }
-    }
-
-    /// For readers: exactly, or the nearest double of a long one, of one beyond them to three digits.
-    #[must_use]
-    pub fn shown(&self) -> String {
-        match self.is_long() {
-            false => self.to_string(),
-            true if self.fits_a_double() => self.to_doubles().0.to_string(),
-            true => self.about(),
-        }
-    }
-
-    /// Is it zero, or of the size of a normal double: does rounding leave it its digits?
-    #[must_use]
-    pub fn fits_a_double(&self) -> bool {
-        match &self.0 {
-            Repr::Small(..) => true,
-            Repr::Big(b) => nearest(b).is_normal(),
-        }
-    }
-
-    /// `k` with `2^(k - 1) < |number| < 2^(k + 1)`; 0 for zero.
-    #[must_use]
-    pub fn binary_exponent(&self) -> i64 {
-        let (numerator, denominator) = self.parts();
-        let bits =
-            |part: BigInt| never_missing(i64::try_from(part.bits()).ok(), "a number fits in memory", 0);
-        if self.is_zero() { 0 } else { bits(numerator) - bits(denominator) }
-    }
-
-    /// To three digits, however large or small: `1e-400`, `-2.35e312`.
-    #[must_use]
-    pub fn about(&self) -> String {
-        // Digits above less digits below: the decimal exponent, or one more.
-        let (numerator, denominator) = self.abs().parts();
-        let digits = |part: &BigInt| exponent(part.to_string().len());
-        let exponent = digits(&numerator) - digits(&denominator);
-        let unit = never_missing(Self::from(10).pow(-exponent), "ten is not zero", Self::ONE);
-        let scaled = format!("{:.2e}", (self * &unit).to_doubles().0);
-        let parts =
-            scaled.split_once('e').and_then(|(mantissa, rest)| Some((mantissa, rest.parse::<i32>().ok()?)));
-        let (mantissa, rest) = never_missing(parts, "this notation has a whole exponent", (&scaled, 0));
-        let exponent = exponent + rest;
-        format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
-    }
-
     /// Absolute value.
     #[must_use]
     pub fn abs(&self) -> Self {
         if self.is_negative() { -self } else { self.clone() }
-    }
-
-    /// The double nearest to the number, and the double nearest to the rest: correct to double-double.
-    #[must_use]
-    pub fn to_doubles(&self) -> (f64, f64) {
-        let exact = self.to_big();
-        let hi = nearest(&exact);
-        let lo = BigRational::from_float(hi).map_or(0.0, |value| nearest(&(exact - value)));
-        (hi, lo)
-    }
-
-    /// The number to half the digits of a double, the double nearest to the rest, and the one nearest to what is left.
-    #[must_use]
-    pub fn to_halves(&self) -> [f64; 3] {
-        let exact = self.to_big();
-        let half = f64::from_bits(nearest(&exact).to_bits() & !0x7ff_ffff);
-        let rest = BigRational::from_float(half).map_or_else(BigRational::default, |half| exact - half);
-        let (rest, left) = Self::shrink(rest).to_doubles();
-        [half, rest, left]
     }
 
     /// `numerator / denominator`; `None` for a zero denominator.
@@ -294,11 +223,6 @@ impl Rational {
 #[track_caller]
 pub fn exponent(count: usize) -> i32 {
     never_missing(i32::try_from(count).ok(), "no product has 2^31 factors", 0)
-}
-
-/// `num-rational` rounds the quotient to nearest, ties to even.
-fn nearest(value: &BigRational) -> f64 {
-    never_missing(value.to_f64(), "every fraction has a nearest double or infinity", f64::NAN)
 }
 
 fn gcd(mut a: u128, mut b: u128) -> u128 {
@@ -384,16 +308,6 @@ impl Ord for Rational {
                 (i128::from(*a) * i128::from(*d)).cmp(&(i128::from(*c) * i128::from(*b)))
             }
             _ => self.to_big().cmp(&other.to_big()),
-        }
-    }
-}
-
-impl fmt::Display for Rational {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.0 {
-            Repr::Small(n, 1) => write!(f, "{n}"),
-            Repr::Small(n, d) => write!(f, "{n}/{d}"),
-            Repr::Big(b) => write!(f, "{b}"),
         }
     }
 }

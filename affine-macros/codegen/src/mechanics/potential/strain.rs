@@ -3,6 +3,8 @@
 //! Entries beside the diagonal are small there as they are. On the diagonal, with `h = phi_aa - 1`,
 //! `G_aa - 1 = h (1 + phi_aa) + ..`, `cof_aa - 1 = h_b phi_cc + h_c - ..` and `det - 1 = h_1 + (cof_11 - 1) phi_11 + ..`.
 
+mod deviator;
+
 use crate::algebra::ring::{Square, adjugate};
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
@@ -319,82 +321,6 @@ impl Strains {
     /// `cof_aa - phi_aa`.
     pub(super) fn asymmetry(&self, a: usize) -> Polynomial {
         Polynomial::atom(self.asymmetry[a])
-    }
-
-    /// The deviator of `G`, or of `Ct` where the chart reads that.
-    pub(super) fn deviator(&self, arena: &mut Arena) -> Square<Polynomial> {
-        let mut entry =
-            |a: usize, b: usize| arena.symbol(Quantity::Deviator.at([a.min(b) + 1, a.max(b) + 1]));
-        (0..self.n).map(|a| (0..self.n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
-    }
-
-    /// Its entries, on the diagonal through differences of squares, and the trace of its square.
-    fn deviators(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
-        let n = self.n;
-        let base: fn(usize, usize) -> Base = if self.spatial { Base::Finger } else { Base::Green };
-        let part = |number: usize| &Rational::whole(number) * &Rational::one_over(n);
-        let mut diagonal = vec![Polynomial::zero(); n];
-        for a in 0..n - 1 {
-            let b = a + 1;
-            let [sum, of_squares] = [Quantity::PlacementSum, Quantity::SquareDifference]
-                .map(|of| arena.symbol(of.at([a + 1, b + 1])));
-            let (difference, _) = difference(arena, a, b);
-            let combined = |sign: Rational| {
-                let mut value = self.phi[a][a].clone();
-                value.add_scaled(&self.phi[b][b], &sign);
-                value
-            };
-            let mut squares = Polynomial::term(vec![difference, sum], Rational::ONE);
-            for (index, sign) in [(a, Rational::ONE), (b, Rational::MINUS_ONE)] {
-                let beside = arena.symbol(beside_diagonal(base(index, index)));
-                squares.add_term(vec![beside], &sign);
-            }
-            list.extend([
-                (difference, combined(Rational::MINUS_ONE)),
-                (sum, combined(Rational::ONE)),
-                (of_squares, squares),
-            ]);
-            // G_kk - tr(G)/n = sum_a w_ka (G_aa - G_bb), w_ka = (n - a)/n for k <= a and -a/n for k > a, counted from 1
-            for (k, entry) in diagonal.iter_mut().enumerate() {
-                let weight = if k <= a { part(n - b) } else { -&part(b) };
-                entry.add_term(vec![of_squares], &weight);
-            }
-        }
-        let symbols = self.deviator(arena);
-        let mut square = Polynomial::zero();
-        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
-            square.add_product(&symbols[a][b], &symbols[a][b], &Rational::ONE);
-            let entry = if a == b { diagonal[a].clone() } else { Polynomial::atom(base(a, b).symbol(arena)) };
-            let symbol = symbols[a][b].terms().next().and_then(|(monomial, _)| monomial.first().copied());
-            list.extend(symbol.filter(|_| a <= b).map(|symbol| (symbol, entry)));
-        }
-        list.push((arena.symbol(Quantity::DeviatorSquared), square));
-        let mean = Polynomial::term(vec![Base::Trace.symbol(arena)], part(1));
-        list.push((arena.symbol(Quantity::MeanSquareStretch), mean));
-    }
-
-    /// The polynomial with invariants through the mean and the deviator: those of dilatations cancel exactly.
-    pub(super) fn through_deviator(&self, arena: &mut Arena, form: &Polynomial) -> Polynomial {
-        let n = Rational::whole(self.n);
-        let minors = Rational::whole(self.n * (self.n - 1) / 2);
-        let [mean, square, second] = arena.symbols([
-            Quantity::MeanSquareStretch,
-            Quantity::DeviatorSquared,
-            Quantity::SecondInvariant,
-        ]);
-        let sum = |of_mean: Rational, of_square: Rational| {
-            let mut sum = Polynomial::term(vec![mean, mean], of_mean);
-            sum.add_term(vec![square], &of_square);
-            sum
-        };
-        let values = [
-            (Base::Trace.symbol(arena), Polynomial::term(vec![mean], n.clone())),
-            (Base::TraceOfSquare.symbol(arena), sum(n, Rational::ONE)),
-            (second, sum(minors, -&Rational::HALF)),
-        ];
-        form.substitute(&|atom| {
-            values.iter().find(|(known, _)| *known == atom).map(|(_, value)| value.clone())
-        })
     }
 }
 

@@ -1,5 +1,7 @@
 //! Ways of writing one and the same force, of which the generator takes the shortest among those that lose no digits.
 
+mod steepness;
+
 use crate::algebra::arena::Node;
 use crate::algebra::ring::{Square, table};
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
@@ -124,59 +126,6 @@ impl Potential {
         let mut without = first.clone();
         without.add_product(&second, &Polynomial::atom(Base::Trace.symbol(arena)), &Rational::ONE);
         self.dim == 3 && without.terms().len() < first.terms().len()
-    }
-
-    /// Do tensors in the forces have powers of `D` beyond the third beside them? The product may be of degree 0, and `D^4`
-    /// leaves the range of numbers where `phi` does not.
-    fn is_steep(&self, arena: &mut Arena) -> bool {
-        let mut sums = Sums::default();
-        let mut forms = Vec::new();
-        for (base, slope) in &self.slopes {
-            let form = through_dilatation(arena, *slope);
-            forms.push((base.degree() > 0, sums.named(arena, form)));
-        }
-        let mut known = Vec::new();
-        for (symbol, form) in sums.forms(arena) {
-            let terms = form.terms().map(|(monomial, _)| Steepness::of(arena, monomial, &known)).collect();
-            known.push((symbol, terms));
-        }
-        forms.into_iter().any(|(of_tensor, form)| {
-            let form = Polynomial::normal_form(arena, form);
-            form.terms().any(|(monomial, _)| {
-                let Steepness { up, down, tensors } = Steepness::of(arena, monomial, &known);
-                up.max(down) > 2 && (of_tensor || tensors)
-            })
-        })
-    }
-}
-
-/// The powers of `D` and `1/D` in a product, and whether there are tensors beside them.
-#[derive(Clone, Copy, Default)]
-struct Steepness {
-    up: usize,
-    down: usize,
-    tensors: bool,
-}
-
-impl Steepness {
-    /// With the terms of the sums that stand in the product.
-    fn of(arena: &Arena, monomial: &[Expr], sums: &[(Expr, Vec<Self>)]) -> Self {
-        let mut all = Self::default();
-        for atom in monomial {
-            match arena.quantity(*atom) {
-                Some(Quantity::Dilatation) => all.up += 1,
-                Some(Quantity::InverseDilatation) => all.down += 1,
-                _ => {}
-            }
-            let mut found = |symbol: Expr| arena.quantity(symbol).is_some_and(Quantity::is_tensor);
-            all.tensors |= arena.any_symbol(*atom, &mut found);
-            let Some((_, terms)) = sums.iter().find(|(symbol, _)| symbol == atom) else { continue };
-            let most = |power: fn(&Self) -> usize| terms.iter().map(power).max().unwrap_or(0);
-            all.up += most(|term| term.up);
-            all.down += most(|term| term.down);
-            all.tensors |= terms.iter().any(|term| term.tensors);
-        }
-        all
     }
 }
 
