@@ -1,9 +1,10 @@
 //! `emit(lanes)`: the constants of several trajectories as those of one in lanes, and back.
 
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::context::Context;
+use super::trajectory::{self, Constant, Shape};
 use crate::derive::Trajectory;
 use crate::spec::Capability;
 
@@ -15,24 +16,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
     let (t, constants) = (&context.names.scalar, &context.names.constants);
-    let parts = Trajectory::of(context.model);
-    let stored: Vec<Stored> = [
-        (parts.origin, "t0", Shape::Number),
-        (parts.turn, "turn", Shape::Matrix),
-        (parts.linear, "p", Shape::Vector),
-        (parts.drift, "x0", Shape::Vector),
-        (parts.drift, "drift", Shape::Vector),
-        (parts.conserved, "momentum", Shape::Matrix),
-        (!parts.fixed.is_empty(), "fixed", Shape::List),
-        (parts.rotation.is_some(), "whirl", Shape::Matrix),
-        (parts.dilatation.is_some(), "dilatation", Shape::Dilatation),
-        (parts.coefficients > 0, "coefficients", Shape::List),
-    ]
-    .into_iter()
-    .filter_map(|(wanted, name, shape)| {
-        wanted.then(|| Stored { name: Ident::new(name, Span::call_site()), shape })
-    })
-    .collect();
+    let stored = trajectory::constants(context, &Trajectory::of(context.model), &[]);
     let (argument, lane, marker) = if stored.is_empty() {
         (quote!(_constants), quote!(_lane), Some(quote!(scalar: ::core::marker::PhantomData)))
     } else {
@@ -62,22 +46,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     }
 }
 
-/// What is stored of a trajectory.
-struct Stored {
-    name: Ident,
-    shape: Shape,
-}
-
-enum Shape {
-    Number,
-    Vector,
-    Matrix,
-    List,
-    /// A motion that no equation reads.
-    Dilatation,
-}
-
-impl Stored {
+impl Constant {
     /// The field, entry by entry a function of the entry it comes from.
     fn with(&self, context: &Context, from: impl Fn(TokenStream) -> TokenStream) -> TokenStream {
         let (rt, name) = (&context.names.rt, &self.name);
@@ -91,7 +60,7 @@ impl Stored {
                 let entry = from(quote!(#name[(row, column)]));
                 quote!(#rt::Matrix::from_fn(|row, column| #entry))
             }
-            Shape::List => {
+            Shape::List(_) => {
                 let entry = from(quote!(#name[k]));
                 quote!(::core::array::from_fn(|k| #entry))
             }

@@ -11,52 +11,17 @@ use crate::derive::{AffineMomentum, Components, Trajectory};
 
 use super::body::Body;
 use super::context::Context;
-use super::number::{Number, number};
+use super::number::Number;
 use super::pattern::{components, identifiers, pattern, reads, time};
 use super::point::{projected, spin};
 use super::separated;
-use super::trajectory::coefficient_names;
+use super::trajectory::{self, Constant, coefficient_names};
 
 /// The constants of a trajectory as a struct.
 pub(super) fn constants_type(context: &Context) -> TokenStream {
-    let (name, rt, t) = (&context.names.constants, &context.names.rt, &context.names.scalar);
-    let n = context.dim();
-    let parts = Trajectory::of(context.model);
-    let mut fields = TokenStream::new();
-    let mut field = |wanted: bool, doc: &str, tokens: TokenStream| {
-        if wanted {
-            let doc = format!(" {doc}");
-            fields.extend(quote!(#[doc = #doc] pub #tokens,));
-        }
-    };
-    let (fixed, coefficients) = (number(parts.fixed.len()), number(parts.coefficients));
-    let fixed_doc = format!("Conserved components of the affine momentum: {}.", parts.fixed.join(", "));
-    field(parts.origin, "Time of the start.", quote!(t0: #t));
-    field(
-        parts.turn,
-        "Turns space so that `p` lies along the first axis.",
-        quote!(turn: #rt::Matrix<#n, #t>),
-    );
-    field(parts.linear, "Linear momentum `p`.", quote!(p: #rt::Vector<#n, #t>));
-    field(parts.drift, "Centre of mass at the start.", quote!(x0: #rt::Vector<#n, #t>));
-    field(parts.drift, "Velocity `p/m` of the centre of mass.", quote!(drift: #rt::Vector<#n, #t>));
-    field(parts.conserved, "Conserved affine momentum.", quote!(momentum: #rt::Matrix<#n, #t>));
-    field(!parts.fixed.is_empty(), &fixed_doc, quote!(fixed: [#t; #fixed]));
-    field(
-        parts.rotation.is_some(),
-        "Generator of the rotation that commutes with the rest of the motion.",
-        quote!(whirl: #rt::Matrix<#n, #t>),
-    );
-    field(
-        parts.dilatation.is_some(),
-        "The motion of `q = ln(det phi)/n` and its momentum `tr Sigma`.",
-        quote!(dilatation: #rt::Breathing<#t>),
-    );
-    field(
-        parts.coefficients > 0,
-        "Coefficients of the reduced equations.",
-        quote!(coefficients: [#t; #coefficients]),
-    );
+    let (name, t) = (&context.names.constants, &context.names.scalar);
+    let constants = trajectory::constants(context, &Trajectory::of(context.model), &[]);
+    let fields: TokenStream = constants.iter().map(|constant| constant.field(context)).collect();
     let visibility = &context.spec.item.visibility;
     let doc = format!(" What one trajectory of [`{}`] conserves.", context.names.model);
     let marker = (fields.is_empty()).then(|| quote!(scalar: ::core::marker::PhantomData<#t>));
@@ -111,28 +76,13 @@ fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
     });
     lets.extend(carried::computed(context, &parts.carried, &quote!(#rt::Phase::phi(point))));
     let body = context.generic(&context.model.trajectory);
-    let (trajectory, results) = (body.lets, body.results);
+    let (coefficients, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
     let state: Vec<String> = context.model.reduced.names();
     let work = state.iter().any(|name| name == "work").then(|| quote!(let work = #t::zero();));
     let state = identifiers(&state);
-    let mut fields = TokenStream::new();
-    let mut field = |wanted: bool, tokens: TokenStream| {
-        if wanted {
-            fields.extend(quote!(#tokens,));
-        }
-    };
-    let fixed = identifiers(&parts.fixed);
-    field(parts.origin, quote!(t0));
-    field(parts.turn, quote!(turn));
-    field(parts.linear, quote!(p));
-    field(parts.drift, quote!(x0: #rt::Phase::x(point)));
-    field(parts.drift, quote!(drift));
-    field(parts.conserved, quote!(momentum));
-    field(!parts.fixed.is_empty(), quote!(fixed: [#(#fixed),*]));
-    field(parts.rotation.is_some(), quote!(whirl));
-    field(parts.dilatation.is_some(), quote!(dilatation));
-    field(parts.coefficients > 0, quote!(coefficients: [#(#results),*]));
+    let kept = trajectory::constants(context, parts, &results);
+    let mut fields: TokenStream = kept.iter().map(Constant::at_the_start).collect();
     if fields.is_empty() {
         fields = quote!(scalar: ::core::marker::PhantomData);
     }
@@ -146,7 +96,7 @@ fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
         ) -> (Self::Reduced<#t>, Self::Constants<#t>) {
             #inward
             #lets
-            #trajectory
+            #coefficients
             #whirl
             #work
             ([#(#state),*], #constants { #fields })
