@@ -1,8 +1,11 @@
 //! Condition number of the Legendre transformation.
 
-use crate::frames::Matrix;
-use crate::model::{Constraint, Model, Quantity, StateVector};
+use crate::constraint::Constraint;
+use crate::description::Description;
+use crate::matrix::Matrix;
+use crate::quantity::Quantity;
 use crate::scalar::Scalar;
+use crate::system::StateVector;
 
 /// Most directions that are free, those of `gl(3)`.
 const MOST: usize = 9;
@@ -15,18 +18,19 @@ const SWEEPS: usize = 30;
 ///
 /// The directions are those on which isotropic energies are multiples of the identity: traceless symmetric, skew, trace.
 /// They have whole entries, so that of momenta along one of them nothing is left over for the others.
-pub(crate) fn condition<const N: usize, M: Model<N>>(model: &M, phi: &Matrix<N>) -> Option<f64> {
-    let (directions, count) = directions::<N>(free::<N, M>());
+///
+/// `velocity` gives `phi_dot` of a plain array, in bases in which the metrics are the identity.
+pub(crate) fn condition<const N: usize, S: StateVector<f64>>(
+    description: &Description,
+    phi: &Matrix<N>,
+    velocity: impl Fn(&S) -> Matrix<N>,
+) -> Option<f64> {
+    let (directions, count) = directions::<N>(free(description));
     let directions = &directions[..count];
-    // What depends on the placement at all is refused where it degenerates.
-    let phi = match model.regularity(phi) {
-        Some(_) => model.bases().map_or(*phi, |bases| bases.placement(phi)),
-        None => Matrix::<N>::identity(),
-    };
     let inverse = phi.try_inverse()?;
     let mut columns = [[0.0; MOST]; MOST];
     for (u, column) in directions.iter().zip(&mut columns) {
-        let velocity = linear_part(model, (&phi, &inverse), u)?;
+        let velocity = linear_part(description, &velocity, (phi, &inverse), u)?;
         for (v, entry) in directions.iter().zip(column.iter_mut()) {
             *entry = v.dot(&velocity) / (Scalar::sqrt(u.dot(u)) * Scalar::sqrt(v.dot(v)));
         }
@@ -42,9 +46,9 @@ pub(crate) fn condition<const N: usize, M: Model<N>>(model: &M, phi: &Matrix<N>)
 /// Which velocities are free: traceless symmetric, skew, trace.
 type Free = [bool; 3];
 
-fn free<const N: usize, M: Model<N>>() -> Free {
-    let flat = M::DESCRIPTION.full.iter().any(|group| group.quantity == Quantity::CanonicalMomentum);
-    match M::DESCRIPTION.constraint {
+fn free(description: &Description) -> Free {
+    let flat = description.full.iter().any(|group| group.quantity == Quantity::CanonicalMomentum);
+    match description.constraint {
         None => [true; 3],
         // Of a flat body the multiplier does what a projection does of the others.
         Some(Constraint::Isochoric) => [true, true, flat],
@@ -79,19 +83,20 @@ fn directions<const N: usize>([symmetric, skew, trace]: Free) -> ([Matrix<N>; MO
 }
 
 /// The part of the velocity that is odd in the momentum, in the frame of the momentum.
-fn linear_part<const N: usize, M: Model<N>>(
-    model: &M,
+fn linear_part<const N: usize, S: StateVector<f64>>(
+    description: &Description,
+    velocity: &impl Fn(&S) -> Matrix<N>,
     (phi, inverse): (&Matrix<N>, &Matrix<N>),
     momentum: &Matrix<N>,
 ) -> Option<Matrix<N>> {
     let is_affine = |quantity: &Quantity| {
         matches!(quantity, Quantity::ComovingAffineSpin | Quantity::AffineSpin | Quantity::CanonicalMomentum)
     };
-    let frame = M::DESCRIPTION.full.iter().map(|group| group.quantity).find(is_affine)?;
-    let velocity = |sign: f64| {
-        let mut full = <M::Full<f64> as StateVector<f64>>::zeros();
+    let frame = description.full.iter().map(|group| group.quantity).find(is_affine)?;
+    let along = |sign: f64| {
+        let mut full = S::zeros();
         let mut start = 0;
-        for group in M::DESCRIPTION.full {
+        for group in description.full {
             let values = &mut full.as_mut()[start..start + group.len];
             start += group.len;
             let matrix = match group.quantity {
@@ -102,15 +107,14 @@ fn linear_part<const N: usize, M: Model<N>>(
             let by_rows = (0..N * N).map(|k| matrix[(k / N, k % N)]);
             values.iter_mut().zip(by_rows).for_each(|(value, entry)| *value = entry);
         }
-        let velocity = model.velocity(&model.unflatten(&full));
-        let velocity = model.bases().map_or(velocity, |bases| bases.velocity(&velocity));
+        let phi_dot = velocity(&full);
         match frame {
-            Quantity::ComovingAffineSpin => inverse * velocity.phi_dot,
-            Quantity::AffineSpin => velocity.phi_dot * inverse,
-            _ => velocity.phi_dot,
+            Quantity::ComovingAffineSpin => inverse * phi_dot,
+            Quantity::AffineSpin => phi_dot * inverse,
+            _ => phi_dot,
         }
     };
-    Some((velocity(1.0) - velocity(-1.0)) * 0.5)
+    Some((along(1.0) - along(-1.0)) * 0.5)
 }
 
 /// Norms of columns made orthogonal by rotations in planes: small singular values keep their digits (Demmel and Veselic,

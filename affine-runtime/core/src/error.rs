@@ -7,6 +7,8 @@ mod stop;
 
 use core::fmt;
 
+use crate::constraint::Constraint;
+
 #[cfg(feature = "std")]
 pub use setting::Setting;
 #[cfg(feature = "std")]
@@ -59,7 +61,7 @@ pub enum Error {
     /// A placement, velocity or momentum violates the constraint of the model by more than rounding.
     OffConstraint {
         /// The constraint.
-        constraint: crate::model::Constraint,
+        constraint: Constraint,
         /// The quantity, as the paper names it.
         quantity: &'static str,
         /// Its distance from what the constraint allows, in the Frobenius norm; `|det phi - 1|` for an isochoric

@@ -243,7 +243,7 @@ pub trait Kinematics<const N: usize, T: Real = f64>: Phase<N, T> {
     }
     /// Casimir `tr sigma^k` of the shear part `sigma = Sigma - (p_dil/n) 1`. Independent for `k = 2..n`.
     fn shear_casimir(&self, k: u32) -> T {
-        momenta::trace_of_power(&momenta::deviator(&self.mixed_spin()), k)
+        momenta::trace_of_power(&dilatation::deviator(&self.mixed_spin()), k)
     }
 }
 

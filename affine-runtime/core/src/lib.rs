@@ -6,10 +6,12 @@ pub mod balance;
 mod breathing;
 pub mod capability;
 mod condition;
+mod confined;
 pub mod conserved;
 mod constraint;
 mod custom;
 pub mod decompose;
+mod description;
 mod dissipation;
 mod divisor;
 pub mod dual;
@@ -20,6 +22,7 @@ pub mod frames;
 pub mod geodesic;
 pub mod kinematics;
 pub mod lanes;
+mod matrix;
 mod matrix_field;
 pub mod metrics;
 pub mod model;
@@ -28,6 +31,7 @@ mod packed;
 pub mod potential;
 mod private;
 mod quantity;
+mod random;
 mod reduction;
 mod regularity;
 pub mod sampling;
@@ -36,6 +40,7 @@ pub mod state;
 pub mod system;
 mod unprepared;
 mod vectors;
+mod velocity;
 
 /// What emitted code uses besides the public traits. No stable interface: it changes with the macro.
 #[doc(hidden)]

@@ -2,7 +2,10 @@
 
 use core::fmt::Debug;
 
-use crate::frames::{Matrix, Vector};
+use crate::condition::condition;
+pub use crate::constraint::Constraint;
+pub use crate::description::{Bound, Conserved, Description, Formula, Guard, LeftOut, Operations, Scope};
+use crate::matrix::Matrix;
 use crate::metrics::{Bases, Tensor};
 pub use crate::quantity::{Group, Quantity};
 pub use crate::regularity::Regularity;
@@ -10,6 +13,7 @@ use crate::scalar::{Real, Scalar};
 use crate::state::Phase;
 pub use crate::system::StateVector;
 use crate::system::{NotEmitted, Packing, Pieces, SecondOrder, Series};
+pub use crate::velocity::Velocity;
 
 /// A model of an affinely-rigid body in dimension `N`: Legendre transformation, Hamiltonian, Hamilton's
 /// equations and the reduced system that is integrated.
@@ -107,7 +111,15 @@ pub trait Model<const N: usize> {
     where
         Self: Sized,
     {
-        crate::condition::condition(self, phi)
+        // What depends on the placement at all is refused where it degenerates.
+        let phi = match self.regularity(phi) {
+            Some(_) => self.bases().map_or(*phi, |bases| bases.placement(phi)),
+            None => Matrix::<N>::identity(),
+        };
+        condition(&Self::DESCRIPTION, &phi, |full: &Self::Full<f64>| {
+            let velocity = self.velocity(&self.unflatten(full));
+            self.bases().map_or(velocity, |bases| bases.velocity(&velocity)).phi_dot
+        })
     }
 
     /// The bases of space and body in which the model's metrics are the identity, from the user's own; `None` where
@@ -194,15 +206,6 @@ pub trait Model<const N: usize> {
     }
 }
 
-/// Velocities of centre of mass and placement.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Velocity<const N: usize, T: Real = f64> {
-    /// `x_dot`; zero for a model without translation.
-    pub x_dot: Vector<N, T>,
-    /// `phi_dot`.
-    pub phi_dot: Matrix<N, T>,
-}
-
 /// A model whose momenta are a function of the velocities, as the `at_velocity` of a model with `C(3)` in its
 /// Hamiltonian asks of it in vain; nothing implements it.
 #[diagnostic::on_unimplemented(
@@ -214,180 +217,4 @@ pub struct Velocity<const N: usize, T: Real = f64> {
 pub trait VelocityDeterminesMomentum {
     /// What follows from it.
     fn never<T>(&self) -> T;
-}
-
-/// The group to which a motion is confined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Constraint {
-    /// SL(n): `det phi = 1`.
-    Isochoric,
-    /// SO(n): `phi^T phi = 1`.
-    Rigid,
-    /// R+ SO(n): `phi^T phi` is a multiple of 1.
-    Conformal,
-}
-
-/// What was derived about a model; made by the macro alone.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Description {
-    /// Name of the user's type.
-    pub name: &'static str,
-    /// The kinetic energy.
-    pub kinetic_energy: Formula,
-    /// The Hamiltonian.
-    pub hamiltonian: Formula,
-    /// Hamilton's equations in the model's frames.
-    pub equations: &'static [Formula],
-    /// The reduced equations.
-    pub reduced_equations: &'static [Formula],
-    /// Numbers of positive and negative directions of the kinetic metric, internal and translational; `None`
-    /// where they depend on the fields' values.
-    pub signature: Option<(usize, usize)>,
-    /// What every motion conserves.
-    pub conserved: &'static [Conserved],
-    /// What motions with `p = 0` conserve; the same list for a model without translation.
-    pub conserved_at_rest: &'static [Conserved],
-    /// Components of the plain array, group after group.
-    pub full: &'static [Group],
-    /// Components of the reduced state, group after group.
-    pub reduced: &'static [Group],
-    /// Operations of Hamilton's equations.
-    pub full_operations: Operations,
-    /// Operations of the reduced equations.
-    pub reduced_operations: Operations,
-    /// The group to which the motion is confined; `None` for all of GL+(n).
-    pub constraint: Option<Constraint>,
-    /// Are the reduced equations `q'' = f(t, q)`, as `emit(nystrom)` integrates them?
-    pub second_order: bool,
-    /// Functions of the state that keep their sign where the potential has a value; empty where that is everywhere.
-    pub domain: &'static [Guard],
-    /// Parts of the potential with an angle that the time turns, as written: `cos(w*t)`. [`Model::domain`] gives the angles.
-    pub angles: &'static [&'static str],
-    /// What was taken out of the state.
-    pub left_out: &'static [LeftOut],
-}
-
-/// Something that is not integrated, and in which runs it is not.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LeftOut {
-    /// What it is and why, in words.
-    pub what: &'static str,
-    /// The runs.
-    pub scope: Scope,
-}
-
-/// The runs that leave something out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scope {
-    /// Every run of the model.
-    Model,
-    /// Those by the reduced equations, [`Model::reduced_equations`].
-    Reduction,
-    /// Those by methods that integrate what the reduced state carries along, see [`Model::renewed`].
-    Carried,
-    /// Those with `p = 0`.
-    Rest,
-}
-
-/// A part of a potential that has a value only where a function of the state keeps its sign. The values of these functions
-/// are those of [`Model::domain`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Guard {
-    /// The part, as written: `ln(q)`, `1/x[1]`.
-    pub part: &'static str,
-    /// The function, as written: `q`, `x[1]`.
-    pub argument: &'static str,
-    /// The signs that it may have.
-    pub bound: Bound,
-}
-
-/// The signs that a function of the state may have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bound {
-    /// Above zero: the argument of a logarithm.
-    Positive,
-    /// Zero or above: the argument of a root.
-    NotNegative,
-    /// The sign that it has at the start: a divisor.
-    NotZero,
-}
-
-/// A formula as text and as LaTeX.
-///
-/// Fields have the names that they have in the struct. One that is written like a symbol of the mechanics stands as
-/// `self.name`, in LaTeX in typewriter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Formula {
-    /// Plain text.
-    pub text: &'static str,
-    /// LaTeX, without delimiters.
-    pub latex: &'static str,
-}
-
-/// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Operations {
-    /// Multiplications.
-    pub mul: usize,
-    /// Additions and subtractions.
-    pub add: usize,
-    /// Divisions.
-    pub div: usize,
-    /// Square and cube roots.
-    pub sqrt: usize,
-    /// Exponentials, hyperbolic and trigonometric functions.
-    pub exp: usize,
-    /// Logarithms.
-    pub ln: usize,
-}
-
-impl Operations {
-    /// No operation of any kind.
-    pub const NONE: Self = Self { mul: 0, add: 0, div: 0, sqrt: 0, exp: 0, ln: 0 };
-}
-
-/// A quantity that a model may conserve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum Conserved {
-    /// Energy `H`.
-    Energy,
-    /// Linear momentum `p`.
-    LinearMomentum,
-    /// Co-moving linear momentum `p_hat = phi^T p`.
-    ComovingLinearMomentum,
-    /// Orbital angular momentum `x p^T - p x^T`.
-    OrbitalAngularMomentum,
-    /// Total affine momentum `I(O) = x p^T + Sigma`.
-    TotalAffineMomentum,
-    /// Total angular momentum `I(O) - I(O)^T`.
-    TotalAngularMomentum,
-    /// Spatial affine spin `Sigma`.
-    AffineSpin,
-    /// Traceless part of `Sigma`.
-    Deviator,
-    /// Spin `S = Sigma - Sigma^T`.
-    Spin,
-    /// `|S|^2 = -tr(S^2)/2`.
-    SpinNorm,
-    /// Co-moving affine spin `Sigma_hat`.
-    ComovingAffineSpin,
-    /// Traceless part of `Sigma_hat`.
-    ComovingDeviator,
-    /// Vorticity `Sigma_hat - Sigma_hat^T`.
-    Vorticity,
-    /// `|Vort|^2 = -tr(Vort^2)/2`.
-    VorticityNorm,
-    /// Canonical momentum `Pi`.
-    CanonicalMomentum,
-    /// Casimir `C(1) = tr Sigma`, the dilatational momentum.
-    Casimir1,
-    /// Casimir `C(2) = tr Sigma^2`.
-    Casimir2,
-    /// Casimir `C(3) = tr Sigma^3`; only for `n = 3`.
-    Casimir3,
-    /// `tr sigma^2` of the traceless part.
-    DeviatorCasimir2,
-    /// `tr sigma^3` of the traceless part; only for `n = 3`.
-    DeviatorCasimir3,
 }

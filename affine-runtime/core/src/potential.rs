@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::frames::{Matrix, Vector};
-use crate::sampling::rotation;
+use crate::random::rotation;
 use crate::scalar::Scalar;
 
 /// What a potential is told: a placement at a time, in the bases that the user states the model in, whatever its metrics.

@@ -7,7 +7,7 @@ pub use crate::breathing::Breathing;
 pub use crate::capability::{
     Emitted, InLanes, PackedEquations, SecondOrderEquations, Splitting, Tangent, Taylor,
 };
-pub use crate::constraint::{confined_point, in_the_algebra, on_the_group, projected};
+pub use crate::confined::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::custom::{
     as_force, as_potential, comoving_force, comoving_force_in, potential_energy, potential_energy_in,
     potential_slopes, potential_slopes_in, spatial_force, spatial_force_in, translational_force,
@@ -43,7 +43,7 @@ pub use crate::regularity::regular;
 pub use crate::scalar::{Real, Scalar};
 pub use crate::state::{Centre, Given, Phase, PhasePoint, Pinned};
 pub use crate::system::{Packing, Pieces, SecondOrder, Series};
-pub use crate::unprepared::{IsPrepared, Unprepared};
+pub use crate::unprepared::{IsPrepared, NotPrepared, Unprepared};
 pub use crate::vectors::Vectors;
 
 use crate::frames::Frame;

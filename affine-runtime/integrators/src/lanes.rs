@@ -11,6 +11,8 @@
 //! compiles: the same type serves a target's own vectors and those found at run time.
 
 mod elementary;
+#[cfg(feature = "std")]
+pub(crate) mod equations;
 mod fast;
 #[cfg(feature = "std")]
 pub(crate) mod parts;

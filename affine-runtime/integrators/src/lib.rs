@@ -2,6 +2,7 @@
 //! them as its module `integrate`.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+mod composition;
 mod equal_steps;
 mod error_norm;
 mod finite;
@@ -47,7 +48,9 @@ pub mod __private {
     pub mod runs {
         pub use crate::equal_steps::{parts, step_count};
         #[cfg(feature = "std")]
-        pub use crate::runge_kutta::in_lanes::{Equations, Fate, RungeKutta8InLanes};
+        pub use crate::lanes::equations::Equations;
+        #[cfg(feature = "std")]
+        pub use crate::runge_kutta::in_lanes::{Fate, RungeKutta8InLanes};
         pub use crate::runge_kutta::start::Start;
         #[cfg(feature = "std")]
         pub use crate::runge_kutta::start::starts_in_lanes;

@@ -1,11 +1,10 @@
 //! RATTLE on `det phi = 1` and its symmetric compositions: explicit but for one number, symplectic, with a fixed step.
 
-mod composition;
 mod constraint;
 mod layout;
 mod reaction;
 
-pub use composition::Composition;
+pub use crate::composition::Composition;
 pub use reaction::Reaction;
 
 use core::fmt;
@@ -15,7 +14,6 @@ use super::finite::is_finite;
 use super::lie::{Sum, adjugate};
 use super::tape::Tape;
 use super::{Failure, Statistics};
-use affine_core::frames::Matrix;
 use affine_core::model::{Group, StateVector};
 use constraint::{Motion, multiplier};
 use layout::Layout;
@@ -232,9 +230,4 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> fmt::Debug for Ra
             .field("statistics", &self.statistics())
             .finish_non_exhaustive()
     }
-}
-
-/// The placement matrix of a group of components.
-fn matrix<const N: usize>(components: &[f64]) -> Matrix<N> {
-    Matrix::<N>::from_row_slice(components)
 }

@@ -15,8 +15,8 @@ mod trees;
 use field::called;
 pub use field::{Field, InVectors, Stages};
 use judged::Judged;
-pub use pair::{DormandPrince54, DormandPrince853, Pair};
-pub use step::{Dense, OneStep, Step};
+pub use pair::{DormandPrince54, DormandPrince853, Step};
+pub use step::{Dense, OneStep, Pair};
 
 use core::fmt;
 
@@ -25,9 +25,10 @@ use super::finite::is_finite;
 use super::lie::{Coordinates, Flat, Sum};
 use super::step_size::{Controller, next_time, shortest};
 use super::tape::Tape;
-use super::taylor::{Portable, Vectors};
+use super::vectors::Baseline;
 use super::widest::{Work, roomiest, widest};
 use super::{Failure, Statistics};
+use affine_core::__private::Vectors;
 use affine_core::model::{Group, StateVector};
 use affine_core::system::Packing;
 use start::Start;
@@ -229,7 +230,7 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
     /// Dense output over the last accepted step: [`Pair::DENSE_EVALUATIONS`].
     pub fn dense(&mut self) -> Dense<S, C> {
         self.statistics.evaluations += P::DENSE_EVALUATIONS;
-        let dense = self.step.dense_in(&self.field.stages(Portable, self.coordinates, &self.begin));
+        let dense = self.step.dense_in(&self.field.stages(Baseline, self.coordinates, &self.begin));
         dense.read(|stored| self.field.read(stored)).around(self.coordinates, self.begin, self.end.value)
     }
 

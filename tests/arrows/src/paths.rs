@@ -60,17 +60,20 @@ impl Source {
                 self.walk(&list(group.stream()), inline);
                 k += 1;
             } else {
-                k += self.path(&tokens[k..], k.checked_sub(1).map(|before| &tokens[before]), inline);
+                k += self.path(&tokens[k..], &tokens[..k], inline);
             }
         }
     }
 
     /// A path that starts here, if one does; how many tokens it takes.
-    fn path(&mut self, tokens: &[TokenTree], before: Option<&TokenTree>, inline: usize) -> usize {
+    fn path(&mut self, tokens: &[TokenTree], before: &[TokenTree], inline: usize) -> usize {
         let Some(first) = word(&tokens[0]) else { return 1 };
         let starts = ["crate", "self", "super"].contains(&first.as_str()) || self.children.contains(&first);
-        let goes_on =
-            before.is_some_and(|token| [':', '.', '#'].into_iter().any(|sign| is_sign(token, sign)));
+        let goes_on = match before {
+            [.., one, two] if is_sign(two, ':') => is_sign(one, ':'),
+            [.., last] => is_sign(last, '.') || is_sign(last, '#'),
+            [] => false,
+        };
         if !starts || goes_on {
             return 1;
         }

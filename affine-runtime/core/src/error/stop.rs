@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::debug_as_displayed;
 use super::setting::Setting;
-use crate::model::{Bound, Guard};
+use crate::description::{Bound, Guard};
 
 /// Why, when and at which step a run stopped.
 #[derive(Clone, Copy, PartialEq)]

@@ -270,6 +270,12 @@ fn power_of_two(exponent: i32) -> f64 {
     }
 }
 
+/// `X - (tr X / n) 1`.
+pub(super) fn deviator<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Matrix<N, T> {
+    let mean = matrix.trace() / integer(N);
+    matrix - Matrix::<N, T>::identity() * mean
+}
+
 #[cfg(test)]
 mod tests {
     use super::{LogDeterminant, determinant_by_elimination, equilibrate, well_conditioned_determinant};

@@ -1,6 +1,6 @@
 //! Angular and affine momenta, vorticity, the pairing with velocities, Casimirs.
 
-use super::dilatation::integer;
+use super::dilatation::deviator;
 use super::velocities::LinearVelocity;
 use crate::frames::{AffineSpin, AffineVelocity, Comoving, Matrix, Spatial, TwoPoint, Vector};
 use crate::scalar::Real;
@@ -104,12 +104,6 @@ macro_rules! dilatation_and_shear {
 
 dilatation_and_shear!(Spatial);
 dilatation_and_shear!(Comoving);
-
-/// `X - (tr X / n) 1`.
-pub(super) fn deviator<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Matrix<N, T> {
-    let mean = matrix.trace() / integer(N);
-    matrix - Matrix::<N, T>::identity() * mean
-}
 
 /// `tr X^k`.
 pub(super) fn trace_of_power<const N: usize, T: Real>(matrix: &Matrix<N, T>, k: u32) -> T {

@@ -1,7 +1,6 @@
 //! Affine and translational velocities between the frames, and their dilatation and shear.
 
-use super::dilatation::integer;
-use super::momenta::deviator;
+use super::dilatation::{deviator, integer};
 use crate::frames::{AffineVelocity, Comoving, Matrix, Spatial, TwoPoint, Vector, inverse};
 use crate::scalar::Real;
 

@@ -6,8 +6,8 @@ use pulp::Simd;
 
 use super::{ErrorNorm, GROUPS, Measure, PART_OF_DISPLACEMENT};
 use crate::lanes::Lanes;
+use crate::lanes::equations::Equations;
 use crate::lanes::parts::{part, parts, set_part};
-use crate::runge_kutta::in_lanes::Equations;
 use affine_core::__private::numerics::{IN_RANGE, scaled_norm};
 use affine_core::model::{Group, StateVector};
 

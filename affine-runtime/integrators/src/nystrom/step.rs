@@ -2,14 +2,14 @@
 
 use core::marker::PhantomData;
 
-use super::SecondOrder;
 use super::sums::{of_row, plus_multiple};
 use super::tableau::{MOST_STAGES, Tableau};
 use crate::lie::Sum;
-use crate::taylor::Vectors;
 use crate::widest::{Work, widest};
+use affine_core::__private::Vectors;
 use affine_core::model::StateVector;
 use affine_core::scalar::Scalar;
+use affine_core::system::SecondOrder;
 
 /// The step of the method from a state, and what its stages found. As `V` is linear, the positions of a stage are
 ///

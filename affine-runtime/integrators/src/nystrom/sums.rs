@@ -2,7 +2,7 @@
 //! number.
 
 use super::tableau::{MOST_STAGES, Row};
-use crate::taylor::Vectors;
+use affine_core::__private::Vectors;
 use affine_core::model::StateVector;
 use affine_core::scalar::Scalar;
 

@@ -1,10 +1,11 @@
 //! The constraint `det phi = 1` and the hidden constraint `tr(adj(phi) phi') = 0`, solved to rounding.
 
 use super::layout::Layout;
-use super::{Failure, StateVector};
+use crate::Failure;
 use crate::lie::{Sum, adjugate};
 use affine_core::__private::numerics::norm;
 use affine_core::frames::Matrix;
+use affine_core::system::StateVector;
 
 /// Newton's iteration for one number, from a start near the solution, converges within ten, or wanders.
 const MOST_ITERATIONS: u32 = 30;

@@ -2,7 +2,8 @@
 
 use core::ops::Range;
 
-use super::{Failure, is_finite, matrix};
+use crate::Failure;
+use crate::finite::is_finite;
 use affine_core::__private::numerics::norm;
 use affine_core::frames::Matrix;
 use affine_core::model::{Group, Quantity, StateVector};
@@ -223,4 +224,9 @@ fn inverse(matrix: &[[f64; MOST]; MOST], count: usize) -> Option<[[f64; MOST]; M
         }
     }
     Some(right)
+}
+
+/// The placement matrix of a group of components.
+fn matrix<const N: usize>(components: &[f64]) -> Matrix<N> {
+    Matrix::<N>::from_row_slice(components)
 }

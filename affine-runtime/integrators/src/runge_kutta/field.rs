@@ -2,15 +2,17 @@
 
 use core::marker::PhantomData;
 
-use super::step::STAGES;
 use crate::lie::{Coordinates, Flat, Sum};
 use crate::packed;
 use crate::stages::{self, by_rows};
-use crate::taylor::Vectors;
 use crate::widest::{Work, widest};
+use affine_core::__private::Vectors;
 use affine_core::model::StateVector;
 use affine_core::scalar::Scalar;
 use affine_core::system::Packing;
+
+/// The first, eleven more, that at the end of the step, and three for dense output.
+pub(super) const STAGES: usize = 16;
 
 /// `z' = f(t, z)` as the stages of a step see it, and the sums over them.
 pub trait Stages<L: StateVector<f64>> {

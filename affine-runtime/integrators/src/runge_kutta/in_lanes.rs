@@ -3,32 +3,21 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::dormand_prince_853::*;
-use super::pair::{DormandPrince853, E3, Pair};
+use super::pair::{DormandPrince853, E3};
 use super::start::Start;
+use super::step::Pair;
 use crate::error_norm::{NormInLanes, Squares};
 use crate::lanes::Lanes;
+use crate::lanes::equations::Equations;
 use crate::lanes::parts::{part, parts, plus, set_part};
 use crate::step_size::Controller;
 use crate::step_size::in_lanes::{Clocks, fate};
 use affine_core::__private::numerics::IN_RANGE;
-use affine_core::model::{Group, StateVector};
+use affine_core::model::StateVector;
 
 const STAGES: usize = 13;
 /// Place of the slope at the end of a step, which is the first of the next.
 const AT_END: usize = 12;
-
-/// `y' = f(t, y)` in lanes. A trait, since a closure cannot be made part of the function that is compiled for the
-/// processor's vectors: what is called from there is compiled for the vectors of every processor.
-pub trait Equations<T, S> {
-    /// What states consist of.
-    const GROUPS: &'static [Group];
-
-    /// Writes `f(t, y)`; to be `#[inline(always)]`. In place, since states of many lanes are long.
-    fn slope(&self, t: T, y: &S, slope: &mut S);
-
-    /// A step may end at the state in a lane; to be `#[inline(always)]`.
-    fn is_sound(&self, y: &S, lane: usize) -> bool;
-}
 
 /// Bodies in lanes: [`RungeKutta8`](super::RungeKutta8) of each, operation by operation, at its own time and with its own
 /// steps. A lane that is done is given the next body, while the others are on their way.

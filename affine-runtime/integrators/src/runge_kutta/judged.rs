@@ -1,10 +1,9 @@
 //! What a step is judged by: numbers, whatever is integrated. It is compiled once for each pair of methods, and not again for
 //! every model and for the vectors of every processor.
 
-use super::Pair;
 use crate::error_norm::ErrorNorm;
-use crate::taylor::Vectors;
 use crate::widest::{Work, widest};
+use affine_core::__private::Vectors;
 use affine_core::__private::numerics::{IN_RANGE, larger, sum_of_squares};
 use affine_core::scalar::Scalar;
 
@@ -23,8 +22,8 @@ pub struct Judged<'s> {
 impl Judged<'_> {
     /// The largest error of a group of components, divided by the length of the step.
     #[inline(always)]
-    pub(super) fn largest<P: Pair>(&self) -> f64 {
-        widest(Largest { judged: self, error: P::error })
+    pub(super) fn largest(&self, error: impl Fn((f64, f64)) -> f64) -> f64 {
+        widest(Largest { judged: self, error })
     }
 }
 

@@ -2,57 +2,18 @@
 
 use super::field::Stages;
 use super::judged::Judged;
-use super::step::OneStep;
+use super::step::{OneStep, Pair};
 use super::{dormand_prince_54 as dp54, dormand_prince_853 as dp853};
 use crate::stages::difference;
 use affine_core::model::StateVector;
 use affine_core::scalar::Scalar;
 
-/// The stages of an explicit method with error estimators and dense output; [`DormandPrince853`] and
-/// [`DormandPrince54`].
-pub trait Pair: Sized {
-    /// Name of its integration.
-    const NAME: &'static str;
-    /// Order of the leading term of the error estimate in the step size.
-    const ERROR_ORDER: f64;
-    /// Steps aim at an error so many times below the tolerance.
-    const MARGIN: f64;
-    /// Number and node of each stage after the first of an attempted step, which depends on the one before and others.
-    const STAGES: &'static [(usize, f64)];
-    /// Evaluations of an attempted step.
-    const EVALUATIONS: u64 = Self::STAGES.len() as u64;
-    /// Evaluations of the dense output.
-    const DENSE_EVALUATIONS: u64;
-    /// Does the error estimate need the slope at the end of the step?
-    const NEEDS_END: bool;
-    /// Are sums over stages long enough to be compiled for the most registers too? With AVX-512 the steps of order 8 take 5
-    /// percent less time where they are in vectors. Those over single components do not, and those of the baseline.
-    const SUMS_ARE_LONG: bool;
-
-    /// Where the slope of a stage is evaluated, by its place in [`STAGES`](Self::STAGES), after the stage with the slope
-    /// `newest`.
-    fn place<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>, stage: usize, newest: &S)
-    -> S;
-
-    /// The end of the step.
-    fn end<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> S;
-
-    /// Differences, divided by `h`, of the solution to the embedded ones.
-    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> (S, S);
-
-    /// The error estimate from the squares of the sizes of these.
-    fn error(squares: (f64, f64)) -> f64;
-
-    /// The largest of these estimates in a norm: of numbers alone, and compiled once for all models.
-    fn largest(judged: &Judged<'_>) -> f64;
-
-    /// The last coefficients of the dense output, divided by `h`.
-    fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>) -> [S; 4];
-}
-
 /// The method of Dormand and Prince of order 8 with error estimators of orders 5 and 3 and a dense output of order 7.
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrince853;
+
+/// A step of the method of order 8.
+pub type Step<S> = OneStep<DormandPrince853, S>;
 
 /// Solution less the embedded solution of order 3.
 pub(super) const E3: [(usize, f64); dp853::B.len()] = difference(dp853::B, &dp853::B3);
@@ -108,7 +69,7 @@ impl Pair for DormandPrince853 {
 
     #[inline(never)]
     fn largest(judged: &Judged<'_>) -> f64 {
-        judged.largest::<Self>()
+        judged.largest(Self::error)
     }
 
     fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>) -> [S; 4] {
@@ -172,7 +133,7 @@ impl Pair for DormandPrince54 {
 
     #[inline(never)]
     fn largest(judged: &Judged<'_>) -> f64 {
-        judged.largest::<Self>()
+        judged.largest(Self::error)
     }
 
     fn dense<S: StateVector<f64>>(step: &mut OneStep<Self, S>, f: &impl Stages<S>) -> [S; 4] {

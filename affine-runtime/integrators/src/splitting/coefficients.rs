@@ -23,7 +23,7 @@
 #[allow(clippy::unwrap_used)]
 mod order_conditions;
 
-use crate::rattle::Composition;
+use crate::composition::Composition;
 
 /// Sweeps of the longest method.
 const MOST: usize = 34;

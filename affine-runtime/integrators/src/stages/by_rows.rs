@@ -1,8 +1,8 @@
 //! The same combinations by rows that are data, of states with any number of components. They take longer, and are not
 //! compiled for every model again.
 
-use crate::taylor::Vectors;
 use crate::widest::{Work, widest};
+use affine_core::__private::Vectors;
 use affine_core::scalar::Scalar;
 
 /// `sum_j a_j k_j` with the bits of [`combination`](super::combination).
