@@ -32,6 +32,20 @@ fn outcomes() -> Vec<(PathBuf, String)> {
         .collect()
 }
 
+/// Users depend on one crate: what it consists of is named in no message.
+#[test]
+fn inner_crates_are_not_named() {
+    let calls = Path::new(env!("CARGO_MANIFEST_DIR")).join("refused_calls");
+    let calls = fs::read_dir(calls).unwrap().map(|entry| entry.unwrap().path());
+    let calls = calls.filter(|path| path.extension().is_some_and(|extension| extension == "stderr"));
+    let calls: Vec<_> = calls.map(|path| (path.clone(), fs::read_to_string(path).unwrap())).collect();
+    assert!(!calls.is_empty());
+    for (path, text) in outcomes().into_iter().chain(calls) {
+        let named = ["affine_core", "affine_integrators"].into_iter().find(|name| text.contains(name));
+        assert_eq!(named, None, "{}", path.display());
+    }
+}
+
 /// What no specification leads to: a fault of the macro itself.
 const OF_THE_MACRO: &str = "impossible";
 

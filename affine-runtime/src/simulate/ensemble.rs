@@ -19,7 +19,7 @@ use crate::error::Stop;
 use crate::lanes::{Lanes, Widest};
 use crate::model::Model;
 use crate::state::Phase;
-use bodies::{Bodies, Done, begun};
+use bodies::{Bodies, Common, Done, begun};
 
 /// Where each body of an ensemble is in the end, or why it did not get there.
 pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
@@ -147,10 +147,12 @@ impl<const N: usize, M: InLanes<N>> Ensemble<'_, N, M> {
         let apart: Vec<Option<Method>> = starts.iter().map(|start| self.apart(start, t_end)).collect();
         let together = starts.iter().enumerate().filter(|(body, _)| apart[*body].is_none());
         let together: Vec<_> = together.collect();
-        let mut begun = together.chunks(T::LANES).flat_map(|points| begun::<N, T, M>(self, points, t_end));
+        let &Self { model, t0, tolerance, max_steps, .. } = self;
+        let common = Common { model, t0, t_end, tolerance, max_steps };
+        let mut begun = together.chunks(T::LANES).flat_map(|points| begun::<N, T, M>(common, points));
         let mut ends = vec![None; starts.len()];
         if let Some(first) = begun.next() {
-            let mut bodies = Bodies::<N, T, M>::filled(self, first, &mut begun, t_end);
+            let mut bodies = Bodies::<N, T, M>::filled(common, first, &mut begun);
             while bodies.are_moving() {
                 for Done { lane, body, end } in bodies.advance() {
                     ends[body] =

@@ -270,7 +270,7 @@ mod tests {
     use super::*;
     use crate::lanes::F64x8;
     use crate::{Failure, RungeKutta8};
-    use affine_core::model::Quantity;
+    use affine_core::model::{Group, Quantity};
     use affine_core::scalar::Scalar;
 
     const GROUPS: &[Group] = &[Group::new(Quantity::Position, 1), Group::new(Quantity::Other("v"), 1)];

@@ -2,7 +2,6 @@
 
 use core::ops::Range;
 
-use super::Ensemble;
 use crate::capability::InLanes;
 use crate::frames::Matrix;
 use crate::inner::{Equations, Fate, RungeKutta8InLanes};
@@ -12,6 +11,23 @@ use crate::model::{Group, StateVector};
 use crate::simulate::layout::{Layout, placement_in};
 use crate::simulate::motion::WithWork;
 use crate::simulate::point::is_clearly_positive;
+
+/// What all bodies of an ensemble have in common.
+pub(super) struct Common<'a, M> {
+    pub(super) model: &'a M,
+    pub(super) t0: f64,
+    pub(super) t_end: f64,
+    pub(super) tolerance: f64,
+    pub(super) max_steps: u64,
+}
+
+impl<M> Clone for Common<'_, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for Common<'_, M> {}
 
 /// A body before its first step.
 pub(super) struct Begun<const N: usize, M: InLanes<N>> {
@@ -23,11 +39,10 @@ pub(super) struct Begun<const N: usize, M: InLanes<N>> {
 
 /// As many bodies as there are lanes, or fewer, at their start; those are left out for which there is nothing to begin with.
 pub(super) fn begun<const N: usize, T: Lanes, M: InLanes<N>>(
-    ensemble: &Ensemble<'_, N, M>,
+    common: Common<'_, M>,
     points: &[(usize, &M::Point<f64>)],
-    t_end: f64,
 ) -> Vec<Begun<N, M>> {
-    let Ensemble { model, t0, tolerance, .. } = *ensemble;
+    let Common { model, t0, t_end, tolerance, .. } = common;
     let (states, constants): (Vec<_>, Vec<_>) =
         points.iter().map(|(_, point)| model.reduce(t0, point)).unzip();
     let equations = Reduced { model, constants: M::constants_in_lanes::<T>(&constants) };
@@ -68,12 +83,11 @@ pub(super) struct Bodies<'a, const N: usize, T: Lanes, M: InLanes<N>> {
 impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
     /// The first bodies, one in every lane; lanes that are left rest where the last of them is.
     pub(super) fn filled(
-        ensemble: &Ensemble<'a, N, M>,
+        common: Common<'a, M>,
         first: Begun<N, M>,
         others: &mut impl Iterator<Item = Begun<N, M>>,
-        t_end: f64,
     ) -> Self {
-        let Ensemble { model, t0, tolerance, max_steps, .. } = *ensemble;
+        let Common { model, t0, t_end, tolerance, max_steps } = common;
         let constants = vec![first.constants; T::LANES];
         let equations = Reduced { model, constants: M::constants_in_lanes(&constants) };
         let integration = RungeKutta8InLanes::new(equations, t_end, tolerance, max_steps);
