@@ -143,10 +143,12 @@ impl Phase {
     /// What a program may read of the point.
     fn inputs(&self, model: &Model, reads: Reads) -> Named {
         let state = match reads {
-            Reads::State | Reads::Point => model.full.names(),
-            Reads::Reduced => model.reduced.names(),
+            Reads::State | Reads::Point => model.full.symbols(),
+            Reads::Reduced => model.reduced.symbols(),
             Reads::Trajectory => Vec::new(),
         };
+        let fixed = if reads == Reads::Trajectory { model.fixed.as_slice() } else { &[] };
+        let state: Vec<String> = state.iter().chain(fixed).map(Symbol::to_string).collect();
         let mut names: Vec<&str> = state.iter().map(String::as_str).collect();
         names.push("t");
         match reads {
@@ -158,8 +160,6 @@ impl Phase {
             Reads::Point => names.extend(["q", "dilatation", "q_1", "q_2", "q_3"]),
             Reads::Trajectory => names.extend(["p_1", "p_2", "p_3"]),
         }
-        let fixed = if reads == Reads::Trajectory { model.fixed.as_slice() } else { &[] };
-        names.extend(fixed.iter().map(String::as_str));
         self.named(&names)
     }
 
@@ -179,7 +179,7 @@ impl Phase {
             Some(F::from_quad(value.unwrap_or(Quad::NAN)))
         };
         let results = program.run::<F>(&read).expect("a value");
-        let names = program.outputs.iter().map(|(name, _)| name.clone());
+        let names = program.results().map(Symbol::to_string);
         names.zip(results.iter().map(Machine::to_quad)).collect()
     }
 

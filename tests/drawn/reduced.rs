@@ -3,7 +3,8 @@
 
 use std::collections::HashMap;
 
-use affine_codegen::mechanics::reduce::{Layout, Reduction};
+use affine_codegen::mechanics::reduction::Reduction;
+use affine_codegen::symbol::Symbol;
 use qd::Quad;
 
 use super::check::{Mistakes, Point, compare};
@@ -13,8 +14,10 @@ use super::place::{Square, applied, inverse, product, square, transposed};
 
 /// Is every state variable a function of the phase point at the same time?
 fn is_plain(reduction: &Reduction) -> bool {
-    let moves_by_itself = reduction.turned || reduction.separation.is_some();
-    !moves_by_itself && reduction.commuting.is_empty() && reduction.layout == Layout::Entries
+    let moves_by_itself = reduction.turn.is_some() || reduction.dilatation.is_some();
+    let commuting = &reduction.commuting;
+    let is_apart = commuting.rotation.is_some() || commuting.drift.is_some() || reduction.conserved.affine;
+    !moves_by_itself && !is_apart
 }
 
 /// Rates of `x`, `phi`, `p` and `Pi`.
@@ -40,7 +43,7 @@ impl Point<'_> {
         let found = self.run(&model.reduced.program, Reads::Reduced);
         let terms = expected.values().map(|rate| rate.error).fold(1.0, f64::max);
         let error = self.forces().iter().map(|(_, force)| force.error).fold(terms, f64::max);
-        for name in model.reduced.names() {
+        for name in model.reduced.symbols().iter().map(Symbol::to_string) {
             let expected = Rounded { error, ..expected[&name] };
             compare(&format!("reduced d_{name}"), found[&format!("d_{name}")], expected, mistakes);
         }

@@ -65,9 +65,9 @@ pub struct Program {
     /// Calls of runtime functions, which provide some of the inputs.
     pub calls: Vec<Call>,
     /// Names of values that mean something.
-    pub names: Vec<(Value, String)>,
+    pub names: Vec<(Value, Symbol)>,
     /// The results in order.
-    pub outputs: Vec<(String, Value)>,
+    pub outputs: Vec<(Symbol, Value)>,
 }
 
 impl Program {
@@ -79,27 +79,31 @@ impl Program {
         })
     }
 
-    /// The names of what it reads.
+    /// What it reads, as a list.
     #[must_use]
-    pub fn inputs(&self) -> Vec<String> {
-        self.symbols().map(Symbol::to_string).collect()
+    pub fn inputs(&self) -> Vec<Symbol> {
+        self.symbols().cloned().collect()
     }
 
-    /// Name of a value: what the derivation calls it, or its number.
+    /// The results, by name.
+    pub fn results(&self) -> impl Iterator<Item = &Symbol> {
+        self.outputs.iter().map(|(name, _)| name)
+    }
+
+    /// Name of a value: what the derivation calls it, or its place.
     #[must_use]
-    pub fn name(&self, value: Value) -> String {
-        if let Op::Input(symbol) = &self.steps[value] {
-            return symbol.to_string();
+    pub fn name(&self, value: Value) -> Symbol {
+        match &self.steps[value] {
+            Op::Input(symbol) => symbol.clone(),
+            _ => self.own_name(value).cloned().unwrap_or(Symbol::Step(value)),
         }
-        self.own_name(value).map_or_else(|| format!("v{value}"), str::to_owned)
     }
 
     /// What the derivation calls a value that is computed.
     #[must_use]
-    pub fn own_name(&self, value: Value) -> Option<&str> {
-        let is_value = |(v, _): &&(Value, String)| *v == value;
-        let output = self.outputs.iter().find(|(_, v)| *v == value).map(|(name, _)| name.as_str());
-        self.names.iter().find(is_value).map(|(_, name)| name.as_str()).or(output)
+    pub fn own_name(&self, value: Value) -> Option<&Symbol> {
+        let output = self.outputs.iter().find(|(_, v)| *v == value).map(|(name, _)| name);
+        self.names.iter().find(|(v, _)| *v == value).map(|(_, name)| name).or(output)
     }
 
     /// How often each value is read, by steps, by calls and as a result.
@@ -116,7 +120,7 @@ impl Program {
 
     /// The program of one result alone.
     #[must_use]
-    pub fn only(&self, result: &str) -> Self {
+    pub fn only(&self, result: &Symbol) -> Self {
         let mut program = self.clone();
         program.outputs.retain(|(name, _)| name == result);
         program.without_dead_steps()

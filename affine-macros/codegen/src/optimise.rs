@@ -11,6 +11,7 @@ use crate::ir::Program;
 use crate::ir::build::{Builder, Ways};
 use crate::ir::inverse_root::with_inverse_roots;
 use crate::ir::quotient::with_quotients;
+use crate::symbol::Symbol;
 
 /// Named polynomials in the order of their results, with quantities they share.
 #[derive(Clone, Debug, Default)]
@@ -20,7 +21,7 @@ pub struct Batch {
     /// Calls of runtime functions, whose results are shared quantities too.
     pub kernels: Vec<Kernel>,
     /// The polynomials of the results, by name.
-    pub results: Vec<(String, Polynomial)>,
+    pub results: Vec<(Symbol, Polynomial)>,
 }
 
 impl Batch {
@@ -79,14 +80,14 @@ pub fn straight_line(
         let named = named.into_iter().chain(products).collect();
         programs.extend(ways(arena, &Forms::new(batch, &sharing, named)));
     }
-    shortest(programs).named_by_formulas(&nameless.iter().map(|s| arena.symbol_name(*s)).collect())
+    shortest(programs).named_by_formulas(&nameless.iter().map(|s| arena.symbol_of(*s)).collect())
 }
 
 /// What a program computes, in the forms that are to be factored.
 struct Forms<'a> {
     definitions: Vec<(Expr, Polynomial)>,
     calls: Vec<Kernel>,
-    results: Vec<(&'a str, Polynomial)>,
+    results: Vec<(&'a Symbol, Polynomial)>,
 }
 
 impl<'a> Forms<'a> {
@@ -96,7 +97,7 @@ impl<'a> Forms<'a> {
         let mut forms = polynomials.iter().cloned();
         let mut definitions = named;
         definitions.extend(batch.shared.iter().map(|(symbol, _)| *symbol).zip(forms.by_ref()));
-        let results = batch.results.iter().map(|(name, _)| name.as_str()).zip(forms.by_ref()).collect();
+        let results = batch.results.iter().map(|(name, _)| name).zip(forms.by_ref()).collect();
         let mut argument =
             |p: &Polynomial| never_missing(forms.next(), "every argument of a call has its form", p.clone());
         let calls = batch.kernels.iter().map(|kernel| kernel.with_arguments(&mut argument)).collect();
@@ -108,7 +109,7 @@ impl<'a> Forms<'a> {
         define(arena, &mut builder, (self.definitions.clone(), self.calls.clone()), first);
         for (name, form) in &self.results {
             let value = factored(arena, form, first);
-            builder.output(arena, name, value);
+            builder.output(arena, (*name).clone(), value);
         }
         (builder.has_powers(), with_quotients(&with_inverse_roots(&builder.finish())))
     }

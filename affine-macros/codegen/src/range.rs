@@ -82,7 +82,7 @@ impl<'s> Source<'s> {
     fn number(&self, part: &Expression) -> Option<Rational> {
         let (mut arena, mut builder) = (Arena::new(), Builder::new());
         let value = (self.lower)(&mut arena, self.dim, part)?;
-        builder.output(&arena, "value", value);
+        builder.output(&arena, Quantity::Value, value);
         hardest(&builder.finish()).cloned()
     }
 

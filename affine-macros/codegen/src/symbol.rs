@@ -19,8 +19,12 @@ pub enum Symbol {
     Entry(String, usize, usize),
     /// An entry of a matrix that `prepare()` makes: the number of the matrix, row and column.
     Prepared(usize, usize, usize),
-    /// A result of another program, by the name that it has there.
-    Result(String),
+    /// A value that the derivation has no word for, by its formula: up to the last operand, and this.
+    Formula(String, Option<Box<Symbol>>),
+    /// A part of a value, or of no value that has a name, and which one.
+    Part(Option<Box<Symbol>>, usize),
+    /// A value by its place in its program.
+    Step(usize),
     /// A component of a quantity, or all of it.
     Component(Quantity, Vec<usize>),
     /// Something else about another symbol.
@@ -36,6 +40,8 @@ pub enum Aspect {
     Rate,
     /// The change of the symbol beside a neighbouring motion.
     Change,
+    /// The component after a turn.
+    Turned,
     /// The component in the bases of the user, where the model has others.
     Given,
     /// The part of a momentum that the energies in the body have.
@@ -118,6 +124,30 @@ impl Symbol {
         }
     }
 
+    /// Its indices; none where it is no component of something.
+    #[must_use]
+    pub fn indices(&self) -> &[usize] {
+        match self {
+            Self::Component(_, indices) | Self::Factor(.., indices) => indices,
+            Self::About(_, of) | Self::Formula(_, Some(of)) => of.indices(),
+            _ => &[],
+        }
+    }
+
+    /// The same with other indices, where it has some.
+    #[must_use]
+    pub fn with_indices(&self, indices: &[usize]) -> Self {
+        match self {
+            Self::Component(quantity, _) => Self::Component(*quantity, indices.to_vec()),
+            Self::Factor(factor, of, block, _) => Self::Factor(*factor, *of, *block, indices.to_vec()),
+            Self::About(aspect, of) => of.with_indices(indices).seen(*aspect),
+            Self::Formula(formula, Some(last)) => {
+                Self::Formula(formula.clone(), Some(Box::new(last.with_indices(indices))))
+            }
+            other => other.clone(),
+        }
+    }
+
     /// The quantity that it is, or is a component of.
     #[must_use]
     pub fn quantity(&self) -> Option<Quantity> {
@@ -155,7 +185,16 @@ impl Display for Symbol {
             Self::Field(name) => write!(f, "self.{name}"),
             Self::Entry(name, row, column) => write!(f, "self.{name}[{row},{column}]"),
             Self::Prepared(matrix, row, column) => write!(f, "self.{matrix}[{row},{column}]"),
-            Self::Result(name) => f.write_str(name),
+            Self::Formula(formula, last) => {
+                f.write_str(formula)?;
+                last.iter().try_for_each(|last| write!(f, "_{last}"))
+            }
+            Self::Part(whole, number) => {
+                f.write_str("part")?;
+                whole.iter().try_for_each(|whole| write!(f, "_of_{whole}"))?;
+                if *number == 1 { Ok(()) } else { write!(f, "_{number}") }
+            }
+            Self::Step(place) => write!(f, "v{place}"),
             Self::Component(quantity, indices) => component(f, *quantity, "", indices),
             Self::About(aspect, of) => about(f, *aspect, of),
             Self::Factor(factor, of, block, indices) => {
@@ -193,8 +232,9 @@ fn about(f: &mut Formatter<'_>, aspect: Aspect, of: &Symbol) -> Result {
         }
         (Aspect::Symmetric, _) => "sym",
         (Aspect::Skew, _) => "skew",
-        (Aspect::Rate, _) => "rate",
+        (Aspect::Rate, _) => "d",
         (Aspect::Change, _) => "change",
+        (Aspect::Turned, _) => "turned",
         (Aspect::Given, _) => "given",
         (Aspect::InTheBody, _) => "body",
         (Aspect::InSpace, _) => "space",

@@ -3,7 +3,7 @@
 
 use affine_codegen::derive::{Model, derive};
 use affine_codegen::diagnostics::gate;
-use affine_codegen::symbol::{Quantity, Symbol};
+use affine_codegen::symbol::{Aspect, Quantity, Symbol};
 use affine_codegen::{check, expand, model, spec};
 use num_bigint::BigInt;
 use proc_macro2::{TokenStream, TokenTree};
@@ -186,7 +186,8 @@ proptest! {
             let energy = model.hamiltonian.run::<f64>(&at).expect("an energy")[0];
             prop_assert!((energy - expected).abs() < 1e-12 * expected, "{}: U = {}", args, energy);
             let rates = model.full.program.run::<f64>(&at).expect("rates");
-            let place = model.full.program.outputs.iter().position(|(name, _)| *name == format!("d_p_{}", i + 1));
+            let wanted = Quantity::LinearMomentum.at([i + 1]).seen(Aspect::Rate);
+            let place = model.full.program.results().position(|name| *name == wanted);
             let force = rates[place.expect("a force")] * x;
             prop_assert!((force + 2.0 * expected).abs() < 1e-12 * expected, "{}: x f = {}", args, force);
         }

@@ -5,7 +5,7 @@ use crate::mechanics::charts::Chart;
 use crate::mechanics::equations::System;
 use crate::mechanics::separation::{Separation, Slope};
 use crate::optimise::Batch;
-use crate::symbol::Aspect;
+use crate::symbol::{Aspect, Quantity};
 
 /// The rates, and the power where the work is part of the motion.
 pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
@@ -16,7 +16,7 @@ pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
         kernels: system.kernels.clone(),
         results: rates
             .chain(work)
-            .map(|(symbol, rate)| (format!("d_{}", arena.symbol_name(symbol)), rate.clone()))
+            .map(|(symbol, rate)| (arena.symbol_of(symbol).seen(Aspect::Rate), rate.clone()))
             .collect(),
     }
 }
@@ -50,13 +50,13 @@ pub(super) fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> 
 impl Separation {
     /// What the closed form of the dilatation reads: `1/m`, and the stiffness and scale of `U_dil'`.
     pub(super) fn batch(&self) -> Batch {
-        let mut results = vec![("inverse_dilatational_mass".to_owned(), self.inverse_mass.clone())];
+        let mut results = vec![(Quantity::InverseDilatationalMass.into(), self.inverse_mass.clone())];
         match &self.slope {
             Slope::Zero => {}
-            Slope::Linear(stiffness) => results.push(("stiffness".to_owned(), stiffness.clone())),
+            Slope::Linear(stiffness) => results.push((Quantity::Stiffness.into(), stiffness.clone())),
             Slope::Hyperbolic { stiffness, scale } => {
-                results.push(("stiffness".to_owned(), stiffness.clone()));
-                results.push(("scale".to_owned(), Polynomial::constant(scale.clone())));
+                results.push((Quantity::Stiffness.into(), stiffness.clone()));
+                results.push((Quantity::Scale.into(), Polynomial::constant(scale.clone())));
             }
         }
         Batch { results, ..Batch::default() }

@@ -118,7 +118,7 @@ pub(super) fn regularity(
             let sizes: Vec<Polynomial> =
                 block.diagonal().into_iter().map(|entry| size(arena, entry)).collect();
             let values = block.upper.iter().chain(&sizes).enumerate();
-            let results = values.map(|(k, p)| (format!("value_{}", k + 1), p.clone())).collect();
+            let results = values.map(|(k, p)| (Quantity::Value.at([k + 1]), p.clone())).collect();
             let batch = Batch { shared: shared.clone(), results, ..Batch::default() }.pruned(arena);
             let program = fuse(&straight_line(arena, &batch, coefficients, &|a| phi.contains(&a)));
             blocks.extend(std::iter::repeat_n((program, block.size), count));

@@ -7,6 +7,7 @@ use crate::ir::fuse::fuse;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::potential::{Bound, Guard, Potential};
 use crate::optimise::{Batch, straight_line};
+use crate::symbol::Quantity;
 
 /// Where the potential has a value.
 pub struct Domain {
@@ -67,7 +68,7 @@ pub(super) fn domain(
 ) -> Option<Domain> {
     let potential = potential?;
     let (values, shared) = potential.domain_at_a_point(arena, chart)?;
-    let names = (1..).map(|k| format!("guard_{k}"));
+    let names = (1..).map(|k| Quantity::Guard.at([k]));
     let batch = Batch { shared, results: names.zip(values).collect(), ..Batch::default() };
     let program = fuse(&straight_line(arena, &batch, coefficients, &|atom| inputs.contains(&atom)));
     Some(Domain { guards: potential.domain().to_vec(), program })

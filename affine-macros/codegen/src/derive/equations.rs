@@ -33,12 +33,6 @@ impl Equations {
         self.groups.iter().flat_map(|(_, symbols)| symbols.clone()).collect()
     }
 
-    /// Names of the components of the array.
-    #[must_use]
-    pub fn names(&self) -> Vec<String> {
-        self.symbols().iter().map(Symbol::to_string).collect()
-    }
-
     /// Are they `q' = V(p)`, `p' = F(t, q)`, that is `q'' = f(t, q)`?
     #[must_use]
     pub fn is_second_order(&self) -> bool {
@@ -46,7 +40,7 @@ impl Equations {
             self.of(&[Quantity::Position, Quantity::Placement]),
             self.of(&[Quantity::LinearMomentum, Quantity::CanonicalMomentum]),
         );
-        let read_by = |group: &[(String, Value)]| -> Vec<Symbol> {
+        let read_by = |group: &[(Symbol, Value)]| -> Vec<Symbol> {
             let program = Program { outputs: group.to_vec(), ..self.program.clone() };
             program.without_dead_steps().symbols().cloned().collect()
         };
@@ -57,7 +51,7 @@ impl Equations {
     }
 
     /// The components of some groups, and their rates.
-    fn of(&self, quantities: &[Quantity]) -> (Vec<Symbol>, Vec<(String, Value)>) {
+    fn of(&self, quantities: &[Quantity]) -> (Vec<Symbol>, Vec<(Symbol, Value)>) {
         let groups =
             self.groups.iter().flat_map(|(quantity, names)| names.iter().map(move |name| (quantity, name)));
         let rates = groups.zip(&self.program.outputs);

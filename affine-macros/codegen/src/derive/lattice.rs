@@ -16,18 +16,18 @@ use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::{OnAxes, Potential};
 use crate::mechanics::two_polar::{self, Equations, Frames, Lattice, Pieces, Ratios, Stable, Variables};
 use crate::optimise::{Batch, straight_line};
-use crate::symbol::Quantity;
+use crate::symbol::{Aspect, Quantity, Symbol};
 
 /// The two-polar form of a doubly isotropic model.
 pub struct TwoPolar {
     /// What the places are.
     pub places: Places,
     /// Symbols of the state, group after group.
-    pub state: Vec<(Quantity, Vec<String>)>,
+    pub state: Vec<(Quantity, Vec<Symbol>)>,
     /// Symbols of the frames, beside the state.
-    pub frames: Vec<(Quantity, Vec<String>)>,
+    pub frames: Vec<(Quantity, Vec<Symbol>)>,
     /// Symbols of `M` and `N` where they are constants.
-    pub couplings: Vec<String>,
+    pub couplings: Vec<Symbol>,
     /// State -> its rate.
     pub rates: Program,
     /// State and frames -> their rates.
@@ -82,7 +82,7 @@ pub(super) fn two_polar(
         equations.add(on_axes);
     }
     let stable = Stable::new(arena, &lattice);
-    let name = |arena: &Arena, s: &Expr| arena.symbol_name(*s);
+    let name = |arena: &Arena, s: &Expr| arena.symbol_of(*s);
     let names = |arena: &Arena, symbols: &[Expr]| symbols.iter().map(|s| name(arena, s)).collect::<Vec<_>>();
     let (place, momentum) = match lattice.variables {
         Variables::LogStretches | Variables::Angles => (Quantity::LogStretches, Quantity::LogStretchMomenta),
@@ -142,7 +142,7 @@ fn rates(
     shared.extend(potential.map(|u| u.shared.clone()).unwrap_or_default());
     let moving = if lattice.dim == 2 { 4 } else { equations.rates.len() };
     let rate = |(_, symbol, rate): &(_, Expr, Polynomial)| {
-        (format!("d_{}", arena.symbol_name(*symbol)), stable.rewritten(rate))
+        (arena.symbol_of(*symbol).seen(Aspect::Rate), stable.rewritten(rate))
     };
     Batch { shared, results: equations.rates.iter().take(moving).map(rate).collect(), ..Batch::default() }
 }
@@ -154,12 +154,12 @@ fn energy(equations: &Equations, stable: &Stable, potential: Option<&OnAxes>) ->
         shared.extend(potential.energy_shared.iter().cloned());
         energy.add_scaled(&potential.energy, &Rational::ONE);
     }
-    Batch { shared, results: vec![("energy".to_owned(), energy)], ..Batch::default() }
+    Batch { shared, results: vec![(Quantity::Energy.into(), energy)], ..Batch::default() }
 }
 
 /// Names of the frames' components.
-fn groups(arena: &Arena, frames: &Frames) -> Vec<(Quantity, Vec<String>)> {
-    let names = |symbols: &[Expr]| symbols.iter().map(|s| arena.symbol_name(*s)).collect::<Vec<_>>();
+fn groups(arena: &Arena, frames: &Frames) -> Vec<(Quantity, Vec<Symbol>)> {
+    let names = |symbols: &[Expr]| symbols.iter().map(|s| arena.symbol_of(*s)).collect::<Vec<_>>();
     vec![(Quantity::LeftRotation, names(&frames.left)), (Quantity::RightRotation, names(&frames.right))]
 }
 
@@ -174,7 +174,7 @@ fn framed(arena: &mut Arena, frames: &Frames, equations: &Equations, stable: &St
         shared.extend(symbols.iter().copied().zip(angular.iter().map(|p| stable.rewritten(p))));
         let symbols: Vec<Polynomial> = symbols.into_iter().map(Polynomial::atom).collect();
         for (k, entry) in frame.iter().enumerate() {
-            let name = format!("d_{}", arena.symbol_name(*entry));
+            let name = arena.symbol_of(*entry).seen(Aspect::Rate);
             results.push((name, frames.rate(frame, &symbols, k)));
         }
     }

@@ -77,7 +77,7 @@ pub struct Model {
     /// The constants of a trajectory as functions of its conserved momenta.
     pub trajectory: Program,
     /// Components of the affine momentum that are constants of the trajectory while others are state.
-    pub fixed: Vec<String>,
+    pub fixed: Vec<Symbol>,
     /// Closed form of the geodesics; whether it needs `p = 0`.
     pub closed_form: Option<(ClosedForm, bool)>,
     /// `1/alpha`, `1/beta`, `1/mu` of an isotropic model, and the coefficient of `C(3)/3` where there is one.
@@ -170,8 +170,8 @@ pub struct Balance {
 
 /// The two sides of balance laws.
 pub struct BalancedQuantities {
-    /// Name and components of each quantity.
-    pub quantities: Vec<(&'static str, Components)>,
+    /// Each quantity with its components.
+    pub quantities: Vec<(Quantity, Components)>,
     /// Point -> their entries, one quantity after the other.
     pub program: Program,
 }

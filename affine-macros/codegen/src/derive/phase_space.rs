@@ -11,18 +11,6 @@ impl Model {
         self.frame.into()
     }
 
-    /// Stem of the names of that spin's entries.
-    #[must_use]
-    pub fn spin_name(&self) -> &'static str {
-        self.frame.momentum().stem()
-    }
-
-    /// Stem of the names of that velocity's entries.
-    #[must_use]
-    pub fn velocity_name(&self) -> &'static str {
-        self.frame.velocity().stem()
-    }
-
     /// The components of the velocity that geodesics are made of, where these are known in closed form: of an exponential
     /// beside the placement, or of a straight line. And whether they need `p = 0`.
     #[must_use]

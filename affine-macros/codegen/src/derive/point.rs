@@ -112,9 +112,9 @@ impl Body<'_> {
     fn mass(&self, arena: &mut Arena) -> Option<Batch> {
         let mass = self.motion.masses.single()?;
         let reciprocal = arena.pow(mass, -1)?;
-        let mut results = vec![("inverse_mass".into(), Polynomial::normal_form(arena, reciprocal))];
+        let mut results = vec![(Quantity::InverseMass.into(), Polynomial::normal_form(arena, reciprocal))];
         if self.motion.determines_momentum() {
-            results.push(("mass".into(), Polynomial::normal_form(arena, mass)));
+            results.push((Quantity::Mass.into(), Polynomial::normal_form(arena, mass)));
         }
         Some(Batch { results, ..Batch::default() })
     }
@@ -123,9 +123,12 @@ impl Body<'_> {
     fn centre(&self, arena: &mut Arena, x_dot: &[Expr]) -> Option<[Batch; 2]> {
         let (_, shared) = self.motion.masses.velocity(arena)?;
         let (definitions, momentum, _) = self.motion.masses.legendre(arena, x_dot);
-        let results = momentum.into_iter().zip(1..).map(|(p, i): (Polynomial, usize)| (format!("p_{i}"), p));
+        let results = momentum
+            .into_iter()
+            .zip(1..)
+            .map(|(p, i): (Polynomial, usize)| (Quantity::LinearMomentum.at([i]), p));
         let momentum = Batch { shared: definitions, results: results.collect(), ..Batch::default() };
-        let named = |s: &Expr| (arena.symbol_name(*s), Polynomial::atom(*s));
+        let named = |s: &Expr| (arena.symbol_of(*s), Polynomial::atom(*s));
         Some([momentum, Batch { shared, results: x_dot.iter().map(named).collect(), ..Batch::default() }])
     }
 
@@ -133,20 +136,21 @@ impl Body<'_> {
     fn isotropic(&self) -> Option<Batch> {
         let iso = self.motion.polynomial()?.1.isotropic.as_ref()?;
         let named = [
-            ("inverse_alpha", &iso.casimir2),
-            ("inverse_beta", &iso.casimir1_squared),
-            ("inverse_mu", &iso.skew),
+            (Quantity::InverseAlpha, &iso.casimir2),
+            (Quantity::InverseBeta, &iso.casimir1_squared),
+            (Quantity::InverseMu, &iso.skew),
         ];
-        let mut results = named.map(|(name, p)| (name.to_owned(), p.clone())).to_vec();
+        let mut results = named.map(|(name, p)| (name.into(), p.clone())).to_vec();
         if !iso.casimir3.is_zero() {
-            results.push(("casimir3".to_owned(), iso.casimir3.clone()));
+            results.push((Quantity::Casimir3.into(), iso.casimir3.clone()));
         }
         Some(Batch { results, ..Batch::default() })
     }
 
     /// `T_int + m/2 |v|^2` with `v` in the frame of the translation; with two masses `v = x_dot`.
     fn kinetic_energy(&self, arena: &mut Arena, form: &Legendre, v: &[Expr]) -> Batch {
-        let mut energy = Batch { shared: form.shared.clone(), ..result("energy", form.energy.clone()) };
+        let mut energy =
+            Batch { shared: form.shared.clone(), ..result(Quantity::Energy, form.energy.clone()) };
         if self.motion.masses.are_mixed() {
             let (shared, _, of_both) = self.motion.masses.legendre(arena, v);
             join(&mut energy, &of_both, shared);
@@ -168,7 +172,7 @@ impl Body<'_> {
         potential: Option<(Polynomial, Definitions)>,
     ) -> Option<Batch> {
         let (shared, energy) = self.motion.energy(arena, chart)?;
-        let mut batch = Batch { shared, ..result("energy", energy) };
+        let mut batch = Batch { shared, ..result(Quantity::Energy, energy) };
         if let Some((value, shared)) = potential {
             join(&mut batch, &value, shared);
         }
@@ -190,7 +194,8 @@ impl Body<'_> {
         let driving: Option<&Potential> = self.potential.filter(|_| self.forces.driven);
         let (system, _) = self.systems(arena, chart, driving)?.swap_remove(0);
         let Some((_, power)) = system.work else { return Some(None) };
-        let batch = Batch { shared: system.shared, kernels: system.kernels, ..result("power", power) };
+        let batch =
+            Batch { shared: system.shared, kernels: system.kernels, ..result(Quantity::Power, power) };
         Some(Some(batch.pruned(arena)))
     }
 }
@@ -212,12 +217,12 @@ fn join(batch: &mut Batch, value: &Polynomial, shared: Definitions) {
     }
 }
 
-fn result(name: &str, polynomial: Polynomial) -> Batch {
-    Batch { results: vec![(name.to_owned(), polynomial)], ..Batch::default() }
+fn result(of: Quantity, polynomial: Polynomial) -> Batch {
+    Batch { results: vec![(of.into(), polynomial)], ..Batch::default() }
 }
 
 fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Batch {
-    let name = |s: &Expr| arena.symbol_name(*s);
+    let name = |s: &Expr| arena.symbol_of(*s);
     let results = names.0.concat().iter().map(name).zip(values.concat()).collect();
     Batch { results, ..Batch::default() }
 }

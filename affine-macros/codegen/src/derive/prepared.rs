@@ -63,13 +63,13 @@ pub(super) fn summands(sum: &Polynomial) -> Vec<Polynomial> {
 
 /// A program over the fields alone.
 pub(super) fn unbound(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
-    let results = values.enumerate().map(|(k, p)| (format!("value_{}", k + 1), p)).collect();
+    let results = values.enumerate().map(|(k, p)| (Quantity::Value.at([k + 1]), p)).collect();
     let batch = Batch { results, ..Batch::default() };
     fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|_| true))
 }
 
 pub(super) fn coefficient_program(arena: &mut Arena, coefficients: &Constants) -> Program {
-    let results = coefficients.entries.iter().map(|(s, p)| (arena.symbol_name(*s), p.clone())).collect();
+    let results = coefficients.entries.iter().map(|(s, p)| (arena.symbol_of(*s), p.clone())).collect();
     let batch = Batch { results, ..Batch::default() };
     fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|_| true))
 }
@@ -81,7 +81,7 @@ pub(super) fn numeric_blocks(arena: &mut Arena, motion: &Motion, required: bool)
         .numeric_blocks()
         .iter()
         .map(|block| {
-            let name = |s: Expr| arena.symbol_name(s);
+            let name = |s: Expr| arena.symbol_of(s);
             let inverse = upper(block.form.len()).map(|(i, j)| name(block.inverse[i][j])).collect();
             NumericBlock { inverse, basis: block.basis.clone(), ..form_block(arena, &block.form, positive) }
         })

@@ -119,7 +119,7 @@ fn independent_momenta(chart: &Chart) -> Vec<Expr> {
 /// Entries of the affine momentum that a constraint makes linear in others.
 fn dependent(arena: &mut Arena, chart: &Chart) -> Program {
     let results = chart.dependent().into_iter();
-    let results = results.map(|(symbol, value)| (arena.symbol_name(symbol), value));
+    let results = results.map(|(symbol, value)| (arena.symbol_of(symbol), value));
     let batch = Batch { results: results.collect(), ..Batch::default() };
     fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|_| true))
 }
@@ -139,7 +139,7 @@ pub(super) struct Reduced {
     pub(super) equations: Equations,
     pub(super) pieces: Pieces,
     pub(super) trajectory: Program,
-    pub(super) fixed: Vec<String>,
+    pub(super) fixed: Vec<Symbol>,
 }
 
 /// The reduction of several with the shortest equations, its programs, and those of its `pieces`.
@@ -166,11 +166,11 @@ fn shortest_reduction(
     let pieces = pieces(arena, &reduction, &mut constants);
     let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {
-        results: constants.entries.iter().map(|(s, p)| (arena.symbol_name(*s), p.clone())).collect(),
+        results: constants.entries.iter().map(|(s, p)| (arena.symbol_of(*s), p.clone())).collect(),
         ..Batch::default()
     };
     let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
-    let name = |s: &Expr| arena.symbol_name(*s);
+    let name = |s: &Expr| arena.symbol_of(*s);
     let symbol = |s: &Expr| arena.symbol_of(*s);
     let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(symbol).collect())).collect();
     let fixed = reduction.conserved.components.iter().map(name).collect();

@@ -16,7 +16,7 @@ use crate::mechanics::mixed::{self, Factorisation};
 use crate::mechanics::motion::Motion;
 use crate::mechanics::term::Frame;
 use crate::optimise::{Batch, straight_line};
-use crate::symbol::{Aspect, Factorised, Quantity};
+use crate::symbol::{Aspect, Factorised, Quantity, Symbol};
 
 use super::model::{Balance, BalancedQuantities, Metric};
 
@@ -161,10 +161,10 @@ fn inverse(
     Some(Batch { shared, results: numbered(&columns), ..Batch::default() }.pruned(arena))
 }
 
-fn numbered(entries: &[Vec<Polynomial>]) -> Vec<(String, Polynomial)> {
+fn numbered(entries: &[Vec<Polynomial>]) -> Vec<(Symbol, Polynomial)> {
     let name = |(row, values): (usize, &Vec<Polynomial>)| {
         let entry = |(column, value): (usize, &Polynomial)| {
-            (format!("entry_{}_{}", row + 1, column + 1), value.clone())
+            (Quantity::MatrixEntry.at([row + 1, column + 1]), value.clone())
         };
         values.iter().enumerate().map(entry).collect::<Vec<_>>()
     };
@@ -183,7 +183,7 @@ fn acceleration(
     let velocities = system.rates.iter().filter(|(z, _, _)| matches!(z, Coordinate::X(_)));
     let results = velocities
         .enumerate()
-        .map(|(i, (_, _, rate))| (format!("acceleration_{}", i + 1), flow.along(arena, rate)))
+        .map(|(i, (_, _, rate))| (Quantity::Acceleration.at([i + 1]), flow.along(arena, rate)))
         .collect();
     let shared = system.shared.iter().cloned().chain(flow.definitions).collect();
     let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
@@ -202,20 +202,20 @@ fn balance(
 ) -> Balance {
     let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
     inputs.extend(time);
-    let mut program = |results: Vec<(String, Polynomial)>| {
+    let mut program = |results: Vec<(Symbol, Polynomial)>| {
         let (shared, kernels) = (laws.shared.clone(), laws.kernels.clone());
         let batch = Batch { shared, kernels, results }.pruned(arena);
         fuse(&straight_line(arena, &batch, coefficients, &|a| inputs.contains(&a)))
     };
-    let numbered = |(name, entries): (&str, Vec<Polynomial>)| -> Vec<(String, Polynomial)> {
-        entries.into_iter().enumerate().map(|(k, entry)| (format!("{name}_{}", k + 1), entry)).collect()
+    let numbered = |(of, entries): (Quantity, Vec<Polynomial>)| -> Vec<(Symbol, Polynomial)> {
+        entries.into_iter().enumerate().map(|(k, entry)| (of.at([k + 1]), entry)).collect()
     };
     let internal = INTERNAL.iter().zip(&laws.internal);
-    let internal = internal.flat_map(|((name, _), matrix)| numbered((name, matrix.concat()))).collect();
+    let internal = internal.flat_map(|((of, _), matrix)| numbered((*of, matrix.concat()))).collect();
     let centre = CENTRE.iter().zip(&laws.centre);
-    let centre: Vec<_> = centre.flat_map(|((name, _), vector)| numbered((name, vector.clone()))).collect();
-    let mut balanced = |quantities: &[(&'static str, Frame)], results| BalancedQuantities {
-        quantities: quantities.iter().map(|(name, frame)| (*name, (*frame).into())).collect(),
+    let centre: Vec<_> = centre.flat_map(|((of, _), vector)| numbered((*of, vector.clone()))).collect();
+    let mut balanced = |quantities: &[(Quantity, Frame)], results| BalancedQuantities {
+        quantities: quantities.iter().map(|(of, frame)| (*of, (*frame).into())).collect(),
         program: program(results),
     };
     Balance {

@@ -10,15 +10,16 @@ use crate::mechanics::potential::Potential;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::second_order::second_order;
 use crate::optimise::straight_line;
+use crate::symbol::Symbol;
 
 use super::batch::batch;
 
 /// `q' = V(p)`, `p' = F(t, q)` over the reduced state.
 pub struct Halves {
     /// Names of the positions.
-    pub positions: Vec<String>,
+    pub positions: Vec<Symbol>,
     /// Names of the momenta.
-    pub momenta: Vec<String>,
+    pub momenta: Vec<Symbol>,
     /// Momenta -> velocities.
     pub velocity: Program,
     /// Time and positions -> forces.
@@ -38,9 +39,9 @@ impl Halves {
         let mut varying: Vec<Expr> =
             reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
         varying.extend(potential.and_then(Potential::time));
-        let names = |arena: &Arena, system: &System| -> Vec<String> {
+        let names = |arena: &Arena, system: &System| -> Vec<Symbol> {
             let symbols = system.rates.iter().map(|(_, symbol, _)| *symbol);
-            symbols.map(|s| arena.symbol_name(s)).collect()
+            symbols.map(|s| arena.symbol_of(s)).collect()
         };
         let (positions, momenta) = (names(arena, &halves.positions), names(arena, &halves.momenta));
         let [velocity, force] = [&halves.positions, &halves.momenta].map(|system| {

@@ -9,7 +9,7 @@ use crate::mechanics::potential::Potential;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::splitting::{Flow, Principal, splitting};
 use crate::optimise::{Batch, straight_line};
-use crate::symbol::Quantity;
+use crate::symbol::{Aspect, Quantity, Symbol};
 
 use super::batch::batch;
 use super::dilatation::DilatationalMotion;
@@ -30,9 +30,9 @@ pub struct PrincipalProgram {
     /// Its upper triangle.
     pub program: Program,
     /// Names of the eigenvalues.
-    pub values: Vec<String>,
+    pub values: Vec<Symbol>,
     /// Names of the eigenvectors' components.
-    pub vectors: Vec<Vec<String>>,
+    pub vectors: Vec<Vec<Symbol>>,
 }
 
 /// The program of a flow.
@@ -40,23 +40,23 @@ pub enum FlowProgram {
     /// State components and their constant rates.
     Shift {
         /// Names of the components that move at constant rates.
-        moved: Vec<String>,
+        moved: Vec<Symbol>,
         /// Computes their rates.
         program: Program,
     },
     /// State components and their rises over the time `h`.
     Rise {
         /// Names of the components that rise.
-        moved: Vec<String>,
+        moved: Vec<Symbol>,
         /// Computes their rises.
         program: Program,
     },
     /// An exponential on one side of the placement.
     Exponential {
         /// Components of the placement.
-        placement: Vec<Vec<String>>,
+        placement: Vec<Vec<Symbol>>,
         /// Names of the entries of the affine momentum, where it turns along; under a constraint some are not in the state.
-        momentum: Option<Vec<Vec<String>>>,
+        momentum: Option<Vec<Vec<Symbol>>>,
         /// Does the exponential stand on the right?
         right: bool,
         /// The generator, row after row, and the entries of the momentum that turns.
@@ -65,9 +65,9 @@ pub enum FlowProgram {
     /// The dilatation along its closed form.
     Dilatation {
         /// Components of the placement.
-        placement: Vec<Vec<String>>,
+        placement: Vec<Vec<Symbol>>,
         /// Components of the affine momentum.
-        momentum: Vec<Vec<String>>,
+        momentum: Vec<Vec<Symbol>>,
         /// Its closed form.
         motion: DilatationalMotion,
         /// What the closed form reads, and the diagonal of the affine spin.
@@ -120,11 +120,11 @@ fn written(
     varying: &[Expr],
     constants: &mut Constants,
 ) -> FlowProgram {
-    let name = |arena: &Arena, s: Expr| arena.symbol_name(s);
+    let name = |arena: &Arena, s: Expr| arena.symbol_of(s);
     let mut program = |arena: &mut Arena, batch: &Batch| {
         fuse(&straight_line(arena, batch, constants, &|atom| varying.contains(&atom)))
     };
-    let table = |arena: &Arena, symbols: &[Expr]| -> Vec<Vec<String>> {
+    let table = |arena: &Arena, symbols: &[Expr]| -> Vec<Vec<Symbol>> {
         let rows = symbols.chunks(reduction.chart.dim);
         rows.map(|row| row.iter().map(|s| name(arena, *s)).collect()).collect()
     };
@@ -148,9 +148,9 @@ fn written(
         }
         Flow::Exponential { shared, generator, right, turns_momentum } => {
             let results = generator.iter().enumerate().flat_map(|(a, row)| {
-                row.iter().enumerate().map(move |(b, y)| (format!("generator_{}{}", a + 1, b + 1), y.clone()))
+                row.iter().enumerate().map(move |(b, y)| (Quantity::Generator.at([a + 1, b + 1]), y.clone()))
             });
-            let mut results: Vec<(String, Polynomial)> = results.collect();
+            let mut results: Vec<(Symbol, Polynomial)> = results.collect();
             if *turns_momentum {
                 let dependent = reduction.chart.dependent();
                 let value = |s: Expr| {
@@ -158,7 +158,7 @@ fn written(
                 };
                 let entries = reduction.chart.m.0.concat().into_iter();
                 results.extend(entries.map(|s| {
-                    (format!("turned_{}", name(arena, s)), value(s).unwrap_or_else(|| Polynomial::atom(s)))
+                    (name(arena, s).seen(Aspect::Turned), value(s).unwrap_or_else(|| Polynomial::atom(s)))
                 }));
             }
             let (placement, momentum) = (placement(arena), turns_momentum.then(|| momentum(arena)));
@@ -168,7 +168,7 @@ fn written(
         Flow::Dilatation { separation, spin } => {
             let mut batch = separation.batch();
             let entries = spin.iter().enumerate();
-            batch.results.extend(entries.map(|(a, entry)| (format!("spin_{}", a + 1), entry.clone())));
+            batch.results.extend(entries.map(|(a, entry)| (Quantity::Spin.at([a + 1]), entry.clone())));
             let program = program(arena, &batch);
             let (placement, momentum) = (placement(arena), momentum(arena));
             FlowProgram::Dilatation { placement, momentum, motion: (&separation.slope).into(), program }
@@ -180,7 +180,7 @@ fn principal(arena: &mut Arena, form: &Principal) -> PrincipalProgram {
     let size = form.values.len();
     let upper = (0..size).flat_map(|i| (i..size).map(move |j| form.form[i][j].clone()));
     let program = unbound(arena, upper);
-    let names = |list: &[Expr]| list.iter().map(|s| arena.symbol_name(*s)).collect();
+    let names = |list: &[Expr]| list.iter().map(|s| arena.symbol_of(*s)).collect();
     let vectors = form.vectors.iter().map(|vector| names(vector)).collect();
     PrincipalProgram { program, values: names(&form.values), vectors }
 }

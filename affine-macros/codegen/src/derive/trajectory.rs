@@ -6,6 +6,7 @@ use super::model::Model;
 use super::symbols::VolumeMeasure;
 use crate::mechanics::charts::{Linear, Momentum};
 use crate::mechanics::reduction::Commuting;
+use crate::symbol::{Quantity, Symbol};
 
 /// What a trajectory of the reduced equations has.
 pub struct Trajectory {
@@ -25,12 +26,12 @@ pub struct Trajectory {
     pub drift: bool,
     /// The affine momentum.
     pub momentum: AffineMomentum,
-    /// Stem of the names of its entries.
-    pub momentum_name: &'static str,
+    /// The quantity that its entries are components of.
+    pub momentum_entries: Quantity,
     /// All of it is a constant.
     pub conserved: bool,
     /// Components of it that are constants while others are state.
-    pub fixed: Vec<String>,
+    pub fixed: Vec<Symbol>,
     /// Side of the rotation that commutes with the rest of the motion.
     pub rotation: Option<Components>,
     /// The motion of the dilatation, where it is known in closed form.
@@ -80,7 +81,7 @@ impl Trajectory {
             comoving: pushed && linear == Some(Linear::Body),
             drift,
             momentum: reduction.chart.momentum.into(),
-            momentum_name: reduction.chart.momentum.quantity().stem(),
+            momentum_entries: reduction.chart.momentum.quantity(),
             conserved: reduction.conserved.affine,
             fixed: model.fixed.clone(),
             rotation,

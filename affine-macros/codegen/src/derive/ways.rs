@@ -149,7 +149,7 @@ impl Draft {
     fn new(arena: &mut Arena, potential: &Potential, chart: &Chart, writing: Writing) -> Self {
         let load = potential.load_in(arena, chart, writing);
         let results =
-            load.forces.into_iter().enumerate().map(|(k, (_, force))| (format!("force_{k}"), force));
+            load.forces.into_iter().enumerate().map(|(k, (_, force))| (Quantity::Value.at([k]), force));
         let batch = Batch { shared: load.shared, kernels: load.kernels, results: results.collect() };
         let batch = batch.pruned(arena);
         let mut inputs: Vec<Expr> = [chart.phi.0.concat(), chart.x.clone()].concat();

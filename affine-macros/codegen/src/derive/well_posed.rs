@@ -2,6 +2,7 @@
 
 use crate::algebra::Rational;
 use crate::ir::Program;
+use crate::symbol::Symbol;
 
 /// A quantity that must not vanish once the fields have values.
 pub struct Condition {
@@ -40,7 +41,7 @@ pub struct NumericBlock {
     /// Computes the upper triangle, row after row, then the terms whose sizes make the threshold.
     pub program: Program,
     /// Names of the entries of the inverse, upper triangle, row after row.
-    pub inverse: Vec<String>,
+    pub inverse: Vec<Symbol>,
     /// The velocities that it is written in: row-major places and weights.
     pub basis: Vec<Vec<(usize, Rational)>>,
     /// Number of rows of the block.

@@ -100,7 +100,7 @@ macro_rules! none {
     };
 }
 
-none!(usize, String);
+none!(usize, String, Symbol);
 
 /// The fields that are written down; after the semicolon those that are not.
 macro_rules! written {

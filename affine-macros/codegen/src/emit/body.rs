@@ -10,6 +10,7 @@ use crate::ir::{Op, Program, Value};
 
 use super::kernel;
 use super::number::{Number, name_of};
+use super::pattern::ident;
 use super::scope::Scope;
 
 /// A program as statements and result expressions.
@@ -126,7 +127,7 @@ impl Writer<'_> {
             }
             _ => return,
         };
-        let name = format_ident!("{name}");
+        let name = ident(&name);
         let (expression, _) = self.expression(value);
         self.lets.extend(quote!(let #name = #expression;));
         self.bound.insert(value, name);

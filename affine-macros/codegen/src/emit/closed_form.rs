@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::derive::{Components, Trajectory};
+use crate::symbol::Quantity;
 
 use super::body::Body;
 use super::context::Context;
@@ -27,7 +28,7 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
     let drift = match (&context.model.mass, drifts) {
         (Some(program), true) => {
             let p = quote!(#rt::Phase::p(point));
-            let (lets, drift) = context.times(p, (program, "inverse_mass"), Number::Double);
+            let (lets, drift) = context.times(p, (program, Quantity::InverseMass), Number::Double);
             quote!(#lets let drift = #drift;)
         }
         _ => quote!(let drift = #rt::Vector::<#n>::zeros();),

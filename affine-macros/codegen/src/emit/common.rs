@@ -1,23 +1,23 @@
 //! What several methods compute alike, in a function: a mass matrix is factorised in one place.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
 use crate::derive::Model;
 use crate::ir::Program;
 use crate::ir::common::Common;
-use crate::symbol::Quantity;
+use crate::symbol::{Quantity, Symbol};
 
 use super::body::Body;
 use super::names::Names;
 use super::number::number;
-use super::pattern::{components, identifiers, pattern};
+use super::pattern::{entries, ident, pattern, table};
 
 /// The function that gives the velocity of a momentum, and after it the intermediate results that other methods go on with.
 pub(super) struct Function {
     common: Common,
-    /// The matrices that it reads, with the names of their entries, row by row.
-    matrices: Vec<(Ident, Vec<Vec<String>>)>,
+    /// The matrices that it reads, with their entries, row by row.
+    matrices: Vec<(Ident, Vec<Vec<Symbol>>)>,
 }
 
 impl Function {
@@ -33,7 +33,7 @@ impl Function {
         let matrices = [Quantity::Placement, model.frame.momentum()]
             .into_iter()
             .filter(is_read)
-            .map(|matrix| (format_ident!("{}", matrix.stem()), components(matrix.stem(), model.dim)))
+            .map(|matrix| (ident(&matrix.into()), entries(matrix, model.dim)))
             .collect();
         Some(Self { common, matrices })
     }
@@ -41,11 +41,11 @@ impl Function {
     /// The call by a program, and what is left of it.
     pub(super) fn called_by(&self, program: &Program) -> Option<(TokenStream, Program)> {
         let rest = self.common.taken_from(program)?;
-        let results: Vec<String> = self.common.program.outputs.iter().map(|(name, _)| name.clone()).collect();
+        let results: Vec<Symbol> = self.common.program.results().cloned().collect();
         let results = pattern(&results, &rest.inputs());
         let numbers = self.numbers();
         let numbers = (!numbers.is_empty()).then(|| quote!([#(#numbers),*]));
-        let arguments = self.matrices.iter().map(|(_, rows)| entries(rows)).chain(numbers);
+        let arguments = self.matrices.iter().map(|(_, rows)| table(rows)).chain(numbers);
         Some((quote!(let #results = velocity_of_momentum(#(#arguments),*);), rest))
     }
 
@@ -59,7 +59,7 @@ impl Function {
         let (rt, t, read) = (&names.rt, &names.scalar, self.numbers());
         let (count, given) = (number(read.len()), number(results.len()));
         let bound = self.matrices.iter().map(|(matrix, rows)| {
-            let rows = entries(rows);
+            let rows = table(rows);
             quote!(let #rows = #matrix;)
         });
         let matrices = self.matrices.iter().map(|(matrix, rows)| {
@@ -82,18 +82,8 @@ impl Function {
 
     /// What it reads beside matrices.
     fn numbers(&self) -> Vec<Ident> {
-        let entries: Vec<&String> =
+        let entries: Vec<&Symbol> =
             self.matrices.iter().flat_map(|(_, rows)| rows.iter().flatten()).collect();
-        let inputs = self.common.program.inputs().into_iter();
-        identifiers(&inputs.filter(|name| !entries.contains(&name)).collect::<Vec<_>>())
+        self.common.program.symbols().filter(|symbol| !entries.contains(symbol)).map(ident).collect()
     }
-}
-
-/// A matrix or the pattern of one.
-fn entries(rows: &[Vec<String>]) -> TokenStream {
-    let rows = rows.iter().map(|row| {
-        let row = identifiers(row);
-        quote!([#(#row),*])
-    });
-    quote!([#(#rows),*])
 }

@@ -5,11 +5,12 @@ use quote::{format_ident, quote};
 
 use crate::derive::{Components, VelocitySide};
 use crate::ir::Program;
+use crate::symbol::Quantity;
 
 use super::body::Body;
 use super::context::Context;
 use super::number::Number;
-use super::pattern::{components, pattern};
+use super::pattern::{entries, table_pattern};
 use super::point::{affine_velocity, placement, wrapper};
 use super::{mixed, quantities, refused};
 
@@ -168,16 +169,15 @@ fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
 /// `O -> X` in the model's frame.
 fn legendre(context: &Context, program: &Program) -> TokenStream {
     let rt = &context.names.rt;
-    let components = components(context.model.velocity_name(), context.model.dim);
-    let used = program.inputs();
-    let rows = components.iter().map(|row| pattern(row, &used));
+    let components = entries(context.model.frame.velocity(), context.model.dim);
+    let components = table_pattern(&components, &program.inputs());
     let Body { lets, results } = context.double(program);
     let rows_out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
     let velocity = affine_velocity(context, &quote!(&phi));
     let wrapper = wrapper(context, context.model.spin());
     let placement = placement(context, program, &quote!(&phi));
     quote! {
-        let [#(#rows),*] = #rt::rows(&#velocity);
+        let #components = #rt::rows(&#velocity);
         #placement
         #lets
         let spin = #wrapper(#rt::matrix([#(#rows_out),*]));
@@ -194,6 +194,6 @@ fn momentum_of_centre(context: &Context) -> TokenStream {
         }
         _ => (TokenStream::new(), quote!(x_dot)),
     };
-    let (lets, p) = context.times(velocity, (program, "mass"), Number::Double);
+    let (lets, p) = context.times(velocity, (program, Quantity::Mass), Number::Double);
     quote!(#first #lets let p = #p;)
 }

@@ -12,7 +12,7 @@ use super::body::{Body, body};
 use super::common::Function;
 use super::names::Names;
 use super::number::{Number, number};
-use super::pattern::identifiers;
+use super::pattern::ident;
 use super::scope::Scope;
 
 /// What every emitter reads.
@@ -61,7 +61,7 @@ impl Context<'_> {
     pub(super) fn dependent(&self, equations: &Equations) -> TokenStream {
         let program = &equations.dependent;
         let Body { lets, results } = self.generic(program);
-        let names = identifiers(&program.outputs.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>());
+        let names: Vec<Ident> = program.results().map(ident).collect();
         // A result with a step of its own is bound to its name already.
         let lets_of =
             names.iter().zip(&results).filter(|(name, result)| name.to_string() != result.to_string());
@@ -129,7 +129,7 @@ impl Context<'_> {
     /// A program over a number, whose inputs are variables of the same name.
     pub(super) fn written(&self, program: &Program, number: Number) -> Body {
         let input = |symbol: &Symbol| {
-            let name = format_ident!("{}", symbol.to_string());
+            let name = ident(symbol);
             quote!(#name)
         };
         let rebased = self.model.metrics.is_some();
@@ -143,7 +143,7 @@ impl Context<'_> {
         let (call, rest) = called.unzip();
         let Body { lets, results } = self.written(rest.as_ref().unwrap_or(program), number);
         let coefficients = program.symbols().filter_map(|symbol| {
-            let (index, name) = (coefficient_index(symbol)?, format_ident!("{}", symbol.to_string()));
+            let (index, name) = (coefficient_index(symbol)?, ident(symbol));
             let value = number.of_double(quote!(self.coefficients[#index]));
             Some(quote!(let #name = #value;))
         });
@@ -167,17 +167,18 @@ impl Context<'_> {
     pub(super) fn times(
         &self,
         value: TokenStream,
-        (program, factor): (&Program, &str),
+        (program, factor): (&Program, Quantity),
         number: Number,
     ) -> (TokenStream, TokenStream) {
-        let program = program.only(factor);
+        let factor = factor.into();
+        let program = program.only(&factor);
         if let [Op::Constant(one)] = program.steps.as_slice()
             && one.is_one()
         {
             return (TokenStream::new(), value);
         }
         let body = self.body(&program, number);
-        let (lets, name, result) = (&body.lets, format_ident!("{factor}"), body.result());
+        let (lets, name, result) = (&body.lets, ident(&factor), body.result());
         (quote!(#lets let #name = #result;), quote!(#value * #name))
     }
 

@@ -10,7 +10,6 @@ use super::context::Context;
 use super::domain;
 use super::groups::groups;
 use super::number::number;
-use super::pattern::identifiers;
 
 /// Documentation of the implementation, line by line.
 pub(super) fn docs(context: &Context) -> Vec<String> {
@@ -183,7 +182,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
             ],
             &quote!(&[#rt::Conserved]),
             |names| {
-                let names = identifiers(names);
+                let names = names.iter().map(|name| format_ident!("{name}"));
                 quote!(&[#(#rt::Conserved::#names),*])
             },
         ),

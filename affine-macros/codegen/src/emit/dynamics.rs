@@ -1,7 +1,7 @@
 //! Energies, velocities and Hamilton's equations.
 
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::quote;
 
 use crate::derive::{Components, VelocitySide};
 use crate::ir::Program;
@@ -11,7 +11,7 @@ use super::body::Body;
 use super::context::Context;
 use super::mixed;
 use super::number::Number;
-use super::pattern::{components, identifiers, pattern, time};
+use super::pattern::{components, entries, identifiers, pattern, table, table_pattern, time};
 use super::point::{
     affine_velocity, at_placement, bind_components, bind_point, own_spin, placement, wrapper,
 };
@@ -30,9 +30,8 @@ pub(super) fn methods(context: &Context) -> TokenStream {
 fn velocity(context: &Context) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
     let spin = own_spin(context);
-    let names = components(context.model.spin_name(), context.model.dim);
-    let used = context.model.velocity.inputs();
-    let rows = names.iter().map(|row| pattern(row, &used));
+    let entries = entries(context.model.frame.momentum(), context.model.dim);
+    let entries = table_pattern(&entries, &context.model.velocity.inputs());
     let Body { lets, results } = context.generic(&context.model.velocity);
     let out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
     let velocity = quote!(#rt::matrix([#(#out),*]));
@@ -49,7 +48,7 @@ fn velocity(context: &Context) -> TokenStream {
                 Components::Comoving => quote!(#rt::Phase::phi(point) * #rt::Phase::p_hat(point).0.0),
                 _ => quote!(#rt::Phase::p(point)),
             };
-            context.times(momentum, (program, "inverse_mass"), Number::Generic(t))
+            context.times(momentum, (program, Quantity::InverseMass), Number::Generic(t))
         }
         _ => (TokenStream::new(), quote!(#rt::Vector::<#n, #t>::zeros())),
     };
@@ -63,7 +62,7 @@ fn velocity(context: &Context) -> TokenStream {
     quote! {
         fn velocity<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
             #inward
-            let [#(#rows),*] = #rt::rows(&#spin);
+            let #entries = #rt::rows(&#spin);
             #placement
             #lets
             let phi_dot = #phi_dot;
@@ -87,8 +86,7 @@ fn kinetic_energy(context: &Context) -> TokenStream {
         };
     };
     let used = program.inputs();
-    let names = components(context.model.velocity_name(), context.model.dim);
-    let rows = names.iter().map(|row| pattern(row, &used));
+    let entries = table_pattern(&entries(context.model.frame.velocity(), context.model.dim), &used);
     let o = affine_velocity(context, &quote!(phi));
     let placement = placement(context, program, &quote!(phi));
     let reads_phi = context.model.spin() != Components::TwoPoint
@@ -97,10 +95,9 @@ fn kinetic_energy(context: &Context) -> TokenStream {
     let phi = if reads_phi { quote!(phi) } else { quote!(_phi) };
     let centre = match context.model.centre() {
         None => TokenStream::new(),
-        Some(components) => {
-            let names: Vec<String> = (1..=context.model.dim).map(|i| format!("v_{i}")).collect();
-            let v = pattern(&names, &used);
-            let value = match components {
+        Some(frame) => {
+            let v = pattern(&components(Quantity::GivenVelocity, context.model.dim), &used);
+            let value = match frame {
                 Components::Comoving => quote!((#rt::inverse(phi) * velocity.x_dot)),
                 _ => quote!(velocity.x_dot),
             };
@@ -124,7 +121,7 @@ fn kinetic_energy(context: &Context) -> TokenStream {
         ) -> #t {
             #inward
             let phi_dot = velocity.phi_dot;
-            let [#(#rows),*] = #rt::rows(&#o);
+            let #entries = #rt::rows(&#o);
             #placement
             #centre
             #lets
@@ -178,32 +175,29 @@ fn energy(context: &Context, program: &Program) -> TokenStream {
 fn flat(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let n = context.model.dim;
-    let all = context.model.full.names();
+    let all = context.model.full.symbols();
     let names = identifiers(&all);
-    let bound = bind_components(context, &all.iter().map(String::as_str).collect::<Vec<_>>());
-    let rows = |stem: &str| {
-        let rows = components(stem, n).into_iter().map(|row| {
-            let row = identifiers(&row);
-            quote!([#(#row),*])
-        });
-        quote!(#rt::matrix([#(#rows),*]))
+    let bound = bind_components(context, &all);
+    let rows = |of: Quantity| {
+        let rows = table(&entries(of, n));
+        quote!(#rt::matrix(#rows))
     };
-    let vector = |stem: &str| {
-        let names = (1..=n).map(|i| format_ident!("{stem}_{i}"));
+    let vector = |of: Quantity| {
+        let names = identifiers(&components(of, n));
         quote!(#rt::vector([#(#names),*]))
     };
-    let (phi, own, wrap) =
-        (rows("phi"), rows(context.model.spin_name()), wrapper(context, context.model.spin()));
+    let own = rows(context.model.frame.momentum());
+    let (phi, wrap) = (rows(Quantity::Placement), wrapper(context, context.model.spin()));
     let dependent = context.dependent(&context.model.full);
     let comoving = context.model.full.has(Quantity::ComovingLinearMomentum);
     let centre = match (context.model.translation, comoving) {
         (None, _) => quote!(let centre = #rt::Pinned;),
         (Some(_), false) => {
-            let (x, p) = (vector("x"), vector("p"));
+            let (x, p) = (vector(Quantity::Position), vector(Quantity::LinearMomentum));
             quote!(let centre = #rt::Centre { x: #x, p: #p };)
         }
         (Some(_), true) => {
-            let (x, p_hat) = (vector("x"), vector("p_hat"));
+            let (x, p_hat) = (vector(Quantity::Position), vector(Quantity::ComovingLinearMomentum));
             quote!(let centre = #rt::Centre { x: #x, p: #rt::inverse(&phi).tr_mul(&#p_hat) };)
         }
     };
@@ -234,7 +228,7 @@ pub(super) fn has_multiplier(context: &Context) -> bool {
 fn hamilton_equations(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.full.program;
-    let bound = pattern(&context.model.full.names(), &program.inputs());
+    let bound = pattern(&context.model.full.symbols(), &program.inputs());
     let time = time(program);
     let Body { lets, results } = context.generic(program);
     let inline = context.inline();

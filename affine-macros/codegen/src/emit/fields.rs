@@ -8,6 +8,7 @@ use crate::symbol::Symbol;
 
 use super::body::{Body, body};
 use super::number::{Number, number};
+use super::pattern::ident;
 use super::scope::Scope;
 
 /// The local variable of a field of matrix type.
@@ -29,7 +30,7 @@ fn read(symbol: &Symbol) -> TokenStream {
         Symbol::Entry(field, row, column) => entry(matrix_name(field), *row, *column),
         Symbol::Prepared(matrix, row, column) => entry(matrix_name(matrix), *row, *column),
         known => {
-            let name = format_ident!("{}", known.to_string());
+            let name = ident(known);
             quote!(#name)
         }
     }

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 
+use super::pattern::ident;
 use super::scope::Scope;
 use crate::algebra::kernel::{Asked, Callee, Group};
 use crate::symbol::Symbol;
@@ -82,7 +83,7 @@ pub(super) fn bound(group: &Group<Symbol>, read: &[&Symbol]) -> TokenStream {
     }
     written(group, |symbol| {
         if is_read(symbol) {
-            let name = format_ident!("{}", symbol.to_string());
+            let name = ident(symbol);
             quote!(#name)
         } else {
             quote!(_)

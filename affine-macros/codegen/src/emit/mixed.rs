@@ -4,18 +4,18 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::ir::Program;
+use crate::symbol::Quantity;
 
 use super::body::Body;
 use super::context::Context;
 use super::number::number;
-use super::pattern::pattern;
+use super::pattern::{components, pattern};
 use super::point::placement;
 
 /// A statement that binds the components of a vector that a program reads.
-fn vector(context: &Context, program: &Program, stem: &str, value: &TokenStream) -> TokenStream {
+fn vector(context: &Context, program: &Program, of: Quantity, value: &TokenStream) -> TokenStream {
     let rt = &context.names.rt;
-    let names: Vec<String> = (1..=context.model.dim).map(|i| format!("{stem}_{i}")).collect();
-    let bound = pattern(&names, &program.inputs());
+    let bound = pattern(&components(of, context.model.dim), &program.inputs());
     quote!(let #bound = #rt::components(&#value);)
 }
 
@@ -24,7 +24,7 @@ pub(super) fn velocity_of_centre(context: &Context) -> (TokenStream, TokenStream
     let Some(masses) = &context.model.mixed_masses else { return Default::default() };
     let (rt, program) = (&context.names.rt, &masses.velocity);
     let placement = placement(context, program, &quote!(#rt::Phase::phi(point)));
-    let p = vector(context, program, "p", &quote!(#rt::Phase::p(point)));
+    let p = vector(context, program, Quantity::LinearMomentum, &quote!(#rt::Phase::p(point)));
     let Body { lets, results } = context.generic(program);
     (quote!(#placement #p #lets), quote!(#rt::vector([#(#results),*])))
 }
@@ -34,7 +34,7 @@ pub(super) fn momentum_of_centre(context: &Context) -> TokenStream {
     let Some(masses) = &context.model.mixed_masses else { return TokenStream::new() };
     let (rt, program) = (&context.names.rt, &masses.momentum);
     let placement = placement(context, program, &quote!(&phi));
-    let velocity = vector(context, program, "x_dot", &quote!(x_dot));
+    let velocity = vector(context, program, Quantity::CentreVelocity, &quote!(x_dot));
     let Body { lets, results } = context.double(program);
     quote!(#placement #velocity #lets let p = #rt::vector([#(#results),*]);)
 }

@@ -10,7 +10,7 @@ use crate::ir::packed::Packed;
 
 use super::context::{Context, coefficient_index};
 use super::number::number;
-use super::pattern::{identifiers, time};
+use super::pattern::{ident, identifiers, time};
 use super::trajectory;
 
 /// The implementation of the capability.
@@ -48,8 +48,7 @@ pub(super) fn capability(context: &Context) -> TokenStream {
 /// `packed` and `unpacked`.
 fn change_of_storage(context: &Context, packed: &Packed) -> TokenStream {
     let rt = &context.names.rt;
-    let names: Vec<String> = context.model.reduced.names();
-    let all = identifiers(&names);
+    let all = identifiers(&context.model.reduced.symbols());
     let lanes: Vec<Option<usize>> = packed.state.iter().flatten().copied().collect();
     let filled = lanes.iter().map(|lane| match lane {
         Some(component) => {
@@ -87,7 +86,7 @@ fn equations(context: &Context, packed: &Packed) -> TokenStream {
     let used = program.inputs();
     let (read, constants) = trajectory::coefficients(context, &used);
     let coefficients = program.symbols().filter_map(|symbol| {
-        let (index, name) = (coefficient_index(symbol)?, quote::format_ident!("{}", symbol.to_string()));
+        let (index, name) = (coefficient_index(symbol)?, ident(symbol));
         Some(quote!(let #name = self.coefficients[#index];))
     });
     let clock = time(&program);

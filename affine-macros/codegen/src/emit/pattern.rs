@@ -1,41 +1,62 @@
-//! Names of components, and patterns that bind those of them that are read.
+//! Variables of symbols, and patterns that bind those that are read.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::derive::reads_time;
 use crate::ir::Program;
+use crate::symbol::{Quantity, Symbol};
 
-/// Is a name among others?
-pub(super) fn contains(names: &[impl AsRef<str>], name: &str) -> bool {
-    names.iter().any(|known| known.as_ref() == name)
+/// The variable of a symbol.
+pub(super) fn ident(symbol: &Symbol) -> Ident {
+    format_ident!("{}", symbol.to_string())
 }
 
-/// Does a program with these inputs read any of some names?
-pub(super) fn reads(used: &[impl AsRef<str>], names: &[String]) -> bool {
-    names.iter().any(|name| contains(used, name))
+/// The variables of symbols.
+pub(super) fn identifiers(symbols: &[Symbol]) -> Vec<Ident> {
+    symbols.iter().map(ident).collect()
 }
 
-/// Pattern that binds the components that `used` reads, in order.
-pub(super) fn pattern(components: &[String], used: &[impl AsRef<str>]) -> TokenStream {
-    let bind = components.iter().map(|name| {
-        if contains(used, name) {
-            let name = format_ident!("{name}");
+/// Is any of some symbols used?
+pub(super) fn reads(used: &[Symbol], symbols: &[Symbol]) -> bool {
+    symbols.iter().any(|symbol| used.contains(symbol))
+}
+
+/// Pattern that binds the components that are used, in order.
+pub(super) fn pattern(components: &[Symbol], used: &[Symbol]) -> TokenStream {
+    let bind = components.iter().map(|symbol| match used.contains(symbol) {
+        true => {
+            let name = ident(symbol);
             quote!(#name)
-        } else {
-            quote!(_)
         }
+        false => quote!(_),
     });
     quote!([#(#bind),*])
 }
 
-pub(super) fn identifiers(names: &[String]) -> Vec<Ident> {
-    names.iter().map(|name| format_ident!("{name}")).collect()
+/// The same of a matrix, row by row.
+pub(super) fn table_pattern(rows: &[Vec<Symbol>], used: &[Symbol]) -> TokenStream {
+    let rows = rows.iter().map(|row| pattern(row, used));
+    quote!([#(#rows),*])
 }
 
-/// Names of the entries of a matrix, row by row.
-pub(super) fn components(stem: &str, n: usize) -> Vec<Vec<String>> {
-    (1..=n).map(|i| (1..=n).map(|j| format!("{stem}_{i}{j}")).collect()).collect()
+/// A matrix as an expression, or as a pattern that binds all of it.
+pub(super) fn table(rows: &[Vec<Symbol>]) -> TokenStream {
+    let rows = rows.iter().map(|row| {
+        let row = identifiers(row);
+        quote!([#(#row),*])
+    });
+    quote!([#(#rows),*])
+}
+
+/// The components of a vector.
+pub(super) fn components(of: Quantity, n: usize) -> Vec<Symbol> {
+    (1..=n).map(|i| of.at([i])).collect()
+}
+
+/// The entries of a matrix, row by row.
+pub(super) fn entries(of: Quantity, n: usize) -> Vec<Vec<Symbol>> {
+    (1..=n).map(|i| (1..=n).map(|j| of.at([i, j])).collect()).collect()
 }
 
 /// Name of the time as a parameter: an idle one where the program does not read it.

@@ -1,14 +1,14 @@
 //! A phase point in emitted code: its components bound to names, its matrices in the words of the runtime.
 
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::quote;
 
 use crate::derive::{Components, VolumeMeasure};
 use crate::ir::Program;
 use crate::symbol::{Quantity, Symbol};
 
 use super::context::Context;
-use super::pattern::{components, contains, pattern, reads};
+use super::pattern::{components, entries, ident, pattern, reads, table_pattern};
 
 /// The model's own affine spin of `point`, as a matrix.
 pub(super) fn own_spin(context: &Context) -> TokenStream {
@@ -60,13 +60,12 @@ pub(super) fn bind_point(context: &Context, program: &Program) -> TokenStream {
 }
 
 /// `let` statements that bind these components of `point`.
-pub(super) fn bind_components(context: &Context, used: &[impl AsRef<str>]) -> TokenStream {
+pub(super) fn bind_components(context: &Context, used: &[Symbol]) -> TokenStream {
     let rt = &context.names.rt;
     let spin = own_spin(context);
     let mut lets = TokenStream::new();
     for (group, symbols) in &context.model.full.groups {
-        let names: Vec<String> = symbols.iter().map(Symbol::to_string).collect();
-        if !reads(used, &names) {
+        if !reads(used, symbols) {
             continue;
         }
         let value = match *group {
@@ -76,7 +75,7 @@ pub(super) fn bind_components(context: &Context, used: &[impl AsRef<str>]) -> To
             Quantity::ComovingLinearMomentum => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
             _ => quote!(#rt::rows(&#spin)),
         };
-        lets.extend(bind_group(context, *group, &names, used, &value));
+        lets.extend(bind_group(context, *group, symbols, used, &value));
     }
     lets
 }
@@ -85,33 +84,31 @@ pub(super) fn bind_components(context: &Context, used: &[impl AsRef<str>]) -> To
 fn bind_group(
     context: &Context,
     group: Quantity,
-    names: &[String],
-    used: &[impl AsRef<str>],
+    symbols: &[Symbol],
+    used: &[Symbol],
     value: &TokenStream,
 ) -> TokenStream {
-    let stem = match group {
+    let bound = match group {
         Quantity::Position | Quantity::LinearMomentum | Quantity::ComovingLinearMomentum => {
-            let bound = pattern(names, used);
-            return quote!(let #bound = #value;);
+            pattern(symbols, used)
         }
-        Quantity::Placement => "phi",
-        _ => context.model.spin_name(),
+        _ => {
+            let used: Vec<Symbol> = used.iter().filter(|symbol| symbols.contains(symbol)).cloned().collect();
+            table_pattern(&entries(group, context.model.dim), &used)
+        }
     };
-    let used: Vec<&str> = used.iter().map(AsRef::as_ref).filter(|name| contains(names, name)).collect();
-    let rows = components(stem, context.model.dim);
-    let rows = rows.iter().map(|row| pattern(row, &used));
-    quote!(let [#(#rows),*] = #value;)
+    quote!(let #bound = #value;)
 }
 
 /// A statement that binds the entries of `phi` that a program reads; nothing where it reads none.
 pub(super) fn placement(context: &Context, program: &Program, phi: &TokenStream) -> TokenStream {
     let (rt, used) = (&context.names.rt, program.inputs());
-    let names = components("phi", context.model.dim);
-    if !reads(&used, &names.concat()) {
+    let entries = entries(Quantity::Placement, context.model.dim);
+    if !reads(&used, &entries.concat()) {
         return TokenStream::new();
     }
-    let rows = names.iter().map(|row| pattern(row, &used));
-    quote!(let [#(#rows),*] = #rt::rows(#phi);)
+    let bound = table_pattern(&entries, &used);
+    quote!(let #bound = #rt::rows(#phi);)
 }
 
 /// `let` statements for the functions of the placement of `point` that a program reads: `q`, `D` and `q_a`.
@@ -119,12 +116,12 @@ pub(super) fn at_placement(context: &Context, program: &Program) -> TokenStream 
     let rt = &context.names.rt;
     let used = program.inputs();
     let [mean, dilatation] = [VolumeMeasure::MeanLogStretch, VolumeMeasure::Dilatation].map(|measure| {
-        let is_read = contains(&used, measure.quantity().stem());
+        let is_read = used.contains(&measure.quantity().into());
         is_read.then(|| bind_measure(context, measure, &quote!(#rt::Phase::phi(point))))
     });
-    let names: Vec<String> = (1..=context.model.dim).map(|a| format!("q_{a}")).collect();
-    let stretches = reads(&used, &names).then(|| {
-        let bound = pattern(&names, &used);
+    let log_stretches = components(Quantity::LogStretches, context.model.dim);
+    let stretches = reads(&used, &log_stretches).then(|| {
+        let bound = pattern(&log_stretches, &used);
         quote!(let #bound = #rt::log_stretches(#rt::Phase::phi(point));)
     });
     quote! {
@@ -136,8 +133,7 @@ pub(super) fn at_placement(context: &Context, program: &Program) -> TokenStream 
 
 /// The statement that binds a function of `det phi`.
 pub(super) fn bind_measure(context: &Context, measure: VolumeMeasure, phi: &TokenStream) -> TokenStream {
-    let (rt, t, symbol) =
-        (&context.names.rt, &context.names.scalar, format_ident!("{}", measure.quantity().stem()));
+    let (rt, t, symbol) = (&context.names.rt, &context.names.scalar, ident(&measure.quantity().into()));
     let value = match measure {
         VolumeMeasure::MeanLogStretch => quote!(#rt::mean_log_stretch(#phi)),
         VolumeMeasure::Dilatation => quote!(#rt::dilatation(#phi)),

@@ -13,7 +13,7 @@ use super::context::Context;
 use super::fields::{matrix_name, over_fields};
 use super::metrics;
 use super::number::{double, number};
-use super::pattern::identifiers;
+use super::pattern::{ident, identifiers, table};
 
 /// What `prepare()` returns; nothing for a model without fields in its coefficients.
 pub(super) fn prepared_type(context: &Context) -> TokenStream {
@@ -267,7 +267,7 @@ fn held(condition: &Condition, text: &str, reason: &str, rt: &Ident) -> TokenStr
 
 fn numeric_block(context: &Context, block: &NumericBlock, rt: &Ident) -> TokenStream {
     let Body { lets, results } = over_fields(rt, &block.program);
-    let names = block.inverse.iter().map(|name| format_ident!("{name}"));
+    let names = block.inverse.iter().map(ident);
     let (dim, size, positive) = (context.dim(), number(block.size), block.positive);
     let count = number(block.inverse.len());
     let (entries, terms) = results.split_at(block.inverse.len());
@@ -300,12 +300,9 @@ fn principal(rt: &Ident, form: &PrincipalProgram) -> TokenStream {
     let Body { lets, results } = over_fields(rt, &form.program);
     let (size, count) = (number(form.values.len()), number(results.len()));
     let values = identifiers(&form.values);
-    let vectors = form.vectors.iter().map(|vector| {
-        let vector = identifiers(vector);
-        quote!([#(#vector),*])
-    });
+    let vectors = table(&form.vectors);
     quote! {
-        let ([#(#values),*], [#(#vectors),*]) = {
+        let ([#(#values),*], #vectors) = {
             #lets
             #rt::principal_axes::<#size, #count>([#(#results),*])
         };

@@ -5,11 +5,12 @@ use quote::{format_ident, quote};
 
 use crate::derive::{BalancedQuantities, Components, reads_time};
 use crate::ir::Program;
+use crate::symbol::Quantity;
 
 use super::body::Body;
 use super::context::Context;
 use super::number::number;
-use super::pattern::time;
+use super::pattern::{ident, time};
 use super::point::{bind_point, placement, wrapper};
 
 /// `metric`, `inverse_metric`, `acceleration`, `balance`, `centre_balance`, as far as asked for.
@@ -103,13 +104,13 @@ fn balance(context: &Context) -> TokenStream {
         let rows = entries.chunks(dim).map(|row| quote!([#(#row),*]));
         quote!(#rt::matrix([#(#rows),*]))
     };
-    let fields = |quantities: &[(&str, Components)], results: &[TokenStream], size: usize| {
+    let fields = |quantities: &[(Quantity, Components)], results: &[TokenStream], size: usize| {
         let value = |entries: &[TokenStream]| {
             if size == dim { quote!(#rt::vector([#(#entries),*])) } else { matrix(entries) }
         };
-        let field = |((name, components), entries): (&(&str, Components), &[TokenStream])| {
+        let field = |((of, components), entries): (&(Quantity, Components), &[TokenStream])| {
             let (name, wrapper, value) =
-                (format_ident!("{name}"), wrapper(context, *components), value(entries));
+                (ident(&(*of).into()), wrapper(context, *components), value(entries));
             quote!(#name: #wrapper(#value))
         };
         let fields = quantities.iter().zip(results.chunks(size)).map(field);

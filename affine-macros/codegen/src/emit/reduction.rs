@@ -8,14 +8,15 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::derive::{AffineMomentum, Components, Trajectory};
+use crate::symbol::Quantity;
 
 use super::body::Body;
 use super::context::Context;
 use super::number::Number;
-use super::pattern::{components, identifiers, pattern, reads, time};
+use super::pattern::{components, entries, identifiers, pattern, reads, table_pattern, time};
 use super::point::{projected, spin};
 use super::separated;
-use super::trajectory::{self, Constant, coefficient_names};
+use super::trajectory::{self, Constant};
 
 /// The constants of a trajectory as a struct.
 pub(super) fn constants_type(context: &Context) -> TokenStream {
@@ -78,9 +79,9 @@ fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
     let body = context.generic(&context.model.trajectory);
     let (coefficients, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
-    let state: Vec<String> = context.model.reduced.names();
-    let work = state.iter().any(|name| name == "work").then(|| quote!(let work = #t::zero();));
-    let state = identifiers(&state);
+    let reduced = &context.model.reduced;
+    let work = reduced.has(Quantity::Work).then(|| quote!(let work = #t::zero();));
+    let state = identifiers(&reduced.symbols());
     let kept = trajectory::constants(context, parts, &results);
     let mut fields: TokenStream = kept.iter().map(Constant::at_the_start).collect();
     if fields.is_empty() {
@@ -107,18 +108,18 @@ fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
 /// Components of state and momenta in turned space, as variables.
 fn bind_state(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.model.dim);
-    let mut used: Vec<String> = context.model.reduced.names();
+    let mut used = context.model.reduced.symbols();
     used.extend(context.model.trajectory.inputs());
     used.extend(parts.fixed.clone());
     let turned = |value: TokenStream| if parts.turn { quote!((turn * #value)) } else { value };
     let mut lets = TokenStream::new();
-    let vector = |stem: &str| -> Vec<String> { (1..=n).map(|i| format!("{stem}_{i}")).collect() };
     if parts.placed {
         let momentum = match parts.comoving {
-            true => (vector("p_hat"), quote!(#rt::Phase::p_hat(point).0.0)),
-            false => (vector("p"), turned(quote!(p))),
+            true => (Quantity::ComovingLinearMomentum, quote!(#rt::Phase::p_hat(point).0.0)),
+            false => (Quantity::LinearMomentum, turned(quote!(p))),
         };
-        for (names, value) in [(vector("x"), turned(quote!(#rt::Phase::x(point)))), momentum] {
+        for (of, value) in [(Quantity::Position, turned(quote!(#rt::Phase::x(point)))), momentum] {
+            let names = components(of, n);
             if reads(&used, &names) {
                 let bound = pattern(&names, &used);
                 lets.extend(quote!(let #bound = #rt::components(&#value);));
@@ -126,21 +127,21 @@ fn bind_state(context: &Context, parts: &Trajectory) -> TokenStream {
         }
     }
     let phi = turned(quote!(#rt::Phase::phi(point)));
-    let phi_rows = components("phi", n).into_iter().map(|row| pattern(&row, &used)).collect::<Vec<_>>();
+    let phi_rows = table_pattern(&entries(Quantity::Placement, n), &used);
     lets.extend(if parts.turn {
-        quote!(let [#(#phi_rows),*] = #rt::rows(&#phi);)
+        quote!(let #phi_rows = #rt::rows(&#phi);)
     } else {
-        quote!(let [#(#phi_rows),*] = #rt::rows(#phi);)
+        quote!(let #phi_rows = #rt::rows(#phi);)
     });
-    let names = components(parts.momentum_name, n);
+    let names = entries(parts.momentum_entries, n);
     if reads(&used, &names.concat()) {
-        let rows = names.iter().map(|row| pattern(row, &used));
+        let rows = table_pattern(&names, &used);
         let value = match (parts.turn, parts.momentum) {
             (false, _) | (_, AffineMomentum::Spin(Components::Comoving)) => quote!(momentum),
             (true, AffineMomentum::Spin(Components::TwoPoint)) => quote!((momentum * turn.transpose())),
             (true, _) => quote!((turn * momentum * turn.transpose())),
         };
-        lets.extend(quote!(let [#(#rows),*] = #rt::rows(&#value);));
+        lets.extend(quote!(let #rows = #rt::rows(&#value);));
     }
     lets
 }
@@ -151,11 +152,11 @@ fn whirl(context: &Context, parts: &Trajectory) -> TokenStream {
     let mut lets = TokenStream::new();
     if let (Some(side), Some(program)) = (parts.rotation, &context.model.isotropic) {
         let spin = spin(context, side);
-        let (inner, whirl) = context.times(quote!(skew), (program, "inverse_mu"), Number::Generic(t));
+        let (inner, whirl) = context.times(quote!(skew), (program, Quantity::InverseMu), Number::Generic(t));
         lets.extend(quote!(#inner let spin = #spin; let skew = spin.transpose() - spin; let whirl = #whirl;));
     }
     if let (true, Some(program)) = (parts.drift, &context.model.mass) {
-        let (inner, drift) = context.times(quote!(p), (program, "inverse_mass"), Number::Generic(t));
+        let (inner, drift) = context.times(quote!(p), (program, Quantity::InverseMass), Number::Generic(t));
         lets.extend(quote!(#inner let drift = #drift;));
     }
     lets
@@ -165,9 +166,9 @@ fn reduced_equations(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.reduced.program;
     let used = program.inputs();
-    let all: Vec<String> = context.model.reduced.names();
+    let all = context.model.reduced.symbols();
     let bound = pattern(&all, &used);
-    let coefficients = pattern(&coefficient_names(context), &used);
+    let coefficients = pattern(&trajectory::all(context), &used);
     let read = (parts.coefficients > 0).then(|| quote!(let #coefficients = constants.coefficients;));
     let constants = if parts.coefficients > 0 { quote!(constants) } else { quote!(_constants) };
     let reads_state = reads(&used, &all);

@@ -5,6 +5,7 @@ use quote::quote;
 
 use crate::derive::second_order::Halves;
 use crate::ir::Program;
+use crate::symbol::Symbol;
 
 use super::body::Body;
 use super::context::Context;
@@ -67,7 +68,7 @@ pub(super) fn capability(context: &Context) -> TokenStream {
 fn written(
     context: &Context,
     program: &Program,
-    (names, half): (&[String], TokenStream),
+    (names, half): (&[Symbol], TokenStream),
 ) -> (TokenStream, TokenStream) {
     let used = program.inputs();
     let (read, constants) = coefficients(context, &used);

@@ -6,13 +6,14 @@ use quote::quote;
 use crate::derive::splitting::{FlowProgram, Programs};
 use crate::derive::{DilatationalMotion, reads_time};
 use crate::ir::{Op, Program, Value};
+use crate::symbol::Symbol;
 
 use super::body::{Body, inner};
 use super::context::Context;
 use super::number::number;
-use super::pattern::{contains, identifiers, pattern, reads};
+use super::pattern::{identifiers, pattern, reads, table};
 use super::separated::closed_form;
-use super::trajectory::{coefficient_names, coefficients};
+use super::trajectory::{self, coefficients};
 
 /// The implementation of the capability.
 pub(super) fn splitting_impl(context: &Context) -> TokenStream {
@@ -41,9 +42,9 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
             const DILATES: ::core::primitive::bool = true;
         )
     });
-    let is_read = |name: &str| programs().any(|program| contains(&program.inputs(), name));
+    let is_read = |symbol: &Symbol| programs().any(|program| program.symbols().any(|read| read == symbol));
     let time = if programs().any(reads_time) { quote!(t) } else { quote!(_t) };
-    let constants = match coefficient_names(context).iter().any(|name| is_read(name)) {
+    let constants = match trajectory::all(context).iter().any(is_read) {
         true => quote!(constants),
         false => quote!(_constants),
     };
@@ -85,11 +86,11 @@ pub(super) fn capability(context: &Context) -> TokenStream {
 }
 
 /// What a flow reads: components of the state, besides `more`, and coefficients of the trajectory.
-fn bound(context: &Context, program: &Program, more: &[String]) -> TokenStream {
+fn bound(context: &Context, program: &Program, more: &[Symbol]) -> TokenStream {
     let mut used = program.inputs();
     let (read, _) = coefficients(context, &used);
     used.extend(more.iter().cloned());
-    let states = context.model.reduced.names();
+    let states = context.model.reduced.symbols();
     let bind = reads(&used, &states).then(|| {
         let bound = pattern(&states, &used);
         quote!(let #bound = *state;)
@@ -98,12 +99,12 @@ fn bound(context: &Context, program: &Program, more: &[String]) -> TokenStream {
 }
 
 /// Adds to a component of the state.
-fn accumulated(context: &Context, component: &str, rise: TokenStream) -> TokenStream {
+fn accumulated(context: &Context, component: &Symbol, rise: TokenStream) -> TokenStream {
     let rt = &context.names.rt;
     let at = context
         .model
         .reduced
-        .names()
+        .symbols()
         .iter()
         .position(|name| name == component)
         .map_or_else(|| number(0), number);
@@ -184,12 +185,12 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
 /// `phi` grows by a factor, the trace of the momentum by what all entries of the diagonal share.
 fn dilated(
     context: &Context,
-    [placement, momentum]: [&[Vec<String>]; 2],
+    [placement, momentum]: [&[Vec<Symbol>]; 2],
     motion: DilatationalMotion,
     program: &Program,
 ) -> TokenStream {
     let rt = &context.names.rt;
-    let diagonal: Vec<String> =
+    let diagonal: Vec<Symbol> =
         momentum.iter().enumerate().filter_map(|(a, row)| row.get(a).cloned()).collect();
     let bind = bound(context, program, &placement.concat());
     let Body { lets, results } = context.generic(program);
@@ -210,20 +211,12 @@ fn dilated(
     })
 }
 
-fn table(names: &[Vec<String>]) -> TokenStream {
-    let rows = names.iter().map(|row| {
-        let row = identifiers(row);
-        quote!([#(#row),*])
-    });
-    quote!([#(#rows),*])
-}
-
 /// Adds the entries of a matrix to those components that the state has.
-fn added(context: &Context, names: &[Vec<String>], rise: &str) -> TokenStream {
+fn added(context: &Context, names: &[Vec<Symbol>], rise: &str) -> TokenStream {
     let rise = quote::format_ident!("{rise}");
     let entries =
         names.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, n)| (i, j, n)));
-    let states = context.model.reduced.names();
+    let states = context.model.reduced.symbols();
     entries
         .filter(|(.., name)| states.contains(name))
         .map(|(i, j, name)| {

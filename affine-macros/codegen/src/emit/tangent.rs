@@ -3,14 +3,14 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::ir::tangent::change_of;
+use crate::symbol::{Aspect, Symbol};
 
 use super::body::Body;
 use super::context::Context;
 use super::groups::group;
 use super::number::number;
 use super::pattern::{pattern, reads, time};
-use super::trajectory::coefficient_names;
+use super::trajectory;
 
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context) -> TokenStream {
@@ -23,20 +23,19 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
         group(context, *quantity, &len)
     });
     let groups: Vec<TokenStream> = groups.collect();
-    let mut states = context.model.reduced.names();
+    let mut states = context.model.reduced.symbols();
     let (len, both) = (number(states.len()), number(2 * states.len()));
-    let changes: Vec<String> = states.iter().map(|name| change_of(name)).collect();
-    states.extend(changes);
+    let changes = |of: &[Symbol]| of.iter().map(|s| s.clone().seen(Aspect::Change)).collect::<Vec<_>>();
+    states.extend(changes(&states));
     let used = program.inputs();
-    let coefficients = coefficient_names(context);
-    let changes: Vec<String> = coefficients.iter().map(|name| change_of(name)).collect();
-    let part = |names: &[String], part: TokenStream| {
+    let coefficients = trajectory::all(context);
+    let part = |names: &[Symbol], part: TokenStream| {
         reads(&used, names).then(|| {
             let bound = pattern(names, &used);
             quote!(let #bound = constants.coefficients.map(|coefficient| coefficient.#part);)
         })
     };
-    let (values, slopes) = (part(&coefficients, quote!(value)), part(&changes, quote!(slope)));
+    let (values, slopes) = (part(&coefficients, quote!(value)), part(&changes(&coefficients), quote!(slope)));
     let constants = if values.is_some() || slopes.is_some() { quote!(constants) } else { quote!(_constants) };
     let bound = pattern(&states, &used);
     let clock = time(program);

@@ -104,8 +104,7 @@ impl Writer<'_> {
         let rules: Vec<&(Value, Rule)> = self.ready_rules(&wanted).into_iter().chain(late).collect();
         let (fixed, constants) = self.fix(&rules);
         let states = self.states_among(&wanted, &rules);
-        let (bind, coefficient) =
-            self.bind(&states.iter().map(String::as_str).collect::<Vec<_>>(), "coefficient");
+        let (bind, coefficient) = self.bind(&states, "coefficient");
         let statements = rules.iter().map(|(value, rule)| self.statement(*value, rule));
         let (convolutions, stored) = (self.convolutions(), self.stored());
         let rates = recurrence.program.outputs.iter().map(|(_, v)| match recurrence.moving[*v] {

@@ -5,6 +5,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::derive::Trajectory;
+use crate::symbol::Symbol;
 
 use super::context::Context;
 use super::number::number;
@@ -74,7 +75,8 @@ pub(super) fn constants(
 ) -> Vec<Constant> {
     let rt = &context.names.rt;
     let fixed = identifiers(&parts.fixed);
-    let components = format!("Conserved components of the affine momentum: {}.", parts.fixed.join(", "));
+    let names: Vec<String> = parts.fixed.iter().map(Symbol::to_string).collect();
+    let components = format!("Conserved components of the affine momentum: {}.", names.join(", "));
     let turn = "Turns space so that `p` lies along the first axis.";
     let rotation = "Generator of the rotation that commutes with the rest of the motion.";
     let dilatation = "The motion of `q = ln(det phi)/n` and its momentum `tr Sigma`.";
@@ -106,14 +108,14 @@ pub(super) fn constants(
     list.into_iter().filter_map(|(wanted, constant)| wanted.then_some(constant)).collect()
 }
 
-/// Names of the coefficients of a trajectory: `k_1`, `k_2`, ..
-pub(super) fn coefficient_names(context: &Context) -> Vec<String> {
-    (1..=context.model.trajectory.outputs.len()).map(|k| format!("k_{k}")).collect()
+/// The coefficients of a trajectory: `k_1`, `k_2`, ..
+pub(super) fn all(context: &Context) -> Vec<Symbol> {
+    context.model.trajectory.results().cloned().collect()
 }
 
 /// The statement that binds those of some inputs, and the name of the parameter that it takes them from.
-pub(super) fn coefficients(context: &Context, used: &[impl AsRef<str>]) -> (TokenStream, TokenStream) {
-    let names = coefficient_names(context);
+pub(super) fn coefficients(context: &Context, used: &[Symbol]) -> (TokenStream, TokenStream) {
+    let names = all(context);
     if !reads(used, &names) {
         return (TokenStream::new(), quote!(_constants));
     }

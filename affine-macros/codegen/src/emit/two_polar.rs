@@ -8,6 +8,7 @@ use quote::{format_ident, quote};
 
 use crate::derive::{Components, Places, TwoPolar};
 use crate::ir::Program;
+use crate::symbol::Symbol;
 
 use super::body::Body;
 use super::context::Context;
@@ -35,14 +36,14 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
     let (prepared, rt, t, n) =
         (&context.names.prepared, &context.names.rt, &context.names.scalar, context.dim());
     let (generics, types, clause) = context.generics();
-    let state: Vec<String> = form.state.iter().flat_map(|(_, names)| names.clone()).collect();
+    let state: Vec<Symbol> = form.state.iter().flat_map(|(_, names)| names.clone()).collect();
     let frames = form.frames.iter().flat_map(|(_, names)| names.clone());
-    let framed: Vec<String> = state.iter().cloned().chain(frames).collect();
+    let framed: Vec<Symbol> = state.iter().cloned().chain(frames).collect();
     let (size, framed_size, constants) =
         (number(state.len()), number(framed.len()), number(form.couplings.len()));
     let description = description(context, form);
     let docs = docs(form);
-    let function = |program: &Program, variables: &[String]| {
+    let function = |program: &Program, variables: &[Symbol]| {
         let used = program.inputs();
         let (couplings, bound) = (pattern(&form.couplings, &used), pattern(variables, &used));
         let body = context.generic(program);

@@ -5,6 +5,7 @@ use rustc_hash::FxHashMap;
 use crate::algebra::arena::Node;
 use crate::algebra::kernel::{Callee, Group};
 use crate::algebra::{Arena, Expr, Rational};
+use crate::symbol::Symbol;
 
 use super::call::Call;
 use super::{Op, Program, Value};
@@ -59,7 +60,7 @@ impl Builder {
             && !matches!(self.program.steps[made], Op::Input(_) | Op::Constant(_))
             && !self.program.names.iter().any(|(v, _)| *v == made)
         {
-            self.program.names.push((made, symbol.to_string()));
+            self.program.names.push((made, symbol.clone()));
         }
     }
 
@@ -80,9 +81,9 @@ impl Builder {
     }
 
     /// Adds a result.
-    pub fn output(&mut self, arena: &Arena, name: &str, value: Expr) {
+    pub fn output(&mut self, arena: &Arena, name: impl Into<Symbol>, value: Expr) {
         let made = self.lower(arena, value);
-        self.program.outputs.push((name.to_owned(), made));
+        self.program.outputs.push((name.into(), made));
     }
 
     /// The program: only what the results need.

@@ -38,7 +38,7 @@ impl Common {
         rest.sort_unstable();
         rest.dedup();
         results.extend(rest);
-        let name = |k: usize, v: Value| base.own_name(v).map_or_else(|| format!("part_{k}"), str::to_owned);
+        let name = |k: usize, v: Value| base.own_name(v).cloned().unwrap_or(Symbol::Part(None, k));
         let named = results.iter().enumerate().map(|(k, v)| (name(k, *v), *v));
         let program = Program { outputs: named.collect(), ..base.clone() };
         Some(Self { program: program.without_dead_steps() })
@@ -49,8 +49,8 @@ impl Common {
     #[must_use]
     pub fn taken_from(&self, program: &Program) -> Option<Program> {
         let alike = Alike::new(&self.program, program);
-        let results: FxHashMap<Value, &str> =
-            self.program.outputs.iter().map(|(name, v)| (*v, name.as_str())).collect();
+        let results: FxHashMap<Value, &Symbol> =
+            self.program.outputs.iter().map(|(name, v)| (*v, name)).collect();
         let inputs = program.inputs();
         let is_fit = alike.saved() >= LEAST
             && alike.results().iter().all(|v| results.contains_key(v))
@@ -115,16 +115,16 @@ impl<'p> Alike<'p> {
     }
 
     /// What is left of the program, with inputs of these names.
-    fn rest(&self, results: &FxHashMap<Value, &str>) -> Program {
+    fn rest(&self, results: &FxHashMap<Value, &Symbol>) -> Program {
         let mut program = self.program.clone();
         for v in &self.taken {
             if let Some(name) = self.equal[*v].and_then(|equal| results.get(&equal)) {
-                program.steps[*v] = Op::Input(Symbol::Result((*name).to_owned()));
+                program.steps[*v] = Op::Input((*name).clone());
             }
         }
-        let inputs: FxHashSet<&str> = results.values().copied().collect();
+        let inputs: FxHashSet<&Symbol> = results.values().copied().collect();
         // A name stands for one thing; steps without one are named by their number.
-        program.names.retain(|(_, name)| !inputs.contains(name.as_str()));
+        program.names.retain(|(_, name)| !inputs.contains(name));
         program.without_dead_steps()
     }
 }

@@ -138,7 +138,8 @@ mod tests {
         let start = || vec![Op::Input(Quantity::Position.into()), one()];
         let of = |steps: Vec<Op>| {
             let last = steps.len() - 1;
-            let program = Program { steps, outputs: vec![("f".into(), last)], ..Program::default() };
+            let program =
+                Program { steps, outputs: vec![(Quantity::Value.into(), last)], ..Program::default() };
             let found = program.rounding(&|_| Some(1.0 + 1e-6), &|_| 1e-6).unwrap();
             (found.own[0] / found.results[0], found.of_inputs[0])
         };

@@ -12,7 +12,7 @@ use crate::symbol::{Aspect, Symbol};
 use super::{Op, Program, Value};
 
 /// The results of `program`, then their changes. The input `x`, where `changing(x)`, changes by the input
-/// [`change_of`]`(x)`. What runtime functions provide does not change: programs that call some have no derivative here.
+/// [`Aspect::Change`] of `x`. What runtime functions provide does not change: programs that call some have no derivative here.
 #[must_use]
 pub fn with_tangent(program: &Program, changing: &impl Fn(&Symbol) -> bool) -> Program {
     let mut builder = Builder { steps: program.steps.clone(), known: FxHashMap::default() };
@@ -27,16 +27,10 @@ pub fn with_tangent(program: &Program, changing: &impl Fn(&Symbol) -> bool) -> P
     let mut outputs = program.outputs.clone();
     for (name, value) in &program.outputs {
         let change = changes[*value].unwrap_or_else(|| builder.step(Op::Constant(Rational::ZERO)));
-        outputs.push((change_of(name), change));
+        outputs.push((name.clone().seen(Aspect::Change), change));
     }
     let program = Program { steps: builder.steps, outputs, ..program.clone() };
     program.without_dead_steps()
-}
-
-/// Name of the change of an input or a result.
-#[must_use]
-pub fn change_of(name: &str) -> String {
-    format!("change_{name}")
 }
 
 /// Steps, each one once.

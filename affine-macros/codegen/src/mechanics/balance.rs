@@ -17,22 +17,22 @@ use super::shared::{Shared, atoms};
 use super::term::Frame;
 
 /// Quantities of the internal motion: `K`, `phi_dot Pi`, `N`, and in the body `K_hat`, `-K_hat Oh^T`, `N_hat`.
-pub const INTERNAL: [(&str, Frame); 6] = [
-    ("spin", Frame::Space),
-    ("inertia", Frame::Space),
-    ("moment", Frame::Space),
-    ("spin_hat", Frame::Body),
-    ("inertia_hat", Frame::Body),
-    ("moment_hat", Frame::Body),
+pub const INTERNAL: [(Quantity, Frame); 6] = [
+    (Quantity::Spin, Frame::Space),
+    (Quantity::Inertia, Frame::Space),
+    (Quantity::Moment, Frame::Space),
+    (Quantity::ComovingSpin, Frame::Body),
+    (Quantity::ComovingInertia, Frame::Body),
+    (Quantity::ComovingMoment, Frame::Body),
 ];
 
 /// Quantities of the centre of mass: `k = m x_dot`, `F`, and in the body `k_hat`, `-Oh k_hat`, `F_hat`.
-pub const CENTRE: [(&str, Frame); 5] = [
-    ("momentum", Frame::Space),
-    ("force", Frame::Space),
-    ("momentum_hat", Frame::Body),
-    ("inertia_hat", Frame::Body),
-    ("force_hat", Frame::Body),
+pub const CENTRE: [(Quantity, Frame); 5] = [
+    (Quantity::MomentumOfCentre, Frame::Space),
+    (Quantity::ForceOnCentre, Frame::Space),
+    (Quantity::ComovingMomentumOfCentre, Frame::Body),
+    (Quantity::ComovingInertia, Frame::Body),
+    (Quantity::ComovingForceOnCentre, Frame::Body),
 ];
 
 /// The two sides of the balance laws.

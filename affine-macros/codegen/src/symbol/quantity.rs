@@ -76,6 +76,14 @@ quantities! {
     // Splittings.
     BlockValue "square" BlockAxis "axis" FlowRate "rate" Growth "growth" FlowDecay "decay" Sine "sine"
     Versine "versine"
+    // Results of programs.
+    Energy "energy" Power "power" Mass "mass" InverseMass "inverse_mass" Acceleration "acceleration"
+    InverseAlpha "inverse_alpha" InverseBeta "inverse_beta" InverseMu "inverse_mu" Casimir3 "casimir3"
+    InverseDilatationalMass "inverse_dilatational_mass" Stiffness "stiffness" Scale "scale"
+    MatrixEntry "entry" Generator "generator" Angular "angular" Guard "guard" Value "value"
+    Spin "spin" Inertia "inertia" ComovingSpin "spin_hat" ComovingInertia "inertia_hat"
+    ComovingMoment "moment_hat" MomentumOfCentre "momentum" ForceOnCentre "force"
+    ComovingMomentumOfCentre "momentum_hat" ComovingForceOnCentre "force_hat"
     // Sums and products that are computed once.
     SharedSum "sum" SharedProduct "product" Scaled "scaled"
 }
@@ -87,6 +95,7 @@ impl Quantity {
             Self::InverseBlock | Self::BlockAxis => 2,
             Self::InverseColumn
             | Self::BlockValue
+            | Self::MatrixEntry
             | Self::TurnedVelocity
             | Self::FieldForce
             | Self::FieldPush

@@ -2,6 +2,7 @@
 
 use affine_codegen::derive::Model;
 use affine_codegen::mechanics::term::Frame;
+use affine_codegen::symbol::Aspect;
 use affine_oracle::{Kinetic, Random, State, rational};
 
 use super::models::{FAMILIES, Internal, Sample, TRANSLATIONS, Translation};
@@ -50,10 +51,8 @@ pub(crate) fn check(what: &str, model: &Model, kinetic: &Kinetic, state: &State,
     }
     let size = n * n + if kinetic.has_translation() { n } else { 0 };
     agree(what, &run(&model.full.program, &here), "d_", &rates(&motion), 2 * size);
-    let listed = model.full.names();
-    let computed: Vec<&str> =
-        model.full.program.outputs.iter().map(|(name, _)| &name["d_".len()..]).collect();
-    assert_eq!(listed, computed, "{what}: order of the state");
+    let rates = model.full.symbols().into_iter().map(|symbol| symbol.seen(Aspect::Rate));
+    assert!(rates.eq(model.full.program.results().cloned()), "{what}: order of the state");
 }
 
 #[test]

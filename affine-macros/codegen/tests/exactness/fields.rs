@@ -22,7 +22,7 @@ pub(crate) fn prepared(model: &Model, fields: &Values) -> Values {
         let entries: Vec<_> = (0..size * size).map(|k| entry(k / size, k % size)).collect();
         let inverted = Matrix::from_rationals(*size, *size, &entries).eliminated_inverse().unwrap();
         for ((i, j), name) in places.iter().zip(inverse) {
-            inputs.insert(name.clone(), own(&inverted.entry(*i, *j)));
+            inputs.insert(name.to_string(), own(&inverted.entry(*i, *j)));
         }
     }
     run(&model.coefficients, &inputs)

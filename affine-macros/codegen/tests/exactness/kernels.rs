@@ -25,7 +25,7 @@ fn program(arena: &mut Arena) -> Program {
     let batch = Batch {
         shared: vec![(doubled, Polynomial::term(vec![x], Rational::from(2)))],
         kernels: vec![kernel(first, vec![idle]), kernel(doubled, vec![first, second])],
-        results: vec![("y".to_owned(), Polynomial::term(vec![x, first], Rational::ONE))],
+        results: vec![(Quantity::Value.into(), Polynomial::term(vec![x, first], Rational::ONE))],
     };
     fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|atom| atom == x))
 }
@@ -47,5 +47,5 @@ fn results_are_inputs() {
     let point = HashMap::from(
         [("self.x", 3), ("self.first", 5)].map(|(name, k)| (name.to_owned(), Rational::from(k))),
     );
-    assert_eq!(run(&program, &point)["y"], Rational::from(15));
+    assert_eq!(run(&program, &point)["value"], Rational::from(15));
 }

@@ -85,14 +85,23 @@ fn lowered(
     let mut builder = Builder::new();
     for (k, polynomial) in polynomials.iter().enumerate() {
         let value = form(arena, polynomial);
-        builder.output(arena, &format!("y{k}"), value);
+        builder.output(arena, result(k), value);
     }
     builder.finish()
 }
 
+/// Names of results, and of other values.
+fn result(place: usize) -> Symbol {
+    Quantity::Value.at([place])
+}
+
+fn named(place: usize) -> Symbol {
+    Quantity::Scaled.at([place])
+}
+
 fn outputs(program: &Program, point: &HashMap<String, Rational>) -> Vec<Rational> {
     let results = run(program, point);
-    (0..results.len()).map(|k| results[&format!("y{k}")].clone()).collect()
+    (0..results.len()).map(|k| results[&result(k).to_string()].clone()).collect()
 }
 
 /// Every step reads earlier ones only.
@@ -200,7 +209,7 @@ fn completing_sums_shortens_programs() {
             lowered(&mut system.arena, &system.polynomials, |arena, form| factored(arena, form, First::Atom))
                 .operations()
                 .weight();
-        let results = system.polynomials.iter().enumerate().map(|(k, p)| (format!("y{k}"), p.clone()));
+        let results = system.polynomials.iter().enumerate().map(|(k, p)| (result(k), p.clone()));
         let batch = Batch { results: results.collect(), ..Batch::default() };
         let names = varying(&system);
         let mut constants = Constants::new(Quantity::Coefficient);
@@ -250,7 +259,7 @@ fn the_whole_pipeline_keeps_the_value() {
             .iter_mut()
             .skip(1)
             .for_each(|p| p.add_product(&Polynomial::atom(shared), &first, &Rational::ONE));
-        let results = results.into_iter().enumerate().map(|(k, p)| (format!("y{k}"), p)).collect();
+        let results = results.into_iter().enumerate().map(|(k, p)| (result(k), p)).collect();
         let batch = Batch { shared: vec![(shared, first)], results, ..Batch::default() };
         let mut constants = Constants::new(Quantity::Coefficient);
         let program = straight_line(&mut system.arena, &batch, &mut constants, &|a| names.contains(&a));
@@ -296,8 +305,8 @@ fn random_program(random: &mut Random) -> Program {
         program.steps.push(op);
     }
     let last = program.steps.len() - 1;
-    program.outputs = (0..3).map(|k| (format!("y{k}"), last - k)).collect();
-    program.names = vec![(last - 1, "named".into()), (last / 2, "perhaps dead".into())];
+    program.outputs = (0..3).map(|k| (result(k), last - k)).collect();
+    program.names = vec![(last - 1, named(0)), (last / 2, named(1))];
     program
 }
 
@@ -341,7 +350,7 @@ fn operations_by_hand() {
         arena.linear(&[(xy, Rational::from(2)), (xz, Rational::ONE), (quotient, Rational::MINUS_ONE)]);
     let count = |arena: &Arena, expr| {
         let mut builder = Builder::new();
-        builder.output(arena, "value", expr);
+        builder.output(arena, result(0), expr);
         builder.finish().operations()
     };
     // x y, 2 (x y), x z, w w, w w w; three sums; one quotient.
@@ -378,7 +387,7 @@ fn powers_are_what_they_are() {
         for k in 0..4 {
             let ways = Ways { steps_through_powers: k % 2 == 1, inverts_divisors: k > 1 };
             let mut builder = Builder::by(ways);
-            builder.output(&arena, "value", power);
+            builder.output(&arena, result(0), power);
             let (three, half) = (Rational::from(3), Rational::ratio(1, 2).unwrap());
             let input = |symbol: &Symbol| {
                 Some(if symbol.quantity() == Some(Quantity::Position) { three.clone() } else { half.clone() })
@@ -398,9 +407,9 @@ fn common_subexpressions_are_shared() {
     let sum = arena.add(x, y);
     let (square, cube) = (arena.mul(sum, sum), arena.pow(sum, 3).unwrap());
     let mut builder = Builder::new();
-    builder.output(&arena, "square", square);
-    builder.output(&arena, "cube", cube);
-    builder.output(&arena, "sum", sum);
+    for (k, value) in [square, cube, sum].into_iter().enumerate() {
+        builder.output(&arena, result(k), value);
+    }
     let program = builder.finish();
     assert_eq!(program.operations(), Operations { mul: 2, add: 1, div: 0, ..Operations::default() });
 }
@@ -428,8 +437,8 @@ fn inverse_cube_roots() {
         Op::Call(Function::Sqrt, 1),
         Op::Div(2, 14),
     ];
-    let outputs = [4, 7, 11, 13, 15].map(|v| (format!("out_{v}"), v)).to_vec();
-    let program = Program { steps, names: vec![(12, "root".into())], outputs, ..Program::default() };
+    let outputs = [4, 7, 11, 13, 15].map(|v| (result(v), v)).to_vec();
+    let program = Program { steps, names: vec![(12, named(12))], outputs, ..Program::default() };
     let inverted = with_inverse_roots(&program);
     well_formed(&inverted);
     let count = |function: Function| {

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use affine_codegen::algebra::Rational;
 use affine_codegen::ir::Program;
+use affine_codegen::symbol::Symbol;
 use affine_oracle::{Kinetic, Matrix, Motion, Observable, Random, Rational as Exact, State, rational};
 
 /// Values by name.
@@ -89,13 +90,18 @@ pub(crate) fn velocities(kinetic: &Kinetic, state: &State, comoving: bool) -> Va
     values
 }
 
+/// What symbols are called.
+pub(crate) fn names(symbols: &[Symbol]) -> Vec<String> {
+    symbols.iter().map(Symbol::to_string).collect()
+}
+
 /// Runs a program exactly; its results by name.
 pub(crate) fn run(program: &Program, inputs: &Values) -> Values {
     let results = program
         .run::<Rational>(&|symbol| inputs.get(&symbol.to_string()).cloned())
         .expect("every input, and no division by zero");
     assert_eq!(results.len(), program.outputs.len());
-    program.outputs.iter().map(|(name, _)| name.clone()).zip(results).collect()
+    program.results().map(Symbol::to_string).zip(results).collect()
 }
 
 /// Every result has the value expected under its name, without the prefix; there are `count` of them.

@@ -11,7 +11,7 @@ use affine_oracle::{Kinetic, Matrix, Observable, Random, Rational as Exact, Stat
 
 use super::derivation::point;
 use super::models::{FAMILIES, Internal, Sample, TRANSLATIONS, Translation};
-use super::points::{Values, coordinates, exact, rates, run};
+use super::points::{Values, coordinates, exact, names, rates, run};
 
 /// The energy of the reduced equations.
 pub(crate) fn rest(sample: &Sample, reduction: &Reduction) -> Kinetic {
@@ -96,12 +96,12 @@ pub(crate) fn equations(what: &str, model: &Model, rest: &Kinetic, state: &State
     here.extend(coefficients.clone());
     let mut inputs = run(&model.trajectory, &here);
     inputs.extend(coefficients.clone());
-    let listed = model.reduced.names();
+    let listed = names(&model.reduced.symbols());
     for name in &listed {
         inputs.insert(name.clone(), here[name].clone());
     }
     let constants = constants(model);
-    for name in model.trajectory.inputs() {
+    for name in names(&model.trajectory.inputs()) {
         // Turned space has p = (p_1, 0, 0).
         assert!(
             !model.reduction.turn.is_some() || !["p_2", "p_3"].contains(&name.as_str()),
@@ -127,16 +127,16 @@ pub(crate) fn equations(what: &str, model: &Model, rest: &Kinetic, state: &State
 /// The momenta that are constants of a trajectory: `p`, and all of the affine momentum or a part.
 fn constants(model: &Model) -> Vec<String> {
     let n = model.dim;
-    let mut names = Vec::new();
+    let mut list = Vec::new();
     if model.reduction.chart.linear.is_some() {
-        names.extend((1..=n).map(|i| format!("p_{i}")));
+        list.extend((1..=n).map(|i| format!("p_{i}")));
     }
     if model.reduction.conserved.affine {
         let stem = model.reduction.chart.momentum.quantity().stem();
-        names.extend((1..=n).flat_map(|i| (1..=n).map(move |j| format!("{stem}_{i}{j}"))));
+        list.extend((1..=n).flat_map(|i| (1..=n).map(move |j| format!("{stem}_{i}{j}"))));
     }
-    names.extend(model.fixed.clone());
-    names
+    list.extend(names(&model.fixed));
+    list
 }
 
 /// The reduction of each family: chart, what is split off, what stays in the state, closed form.

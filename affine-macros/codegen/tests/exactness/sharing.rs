@@ -30,7 +30,7 @@ fn what_is_shared_keeps_the_value() {
         for program in others.into_iter().chain([&model.velocity]) {
             let Some(rest) = common.taken_from(program) else { continue };
             let mut point: HashMap<String, Rational> =
-                program.inputs().into_iter().map(|name| (name, own(&fraction(&mut random)))).collect();
+                program.symbols().map(|symbol| (symbol.to_string(), own(&fraction(&mut random)))).collect();
             let run = |program: &Program, point: &HashMap<String, Rational>| {
                 program
                     .run(&|symbol: &Symbol| point.get(&symbol.to_string()).cloned())
@@ -38,7 +38,7 @@ fn what_is_shared_keeps_the_value() {
             };
             let expected = run(program, &point);
             let shared = run(&common.program, &point);
-            let names = common.program.outputs.iter().map(|(name, _)| name.clone());
+            let names = common.program.results().map(Symbol::to_string);
             point.extend(names.zip(shared));
             assert_eq!(run(&rest, &point), expected, "{args}");
             assert!(rest.steps.len() < program.steps.len(), "{args}");

@@ -4,6 +4,7 @@ use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
 use crate::mechanics::two_polar::{Piece, Pieces, Stable};
 use crate::optimise::Batch;
+use crate::symbol::{Aspect, Quantity, Symbol};
 
 /// The pieces of a lattice.
 pub struct PiecePrograms {
@@ -18,9 +19,9 @@ pub struct PieceProgram {
     /// What it is, as text.
     pub name: String,
     /// Components that move at constant rates.
-    pub shifted: Vec<String>,
+    pub shifted: Vec<Symbol>,
     /// Planes that turn at constant angular velocities, by angular velocity.
-    pub turned: Vec<Vec<(String, String)>>,
+    pub turned: Vec<Vec<(Symbol, Symbol)>>,
     /// State -> the rates, then the angular velocities.
     pub program: Program,
 }
@@ -43,13 +44,13 @@ fn written(
     stable: &Stable,
     program: &mut impl FnMut(&mut Arena, &Batch) -> Program,
 ) -> PieceProgram {
-    let name = |arena: &Arena, s: Expr| arena.symbol_name(s);
-    let shifted: Vec<String> = piece.shifts.iter().map(|(z, _)| name(arena, *z)).collect();
+    let name = |arena: &Arena, s: Expr| arena.symbol_of(s);
+    let shifted: Vec<Symbol> = piece.shifts.iter().map(|(z, _)| name(arena, *z)).collect();
     let rates = shifted.iter().zip(&piece.shifts);
     let mut results: Vec<_> =
-        rates.map(|(z, (_, rate))| (format!("d_{z}"), stable.rewritten(rate))).collect();
+        rates.map(|(z, (_, rate))| (z.clone().seen(Aspect::Rate), stable.rewritten(rate))).collect();
     for (k, turn) in piece.turns.iter().enumerate() {
-        results.push((format!("angular_{}", k + 1), stable.rewritten(&turn.angular)));
+        results.push((Quantity::Angular.at([k + 1]), stable.rewritten(&turn.angular)));
     }
     let shared = stable.shared.iter().chain(&piece.shared).cloned().collect();
     let batch = Batch { shared, results, ..Batch::default() }.pruned(arena);

@@ -6,25 +6,25 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::two_polar::Ratios;
 use crate::optimise::{Batch, straight_line};
-use crate::symbol::Quantity;
+use crate::symbol::{Aspect, Quantity, Symbol};
 
 /// The equations in ratios.
 pub struct RatioProgram {
     /// Components of the state.
-    pub state: Vec<String>,
+    pub state: Vec<Symbol>,
     /// `U_ab`, `W_ab` where they are constants.
-    pub couplings: Vec<String>,
+    pub couplings: Vec<Symbol>,
     /// State -> its rate.
     pub program: Program,
 }
 
 impl RatioProgram {
     pub(super) fn of(arena: &mut Arena, form: &Ratios) -> Self {
-        let name = |arena: &Arena, s: &Expr| arena.symbol_name(*s);
+        let name = |arena: &Arena, s: &Expr| arena.symbol_of(*s);
         let state: Vec<Expr> = form.rates.iter().map(|(z, _)| *z).collect();
         let couplings: Vec<Expr> =
             form.couplings.iter().flatten().copied().filter(|z| !state.contains(z)).collect();
-        let results = form.rates.iter().map(|(z, rate)| (format!("d_{}", name(arena, z)), rate.clone()));
+        let results = form.rates.iter().map(|(z, rate)| (name(arena, z).seen(Aspect::Rate), rate.clone()));
         let batch = Batch { shared: form.shared.clone(), results: results.collect(), ..Batch::default() };
         let varying: Vec<Expr> = state.iter().chain(&couplings).copied().collect();
         // Nothing depends on the coefficients of the model.

@@ -9,6 +9,7 @@ use super::names;
 use crate::emit::body::{DEEPEST, Strength, inner};
 use crate::emit::context::Context;
 use crate::emit::number::{Number, name_of, number};
+use crate::emit::pattern::ident;
 use crate::ir::naming::Namer;
 use crate::ir::packed::{Four, Index, Lane, Packed, Step};
 use crate::ir::{Op, Value};
@@ -34,7 +35,7 @@ pub(super) fn written(context: &Context, packed: &Packed) -> Written {
     let mut writer = Writer {
         context,
         packed,
-        names: names::of_vectors(packed, &context.model.reduced.names()),
+        names: names::of_vectors(packed, &context.model.reduced.symbols()),
         uses: uses(packed),
         depth: HashMap::new(),
         bound: HashMap::new(),
@@ -76,7 +77,7 @@ struct Writer<'a> {
     context: &'a Context<'a>,
     packed: &'a Packed,
     /// Names of vectors.
-    names: Vec<Option<String>>,
+    names: Vec<Option<Ident>>,
     uses: HashMap<Step, usize>,
     /// How deep the expression of each step is nested.
     depth: HashMap<Step, usize>,
@@ -95,9 +96,8 @@ impl Writer<'_> {
             let step = Step::Vector(k);
             match (&self.names[k], self.uses.contains_key(&step)) {
                 (Some(name), true) => {
-                    let name = format_ident!("{name}");
                     bound.push(quote!(#name));
-                    self.bound.insert(step, name);
+                    self.bound.insert(step, name.clone());
                 }
                 _ => bound.push(quote!(_)),
             }
@@ -138,22 +138,22 @@ impl Writer<'_> {
             Some(name) => name,
             None if is_light || (uses < 2 && depth + 1 < DEEPEST) => return,
             None => match step {
-                Step::Scalar(value) => self.namer.name(value),
+                Step::Scalar(value) => ident(&self.namer.name(value)),
                 Step::Vector(_) => {
                     self.partial += 1;
-                    format!("partial_{}", self.partial)
+                    format_ident!("partial_{}", self.partial)
                 }
             },
         };
-        let (name, (expression, _)) = (format_ident!("{name}"), self.expression(step));
+        let (expression, _) = self.expression(step);
         self.lets.extend(quote!(let #name = #expression;));
         self.bound.insert(step, name);
     }
 
     /// The name of what a step computes.
-    fn name(&self, step: Step) -> Option<String> {
+    fn name(&self, step: Step) -> Option<Ident> {
         match step {
-            Step::Scalar(value) => names::name(self.packed, value).map(str::to_owned),
+            Step::Scalar(value) => self.packed.program.own_name(value).map(ident),
             Step::Vector(index) => self.names[index].clone(),
         }
     }
@@ -163,7 +163,7 @@ impl Writer<'_> {
         if let Op::Input(symbol) = &self.packed.program.steps[value]
             && self.packed.lane(value).is_none()
         {
-            let name = format_ident!("{}", symbol.to_string());
+            let name = ident(symbol);
             return (quote!(#name), Strength::Atom);
         }
         match self.packed.lane(value) {
@@ -190,7 +190,7 @@ impl Writer<'_> {
         let operand = |value: &Value| self.value(*value);
         match op {
             Op::Input(symbol) => {
-                let name = format_ident!("{}", symbol.to_string());
+                let name = ident(symbol);
                 (quote!(#name), Strength::Atom)
             }
             Op::Constant(exact) => (Number::Double.exact(exact), Strength::Sign),

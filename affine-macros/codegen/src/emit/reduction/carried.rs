@@ -5,26 +5,24 @@ use quote::quote;
 
 use crate::derive::VolumeMeasure;
 use crate::emit::context::Context;
-use crate::emit::pattern::{components, identifiers, pattern};
+use crate::emit::pattern::{entries, identifiers, pattern, table};
 use crate::emit::point::bind_measure;
+use crate::symbol::{Quantity, Symbol};
 
 /// The state with `1/D` and `q` from its placement.
 pub(super) fn renewed(context: &Context, list: &[VolumeMeasure]) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
-    let all: Vec<String> = context.model.reduced.names();
+    let all = context.model.reduced.symbols();
     let names = identifiers(&all);
-    let rows = components("phi", n).into_iter().map(|row| {
-        let row = identifiers(&row);
-        quote!([#(#row),*])
-    });
-    let is_carried = |name: &str| list.iter().any(|carried| carried.quantity().stem() == name);
-    let kept: Vec<&str> = all.iter().map(String::as_str).filter(|name| !is_carried(name)).collect();
+    let rows = table(&entries(Quantity::Placement, n));
+    let is_carried = |symbol: &Symbol| list.iter().any(|carried| *symbol == carried.quantity().into());
+    let kept: Vec<Symbol> = all.iter().filter(|symbol| !is_carried(symbol)).cloned().collect();
     let bound = pattern(&all, &kept);
     let carried = computed(context, list, &quote!(&phi));
     quote! {
         fn renewed<#t: #rt::Real>(&self, reduced: &Self::Reduced<#t>) -> Self::Reduced<#t> {
             let #bound = *reduced;
-            let phi = #rt::matrix([#(#rows),*]);
+            let phi = #rt::matrix(#rows);
             #carried
             [#(#names),*]
         }

@@ -1,32 +1,27 @@
 //! The phase point of a reduced state.
 
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::quote;
 
 use crate::derive::{AffineMomentum, Components, Trajectory};
 use crate::emit::context::Context;
-use crate::emit::pattern::{components, identifiers, pattern};
+use crate::emit::pattern::{components, entries, identifiers, pattern, table};
 use crate::emit::point::{projected, wrapper};
 use crate::emit::separated;
+use crate::symbol::{Quantity, Symbol};
 
 /// `expand`: what moves in closed form is put back, and space turned back.
 pub(super) fn expand(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
-    let all: Vec<String> = context.model.reduced.names();
+    let all = context.model.reduced.symbols();
     // No phase point holds the work, and 1/D and q follow from phi.
-    let needed: Vec<&str> = all
-        .iter()
-        .map(String::as_str)
-        .filter(|name| !["inverse_dilatation", "q", "work"].contains(name))
-        .collect();
+    let follows = [Quantity::InverseDilatation, Quantity::MeanLogStretch, Quantity::Work].map(Symbol::from);
+    let needed: Vec<Symbol> = all.iter().filter(|symbol| !follows.contains(symbol)).cloned().collect();
     let bound = pattern(&all, &needed);
     let mut lets = quote!(let #bound = *reduced;);
-    let rows = |stem: &str| {
-        let rows = components(stem, n).into_iter().map(|row| {
-            let row = identifiers(&row);
-            quote!([#(#row),*])
-        });
-        quote!(#rt::matrix([#(#rows),*]))
+    let rows = |of: Quantity| {
+        let rows = table(&entries(of, n));
+        quote!(#rt::matrix(#rows))
     };
     let back = |value: TokenStream| {
         if parts.turn { quote!(constants.turn.tr_mul(&#value)) } else { value }
@@ -34,14 +29,14 @@ pub(super) fn expand(context: &Context, parts: &Trajectory) -> TokenStream {
     if parts.dilatation.is_some() {
         lets.extend(separated::placement(context));
     } else {
-        let phi = back(rows("phi"));
+        let phi = back(rows(Quantity::Placement));
         lets.extend(quote!(let phi = #phi;));
     }
     if parts.origin {
         lets.extend(quote!(let elapsed = t - constants.t0;));
     }
     if parts.placed {
-        let x = (1..=n).map(|i| format_ident!("x_{i}"));
+        let x = identifiers(&components(Quantity::Position, n));
         let x = back(quote!(#rt::vector([#(#x),*])));
         lets.extend(quote!(let x = #x;));
     } else if parts.drift {
@@ -49,8 +44,8 @@ pub(super) fn expand(context: &Context, parts: &Trajectory) -> TokenStream {
     }
     let p = if parts.pushed { quote!(p) } else { quote!(constants.p) };
     if parts.pushed {
-        let stem = if parts.comoving { "p_hat" } else { "p" };
-        let components = (1..=n).map(|i| format_ident!("{stem}_{i}"));
+        let of = if parts.comoving { Quantity::ComovingLinearMomentum } else { Quantity::LinearMomentum };
+        let components = identifiers(&components(of, n));
         let components = quote!(#rt::vector([#(#components),*]));
         lets.extend(match parts.comoving {
             true => quote!(let p = #rt::inverse(&phi).tr_mul(&#components);),
@@ -59,7 +54,7 @@ pub(super) fn expand(context: &Context, parts: &Trajectory) -> TokenStream {
     }
     lets.extend(match parts.dilatation {
         Some(_) => separated::momentum(context, &parts.fixed),
-        None => expanded_momentum(context, parts, &rows(parts.momentum_name)),
+        None => expanded_momentum(context, parts, &rows(parts.momentum_entries)),
     });
     let spin = match (parts.rotation, parts.momentum) {
         (Some(Components::Comoving), AffineMomentum::Spin(Components::Comoving)) => {

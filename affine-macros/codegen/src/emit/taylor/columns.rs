@@ -5,17 +5,17 @@ use quote::{format_ident, quote};
 
 use super::writer::Writer;
 use crate::emit::number::number;
+use crate::symbol::Symbol;
 
 impl Writer<'_> {
     /// The type of the columns, and how they are taken from a coefficient.
     pub(super) fn columns(&self) -> TokenStream {
         let (rt, t) = (&self.context.names.rt, &self.context.names.scalar);
         let (lanes, count) = (number(self.recurrence.lanes), number(self.recurrence.columns.len()));
-        let used: Vec<String> = (0..self.recurrence.vectors)
+        let used: Vec<Symbol> = (0..self.recurrence.vectors)
             .filter(|slot| self.is_in_column(*slot))
             .filter_map(|slot| Some(self.name(self.recurrence.row[slot]?.value)))
             .collect();
-        let used: Vec<&str> = used.iter().map(String::as_str).collect();
         let (bind, coefficient) = self.bind(&used, "coefficient");
         let vectors = self.recurrence.columns.iter().map(|column| {
             let entries = self.recurrence.row[column.slot..][..self.recurrence.lanes].iter().map(|series| {
@@ -63,11 +63,11 @@ impl Writer<'_> {
     }
 
     /// The next coefficient of a state that stands in a column.
-    pub(super) fn column_entry(&self, state: &str) -> Option<TokenStream> {
+    pub(super) fn column_entry(&self, state: &Symbol) -> Option<TokenStream> {
         let lanes = self.recurrence.lanes;
         let slot = (0..self.recurrence.vectors).find(|slot| {
             self.is_in_column(*slot)
-                && self.recurrence.row[*slot].is_some_and(|s| self.name(s.value) == state)
+                && self.recurrence.row[*slot].is_some_and(|s| self.name(s.value) == *state)
         })?;
         let column = self.recurrence.columns.iter().position(|column| column.slot == slot / lanes * lanes)?;
         let (name, lane) = (next_column(column + 1), number(slot % lanes));

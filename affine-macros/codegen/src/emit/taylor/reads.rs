@@ -3,6 +3,7 @@
 use super::writer::Writer;
 use crate::ir::taylor::{Rule, Term};
 use crate::ir::{Op, Value};
+use crate::symbol::Symbol;
 
 /// The moving values of the present order that a rule reads.
 pub(super) fn of(rule: &Rule) -> Vec<Value> {
@@ -62,8 +63,8 @@ impl<'a> Writer<'a> {
         rules
     }
 
-    /// Names of the states among some values and what some rules read.
-    pub(super) fn states_among(&self, values: &[Value], rules: &[&(Value, Rule)]) -> Vec<String> {
+    /// The states among some values and what some rules read.
+    pub(super) fn states_among(&self, values: &[Value], rules: &[&(Value, Rule)]) -> Vec<Symbol> {
         let read = values.iter().copied().chain(rules.iter().flat_map(|(_, rule)| of(rule)));
         let states = read.filter(|v| {
             self.recurrence.moving[*v] && matches!(self.recurrence.program.steps[*v], Op::Input(_))

@@ -20,8 +20,7 @@ impl Writer<'_> {
         let columns = self.recurrence.columns.iter().map(|column| self.vector(column.slot));
         let columns: Vec<Ident> = columns.collect();
         let (fixed, constants) = self.fix(&rules);
-        let (bind, coefficient) =
-            self.bind(&states.iter().map(String::as_str).collect::<Vec<_>>(), "coefficient");
+        let (bind, coefficient) = self.bind(&states, "coefficient");
         let statements = rules.iter().map(|(value, rule)| self.statement(*value, rule));
         let vectors = self.filled_vectors(true);
         let vectors_read = if vectors.is_empty() { quote!(_vectors) } else { quote!(vectors) };

@@ -4,10 +4,11 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::emit::context::Context;
-use crate::emit::pattern::{pattern, reads};
+use crate::emit::pattern::{ident, pattern, reads};
 use crate::emit::trajectory;
 use crate::ir::taylor::{Recurrence, Series};
 use crate::ir::{Program, Value};
+use crate::symbol::Symbol;
 
 /// The recurrence, written down piece by piece.
 pub(super) struct Writer<'a> {
@@ -18,8 +19,8 @@ pub(super) struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    pub(super) fn states(&self) -> Vec<String> {
-        self.context.model.reduced.names()
+    pub(super) fn states(&self) -> Vec<Symbol> {
+        self.context.model.reduced.symbols()
     }
 
     /// The statement that binds the coefficients of the trajectory that a program reads, and the parameter.
@@ -28,7 +29,7 @@ impl Writer<'_> {
     }
 
     /// A state vector's components that are read, bound to their names, and the parameter.
-    pub(super) fn bind(&self, used: &[impl AsRef<str>], from: &str) -> (TokenStream, TokenStream) {
+    pub(super) fn bind(&self, used: &[Symbol], from: &str) -> (TokenStream, TokenStream) {
         let names = self.states();
         if !reads(used, &names) {
             let unused = format_ident!("_{from}");
@@ -45,13 +46,13 @@ impl Writer<'_> {
         program.without_dead_steps()
     }
 
-    /// Name of a value: what the derivation calls it, or its number.
-    pub(super) fn name(&self, value: Value) -> String {
+    /// What the derivation calls a value, or its place.
+    pub(super) fn name(&self, value: Value) -> Symbol {
         self.recurrence.program.name(value)
     }
 
     pub(super) fn ident(&self, value: Value) -> Ident {
-        format_ident!("{}", self.name(value))
+        ident(&self.name(value))
     }
 
     /// A series at order `k`.

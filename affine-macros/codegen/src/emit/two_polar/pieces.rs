@@ -8,9 +8,10 @@ use crate::emit::body::Body;
 use crate::emit::context::Context;
 use crate::emit::number::number;
 use crate::emit::pattern::{pattern, reads};
+use crate::symbol::{Quantity, Symbol};
 
 /// The implementation of the capability over the state with frames, whose components are named.
-pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[String]) -> TokenStream {
+pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[Symbol]) -> TokenStream {
     let Some(pieces) = &form.pieces else { return TokenStream::new() };
     let (prepared, rt, t, n) =
         (&context.names.prepared, &context.names.rt, &context.names.scalar, context.dim());
@@ -25,7 +26,7 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[Strin
         let place = if k + 1 == count { quote!(_) } else { quote!(#piece) };
         quote!(#place => { #body })
     });
-    let is_read = |name: &String| pieces.list.iter().any(|piece| piece.program.inputs().contains(name));
+    let is_read = |symbol: &Symbol| pieces.list.iter().any(|piece| piece.program.inputs().contains(symbol));
     let couplings = if form.couplings.iter().any(is_read) { quote!(couplings) } else { quote!(_couplings) };
     let turning = turning(context);
     quote! {
@@ -62,7 +63,7 @@ fn turning(context: &Context) -> TokenStream {
         (Some(program), None) => program,
         _ => return TokenStream::new(),
     };
-    let body = context.double(&program.only("inverse_mu"));
+    let body = context.double(&program.only(&Quantity::InverseMu.into()));
     let (lets, inverse_mu) = (&body.lets, body.result());
     let f64 = quote!(#rt::f64);
     quote! {
@@ -73,7 +74,7 @@ fn turning(context: &Context) -> TokenStream {
     }
 }
 
-fn flow(context: &Context, form: &TwoPolar, piece: &PieceProgram, framed: &[String]) -> TokenStream {
+fn flow(context: &Context, form: &TwoPolar, piece: &PieceProgram, framed: &[Symbol]) -> TokenStream {
     let rt = &context.names.rt;
     let used = piece.program.inputs();
     let couplings = reads(&used, &form.couplings).then(|| {
@@ -88,7 +89,7 @@ fn flow(context: &Context, form: &TwoPolar, piece: &PieceProgram, framed: &[Stri
         _ => (TokenStream::new(), results),
     };
     let place =
-        |name: &String| framed.iter().position(|known| known == name).map_or_else(|| number(0), number);
+        |name: &Symbol| framed.iter().position(|known| known == name).map_or_else(|| number(0), number);
     let rises = piece.shifted.iter().zip(&results).map(|(name, rate)| {
         let at = place(name);
         quote!(#rt::accumulate(&mut state[#at], &mut carry[#at], h * #rate);)

@@ -55,7 +55,8 @@ impl<F: Field> Run<'_, F> {
         let mut place = vec![0; self.packed.program.steps.len()];
         operands.iter().enumerate().for_each(|(k, v)| place[*v] = k);
         steps.push(op.renumbered(&place));
-        let alone = Program { outputs: vec![(String::new(), operands.len())], steps, ..Program::default() };
+        let alone =
+            Program { outputs: vec![(Symbol::Step(value), operands.len())], steps, ..Program::default() };
         let input = |symbol: &Symbol| {
             let k = (0..operands.len()).find(|k| *symbol == Quantity::Constant.at([*k]))?;
             self.value(operands[k])

@@ -1,6 +1,7 @@
 //! A right-hand side in vectors of four: what stands in their lanes, how they are made, in which order.
 
 use crate::ir::{Op, Program, Value};
+use crate::symbol::Symbol;
 
 /// What stands in a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,7 +128,7 @@ impl Packed {
             Step::Vector(index) => self.vectors[index].made.values(),
         });
         let read = inputs.filter(|value| matches!(self.program.steps[*value], Op::Input(_)));
-        program.outputs = read.map(|value| (String::new(), value)).collect();
+        program.outputs = read.map(|value| (Symbol::Step(value), value)).collect();
         program.without_dead_steps()
     }
 

@@ -107,7 +107,7 @@ impl Notation<'_> {
                 symbols::written(symbol).or_else(|| self.computed(*quantity, indices))
             }
             Symbol::About(..) | Symbol::Factor(..) => symbols::written(symbol),
-            Symbol::Result(_) => None,
+            Symbol::Formula(..) | Symbol::Part(..) | Symbol::Step(_) => None,
         });
         known.unwrap_or_else(|| {
             let name = arena.symbol_name(symbol);

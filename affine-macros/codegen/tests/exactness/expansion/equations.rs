@@ -171,5 +171,5 @@ pub(super) fn run(program: &Program, inputs: &Named) -> Option<Named> {
         Some(value.unwrap_or_else(|| panic!("{symbol} is read and not known")))
     };
     let results = program.run::<Number>(&read)?;
-    Some(program.outputs.iter().map(|(name, _)| name.clone()).zip(results).collect())
+    Some(program.results().map(Symbol::to_string).zip(results).collect())
 }
