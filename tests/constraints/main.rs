@@ -4,4 +4,5 @@
 mod confined;
 mod driven;
 mod metric;
+mod one_energy;
 mod stated;
