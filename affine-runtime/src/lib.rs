@@ -18,6 +18,7 @@
 
 #[cfg(feature = "std")]
 pub mod counting;
+pub mod dual;
 pub mod lattice;
 mod private;
 #[cfg(feature = "report")]
@@ -30,11 +31,17 @@ pub mod variation;
 mod without_report;
 
 pub use affine_core::{
-    balance, capability, conserved, decompose, dual, error, force, frames, geodesic, kinematics, metrics,
-    model, potential, sampling, scalar, state, system,
+    balance, conserved, decompose, error, force, frames, geodesic, kinematics, metrics, model, potential,
+    sampling, scalar, state, system,
 };
 pub use affine_integrators as integrate;
 pub use affine_integrators::lanes;
+
+/// What a model has beyond the default, by `emit(...)`, and how code that serves every model finds it.
+pub mod capability {
+    pub use crate::variation::Tangent;
+    pub use affine_core::capability::*;
+}
 
 /// What of the other crates is for this one alone.
 mod inner {

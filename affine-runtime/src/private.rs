@@ -3,10 +3,12 @@
 pub use affine_core::__private::*;
 pub use affine_integrators::__private::*;
 
+pub use crate::dual::Dual;
 pub use crate::lattice::{
     Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, LatticePieces, MetricSide,
     PotentialClass, RatioForm, TwoPolarForm, Variables, rotation, turned,
 };
+pub use crate::variation::Tangent;
 
 /// The lattice of a placement and its affine spin in the frame `F`, with labels and frames nearest to those before.
 ///

@@ -1,10 +1,32 @@
 //! The variational equations: how a motion changes with its start.
 
-use crate::capability::Tangent;
 use crate::dual::Dual;
 use crate::inner::{norm, sound};
 use crate::integrate::{Failure, RungeKutta8};
-use crate::model::StateVector;
+use crate::model::{Group, Model, StateVector};
+use crate::scalar::Scalar;
+
+/// `emit(tangent)`: the variational equations `(dy)' = f'(t, y) dy` beside `y' = f(t, y)`, over the reduced state;
+/// [`Variation`] integrates them.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no variational equations",
+    label = "`emit(tangent)` is missing",
+    note = "write `emit(tangent)` in its `#[affine_model(...)]`"
+)]
+pub trait Tangent<const N: usize>: Model<N> {
+    /// The reduced state, then its change.
+    type Varied<T: Scalar>: StateVector<T>;
+    /// Layout of both, for the norm of errors: the change is one group.
+    const VARIED: &'static [Group];
+
+    /// Time derivatives of state and change. The slopes of the constants are their derivatives along the direction.
+    fn variational_equations<T: Scalar>(
+        &self,
+        t: T,
+        constants: &Self::Constants<Dual<T>>,
+        varied: &Self::Varied<T>,
+    ) -> Self::Varied<T>;
+}
 
 /// A motion and its derivative with respect to the start, along one direction.
 ///
@@ -15,7 +37,7 @@ use crate::model::StateVector;
 /// The reduced state and its change are integrated together, by [`RungeKutta8`] with the error of both below the
 /// tolerance; reduction and expansion are differentiated by dual numbers, what the trajectory conserves included.
 /// Directions and changes are plain arrays in the layout of [`Description::full`](crate::model::Description::full), like
-/// [`Model::flatten`](crate::Model::flatten) gives points.
+/// [`Model::flatten`] gives points.
 ///
 /// ```
 /// use affine_runtime::prelude::*;

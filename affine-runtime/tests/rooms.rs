@@ -99,3 +99,22 @@ fn forbidden_arrows_are_found() {
     rooms.allowed.insert("points".to_owned(), BTreeSet::new());
     assert!(forbidden(&rooms, &arrows).contains("state.rs -> error.rs"));
 }
+
+/// Lines of a file that are neither blank nor comments nor tests, which stand last.
+fn lines_of_code(text: &str) -> usize {
+    let (code, _) = text.split_once("\n#[cfg(test)]\n").unwrap_or((text, ""));
+    code.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with("//")).count()
+}
+
+/// What a model without the standard library is linked against.
+#[test]
+fn the_core_is_small() {
+    // Behind the features `std` and `double-double`.
+    let is_left_out = |file: &str| file.starts_with("error/") || file == "scalar/double_double.rs";
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("core/src");
+    let arrows = arrows("core/src");
+    let files = arrows.of.keys().filter(|file| !is_left_out(file));
+    let lines: usize =
+        files.map(|file| lines_of_code(&std::fs::read_to_string(src.join(file)).unwrap())).sum();
+    assert!((4000..=5000).contains(&lines), "{lines} lines");
+}

@@ -5,10 +5,8 @@
 //! `Some` of the capability where it was emitted and `None::<NotEmitted>` elsewhere, a type without values.
 
 use crate::divisor::Divisor;
-use crate::dual::Dual;
 use crate::lanes::{Lanes, in_lane};
 use crate::model::Model;
-use crate::quantity::Group;
 use crate::scalar::{Real, Scalar};
 use crate::system::{Packing, Pieces, SecondOrder, Series, StateVector, Sum};
 use crate::vectors::{Portable, Vectors};
@@ -175,28 +173,6 @@ pub trait Splitting<const N: usize>: Model<N> {
         state: &mut Self::Reduced<T>,
         carry: &mut Self::Reduced<T>,
     );
-}
-
-/// `emit(tangent)`: the variational equations `(dy)' = f'(t, y) dy` beside `y' = f(t, y)`, over the reduced state;
-/// `Variation` integrates them.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` has no variational equations",
-    label = "`emit(tangent)` is missing",
-    note = "write `emit(tangent)` in its `#[affine_model(...)]`"
-)]
-pub trait Tangent<const N: usize>: Model<N> {
-    /// The reduced state, then its change.
-    type Varied<T: Scalar>: StateVector<T>;
-    /// Layout of both, for the norm of errors: the change is one group.
-    const VARIED: &'static [Group];
-
-    /// Time derivatives of state and change. The slopes of the constants are their derivatives along the direction.
-    fn variational_equations<T: Scalar>(
-        &self,
-        t: T,
-        constants: &Self::Constants<Dual<T>>,
-        varied: &Self::Varied<T>,
-    ) -> Self::Varied<T>;
 }
 
 /// `emit(nystrom)`: the reduced equations as `q' = V(p)`, `p' = F(t, q)`, for models whose kinetic energy has constant

@@ -14,7 +14,6 @@ pub mod decompose;
 mod description;
 mod dissipation;
 mod divisor;
-pub mod dual;
 mod elliptic;
 pub mod error;
 pub mod force;

@@ -4,9 +4,7 @@ pub use core::primitive::{f64, usize};
 
 pub use crate::balance::{Balance, CentreBalance};
 pub use crate::breathing::Breathing;
-pub use crate::capability::{
-    Emitted, InLanes, PackedEquations, SecondOrderEquations, Splitting, Tangent, Taylor,
-};
+pub use crate::capability::{Emitted, InLanes, PackedEquations, SecondOrderEquations, Splitting, Taylor};
 pub use crate::confined::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::custom::{
     as_force, as_potential, comoving_force, comoving_force_in, potential_energy, potential_energy_in,
@@ -16,7 +14,6 @@ pub use crate::custom::{
 pub use crate::decompose::{log_stretches, principal_log_stretches, principal_stretches, skew_exponential};
 pub use crate::dissipation::{semidefinite, semidefinite_form};
 pub use crate::divisor::{Divisor, over};
-pub use crate::dual::Dual;
 pub use crate::error::Result;
 pub use crate::force;
 pub use crate::frames::{
