@@ -52,7 +52,7 @@ pub use model::{
 };
 pub use symbols::{VolumeMeasure, reads_time};
 pub use trajectory::{AffineMomentum, Trajectory};
-pub use well_posed::{Condition, Damping, NumericBlock, Relation};
+pub use well_posed::{Condition, Damping, Factor, NumericBlock, Relation};
 pub use written::{Part, Written};
 
 /// Derives a model; `None` only for energies that the checks refuse.

@@ -1,6 +1,8 @@
 //! A field may be called what the derivation calls something else: its name changes nothing but the places where it stands.
 #![allow(clippy::unwrap_used)]
 
+use std::path::{Path, PathBuf};
+
 use affine_codegen::expand;
 use proc_macro2::{Group, Ident, Literal, TokenStream, TokenTree};
 
@@ -122,4 +124,80 @@ fn names_of_fields_of_potentials_change_nothing() {
 #[test]
 fn names_of_matrices_and_of_what_computes_change_nothing() {
     change_nothing(&OTHERS, &NAMES);
+}
+
+/// Rooms that know what things are, and need not look at what they are called.
+const TYPED: [&str; 6] = ["algebra", "ir", "optimise", "mechanics", "derive", "emit"];
+
+/// How code looks at text.
+const LOOKS: [&str; 17] = [
+    "strip_prefix(",
+    "strip_suffix(",
+    "starts_with(",
+    ".ends_with(",
+    "split_once(",
+    "rsplit(",
+    ".split(",
+    ".trim_",
+    ".replace('",
+    ".replace(\"",
+    ".chars()",
+    ".contains(\"",
+    ".contains('",
+    ".contains(&format!",
+    "== \"",
+    "!= \"",
+    "== format!",
+];
+
+/// Where text is read or made: literals of the user and the notation of numbers, names of the user's fields, names of files, and
+/// what identifiers are made of.
+const TEXTS: [&str; 9] = [
+    "algebra/rational.rs",
+    "algebra/text.rs",
+    "algebra/fault.rs",
+    "mechanics/notation/field.rs",
+    "mechanics/notation/formula/latex.rs",
+    "mechanics/notation/latex.rs",
+    "mechanics/notation/symbols.rs",
+    "ir/naming.rs",
+    "emit/fields.rs",
+];
+
+fn files(folder: &Path, list: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() { files(&path, list) } else { list.push(path) }
+    }
+}
+
+/// The looks at text in a source, comments apart.
+fn looks(source: &str) -> Vec<&str> {
+    let lines = source.lines().filter(|line| !line.trim_start().starts_with("//"));
+    lines.filter(|line| LOOKS.iter().any(|look| line.contains(look))).collect()
+}
+
+#[test]
+fn no_pass_decides_by_text() {
+    assert_eq!(looks("a.strip_prefix(\"c_\")\n// name == \"d\"\nname == \"d\"").len(), 2);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut sources = Vec::new();
+    files(&root, &mut sources);
+    let (mut found, mut read) = (Vec::new(), 0);
+    for path in sources {
+        let file = path.strip_prefix(&root).unwrap().to_str().unwrap().replace('\\', "/");
+        let room = file.split('/').next().unwrap().trim_end_matches(".rs");
+        if !TYPED.contains(&room) {
+            continue;
+        }
+        read += 1;
+        let source = std::fs::read_to_string(&path).unwrap();
+        let looks = looks(&source);
+        assert!(!TEXTS.contains(&file.as_str()) || !looks.is_empty(), "{file} looks at no text any more");
+        if !TEXTS.contains(&file.as_str()) {
+            found.extend(looks.iter().map(|line| format!("{file}: {}", line.trim())));
+        }
+    }
+    assert!(read > 200, "{read} files of rooms that are checked");
+    assert!(found.is_empty(), "{}", found.join("\n"));
 }

@@ -267,16 +267,21 @@ pub(super) fn claims(
 ) {
     let Some(symmetry) = &spec.symmetry else { return };
     for (side, name, claim) in [(Side::Space, "space", symmetry.space), (Side::Body, "body", symmetry.body)] {
-        let (group, letters) = match claim.value {
-            Claim::Affine => (Group::Affine, "GL"),
-            Claim::Metric => (Group::Metric, "O"),
+        let (group, letters, less) = match claim.value {
+            Claim::Affine => (Group::Affine, "GL", Some(Claim::Metric.name())),
+            Claim::Metric => (Group::Metric, "O", None),
             Claim::None => continue,
         };
         let Some((breaker, place)) = broken_by(kinetic, side, group) else { continue };
         let n = kinetic.dim;
         let mistake = FormMistake::ClaimBroken {
             side: name,
+            action: match side {
+                Side::Space => "in space, phi -> L phi",
+                Side::Body => "in the body, phi -> phi R",
+            },
             claim: claim.value.name(),
+            less,
             group: format!("{letters}({n})"),
             term: term(place),
             transformation: match breaker {

@@ -6,7 +6,7 @@ use crate::diagnostics::{ConstraintMistake, Diagnostics, Directions, FormMistake
 use crate::lower::constant;
 use crate::mechanics::direction::Direction;
 use crate::mechanics::momentum_side::Stated;
-use crate::spec::{Expression, MomentumKind, Named, Requirement, Spec, Term, Value};
+use crate::spec::{Expression, ExpressionKind, MomentumKind, Named, Requirement, Spec, Term, Value};
 
 /// Each term is a multiple of one invariant.
 pub(super) fn scalars(spec: &Spec, found: &mut Diagnostics) {
@@ -125,7 +125,10 @@ pub(super) fn positive(spec: &Spec, stated: &Stated, found: &mut Diagnostics) {
     let negative = |value: &Polynomial| value.as_constant().is_some_and(|value| value.is_negative());
     for (direction, _) in stated.eigenvalues().iter().filter(|(_, value)| negative(value)) {
         let (eigenvalue, numbers, _) = eigenvalue(spec, *direction);
-        let text = if eigenvalue == numbers { eigenvalue } else { format!("{eigenvalue} = {numbers}") };
+        let text = match numbers {
+            Some(numbers) if eigenvalue != numbers => format!("{eigenvalue} = {numbers}"),
+            _ => eigenvalue,
+        };
         found.report(
             required.span,
             FormMistake::NotPositiveDefinite { defect: format!("{text} is negative") },
@@ -141,29 +144,36 @@ pub(super) fn positive(spec: &Spec, stated: &Stated, found: &mut Diagnostics) {
 }
 
 /// An eigenvalue by the names of the terms, with the user's coefficients in it, and the momenta it belongs to.
-fn eigenvalue(spec: &Spec, direction: Direction) -> (String, String, Directions) {
+fn eigenvalue(spec: &Spec, direction: Direction) -> (String, Option<String>, Directions) {
     let coefficient = |kind: MomentumKind| {
         let term = terms(spec).find(|term| term.kind.value == kind);
         term.and_then(written).map_or_else(|| "0".to_owned(), |e| bracketed(e.to_string()))
     };
     let a = coefficient(MomentumKind::Casimir2);
     match direction {
-        Direction::Shear | Direction::Entry => ("casimir2".to_owned(), a, Directions::SymmetricTraceless),
+        Direction::Shear | Direction::Entry => {
+            let written =
+                terms(spec).find(|term| term.kind.value == MomentumKind::Casimir2).and_then(written);
+            let is_zero =
+                |e: &Expression| matches!(&e.kind, ExpressionKind::Number(number) if number.is_zero());
+            let numbers = written.filter(|e| !is_zero(e)).map(|_| a);
+            ("casimir2".to_owned(), numbers, Directions::SymmetricTraceless)
+        }
         Direction::Rotation => {
             let norms = [MomentumKind::VorticitySquared, MomentumKind::SpinSquared];
             let norm = norms.into_iter().find(|kind| terms(spec).any(|term| term.kind.value == *kind));
             match norm {
                 Some(kind) => (
                     format!("2 {} - casimir2", kind.name()),
-                    format!("2*{} - {a}", coefficient(kind)),
+                    Some(format!("2*{} - {a}", coefficient(kind))),
                     Directions::Skew,
                 ),
-                None => ("-casimir2".to_owned(), format!("-{a}"), Directions::Skew),
+                None => ("-casimir2".to_owned(), Some(format!("-{a}")), Directions::Skew),
             }
         }
         Direction::Dilatation => (
             "casimir2 + n casimir1_squared".to_owned(),
-            format!("{a} + {}*{}", spec.dim.value, coefficient(MomentumKind::Casimir1Squared)),
+            Some(format!("{a} + {}*{}", spec.dim.value, coefficient(MomentumKind::Casimir1Squared))),
             Directions::Trace,
         ),
     }

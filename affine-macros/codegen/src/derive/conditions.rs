@@ -15,7 +15,7 @@ use crate::symbol::Quantity;
 
 use super::model::Regularity;
 use super::prepared::{summands, unbound};
-use super::well_posed::{Condition, Relation};
+use super::well_posed::{Condition, Factor, Relation};
 
 /// What `prepare()` has to check once the fields have values: the eigenvalues of a constant mass matrix, masses, the inertia
 /// of d'Alembert's energy.
@@ -30,7 +30,7 @@ pub(super) fn conditions(
     // Masses are positive, whatever stands beside their energy.
     let inertia = terms().find(|term| term.kind == TermKind::Dalembert).map(|term| &term.value);
     let tensor = terms().any(|term| matches!(term.value, Coefficient::Matrix(_)));
-    let mut list: Vec<(&'static str, &'static str, bool, Polynomial)> = Vec::new();
+    let mut list: Vec<(Factor, &'static str, bool, Polynomial)> = Vec::new();
     for (direction, value) in hessian.into_iter().flat_map(Hessian::eigenvalues) {
         let (name, directions) = match direction {
             // J has its eigenvalues once for each row of phi_dot, whatever the basis.
@@ -41,26 +41,28 @@ pub(super) fn conditions(
             Direction::Entry => ("K", "one entry of the affine velocity"),
         };
         // A tensor has no I, A and B of its own.
-        let name = if tensor && !dalembert { "the eigenvalue of T" } else { name };
-        if !list.iter().any(|(known, on, _, same)| (*known, *on) == (name, directions) && *same == value) {
-            list.push((name, directions, require_positive || dalembert, value));
+        let factor = Factor::Eigenvalue(if tensor && !dalembert { "the eigenvalue of T" } else { name });
+        if !list.iter().any(|(known, on, _, same)| (*known, *on) == (factor, directions) && *same == value) {
+            list.push((factor, directions, require_positive || dalembert, value));
         }
     }
     for mass in motion.masses.list() {
         let mass = Polynomial::normal_form(arena, mass);
         let positive = require_positive || inertia.is_some();
-        list.push(("m", "the velocity of the centre of mass", positive, mass));
+        list.push((Factor::Mass("m"), "the velocity of the centre of mass", positive, mass));
     }
     if let Some(inertia) = inertia.filter(|_| !dalembert) {
         let minors = leading_minors(arena, inertia).into_iter();
-        list.extend(minors.map(|minor| ("a leading minor of J", "a row of phi_dot", true, minor)));
+        list.extend(
+            minors.map(|minor| (Factor::Eigenvalue("a leading minor of J"), "a row of phi_dot", true, minor)),
+        );
     }
     list.into_iter()
         .filter(|(.., value)| value.as_constant().is_none())
-        .map(|(name, directions, positive, value)| {
+        .map(|(factor, directions, positive, value)| {
             let sizes = summands(&value);
             let program = unbound(arena, std::iter::once(value).chain(sizes));
-            Condition { name, directions, relation: Relation::MomentumOfVelocity, positive, program }
+            Condition { factor, directions, relation: Relation::MomentumOfVelocity, positive, program }
         })
         .collect()
 }

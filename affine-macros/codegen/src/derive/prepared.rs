@@ -11,7 +11,7 @@ use crate::mechanics::term::Coefficient;
 use crate::optimise::{Batch, straight_line};
 use crate::symbol::Quantity;
 
-use super::well_posed::{Condition, Damping, NumericBlock, Relation};
+use super::well_posed::{Condition, Damping, Factor, NumericBlock, Relation};
 
 /// What `prepare()` has to find not negative in the dissipation.
 pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Damping {
@@ -50,7 +50,8 @@ pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Damping {
             listed.push((name, directions, value.clone()));
             let program = unbound(arena, std::iter::once(value.clone()).chain(summands(&value)));
             let relation = Relation::MomentumOfVelocity;
-            damping.conditions.push(Condition { name, directions, relation, positive: false, program });
+            let factor = Factor::Eigenvalue(name);
+            damping.conditions.push(Condition { factor, directions, relation, positive: false, program });
         }
     }
     damping

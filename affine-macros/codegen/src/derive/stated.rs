@@ -6,7 +6,7 @@ use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::term::Frame;
 
 use super::prepared::{summands, unbound};
-use super::well_posed::{Condition, Relation};
+use super::well_posed::{Condition, Factor, Relation};
 
 /// Each eigenvalue of the momentum form, and the inverse mass, is different from zero; nothing is asked of a cubic
 /// Hamiltonian, whose velocity is a polynomial in the momentum whatever the coefficients are.
@@ -14,38 +14,39 @@ pub(super) fn conditions(arena: &mut Arena, stated: &Stated, positive: bool) -> 
     if stated.is_cubic() {
         return Vec::new();
     }
-    let rotation = match (stated.invariants().skew.is_zero(), stated.frame) {
+    let without_norm = stated.invariants().skew.is_zero();
+    let rotation = match (without_norm, stated.frame) {
         (true, _) => "-casimir2",
         (false, Frame::Space) => "2 spin_squared - casimir2",
         (false, _) => "2 vorticity_squared - casimir2",
     };
     let eigenvalues = stated.eigenvalues();
     let shears = eigenvalues.iter().any(|(direction, _)| *direction == Direction::Shear);
-    let mut values: Vec<(&'static str, &'static str, Polynomial)> = eigenvalues
+    let mut values: Vec<(Factor, &'static str, Polynomial)> = eigenvalues
         .into_iter()
         .filter_map(|(direction, value)| {
             let (name, directions) = match direction {
                 // Without a norm it is the eigenvalue on shears but for its sign, which the former decides.
-                Direction::Rotation if rotation == "-casimir2" && !positive && shears => return None,
+                Direction::Rotation if without_norm && !positive && shears => return None,
                 Direction::Rotation => (rotation, "skew momenta (rotation)"),
                 Direction::Dilatation => {
                     ("casimir2 + n casimir1_squared", "multiples of the identity (dilatation)")
                 }
                 Direction::Shear | Direction::Entry => ("casimir2", "symmetric traceless momenta (shear)"),
             };
-            Some((name, directions, value))
+            Some((Factor::Eigenvalue(name), directions, value))
         })
         .collect();
     if let Some((_, _, inverse_mass)) = &stated.translation {
-        values.push(("1/m", "the momentum of the centre of mass", inverse_mass.clone()));
+        values.push((Factor::Mass("1/m"), "the momentum of the centre of mass", inverse_mass.clone()));
     }
     values
         .into_iter()
         .filter(|(_, _, value)| value.as_constant().is_none())
-        .map(|(name, directions, value)| {
+        .map(|(factor, directions, value)| {
             let sizes = summands(&value);
             let program = unbound(arena, std::iter::once(value).chain(sizes));
-            Condition { name, directions, relation: Relation::VelocityOfMomentum, positive, program }
+            Condition { factor, directions, relation: Relation::VelocityOfMomentum, positive, program }
         })
         .collect()
 }

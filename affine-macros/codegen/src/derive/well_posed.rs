@@ -6,8 +6,8 @@ use crate::symbol::Symbol;
 
 /// A quantity that must not vanish once the fields have values.
 pub struct Condition {
-    /// `I + A`.
-    pub name: &'static str,
+    /// The quantity.
+    pub factor: Factor,
     /// Which velocities lose their momentum, or which momenta their velocity.
     pub directions: &'static str,
     /// Is it a factor of velocities, or of momenta?
@@ -16,6 +16,25 @@ pub struct Condition {
     pub positive: bool,
     /// Computes the value, then the terms whose sizes make the threshold.
     pub program: Program,
+}
+
+/// A factor between velocities and momenta, by name: all eigenvalues share a threshold, a mass has its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Factor {
+    /// `I + A`.
+    Eigenvalue(&'static str),
+    /// `m`, `1/m`.
+    Mass(&'static str),
+}
+
+impl Factor {
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Eigenvalue(name) | Self::Mass(name) => name,
+        }
+    }
 }
 
 /// What an eigenvalue is a factor of.

@@ -130,7 +130,7 @@ written! {
     Metric { entries, inverse; size }
     Balance { internal, centre; }
     BalancedQuantities { program; quantities }
-    Condition { program; name, directions, relation, positive }
+    Condition { program; factor, directions, relation, positive }
     Damping { conditions, blocks; }
     NumericBlock { program, basis; inverse, size, positive }
     Bases { space, body; }

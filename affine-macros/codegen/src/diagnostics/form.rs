@@ -39,8 +39,8 @@ pub enum FormMistake {
     DegenerateHamiltonian {
         /// The eigenvalue: `2 vorticity_squared - casimir2`.
         eigenvalue: String,
-        /// The same in the user's numbers: `2*0.1 - 0.2`.
-        numbers: String,
+        /// The same in the user's numbers: `2*0.1 - 0.2`; `None` where there is none to write.
+        numbers: Option<String>,
         /// The momenta.
         directions: Directions,
     },
@@ -67,8 +67,12 @@ pub enum FormMistake {
     ClaimBroken {
         /// `space` or `body`.
         side: &'static str,
+        /// How the group acts: `in space, phi -> L phi`.
+        action: &'static str,
         /// The claim: `affine` or `metric`.
         claim: &'static str,
+        /// A claim of less that is not none.
+        less: Option<&'static str>,
         /// The group: `GL(3)`, `O(2)`.
         group: String,
         /// The term that breaks it.
@@ -132,8 +136,9 @@ impl FormMistake {
                 ),
             ),
             Self::DegenerateHamiltonian { eigenvalue, numbers, directions } => {
-                let value = if numbers == "0" { eigenvalue.clone() } else { equated(eigenvalue, numbers) };
-                let directions = directions.to_string().replace("velocities", "momenta");
+                let equated = numbers.as_ref().map(|numbers| equated(eigenvalue, numbers));
+                let value = equated.unwrap_or_else(|| eigenvalue.clone());
+                let directions = directions.of("momenta");
                 text(
                     format!("the Hamiltonian is degenerate: {value} = 0 on {directions}"),
                     format!(
@@ -165,19 +170,17 @@ impl FormMistake {
                  I > |A| and I + A + n B > 0",
                 "change the coefficients, or remove the requirement: indefinite energies are legitimate",
             ),
-            Self::ClaimBroken { side, claim, group, term, transformation } => text(
+            Self::ClaimBroken { side, action, claim, less, group, term, transformation } => text(
                 format!("`{term}` breaks the claim `{side} = {claim}`"),
                 format!(
-                    "the claim is that T is invariant under {group} acting {}, and T of `{term}` changes under \
+                    "the claim is that T is invariant under {group} acting {action}, and T of `{term}` changes under \
                      {transformation}",
-                    if *side == "space" { "in space, phi -> L phi" } else { "in the body, phi -> phi R" },
                 ),
                 format!(
                     "claim less, {}, or replace the term",
-                    if *claim == "affine" {
-                        format!("`{side} = metric` or `{side} = none`")
-                    } else {
-                        format!("`{side} = none`")
+                    match less {
+                        Some(less) => format!("`{side} = {less}` or `{side} = none`"),
+                        None => format!("`{side} = none`"),
                     },
                 ),
             ),
@@ -202,12 +205,19 @@ pub enum Directions {
     Trace,
 }
 
+impl Directions {
+    /// Those of velocities, or of momenta.
+    fn of(self, what: &str) -> String {
+        match self {
+            Self::SymmetricTraceless => format!("symmetric traceless {what} (shear)"),
+            Self::Skew => format!("skew {what} (rotation)"),
+            Self::Trace => "multiples of the identity (dilatation)".to_owned(),
+        }
+    }
+}
+
 impl fmt::Display for Directions {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::SymmetricTraceless => "symmetric traceless velocities (shear)",
-            Self::Skew => "skew velocities (rotation)",
-            Self::Trace => "multiples of the identity (dilatation)",
-        })
+        f.write_str(&self.of("velocities"))
     }
 }

@@ -82,7 +82,7 @@ impl Writer<'_> {
     fn constants(&mut self) {
         for (value, step) in self.program.steps.iter().enumerate() {
             if let Op::Constant(number) = step
-                && !(number.is_zero() || number.is_one() || self.ends_with(value))
+                && !(number.is_zero() || number.is_one() || self.is_only_result(value))
             {
                 let name = name_of(number, &mut self.roots);
                 let exact = self.scope.number.exact(number);
@@ -93,7 +93,7 @@ impl Writer<'_> {
     }
 
     /// Is the value the only result, and nothing else?
-    fn ends_with(&self, value: Value) -> bool {
+    fn is_only_result(&self, value: Value) -> bool {
         matches!(self.program.outputs.as_slice(), [(_, only)] if *only == value) && self.uses[value] == 1
     }
 
@@ -120,7 +120,7 @@ impl Writer<'_> {
         let sign_only = matches!(step, Op::Neg(_));
         self.depth[value] = self.nested(step);
         let name = match (named, result) {
-            (_, Some(_)) if self.ends_with(value) => return,
+            (_, Some(_)) if self.is_only_result(value) => return,
             (_, Some(name)) | (Some(name), None) => name,
             (None, None) if (self.uses[value] > 1 || self.depth[value] >= DEEPEST) && !sign_only => {
                 self.namer.name(value)

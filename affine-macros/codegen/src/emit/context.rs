@@ -63,9 +63,11 @@ impl Context<'_> {
         let Body { lets, results } = self.generic(program);
         let names: Vec<Ident> = program.results().map(ident).collect();
         // A result with a step of its own is bound to its name already.
-        let lets_of =
-            names.iter().zip(&results).filter(|(name, result)| name.to_string() != result.to_string());
-        let rest = lets_of.map(|(name, result)| quote!(let #name = #result;));
+        let is_bound = |name: &Ident, result: &TokenStream| {
+            syn::parse2::<Ident>(result.clone()).is_ok_and(|result| result == *name)
+        };
+        let others = names.iter().zip(&results).filter(|(name, result)| !is_bound(name, result));
+        let rest = others.map(|(name, result)| quote!(let #name = #result;));
         quote!(#lets #(#rest)*)
     }
 

@@ -13,7 +13,12 @@ use super::scope::Scope;
 
 /// The local variable of a field of matrix type.
 pub(super) fn matrix_name(field: impl std::fmt::Display) -> Ident {
-    format_ident!("matrix_{}", field.to_string().trim_start_matches("r#"))
+    format_ident!("matrix_{}", bare(field))
+}
+
+/// The name of a field without the mark of a raw identifier.
+pub(super) fn bare(field: impl std::fmt::Display) -> String {
+    field.to_string().trim_start_matches("r#").to_owned()
 }
 
 /// What reads a field, an entry of one, or what was computed before.

@@ -4,13 +4,13 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::derive::splitting::PrincipalProgram;
-use crate::derive::{Condition, Damping, NumericBlock, Relation, Written};
+use crate::derive::{Condition, Damping, Factor, NumericBlock, Relation, Written};
 use crate::spec::{Field, Storage};
 use crate::symbol::Symbol;
 
 use super::body::Body;
 use super::context::Context;
-use super::fields::{matrix_name, over_fields};
+use super::fields::{bare, matrix_name, over_fields};
 use super::metrics;
 use super::number::{double, number};
 use super::pattern::{ident, identifiers, table};
@@ -149,8 +149,7 @@ fn finite_fields(context: &Context, rt: &Ident) -> TokenStream {
     let read = context.model.symbols();
     let fields = context.spec.item.fields.iter().map(|field| &field.ident);
     let named = fields.filter(|field| read.contains(&&Symbol::Field(field.to_string()))).map(|field| {
-        let name = field.to_string();
-        let name = name.trim_start_matches("r#");
+        let name = bare(field);
         quote!((#name, self.#field))
     });
     let named: Vec<TokenStream> = named.collect();
@@ -170,8 +169,7 @@ fn matrices(context: &Context, rt: &Ident) -> TokenStream {
                 ::core::array::from_fn(|a| ::core::array::from_fn(|b| self.#field[(a, b)]))
             },
         };
-        let name = field.to_string();
-        let name = name.trim_start_matches("r#");
+        let name = bare(field);
         let condition = format!("{name} = {name}^T");
         let reason = format!(
             "the value is the largest difference of two entries of `{name}` whose places are exchanged, and its \
@@ -185,7 +183,7 @@ fn matrices(context: &Context, rt: &Ident) -> TokenStream {
 
 /// Eigenvalues share one threshold, a mass has its own.
 fn conditions(context: &Context, rt: &Ident) -> TokenStream {
-    let is_mass = |c: &&Condition| matches!(c.name, "m" | "1/m");
+    let is_mass = |c: &&Condition| matches!(c.factor, Factor::Mass(_));
     let list = |conditions: Vec<&Condition>| {
         if conditions.is_empty() {
             return TokenStream::new();
@@ -200,7 +198,7 @@ fn conditions(context: &Context, rt: &Ident) -> TokenStream {
 
 fn condition(condition: &Condition, rt: &Ident) -> TokenStream {
     let positive = condition.positive;
-    let text = format!("{} {} 0", condition.name, if positive { ">" } else { "!=" });
+    let text = format!("{} {} 0", condition.factor.name(), if positive { ">" } else { "!=" });
     let (given, sought) = match condition.relation {
         Relation::MomentumOfVelocity => ("velocity", "momentum"),
         Relation::VelocityOfMomentum => ("momentum", "velocity"),
@@ -210,8 +208,11 @@ fn condition(condition: &Condition, rt: &Ident) -> TokenStream {
     } else {
         format!("choose fields that keep it away from zero, or the {sought} does not determine the {given}")
     };
-    let reason =
-        format!("on {} the {sought} is {} times the {given}; {remedy}", condition.directions, condition.name);
+    let reason = format!(
+        "on {} the {sought} is {} times the {given}; {remedy}",
+        condition.directions,
+        condition.factor.name()
+    );
     held(condition, &text, &reason, rt)
 }
 
@@ -221,11 +222,11 @@ fn damping(damping: &Damping, rt: &Ident) -> TokenStream {
         .conditions
         .iter()
         .map(|condition| {
-            let text = format!("{} >= 0", condition.name);
+            let text = format!("{} >= 0", condition.factor.name());
             let reason = format!(
                 "on {} the dissipation function R is half of {} times the square of the velocity; where R < 0 its \
                  forces would feed energy in",
-                condition.directions, condition.name,
+                condition.directions, condition.factor.name(),
             );
             held(condition, &text, &reason, rt)
         })

@@ -142,5 +142,11 @@ fn short(name: Symbol) -> Option<Symbol> {
 /// The name of an exact number; none where it is long.
 #[must_use]
 pub fn of_number(number: &Rational) -> Option<String> {
-    (!number.is_long()).then(|| format!("r{}", number.to_string().replace('/', "_").replace('-', "m")))
+    (!number.is_long()).then(|| format!("r{}", digits(number)))
+}
+
+/// An exact number as a part of a name.
+#[must_use]
+pub fn digits(number: &Rational) -> String {
+    number.to_string().replace('/', "_").replace('-', "m")
 }

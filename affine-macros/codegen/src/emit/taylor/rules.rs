@@ -10,6 +10,7 @@ use crate::algebra::fault::never_missing;
 use crate::emit::body::Body;
 use crate::emit::number::{double, number};
 use crate::ir::Value;
+use crate::ir::naming::digits;
 use crate::ir::taylor::{Place, Rule, Series, Term};
 
 impl Writer<'_> {
@@ -114,9 +115,9 @@ impl Writer<'_> {
 
     /// The reciprocal of a number, to be divided by.
     fn divisor(&self, value: Value) -> Ident {
-        let reciprocal = self.recurrence.number(value).recip().map(|number| number.to_string());
+        let reciprocal = self.recurrence.number(value).recip().map(|number| digits(&number));
         let reciprocal = never_missing(reciprocal, "no number that divides is zero", String::new());
-        format_ident!("divisor_{}", reciprocal.replace('/', "_").replace('-', "m"))
+        format_ident!("divisor_{reciprocal}")
     }
 
     /// All that are divided by, as statements.

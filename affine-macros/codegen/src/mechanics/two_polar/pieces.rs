@@ -18,6 +18,7 @@
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::OnAxes;
+use crate::symbol::Symbol;
 
 use super::{Frames, Lattice};
 
@@ -101,32 +102,29 @@ fn parts(arena: &mut Arena, lattice: &Lattice, h: &Hamiltonian) -> Vec<(String, 
         iso.skew = Polynomial::zero();
     }
     let energy = lattice.hamiltonian(arena, &h);
-    let drift = "drift".to_owned();
-    let mut parts: Vec<(String, Polynomial)> = Vec::new();
+    let mut parts: Vec<(Option<Symbol>, Polynomial)> = Vec::new();
     for (monomial, c) in energy.terms() {
-        let coupling =
-            monomial.iter().find(|atom| lattice.m.contains(atom) || lattice.n.contains(atom)).copied();
-        let name = match coupling {
-            None => drift.clone(),
-            Some(atom) => {
-                let name = arena.symbol_name(atom).to_uppercase();
-                format!("{name}^2")
-            }
-        };
-        let place = parts.iter().position(|(known, _)| *known == name).unwrap_or_else(|| {
-            parts.push((name, Polynomial::zero()));
+        let coupling = monomial.iter().find(|atom| lattice.m.contains(atom) || lattice.n.contains(atom));
+        let coupling = coupling.map(|atom| arena.symbol_of(*atom));
+        let place = parts.iter().position(|(known, _)| *known == coupling).unwrap_or_else(|| {
+            parts.push((coupling, Polynomial::zero()));
             parts.len() - 1
         });
         parts[place].1.add_term(monomial.clone(), c);
     }
     // The drift first, then pair after pair.
     let pairs: Vec<(usize, usize)> = lattice.pairs().collect();
-    let rank = |name: &String| {
-        let of = |(a, b): &(usize, usize)| name.contains(&format!("{}{}", a + 1, b + 1));
-        pairs.iter().position(of).map_or(0, |k| k + 1)
+    let rank = |coupling: &Option<Symbol>| {
+        let is_of = |symbol: &Symbol, (a, b): &(usize, usize)| *symbol.indices() == [a + 1, b + 1];
+        let place = coupling.as_ref().and_then(|symbol| pairs.iter().position(|pair| is_of(symbol, pair)));
+        place.map_or(0, |k| k + 1)
     };
-    parts.sort_by_key(|(name, _)| rank(name));
-    parts
+    parts.sort_by_key(|(coupling, _)| rank(coupling));
+    let name = |coupling: Option<Symbol>| match coupling {
+        None => "drift".to_owned(),
+        Some(symbol) => format!("{}^2", symbol.to_string().to_uppercase()),
+    };
+    parts.into_iter().map(|(coupling, energy)| (name(coupling), energy)).collect()
 }
 
 /// What an energy moves, of coordinates and frames. For `n = 2` the couplings do not move.
