@@ -119,7 +119,7 @@ fn conditions_of_prepare() {
                     let sum = sizes.fold(Rational::ZERO, |sum, (_, value)| &sum + value);
                     assert_eq!(sum, values["value_1"], "the value is the sum of its summands");
                     assert_eq!(condition.positive, internal == Internal::DalembertScalar);
-                    found.push((condition.name, exact(&values["value_1"])));
+                    found.push((condition.factor.name(), exact(&values["value_1"])));
                 }
                 found.sort();
                 expected.sort();

@@ -104,7 +104,7 @@ pub(crate) fn equations(what: &str, model: &Model, rest: &Kinetic, state: &State
     for name in names(&model.trajectory.inputs()) {
         // Turned space has p = (p_1, 0, 0).
         assert!(
-            !model.reduction.turn.is_some() || !["p_2", "p_3"].contains(&name.as_str()),
+            model.reduction.turn.is_none() || !["p_2", "p_3"].contains(&name.as_str()),
             "{what}: {name} is zero"
         );
         assert!(

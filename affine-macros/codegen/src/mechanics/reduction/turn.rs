@@ -34,6 +34,7 @@ impl Turn {
 }
 
 #[cfg(test)]
+#[allow(clippy::expect_used)]
 mod tests {
     use super::*;
     use crate::algebra::Arena;
