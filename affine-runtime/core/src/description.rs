@@ -37,7 +37,7 @@ pub struct Description {
     pub second_order: bool,
     /// Functions of the state that keep their sign where the potential has a value; empty where that is everywhere.
     pub domain: &'static [Guard],
-    /// Parts of the potential with an angle that the time turns, as written: `cos(w*t)`. [`Model::domain`] gives the angles.
+    /// Parts of the potential with an angle that the time turns, as written: `cos(w*t)`. [`Model::domain`](crate::Model::domain) gives the angles.
     pub angles: &'static [&'static str],
     /// What was taken out of the state.
     pub left_out: &'static [LeftOut],
@@ -57,16 +57,16 @@ pub struct LeftOut {
 pub enum Scope {
     /// Every run of the model.
     Model,
-    /// Those by the reduced equations, [`Model::reduced_equations`].
+    /// Those by the reduced equations, [`Model::reduced_equations`](crate::Model::reduced_equations).
     Reduction,
-    /// Those by methods that integrate what the reduced state carries along, see [`Model::renewed`].
+    /// Those by methods that integrate what the reduced state carries along, see [`Model::renewed`](crate::Model::renewed).
     Carried,
     /// Those with `p = 0`.
     Rest,
 }
 
 /// A part of a potential that has a value only where a function of the state keeps its sign. The values of these functions
-/// are those of [`Model::domain`].
+/// are those of [`Model::domain`](crate::Model::domain).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guard {
     /// The part, as written: `ln(q)`, `1/x[1]`.
