@@ -152,7 +152,8 @@ const LOOKS: [&str; 17] = [
 
 /// Where text is read or made: literals of the user and the notation of numbers, names of the user's fields, names of files, and
 /// what identifiers are made of.
-const TEXTS: [&str; 9] = [
+const TEXTS: [&str; 10] = [
+    "algebra/rational.rs",
     "algebra/rational/rounded.rs",
     "algebra/text.rs",
     "algebra/fault.rs",
