@@ -106,6 +106,17 @@ fn a_number_may_have_parts_beyond() {
     assert!(!refused(&args, FIELDS));
 }
 
+/// A multiple of `q` that no one writes out as a product has an answer too, and a short one.
+#[test]
+fn high_multiples_of_logarithms_stay_in_their_functions() {
+    for multiple in ["1e7", "-1e7", "1e9", "1e30", "101"] {
+        let args =
+            format!("dim = 2, kinetic(casimir2 = 1, body_inertia = 2), potential = exp({multiple}*q)*sin(q)");
+        let model = derived(&args);
+        assert!(model.full.program.steps.len() < 200, "{args}: {}", model.full.program.steps.len());
+    }
+}
+
 /// A product of powers of ten: its text, and the exponent of its value, counted by adding.
 fn power_of_ten(factors: std::ops::Range<usize>) -> impl Strategy<Value = (String, i32)> {
     let size = prop::sample::select(vec![200, -200, 150, -150, 100, -100, 30, -30, 7, 0]);

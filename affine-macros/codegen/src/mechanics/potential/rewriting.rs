@@ -20,7 +20,11 @@ fn exponentials(arena: &Arena, symbol: Expr) -> Option<[Symbol; 2]> {
     }
 }
 
-/// The logarithm and the integer `k` of `k q` or `k q_a`.
+/// A higher multiple of a logarithm stays in its function: a product of so many factors takes longer to write down than an
+/// exponential to compute, and leaves the range of numbers sooner.
+const HIGHEST_MULTIPLE: u32 = 100;
+
+/// The logarithm and the integer `k` of `k q` or `k q_a`, where `k` is small enough for a power.
 pub(super) fn multiple_of_logarithm(arena: &Arena, argument: Expr) -> Option<(Expr, i32)> {
     let is_logarithm = |e: Expr| exponentials(arena, e).is_some();
     if is_logarithm(argument) {
@@ -28,7 +32,8 @@ pub(super) fn multiple_of_logarithm(arena: &Arena, argument: Expr) -> Option<(Ex
     }
     match arena.node(argument) {
         Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 && is_logarithm(terms[0].0) => {
-            Some((terms[0].0, i32::try_from(terms[0].1.to_i64()?).ok()?))
+            let k = i32::try_from(terms[0].1.to_i64()?).ok()?;
+            (k.unsigned_abs() <= HIGHEST_MULTIPLE).then_some((terms[0].0, k))
         }
         _ => None,
     }
