@@ -48,6 +48,8 @@ fn folder(package: Option<&str>) -> PathBuf {
     let folder = match package {
         None => "",
         Some("affine-runtime") => "affine-runtime",
+        Some("affine-core") => "affine-runtime/core",
+        Some("affine-integrators") => "affine-runtime/integrators",
         Some("affine-codegen") => "affine-macros/codegen",
         Some("affine-comparison") => "tests/comparison",
         Some(other) => panic!("no package {other}"),
