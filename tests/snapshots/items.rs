@@ -100,7 +100,7 @@ fn member_name(member: &ImplItem) -> String {
     }
 }
 
-/// Likewise.
+/// The first two tokens of an item that is neither a type nor an implementation.
 fn first_words(item: &Item) -> String {
     let words: TokenStream = item.to_token_stream().into_iter().take(2).collect();
     words.to_string()

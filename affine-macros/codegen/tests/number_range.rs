@@ -109,11 +109,21 @@ fn a_number_may_have_parts_beyond() {
 /// A multiple of `q` that no one writes out as a product has an answer too, and a short one.
 #[test]
 fn high_multiples_of_logarithms_stay_in_their_functions() {
-    for multiple in ["1e7", "-1e7", "1e9", "1e30", "101"] {
-        let args =
-            format!("dim = 2, kinetic(casimir2 = 1, body_inertia = 2), potential = exp({multiple}*q)*sin(q)");
-        let model = derived(&args);
-        assert!(model.full.program.steps.len() < 200, "{args}: {}", model.full.program.steps.len());
+    for multiple in ["1e7", "-1e7", "1e9", "1e30", "33"] {
+        for potential in ["exp(k*q)*sin(q)", "sinh(k*q)", "sinh(k*q)^7"] {
+            let potential = potential.replace('k', multiple);
+            let args = format!("dim = 2, kinetic(casimir2 = 1, body_inertia = 2), potential = {potential}");
+            let model = derived(&args);
+            assert!(model.full.program.steps.len() < 200, "{args}: {}", model.full.program.steps.len());
+        }
+        for potential in ["exp(k*q1)+exp(k*q2)", "exp(k*q1)+exp(k*q2)-q1*q2", "(exp(k*q1)+exp(k*q2))^2"] {
+            let potential = potential.replace('k', multiple);
+            let args = format!(
+                "dim = 2, kinetic(casimir2 = 1, body_inertia = 2), emit(two_polar), potential = {potential}"
+            );
+            let model = derived(&args);
+            assert!(model.full.program.steps.len() < 200, "{args}: {}", model.full.program.steps.len());
+        }
     }
 }
 

@@ -321,7 +321,7 @@ impl<const N: usize, M: PackedEquations<N>> Packing<M::Reduced<f64>, M::Constant
     }
 }
 
-/// Not inlined.
+/// Calls `act` out of line: inlined, the arithmetic of `act` would be compiled once for each of its callers.
 #[inline(never)]
 fn called(act: impl FnOnce()) {
     act();

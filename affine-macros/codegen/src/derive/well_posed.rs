@@ -6,7 +6,7 @@ use crate::symbol::Symbol;
 
 /// A quantity that must not vanish once the fields have values.
 pub struct Condition {
-    /// The quantity.
+    /// What must not vanish.
     pub factor: Factor,
     /// Which velocities lose their momentum, or which momenta their velocity.
     pub directions: &'static str,
@@ -28,7 +28,7 @@ pub enum Factor {
 }
 
 impl Factor {
-    /// Its name.
+    /// The name in messages of `prepare()`, without what it is a factor of.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

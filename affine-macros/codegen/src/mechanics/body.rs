@@ -13,7 +13,7 @@ use super::potential::Potential;
 /// A motion under a potential and forces.
 #[derive(Clone, Copy)]
 pub struct Body<'a> {
-    /// The motion.
+    /// Kinetic energies, masses and the inverse Legendre transformation.
     pub motion: &'a Motion,
     /// The potential, where there is one.
     pub potential: Option<&'a Potential>,

@@ -35,7 +35,7 @@ use left_out::LeftOut;
 use rotation::Rotation;
 use turn::Turn;
 
-/// A reduced system.
+/// What is left to integrate once conserved momenta, symmetries and summands of `H` in involution are used.
 #[derive(Clone, Debug)]
 pub struct Reduction {
     /// Its chart.

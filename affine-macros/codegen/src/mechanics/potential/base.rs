@@ -26,6 +26,10 @@ pub enum Base {
     Position(usize),
 }
 
+/// A higher multiple of a logarithm stays in its function: a product of so many factors takes longer to write down than an
+/// exponential to compute, and leaves the range of numbers sooner.
+pub(super) const HIGHEST_MULTIPLE: u32 = 32;
+
 /// The symbols `q_1, ..., q_n`.
 pub(super) fn log_stretches(arena: &mut Arena, n: usize) -> Vec<Expr> {
     (0..n).map(|a| Base::LogStretch(a).symbol(arena)).collect()

@@ -4,6 +4,7 @@ use crate::algebra::arena::Node;
 use crate::algebra::fault::never_missing;
 use crate::algebra::rational::exponent;
 use crate::algebra::{Arena, Expr, Function, Rational};
+use crate::mechanics::potential::base::HIGHEST_MULTIPLE;
 use crate::symbol::{Quantity, Symbol};
 
 /// Of a logarithm `q` or `q_a` the exponential and its reciprocal.
@@ -19,10 +20,6 @@ fn exponentials(arena: &Arena, symbol: Expr) -> Option<[Symbol; 2]> {
         _ => None,
     }
 }
-
-/// A higher multiple of a logarithm stays in its function: a product of so many factors takes longer to write down than an
-/// exponential to compute, and leaves the range of numbers sooner.
-const HIGHEST_MULTIPLE: u32 = 100;
 
 /// The logarithm and the integer `k` of `k q` or `k q_a`, where `k` is small enough for a power.
 pub(super) fn multiple_of_logarithm(arena: &Arena, argument: Expr) -> Option<(Expr, i32)> {

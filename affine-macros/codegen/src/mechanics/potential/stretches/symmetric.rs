@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::algebra::{Arena, Expr, Rational};
-use crate::mechanics::potential::base::{Base, log_stretches};
+use crate::mechanics::potential::base::{Base, HIGHEST_MULTIPLE, log_stretches};
 
 use super::form::{Form, Key};
 
@@ -111,7 +111,7 @@ fn through_sum(n: usize, part: &Part) -> Part {
 }
 
 /// `sum c prod Q_a^(r + 2 k_a)`, symmetric, with integers `k_a >= 0`: Gauss's algorithm for the fundamental theorem on
-/// symmetric polynomials, in the invariants `I_k = e_k(Q^2)`.
+/// symmetric polynomials, in the invariants `I_k = e_k(Q^2)`. Exponents that no one writes out as products are left alone.
 fn even_powers(arena: &mut Arena, n: usize, laurent: BTreeMap<Vec<Rational>, Rational>) -> Option<Form> {
     let least = laurent.keys().flatten().min()?.clone();
     let half = Rational::HALF;
@@ -119,7 +119,8 @@ fn even_powers(arena: &mut Arena, n: usize, laurent: BTreeMap<Vec<Rational>, Rat
     for (exponents, c) in laurent {
         let doubled = |exponent: &Rational| {
             let k = &(exponent - &least) * &half;
-            k.is_integer().then(|| k.to_i64()).flatten().and_then(|k| u32::try_from(k).ok())
+            let k = k.is_integer().then(|| k.to_i64()).flatten().and_then(|k| u32::try_from(k).ok())?;
+            (2 * u64::from(k) <= u64::from(HIGHEST_MULTIPLE)).then_some(k)
         };
         open.insert(exponents.iter().map(doubled).collect::<Option<Vec<u32>>>()?, c);
     }
