@@ -4,18 +4,139 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
-use affine_codegen::diagnostics::Diagnostic;
+use affine_codegen::diagnostics::{Diagnostic, Rejected};
+use proc_macro2::{LineColumn, Span, TokenStream, TokenTree};
+use quote::ToTokens;
+use syn::{Attribute, Item, Meta};
 
+/// What the compiler itself is asked about, which takes it a quarter of a second a case: the kinds of items, several mistakes
+/// together, lines that it shortens, programs that use a refused model, and well-posed models with calls that they have no
+/// answer to.
+///
+/// `TRYBUILD=overwrite cargo test --test ill_posed` asks it about all, and writes its answers.
 #[test]
-fn refused_models() {
-    trybuild::TestCases::new().compile_fail("ill_posed/*/*.rs");
+fn the_compiler_says_so() {
+    let cases = trybuild::TestCases::new();
+    match std::env::var_os("TRYBUILD") {
+        Some(_) => cases.compile_fail("ill_posed/*/*.rs"),
+        None => {
+            for kind in ["item", "together", "used_afterwards"] {
+                cases.compile_fail(format!("ill_posed/{kind}/*.rs"));
+            }
+            for case in SHORTENED {
+                cases.compile_fail(format!("ill_posed/{case}.rs"));
+            }
+        }
+    }
+    cases.compile_fail("refused_calls/*.rs");
 }
 
-/// Well-posed models, and calls that they have no answer to.
+/// Cases with a line that is wider than what the compiler prints.
+const SHORTENED: [&str; 2] = ["expression/expression_size", "symmetry/reflection"];
+
+/// What the compiler makes of the errors of the macro; a case costs five milliseconds.
 #[test]
-fn refused_calls() {
-    trybuild::TestCases::new().compile_fail("refused_calls/*.rs");
+fn every_refusal_is_printed_so() {
+    let mut wrong = String::new();
+    for (path, said) in outcomes() {
+        let printed = printed(&path);
+        if SHORTENED.iter().any(|case| path.with_extension("").ends_with(case)) {
+            assert_ne!(printed.trim_end(), said.trim_end(), "{} is not shortened", path.display());
+            continue;
+        }
+        if printed.trim_end() != said.trim_end() {
+            wrong += &format!("{}:\n{printed}\n", path.display());
+        }
+    }
+    assert!(wrong.is_empty(), "these cases now read:\n\n{wrong}");
+}
+
+/// The errors of every model of a program, as the compiler prints them.
+fn printed(path: &Path) -> String {
+    let source = fs::read_to_string(path).unwrap();
+    let file = syn::parse_file(&source).unwrap();
+    let name = path.strip_prefix(env!("CARGO_MANIFEST_DIR")).unwrap().display().to_string();
+    let errors = file.items.into_iter().flat_map(|item| {
+        let Some((attribute, item)) = model(item) else { return Vec::new() };
+        let args = match &attribute.meta {
+            Meta::List(list) => list.tokens.clone(),
+            _ => TokenStream::new(),
+        };
+        let Err(rejected) = affine_codegen::model(args, item) else { return Vec::new() };
+        places(&rejected)
+            .into_iter()
+            .zip(rejected.diagnostics())
+            .map(|(place, message)| error(&source, &name, &attribute, place, &message.to_string()))
+            .collect()
+    });
+    errors.collect::<Vec<_>>().join("\n")
+}
+
+/// The attribute, and the item without it.
+fn model(mut item: Item) -> Option<(Attribute, TokenStream)> {
+    let attributes = match &mut item {
+        Item::Struct(item) => &mut item.attrs,
+        Item::Enum(item) => &mut item.attrs,
+        Item::Fn(item) => &mut item.attrs,
+        _ => return None,
+    };
+    let known = attributes.iter().position(|attribute| attribute.path().is_ident("affine_model"))?;
+    let attribute = attributes.remove(known);
+    Some((attribute, item.to_token_stream()))
+}
+
+/// From the first to the last token of each `compile_error!`; `None` is the place of the attribute itself.
+fn places(rejected: &Rejected) -> Vec<Option<Span>> {
+    let tokens: Vec<TokenTree> = rejected.compile_errors().into_iter().collect();
+    let place = |error: &[TokenTree]| {
+        let whole = error.first()?.span().join(error.last()?.span())?;
+        whole.source_text().filter(|text| !text.is_empty()).map(|_| whole)
+    };
+    tokens.chunks(8).map(place).collect()
+}
+
+/// An error that underlines a part of one line.
+fn error(source: &str, file: &str, attribute: &Attribute, place: Option<Span>, message: &str) -> String {
+    let whole = || attribute.pound_token.span.join(attribute.bracket_token.span.close()).unwrap();
+    let (note, place) = match place {
+        Some(place) => ("", place),
+        None => (NOTE, whole()),
+    };
+    let (LineColumn { line, column }, end) = (place.start(), place.end());
+    assert_eq!(line, end.line, "{file}: one line is underlined");
+    let number = line.to_string();
+    let margin = " ".repeat(number.len());
+    let code = source.lines().nth(line - 1).unwrap();
+    let (indent, carets) = (" ".repeat(column), "^".repeat(end.column - column));
+    let message = message.replace('\n', "\n       ");
+    let bar = if note.is_empty() { String::new() } else { format!("{margin} |\n{margin} = {note}\n") };
+    format!(
+        "error: {message}\n{margin}--> {file}:{line}:{}\n{margin} |\n{number} | {code}\n{margin} | {indent}{carets}\n{bar}",
+        column + 1
+    )
+}
+
+/// What the compiler adds where an error stands at the attribute.
+const NOTE: &str = "note: this error originates in the attribute macro `affine_model` (in Nightly builds, run with -Z macro-backtrace for more info)";
+
+/// Calls of what a feature has do not compile without it, and the compiler names the feature: `affine-features` is checked
+/// with the features that it asks for itself.
+#[test]
+fn calls_name_the_feature_that_is_off() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("features");
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["check", "--quiet", "--color=never", "--package=affine-features"]).current_dir(&folder);
+    let output = cargo.output().unwrap();
+    assert!(!output.status.success(), "the calls compile without the feature");
+    let said = String::from_utf8(output.stderr).unwrap();
+    let (said, _) = said.split_once("\nFor more information").unwrap_or_else(|| panic!("{said}"));
+    assert_eq!(
+        said.trim_end(),
+        fs::read_to_string(folder.join("report.stderr")).unwrap().trim_end(),
+        "\n{said}"
+    );
 }
 
 /// What the compiler says, case by case.
