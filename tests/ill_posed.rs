@@ -9,32 +9,107 @@ use std::process::Command;
 use affine_codegen::diagnostics::{Diagnostic, Rejected};
 use proc_macro2::{LineColumn, Span, TokenStream, TokenTree};
 use quote::ToTokens;
+use rayon::prelude::*;
 use syn::{Attribute, Item, Meta};
 
 /// What the compiler itself is asked about, which takes it a quarter of a second a case: the kinds of items, several mistakes
 /// together, lines that it shortens, programs that use a refused model, and well-posed models with calls that they have no
 /// answer to.
 ///
-/// `TRYBUILD=overwrite cargo test --test ill_posed` asks it about all, and writes its answers.
+/// `INSTA_UPDATE=always cargo test --test ill_posed` asks it about all, and writes its answers.
 #[test]
 fn the_compiler_says_so() {
-    let cases = trybuild::TestCases::new();
-    match std::env::var_os("TRYBUILD") {
-        Some(_) => cases.compile_fail("ill_posed/*/*.rs"),
-        None => {
-            for kind in ["item", "together", "used_afterwards"] {
-                cases.compile_fail(format!("ill_posed/{kind}/*.rs"));
-            }
-            for case in SHORTENED {
-                cases.compile_fail(format!("ill_posed/{case}.rs"));
-            }
+    let compiler = Compiler::new();
+    let writes = std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always");
+    let is_asked = |path: &PathBuf| {
+        let kinds = ["refused_calls", "item", "together", "used_afterwards"];
+        writes || is_shortened(path) || kinds.iter().any(|kind| path.parent().unwrap().ends_with(kind))
+    };
+    let asked = cases().into_iter().chain(files(&folder("refused_calls"))).filter(is_asked);
+    let asked: Vec<PathBuf> = asked.collect();
+    assert!(asked.len() > 20, "{}", asked.len());
+    let answer = |path: &PathBuf| {
+        let (said, place) = (compiler.answer(path), path.with_extension("stderr"));
+        if writes {
+            fs::write(place, &said).unwrap();
+            return None;
         }
+        (fs::read_to_string(place).unwrap() != said).then(|| format!("{}:\n{said}\n", path.display()))
+    };
+    let wrong: Vec<String> = asked.par_iter().filter_map(answer).collect();
+    assert!(wrong.is_empty(), "these cases now read:\n\n{}", wrong.join("\n"));
+}
+
+/// The compiler, beside what the cases use.
+struct Compiler {
+    runtime: String,
+}
+
+impl Compiler {
+    fn new() -> Self {
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.args(["check", "--quiet", "--package=affine-tests", "--lib", "--message-format=json"]);
+        let output = cargo.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let artifacts = String::from_utf8(output.stdout).unwrap();
+        let mut paths = artifacts.split('"').filter(|text| text.ends_with(".rmeta"));
+        let runtime = paths.find(|path| path.contains("/libaffine_runtime-")).expect("the runtime is built");
+        Self { runtime: runtime.to_owned() }
     }
-    cases.compile_fail("refused_calls/*.rs");
+
+    /// What it says of a program that it refuses.
+    fn answer(&self, path: &Path) -> String {
+        let mut rustc = Command::new("rustc");
+        rustc.args(["--edition=2024", "--crate-type=bin", "--emit=metadata", "--color=never"]);
+        rustc.arg(format!("--out-dir={}", env!("CARGO_TARGET_TMPDIR")));
+        rustc.arg(format!("--extern=affine_runtime={}", self.runtime));
+        rustc.arg(format!("-Ldependency={}", Path::new(&self.runtime).parent().unwrap().display()));
+        let output =
+            rustc.arg(path.strip_prefix(folder("")).unwrap()).current_dir(folder("")).output().unwrap();
+        assert!(!output.status.success(), "{} compiles", path.display());
+        let said = String::from_utf8(output.stderr).unwrap();
+        let (said, _) = said.split_once("error: aborting due to").unwrap_or_else(|| panic!("{said}"));
+        without_lines_of_others(said.trim_end()) + "\n"
+    }
+}
+
+/// Excerpts of the workspace keep their files and no numbers of lines, which move with every change.
+fn without_lines_of_others(said: &str) -> String {
+    let root = folder("").parent().unwrap().display().to_string();
+    let mut of_others = false;
+    let line = |line: &str| {
+        let text = line.trim_start();
+        if text.starts_with("--> ") || text.starts_with("::: ") {
+            of_others = text.contains(&root);
+        }
+        of_others &= !text.is_empty();
+        let numbered = text.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start();
+        match numbered.split_once(&root) {
+            Some((arrow, rest)) if of_others => {
+                format!("  {arrow}$WORKSPACE{}", rest.split(':').next().unwrap_or_default())
+            }
+            _ if of_others && numbered.starts_with('|') => format!("   {numbered}"),
+            _ => line.to_owned(),
+        }
+    };
+    said.lines().map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    entries.filter(|path| path.extension().is_some_and(|extension| extension == "rs")).collect()
 }
 
 /// Cases with a line that is wider than what the compiler prints.
 const SHORTENED: [&str; 2] = ["expression/expression_size", "symmetry/reflection"];
+
+fn is_shortened(path: &Path) -> bool {
+    SHORTENED.iter().any(|case| path.with_extension("").ends_with(case))
+}
 
 /// What the compiler makes of the errors of the macro; a case costs five milliseconds.
 #[test]
@@ -42,7 +117,7 @@ fn every_refusal_is_printed_so() {
     let mut wrong = String::new();
     for (path, said) in outcomes() {
         let printed = printed(&path);
-        if SHORTENED.iter().any(|case| path.with_extension("").ends_with(case)) {
+        if is_shortened(&path) {
             assert_ne!(printed.trim_end(), said.trim_end(), "{} is not shortened", path.display());
             continue;
         }
@@ -125,7 +200,7 @@ const NOTE: &str = "note: this error originates in the attribute macro `affine_m
 /// with the features that it asks for itself.
 #[test]
 fn calls_name_the_feature_that_is_off() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("features");
+    let folder = folder("features");
     let mut cargo = Command::new(env!("CARGO"));
     cargo.args(["check", "--quiet", "--color=never", "--package=affine-features"]).current_dir(&folder);
     let output = cargo.output().unwrap();
@@ -139,18 +214,18 @@ fn calls_name_the_feature_that_is_off() {
     );
 }
 
+fn cases() -> Vec<PathBuf> {
+    let kinds = fs::read_dir(folder("ill_posed")).unwrap().map(|entry| entry.unwrap().path());
+    kinds.flat_map(|kind| files(&kind)).collect()
+}
+
 /// What the compiler says, case by case.
 fn outcomes() -> Vec<(PathBuf, String)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("ill_posed");
-    let entries = |folder: &Path| fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let cases = entries(&folder).flat_map(|kind| entries(&kind).collect::<Vec<_>>());
-    cases
-        .filter(|path| path.extension().is_some_and(|extension| extension == "rs"))
-        .map(|path| {
-            let text = fs::read_to_string(path.with_extension("stderr")).unwrap();
-            (path, text)
-        })
-        .collect()
+    let outcome = |path: PathBuf| {
+        let text = fs::read_to_string(path.with_extension("stderr")).unwrap();
+        (path, text)
+    };
+    cases().into_iter().map(outcome).collect()
 }
 
 /// Users depend on one crate: what it consists of is named in no message.
