@@ -64,8 +64,9 @@ impl Compiler {
         rustc.arg(format!("--out-dir={}", env!("CARGO_TARGET_TMPDIR")));
         rustc.arg(format!("--extern=affine_runtime={}", self.runtime));
         rustc.arg(format!("-Ldependency={}", Path::new(&self.runtime).parent().unwrap().display()));
-        let output =
-            rustc.arg(path.strip_prefix(folder("")).unwrap()).current_dir(folder("")).output().unwrap();
+        // Where the workspace was built, for the excerpts of its sources.
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+        let output = rustc.arg(path.strip_prefix(root).unwrap()).current_dir(root).output().unwrap();
         assert!(!output.status.success(), "{} compiles", path.display());
         let said = String::from_utf8(output.stderr).unwrap();
         let (said, _) = said.split_once("error: aborting due to").unwrap_or_else(|| panic!("{said}"));
@@ -75,21 +76,21 @@ impl Compiler {
 
 /// Excerpts of the workspace keep their files and no numbers of lines, which move with every change.
 fn without_lines_of_others(said: &str) -> String {
-    let root = folder("").parent().unwrap().display().to_string();
     let mut of_others = false;
     let line = |line: &str| {
         let text = line.trim_start();
-        if text.starts_with("--> ") || text.starts_with("::: ") {
-            of_others = text.contains(&root);
+        let place = text.strip_prefix("--> ").or_else(|| text.strip_prefix("::: "));
+        if let Some(place) = place {
+            let (arrow, own) = (&line[..line.len() - place.len()], place.strip_prefix("tests/"));
+            of_others = own.is_none();
+            let file = place.split(':').next().unwrap_or_default();
+            return own.map_or_else(|| format!("  --> $WORKSPACE/{file}"), |own| format!("{arrow}{own}"));
         }
         of_others &= !text.is_empty();
         let numbered = text.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start();
-        match numbered.split_once(&root) {
-            Some((arrow, rest)) if of_others => {
-                format!("  {arrow}$WORKSPACE{}", rest.split(':').next().unwrap_or_default())
-            }
-            _ if of_others && numbered.starts_with('|') => format!("   {numbered}"),
-            _ => line.to_owned(),
+        match of_others && numbered.starts_with('|') {
+            true => format!("   {numbered}"),
+            false => line.to_owned(),
         }
     };
     said.lines().map(line).collect::<Vec<_>>().join("\n")
