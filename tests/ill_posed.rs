@@ -60,7 +60,7 @@ impl Compiler {
     /// What it says of a program that it refuses.
     fn answer(&self, path: &Path) -> String {
         let mut rustc = Command::new("rustc");
-        rustc.args(["--edition=2024", "--crate-type=bin", "--emit=metadata", "--color=never"]);
+        rustc.args(["--edition=2024", "--crate-type=bin", "--emit=metadata", "--color=never", "--verbose"]);
         rustc.arg(format!("--out-dir={}", env!("CARGO_TARGET_TMPDIR")));
         rustc.arg(format!("--extern=affine_runtime={}", self.runtime));
         rustc.arg(format!("-Ldependency={}", Path::new(&self.runtime).parent().unwrap().display()));
@@ -74,26 +74,47 @@ impl Compiler {
     }
 }
 
-/// Excerpts of the workspace keep their files and no numbers of lines, which move with every change.
+/// Excerpts of the workspace keep their files and no numbers of lines, which move with every change, nor the margin that the
+/// compiler leaves for those.
 fn without_lines_of_others(said: &str) -> String {
-    let mut of_others = false;
-    let line = |line: &str| {
+    said.split("\n\n").map(without_lines_of_others_in).collect::<Vec<_>>().join("\n\n")
+}
+
+/// The same of one error.
+fn without_lines_of_others_in(error: &str) -> String {
+    let (mut of_others, mut margin, mut own_margin) = (false, 0, 1);
+    let mut lines = Vec::new();
+    for line in error.lines() {
         let text = line.trim_start();
-        let place = text.strip_prefix("--> ").or_else(|| text.strip_prefix("::: "));
-        if let Some(place) = place {
-            let (arrow, own) = (&line[..line.len() - place.len()], place.strip_prefix("tests/"));
-            of_others = own.is_none();
-            let file = place.split(':').next().unwrap_or_default();
-            return own.map_or_else(|| format!("  --> $WORKSPACE/{file}"), |own| format!("{arrow}{own}"));
+        let indent = &line[..line.len() - text.len()];
+        let digits = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+        let numbered = digits > 0 && text[digits..].trim_start().starts_with('|');
+        if let Some((arrow, place)) = text.split_once(' ').filter(|(arrow, _)| ["-->", ":::"].contains(arrow))
+        {
+            margin = indent.len();
+            of_others = !place.starts_with("tests/");
+            let file = match place.strip_prefix("tests/") {
+                Some(own) => own.to_owned(),
+                None => format!("$WORKSPACE/{}", place.split(':').next().unwrap()),
+            };
+            lines.push(format!("{indent}{arrow} {file}"));
+        } else if numbered && of_others {
+            lines.push(format!("{indent}{}{}", " ".repeat(digits), &text[digits..]));
+        } else {
+            own_margin = if numbered { own_margin.max(digits) } else { own_margin };
+            lines.push(line.to_owned());
         }
-        of_others &= !text.is_empty();
-        let numbered = text.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start();
-        match of_others && numbered.starts_with('|') {
-            true => format!("   {numbered}"),
-            false => line.to_owned(),
-        }
-    };
-    said.lines().map(line).collect::<Vec<_>>().join("\n")
+    }
+    let spare = " ".repeat(margin.saturating_sub(own_margin));
+    // A message without a margin goes on below itself.
+    let mut without_margin = true;
+    let narrower = lines.iter().map(|line| {
+        let text = line.trim_start();
+        without_margin = (without_margin || text.len() == line.len())
+            && !text.starts_with(|c: char| c.is_ascii_digit() || "|=-:".contains(c));
+        if without_margin { line } else { line.strip_prefix(&spare).unwrap_or(line) }
+    });
+    narrower.collect::<Vec<_>>().join("\n")
 }
 
 fn folder(name: &str) -> PathBuf {
