@@ -31,8 +31,8 @@ pub mod variation;
 mod without_report;
 
 pub use affine_core::{
-    balance, conserved, decompose, error, force, frames, geodesic, kinematics, metrics, model, potential,
-    sampling, scalar, state, system,
+    balance, conserved, decompose, error, force, frames, geodesic, kinematics, metrics, model, parametric,
+    potential, sampling, scalar, state, system,
 };
 pub use affine_integrators as integrate;
 pub use affine_integrators::lanes;

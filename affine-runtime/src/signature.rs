@@ -27,7 +27,7 @@ pub fn signature<const N: usize, M: Model<N>>(model: &M, phi: &Matrix<N>) -> Opt
     });
     // A sum of two equal velocities counts the square twice, as the Hessian does.
     let threshold = ROUNDINGS * f64::EPSILON * form.iter().map(|entry| entry.abs()).sum::<f64>();
-    let values = jacobi(form).values;
+    let values = jacobi::<LARGEST, f64>(form).values;
     let positive = values.iter().filter(|value| **value > threshold).count();
     let negative = values.iter().filter(|value| **value < -threshold).count();
     (positive + negative == count).then_some((positive, negative))

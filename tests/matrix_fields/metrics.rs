@@ -92,7 +92,7 @@ fn factors_give_the_metric_back() {
         let metric = Random::new(1301 + seed).inertia(3);
         let rows = Matrix::<3>::from_row_slice(&metric.to_f64());
         let entries = core::array::from_fn(|i| core::array::from_fn(|j| rows[(i, j)]));
-        let (factor, inverse) = orthonormal::<3>(entries, "g > 0").unwrap();
+        let (factor, inverse) = orthonormal::<3, _>(entries, "g > 0").unwrap();
         close("A^T A", factor.tr_mul(&factor).as_slice(), rows.as_slice());
         close("A A^-1", (factor * inverse).as_slice(), Matrix::<3>::identity().as_slice());
         assert!(factor.lower_triangle() == Matrix::<3>::from_diagonal(&factor.diagonal()));

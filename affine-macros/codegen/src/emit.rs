@@ -18,6 +18,7 @@ mod mixed;
 mod names;
 mod number;
 mod packed;
+mod parametric;
 mod pattern;
 mod point;
 mod prepare;
@@ -43,6 +44,7 @@ use common::Function;
 use context::Context;
 use names::{Names, runtime};
 use number::number;
+use parametric::Method;
 
 /// The user's item and everything that belongs to it.
 pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
@@ -69,7 +71,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     }
     let constants = reduction::constants_type(&context);
     let function = context.function();
-    let implementation = model_impl(&context);
+    let (parametric, implementation) = model_impl(&context);
     let constructors = constructors::inherent(&context);
     let unprepared = refused::unprepared(&context);
     let two_polar = two_polar::implementations(&context);
@@ -93,6 +95,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #constants
             #function
             #implementation
+            #parametric
             #constructors
             #splitting
             #second_order
@@ -105,7 +108,8 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     }
 }
 
-fn model_impl(context: &Context) -> TokenStream {
+/// The implementations of the traits of models: of those with coefficients as an argument, and of all.
+fn model_impl(context: &Context) -> (TokenStream, TokenStream) {
     let Names { prepared, rt, constants, scalar, .. } = context.names;
     let (generics, types, clause) = context.generics();
     let n = context.dim();
@@ -115,16 +119,20 @@ fn model_impl(context: &Context) -> TokenStream {
     let point = context.point(&quote!(#scalar));
     let docs = description::docs(context);
     let description = description::constant(context);
-    let dynamics = dynamics::methods(context);
-    let reduction = reduction::methods(context);
     let geodesic = closed_form::geodesic(context);
     let (_, bases) = metrics::bases(context);
     let splitting = splitting::capability(context);
     let second_order = second_order::capability(context);
     let taylor = taylor::capability(context);
     let packing = packed::capability(context);
-    let (power, domain) = (forces::power(context), domain::values(context));
-    quote! {
+    let others = quote!(#geodesic #splitting #second_order #taylor #packing);
+    let methods = dynamics::methods(context).into_iter().chain(reduction::methods(context)).chain([
+        Method::Other(others),
+        Method::Evaluation(forces::power(context)),
+        Method::Other(domain::values(context)),
+    ]);
+    let (parametric, methods) = parametric::divided(context, methods);
+    let implementation = quote! {
         #(#[doc = #docs])*
         impl #generics #rt::Model<#n> for #prepared #types #clause {
             const DESCRIPTION: #rt::Description = #description;
@@ -133,15 +141,8 @@ fn model_impl(context: &Context) -> TokenStream {
             type Reduced<#scalar: #rt::Scalar> = [#scalar; #reduced];
             type Constants<#scalar: #rt::Scalar> = #constants<#scalar>;
             #bases
-            #dynamics
-            #reduction
-            #geodesic
-            #splitting
-            #second_order
-            #taylor
-            #packing
-            #power
-            #domain
+            #methods
         }
-    }
+    };
+    (parametric, implementation)
 }

@@ -2,6 +2,7 @@
 
 use crate::error::{Error, IllPosed, Result};
 use crate::reduction::{Condition, jacobi, symmetric};
+use crate::scalar::Real;
 
 /// Holds every value against zero, less `eps` times the largest sum of sizes: a form that rounding alone makes
 /// negative is semidefinite.
@@ -18,8 +19,8 @@ pub fn semidefinite(conditions: &[Condition]) -> Result<()> {
 ///
 /// # Errors
 /// [`Error::IllPosed`] with the first eigenvalue that is negative.
-pub fn semidefinite_form<const K: usize, const M: usize>(upper: [f64; M], size: f64) -> Result<()> {
-    jacobi::<K>(symmetric(&upper)).values.into_iter().try_for_each(|value| {
+pub fn semidefinite_form<const K: usize, const M: usize, T: Real>(upper: [T; M], size: f64) -> Result<()> {
+    jacobi::<K, f64>(symmetric(&upper.map(Real::to_f64))).values.into_iter().try_for_each(|value| {
         not_negative(
             "R >= 0 on every velocity",
             "where the dissipation function R is negative, its forces would feed energy in",

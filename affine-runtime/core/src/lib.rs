@@ -5,6 +5,7 @@
 pub mod balance;
 mod breathing;
 pub mod capability;
+mod coefficients;
 mod condition;
 mod confined;
 pub mod conserved;
@@ -27,6 +28,7 @@ pub mod metrics;
 pub mod model;
 mod norm;
 mod packed;
+pub mod parametric;
 pub mod potential;
 mod private;
 mod quantity;

@@ -57,16 +57,18 @@ impl<const N: usize, T: Real> Bases<N, T> {
     }
 }
 
-impl<const N: usize> Bases<N> {
+impl<const N: usize, T: Scalar> Bases<N, T> {
     /// With `A` and `B`, each beside its inverse.
     #[must_use]
     pub fn of_factors(
-        (space, space_inverse): (Matrix<N>, Matrix<N>),
-        (body, body_inverse): (Matrix<N>, Matrix<N>),
+        (space, space_inverse): (Matrix<N, T>, Matrix<N, T>),
+        (body, body_inverse): (Matrix<N, T>, Matrix<N, T>),
     ) -> Self {
         Self { space, space_inverse, body, body_inverse }
     }
+}
 
+impl<const N: usize> Bases<N> {
     /// The same numbers as another scalar.
     #[must_use]
     pub fn over<T: Scalar>(&self) -> Bases<N, T> {
@@ -84,15 +86,15 @@ impl<const N: usize> Bases<N> {
 ///
 /// # Errors
 /// [`Error::IllPosed`] with the first pivot that is not above `eps` times the summands that it is a difference of.
-pub fn orthonormal<const N: usize>(
-    metric: [[f64; N]; N],
+pub fn orthonormal<const N: usize, T: Real>(
+    metric: [[T; N]; N],
     condition: &'static str,
-) -> Result<(Matrix<N>, Matrix<N>)> {
-    let mut factor = Matrix::<N>::zeros();
+) -> Result<(Matrix<N, T>, Matrix<N, T>)> {
+    let mut factor = Matrix::<N, T>::zeros();
     for k in 0..N {
-        let known = |j: usize| (0..k).map(|i| factor[(i, k)] * factor[(i, j)]).sum::<f64>();
-        let (value, size) = (metric[k][k] - known(k), metric[k][k].abs() + known(k));
-        let threshold = f64::EPSILON * size;
+        let known = |j: usize| (0..k).fold(T::zero(), |sum, i| sum + factor[(i, k)] * factor[(i, j)]);
+        let (pivot, size) = (metric[k][k] - known(k), metric[k][k].abs() + known(k));
+        let (value, threshold) = (pivot.to_f64(), f64::EPSILON * size.to_f64());
         // NaN holds nothing.
         if !(value > threshold && value.is_finite()) {
             return Err(Error::IllPosed(IllPosed {
@@ -104,20 +106,20 @@ pub fn orthonormal<const N: usize>(
                 velocity: None,
             }));
         }
-        let root = libm::sqrt(value);
-        let row: [f64; N] = core::array::from_fn(|j| match j {
-            j if j < k => 0.0,
+        let root = pivot.sqrt();
+        let row: [T; N] = core::array::from_fn(|j| match j {
+            j if j < k => T::zero(),
             j if j == k => root,
             _ => (metric[k][j] - known(j)) / root,
         });
         row.into_iter().enumerate().for_each(|(j, entry)| factor[(k, j)] = entry);
     }
     // Upper triangular, column after column.
-    let mut inverse = Matrix::<N>::zeros();
+    let mut inverse = Matrix::<N, T>::zeros();
     for j in 0..N {
         for i in (0..=j).rev() {
-            let unit = if i == j { 1.0 } else { 0.0 };
-            let known: f64 = (i + 1..=j).map(|k| factor[(i, k)] * inverse[(k, j)]).sum();
+            let unit = if i == j { T::one() } else { T::zero() };
+            let known = (i + 1..=j).fold(T::zero(), |sum, k| sum + factor[(i, k)] * inverse[(k, j)]);
             inverse[(i, j)] = (unit - known) / factor[(i, i)];
         }
     }

@@ -5,6 +5,7 @@ pub use core::primitive::{f64, usize};
 pub use crate::balance::{Balance, CentreBalance};
 pub use crate::breathing::Breathing;
 pub use crate::capability::{Emitted, InLanes, PackedEquations, SecondOrderEquations, Splitting, Taylor};
+pub use crate::coefficients::{bases_beside, beside_bases, joined, square, table};
 pub use crate::confined::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::custom::{
     as_force, as_potential, comoving_force, comoving_force_in, potential_energy, potential_energy_in,
@@ -32,6 +33,7 @@ pub use crate::model::{
     Regularity, Scope, Velocity, VelocityDeterminesMomentum,
 };
 pub use crate::packed::{Four, Packed};
+pub use crate::parametric::{Field, Fields, Parametric};
 pub use crate::reduction::{
     Condition, finite, finite_fields, from_shear_and_turn, inverse_form, principal_axes, shear_and_turn,
     total_affine_momentum, total_size, turn, well_posed,

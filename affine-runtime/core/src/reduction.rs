@@ -99,8 +99,8 @@ pub struct Condition {
 
 /// `|a| + |b| + ...`
 #[must_use]
-pub fn total_size<const K: usize>(summands: [f64; K]) -> f64 {
-    summands.iter().fold(0.0, |sum, s| sum + s.abs())
+pub fn total_size<const K: usize, T: Real>(summands: [T; K]) -> f64 {
+    summands.iter().fold(0.0, |sum, s| sum + s.to_f64().abs())
 }
 
 /// Holds every value against `eps` times the largest sum of sizes.
@@ -132,9 +132,10 @@ pub fn well_posed(conditions: &[Condition]) -> Result<()> {
 ///
 /// # Errors
 /// [`Error::FieldNotFinite`] with the first that is not.
-pub fn finite_fields(fields: &[(&'static str, f64)]) -> Result<()> {
-    match fields.iter().find(|(_, value)| !value.is_finite()) {
-        Some(&(field, value)) => Err(Error::FieldNotFinite { field, entry: None, value }),
+pub fn finite_fields<T: Real>(fields: &[(&'static str, T)]) -> Result<()> {
+    let mut values = fields.iter().map(|(field, value)| (*field, value.to_f64()));
+    match values.find(|(_, value)| !value.is_finite()) {
+        Some((field, value)) => Err(Error::FieldNotFinite { field, entry: None, value }),
         None => Ok(()),
     }
 }
@@ -143,8 +144,9 @@ pub fn finite_fields(fields: &[(&'static str, f64)]) -> Result<()> {
 ///
 /// # Errors
 /// [`Error::IllPosed`] with the first that is not.
-pub fn finite<const K: usize>(coefficients: [f64; K]) -> Result<[f64; K]> {
-    let Some(&value) = coefficients.iter().find(|c| !c.is_finite()) else { return Ok(coefficients) };
+pub fn finite<const K: usize, T: Real>(coefficients: [T; K]) -> Result<[T; K]> {
+    let mut values = coefficients.iter().map(|c| c.to_f64());
+    let Some(value) = values.find(|c| !c.is_finite()) else { return Ok(coefficients) };
     Err(Error::IllPosed(IllPosed {
         condition: "every coefficient is finite",
         reason: "a coefficient of the equations overflows; choose fields nearer to 1, in other units",
@@ -157,18 +159,19 @@ pub fn finite<const K: usize>(coefficients: [f64; K]) -> Result<[f64; K]> {
 /// Inverse of a symmetric form on affine velocities of dimension `N`, given by its upper triangle in a basis, as an
 /// upper triangle: through its eigenvectors, so that the smallest eigenvalue is at hand. `M = K (K + 1)/2`; `size` is
 /// that of the terms of all entries, and `basis` has the entries of each vector that are not zero: row-major place and
-/// weight.
+/// weight. It is the inverse in doubles, refined where the entries are more than doubles.
 ///
 /// # Errors
 /// [`Error::IllPosed`] where an eigenvalue is not above `eps` times `size`, or not positive on demand, with its
 /// velocity.
-pub fn inverse_form<const N: usize, const K: usize, const M: usize>(
-    upper: [f64; M],
+pub fn inverse_form<const N: usize, const K: usize, const M: usize, T: Real>(
+    upper: [T; M],
     size: f64,
     positive: bool,
     basis: [&[(usize, f64)]; K],
-) -> Result<[f64; M]> {
-    let eigen = jacobi::<K>(symmetric(&upper));
+) -> Result<[T; M]> {
+    let doubles = upper.map(Real::to_f64);
+    let eigen = jacobi::<K, f64>(symmetric(&doubles));
     let threshold = f64::EPSILON * size;
     for (k, value) in eigen.values.into_iter().enumerate() {
         let held = if positive { value } else { value.abs() };
@@ -194,20 +197,40 @@ pub fn inverse_form<const N: usize, const K: usize, const M: usize>(
                 (0..K).map(|k| eigen.vectors[(i, k)] * eigen.vectors[(j, k)] / eigen.values[k]).sum();
         }
     }
-    Ok(inverse)
+    let inverse = inverse.map(T::from_f64);
+    let is_double = upper == doubles.map(T::from_f64) && T::EPSILON.to_f64() >= f64::EPSILON;
+    Ok(if is_double { inverse } else { refined::<K, M, T>(&upper, &inverse) })
 }
+
+/// The inverse of a form from one that is known roughly, `X <- X (2 - F X)`: the residue `1 - F X` is squared each time
+/// (Schulz, ZAMM 13 (1933) 57).
+fn refined<const K: usize, const M: usize, T: Real>(form: &[T; M], inverse: &[T; M]) -> [T; M] {
+    let (form, mut inverse) = (symmetric::<K, M, T>(form), symmetric::<K, M, T>(inverse));
+    let twice = nalgebra::SMatrix::<T, K, K>::identity() * T::from_f64(2.0);
+    for _ in 0..REFINEMENTS {
+        inverse = inverse * (twice - form * inverse);
+    }
+    let mut upper = [T::zero(); M];
+    for i in 0..K {
+        (i..K).for_each(|j| upper[place::<K>(i, j)] = inverse[(i, j)]);
+    }
+    upper
+}
+
+/// From a residue of 0.1, below any rounding of double-doubles.
+const REFINEMENTS: usize = 6;
 
 /// Eigenvalues and orthonormal eigenvectors, one after the other, of a symmetric form given by its upper triangle:
 /// `F = sum over k of values[k] vectors[k]^T vectors[k]`. `M = K (K + 1)/2`.
 #[must_use]
-pub fn principal_axes<const K: usize, const M: usize>(upper: [f64; M]) -> ([f64; K], [[f64; K]; K]) {
-    let Eigen { values, vectors } = jacobi::<K>(symmetric(&upper));
+pub fn principal_axes<const K: usize, const M: usize, T: Real>(upper: [T; M]) -> ([T; K], [[T; K]; K]) {
+    let Eigen { values, vectors } = jacobi::<K, T>(symmetric(&upper));
     (values, core::array::from_fn(|k| core::array::from_fn(|i| vectors[(i, k)])))
 }
 
 /// The eigenvector of place `k` as an affine velocity of unit size.
 fn direction<const N: usize, const K: usize>(
-    eigen: &Eigen<K>,
+    eigen: &Eigen<K, f64>,
     k: usize,
     basis: &[&[(usize, f64)]; K],
 ) -> Direction {
@@ -222,7 +245,9 @@ fn direction<const N: usize, const K: usize>(
 }
 
 /// The symmetric matrix with this upper triangle, row after row.
-pub(crate) fn symmetric<const K: usize, const M: usize>(upper: &[f64; M]) -> nalgebra::SMatrix<f64, K, K> {
+pub(crate) fn symmetric<const K: usize, const M: usize, T: Real>(
+    upper: &[T; M],
+) -> nalgebra::SMatrix<T, K, K> {
     nalgebra::SMatrix::from_fn(|i, j| upper[place::<K>(i, j)])
 }
 
@@ -233,26 +258,29 @@ fn place<const K: usize>(i: usize, j: usize) -> usize {
 }
 
 /// Eigenvalues and orthonormal eigenvectors (columns).
-pub struct Eigen<const K: usize> {
-    pub values: [f64; K],
-    vectors: nalgebra::SMatrix<f64, K, K>,
+pub struct Eigen<const K: usize, T> {
+    pub values: [T; K],
+    vectors: nalgebra::SMatrix<T, K, K>,
 }
 
 /// Cyclic Jacobi rotations (Golub and Van Loan, section 8.5): small symmetric matrices of any size `K` without
-/// the dimension arithmetic that nalgebra's solver asks of its types.
-pub fn jacobi<const K: usize>(mut form: nalgebra::SMatrix<f64, K, K>) -> Eigen<K> {
-    let mut vectors = nalgebra::SMatrix::<f64, K, K>::identity();
+/// the dimension arithmetic that nalgebra's solver asks of its types, and of numbers with a derivative.
+pub fn jacobi<const K: usize, T: Real>(mut form: nalgebra::SMatrix<T, K, K>) -> Eigen<K, T> {
+    let (half, one) = (T::from_f64(0.5), T::one());
+    let mut vectors = nalgebra::SMatrix::<T, K, K>::identity();
     for _sweep in 0..30 {
-        let mut off = 0.0;
+        let mut moved = false;
         for p in 0..K {
             for q in p + 1..K {
-                off += form[(p, q)].abs();
-                if form[(p, q)] == 0.0 {
+                let off = form[(p, q)];
+                if off == T::zero() {
                     continue;
                 }
-                let theta = (form[(q, q)] - form[(p, p)]) / (2.0 * form[(p, q)]);
-                let t = theta.signum() / (theta.abs() + libm::hypot(theta, 1.0));
-                let c = 1.0 / libm::hypot(t, 1.0);
+                moved = true;
+                // The root of smaller size of off t^2 + 2 gap t - off = 0; no quotient by `off`, whose slope may be all of it.
+                let gap = half * (form[(q, q)] - form[(p, p)]);
+                let t = off / (gap + gap.hypot(off).copysign(gap));
+                let c = one / t.hypot(one);
                 let s = t * c;
                 for k in 0..K {
                     let (a, b) = (form[(k, p)], form[(k, q)]);
@@ -269,7 +297,7 @@ pub fn jacobi<const K: usize>(mut form: nalgebra::SMatrix<f64, K, K>) -> Eigen<K
                 }
             }
         }
-        if off == 0.0 {
+        if !moved {
             break;
         }
     }

@@ -9,6 +9,7 @@ mod double_double;
 pub(crate) mod inverse_cbrt;
 mod primitive;
 
+use core::borrow::Borrow;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -37,6 +38,11 @@ pub trait Scalar:
     /// The constant `hi + lo`: the double nearest to an exact rational, and the double nearest to the rest.
     /// A type with the precision of `f64` or less ignores `lo`.
     fn constant(hi: f64, lo: f64) -> Self;
+
+    /// The numbers that some doubles are: these themselves, where they are such numbers already.
+    fn of_doubles<const K: usize>(doubles: &[f64; K]) -> impl Borrow<[Self; K]> {
+        doubles.map(|double| Self::constant(double, 0.0))
+    }
 
     /// `self * factor + term`, with one rounding where the target has such an instruction and two elsewhere:
     /// never a library call.

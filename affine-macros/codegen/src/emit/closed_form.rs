@@ -7,7 +7,7 @@ use crate::derive::{Components, Trajectory};
 use crate::symbol::Quantity;
 
 use super::body::Body;
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::number::Number;
 use super::point::own_spin;
 
@@ -35,14 +35,14 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
     };
     let straight = components == Components::TwoPoint;
     let spin = own_spin(context);
-    let typed = context.bases(Some(&f64));
+    let typed = context.bases(Some(&f64), Coefficients::Own);
     let velocity = match context.model.metrics {
         None => quote!(#rt::Model::velocity(self, point)),
         Some(_) => quote!(#typed.velocity(&#rt::Model::velocity(self, stated))),
     };
     let stated = (context.model.metrics.is_some() && straight).then(|| quote!(let stated = point;));
     // A straight line reads the velocity alone, and the momentum of a free centre.
-    let inward = (!straight || drifts).then(|| context.inward());
+    let inward = (!straight || drifts).then(|| context.inward(Coefficients::Own));
     let on_geodesic = context.with_metrics(quote! {
         fn on_geodesic(
             &self,

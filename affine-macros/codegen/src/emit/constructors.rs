@@ -8,7 +8,7 @@ use crate::ir::Program;
 use crate::symbol::Quantity;
 
 use super::body::Body;
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::number::Number;
 use super::pattern::{entries, table_pattern};
 use super::point::{affine_velocity, placement, wrapper};
@@ -55,7 +55,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
             let vectors = of_centre(context, "x_dot");
             let inward_centre =
                 moving.then(|| quote!(let (x, x_dot) = (bases.space * x, bases.space * x_dot);));
-            let bases = context.bases(Some(&quote!(#rt::f64)));
+            let bases = context.bases(Some(&quote!(#rt::f64)), Coefficients::Own);
             let inward = context.with_metrics(quote! {
                 let bases = #bases;
                 #inward_centre

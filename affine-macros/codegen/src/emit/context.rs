@@ -15,6 +15,15 @@ use super::number::{Number, number};
 use super::pattern::ident;
 use super::scope::Scope;
 
+/// Where a method has its coefficients from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Coefficients {
+    /// They are given to it.
+    Given,
+    /// The model has them.
+    Own,
+}
+
 /// What every emitter reads.
 pub(super) struct Context<'a> {
     pub(super) spec: &'a Spec,
@@ -60,7 +69,7 @@ impl Context<'_> {
     /// `let` statements for the entries of the affine momentum that are linear in components of an array.
     pub(super) fn dependent(&self, equations: &Equations) -> TokenStream {
         let program = &equations.dependent;
-        let Body { lets, results } = self.generic(program);
+        let Body { lets, results } = self.generic(program, Coefficients::Given);
         let names: Vec<Ident> = program.results().map(ident).collect();
         // A result with a step of its own is bound to its name already.
         let is_bound = |name: &Ident, result: &TokenStream| {
@@ -119,13 +128,13 @@ impl Context<'_> {
     }
 
     /// A program over the scalar type parameter.
-    pub(super) fn generic(&self, program: &Program) -> Body {
-        self.body(program, Number::Generic(&self.names.scalar))
+    pub(super) fn generic(&self, program: &Program, coefficients: Coefficients) -> Body {
+        self.body(program, Number::Generic(&self.names.scalar), coefficients)
     }
 
     /// A program over doubles.
     pub(super) fn double(&self, program: &Program) -> Body {
-        self.body(program, Number::Double)
+        self.body(program, Number::Double, Coefficients::Own)
     }
 
     /// A program over a number, whose inputs are variables of the same name.
@@ -140,13 +149,16 @@ impl Context<'_> {
     }
 
     /// The same with coefficients that are read first, and what several programs compute called.
-    pub(super) fn body(&self, program: &Program, number: Number) -> Body {
+    pub(super) fn body(&self, program: &Program, number: Number, coefficients: Coefficients) -> Body {
         let called = self.common.as_ref().and_then(|function| function.called_by(program));
         let (call, rest) = called.unzip();
         let Body { lets, results } = self.written(rest.as_ref().unwrap_or(program), number);
-        let coefficients = program.symbols().filter_map(|symbol| {
+        let read = program.symbols().filter_map(|symbol| {
             let (index, name) = (coefficient_index(symbol)?, ident(symbol));
-            let value = number.of_double(quote!(self.coefficients[#index]));
+            let value = match coefficients {
+                Coefficients::Given => quote!(coefficients[#index]),
+                Coefficients::Own => number.of_double(quote!(self.coefficients[#index])),
+            };
             Some(quote!(let #name = #value;))
         });
         let fields = self.spec.customs.iter().enumerate().filter_map(|(k, custom)| {
@@ -154,8 +166,8 @@ impl Context<'_> {
             let name = format_ident!("custom_{}", k + 1);
             Some(self.computing(&name, custom))
         });
-        let change = self.change_for(program, number);
-        Body { lets: coefficients.chain(change).chain(fields).chain(call).chain([lets]).collect(), results }
+        let change = self.change_for(program, number, coefficients);
+        Body { lets: read.chain(change).chain(fields).chain(call).chain([lets]).collect(), results }
     }
 
     /// What several programs call, as an item.
@@ -179,41 +191,81 @@ impl Context<'_> {
         {
             return (TokenStream::new(), value);
         }
-        let body = self.body(&program, number);
+        let coefficients = match number {
+            Number::Generic(_) => Coefficients::Given,
+            Number::Double => Coefficients::Own,
+        };
+        let body = self.body(&program, number, coefficients);
         let (lets, name, result) = (&body.lets, ident(&factor), body.result());
         (quote!(#lets let #name = #result;), quote!(#value * #name))
     }
 
     /// The bases over a scalar, or over the one that is asked for where they stand.
-    pub(super) fn bases(&self, scalar: Option<&TokenStream>) -> TokenStream {
+    pub(super) fn bases(&self, scalar: Option<&TokenStream>, coefficients: Coefficients) -> TokenStream {
+        let (rt, n) = (&self.names.rt, self.dim());
         let of = scalar.map(|scalar| quote!(::<#scalar>));
-        match self.model.metrics {
-            Some(ChangeOfBases::Prepared(_)) => quote!(self.bases.over #of ()),
-            _ => quote!(bases #of ()),
+        match (self.has_prepared_bases(), coefficients) {
+            (false, _) => quote!(bases #of ()),
+            (true, Coefficients::Given) => quote!(#rt::bases_beside::<#n, _, _>(coefficients)),
+            (true, Coefficients::Own) => {
+                quote!(#rt::bases_beside::<#n, _, _>(&self.coefficients).over #of ())
+            }
         }
     }
 
+    /// Is there a constraint that momenta are not projected to? It is kept by a multiplier.
+    pub(super) fn has_multiplier(&self) -> bool {
+        self.model.constraint.is_some() && !self.model.projected
+    }
+
+    /// Number of coefficients of the prepared model, with the entries of its bases.
+    pub(super) fn coefficients(&self) -> usize {
+        let entries = if self.has_prepared_bases() { 4 * self.model.dim.pow(2) } else { 0 };
+        self.model.coefficients.outputs.len() + entries
+    }
+
+    /// Do the bases of equations follow from fields?
+    pub(super) fn has_prepared_bases(&self) -> bool {
+        matches!(self.model.metrics, Some(ChangeOfBases::Prepared(_)))
+    }
+
     /// The change of bases for the fields that a program calls.
-    pub(super) fn change_for(&self, program: &Program, number: Number) -> Option<TokenStream> {
+    fn change_for(
+        &self,
+        program: &Program,
+        number: Number,
+        coefficients: Coefficients,
+    ) -> Option<TokenStream> {
         let calls = program.calls.iter().any(|call| call.field().is_some());
         let rt = &self.names.rt;
         let scalar = match number {
             Number::Generic(scalar) => quote!(#scalar),
             Number::Double => quote!(#rt::f64),
         };
-        let bases = self.bases(Some(&scalar));
+        let bases = self.bases(Some(&scalar), coefficients);
         (calls && self.model.metrics.is_some()).then(|| quote!(let change = &#bases;))
     }
 
     /// Puts `point`, a reference, in orthonormal bases.
-    pub(super) fn inward(&self) -> TokenStream {
+    pub(super) fn inward(&self, coefficients: Coefficients) -> TokenStream {
         let rt = &self.names.rt;
+        if self.has_prepared_bases() && coefficients == Coefficients::Given {
+            let bases = self.bases(None, coefficients);
+            return quote! {
+                let point = &#rt::Phase::in_orthonormal(point, ::core::option::Option::Some(&#bases));
+            };
+        }
         self.with_metrics(quote!(let point = &#rt::Model::orthonormal(self, point);))
     }
 
     /// A point in the user's bases.
-    pub(super) fn outward(&self, scalar: &TokenStream, point: TokenStream) -> TokenStream {
-        let (rt, bases) = (&self.names.rt, self.bases(Some(scalar)));
+    pub(super) fn outward(
+        &self,
+        scalar: &TokenStream,
+        point: TokenStream,
+        coefficients: Coefficients,
+    ) -> TokenStream {
+        let (rt, bases) = (&self.names.rt, self.bases(Some(scalar), coefficients));
         match self.model.metrics {
             Some(_) => quote!(#rt::Phase::from_orthonormal(&#point, &#bases)),
             None => point,

@@ -5,7 +5,7 @@ use quote::quote;
 
 use crate::derive::{Domain, Sign, SignedArgument};
 
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::pattern::time;
 use super::point::{at_placement, bind_point};
 
@@ -35,7 +35,7 @@ pub(super) fn values(context: &Context) -> TokenStream {
     let Some(domain) = &context.model.domain else { return TokenStream::new() };
     let rt = &context.names.rt;
     let program = &domain.program;
-    let (time, inward) = (time(program), context.inward());
+    let (time, inward) = (time(program), context.inward(Coefficients::Own));
     let (bound, placed) = (bind_point(context, program), at_placement(context, program));
     let body = context.double(program);
     let (lets, values) = (&body.lets, &body.results);

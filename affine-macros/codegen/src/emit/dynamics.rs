@@ -1,30 +1,38 @@
 //! Energies, velocities and Hamilton's equations.
 
+use std::slice;
+
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{format_ident, quote};
 
 use crate::derive::{Components, VelocitySide};
 use crate::ir::Program;
 use crate::symbol::Quantity;
 
 use super::body::Body;
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::mixed;
 use super::number::Number;
+use super::parametric::{Evaluation, Method};
 use super::pattern::{components, entries, identifiers, pattern, table, table_pattern, time};
 use super::point::{
     affine_velocity, at_placement, bind_components, bind_point, own_spin, placement, wrapper,
 };
 
-/// The methods of the model trait that do not reduce.
-pub(super) fn methods(context: &Context) -> TokenStream {
-    let velocity = velocity(context);
-    let kinetic_energy = kinetic_energy(context);
-    let hamiltonian = hamiltonian(context);
+/// The methods that do not reduce.
+pub(super) fn methods(context: &Context) -> Vec<Method> {
     let flat = flat(context);
-    let equations = hamilton_equations(context);
-    let regularity = mixed::regularity(context);
-    quote!(#velocity #kinetic_energy #hamiltonian #flat #equations #regularity)
+    let refusal = context.has_multiplier().then(|| without_multiplier(context));
+    vec![
+        Method::Evaluation(velocity(context)),
+        Method::Evaluation(kinetic_energy(context)),
+        Method::Evaluation(hamiltonian(context)),
+        // The coefficients hold the bases, where these follow from fields.
+        if context.has_prepared_bases() { Method::Evaluation(flat) } else { Method::Other(flat) },
+        Method::Other(refusal.unwrap_or_default()),
+        Method::Evaluation(hamilton_equations(context)),
+        Method::Other(mixed::regularity(context)),
+    ]
 }
 
 fn velocity(context: &Context) -> TokenStream {
@@ -32,7 +40,7 @@ fn velocity(context: &Context) -> TokenStream {
     let spin = own_spin(context);
     let entries = entries(context.model.frame.momentum(), context.model.dim);
     let entries = table_pattern(&entries, &context.model.velocity.inputs());
-    let Body { lets, results } = context.generic(&context.model.velocity);
+    let Body { lets, results } = context.generic(&context.model.velocity, Coefficients::Given);
     let out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
     let velocity = quote!(#rt::matrix([#(#out),*]));
     let phi_dot = match context.model.spin() {
@@ -52,15 +60,20 @@ fn velocity(context: &Context) -> TokenStream {
         }
         _ => (TokenStream::new(), quote!(#rt::Vector::<#n, #t>::zeros())),
     };
-    let inward = context.inward();
+    let inward = context.inward(Coefficients::Given);
     let velocity = quote!(#rt::Velocity { x_dot: #x_dot, phi_dot });
-    let bases = context.bases(Some(&quote!(#t)));
+    let bases = context.bases(Some(&quote!(#t)), Coefficients::Given);
     let velocity = match context.model.metrics {
         Some(_) => quote!(#bases.reversed().velocity(&#velocity)),
         None => velocity,
     };
+    let masses = context.model.mixed_masses.as_ref().map(|masses| masses.velocity.clone());
+    let factor = context.model.mass.as_ref().map(|mass| mass.only(&Quantity::InverseMass.into()));
+    let programs: Vec<Program> =
+        [context.model.velocity.clone()].into_iter().chain(factor.or(masses)).collect();
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "velocity", &programs);
     quote! {
-        fn velocity<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
+        fn #name<#t: #rt::Real>(&self, #parameter point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
             #inward
             let #entries = #rt::rows(&#spin);
             #placement
@@ -75,9 +88,11 @@ fn velocity(context: &Context) -> TokenStream {
 fn kinetic_energy(context: &Context) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
     let Some(VelocitySide { kinetic_energy: program, .. }) = &context.model.velocity_side else {
+        let Evaluation { name, parameter } = Evaluation::reading(context, "kinetic_energy", false);
         return quote! {
-            fn kinetic_energy<#t: #rt::Real>(
+            fn #name<#t: #rt::Real>(
                 &self,
+                #parameter
                 _phi: &#rt::Matrix<#n, #t>,
                 _velocity: &#rt::Velocity<#n, #t>,
             ) -> #t {
@@ -104,9 +119,11 @@ fn kinetic_energy(context: &Context) -> TokenStream {
             quote!(let #v = #rt::components(&#value);)
         }
     };
-    let body = context.generic(program);
+    let body = context.generic(program, Coefficients::Given);
     let (lets, energy) = (&body.lets, body.result());
-    let bases = context.bases(Some(&quote!(#t)));
+    let Evaluation { name, parameter } =
+        Evaluation::of_points(context, "kinetic_energy", slice::from_ref(program));
+    let bases = context.bases(Some(&quote!(#t)), Coefficients::Given);
     let inward = context.with_metrics(quote! {
         let velocity = &#bases.velocity(velocity);
     });
@@ -114,8 +131,9 @@ fn kinetic_energy(context: &Context) -> TokenStream {
         (reads_phi && context.model.metrics.is_some()).then(|| quote!(let phi = &#bases.placement(phi);));
     let inward = quote!(#inward #phi_inward);
     quote! {
-        fn kinetic_energy<#t: #rt::Real>(
+        fn #name<#t: #rt::Real>(
             &self,
+            #parameter
             #phi: &#rt::Matrix<#n, #t>,
             velocity: &#rt::Velocity<#n, #t>,
         ) -> #t {
@@ -135,10 +153,13 @@ fn hamiltonian(context: &Context) -> TokenStream {
     let program = &context.model.hamiltonian;
     let time = time(program);
     let near = energy(context, program);
-    let inward = context.inward();
+    let inward = context.inward(Coefficients::Given);
+    let programs: Vec<Program> =
+        [program].into_iter().chain(&context.model.hamiltonian_far_away).cloned().collect();
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "hamiltonian", &programs);
     let Some(program) = &context.model.hamiltonian_far_away else {
         return quote! {
-            fn hamiltonian<#t: #rt::Real>(&self, #time: #t, point: &Self::Point<#t>) -> #t {
+            fn #name<#t: #rt::Real>(&self, #parameter #time: #t, point: &Self::Point<#t>) -> #t {
                 #inward
                 #near
             }
@@ -146,7 +167,7 @@ fn hamiltonian(context: &Context) -> TokenStream {
     };
     let far_away = energy(context, program);
     quote! {
-        fn hamiltonian<#t: #rt::Real>(&self, #time: #t, point: &Self::Point<#t>) -> #t {
+        fn #name<#t: #rt::Real>(&self, #parameter #time: #t, point: &Self::Point<#t>) -> #t {
             #inward
             if #rt::far_from_undeformed(#rt::Phase::phi(point)) {
                 #far_away
@@ -161,7 +182,7 @@ fn hamiltonian(context: &Context) -> TokenStream {
 fn energy(context: &Context, program: &Program) -> TokenStream {
     let bound = bind_point(context, program);
     let placed = at_placement(context, program);
-    let body = context.generic(program);
+    let body = context.generic(program, Coefficients::Given);
     let (lets, energy) = (&body.lets, body.result());
     quote! {
         #bound
@@ -201,16 +222,24 @@ fn flat(context: &Context) -> TokenStream {
             quote!(let centre = #rt::Centre { x: #x, p: #rt::inverse(&phi).tr_mul(&#p_hat) };)
         }
     };
-    let inward = context.inward();
-    let point = context.outward(&quote!(#t), quote!(#rt::point(phi, #wrap(#own), centre)));
+    let [(flatten, parameter), (unflatten, _)] = ["flatten", "unflatten"].map(|name| {
+        if !context.has_prepared_bases() {
+            return (format_ident!("{name}"), None);
+        }
+        let Evaluation { name, parameter } = Evaluation::reading(context, name, true);
+        (name, parameter)
+    });
+    let inward = context.inward(Coefficients::Given);
+    let point = quote!(#rt::point(phi, #wrap(#own), centre));
+    let point = context.outward(&quote!(#t), point, Coefficients::Given);
     quote! {
-        fn flatten<#t: #rt::Real>(&self, point: &Self::Point<#t>) -> Self::Full<#t> {
+        fn #flatten<#t: #rt::Real>(&self, #parameter point: &Self::Point<#t>) -> Self::Full<#t> {
             #inward
             #bound
             [#(#names),*]
         }
 
-        fn unflatten<#t: #rt::Real>(&self, full: &Self::Full<#t>) -> Self::Point<#t> {
+        fn #unflatten<#t: #rt::Real>(&self, #parameter full: &Self::Full<#t>) -> Self::Point<#t> {
             let [#(#names),*] = *full;
             #dependent
             let phi = #phi;
@@ -220,37 +249,35 @@ fn flat(context: &Context) -> TokenStream {
     }
 }
 
-/// Is there a constraint that momenta are not projected to? It is kept by a multiplier.
-pub(super) fn has_multiplier(context: &Context) -> bool {
-    context.constraint().is_some() && !context.model.projected
-}
-
 fn hamilton_equations(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.full.program;
     let bound = pattern(&context.model.full.symbols(), &program.inputs());
     let time = time(program);
-    let Body { lets, results } = context.generic(program);
+    let Body { lets, results } = context.generic(program, Coefficients::Given);
     let inline = context.inline();
-    let (name, refusal) = match has_multiplier(context) {
-        false => (quote!(hamilton_equations), TokenStream::new()),
-        true => {
-            let refusal = quote! {
-                fn hamilton_equations<#t: #rt::Scalar>(&self, _t: #t, _full: &Self::Full<#t>) -> Self::Full<#t> {
-                    const { #rt::no_equations_without_multiplier() }
-                }
-            };
-            (quote!(free_equations), refusal)
-        }
+    // With coefficients that are given there are only equations without a multiplier.
+    let name = match context.has_multiplier() && !context.has_fields {
+        true => "free_equations",
+        false => "hamilton_equations",
     };
+    let Evaluation { name, parameter } = Evaluation::of(context, name, slice::from_ref(program));
     quote! {
-        #refusal
-
         #inline
-        fn #name<#t: #rt::Scalar>(&self, #time: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
+        fn #name<#t: #rt::Scalar>(&self, #parameter #time: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
             let #bound = *full;
             #lets
             [#(#results),*]
+        }
+    }
+}
+
+/// Hamilton's equations of a motion that a multiplier keeps on its constraint.
+fn without_multiplier(context: &Context) -> TokenStream {
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    quote! {
+        fn hamilton_equations<#t: #rt::Scalar>(&self, _t: #t, _full: &Self::Full<#t>) -> Self::Full<#t> {
+            const { #rt::no_equations_without_multiplier() }
         }
     }
 }

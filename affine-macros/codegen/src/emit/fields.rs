@@ -7,6 +7,7 @@ use crate::ir::Program;
 use crate::symbol::Symbol;
 
 use super::body::{Body, body};
+use super::names::Names;
 use super::number::{Number, number};
 use super::pattern::ident;
 use super::scope::Scope;
@@ -21,6 +22,11 @@ pub(super) fn bare(field: impl std::fmt::Display) -> String {
     field.to_string().trim_start_matches("r#").to_owned()
 }
 
+/// The local variable of a field that is a number.
+pub(super) fn number_name(field: impl std::fmt::Display) -> Ident {
+    format_ident!("field_{}", bare(field))
+}
+
 /// What reads a field, an entry of one, or what was computed before.
 fn read(symbol: &Symbol) -> TokenStream {
     let entry = |matrix: Ident, row: usize, column: usize| {
@@ -29,8 +35,8 @@ fn read(symbol: &Symbol) -> TokenStream {
     };
     match symbol {
         Symbol::Field(field) => {
-            let field = format_ident!("{field}");
-            quote!(self.#field)
+            let field = number_name(field);
+            quote!(#field)
         }
         Symbol::Entry(field, row, column) => entry(matrix_name(field), *row, *column),
         Symbol::Prepared(matrix, row, column) => entry(matrix_name(matrix), *row, *column),
@@ -42,6 +48,7 @@ fn read(symbol: &Symbol) -> TokenStream {
 }
 
 /// A program over the fields, and over inverse blocks computed before.
-pub(super) fn over_fields(rt: &Ident, program: &Program) -> Body {
-    body(program, &Scope { number: Number::Double, input: &read, rebased: false, places: &[], rt })
+pub(super) fn over_fields(names: &Names, program: &Program) -> Body {
+    let (number, rt) = (Number::Generic(&names.scalar), &names.rt);
+    body(program, &Scope { number, input: &read, rebased: false, places: &[], rt })
 }

@@ -1,9 +1,12 @@
 //! Forces that no potential has.
 
+use std::slice;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::context::Context;
+use super::context::{Coefficients, Context};
+use super::parametric::Evaluation;
 use super::pattern::time;
 use super::point::bind_point;
 
@@ -13,15 +16,19 @@ pub(super) fn power(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let bound = bind_point(context, program);
     let time = time(program);
-    let body = context.generic(program);
+    let body = context.generic(program, Coefficients::Given);
     let (lets, power) = (&body.lets, body.result());
+    let programs = slice::from_ref(program);
     // The power of a potential of the time alone is that at every point.
-    let (point, inward) = match bound.is_empty() {
-        true => (quote!(_point), TokenStream::new()),
-        false => (quote!(point), context.inward()),
+    let (Evaluation { name, parameter }, point, inward) = match bound.is_empty() {
+        true => (Evaluation::of(context, "power", programs), quote!(_point), TokenStream::new()),
+        false => {
+            let inward = context.inward(Coefficients::Given);
+            (Evaluation::of_points(context, "power", programs), quote!(point), inward)
+        }
     };
     quote! {
-        fn power<#t: #rt::Real>(&self, #time: #t, #point: &Self::Point<#t>) -> #t {
+        fn #name<#t: #rt::Real>(&self, #parameter #time: #t, #point: &Self::Point<#t>) -> #t {
             #inward
             #bound
             #lets

@@ -8,7 +8,6 @@ use crate::derive::{ChangeOfBases, Components, GivenMatrix, GivenSource, Prepara
 use super::body::Body;
 use super::context::Context;
 use super::fields::{matrix_name, over_fields};
-use super::names::runtime;
 use super::number::{exact_table, number};
 use crate::ir::Program;
 
@@ -24,7 +23,9 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
     };
     let bases = match &context.model.metrics {
         None => return (TokenStream::new(), TokenStream::new()),
-        Some(ChangeOfBases::Prepared(_)) => return (TokenStream::new(), method(quote!(self.bases))),
+        Some(ChangeOfBases::Prepared(_)) => {
+            return (TokenStream::new(), method(quote!(#rt::bases_beside(&self.coefficients))));
+        }
         Some(ChangeOfBases::Known(bases)) => bases,
     };
     let [a, a_inverse, b, b_inverse] =
@@ -67,29 +68,25 @@ pub(super) fn lints(context: &Context) -> TokenStream {
     }
 }
 
-/// The bases in the prepared model, and the statement of `prepare()` that finds them.
-pub(super) fn prepared(context: &Context) -> (TokenStream, TokenStream) {
+/// The statement that finds the bases from the fields.
+pub(super) fn prepared(context: &Context) -> Option<TokenStream> {
     let Some(ChangeOfBases::Prepared(Preparation { metrics: [space, body], .. })) = &context.model.metrics
     else {
-        return (TokenStream::new(), TokenStream::new());
+        return None;
     };
     let (rt, n) = (&context.names.rt, context.dim());
     let orthonormal = |name: &str, program: &Program| {
-        let Body { lets, results } = over_fields(rt, program);
+        let Body { lets, results } = over_fields(context.names, program);
         let rows = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
         let condition = format!("{name} > 0");
-        let bases = quote!(#rt::orthonormal::<#n>([#(#rows),*], #condition)?);
+        let bases = quote!(#rt::orthonormal::<#n, _>([#(#rows),*], #condition)?);
         if lets.is_empty() { bases } else { quote!({ #lets #bases }) }
     };
     let (space, body) = (orthonormal("g", space), orthonormal("eta", body));
-    let runtime = runtime(context.spec.runtime.as_ref());
-    (
-        quote!(bases: #runtime::__private::Bases<#n>,),
-        quote!(let bases = #rt::Bases::of_factors(#space, #body);),
-    )
+    Some(quote!(let bases = #rt::Bases::of_factors(#space, #body);))
 }
 
-/// The statements of `prepare()` that carry inertias and tensors to the bases, which are found before.
+/// The statements that carry inertias and tensors to the bases, which are found before.
 pub(super) fn rebased(context: &Context) -> TokenStream {
     let Some(ChangeOfBases::Prepared(Preparation { matrices, .. })) = &context.model.metrics else {
         return TokenStream::new();
@@ -102,16 +99,16 @@ pub(super) fn rebased(context: &Context) -> TokenStream {
             GivenSource::SpaceInverse => return quote!(let #local = #rt::rows(&bases.space_inverse);),
             GivenSource::Body => return quote!(let #local = #rt::rows(&bases.body);),
         };
-        let Body { lets, results } = over_fields(rt, entries);
+        let Body { lets, results } = over_fields(context.names, entries);
         let size = if tensor { context.model.dim.pow(2) } else { context.model.dim };
         let rows = results.chunks(size).map(|row| quote!([#(#row),*]));
         let entries = quote!([#(#rows),*]);
         let value = match (tensor, components) {
-            (false, Components::Spatial) => quote!(#rt::rebased_inertia::<#n>(&bases.space, #entries)),
-            (false, _) => quote!(#rt::rebased_inertia::<#n>(&bases.body, #entries)),
+            (false, Components::Spatial) => quote!(#rt::rebased_inertia::<#n, _>(&bases.space, #entries)),
+            (false, _) => quote!(#rt::rebased_inertia::<#n, _>(&bases.body, #entries)),
             (true, components) => {
                 let (factors, size) = (factors(components), number(size));
-                quote!(#rt::rebased_tensor::<#n, #size>(#factors, #entries))
+                quote!(#rt::rebased_tensor::<#n, #size, _>(#factors, #entries))
             }
         };
         quote!(let #local = { #lets #value };)
@@ -128,7 +125,7 @@ fn factors(components: Components) -> TokenStream {
     }
 }
 
-/// A result of `prepare()` whose error has a velocity in orthonormal bases that it found before.
+/// A result whose error has a velocity in orthonormal bases that it found before.
 pub(super) fn told_in_given_bases(context: &Context, result: TokenStream) -> TokenStream {
     let rt = &context.names.rt;
     match &context.model.metrics {

@@ -7,7 +7,7 @@ use crate::ir::Program;
 use crate::symbol::Quantity;
 
 use super::body::Body;
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::number::number;
 use super::pattern::{components, pattern};
 use super::point::placement;
@@ -25,7 +25,7 @@ pub(super) fn velocity_of_centre(context: &Context) -> (TokenStream, TokenStream
     let (rt, program) = (&context.names.rt, &masses.velocity);
     let placement = placement(context, program, &quote!(#rt::Phase::phi(point)));
     let p = vector(context, program, Quantity::LinearMomentum, &quote!(#rt::Phase::p(point)));
-    let Body { lets, results } = context.generic(program);
+    let Body { lets, results } = context.generic(program, Coefficients::Given);
     (quote!(#placement #p #lets), quote!(#rt::vector([#(#results),*])))
 }
 

@@ -8,9 +8,9 @@ use quote::quote;
 
 use crate::ir::packed::Packed;
 
-use super::context::{Context, coefficient_index};
+use super::context::Context;
 use super::number::number;
-use super::pattern::{ident, identifiers, time};
+use super::pattern::{identifiers, time};
 use super::trajectory;
 
 /// The implementation of the capability.
@@ -85,10 +85,6 @@ fn equations(context: &Context, packed: &Packed) -> TokenStream {
     let program = packed.read();
     let used = program.inputs();
     let (read, constants) = trajectory::coefficients(context, &used);
-    let coefficients = program.symbols().filter_map(|symbol| {
-        let (index, name) = (coefficient_index(symbol)?, ident(symbol));
-        Some(quote!(let #name = self.coefficients[#index];))
-    });
     let clock = time(&program);
     let written = writer::written(context, packed);
     let (state, lets, rates) = (&written.state, &written.lets, &written.rates);
@@ -107,7 +103,6 @@ fn equations(context: &Context, packed: &Packed) -> TokenStream {
             #scalar
             #all
             #four
-            #(#coefficients)*
             #read
             let [#(#state),*] = packed.vectors(vectors);
             #lets

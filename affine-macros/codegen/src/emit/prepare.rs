@@ -1,19 +1,20 @@
 //! `prepare()`: from values of the fields to a checked model with its coefficients.
 
+mod conditions;
+mod values;
+
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::derive::splitting::PrincipalProgram;
-use crate::derive::{Condition, Damping, Factor, NumericBlock, Relation, Written};
-use crate::spec::{Field, Storage};
-use crate::symbol::Symbol;
+use crate::spec::Field;
 
 use super::body::Body;
 use super::context::Context;
-use super::fields::{bare, matrix_name, over_fields};
+use super::fields::{number_name, over_fields};
 use super::metrics;
-use super::number::{double, number};
-use super::pattern::{ident, identifiers, table};
+use super::number::number;
+use conditions::{conditions, damping, numeric_block, principal};
+use values::{finite_fields, matrices, numbers, of_fields, size, values};
 
 /// What `prepare()` returns; nothing for a model without fields in its coefficients.
 pub(super) fn prepared_type(context: &Context) -> TokenStream {
@@ -22,8 +23,7 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
     }
     let (model, prepared) = (&context.names.model, &context.names.prepared);
     let visibility = &context.spec.item.visibility;
-    let count = number(context.model.coefficients.outputs.len());
-    let (bases, _) = metrics::prepared(context);
+    let count = number(context.coefficients());
     let summary = format!(" [`{model}`] with values of its fields that make it well posed.");
     if !context.spec.customs.is_empty() {
         let generics = &context.spec.item.generics;
@@ -40,7 +40,6 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
             #[derive(::core::clone::Clone)]
             #visibility struct #prepared #generics #clause {
                 coefficients: [::core::primitive::f64; #count],
-                #bases
                 #(#fields)*
                 model: ::core::marker::PhantomData<fn() -> #model #types>,
             }
@@ -58,7 +57,6 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
         )]
         #visibility struct #prepared {
             coefficients: [::core::primitive::f64; #count],
-            #bases
         }
     }
 }
@@ -71,35 +69,26 @@ fn called<'a>(context: &'a Context) -> impl Iterator<Item = (Ident, &'a Field)> 
     })
 }
 
-/// `prepare()`.
+/// `prepare()`, and the coefficients as a function of the fields.
 pub(super) fn method(context: &Context) -> TokenStream {
     if !context.has_fields {
         return as_it_is(context);
     }
-    let (model, prepared, rt) = (&context.names.model, &context.names.prepared, &context.names.rt);
-    let visibility = &context.spec.item.visibility;
+    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
+    let (model, visibility) = (&context.names.model, &context.spec.item.visibility);
     let (generics, types, clause) = context.spec.item.generics.split_for_impl();
-    let matrices = matrices(context, rt);
-    let conditions = conditions(context, rt);
-    let (_, bases) = metrics::prepared(context);
-    let rebased = metrics::rebased(context);
     let clones = called(context).map(|(name, field)| {
         let field = &field.ident;
         quote!(, #name: ::core::clone::Clone::clone(&self.#field))
     });
-    let named_bases = (!bases.is_empty()).then(|| quote!(, bases));
     let marker = (!context.spec.customs.is_empty()).then(|| quote!(, model: ::core::marker::PhantomData));
-    let fields: Vec<TokenStream> = named_bases.into_iter().chain(clones).chain(marker).collect();
     let of = (!context.spec.customs.is_empty()).then(|| quote!(#types));
-    let blocks: TokenStream =
-        context.model.numeric_blocks.iter().map(|block| numeric_block(context, block, rt)).collect();
-    let axes = context.model.splitting.iter().flat_map(|split| &split.principal);
-    let axes: TokenStream = axes.map(|form| principal(rt, form)).collect();
-    let damping = damping(&context.model.damping, rt);
-    // What is carried to orthonormal bases is looked at in them.
-    let (first, last) = if rebased.is_empty() { (None, Some(&bases)) } else { (Some(&bases), None) };
-    let Body { lets, results } = over_fields(rt, &context.model.coefficients);
-    let finite = finite_fields(context, rt);
+    let function = coefficients(context);
+    // Nothing but the lattice is emitted of a model on U(n), which has no phase points.
+    let (values, fields) = match context.spec.group {
+        Some(_) => (values(context), None),
+        None => (quote!(#rt::Fields::<#n>::values(self)), Some(of_fields(context))),
+    };
     quote! {
         impl #generics #model #types #clause {
             /// Checks the values of the fields and computes the coefficients of the equations.
@@ -108,19 +97,57 @@ pub(super) fn method(context: &Context) -> TokenStream {
             /// `FieldNotFinite` with the field; `IllPosed` with the condition, its value and its threshold, where the
             /// Legendre transformation is degenerate to rounding, a required sign is missing, or a coefficient overflows.
             #visibility fn prepare(&self) -> #rt::Result<#prepared #of> {
-                #finite
-                #matrices
-                #first
-                #rebased
-                #conditions
-                #blocks
-                #axes
-                #damping
-                #last
-                #lets
-                let coefficients = #rt::finite([#(#results),*])?;
-                ::core::result::Result::Ok(#prepared { coefficients #(#fields)* })
+                let coefficients = coefficients_of(&#values)?;
+                ::core::result::Result::Ok(#prepared { coefficients #(#clones)* #marker })
             }
+        }
+        #fields
+        #function
+    }
+}
+
+/// The coefficients of the equations as a function of the values of the fields.
+fn coefficients(context: &Context) -> TokenStream {
+    let (names, rt, t) = (context.names, &context.names.rt, &context.names.scalar);
+    let (fields, count) = (number(size(context)), number(context.coefficients()));
+    let read = numbers(context);
+    let bound: Vec<Ident> = read.iter().map(|field| number_name(&field.ident)).collect();
+    let rest = context.spec.matrix_fields().next().is_some().then(|| quote!(, ..));
+    let bound = (!bound.is_empty()).then(|| quote!(let [#(#bound),* #rest] = *values;));
+    let (finite, matrices) = (finite_fields(context), matrices(context));
+    let conditions = conditions(context);
+    let bases = metrics::prepared(context);
+    let rebased = metrics::rebased(context);
+    let blocks: TokenStream =
+        context.model.numeric_blocks.iter().map(|block| numeric_block(context, block)).collect();
+    let axes = context.model.splitting.iter().flat_map(|split| &split.principal);
+    let axes: TokenStream = axes.map(|form| principal(names, form)).collect();
+    let damping = damping(&context.model.damping, names);
+    // What is carried to orthonormal bases is looked at in them.
+    let (first, last) = if rebased.is_empty() { (None, bases.as_ref()) } else { (bases.as_ref(), None) };
+    let Body { lets, results } = over_fields(names, &context.model.coefficients);
+    let all = match &bases {
+        Some(_) => quote! {
+            let coefficients = #rt::finite([#(#results),*])?;
+            ::core::result::Result::Ok(#rt::beside_bases(coefficients, &bases))
+        },
+        None => quote!(#rt::finite([#(#results),*])),
+    };
+    quote! {
+        /// The coefficients of the equations, from values of the fields.
+        fn coefficients_of<#t: #rt::Real>(values: &[#t; #fields]) -> #rt::Result<[#t; #count]> {
+            #bound
+            #finite
+            #matrices
+            #first
+            #rebased
+            #conditions
+            #blocks
+            #axes
+            #damping
+            #last
+            #lets
+            #all
         }
     }
 }
@@ -141,171 +168,5 @@ fn as_it_is(context: &Context) -> TokenStream {
                 ::core::result::Result::Ok(self)
             }
         }
-    }
-}
-
-/// The fields that are numbers and that the model reads, each with its name, are finite.
-fn finite_fields(context: &Context, rt: &Ident) -> TokenStream {
-    let read = context.model.symbols();
-    let fields = context.spec.item.fields.iter().map(|field| &field.ident);
-    let named = fields.filter(|field| read.contains(&&Symbol::Field(field.to_string()))).map(|field| {
-        let name = bare(field);
-        quote!((#name, self.#field))
-    });
-    let named: Vec<TokenStream> = named.collect();
-    if named.is_empty() {
-        return TokenStream::new();
-    }
-    quote!(#rt::finite_fields(&[#(#named),*])?;)
-}
-
-/// The symmetric parts of the fields of matrix type.
-fn matrices(context: &Context, rt: &Ident) -> TokenStream {
-    let matrices = context.spec.matrix_fields().map(|(field, size, storage)| {
-        let (field, local) = (&field.ident, matrix_name(&field.ident));
-        let rows = match storage {
-            Storage::Rows => quote!(self.#field),
-            Storage::Matrix => quote! {
-                ::core::array::from_fn(|a| ::core::array::from_fn(|b| self.#field[(a, b)]))
-            },
-        };
-        let name = bare(field);
-        let condition = format!("{name} = {name}^T");
-        let reason = format!(
-            "the value is the largest difference of two entries of `{name}` whose places are exchanged, and its \
-             symmetric part alone has a meaning; give a symmetric matrix"
-        );
-        let size = number(size);
-        quote!(let #local = #rt::symmetric_part::<#size>(#name, #rows, #condition, #reason)?;)
-    });
-    matrices.collect()
-}
-
-/// Eigenvalues share one threshold, a mass has its own.
-fn conditions(context: &Context, rt: &Ident) -> TokenStream {
-    let is_mass = |c: &&Condition| matches!(c.factor, Factor::Mass(_));
-    let list = |conditions: Vec<&Condition>| {
-        if conditions.is_empty() {
-            return TokenStream::new();
-        }
-        let entries = conditions.iter().map(|c| condition(c, rt));
-        quote!(#rt::well_posed(&[#(#entries),*])?;)
-    };
-    let eigenvalues = list(context.model.conditions.iter().filter(|c| !is_mass(c)).collect());
-    let masses = list(context.model.conditions.iter().filter(is_mass).collect());
-    quote!(#eigenvalues #masses)
-}
-
-fn condition(condition: &Condition, rt: &Ident) -> TokenStream {
-    let positive = condition.positive;
-    let text = format!("{} {} 0", condition.factor.name(), if positive { ">" } else { "!=" });
-    let (given, sought) = match condition.relation {
-        Relation::MomentumOfVelocity => ("velocity", "momentum"),
-        Relation::VelocityOfMomentum => ("momentum", "velocity"),
-    };
-    let remedy = if positive {
-        "choose fields that make it positive".to_owned()
-    } else {
-        format!("choose fields that keep it away from zero, or the {sought} does not determine the {given}")
-    };
-    let reason = format!(
-        "on {} the {sought} is {} times the {given}; {remedy}",
-        condition.directions,
-        condition.factor.name()
-    );
-    held(condition, &text, &reason, rt)
-}
-
-/// What the dissipation must not be: negative.
-fn damping(damping: &Damping, rt: &Ident) -> TokenStream {
-    let entries: Vec<TokenStream> = damping
-        .conditions
-        .iter()
-        .map(|condition| {
-            let text = format!("{} >= 0", condition.factor.name());
-            let reason = format!(
-                "on {} the dissipation function R is half of {} times the square of the velocity; where R < 0 its \
-                 forces would feed energy in",
-                condition.directions, condition.factor.name(),
-            );
-            held(condition, &text, &reason, rt)
-        })
-        .collect();
-    let conditions = (!entries.is_empty()).then(|| quote!(#rt::semidefinite(&[#(#entries),*])?;));
-    let blocks = damping.blocks.iter().map(|block| {
-        let Body { lets, results } = over_fields(rt, &block.program);
-        let (size, count) = (block.size, block.size * (block.size + 1) / 2);
-        let (entries, terms) = results.split_at(count);
-        let (size, count) = (number(size), number(count));
-        quote! {
-            {
-                #lets
-                #rt::semidefinite_form::<#size, #count>([#(#entries),*], #rt::total_size([#(#terms),*]))?;
-            }
-        }
-    });
-    quote!(#conditions #(#blocks)*)
-}
-
-/// A condition with the program of its value and of the sizes that rounding errors are measured by.
-fn held(condition: &Condition, text: &str, reason: &str, rt: &Ident) -> TokenStream {
-    let positive = condition.positive;
-    let Body { lets, results } = over_fields(rt, &condition.program);
-    let (value, sizes) = results.split_first().map_or((quote!(0.0), &[][..]), |(v, s)| (v.clone(), s));
-    quote! {
-        {
-            #lets
-            #rt::Condition {
-                condition: #text,
-                reason: #reason,
-                positive: #positive,
-                value: #value,
-                size: #rt::total_size([#(#sizes),*]),
-            }
-        }
-    }
-}
-
-fn numeric_block(context: &Context, block: &NumericBlock, rt: &Ident) -> TokenStream {
-    let Body { lets, results } = over_fields(rt, &block.program);
-    let names = block.inverse.iter().map(ident);
-    let (dim, size, positive) = (context.dim(), number(block.size), block.positive);
-    let count = number(block.inverse.len());
-    let (entries, terms) = results.split_at(block.inverse.len());
-    let basis = block.basis.iter().map(|vector| {
-        let entries = vector.iter().map(|(place, weight)| {
-            let (place, weight) = (number(*place), double(weight.to_doubles().0));
-            quote!((#place, #weight))
-        });
-        quote!(&[#(#entries),*])
-    });
-    let inverse = quote! {
-        #rt::inverse_form::<#dim, #size, #count>(
-            [#(#entries),*],
-            #rt::total_size([#(#terms),*]),
-            #positive,
-            [#(#basis),*],
-        )
-    };
-    let inverse = metrics::told_in_given_bases(context, inverse);
-    quote! {
-        let [#(#names),*]: [::core::primitive::f64; #count] = {
-            #lets
-            #inverse?
-        };
-    }
-}
-
-/// Eigenvalues and eigenvectors of a form.
-fn principal(rt: &Ident, form: &PrincipalProgram) -> TokenStream {
-    let Body { lets, results } = over_fields(rt, &form.program);
-    let (size, count) = (number(form.values.len()), number(results.len()));
-    let values = identifiers(&form.values);
-    let vectors = table(&form.vectors);
-    quote! {
-        let ([#(#values),*], #vectors) = {
-            #lets
-            #rt::principal_axes::<#size, #count>([#(#results),*])
-        };
     }
 }

@@ -8,7 +8,7 @@ use crate::ir::Program;
 use crate::symbol::Quantity;
 
 use super::body::Body;
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::number::number;
 use super::pattern::{ident, time};
 use super::point::{bind_point, placement, wrapper};
@@ -34,7 +34,7 @@ fn metric(context: &Context) -> TokenStream {
         true => " Rows and columns: the components of `p`, then the entries of `Pi^T` row by row.",
         false => " Rows and columns: the entries of `Pi^T` row by row.",
     };
-    let bases = context.bases(Some(&quote!(#rt::f64)));
+    let bases = context.bases(Some(&quote!(#rt::f64)), Coefficients::Own);
     let square = |program: &Program, carried: &str| {
         let placement = placement(context, program, &quote!(phi));
         let Body { lets, results } = context.double(program);
@@ -76,9 +76,9 @@ fn acceleration(context: &Context) -> TokenStream {
     let Body { lets, results } = context.double(program);
     let point_name = if bound.is_empty() { quote!(_point) } else { quote!(point) };
     let at = reads_time(program).then(|| quote!(t: #rt::f64,));
-    let inward = if bound.is_empty() { TokenStream::new() } else { context.inward() };
+    let inward = if bound.is_empty() { TokenStream::new() } else { context.inward(Coefficients::Own) };
     let acceleration = quote!(#rt::vector([#(#results),*]));
-    let bases = context.bases(Some(&quote!(#rt::f64)));
+    let bases = context.bases(Some(&quote!(#rt::f64)), Coefficients::Own);
     let acceleration = match context.model.metrics {
         Some(_) => quote!(#bases.space_inverse * #acceleration),
         None => acceleration,

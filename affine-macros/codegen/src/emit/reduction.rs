@@ -8,11 +8,13 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::derive::{AffineMomentum, Components, Trajectory};
+use crate::ir::Program;
 use crate::symbol::Quantity;
 
 use super::body::Body;
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::number::Number;
+use super::parametric::{Evaluation, Method, asks_again, equations_head};
 use super::pattern::{components, entries, identifiers, pattern, reads, table_pattern, time};
 use super::point::{projected, spin};
 use super::separated;
@@ -34,16 +36,20 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
 }
 
 /// `reduce`, `reduced_equations`, `expand`, `renewed`.
-pub(super) fn methods(context: &Context) -> TokenStream {
+pub(super) fn methods(context: &Context) -> [Method; 4] {
     let parts = Trajectory::of(context.model);
-    if plain::is_plain(context, &parts) {
-        return plain::methods(context, &parts);
-    }
-    let reduce = reduce(context, &parts);
-    let equations = reduced_equations(context, &parts);
-    let expand = expansion::expand(context, &parts);
-    let renewed = (!parts.carried.is_empty()).then(|| carried::renewed(context, &parts.carried));
-    quote!(#reduce #equations #expand #renewed)
+    let is_plain = plain::is_plain(context, &parts);
+    let (reduce, equations, expand) = match is_plain {
+        true => (plain::reduce(context, &parts), plain::equations(context), plain::expand(context)),
+        false => {
+            (reduce(context, &parts), reduced_equations(context, &parts), expansion::expand(context, &parts))
+        }
+    };
+    let renewed = (!is_plain && !parts.carried.is_empty()).then(|| carried::renewed(context, &parts.carried));
+    let equations =
+        if asks_again(context) { Method::Evaluation(equations) } else { Method::Other(equations) };
+    let renewed = Method::Other(renewed.unwrap_or_default());
+    [Method::Evaluation(reduce), equations, Method::Evaluation(expand), renewed]
 }
 
 /// The affine momentum of the reduced chart at `point`.
@@ -76,7 +82,7 @@ fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
         None => bind_state(context, parts),
     });
     lets.extend(carried::computed(context, &parts.carried, &quote!(#rt::Phase::phi(point))));
-    let body = context.generic(&context.model.trajectory);
+    let body = context.generic(&context.model.trajectory, Coefficients::Given);
     let (coefficients, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
     let reduced = &context.model.reduced;
@@ -88,10 +94,12 @@ fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
         fields = quote!(scalar: ::core::marker::PhantomData);
     }
     let origin = if parts.origin || parts.dilatation.is_some() { quote!(t0) } else { quote!(_t0) };
-    let inward = context.inward();
+    let inward = context.inward(Coefficients::Given);
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "reduce", &programs(context, parts));
     quote! {
-        fn reduce<#t: #rt::Real>(
+        fn #name<#t: #rt::Real>(
             &self,
+            #parameter
             #origin: #t,
             point: &Self::Point<#t>,
         ) -> (Self::Reduced<#t>, Self::Constants<#t>) {
@@ -103,6 +111,25 @@ fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
             ([#(#state),*], #constants { #fields })
         }
     }
+}
+
+/// What `reduce` evaluates.
+fn programs(context: &Context, parts: &Trajectory) -> Vec<Program> {
+    let model = context.model;
+    let of = |program: &Option<Program>, factor: Quantity, wanted: bool| {
+        program.as_ref().filter(|_| wanted).map(|program| program.only(&factor.into()))
+    };
+    let dilates = parts.dilatation.is_some();
+    [
+        Some(model.trajectory.clone()),
+        of(&model.isotropic, Quantity::InverseMu, parts.rotation.is_some()),
+        of(&model.isotropic, Quantity::InverseAlpha, dilates),
+        of(&model.mass, Quantity::InverseMass, parts.drift),
+        model.dilatation.clone().filter(|_| dilates),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// Components of state and momenta in turned space, as variables.
@@ -174,13 +201,15 @@ fn reduced_equations(context: &Context, parts: &Trajectory) -> TokenStream {
     let reads_state = reads(&used, &all);
     let state = if reads_state { quote!(reduced) } else { quote!(_reduced) };
     let bind = reads_state.then(|| quote!(let #bound = *reduced;));
-    let Body { lets, results } = context.generic(program);
+    let Body { lets, results } = context.generic(program, Coefficients::Given);
     let time = time(program);
     let inline = context.inline();
+    let (name, parameter) = equations_head(context);
     quote! {
         #inline
-        fn reduced_equations<#t: #rt::Scalar>(
+        fn #name<#t: #rt::Scalar>(
             &self,
+            #parameter
             #time: #t,
             #constants: &Self::Constants<#t>,
             #state: &Self::Reduced<#t>,

@@ -8,7 +8,7 @@ use crate::ir::Program;
 use crate::symbol::Symbol;
 
 use super::body::Body;
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::number::number;
 use super::pattern::{pattern, reads, time};
 use super::trajectory::coefficients;
@@ -79,6 +79,6 @@ fn written(
         }
         false => quote!(let _ = #half;),
     };
-    let Body { lets, results } = context.generic(program);
+    let Body { lets, results } = context.generic(program, Coefficients::Own);
     (constants, quote!(#read #bind #lets [#(#results),*]))
 }

@@ -6,7 +6,7 @@ use quote::quote;
 use crate::derive::DilatationalMotion;
 use crate::symbol::{Quantity, Symbol};
 
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::pattern::{entries, ident, identifiers, table, table_pattern};
 
 /// `Psi`, the parts of `sigma/alpha` and the closed form of the dilatation at `point`.
@@ -71,7 +71,7 @@ fn shear_and_turn(n: usize) -> Vec<Vec<Symbol>> {
 fn inverse_alpha(context: &Context) -> (TokenStream, TokenStream) {
     match &context.model.isotropic {
         Some(program) => {
-            let body = context.generic(&program.only(&Quantity::InverseAlpha.into()));
+            let body = context.generic(&program.only(&Quantity::InverseAlpha.into()), Coefficients::Given);
             (body.result(), body.lets)
         }
         None => (TokenStream::new(), TokenStream::new()),
@@ -81,7 +81,7 @@ fn inverse_alpha(context: &Context) -> (TokenStream, TokenStream) {
 fn dilatation(context: &Context, motion: DilatationalMotion) -> TokenStream {
     let rt = &context.names.rt;
     let Some(program) = &context.model.dilatation else { return TokenStream::new() };
-    let body = context.generic(program);
+    let body = context.generic(program, Coefficients::Given);
     let (lets, values) = (&body.lets, &body.results);
     let path = closed_form(motion);
     quote! {

@@ -9,7 +9,7 @@ use crate::ir::{Op, Program, Value};
 use crate::symbol::Symbol;
 
 use super::body::{Body, inner};
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::number::number;
 use super::pattern::{identifiers, pattern, reads, table};
 use super::separated::closed_form;
@@ -116,7 +116,7 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
         FlowProgram::Shift { moved, program } | FlowProgram::Rise { moved, program } => {
             let over_time = matches!(flow, FlowProgram::Shift { .. }).then(|| quote!(h *));
             let bind = bound(context, program, &[]);
-            let Body { lets, results } = context.generic(program);
+            let Body { lets, results } = context.generic(program, Coefficients::Own);
             // Several results are names or numbers; a single one may be a sum.
             let (only, results) = match results.as_slice() {
                 [one] => (quote!(let rate = #one;), vec![quote!(rate)]),
@@ -134,7 +134,7 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
         FlowProgram::Exponential { placement, momentum, right, program } => {
             let rt = &context.names.rt;
             let bind = bound(context, program, &placement.concat());
-            let Body { lets, results } = context.generic(program);
+            let Body { lets, results } = context.generic(program, Coefficients::Own);
             let (generator, turning) = results.split_at(context.model.dim.pow(2).min(results.len()));
             let zero = |v: Value| matches!(&program.steps[v], Op::Constant(c) if c.is_zero());
             let entries: Vec<_> =
@@ -193,7 +193,7 @@ fn dilated(
     let diagonal: Vec<Symbol> =
         momentum.iter().enumerate().filter_map(|(a, row)| row.get(a).cloned()).collect();
     let bind = bound(context, program, &placement.concat());
-    let Body { lets, results } = context.generic(program);
+    let Body { lets, results } = context.generic(program, Coefficients::Own);
     let (results, spin) = results.split_at(results.len().saturating_sub(context.model.dim));
     let path = closed_form(motion);
     let matrix = table(placement);

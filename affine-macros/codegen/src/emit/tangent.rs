@@ -6,7 +6,7 @@ use quote::quote;
 use crate::symbol::{Aspect, Symbol};
 
 use super::body::Body;
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::groups::group;
 use super::number::number;
 use super::pattern::{pattern, reads, time};
@@ -39,7 +39,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let constants = if values.is_some() || slopes.is_some() { quote!(constants) } else { quote!(_constants) };
     let bound = pattern(&states, &used);
     let clock = time(program);
-    let Body { lets, results } = context.generic(program);
+    let Body { lets, results } = context.generic(program, Coefficients::Own);
     quote! {
         impl #generics #rt::Tangent<#n> for #prepared #types #clause {
             type Varied<#t: #rt::Scalar> = [#t; #both];

@@ -15,7 +15,7 @@ use crate::ir::Value;
 use crate::ir::taylor::Rule;
 
 use super::body::Body;
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::number::number;
 use writer::Writer;
 
@@ -61,7 +61,7 @@ impl Writer<'_> {
         let program = &self.recurrence.start;
         let (read, constants) = self.constants(program);
         let (bind, state) = self.bind(&program.inputs(), "state");
-        let Body { lets, results } = self.context.generic(program);
+        let Body { lets, results } = self.context.generic(program, Coefficients::Own);
         let (rates, kept) = results.split_at(self.recurrence.program.outputs.len());
         let mut kept = kept.iter();
         let entries = self.recurrence.row.iter().map(|series| match series {

@@ -11,7 +11,7 @@ use crate::ir::Program;
 use crate::symbol::Symbol;
 
 use super::body::Body;
-use super::context::Context;
+use super::context::{Coefficients, Context};
 use super::description;
 use super::groups::groups;
 use super::number::number;
@@ -46,7 +46,7 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
     let function = |program: &Program, variables: &[Symbol]| {
         let used = program.inputs();
         let (couplings, bound) = (pattern(&form.couplings, &used), pattern(variables, &used));
-        let body = context.generic(program);
+        let body = context.generic(program, Coefficients::Own);
         let lets = &body.lets;
         let couplings =
             if form.couplings.is_empty() { quote!() } else { quote!(let #couplings = *couplings;) };

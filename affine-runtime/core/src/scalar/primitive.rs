@@ -1,5 +1,7 @@
 //! Doubles and singles as scalars.
 
+use core::borrow::Borrow;
+
 use super::inverse_cbrt;
 use super::{Real, Scalar};
 
@@ -13,8 +15,10 @@ fn square_root(x: f64) -> f64 {
 }
 
 macro_rules! primitive {
-    ($type:ty, $hypot:path, $($function:ident = $path:path),*) => {
+    ($type:ty, $hypot:path, $($function:ident = $path:path),* $(; $of_doubles:item)?) => {
         impl Scalar for $type {
+            $($of_doubles)?
+
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
             fn constant(hi: f64, _lo: f64) -> Self {
@@ -81,7 +85,11 @@ primitive!(
     cosh = libm::cosh,
     tanh = libm::tanh,
     asinh = libm::asinh,
-    abs = f64::abs
+    abs = f64::abs;
+    #[inline(always)]
+    fn of_doubles<const K: usize>(doubles: &[f64; K]) -> impl Borrow<[f64; K]> {
+        doubles
+    }
 );
 primitive!(
     f32,

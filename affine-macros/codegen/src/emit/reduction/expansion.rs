@@ -4,7 +4,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::derive::{AffineMomentum, Components, Trajectory};
-use crate::emit::context::Context;
+use crate::emit::context::{Coefficients, Context};
+use crate::emit::parametric::Evaluation;
 use crate::emit::pattern::{components, entries, identifiers, pattern, table};
 use crate::emit::point::{projected, wrapper};
 use crate::emit::separated;
@@ -92,10 +93,16 @@ pub(super) fn expand(context: &Context, parts: &Trajectory) -> TokenStream {
         || parts.conserved
         || !parts.fixed.is_empty();
     let constants = if reads { quote!(constants) } else { quote!(_constants) };
-    let point = context.outward(&quote!(#t), quote!(#rt::point(phi, #spin, #centre)));
+    let point = quote!(#rt::point(phi, #spin, #centre));
+    let point = context.outward(&quote!(#t), point, Coefficients::Given);
+    // The parts of a momentum whose trace moves apart are velocities: `1/alpha` takes them back.
+    let scale = context.model.isotropic.as_ref().filter(|_| parts.dilatation.is_some());
+    let scale = scale.map(|program| program.only(&Quantity::InverseAlpha.into()));
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "expand", scale.as_slice());
     quote! {
-        fn expand<#t: #rt::Real>(
+        fn #name<#t: #rt::Real>(
             &self,
+            #parameter
             #time: #t,
             #constants: &Self::Constants<#t>,
             reduced: &Self::Reduced<#t>,

@@ -1,12 +1,14 @@
 //! A reduction that takes nothing out: the reduced state is the plain array.
 
+use std::slice;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::derive::Trajectory;
 use crate::emit::body::Body;
-use crate::emit::context::Context;
-use crate::emit::dynamics::has_multiplier;
+use crate::emit::context::{Coefficients, Context};
+use crate::emit::parametric::{Evaluation, equations_head};
 
 /// Are the reduced equations those of the plain array, and the constants at most their coefficients?
 pub(super) fn is_plain(context: &Context, parts: &Trajectory) -> bool {
@@ -15,43 +17,73 @@ pub(super) fn is_plain(context: &Context, parts: &Trajectory) -> bool {
     context.model.full == context.model.reduced && nothing_moves_apart && nothing_is_constant
 }
 
-/// `reduce`, `reduced_equations` and `expand`, by the methods of the plain array.
-pub(super) fn methods(context: &Context, parts: &Trajectory) -> TokenStream {
+/// `reduce`: the plain array.
+pub(super) fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, t, constants) = (&context.names.rt, &context.names.scalar, &context.names.constants);
-    let Body { lets, results } = context.generic(&context.model.trajectory);
+    let program = &context.model.trajectory;
+    let Body { lets, results } = context.generic(program, Coefficients::Given);
     let fields = match parts.coefficients {
         0 => quote!(scalar: ::core::marker::PhantomData),
         _ => quote!(coefficients: [#(#results),*]),
     };
-    let equations = if has_multiplier(context) { quote!(free_equations) } else { quote!(hamilton_equations) };
-    let inline = context.inline();
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "reduce", slice::from_ref(program));
+    let flat = match context.has_prepared_bases() {
+        true => quote!(#rt::Parametric::flatten_with(self, coefficients, point)),
+        false => quote!(#rt::Model::flatten(self, point)),
+    };
     quote! {
-        fn reduce<#t: #rt::Real>(
+        fn #name<#t: #rt::Real>(
             &self,
+            #parameter
             _t0: #t,
             point: &Self::Point<#t>,
         ) -> (Self::Reduced<#t>, Self::Constants<#t>) {
             #lets
-            (#rt::Model::flatten(self, point), #constants { #fields })
+            (#flat, #constants { #fields })
         }
+    }
+}
 
+/// `reduced_equations`: Hamilton's equations.
+pub(super) fn equations(context: &Context) -> TokenStream {
+    let (rt, t, inline) = (&context.names.rt, &context.names.scalar, context.inline());
+    let (name, parameter) = equations_head(context);
+    let equations = match (parameter.is_some(), context.has_multiplier()) {
+        (true, _) => quote!(#rt::Parametric::hamilton_equations_with(self, coefficients, t, reduced)),
+        (false, true) => quote!(#rt::Model::free_equations(self, t, reduced)),
+        (false, false) => quote!(#rt::Model::hamilton_equations(self, t, reduced)),
+    };
+    quote! {
         #inline
-        fn reduced_equations<#t: #rt::Scalar>(
+        fn #name<#t: #rt::Scalar>(
             &self,
+            #parameter
             t: #t,
             _constants: &Self::Constants<#t>,
             reduced: &Self::Reduced<#t>,
         ) -> Self::Reduced<#t> {
-            #rt::Model::#equations(self, t, reduced)
+            #equations
         }
+    }
+}
 
-        fn expand<#t: #rt::Real>(
+/// `expand`: the point of the plain array.
+pub(super) fn expand(context: &Context) -> TokenStream {
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "expand", &[]);
+    let point = match context.has_prepared_bases() {
+        true => quote!(#rt::Parametric::unflatten_with(self, coefficients, reduced)),
+        false => quote!(#rt::Model::unflatten(self, reduced)),
+    };
+    quote! {
+        fn #name<#t: #rt::Real>(
             &self,
+            #parameter
             _t: #t,
             _constants: &Self::Constants<#t>,
             reduced: &Self::Reduced<#t>,
         ) -> Self::Point<#t> {
-            #rt::Model::unflatten(self, reduced)
+            #point
         }
     }
 }

@@ -8,6 +8,7 @@ use super::writer::Writer;
 use crate::algebra::Function;
 use crate::algebra::fault::never_missing;
 use crate::emit::body::Body;
+use crate::emit::context::Coefficients;
 use crate::emit::number::{double, number};
 use crate::ir::Value;
 use crate::ir::naming::digits;
@@ -19,7 +20,7 @@ impl Writer<'_> {
         let values = reads::fixed(rules);
         let program = self.with_results(values.iter().copied());
         let (read, constants) = self.constants(&program);
-        let Body { lets, results } = self.context.generic(&program);
+        let Body { lets, results } = self.context.generic(&program, Coefficients::Own);
         self.fixed = values.into_iter().zip(results).collect();
         let divisors = self.divisors(rules);
         (quote!(#read #lets #divisors), constants)

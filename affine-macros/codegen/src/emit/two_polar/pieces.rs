@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use crate::derive::{Components, PieceProgram, TwoPolar};
 use crate::emit::body::Body;
-use crate::emit::context::Context;
+use crate::emit::context::{Coefficients, Context};
 use crate::emit::number::number;
 use crate::emit::pattern::{pattern, reads};
 use crate::symbol::{Quantity, Symbol};
@@ -82,7 +82,7 @@ fn flow(context: &Context, form: &TwoPolar, piece: &PieceProgram, framed: &[Symb
         quote!(let #bound = *couplings;)
     });
     let bound = pattern(framed, &used);
-    let Body { lets, results } = context.generic(&piece.program);
+    let Body { lets, results } = context.generic(&piece.program, Coefficients::Own);
     // Several results are names or numbers; a single one may be a sum.
     let (only, results) = match results.as_slice() {
         [one] => (quote!(let rate = #one;), vec![quote!(rate)]),

@@ -5,7 +5,7 @@ use quote::quote;
 
 use crate::derive::TwoPolar;
 use crate::emit::body::Body;
-use crate::emit::context::Context;
+use crate::emit::context::{Coefficients, Context};
 use crate::emit::description;
 use crate::emit::number::number;
 use crate::emit::pattern::pattern;
@@ -26,7 +26,7 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar) -> TokenStream 
             (quote!(couplings), quote!(let #bound = *couplings;))
         }
     };
-    let Body { lets, results } = context.generic(&ratios.program);
+    let Body { lets, results } = context.generic(&ratios.program, Coefficients::Own);
     let operations = description::operations(context, ratios.program.operations());
     quote! {
         impl #generics #rt::RatioForm<#n> for #prepared #types #clause {
