@@ -19,10 +19,13 @@
 #[cfg(feature = "std")]
 pub mod counting;
 pub mod dual;
+pub mod force;
 pub mod lattice;
+pub mod potential;
 mod private;
 #[cfg(feature = "report")]
 pub mod report;
+pub mod sampling;
 pub mod signature;
 #[cfg(feature = "std")]
 pub mod simulate;
@@ -31,8 +34,8 @@ pub mod variation;
 mod without_report;
 
 pub use affine_core::{
-    balance, conserved, decompose, error, force, frames, geodesic, kinematics, metrics, model, parametric,
-    potential, sampling, scalar, state, system,
+    balance, conserved, decompose, error, frames, geodesic, kinematics, metrics, model, parametric, scalar,
+    state, system,
 };
 pub use affine_integrators as integrate;
 pub use affine_integrators::lanes;

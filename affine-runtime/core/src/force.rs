@@ -7,8 +7,6 @@
 //!
 //! (balance laws (3.1), (4.9), (4.11) of Slawianowski et al.).
 
-use core::fmt;
-
 use crate::frames::{Matrix, Vector, inverse};
 use crate::scalar::Scalar;
 
@@ -57,7 +55,7 @@ pub trait Force<const N: usize> {
     /// Which force it is: [`Spatial`], [`Comoving`] or [`Translation`]; the specification says the same.
     type Form: Form<N>;
     /// It has no power, whatever the motion: `tr(Q Omega) = 0`, `Q_tr . x_dot = 0`. The specification then says
-    /// `gyroscopic`, and the energy stays conserved; [`check`] looks whether it is true.
+    /// `gyroscopic`, and the energy stays conserved; `check` beside it in `affine_runtime` looks whether it is true.
     const GYROSCOPIC: bool = false;
 
     /// The force.
@@ -117,52 +115,4 @@ impl<const N: usize> Form<N> for Translation {
     fn power(force: &Vector<N>, motion: &Motion<N>) -> (f64, f64) {
         (force.dot(&motion.x_dot), force.norm() * motion.x_dot.norm())
     }
-}
-
-/// A force that is said to be gyroscopic and has power.
-#[derive(Clone, Copy, PartialEq)]
-pub struct HasPower<const N: usize> {
-    /// The time, placement and velocities at which it has power.
-    pub motion: Motion<N>,
-    /// The power there.
-    pub power: f64,
-    /// `|Q| |Omega|`, which the power is held against.
-    pub scale: f64,
-}
-
-impl<const N: usize> fmt::Display for HasPower<N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "the force is said to be gyroscopic, but has the power {:e} (of {:e}) at {:?}",
-            self.power, self.scale, self.motion
-        )
-    }
-}
-
-crate::error::debug_as_displayed!([const N: usize] HasPower<N>);
-
-impl<const N: usize> core::error::Error for HasPower<N> {}
-
-/// Holds a force that says it is gyroscopic against its power at the given motions; see
-/// [`motions`](crate::sampling::motions) for some.
-///
-/// # Errors
-/// [`HasPower`] at the first motion along which the power is more than rounding, 1e-12 of `|Q| |Omega|`.
-pub fn check<const N: usize, F: Force<N>>(
-    force: &F,
-    motions: impl IntoIterator<Item = Motion<N>>,
-) -> Result<(), HasPower<N>> {
-    if !F::GYROSCOPIC {
-        return Ok(());
-    }
-    for motion in motions {
-        let (power, scale) = F::Form::power(&force.force(&motion), &motion);
-        // NaN is no zero.
-        let vanishes = power.abs() <= 1e-12 * scale;
-        if !vanishes {
-            return Err(HasPower { motion, power, scale });
-        }
-    }
-    Ok(())
 }
