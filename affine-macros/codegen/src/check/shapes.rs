@@ -29,10 +29,6 @@ fn refused(term: &Term) -> Option<(String, String)> {
         _ => Some((takes.to_owned(), instead.to_owned())),
     };
     match (kind.pattern(), &term.value) {
-        (Pattern::TraceOfSquare | Pattern::SquareOfTrace, _) => scalar(
-            "a scalar: it multiplies one invariant of the affine velocity",
-            "write one expression, as in `casimir2 = a + 1/2`",
-        ),
         (Pattern::Centre, _) => {
             scalar("a scalar, the mass", "write one expression, as in `body_translation = m`")
         }
@@ -51,6 +47,10 @@ fn refused(term: &Term) -> Option<(String, String)> {
                 format!("write `[[...], ...]`, or `{inertia}` for 1/2 tr({o} J {o}^T)"),
             ))
         }
+        _ => scalar(
+            "a scalar: it multiplies one invariant of the affine velocity",
+            "write one expression, as in `casimir2 = a + 1/2`",
+        ),
     }
 }
 
@@ -60,11 +60,8 @@ pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
     let n = spec.dim.value;
     for term in spec.forms() {
         let kind = term.kind.value;
-        let (expected, because) = match kind.pattern() {
-            Pattern::Rows => (n, format!("n = {n}")),
-            Pattern::Pairs => (n * n, format!("n^2 = {}", n * n)),
-            Pattern::TraceOfSquare | Pattern::SquareOfTrace | Pattern::Centre => continue,
-        };
+        let Some(expected) = kind.pattern().rows(n) else { continue };
+        let because = if kind.is_tensor() { format!("n^2 = {expected}") } else { format!("n = {n}") };
         for (at, counted, actual) in counts(&term.value, term.span, expected) {
             if actual != expected {
                 let (term, because) = (kind.name(), because.clone());

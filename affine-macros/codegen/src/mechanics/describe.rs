@@ -13,7 +13,7 @@ use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::notation::MatrixName;
-use crate::mechanics::term::{Coefficient, Frame, Term, TermKind};
+use crate::mechanics::term::{Coefficient, Frame, Pattern, Term, TermKind};
 
 pub use super::notation::{Described, Formula, Notation};
 pub use equations::equations;
@@ -132,30 +132,30 @@ pub(super) fn quadratic_terms(
         Frame::Flat => ("phi_dot", "\\dot\\varphi"),
     };
     for term in terms {
-        let (coefficient, (text, latex)) = match (term.kind, &term.value) {
-            (TermKind::Casimir2, Coefficient::Scalar(c)) => {
-                (*c, (format!("tr({o}^2)"), format!("\\operatorname{{tr}}{o_latex}^2")))
-            }
-            (TermKind::Casimir1Squared, Coefficient::Scalar(c)) => {
-                (*c, (format!("(tr {o})^2"), format!("(\\operatorname{{tr}}{o_latex})^2")))
-            }
-            (TermKind::BodyTranslation, Coefficient::Scalar(m)) => {
-                (*m, ("|phi^-1 dx/dt|^2".into(), "|\\varphi^{-1}\\dot x|^2".into()))
-            }
-            (TermKind::SpaceTranslation, Coefficient::Scalar(m)) => {
-                (*m, ("|dx/dt|^2".into(), "|\\dot x|^2".into()))
-            }
-            (_, Coefficient::Scalar(c)) => {
-                (*c, (format!("tr({o} {o}^T)"), format!("\\operatorname{{tr}}({o_latex}{o_latex}^T)")))
-            }
-            (kind, Coefficient::Matrix(matrix)) => {
+        let (coefficient, (text, latex)) = match &term.value {
+            Coefficient::Scalar(c) => (*c, with_a_number(term.kind, (o, o_latex))),
+            Coefficient::Matrix(matrix) => {
                 let name = notation.matrix_name(arena, &matrix.0);
-                let form = on_matrix(kind, &name, (o, o_latex));
-                (arena.constant(Rational::ONE), form)
+                (arena.constant(Rational::ONE), on_matrix(term.kind, &name, (o, o_latex)))
             }
         };
         let weight = Polynomial::normal_form(arena, coefficient).scaled(&half);
         sum.add(arena, notation, &weight, (&text, &latex));
+    }
+}
+
+/// What a number multiplies.
+fn with_a_number(kind: TermKind, (o, o_latex): (&str, &str)) -> (String, String) {
+    match (kind.pattern(), kind.translation_frame()) {
+        (Pattern::TraceOfSquare, _) => (format!("tr({o}^2)"), format!("\\operatorname{{tr}}{o_latex}^2")),
+        (Pattern::SquareOfTrace, _) => (format!("(tr {o})^2"), format!("(\\operatorname{{tr}}{o_latex})^2")),
+        (Pattern::Centre, Some(Frame::Body)) => {
+            ("|phi^-1 dx/dt|^2".into(), "|\\varphi^{-1}\\dot x|^2".into())
+        }
+        (Pattern::Centre, _) => ("|dx/dt|^2".into(), "|\\dot x|^2".into()),
+        (Pattern::Rows | Pattern::Pairs, _) => {
+            (format!("tr({o} {o}^T)"), format!("\\operatorname{{tr}}({o_latex}{o_latex}^T)"))
+        }
     }
 }
 

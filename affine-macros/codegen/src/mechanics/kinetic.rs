@@ -184,7 +184,7 @@ fn internal_energy(arena: &mut Arena, o: &Matrix, term: &Term) -> Polynomial {
                 match term.kind.pattern() {
                     Pattern::TraceOfSquare => add(o.0[a][b], &c, o.0[b][a]),
                     Pattern::SquareOfTrace => add(o.0[a][a], &c, o.0[b][b]),
-                    _ => add(o.0[a][b], &c, o.0[a][b]),
+                    Pattern::Rows | Pattern::Pairs | Pattern::Centre => add(o.0[a][b], &c, o.0[a][b]),
                 }
             }
         }

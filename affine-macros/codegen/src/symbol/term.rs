@@ -75,6 +75,18 @@ pub enum Pattern {
     Centre,
 }
 
+impl Pattern {
+    /// Rows of a matrix of coefficients in dimension `n`; `None` where the coefficient is one number.
+    #[must_use]
+    pub fn rows(self, n: usize) -> Option<usize> {
+        match self {
+            Pattern::TraceOfSquare | Pattern::SquareOfTrace | Pattern::Centre => None,
+            Pattern::Rows => Some(n),
+            Pattern::Pairs => Some(n * n),
+        }
+    }
+}
+
 /// What is known of a kind of term.
 struct Row {
     /// Its name in a specification.
