@@ -93,16 +93,9 @@ fn every_crossing_is_found() {
     for case in &CASES {
         for (method, right) in methods(case) {
             let label = format!("{:?} {method:?}", case.omega_hat);
-            let now = std::time::Instant::now();
             let simulation =
                 Simulation::new(&Disc, start(case)).until(SPAN).method(method).tolerance(TOLERANCE);
             let run = simulation.output([SPAN]).event(zero()).run().unwrap();
-            println!(
-                "{label} {:?} {} {}",
-                now.elapsed(),
-                run.statistics().steps,
-                run.statistics().evaluations
-            );
             assert_eq!(counts(&run), (case.falling, case.rising), "{label}");
             let times: Vec<f64> = run.events().iter().map(|event| event.t).collect();
             assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{label}");
