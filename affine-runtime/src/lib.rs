@@ -13,7 +13,7 @@
 //! [`Model::orthonormal`]; there `^T` is the plain transpose. Spatial, co-moving and two-point
 //! quantities, velocities and momenta are different types (see [`frames`] and [`kinematics`]): a formula that
 //! mixes them does not compile. Equation numbers are those of Slawianowski et al., *Affine symmetry in mechanics
-//! of collective and internal modes, Part I*.
+//! of collective and internal modes, Part I*; where that differs, [`guide::errata`] says so.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 #[cfg(feature = "std")]
@@ -78,6 +78,13 @@ pub mod prelude {
 
     #[cfg(feature = "macros")]
     pub use crate::affine_model;
+}
+
+/// Pages on what the code rests on.
+#[cfg(all(doc, feature = "macros", feature = "std"))]
+pub mod guide {
+    #[doc = include_str!("../docs/errata.md")]
+    pub mod errata {}
 }
 
 /// The examples of the README, compiled.
