@@ -14,6 +14,8 @@ const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 pub(super) struct Times {
     t0: f64,
     t_end: f64,
+    /// The longest step.
+    step: f64,
     h: f64,
     count: u64,
 }
@@ -28,7 +30,7 @@ impl Times {
         }
         let count = step_count(t0, t_end, step).ok_or(Failure::StepUnderflow)?;
         let h = if count == 0 { 0.0 } else { (t_end - t0) / count as f64 };
-        Ok(Self { t0, t_end, h, count })
+        Ok(Self { t0, t_end, step, h, count })
     }
 
     /// Length of the steps, negative backward in time.
@@ -46,6 +48,10 @@ impl Times {
 pub(super) struct EqualSteps<P> {
     times: Times,
     taken: u64,
+    /// Steps to the times before these.
+    before: u64,
+    /// Length of the last step.
+    last: f64,
     begin: P,
     end: P,
     failure: Option<Failure>,
@@ -54,7 +60,7 @@ pub(super) struct EqualSteps<P> {
 impl<P: Copy> EqualSteps<P> {
     /// Before the first step.
     pub(super) fn at(times: Times, start: P) -> Self {
-        Self { times, taken: 0, begin: start, end: start, failure: None }
+        Self { times, taken: 0, before: 0, last: times.h, begin: start, end: start, failure: None }
     }
 
     /// Where the next step begins: time, point and length; `None` at `t_end`.
@@ -76,7 +82,7 @@ impl<P: Copy> EqualSteps<P> {
     pub(super) fn take(&mut self, outcome: Result<P, Failure>) -> Result<(), Failure> {
         match outcome {
             Ok(end) => {
-                (self.begin, self.end) = (self.end, end);
+                (self.begin, self.end, self.last) = (self.end, end, self.times.h);
                 self.taken += 1;
                 Ok(())
             }
@@ -85,6 +91,21 @@ impl<P: Copy> EqualSteps<P> {
                 Err(failure)
             }
         }
+    }
+
+    /// Goes on to another end, in steps that are not longer than before.
+    ///
+    /// # Errors
+    /// Those of [`Times::new`]; the steps stay as they are.
+    pub(super) fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        self.times = Times::new(self.t(), t_end, self.times.step)?;
+        (self.before, self.taken) = (self.taken(), 0);
+        Ok(())
+    }
+
+    /// Length of the last step; of the first one before it is taken.
+    pub(super) fn last_length(&self) -> f64 {
+        self.last
     }
 
     /// Where the last step began, for a shorter one to the time `t`: point, time and length; `None` where the point
@@ -114,7 +135,7 @@ impl<P: Copy> EqualSteps<P> {
 
     /// Steps taken.
     pub(super) fn taken(&self) -> u64 {
-        self.taken
+        self.before + self.taken
     }
 
     /// The times.

@@ -101,7 +101,8 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
     /// [`Failure::NoSolution`] or [`Failure::NotFinite`], now and ever after; the state stays that of the last step.
     pub fn advance(&mut self) -> Result<(), Failure> {
         let Some((t, begin, h)) = self.steps.next()? else { return Ok(()) };
-        let guess = if self.steps.taken() == 0 { self.increments } else { self.continued(1.0, 1.0) };
+        let scale = h / self.steps.last_length();
+        let guess = if self.steps.taken() == 0 { self.increments } else { self.continued(1.0, scale) };
         let solved = self.step(t, begin, h, guess).map(|(end, increments, residual)| {
             self.residual = if residual > self.residual { residual } else { self.residual };
             self.increments = increments;
@@ -121,7 +122,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
         if h == 0.0 {
             return Ok(begin.value);
         }
-        let guess = self.continued(0.0, h / self.step_length());
+        let guess = self.continued(0.0, h / self.steps.last_length());
         // The Jacobian that the steps work with, and whether they need one, stay as they are.
         let steps = self.equations.clone();
         let between = self.step(from, begin, h, guess);
@@ -129,6 +130,15 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
         self.equations = steps;
         self.equations.evaluations = evaluations;
         between.map(|(end, ..)| end.value)
+    }
+
+    /// Goes on to another end of the interval.
+    ///
+    /// # Errors
+    /// [`Failure::Time`], [`Failure::StepUnderflow`] where there are no steps to it; the end stays what it was.
+    #[doc(hidden)]
+    pub fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        self.steps.aim(t_end)
     }
 
     /// Everything that the next steps depend on, as long as these do not take Newton's iteration, which keeps a

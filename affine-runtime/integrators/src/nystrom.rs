@@ -183,6 +183,12 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> RungeKuttaNystrom<S, C, R> {
         if is_finite(&between) { Ok(between) } else { Err(Failure::NotFinite) }
     }
 
+    /// Goes on to another end of the interval.
+    #[doc(hidden)]
+    pub fn aim(&mut self, t_end: f64) {
+        self.t_end = t_end;
+    }
+
     /// Everything that the next steps depend on, of an integration between two steps.
     #[doc(hidden)]
     pub fn exchange(&mut self, tape: &mut impl Tape) {

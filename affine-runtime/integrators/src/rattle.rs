@@ -129,6 +129,15 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
         }
     }
 
+    /// Goes on to another end of the interval.
+    ///
+    /// # Errors
+    /// [`Failure::Time`], [`Failure::StepUnderflow`] where there are no steps to it; the end stays what it was.
+    #[doc(hidden)]
+    pub fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        self.steps.aim(t_end)
+    }
+
     /// Everything that the next steps depend on.
     #[doc(hidden)]
     pub fn exchange(&mut self, tape: &mut impl Tape) {

@@ -234,6 +234,12 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         dense.read(|stored| self.field.read(stored)).around(self.coordinates, self.begin, self.end.value)
     }
 
+    /// Goes on to another end of the interval.
+    #[doc(hidden)]
+    pub fn aim(&mut self, t_end: f64) {
+        self.t_end = t_end;
+    }
+
     /// Everything that the next steps depend on, of an integration between two steps.
     #[doc(hidden)]
     pub fn exchange(&mut self, tape: &mut impl Tape) {

@@ -95,6 +95,15 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Splitting<S, C, P> {
         if is_finite(&between) { Ok(between) } else { Err(Failure::NotFinite) }
     }
 
+    /// Goes on to another end of the interval.
+    ///
+    /// # Errors
+    /// [`Failure::Time`], [`Failure::StepUnderflow`] where there are no steps to it; the end stays what it was.
+    #[doc(hidden)]
+    pub fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        self.steps.aim(t_end)
+    }
+
     /// Everything that the next steps depend on.
     #[doc(hidden)]
     pub fn exchange(&mut self, tape: &mut impl Tape) {

@@ -205,6 +205,12 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> AdaptiveSplitting<S, C, P> {
         if is_finite(&between) { Ok(between) } else { Err(Failure::NotFinite) }
     }
 
+    /// Goes on to another end of the interval.
+    #[doc(hidden)]
+    pub fn aim(&mut self, t_end: f64) {
+        self.t_end = t_end;
+    }
+
     /// Everything that the next steps depend on.
     #[doc(hidden)]
     pub fn exchange(&mut self, tape: &mut impl Tape) {
