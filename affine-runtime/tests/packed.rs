@@ -65,7 +65,7 @@ fn bits(state: &impl AsRef<[f64]>) -> Vec<u64> {
 /// The same by single components: evaluations along a run, and the run itself.
 fn same_bits<const N: usize, M: Model<N>>(model: &M, start: M::Point<f64>) {
     let (reduced, constants) = model.reduce(0.0, &start);
-    let packing = model.packing().expect("these equations are shorter in vectors");
+    let packing = M::packing(model).expect("these equations are shorter in vectors");
     assert_eq!(bits(&packing.unpacked(&packing.packed(&reduced))), bits(&reduced));
     let equations = |t: f64, state: &M::Reduced<f64>| {
         let single = model.reduced_equations(t, &constants, state);
@@ -120,7 +120,7 @@ fn elastic() {
 
 #[test]
 fn others_keep_single_components() {
-    assert!(Planar.packing().is_none());
+    assert!(Planar::packing(&Planar).is_none());
 }
 
 /// The dense output is that of single components, and so are its states between steps.

@@ -6,7 +6,7 @@
 
 use crate::divisor::Divisor;
 use crate::lanes::{Lanes, in_lane};
-use crate::model::Model;
+use crate::model::{Handle, Model};
 use crate::scalar::{Real, Scalar};
 use crate::system::{Packing, Pieces, SecondOrder, Series, StateVector, Sum};
 use crate::vectors::{Portable, Vectors};
@@ -221,11 +221,13 @@ pub trait PackedEquations<const N: usize>: Model<N> {
     ) -> Self::Packed;
 }
 
-/// A model that has the capability in question.
+/// A model that has the capability in question, by what leads to it.
 #[derive(Clone, Copy, Debug)]
-pub struct Emitted<'a, M, const N: usize>(pub &'a M);
+pub struct Emitted<H, const N: usize>(pub H);
 
-impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> for Emitted<'_, M, N> {
+impl<const N: usize, M: Taylor<N>, H: Handle<N, Model = M>> Series<M::Reduced<f64>, M::Constants<f64>>
+    for Emitted<H, N>
+{
     type Row = M::Row<f64>;
 
     fn coefficients(
@@ -235,7 +237,7 @@ impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> fo
         coefficients: &mut [M::Reduced<f64>],
         rows: &mut [Self::Row],
     ) {
-        self.0.coefficients(at, constants, coefficients, rows);
+        self.0.model().coefficients(at, constants, coefficients, rows);
     }
 
     #[inline(always)]
@@ -249,14 +251,16 @@ impl<const N: usize, M: Taylor<N>> Series<M::Reduced<f64>, M::Constants<f64>> fo
     ) {
         if const { V::IS_LAST_RESORT } {
             // Compiled once, for slopes and for steps.
-            called(|| self.0.coefficients_on(vectors, at, constants, coefficients, rows));
+            called(|| self.0.model().coefficients_on(vectors, at, constants, coefficients, rows));
         } else {
-            self.0.coefficients_on(vectors, at, constants, coefficients, rows);
+            self.0.model().coefficients_on(vectors, at, constants, coefficients, rows);
         }
     }
 }
 
-impl<const N: usize, M: Splitting<N>> Pieces<M::Reduced<f64>, M::Constants<f64>> for Emitted<'_, M, N> {
+impl<const N: usize, M: Splitting<N>, H: Handle<N, Model = M>> Pieces<M::Reduced<f64>, M::Constants<f64>>
+    for Emitted<H, N>
+{
     const COUNT: usize = M::PIECES.len();
     const NYSTROM: bool = M::NYSTROM;
     const DILATES: bool = M::DILATES;
@@ -270,32 +274,32 @@ impl<const N: usize, M: Splitting<N>> Pieces<M::Reduced<f64>, M::Constants<f64>>
         constants: &M::Constants<f64>,
         state: &mut Sum<M::Reduced<f64>>,
     ) {
-        self.0.flow(piece, t, h, constants, &mut state.value, &mut state.carry);
+        self.0.model().flow(piece, t, h, constants, &mut state.value, &mut state.carry);
     }
 }
 
-impl<const N: usize, M: SecondOrderEquations<N>> SecondOrder<M::Reduced<f64>, M::Constants<f64>>
-    for Emitted<'_, M, N>
+impl<const N: usize, M: SecondOrderEquations<N>, H: Handle<N, Model = M>>
+    SecondOrder<M::Reduced<f64>, M::Constants<f64>> for Emitted<H, N>
 {
     type Half = M::Half<f64>;
 
     #[inline(always)]
     fn drift(&self, constants: &M::Constants<f64>, momenta: &Self::Half) -> Self::Half {
-        self.0.drift(constants, momenta)
+        self.0.model().drift(constants, momenta)
     }
 
     #[inline(always)]
     fn force(&self, t: f64, constants: &M::Constants<f64>, positions: &Self::Half) -> Self::Half {
-        self.0.force(t, constants, positions)
+        self.0.model().force(t, constants, positions)
     }
 
     fn renewed(&self, state: &M::Reduced<f64>) -> M::Reduced<f64> {
-        self.0.renewed(state)
+        self.0.model().renewed(state)
     }
 }
 
-impl<const N: usize, M: PackedEquations<N>> Packing<M::Reduced<f64>, M::Constants<f64>>
-    for Emitted<'_, M, N>
+impl<const N: usize, M: PackedEquations<N>, H: Handle<N, Model = M>>
+    Packing<M::Reduced<f64>, M::Constants<f64>> for Emitted<H, N>
 {
     type Packed = M::Packed;
 
@@ -317,7 +321,7 @@ impl<const N: usize, M: PackedEquations<N>> Packing<M::Reduced<f64>, M::Constant
         constants: &M::Constants<f64>,
         packed: &M::Packed,
     ) -> M::Packed {
-        self.0.packed_equations(vectors, t, constants, packed)
+        self.0.model().packed_equations(vectors, t, constants, packed)
     }
 }
 

@@ -27,6 +27,7 @@ macro_rules! debug_as_displayed {
         }
     )*};
 }
+#[cfg(feature = "std")]
 pub(crate) use debug_as_displayed;
 
 debug_as_displayed!([] Error, [] IllPosed);
@@ -137,6 +138,13 @@ impl fmt::Display for Direction {
             f.write_str("]")?;
         }
         f.write_str("]")
+    }
+}
+
+#[cfg(feature = "std")]
+impl From<Stop> for Error {
+    fn from(stop: Stop) -> Self {
+        Error::Stopped(stop)
     }
 }
 

@@ -186,23 +186,80 @@ pub trait Model<const N: usize> {
     }
 
     /// The Taylor coefficients of the reduced motion, where `emit(taylor)` asked for them.
-    fn taylor(&self) -> Option<impl Series<Self::Reduced<f64>, Self::Constants<f64>>> {
+    fn taylor(
+        _model: impl Handle<N, Model = Self>,
+    ) -> Option<impl Series<Self::Reduced<f64>, Self::Constants<f64>>>
+    where
+        Self: Sized,
+    {
         None::<NotEmitted>
     }
 
     /// The exact flows of the pieces of the reduced motion, where `emit(splitting)` asked for them.
-    fn splitting(&self) -> Option<impl Pieces<Self::Reduced<f64>, Self::Constants<f64>>> {
+    fn splitting(
+        _model: impl Handle<N, Model = Self>,
+    ) -> Option<impl Pieces<Self::Reduced<f64>, Self::Constants<f64>>>
+    where
+        Self: Sized,
+    {
         None::<NotEmitted>
     }
 
     /// The reduced equations as `q' = V(p)`, `p' = F(t, q)`, where `emit(nystrom)` asked for them.
-    fn second_order(&self) -> Option<impl SecondOrder<Self::Reduced<f64>, Self::Constants<f64>>> {
+    fn second_order(
+        _model: impl Handle<N, Model = Self>,
+    ) -> Option<impl SecondOrder<Self::Reduced<f64>, Self::Constants<f64>>>
+    where
+        Self: Sized,
+    {
         None::<NotEmitted>
     }
 
     /// The reduced equations in vectors of four doubles, where that takes fewer instructions.
-    fn packing(&self) -> Option<impl Packing<Self::Reduced<f64>, Self::Constants<f64>>> {
+    fn packing(
+        _model: impl Handle<N, Model = Self>,
+    ) -> Option<impl Packing<Self::Reduced<f64>, Self::Constants<f64>>>
+    where
+        Self: Sized,
+    {
         None::<NotEmitted>
+    }
+}
+
+/// What leads to a model: a reference, an [`Arc`](std::sync::Arc), or the model itself, [`Owned`].
+pub trait Handle<const N: usize>: Clone {
+    /// Its type.
+    type Model: Model<N>;
+    /// The model.
+    fn model(&self) -> &Self::Model;
+}
+
+impl<const N: usize, M: Model<N>> Handle<N> for &M {
+    type Model = M;
+    #[inline(always)]
+    fn model(&self) -> &M {
+        self
+    }
+}
+
+#[cfg(feature = "std")]
+impl<const N: usize, M: Model<N>> Handle<N> for std::sync::Arc<M> {
+    type Model = M;
+    #[inline(always)]
+    fn model(&self) -> &M {
+        self
+    }
+}
+
+/// A model by itself, which what takes it keeps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Owned<M>(pub M);
+
+impl<const N: usize, M: Model<N> + Clone> Handle<N> for Owned<M> {
+    type Model = M;
+    #[inline(always)]
+    fn model(&self) -> &M {
+        &self.0
     }
 }
 

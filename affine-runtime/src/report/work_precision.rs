@@ -145,11 +145,11 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
         let mut methods = self.methods.clone();
         if methods.is_empty() {
             methods.push(Method::RungeKutta8);
-            if self.model.second_order().is_some() {
+            if M::second_order(self.model).is_some() {
                 methods.extend([Method::RungeKuttaNystrom8, Method::RungeKuttaNystrom12]);
             }
-            methods.extend(self.model.taylor().map(|_| Method::Taylor { order: None }));
-            methods.extend(passes_over_stiffness(self.model.splitting()));
+            methods.extend(M::taylor(self.model).map(|_| Method::Taylor { order: None }));
+            methods.extend(passes_over_stiffness(M::splitting(self.model)));
             methods.extend(geodesic.map(|_| Method::ClosedForm));
         }
         let mut rows = Vec::new();

@@ -1,9 +1,10 @@
 //! A trajectory in closed form: no steps, exact up to rounding.
 
-use super::Method;
 use super::collapse::rate_of_determinant;
+use super::course::Course;
 use super::follow::WITHIN_A_STEP;
-use super::mechanics::Course;
+use super::mechanics::Mechanics;
+use super::method::Method;
 use super::recorder::Recorder;
 use super::watcher::{At, Sampling};
 use crate::error::Reason;
@@ -19,35 +20,71 @@ const PAST_A_COLLAPSE: f64 = 1e-8;
 /// Stretches of a run in closed form between whose ends events are looked at, where the motion asks for no more.
 const STRETCHES: f64 = 100.0;
 
+/// A closed form on the way to an end.
+#[derive(Clone, Copy)]
+pub(super) struct ClosedForm<const N: usize, P> {
+    geodesic: Geodesic<N>,
+    start: (f64, P),
+    t_end: f64,
+    /// The time of the first collapse up to there.
+    collapse: Option<f64>,
+}
+
+impl<const N: usize, P: Phase<N>> ClosedForm<N, P> {
+    pub(super) fn begin(geodesic: Geodesic<N>, start: (f64, P), t_end: f64) -> Self {
+        let collapse = geodesic.collapse(t_end, start.1.phi());
+        Self { geodesic, start, t_end, collapse }
+    }
+
+    /// The same motion to another end.
+    pub(super) fn aimed(&self, t_end: f64) -> Self {
+        Self::begin(self.geodesic, self.start, t_end)
+    }
+
+    /// The phase point at a time.
+    pub(super) fn at(&self, model: &dyn Mechanics<N, P>, t: f64) -> P {
+        let (t0, start) = &self.start;
+        if t == *t0 { *start } else { model.on_geodesic(&self.geodesic, t, start) }
+    }
+
+    fn is_behind(&self, t: f64, end: f64) -> bool {
+        (t - end) * (self.t_end - self.start.0) >= 0.0
+    }
+
+    /// Refuses a time that rounding makes another.
+    pub(super) fn resolved(&self, t: f64) -> Result<(), Reason> {
+        let rate = self.geodesic.rate();
+        match f64::EPSILON * rate * (t - self.start.0).abs() >= 1.0 {
+            true => Err(Reason::Unresolved { rate, t }),
+            false => Ok(()),
+        }
+    }
+
+    /// Refuses a time behind a collapse.
+    pub(super) fn stands(&self, model: &dyn Mechanics<N, P>, t: f64) -> Result<(), Reason> {
+        match self.collapse {
+            Some(end) if self.is_behind(t, end) => {
+                let determinant = LogDeterminant::of(self.at(model, t).phi()).to_f64();
+                let rate = Some(rate_of_determinant(model, &self.at(model, end)));
+                Err(Reason::Placement { determinant, rate, t: end })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// The closed form at the output times.
     pub(super) fn evaluate(&mut self, geodesic: &Geodesic<N>, course: &Course<'_, P>) -> Result<(), Reason> {
         let Course { t0, start, t_end, .. } = *course;
-        let start = *start;
         let computation = &mut self.trajectory.computation;
         computation.method = Method::ClosedForm;
         computation.no_whirl =
             matches!(geodesic.motion, Motion::Body { whirl: None, .. } | Motion::Space { whirl: None, .. });
         let model = self.model;
-        let at = |t| if t == t0 { start } else { model.on_geodesic(geodesic, t, &start) };
-        let collapse = geodesic.collapse(t_end, start.phi());
-        let is_behind = |t: f64, end: f64| (t - end) * (t_end - t0) >= 0.0;
-        let rate = geodesic.rate();
-        let resolved = |t: f64| match f64::EPSILON * rate * (t - t0).abs() >= 1.0 {
-            true => Err(Reason::Unresolved { rate, t }),
-            false => Ok(()),
-        };
-        let stands = |t: f64| match collapse {
-            Some(end) if is_behind(t, end) => {
-                let determinant = LogDeterminant::of(at(t).phi()).to_f64();
-                Err(Reason::Placement {
-                    determinant,
-                    rate: Some(rate_of_determinant(model, &at(end))),
-                    t: end,
-                })
-            }
-            _ => Ok(()),
-        };
+        let motion = ClosedForm::begin(*geodesic, (t0, *start), t_end);
+        let at = |t| motion.at(model, t);
+        let (rate, collapse) = (geodesic.rate(), motion.collapse);
         // Events behind a collapse do not happen; the collapse may be one.
         let last_event = collapse.map(|end| end + PAST_A_COLLAPSE * (end - t0));
         self.begin_closed_form(t0, rate, &at);
@@ -56,13 +93,13 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         loop {
             let due = self.schedule.peek();
             let until = due.unwrap_or(t_end);
-            let until = last_event.filter(|last| is_behind(until, *last)).unwrap_or(until);
-            resolved(until)?;
+            let until = last_event.filter(|last| motion.is_behind(until, *last)).unwrap_or(until);
+            motion.resolved(until)?;
             if self.meet_between(until, rate, &mut |t| Ok((at(t), 0.0)))? {
                 return Ok(());
             }
             let Some(t) = due else { break };
-            stands(t)?;
+            motion.stands(model, t)?;
             // An event at that very time has it recorded already.
             if self.schedule.take_through(t, self.backward).is_some() {
                 self.record(t, (at(t), 0.0))?;
@@ -71,7 +108,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             self.passed(vec![t.to_bits()]);
             self.report(t)?;
         }
-        stands(t_end)?;
+        motion.stands(model, t_end)?;
         self.reach(t_end, (at(t_end), 0.0))
     }
 

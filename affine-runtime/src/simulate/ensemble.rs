@@ -6,13 +6,14 @@ use core::fmt;
 
 use super::layout::placement_in;
 use super::mechanics::Moving;
+use super::method::Method;
 use super::methods::automatic;
-use super::motion::WithWork;
+use super::motion::{Followed, WithWork};
 use super::orientation::passes_through_zero;
 use super::point::is_clearly_positive;
-use super::settings::Plan;
+use super::settings::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Plan};
+use super::simulation::Simulation;
 use super::witness::Witness;
-use super::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
 use crate::capability::InLanes;
 use crate::error::Setting;
 use crate::error::Stop;
@@ -192,7 +193,7 @@ impl<const N: usize, M: InLanes<N>> Ensemble<'_, N, M> {
 
     /// Nor does the energy of a motion that ends at one.
     fn keeps(&self, start: &M::Point<f64>, (t_end, (end, work)): (f64, &WithWork<M::Point<f64>>)) -> bool {
-        let model = &Moving { model: self.model, integrate: automatic };
+        let model = &Moving { handle: Followed(self.model), begin: automatic };
         let energy = |t: f64, point| self.model.hamiltonian(t, point);
         let mut witness =
             Witness::begin(model, (energy(self.t0, start), 0.0), (start, 0.0), Some(self.tolerance));

@@ -1,13 +1,13 @@
 //! Steps to the end of an integration, with output, events and callbacks on the way.
 
-use super::collapse::{failing, first_failure, rate_of_determinant};
-use super::domain::{Domain, turns};
+use super::domain::turns;
+use super::failed::failed;
+use super::guard::{Guard, collapse, explained};
 use super::motion::Motion;
-use super::orientation::{Moment, keeps_orientation, passes_through_zero};
 use super::output::Schedule;
-use super::point::{check, is_clearly_positive};
+use super::point::is_clearly_positive;
 use super::recorder::Recorder;
-use super::signature::Signature;
+use super::trajectory::Computation;
 use super::watcher::Sampling;
 use crate::error::Reason;
 use crate::frames::Matrix;
@@ -20,13 +20,10 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Steps to the end with output on the way, and the expansion of the last good step.
     pub(super) fn follow(&mut self, motion: &mut dyn Motion<P>) -> Result<(), Reason> {
         let since = self.trajectory.end.0;
-        let outcome = self.step_through(motion, since).map_err(|reason| match reason {
-            Reason::Placement { determinant, rate: None, t } => {
-                let good = motion.kept().map_or(self.trajectory.end.1, |(_, (point, _))| point);
-                let rate = Some(rate_of_determinant(self.model, &good));
-                Reason::Placement { determinant, rate, t: self.collapse(motion, t) }
-            }
-            other => other,
+        let outcome = self.step_through(motion, since).map_err(|reason| {
+            let end = self.trajectory.end;
+            let (good, (point, _)) = motion.kept().unwrap_or((end.0, (end.1, 0.0)));
+            explained(self.model, motion, (good, &point), reason)
         });
         let trajectory = &mut *self.trajectory;
         trajectory.statistics = self.place.cost().and(motion.statistics());
@@ -45,16 +42,13 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Steps to the end. A step without output whose state shows that it is good is not expanded: it is only kept, for
     /// a halt in the next one.
     fn step_through(&mut self, motion: &mut dyn Motion<P>, since: f64) -> Result<(), Reason> {
-        let model = self.model;
-        let signature = Signature::of(model.regularity(self.trajectory.end.1.phi()));
-        let regularity = |motion: &dyn Motion<P>| model.regularity(motion.reached().0.phi());
+        let (model, start) = (self.model, self.trajectory.end.1);
         let cost = self.place.cost().steps;
         self.take_up(motion);
-        let mut moment = passes_through_zero(model.description())
-            .then(|| Moment::of(model, (motion.t(), &motion.reached().0)));
-        let mut domain = Domain::at(model, (motion.t(), &motion.reached().0))?;
+        let Computation { asked, tolerance, .. } = self.trajectory.computation;
+        let mut guard = Guard::begin(model, motion, (since, &start), (asked, tolerance))?;
         let is_watched = self.progress.is_some() || self.is_watched();
-        let equal = self.trajectory.computation.asked.step().is_some();
+        let equal = asked.step().is_some();
         let sampling = Sampling { parts: if equal { 1 } else { WITHIN_A_STEP }, rate: 0.0 };
         while !motion.is_finished() {
             self.steps = cost + motion.statistics().steps;
@@ -63,34 +57,15 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 return Err(Reason::StepLimit { limit: self.max_steps });
             }
             let begin = motion.t();
-            if let Err(failure) = motion.advance() {
-                let (t, (point, _)) = (motion.t(), motion.reached());
-                let degenerate = signature.failing(regularity(motion), t);
-                let step = self.trajectory.computation.asked.step();
-                let singular = || domain.as_ref().and_then(|domain| domain.failing(since));
-                let collapsing = || failing(model, (t, &point), since, step);
-                return Err(degenerate
-                    .or_else(singular)
-                    .or_else(collapsing)
-                    .unwrap_or_else(|| self.reason(failure)));
-            }
+            guard.advance(model, motion)?;
             let t = motion.t();
             self.turned((begin, t));
-            if signature.may_change() {
-                signature.kept(regularity(motion), t)?;
-            }
-            let oriented = match &mut moment {
-                Some(begin) => self.oriented(motion, begin),
-                None => Ok(()),
-            };
-            let stands = match &mut domain {
-                Some(domain) => {
-                    oriented.and_then(|()| domain.keep(model, motion, &|failure| self.reason(failure)))
-                }
-                None => oriented,
-            };
+            let stands = guard.stands(model, motion);
             let until = match stands {
-                Err(Reason::Placement { t, .. }) => self.collapse(motion, t),
+                Err(Reason::Placement { t, .. }) => {
+                    let good = motion.kept_at().unwrap_or(self.trajectory.end.0);
+                    collapse(motion, good, t)
+                }
                 Err(Reason::Domain { t, .. }) => t,
                 _ => t,
             };
@@ -125,24 +100,6 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         }
     }
 
-    /// When a body collapses that has collapsed at a time within the step.
-    fn collapse(&self, motion: &mut dyn Motion<P>, t: f64) -> f64 {
-        let good = motion.kept_at().unwrap_or(self.trajectory.end.0);
-        first_failure(good, t, |t| motion.between(t).is_ok_and(|(point, _)| check(t, &point).is_ok()))
-    }
-
-    /// Refuses a step from a moment on in which the orientation is lost; the moment becomes that of its end.
-    fn oriented(&self, motion: &mut dyn Motion<P>, begin: &mut Moment<N>) -> Result<(), Reason> {
-        let (point, _) = motion.reached();
-        if !point.is_finite() {
-            return Err(Reason::NotFinite);
-        }
-        let end = Moment::of(self.model, (motion.t(), &point));
-        keeps_orientation(self.model, motion, (*begin, end), &|failure| self.reason(failure))?;
-        *begin = end;
-        Ok(())
-    }
-
     /// The events and the outputs of a step that has been taken, up to a time; whether the motion does not go straight on.
     fn pass_through(
         &mut self,
@@ -151,10 +108,11 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         sampling: Sampling,
     ) -> Result<bool, Reason> {
         let t = motion.t();
-        let (computation, model) = (self.trajectory.computation, self.trajectory.description.name);
+        let (Computation { asked, tolerance, .. }, model) =
+            (self.trajectory.computation, self.trajectory.description.name);
         let mut at = |due: f64| match due == t {
             true => Ok(motion.reached()),
-            false => motion.between(due).map_err(|failure| computation.reason(failure, model)),
+            false => motion.between(due).map_err(|failure| failed(failure, (asked, tolerance), model)),
         };
         if self.meet(until, sampling, &mut at)? {
             return Ok(true);

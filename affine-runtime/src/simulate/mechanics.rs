@@ -1,7 +1,7 @@
 //! What a run asks of a model.
 
-use super::Method;
-use super::recorder::Recorder;
+use super::course::{Choice, Course};
+use super::motion::{Boxed, Motion, PointOf, Purpose};
 use crate::error::Reason;
 use crate::frames::Matrix;
 use crate::geodesic::Geodesic;
@@ -25,72 +25,66 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &P) -> P;
     /// Energy and equations of motion at a point, number by number.
     fn witness(&self, t: f64, point: &P, each: &mut dyn FnMut(f64));
-    /// Follows the motion from a point by the steps of a method.
-    fn integrate(&self, course: &Course<'_, P>, recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason>;
+    /// Begins to integrate, by the method that is chosen.
+    fn begin<'m>(
+        &'m self,
+        course: &Course<'_, P>,
+        choice: &mut Choice,
+    ) -> Result<Box<dyn Motion<P> + 'm>, Reason>;
 }
 
-/// What is to be integrated.
-#[derive(Clone, Copy)]
-pub(super) struct Course<'p, P> {
-    pub(super) t0: f64,
-    pub(super) start: &'p P,
-    pub(super) t_end: f64,
-    pub(super) method: Method,
-    pub(super) tolerance: f64,
-}
-
-/// Follows the motion of a model by integrators that are compiled for it.
-pub(super) type Integrate<const N: usize, M> = fn(
-    &M,
-    &Course<'_, <M as Model<N>>::Point<f64>>,
-    &mut Recorder<'_, '_, N, <M as Model<N>>::Point<f64>>,
-) -> Result<(), Reason>;
+/// Begins to integrate a model, by integrators that are compiled for it.
+pub(super) type Begin<'a, const N: usize, H> =
+    fn(&H, &Course<'_, PointOf<N, H>>, &mut Choice) -> Result<Boxed<'a, N, H>, Reason>;
 
 /// A model with what integrates it.
-pub(super) struct Moving<'a, const N: usize, M: Model<N>> {
-    pub(super) model: &'a M,
-    pub(super) integrate: Integrate<N, M>,
+#[derive(Clone)]
+pub(super) struct Moving<'a, const N: usize, H: Purpose<'a, N>> {
+    pub(super) handle: H,
+    pub(super) begin: Begin<'a, N, H>,
 }
 
-impl<const N: usize, M: Model<N>> Mechanics<N, M::Point<f64>> for Moving<'_, N, M> {
+impl<'a, const N: usize, M: Model<N>, H: Purpose<'a, N, Model = M>> Mechanics<N, M::Point<f64>>
+    for Moving<'a, N, H>
+{
     fn description(&self) -> &'static Description {
         const { &M::DESCRIPTION }
     }
     fn bases(&self) -> Option<Bases<N>> {
-        self.model.bases()
+        self.handle.model().bases()
     }
     fn condition(&self, phi: &Matrix<N>) -> Option<f64> {
-        if const { M::DESCRIPTION.signature.is_none() } { self.model.condition(phi) } else { None }
+        if const { M::DESCRIPTION.signature.is_none() } { self.handle.model().condition(phi) } else { None }
     }
     fn regularity(&self, phi: &Matrix<N>) -> Option<Regularity> {
-        self.model.regularity(phi)
+        self.handle.model().regularity(phi)
     }
     fn hamiltonian(&self, t: f64, point: &M::Point<f64>) -> f64 {
-        self.model.hamiltonian(t, point)
+        self.handle.model().hamiltonian(t, point)
     }
     fn domain(&self, t: f64, point: &M::Point<f64>, each: &mut dyn FnMut(f64)) {
-        self.model.domain(t, point, each);
+        self.handle.model().domain(t, point, each);
     }
     fn velocity(&self, point: &M::Point<f64>) -> Velocity<N> {
-        self.model.velocity(point)
+        self.handle.model().velocity(point)
     }
     fn geodesic(&self, t0: f64, point: &M::Point<f64>) -> Option<Geodesic<N>> {
-        self.model.geodesic(t0, point)
+        self.handle.model().geodesic(t0, point)
     }
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &M::Point<f64>) -> M::Point<f64> {
-        self.model.on_geodesic(geodesic, t, start)
+        self.handle.model().on_geodesic(geodesic, t, start)
     }
     fn witness(&self, t: f64, point: &M::Point<f64>, each: &mut dyn FnMut(f64)) {
-        each(self.model.hamiltonian(t, point));
-        let (reduced, constants) = self.model.reduce(t, point);
-        let rates = self.model.reduced_equations(t, &constants, &reduced);
+        each(self.handle.model().hamiltonian(t, point));
+        let (reduced, constants) = self.handle.model().reduce(t, point);
+        let rates = self.handle.model().reduced_equations(t, &constants, &reduced);
         rates.as_ref().iter().for_each(|rate| each(*rate));
     }
-    fn integrate(
-        &self,
+    fn begin<'m>(
+        &'m self,
         course: &Course<'_, M::Point<f64>>,
-        recorder: &mut Recorder<'_, '_, N, M::Point<f64>>,
-    ) -> Result<(), Reason> {
-        (self.integrate)(self.model, course, recorder)
+        choice: &mut Choice,
+    ) -> Result<Box<dyn Motion<M::Point<f64>> + 'm>, Reason> {
+        (self.begin)(&self.handle, course, choice).map(|motion| H::followed(motion) as Box<dyn Motion<_>>)
     }
 }

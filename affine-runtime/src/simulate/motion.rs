@@ -1,18 +1,17 @@
 //! A motion of phase points, step by step, whatever is integrated and how.
 
 use super::checkpoint::Bits;
+use super::course::Course;
 use super::layout::Layout;
 use super::stepper::Stepper;
+use crate::error::Reason;
 use crate::integrate::{Failure, Statistics};
-use crate::model::StateVector;
+use crate::model::{Handle, Model, StateVector};
 
 /// A phase point with the work done since the integration started.
 pub(super) type WithWork<P> = (P, f64);
 
-/// The phase point of a state at a time.
-pub(super) type Expansion<'e, S, P> = &'e dyn Fn(f64, &S) -> P;
-
-/// What a run follows. It calls this a few times for each step, which takes many evaluations of the equations: behind
+/// What is stepped. It is called a few times for each step, which takes many evaluations of the equations: behind
 /// `dyn` that costs nothing that can be measured, and a run is not compiled anew for each integrator.
 pub(super) trait Motion<P> {
     /// Takes one step.
@@ -44,25 +43,169 @@ pub(super) trait Motion<P> {
     fn is_exchanged(&self) -> bool;
 }
 
-/// An integration of states whose phase points are those of an expansion.
-pub(super) struct Expanded<'e, I, S, P> {
-    integration: &'e mut I,
-    expand: Expansion<'e, S, P>,
+/// A motion that goes on after its end, and can begin anew where it is stored, from another point or by other fields of
+/// the model.
+pub(super) trait Engine<const N: usize, H: Handle<N>>: Motion<PointOf<N, H>> {
+    /// Goes on to another end.
+    fn aim(&mut self, t_end: f64) -> Result<(), Failure>;
+    /// Begins a course.
+    fn restart(&mut self, model: &H, course: &Course<'_, PointOf<N, H>>) -> Result<(), Reason>;
+}
+
+/// A model with what its motion is begun for: what is not asked of the motion is not compiled.
+pub(super) trait Purpose<'a, const N: usize>: Handle<N> + 'a {
+    /// A motion by an integrator that only its beginning knows.
+    type Boxed;
+    /// Puts a motion where it stays.
+    fn boxed(motion: impl Engine<N, Self> + 'a) -> Self::Boxed;
+    /// As far as it is followed.
+    fn followed(motion: Self::Boxed) -> Box<dyn Motion<PointOf<N, Self>> + 'a>;
+}
+
+/// A model whose motion is followed to one end.
+pub(super) struct Followed<'a, M>(pub(super) &'a M);
+
+impl<M> Clone for Followed<'_, M> {
+    fn clone(&self) -> Self {
+        Self(self.0)
+    }
+}
+
+impl<const N: usize, M: Model<N>> Handle<N> for Followed<'_, M> {
+    type Model = M;
+    #[inline(always)]
+    fn model(&self) -> &M {
+        self.0
+    }
+}
+
+impl<'a, const N: usize, M: Model<N>> Purpose<'a, N> for Followed<'a, M> {
+    type Boxed = Box<dyn Motion<M::Point<f64>> + 'a>;
+    fn boxed(motion: impl Engine<N, Self> + 'a) -> Self::Boxed {
+        Box::new(motion)
+    }
+    fn followed(motion: Self::Boxed) -> Self::Boxed {
+        motion
+    }
+}
+
+/// A model whose motion goes on from end to end.
+#[derive(Clone)]
+pub(super) struct Stepping<H>(pub(super) H);
+
+impl<const N: usize, H: Handle<N>> Handle<N> for Stepping<H> {
+    type Model = H::Model;
+    #[inline(always)]
+    fn model(&self) -> &H::Model {
+        self.0.model()
+    }
+}
+
+impl<'a, const N: usize, H: Handle<N> + 'a> Purpose<'a, N> for Stepping<H> {
+    type Boxed = Box<dyn Engine<N, Self> + 'a>;
+    fn boxed(motion: impl Engine<N, Self> + 'a) -> Self::Boxed {
+        Box::new(motion)
+    }
+    fn followed(motion: Self::Boxed) -> Box<dyn Motion<PointOf<N, Self>> + 'a> {
+        motion
+    }
+}
+
+/// The phase points of the model that a handle leads to.
+pub(super) type PointOf<const N: usize, H> = <<H as Handle<N>>::Model as Model<N>>::Point<f64>;
+
+/// A motion of a model.
+pub(super) type Boxed<'a, const N: usize, H> = <H as Purpose<'a, N>>::Boxed;
+
+/// An integration that has begun.
+pub(super) struct Begun<I, E> {
+    pub(super) integration: I,
+    /// The phase point of a state at a time.
+    pub(super) expand: E,
+    /// Evaluations spent beside those of the integration.
+    pub(super) evaluations: u64,
+}
+
+/// A model with the course that it is to take.
+pub(super) type At<'c, const N: usize, M, H> = (&'c H, &'c Course<'c, <M as Model<N>>::Point<f64>>);
+
+/// The phase points of a reduced state.
+pub(super) fn expansion<const N: usize, M: Model<N>, H: Handle<N, Model = M>>(
+    model: &H,
+    constants: M::Constants<f64>,
+) -> impl Fn(f64, &M::Reduced<f64>) -> M::Point<f64> + use<N, M, H> {
+    let model = model.clone();
+    move |t, reduced| model.model().expand(t, &constants, reduced)
+}
+
+/// An integration at its start, unless that is none.
+pub(super) fn begun<const N: usize, M: Model<N>, I, E>(
+    course: &Course<'_, M::Point<f64>>,
+    integration: Result<I, Failure>,
+    expand: E,
+) -> Result<Begun<I, E>, Reason> {
+    let integration = integration.map_err(|failure| course.reason(failure, M::DESCRIPTION.name))?;
+    Ok(Begun { integration, expand, evaluations: 0 })
+}
+
+/// An integration of states whose phase points are those of an expansion, with what begins it anew.
+struct Running<I, E, B, S> {
+    integration: I,
+    expand: E,
+    begin: B,
     layout: Layout,
     kept: Option<(f64, S)>,
 }
 
-impl<'e, I: Stepper<S>, S: StateVector<f64>, P> Expanded<'e, I, S, P> {
-    pub(super) fn new(integration: &'e mut I, expand: Expansion<'e, S, P>, layout: Layout) -> Self {
-        Self { integration, expand, layout, kept: None }
-    }
+/// Begins a course, and puts it where it stays; what was spent besides is added to the evaluations.
+pub(super) fn boxed<'a, const N: usize, H, S, I, E, B>(
+    (model, course): (&H, &Course<'_, PointOf<N, H>>),
+    layout: Layout,
+    spent: &mut u64,
+    begin: B,
+) -> Result<Boxed<'a, N, H>, Reason>
+where
+    H: Purpose<'a, N>,
+    S: StateVector<f64> + 'a,
+    I: Stepper<S> + 'a,
+    E: Fn(f64, &S) -> PointOf<N, H> + 'a,
+    B: Fn(&H, &Course<'_, PointOf<N, H>>) -> Result<Begun<I, E>, Reason> + 'a,
+{
+    let Begun { integration, expand, evaluations } = begin(model, course)?;
+    *spent += evaluations;
+    Ok(H::boxed(Running { integration, expand, begin, layout, kept: None }))
+}
 
-    fn expanded(&self, t: f64, state: &S) -> WithWork<P> {
+impl<const N: usize, H, S, I, E, B> Engine<N, H> for Running<I, E, B, S>
+where
+    H: Handle<N>,
+    S: StateVector<f64>,
+    I: Stepper<S>,
+    E: Fn(f64, &S) -> PointOf<N, H>,
+    B: Fn(&H, &Course<'_, PointOf<N, H>>) -> Result<Begun<I, E>, Reason>,
+{
+    fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        self.integration.aim(t_end)
+    }
+    fn restart(&mut self, model: &H, course: &Course<'_, PointOf<N, H>>) -> Result<(), Reason> {
+        let Begun { integration, expand, .. } = (self.begin)(model, course)?;
+        (self.integration, self.expand) = (integration, expand);
+        self.kept = None;
+        Ok(())
+    }
+}
+
+impl<I, E, B, S> Running<I, E, B, S> {
+    fn expanded<P>(&self, t: f64, state: &S) -> WithWork<P>
+    where
+        S: StateVector<f64>,
+        E: Fn(f64, &S) -> P,
+    {
         ((self.expand)(t, state), self.layout.work.map_or(0.0, |work| state.as_ref()[work]))
     }
 }
 
-impl<I: Stepper<S>, S: StateVector<f64>, P> Motion<P> for Expanded<'_, I, S, P> {
+impl<I: Stepper<S>, S: StateVector<f64>, E: Fn(f64, &S) -> P, B, P> Motion<P> for Running<I, E, B, S> {
     fn advance(&mut self) -> Result<(), Failure> {
         self.integration.advance()
     }

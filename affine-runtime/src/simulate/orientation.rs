@@ -57,22 +57,17 @@ pub(super) fn keeps_orientation<const N: usize, P: Phase<N>>(
     (begin, end): (Moment<N>, Moment<N>),
     reason: &dyn Fn(crate::integrate::Failure) -> Reason,
 ) -> Result<(), Reason> {
-    // What is left to look at, the next part last.
-    let mut ends = vec![end];
-    let mut begin = begin;
-    while let Some(end) = ends.last().copied() {
-        let middle = begin.t + 0.5 * (end.t - begin.t);
-        if begin.reaches(&end) {
-            begin = end;
-            ends.pop();
-        } else if middle == begin.t || middle == end.t {
-            let determinant = LogDeterminant::of(&end.phi).to_f64();
-            return Err(Reason::Placement { determinant, rate: None, t: end.t });
-        } else {
-            let (point, _) = motion.between(middle).map_err(reason)?;
-            check(middle, &point)?;
-            ends.push(Moment::of(model, (middle, &point)));
-        }
+    if begin.reaches(&end) {
+        return Ok(());
     }
-    Ok(())
+    let middle = begin.t + 0.5 * (end.t - begin.t);
+    if middle == begin.t || middle == end.t {
+        let determinant = LogDeterminant::of(&end.phi).to_f64();
+        return Err(Reason::Placement { determinant, rate: None, t: end.t });
+    }
+    let (point, _) = motion.between(middle).map_err(reason)?;
+    check(middle, &point)?;
+    let between = Moment::of(model, (middle, &point));
+    keeps_orientation(model, motion, (begin, between), reason)?;
+    keeps_orientation(model, motion, (between, end), reason)
 }

@@ -1,22 +1,22 @@
 //! A trajectory in the making.
 
 use super::checkpoint::{Bits, Place};
+use super::course::Choice;
 use super::domain::Domain;
 use super::event::{Action, Occurrence};
 use super::mechanics::Mechanics;
 use super::motion::{Motion, WithWork};
 use super::output::{Schedule, without_steps};
 use super::point::{check, energy_scale, go_on};
+use super::progress::{Observe, Progress, Watch};
 use super::range::in_range;
 use super::standing::Side;
 use super::trajectory::Trajectory;
 use super::watcher::{At, Met, Sampling, Watcher};
 use super::witness::Witness;
-use super::{Observe, Progress, Watch};
 use crate::error::Error;
 use crate::error::{Callback, Reason};
 use crate::inner::{larger, norm};
-use crate::integrate::Failure;
 use crate::state::Phase;
 
 /// Samples of a step after which it tells how far it has come.
@@ -92,6 +92,16 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         self.watcher.begin(begin, &point, larger(rate, turning(self.model, &point)), &self.place.events);
     }
 
+    /// Notes by which method the integration goes on.
+    pub(super) fn note(&mut self, choice: &Choice) {
+        let computation = &mut self.trajectory.computation;
+        computation.method = choice.method;
+        computation.stiffness = choice.stiffness;
+        computation.missing = choice.missing;
+        self.needs_determinant = choice.needs_determinant;
+        self.place.spend(choice.evaluations);
+    }
+
     /// Events are looked for, within steps.
     pub(super) fn has_events(&self) -> bool {
         !self.watcher.is_idle()
@@ -140,11 +150,6 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             Some(watch) => go_on(watch(&progress), Callback::Progress),
             None => Ok(()),
         }
-    }
-
-    /// Why a run ends where its integration fails.
-    pub(super) fn reason(&self, failure: Failure) -> Reason {
-        self.trajectory.computation.reason(failure, self.trajectory.description.name)
     }
 
     /// The events on the way to `end` with the outputs before them; whether the motion does not go straight on there.

@@ -4,8 +4,9 @@ use core::fmt;
 
 use super::outcome::Outcome;
 use super::output::Output;
+use super::settings::Settings;
+use super::simulation::Simulation;
 use super::trajectory::Trajectory;
-use super::{Settings, Simulation};
 use crate::inner::larger;
 use crate::model::Model;
 use crate::state::Phase;
@@ -33,13 +34,13 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     /// # Errors
     /// [`Halt`](super::Halt) of whichever run stopped.
     pub fn forward_and_back(self) -> Outcome<N, M::Point<f64>, RoundTrip<N, M::Point<f64>>> {
-        let (model, integrate, mut plan) = (self.model, self.integrate, self.settings.plan.clone());
+        let (model, begin, mut plan) = (self.model, self.begin, self.settings.plan.clone());
         let forward = self.run()?;
         let (reached, end) = forward.end();
         plan.output = plan.output.reversed_from(plan.t0, reached);
         (plan.t0, plan.t_end) = (reached, Some(plan.t0));
         let settings = Settings { plan, ..Settings::new(*end) };
-        let back = Simulation { model, settings, integrate }.run()?;
+        let back = Simulation { model, settings, begin }.run()?;
         Ok(RoundTrip { forward, back })
     }
 }

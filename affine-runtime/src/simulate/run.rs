@@ -1,16 +1,18 @@
 //! Running a simulation: from its settings to the outcome, leg by leg.
 
 use super::checkpoint::{Checkpoint, Place};
+use super::course::{Choice, Course};
 use super::fingerprint::fingerprint;
 use super::layout::total;
-use super::mechanics::{Course, Mechanics};
+use super::mechanics::Mechanics;
+use super::method::Method;
 use super::outcome::{Halt, Outcome};
 use super::point::{check, energy_scale};
 use super::recorder::{Recorder, Turn};
 use super::settings::{Plan, Settings};
+use super::simulation::Simulation;
 use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;
-use super::{Method, NEAR_DEGENERATE, Simulation};
 use crate::error::Setting;
 use crate::error::{Reason, Stop};
 use crate::integrate::Statistics;
@@ -105,7 +107,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             computation: Computation {
                 asked: self.settings.plan.method,
                 method: Method::RungeKutta8,
-                tolerance: self.tolerance(),
+                tolerance: self.settings.plan.tolerance_at(self.model, start),
                 tolerance_asked: self.settings.plan.tolerance,
                 closed_form_exists: false,
                 no_whirl: false,
@@ -118,13 +120,6 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                 turns: None,
             },
         }
-    }
-
-    /// An error of the placement decides whether a motion that passes near a degenerate mass matrix meets it.
-    fn tolerance(&self) -> f64 {
-        let Plan { tolerance, .. } = self.settings.plan;
-        let may_degenerate = self.model.regularity(self.settings.start.phi()).is_some();
-        if may_degenerate && tolerance > NEAR_DEGENERATE { NEAR_DEGENERATE } else { tolerance }
     }
 
     fn drive(&mut self, trajectory: &mut Trajectory<N, P>) -> Result<(), Reason> {
@@ -219,7 +214,8 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let (t0, start) = (from.0, &from.1);
         let Plan { method, .. } = self.settings.plan;
         let tolerance = recorder.trajectory.computation.tolerance;
-        let course = Course { t0, start, t_end: recorder.t_end, method, tolerance };
+        let within_steps = recorder.has_events();
+        let course = Course { t0, start, t_end: recorder.t_end, method, tolerance, within_steps };
         let geodesic = self.model.geodesic(t0, start);
         recorder.trajectory.computation.closed_form_exists = geodesic.is_some();
         let has_tolerance = method.step().is_none() && geodesic.is_none();
@@ -231,7 +227,10 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             (Method::Automatic | Method::ClosedForm, Some(geodesic)) => recorder.evaluate(&geodesic, &course),
             _ => {
                 recorder.begin(t0, start)?;
-                self.model.integrate(&course, recorder)
+                let mut choice = Choice::default();
+                let motion = self.model.begin(&course, &mut choice);
+                recorder.note(&choice);
+                recorder.follow(&mut *motion?)
             }
         }
     }

@@ -21,6 +21,8 @@ pub(super) trait Stepper<S> {
     fn y(&self) -> &S;
     /// The end is reached.
     fn is_finished(&self) -> bool;
+    /// Goes on to another end.
+    fn aim(&mut self, t_end: f64) -> Result<(), Failure>;
     /// Cost so far.
     fn statistics(&self) -> Statistics;
     /// Largest residual of implicit steps so far.
@@ -60,25 +62,22 @@ macro_rules! by_the_same_names {
 }
 
 /// The explicit method with the dense output of its last step, which is formed once for all times in it.
-pub(super) struct Explicit<'i, P, S, F, C, L> {
-    integration: &'i mut RungeKutta<P, S, F, C, L>,
-    dense: &'i mut Option<Dense<S, C>>,
+pub(super) struct Explicit<P, S, F, C, L> {
+    integration: RungeKutta<P, S, F, C, L>,
+    dense: Option<Dense<S, C>>,
 }
 
-impl<'i, P, S, F, C, L> Explicit<'i, P, S, F, C, L> {
-    pub(super) fn new(
-        integration: &'i mut RungeKutta<P, S, F, C, L>,
-        dense: &'i mut Option<Dense<S, C>>,
-    ) -> Self {
-        Self { integration, dense }
+impl<P, S, F, C, L> Explicit<P, S, F, C, L> {
+    pub(super) fn new(integration: RungeKutta<P, S, F, C, L>) -> Self {
+        Self { integration, dense: None }
     }
 }
 
 impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>> Stepper<S>
-    for Explicit<'_, P, S, F, C, L>
+    for Explicit<P, S, F, C, L>
 {
     fn advance(&mut self) -> Result<(), Failure> {
-        *self.dense = None;
+        self.dense = None;
         self.integration.advance()
     }
     fn between(&mut self, t: f64) -> Result<S, Failure> {
@@ -93,17 +92,24 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
     fn is_finished(&self) -> bool {
         self.integration.is_finished()
     }
+    fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        self.integration.aim(t_end);
+        Ok(())
+    }
     fn statistics(&self) -> Statistics {
         self.integration.statistics()
     }
     fn exchange(&mut self, tape: &mut Bits<'_>) {
-        *self.dense = None;
+        self.dense = None;
         self.integration.exchange(tape);
     }
 }
 
 impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for Gauss<S, F, C> {
     by_the_same_names!(Gauss);
+    fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        Gauss::aim(self, t_end)
+    }
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         self.at(t)
     }
@@ -117,6 +123,10 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for
 
 impl<S: StateVector<f64>, C, R: Series<S, C>> Stepper<S> for Taylor<S, C, R> {
     by_the_same_names!(Taylor);
+    fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        Taylor::aim(self, t_end);
+        Ok(())
+    }
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         Ok(self.at(t))
     }
@@ -124,6 +134,10 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Stepper<S> for Taylor<S, C, R> {
 
 impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Stepper<S> for RungeKuttaNystrom<S, C, R> {
     by_the_same_names!(RungeKuttaNystrom);
+    fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        RungeKuttaNystrom::aim(self, t_end);
+        Ok(())
+    }
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         self.at(t)
     }
@@ -131,6 +145,9 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Stepper<S> for RungeKuttaNyst
 
 impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Rattle<N, S, F> {
     by_the_same_names!(Rattle);
+    fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        Rattle::aim(self, t_end)
+    }
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         self.at(t)
     }
@@ -141,6 +158,10 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Stepper<S> for Ra
 
 impl<S: StateVector<f64>, C, P: Pieces<S, C>> Stepper<S> for AdaptiveSplitting<S, C, P> {
     by_the_same_names!(AdaptiveSplitting);
+    fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        AdaptiveSplitting::aim(self, t_end);
+        Ok(())
+    }
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         self.at(t)
     }
@@ -148,6 +169,9 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Stepper<S> for AdaptiveSplitting<S
 
 impl<S: StateVector<f64>, C, P: Pieces<S, C>> Stepper<S> for Splitting<S, C, P> {
     by_the_same_names!(Splitting);
+    fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        Splitting::aim(self, t_end)
+    }
     fn between(&mut self, t: f64) -> Result<S, Failure> {
         self.at(t)
     }

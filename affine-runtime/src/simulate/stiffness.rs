@@ -1,6 +1,6 @@
 //! Whether a motion is stiff in what a piece of it has in closed form.
 
-use super::mechanics::Course;
+use super::course::Course;
 use crate::inner::is_emitted;
 use crate::inner::{EVALUATIONS_OF_FASTEST, fastest};
 use crate::integrate::splitting::Pieces;

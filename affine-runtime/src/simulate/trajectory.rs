@@ -2,8 +2,10 @@
 
 use core::fmt;
 
-use super::{Checkpoint, Method, Occurrence, Reason, Setting};
-use crate::integrate::{Failure, Statistics};
+use super::checkpoint::Checkpoint;
+use super::event::Occurrence;
+use super::method::Method;
+use crate::integrate::Statistics;
 use crate::metrics::Bases;
 use crate::model::Description;
 use crate::state::Phase;
@@ -65,23 +67,6 @@ pub struct Computation {
     /// step, with that part of the potential; `None` where there is no such angle, and in a run that takes no steps. A resumed run
     /// knows only the steps of its own part.
     pub turns: Option<(&'static str, f64)>,
-}
-
-impl Computation {
-    /// Why a run of `model` ends where its integration fails.
-    pub(super) fn reason(&self, failure: Failure, model: &'static str) -> Reason {
-        match failure {
-            Failure::NotFinite => Reason::NotFinite,
-            Failure::StepUnderflow => Reason::StepUnderflow { tolerance: self.tolerance },
-            Failure::NoSolution { residual } => {
-                Reason::NoSolution { residual, step: self.asked.step().unwrap_or(f64::NAN) }
-            }
-            Failure::NotSeparable => Setting::NotSeparable { model }.into(),
-            Failure::OffConstraint { defect } => Setting::OffConstraint { defect }.into(),
-            Failure::Time { given } => Setting::Time { name: "an end of the interval", given }.into(),
-            Failure::Tolerance { given } => Setting::Tolerance { given }.into(),
-        }
-    }
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,9 @@
 
 use core::fmt;
 
+use super::choice::{NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
+use super::method::Method;
 use super::trajectory::{Computation, Trajectory};
-use super::{Method, NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 use crate::integrate::splitting::ORDER;
 use crate::integrate::taylor::order_for;
 use crate::model::{Constraint, Description, LeftOut, Quantity, Scope};

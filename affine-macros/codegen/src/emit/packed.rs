@@ -35,12 +35,12 @@ pub(super) fn capability(context: &Context) -> TokenStream {
     if context.model.packed.is_none() {
         return TokenStream::new();
     }
-    let rt = &context.names.rt;
+    let (rt, n) = (&context.names.rt, context.dim());
     quote! {
         fn packing(
-            &self,
+            model: impl #rt::Handle<#n, Model = Self>,
         ) -> ::core::option::Option<impl #rt::Packing<Self::Reduced<#rt::f64>, Self::Constants<#rt::f64>>> {
-            ::core::option::Option::Some(#rt::Emitted(self))
+            ::core::option::Option::Some(#rt::Emitted(model))
         }
     }
 }

@@ -44,12 +44,12 @@ pub(super) fn capability(context: &Context) -> TokenStream {
     if context.model.taylor.is_none() {
         return TokenStream::new();
     }
-    let rt = &context.names.rt;
+    let (rt, n) = (&context.names.rt, context.dim());
     quote! {
         fn taylor(
-            &self,
+            model: impl #rt::Handle<#n, Model = Self>,
         ) -> ::core::option::Option<impl #rt::Series<Self::Reduced<#rt::f64>, Self::Constants<#rt::f64>>> {
-            ::core::option::Option::Some(#rt::Emitted(self))
+            ::core::option::Option::Some(#rt::Emitted(model))
         }
     }
 }

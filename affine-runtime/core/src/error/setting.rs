@@ -115,6 +115,15 @@ pub enum Setting {
         /// The time listed before it.
         before: f64,
     },
+    /// A `Flow` was asked for a time outside its last step.
+    OutsideStep {
+        /// The time.
+        t: f64,
+        /// Where the step began.
+        from: f64,
+        /// The time reached.
+        to: f64,
+    },
     /// `Method::ClosedForm` was asked for and there is none.
     NoClosedForm {
         /// Name of the model.
@@ -197,6 +206,11 @@ impl fmt::Display for Setting {
                 f,
                 "output time {t} (number {index} of the list, from 0) does not come after {before}: list each time \
                  once, in the direction of the run"
+            ),
+            Setting::OutsideStep { t, from, to } => write!(
+                f,
+                "time {t} lies outside the last step, from {from} to {to}: a flow knows no other; keep the points of \
+                 earlier times, or run a simulation"
             ),
             Setting::NoClosedForm { model } => write!(
                 f,

@@ -1,0 +1,71 @@
+//! The choice of a method.
+
+use super::course::{Choice, Course};
+use super::layout::carries_dilatation;
+use super::method::Method;
+use super::range::in_range;
+use super::stiffness::{Trial, stiffness};
+use crate::model::Model;
+use crate::state::Phase;
+
+/// [`Method::Automatic`] takes Taylor series from this tolerance down, where they were emitted: from there on they
+/// cost less at equal errors on all benchmark problems but P3, which takes the Nystrom method; on P2 already from an
+/// error of 1e-5.
+pub const TAYLOR_TOLERANCE: f64 = 1e-8;
+/// [`Method::Automatic`] takes the Nystrom method of order 12 from this tolerance down, and that of order 8 above. On P3
+/// order 8 needs less time down to an error of 1e-4, where order 12 begins to, and at a given tolerance errs ten times
+/// less.
+pub const NYSTROM_TOLERANCE: f64 = 1e-3;
+
+/// The integrator to take, noted with what was missing for a better one.
+pub(super) fn choose<const N: usize, M: Model<N>>(
+    model: &M,
+    course: &Course<'_, M::Point<f64>>,
+    choice: &mut Choice,
+) {
+    // Within steps a Nystrom method costs a step for each time that is looked at.
+    let in_reach = const { !carries_dilatation(&M::DESCRIPTION) }
+        || in_range(course.t0, model.orthonormal(course.start).phi()).is_ok();
+    let by_halves = !course.within_steps && in_reach;
+    let Trial { radians: stiffness, evaluations } = match course.method {
+        Method::Automatic if by_halves => stiffness(model, M::splitting(model), course),
+        _ => Trial::default(),
+    };
+    choice.evaluations += evaluations;
+    choice.stiffness = stiffness;
+    let has_series = M::DESCRIPTION.constraint.is_none() && course.tolerance <= TAYLOR_TOLERANCE;
+    choice.method = match course.method {
+        Method::Automatic if by_halves && M::second_order(model).is_some() => {
+            match course.tolerance > NYSTROM_TOLERANCE {
+                true => Method::RungeKuttaNystrom8,
+                false => Method::RungeKuttaNystrom12,
+            }
+        }
+        Method::Automatic if by_halves && stiffness.is_some() => Method::AdaptiveSplitting { order: None },
+        Method::Automatic if has_series && M::taylor(model).is_some() => Method::Taylor { order: None },
+        Method::Automatic => Method::RungeKutta8,
+        asked => asked,
+    };
+    choice.missing = match (course.method, choice.method) {
+        (Method::Automatic, Method::RungeKutta8 | Method::Taylor { .. })
+            if by_halves && M::DESCRIPTION.second_order =>
+        {
+            Some("nystrom")
+        }
+        (Method::Automatic, Method::RungeKutta8) if has_series => Some("taylor"),
+        _ => None,
+    };
+    choice.needs_determinant =
+        const { carries_dilatation(&M::DESCRIPTION) } && forms_determinant(choice.method);
+}
+
+/// Forces are computed from the placement alone, nothing being carried along.
+fn forms_determinant(method: Method) -> bool {
+    matches!(
+        method,
+        Method::RungeKuttaNystrom12
+            | Method::RungeKuttaNystrom8
+            | Method::Splitting { .. }
+            | Method::AdaptiveSplitting { .. }
+    )
+}

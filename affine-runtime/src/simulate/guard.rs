@@ -1,0 +1,121 @@
+//! What a step is held against before it counts: the body keeps its orientation, the mass matrix its signature, and the
+//! potential a value.
+
+use super::collapse::{failing, first_failure, rate_of_determinant};
+use super::domain::Domain;
+use super::failed::failed;
+use super::mechanics::Mechanics;
+use super::method::Method;
+use super::motion::Motion;
+use super::orientation::{Moment, keeps_orientation, passes_through_zero};
+use super::point::check;
+use super::signature::Signature;
+use crate::error::Reason;
+use crate::integrate::Failure;
+use crate::state::Phase;
+
+/// What is known of a motion where its last step ended.
+pub(super) struct Guard<const N: usize> {
+    signature: Signature,
+    moment: Option<Moment<N>>,
+    domain: Option<Domain>,
+    /// Where the motion began.
+    since: f64,
+    /// Method and tolerance that were asked for.
+    asked: (Method, f64),
+}
+
+impl<const N: usize> Guard<N> {
+    /// At the beginning of a motion from the placement of a point.
+    ///
+    /// # Errors
+    /// [`Reason::Domain`].
+    pub(super) fn begin<P: Phase<N>>(
+        model: &dyn Mechanics<N, P>,
+        motion: &dyn Motion<P>,
+        (since, start): (f64, &P),
+        asked: (Method, f64),
+    ) -> Result<Self, Reason> {
+        let signature = Signature::of(model.regularity(start.phi()));
+        let moment = passes_through_zero(model.description())
+            .then(|| Moment::of(model, (motion.t(), &motion.reached().0)));
+        let domain = Domain::at(model, (motion.t(), &motion.reached().0))?;
+        Ok(Self { signature, moment, domain, since, asked })
+    }
+
+    /// Takes a step.
+    ///
+    /// # Errors
+    /// Why no step leads on, or that the mass matrix has degenerated.
+    pub(super) fn advance<P: Phase<N>>(
+        &self,
+        model: &dyn Mechanics<N, P>,
+        motion: &mut dyn Motion<P>,
+    ) -> Result<(), Reason> {
+        let regularity = |motion: &dyn Motion<P>| model.regularity(motion.reached().0.phi());
+        if let Err(failure) = motion.advance() {
+            let (t, (point, _)) = (motion.t(), motion.reached());
+            let degenerate = self.signature.failing(regularity(motion), t);
+            let singular = || self.domain.as_ref().and_then(|domain| domain.failing(self.since));
+            let collapsing = || failing(model, (t, &point), self.since, self.asked.0.step());
+            let other = || self.reason(model, failure);
+            return Err(degenerate.or_else(singular).or_else(collapsing).unwrap_or_else(other));
+        }
+        match self.signature.may_change() {
+            true => self.signature.kept(regularity(motion), motion.t()),
+            false => Ok(()),
+        }
+    }
+
+    /// Holds the whole of a step that was taken against what was known before, and goes there.
+    ///
+    /// # Errors
+    /// [`Reason::Placement`] where the orientation is lost within it, found again or not; [`Reason::Domain`] where the
+    /// potential has no value.
+    pub(super) fn stands<P: Phase<N>>(
+        &mut self,
+        model: &dyn Mechanics<N, P>,
+        motion: &mut dyn Motion<P>,
+    ) -> Result<(), Reason> {
+        let asked = self.asked;
+        let reason = |failure| failed(failure, asked, model.description().name);
+        if let Some(begin) = &mut self.moment {
+            let (point, _) = motion.reached();
+            if !point.is_finite() {
+                return Err(Reason::NotFinite);
+            }
+            let end = Moment::of(model, (motion.t(), &point));
+            keeps_orientation(model, motion, (*begin, end), &reason)?;
+            *begin = end;
+        }
+        match &mut self.domain {
+            Some(domain) => domain.keep(model, motion, &reason),
+            None => Ok(()),
+        }
+    }
+
+    fn reason<P: Phase<N>>(&self, model: &dyn Mechanics<N, P>, failure: Failure) -> Reason {
+        failed(failure, self.asked, model.description().name)
+    }
+}
+
+/// When a body collapses that has collapsed at a time within a step from a good one on.
+pub(super) fn collapse<const N: usize, P: Phase<N>>(motion: &mut dyn Motion<P>, good: f64, t: f64) -> f64 {
+    first_failure(good, t, |t| motion.between(t).is_ok_and(|(point, _)| check(t, &point).is_ok()))
+}
+
+/// The reason with what is known of a collapse after the last good point.
+pub(super) fn explained<const N: usize, P: Phase<N>>(
+    model: &dyn Mechanics<N, P>,
+    motion: &mut dyn Motion<P>,
+    (good, point): (f64, &P),
+    reason: Reason,
+) -> Reason {
+    match reason {
+        Reason::Placement { determinant, rate: None, t } => {
+            let rate = Some(rate_of_determinant(model, point));
+            Reason::Placement { determinant, rate, t: collapse(motion, good, t) }
+        }
+        other => other,
+    }
+}
