@@ -51,6 +51,7 @@ fn folder(package: Option<&str>) -> PathBuf {
         Some("affine-core") => "affine-runtime/core",
         Some("affine-integrators") => "affine-runtime/integrators",
         Some("affine-codegen") => "affine-macros/codegen",
+        Some("affine-allocations") => "tests/allocations",
         Some("affine-comparison") => "tests/comparison",
         Some(other) => panic!("no package {other}"),
     };

@@ -1,0 +1,94 @@
+//! Models that are stepped.
+
+use std::cell::Cell;
+use std::rc::Rc;
+
+use affine_runtime::force::{Force, Motion, Translation};
+use affine_runtime::prelude::*;
+use affine_runtime::scalar::Scalar;
+
+/// A soft block that falls, with every method for free bodies.
+#[affine_model(
+    dim = 3,
+    kinetic(dalembert = 0.25, space_translation = 1),
+    potential = orthogonality(stiffness) + g*x[3],
+    emit(splitting, nystrom, taylor),
+)]
+#[derive(Clone, Copy)]
+pub(crate) struct Block {
+    pub(crate) stiffness: f64,
+    pub(crate) g: f64,
+}
+
+pub(crate) type Cube = PreparedBlock;
+
+/// A disc that is driven, so that the times of its steps matter.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.5, body_inertia = 1),
+    potential = tr(G)/2 - 2*q + 0.1*sin(2*t)*G[1,1],
+    emit(splitting),
+)]
+#[derive(Clone, Copy)]
+pub(crate) struct Driven;
+
+/// A drop that keeps its volume.
+#[affine_model(dim = 2, kinetic(dalembert = 1), constraint = isochoric, potential = tr(G))]
+#[derive(Clone, Copy)]
+pub(crate) struct Drop;
+
+/// A geodesic, known in closed form.
+#[affine_model(dim = 2, kinetic(casimir2 = 0.5, body_inertia = 1))]
+#[derive(Clone, Copy)]
+pub(crate) struct Free;
+
+/// Nothing keeps it from turning inside out.
+#[affine_model(dim = 2, kinetic(dalembert = 1), potential = pull*(phi[1,1] + phi[2,2]), emit(splitting))]
+#[derive(Clone, Copy)]
+pub(crate) struct Dust {
+    pub(crate) pull: f64,
+}
+
+/// A constant force of 2 that knows how often it was asked for.
+#[derive(Clone, Debug)]
+pub(crate) struct Lift {
+    pub(crate) asked: Rc<Cell<u32>>,
+}
+
+impl Force<2> for Lift {
+    type Form = Translation;
+    fn force<T: Scalar>(&self, _: &Motion<2, T>) -> Vector<2, T> {
+        self.asked.set(self.asked.get() + 1);
+        Vector::<2, T>::new(T::constant(2.0, 0.0), T::zero())
+    }
+}
+
+/// A body of unit mass that is lifted.
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1, space_translation = 1),
+    forces = custom(lift, translation)
+)]
+#[derive(Clone)]
+pub(crate) struct Counted {
+    pub(crate) lift: Lift,
+}
+
+pub(crate) fn block(g: f64) -> Cube {
+    Block { stiffness: 100.0, g }.prepare().unwrap()
+}
+
+pub(crate) fn thrown(cube: &Cube) -> <Cube as Model<3>>::Point<f64> {
+    let (x, v) = (Vector::<3>::new(0.0, 0.5, 2.0), Vector::<3>::new(1.0, 0.0, 3.0));
+    let phi = Matrix::<3>::new(1.05, 0.1, 0.0, -0.1, 0.95, 0.05, 0.0, 0.02, 1.0);
+    let phi_dot = Matrix::<3>::new(0.2, -1.0, 0.3, 1.1, 0.0, -0.5, -0.2, 0.4, 0.1);
+    cube.at_velocity(x, phi, v, phi_dot).unwrap()
+}
+
+pub(crate) fn strained() -> Matrix<2> {
+    Matrix::<2>::new(1.2, 0.3, -0.1, 0.9)
+}
+
+pub(crate) fn sheared() -> Matrix<2> {
+    Matrix::<2>::new(0.2, -0.7, 0.6, -0.1)
+}
