@@ -94,10 +94,8 @@ fn commands_name_what_exists() {
             (None, Some(example)) => program(&folder.join("examples"), example),
             (None, None) => folder.join("src"),
         };
-        let flags: Vec<&str> = ["-p", "--exclude", "--test", "--example"]
-            .iter()
-            .filter_map(|flag| after(&words, flag))
-            .collect();
+        let names = |pair: &&[&str]| ["-p", "--exclude", "--test", "--example"].contains(&pair[0]);
+        let flags: Vec<&str> = words.windows(2).filter(names).map(|pair| pair[1]).collect();
         let filter = words[2..].iter().find(|word| !word.starts_with('-') && !flags.contains(*word));
         let Some(filter) = filter.filter(|_| words[1] == "test") else { continue };
         let found = sources(&searched);
