@@ -10,7 +10,6 @@ use std::time::Instant;
 
 use affine_runtime::model::Owned;
 use affine_runtime::prelude::*;
-use affine_runtime::simulate::Flow;
 
 /// A cube of unit edge and mass that resists whatever is no rotation, as in affine body dynamics.
 #[affine_model(

@@ -1,7 +1,8 @@
 //! Phase points, kinematics, integrators and reports for affinely-rigid bodies.
 //!
 //! An affinely-rigid body has the placement `x, phi` with `phi` in GL+(n), n = 2 or 3: the body point `a` is at
-//! `x + phi a`. The attribute `#[affine_model(...)]` turns a kinetic energy into a [`Model`]; a `Simulation` runs it.
+//! `x + phi a`. The attribute `#[affine_model(...)]` turns a kinetic energy into a [`Model`]; a `Simulation` runs
+//! it to an end, and a `Flow` steps it in a loop of your own.
 //!
 //! ```text
 //! Omega     = phi_dot phi^-1     Sigma     = phi Pi = (dT/dOmega)^T        spatial
@@ -61,7 +62,7 @@ pub mod __private {
 pub use error::{Error, Result};
 pub use model::Model;
 #[cfg(feature = "std")]
-pub use simulate::{Ensemble, Method, Simulation, Trajectory};
+pub use simulate::{Ensemble, Flow, Method, Simulation, Trajectory};
 
 #[cfg(feature = "macros")]
 pub use affine_macros::affine_model;
@@ -74,7 +75,7 @@ pub mod prelude {
     pub use crate::state::Phase;
 
     #[cfg(feature = "std")]
-    pub use crate::simulate::{Ensemble, Event, Method, Simulation, Trajectory};
+    pub use crate::simulate::{Ensemble, Event, Flow, Method, Simulation, Trajectory};
 
     #[cfg(feature = "macros")]
     pub use crate::affine_model;

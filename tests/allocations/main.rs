@@ -5,7 +5,6 @@ use std::cell::Cell;
 
 use affine_runtime::model::Owned;
 use affine_runtime::prelude::*;
-use affine_runtime::simulate::Flow;
 
 /// The system's allocator, which counts for each thread.
 struct Counting;

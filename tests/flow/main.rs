@@ -10,7 +10,6 @@ use std::sync::Arc;
 
 use affine_runtime::model::{Handle, Owned};
 use affine_runtime::prelude::*;
-use affine_runtime::simulate::Flow;
 use models::{Counted, Cube, Driven, Drop, Dust, Free, Lift, block, sheared, strained, thrown};
 
 /// Times of frames are sums of it without rounding, so that their differences are the length of a step of a run.

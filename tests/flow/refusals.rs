@@ -2,7 +2,7 @@
 
 use affine_runtime::model::Owned;
 use affine_runtime::prelude::*;
-use affine_runtime::simulate::{Flow, Reason, Setting};
+use affine_runtime::simulate::{Reason, Setting};
 
 use crate::models::{Driven, Drop, Free, block, sheared, strained, thrown};
 

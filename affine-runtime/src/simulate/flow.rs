@@ -23,7 +23,6 @@ use crate::model::{Handle, Model};
 /// ```
 /// use affine_runtime::model::Owned;
 /// use affine_runtime::prelude::*;
-/// use affine_runtime::simulate::Flow;
 ///
 /// #[affine_model(
 ///     dim = 3, kinetic(dalembert = 0.1, space_translation = 1),
