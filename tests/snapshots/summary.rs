@@ -15,7 +15,7 @@ pub(crate) fn of(file: &syn::File) -> String {
     });
     let described: String = blocks.map(|block| described(&block)).collect();
     assert!(!described.is_empty(), "a model is documented");
-    let mut text = fields(&file.items) + &described;
+    let mut text = model(&file.items) + &described;
     let mut heads: Vec<(String, String)> = Vec::new();
     for item in items::of(file) {
         let (head, name) = item.shape.split_once(": ").unwrap_or(("free", &item.shape));
@@ -32,22 +32,29 @@ pub(crate) fn of(file: &syn::File) -> String {
     text
 }
 
-fn fields(items: &[Item]) -> String {
-    match items {
-        [Item::Struct(model), ..] if !model.fields.is_empty() => {
-            prettyplease::unparse(&syn::parse2(model.to_token_stream()).expect("a struct"))
-        }
-        _ => String::new(),
-    }
+/// The struct where it has fields, and its documentation.
+fn model(items: &[Item]) -> String {
+    let [Item::Struct(model), ..] = items else { return String::new() };
+    let bare = syn::ItemStruct { attrs: Vec::new(), ..model.clone() };
+    let file = syn::parse2(bare.to_token_stream()).expect("a struct");
+    let fields = if model.fields.is_empty() { String::new() } else { prettyplease::unparse(&file) };
+    // The gap is below what the user wrote.
+    let gap = model.attrs.iter().position(|line| documentation(line).is_some_and(|line| line.is_empty()));
+    fields + &documented(&model.attrs[gap.unwrap_or(0)..])
+}
+
+/// The lines of a documentation, the heading of what the description goes on with last.
+fn documented(attributes: &[Attribute]) -> String {
+    let lines = attributes.iter().filter_map(documentation);
+    let (heading, lines): (Vec<String>, Vec<String>) = lines
+        .filter(|line| !line.is_empty() && !line.starts_with("```"))
+        .partition(|line| line.ends_with("`DESCRIPTION.reduced_equations`."));
+    lines.iter().chain(&heading).map(|line| format!("{line}\n")).collect()
 }
 
 /// The documentation of an implementation, and what the description of a model says besides.
 fn described(block: &ItemImpl) -> String {
-    let lines = block.attrs.iter().filter_map(documentation);
-    let (heading, lines): (Vec<String>, Vec<String>) = lines
-        .filter(|line| !line.is_empty() && !line.starts_with("```"))
-        .partition(|line| line.ends_with("`DESCRIPTION.reduced_equations`."));
-    let text: String = lines.iter().chain(&heading).map(|line| format!("{line}\n")).collect();
+    let text = documented(&block.attrs);
     let constant = block.items.iter().find_map(|item| match item {
         ImplItem::Const(constant) if constant.ident == "DESCRIPTION" => Some(&constant.expr),
         _ => None,

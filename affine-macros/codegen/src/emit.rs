@@ -53,11 +53,11 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let names = Names::new(spec, has_fields);
     let runtime = runtime(spec.runtime.as_ref());
     let context = Context { spec, model, names: &names, has_fields, common: Function::of(model) };
-    let item = &spec.item.tokens;
     let rt = &names.rt;
     let prepared_type = prepare::prepared_type(&context);
     let prepare = prepare::method(&context);
     if spec.group.is_some() {
+        let item = spec.item.documented(&[]);
         let lattice = two_polar::lattice_of_circle(&context);
         return quote! {
             #item
@@ -69,6 +69,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             };
         };
     }
+    let item = spec.item.documented(&description::docs(&context));
     let constants = reduction::constants_type(&context);
     let function = context.function();
     let (parametric, implementation) = model_impl(&context);
@@ -117,7 +118,6 @@ fn model_impl(context: &Context) -> (TokenStream, TokenStream) {
         |equations: &Equations| number(equations.groups.iter().map(|(_, components)| components.len()).sum());
     let (full, reduced) = (size(&context.model.full), size(&context.model.reduced));
     let point = context.point(&quote!(#scalar));
-    let docs = description::docs(context);
     let description = description::constant(context);
     let geodesic = closed_form::geodesic(context);
     let (_, bases) = metrics::bases(context);
@@ -133,7 +133,6 @@ fn model_impl(context: &Context) -> (TokenStream, TokenStream) {
     ]);
     let (parametric, methods) = parametric::divided(context, methods);
     let implementation = quote! {
-        #(#[doc = #docs])*
         impl #generics #rt::Model<#n> for #prepared #types #clause {
             const DESCRIPTION: #rt::Description = #description;
             type Point<#scalar: #rt::Real> = #point;

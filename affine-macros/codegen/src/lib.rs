@@ -77,7 +77,7 @@ fn road(args: TokenStream, item: TokenStream) -> Result<TokenStream, Rejected> {
     let energy = gate(|found| check::energy(&spec, found))?;
     // Past the second gate no derivation can fail: a form that passed has an invertible Legendre transformation.
     let positive = spec.require.iter().any(|r| r.value == spec::Requirement::PositiveDefinite);
-    let Some(model) = derive::derive(energy, positive) else { return Ok(spec.item.tokens) };
+    let Some(model) = derive::derive(energy, positive) else { return Ok(spec.item.documented(&[])) };
     gate(|found| range::representable(&spec, &model, found))?;
     Ok(emit::emit(&spec, &model))
 }

@@ -23,14 +23,7 @@ fn stand_in(args: TokenStream, item: &TokenStream) -> Option<TokenStream> {
     let outline = Outline::of(args)?;
     let field = parameter(&input.data, &outline);
     let mut spec = outline.well_posed(field.as_ref().map(|field| &field.ident))?;
-    spec.item = Item {
-        tokens: item.clone(),
-        attributes: input.attrs,
-        visibility: input.vis,
-        ident: input.ident,
-        generics: input.generics,
-        fields: field.into_iter().collect(),
-    };
+    spec.item = Item::new(input, field.into_iter().collect(), true);
     let form = gate(|found| check::energy(&spec, found)).ok()?;
     Some(emit::emit(&spec, &derive::derive(form, false)?))
 }

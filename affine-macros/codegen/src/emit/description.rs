@@ -11,7 +11,7 @@ use super::domain;
 use super::groups::groups;
 use super::number::number;
 
-/// Documentation of the implementation, line by line.
+/// Documentation below the user's own, line by line.
 pub(super) fn docs(context: &Context) -> Vec<String> {
     let model = context.model;
     let formulas = &model.formulas;

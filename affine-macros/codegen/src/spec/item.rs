@@ -1,6 +1,7 @@
 //! The struct below the attribute.
 
 use proc_macro2::{Ident, TokenStream};
+use quote::{ToTokens, quote};
 use syn::{Attribute, Data, DeriveInput, Fields, Generics, Type, Visibility};
 
 use super::entries::shortened;
@@ -8,10 +9,10 @@ use crate::diagnostics::{Diagnostics, NotationMistake, Region, Reported};
 
 /// The user's struct.
 pub struct Item {
-    /// Exactly as written, with everything that the fields below do not repeat.
-    pub tokens: TokenStream,
-    /// The attributes below ours.
-    pub attributes: Vec<Attribute>,
+    /// The attributes below ours, documentation among them.
+    attributes: Vec<Attribute>,
+    /// The struct without them, as written.
+    declaration: TokenStream,
     /// The visibility.
     pub visibility: Visibility,
     /// The name.
@@ -20,6 +21,28 @@ pub struct Item {
     pub generics: Generics,
     /// The named fields; none for a unit struct.
     pub fields: Vec<Field>,
+    /// Is the model that is derived for it another than the user's? Then its formulas are not documented.
+    pub stands_in: bool,
+}
+
+impl Item {
+    /// The item that was read, of whose fields some are taken.
+    pub(crate) fn new(mut input: DeriveInput, fields: Vec<Field>, stands_in: bool) -> Self {
+        let attributes = std::mem::take(&mut input.attrs);
+        let declaration = input.to_token_stream();
+        let DeriveInput { vis: visibility, ident, generics, .. } = input;
+        Self { attributes, declaration, visibility, ident, generics, fields, stands_in }
+    }
+
+    /// The struct as written, with lines of documentation below its own.
+    #[must_use]
+    pub fn documented(&self, lines: &[String]) -> TokenStream {
+        let Self { attributes, declaration, .. } = self;
+        // An empty line: what the user wrote is a paragraph of its own.
+        let lines = if self.stands_in { &[] } else { lines };
+        let gap = (!lines.is_empty()).then(|| quote!(#[doc = ""]));
+        quote!(#(#attributes)* #gap #(#[doc = #lines])* #declaration)
+    }
 }
 
 /// A named field.
@@ -62,26 +85,19 @@ pub(super) fn is_f64(path: &syn::Path) -> bool {
 }
 
 pub(super) fn parse(item: TokenStream, found: &mut Diagnostics) -> Result<Item, Reported> {
-    let input: DeriveInput = syn::parse2(item.clone()).map_err(|error| {
+    let input: DeriveInput = syn::parse2(item).map_err(|error| {
         found.report(error.span(), NotationMistake::UnreadableItem { problem: shortened(&error.to_string()) })
     })?;
-    let fields = match input.data {
-        Data::Struct(data) => match data.fields {
+    let fields = match &input.data {
+        Data::Struct(data) => match &data.fields {
             Fields::Unit => Vec::new(),
-            Fields::Named(named) => named.named.into_iter().filter_map(field).collect(),
+            Fields::Named(named) => named.named.iter().cloned().filter_map(field).collect(),
             Fields::Unnamed(_) => return Err(refused(&input.ident, "a tuple struct", found)),
         },
         Data::Enum(_) => return Err(refused(&input.ident, "an enum", found)),
         Data::Union(_) => return Err(refused(&input.ident, "a union", found)),
     };
-    Ok(Item {
-        tokens: item,
-        attributes: input.attrs,
-        visibility: input.vis,
-        ident: input.ident,
-        generics: input.generics,
-        fields,
-    })
+    Ok(Item::new(input, fields, false))
 }
 
 fn field(field: syn::Field) -> Option<Field> {
