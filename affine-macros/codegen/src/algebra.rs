@@ -19,6 +19,7 @@ pub mod rational;
 pub mod residue;
 pub mod ring;
 pub mod root;
+pub mod span;
 pub mod substitute;
 pub mod text;
 pub mod work;

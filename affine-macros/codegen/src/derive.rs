@@ -29,7 +29,7 @@ mod written;
 use crate::algebra::bind::Constants;
 use crate::ir::fuse::fuse;
 use crate::mechanics::body::Body;
-use crate::mechanics::describe::{Described, Notation};
+use crate::mechanics::describe::{self, Described, Notation};
 use crate::mechanics::form::Form;
 use crate::mechanics::motion::Motion;
 use crate::optimise::straight_line;
@@ -41,6 +41,7 @@ use programs::Reduced;
 use quantities::Quantities;
 use ways::Ways;
 
+pub use crate::mechanics::describe::{Component, Conserved};
 pub use components::Components;
 pub use dilatation::DilatationalMotion;
 pub use domain::{Domain, Sign, SignedArgument};
@@ -130,8 +131,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         closed_form,
         isotropic: programs.isotropic,
         dilatation,
-        conserved: moving,
-        conserved_at_rest: at_rest,
+        conserved: describe::conserved(arena, &notation, &moving),
+        conserved_at_rest: describe::conserved(arena, &notation, &at_rest),
         signature: conditions::signature(arena, &motion, hessian.as_ref(), positive, require_positive),
         has_forces: !body.is_free(),
         groups: (form.space_group, form.body_group),

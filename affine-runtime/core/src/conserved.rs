@@ -2,7 +2,7 @@
 
 use crate::frames::{Matrix, Vector};
 use crate::kinematics::Kinematics;
-use crate::model::Conserved;
+use crate::model::{Component, Conserved, Entry};
 use crate::norm::norm;
 use crate::state::{Euclidean, Phase};
 
@@ -62,7 +62,7 @@ impl Components {
 }
 
 /// The quantity at a phase point (Slawianowski et al., sections 2 and 5); `None` for the energy, which
-/// belongs to the model and not to the point.
+/// belongs to the model and not to the point, and for entries that a momentum does not have.
 #[must_use]
 pub fn evaluate<const N: usize, P: Phase<N> + Euclidean>(
     quantity: Conserved,
@@ -89,7 +89,32 @@ pub fn evaluate<const N: usize, P: Phase<N> + Euclidean>(
         Conserved::Casimir3 => Components::number(point.casimir(3)),
         Conserved::DeviatorCasimir2 => Components::number(point.shear_casimir(2)),
         Conserved::DeviatorCasimir3 => Components::number(point.shear_casimir(3)),
+        Conserved::Component(component) => Components::number(sum(component, |entry| {
+            Some(*evaluate(entry.of, point)?.as_slice().get(place::<N>(entry)?)?)
+        })?),
     })
+}
+
+/// The sum of the multiples of what stands for the entries.
+fn sum(component: Component, value: impl Fn(&Entry) -> Option<f64>) -> Option<f64> {
+    let each = component.entries.iter().map(|entry| Some(entry.factor as f64 * value(entry)?));
+    each.sum()
+}
+
+/// Where an entry stands among the [components](Components::as_slice) of its momentum.
+fn place<const N: usize>(entry: &Entry) -> Option<usize> {
+    let (row, column) = (entry.row.checked_sub(1)?, entry.column.checked_sub(1)?);
+    if row >= N || column >= N {
+        return None;
+    }
+    match entry.of {
+        Conserved::LinearMomentum | Conserved::ComovingLinearMomentum => (column == 0).then_some(row),
+        Conserved::OrbitalAngularMomentum
+        | Conserved::TotalAngularMomentum
+        | Conserved::Spin
+        | Conserved::Vorticity => (row < column).then(|| row * (N - 1) + column - 1 - row * (row + 1) / 2),
+        _ => Some(row * N + column),
+    }
 }
 
 /// The size of what the quantity is made of at a phase point, against which its drift is read: `|Sigma|^2` for
@@ -113,6 +138,10 @@ pub fn scale<const N: usize, P: Phase<N> + Euclidean>(quantity: Conserved, point
         Conserved::ComovingAffineSpin | Conserved::ComovingDeviator | Conserved::Vorticity => sigma_hat(),
         Conserved::VorticityNorm => square(sigma_hat()),
         Conserved::CanonicalMomentum => norm(point.pi().0.0.as_slice()),
+        Conserved::Component(Component { entries, .. }) => {
+            let each = entries.iter().map(|entry| Some(entry.factor.abs() as f64 * scale(entry.of, point)?));
+            each.sum::<Option<f64>>()?
+        }
     })
 }
 
@@ -141,10 +170,11 @@ impl Conserved {
             Self::Casimir3 => "C(3) = tr Sigma^3",
             Self::DeviatorCasimir2 => "tr sigma^2",
             Self::DeviatorCasimir3 => "tr sigma^3",
+            Self::Component(component) => component.symbol,
         }
     }
 
-    /// The name.
+    /// The name; of a [`Component`] the formula.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -168,6 +198,7 @@ impl Conserved {
             Self::Casimir3 => "third Casimir",
             Self::DeviatorCasimir2 => "second deviator Casimir",
             Self::DeviatorCasimir3 => "third deviator Casimir",
+            Self::Component(component) => component.symbol,
         }
     }
 }
@@ -239,6 +270,49 @@ mod tests {
         assert_eq!(number(Conserved::Spin), [3.0, -1.0, 1.0], "entries 12, 13, 23");
         assert_eq!(number(Conserved::SpinNorm), [11.0]);
         assert_eq!(number(Conserved::LinearMomentum), [0.0; 3], "a pinned body");
+    }
+
+    #[test]
+    fn components_by_hand() {
+        fn value<const N: usize, P: Phase<N> + Euclidean>(
+            point: &P,
+            entries: &'static [Entry],
+        ) -> Option<f64> {
+            let value = evaluate(Conserved::Component(Component { symbol: "", entries }), point)?;
+            assert_eq!(value.as_slice().len(), 1);
+            Some(value.as_slice()[0])
+        }
+        const fn entry(factor: i64, of: Conserved, row: usize, column: usize) -> Entry {
+            Entry { factor, of, row, column }
+        }
+        use Conserved::{AffineSpin, Casimir1, Energy, LinearMomentum, Spin, Vorticity};
+        assert_eq!(value(&point(), const { &[entry(1, LinearMomentum, 2, 1)] }), Some(-1.0));
+        assert_eq!(value(&point(), const { &[entry(1, AffineSpin, 2, 1)] }), Some(3.0));
+        assert_eq!(
+            value(&point(), const { &[entry(2, Spin, 1, 2), entry(-3, Vorticity, 1, 2)] }),
+            Some(19.0)
+        );
+        for none in const {
+            [
+                &[entry(1, LinearMomentum, 1, 2)],
+                &[entry(1, LinearMomentum, 3, 1)],
+                &[entry(1, Spin, 2, 1)],
+                &[entry(1, AffineSpin, 0, 1)],
+                &[entry(1, Energy, 1, 1)],
+                &[entry(1, Casimir1, 2, 2)],
+            ]
+        } {
+            assert_eq!(value(&point(), none), None, "{none:?}");
+        }
+        let m = Matrix::<3>::new(1.0, 2.0, 0.0, -1.0, 3.0, 1.0, 1.0, 0.0, 2.0);
+        let space = PhasePoint::<3, Space, Pinned>::new(Matrix::<3>::identity(), m, Pinned);
+        assert_eq!(value(&space, const { &[entry(1, Spin, 1, 2)] }), Some(3.0));
+        assert_eq!(value(&space, const { &[entry(1, Spin, 1, 3)] }), Some(-1.0));
+        assert_eq!(value(&space, const { &[entry(1, Spin, 2, 3)] }), Some(1.0));
+        // |Sigma|^2 = 114, |Sigma_hat|^2 = 98.
+        let both = const { &[entry(2, Spin, 1, 2), entry(-3, Vorticity, 1, 2)] };
+        let size = scale(Conserved::Component(Component { symbol: "", entries: both }), &point()).unwrap();
+        assert!((size - (2.0 * 114f64.sqrt() + 3.0 * 98f64.sqrt())).abs() < 1e-13, "{size}");
     }
 
     #[test]

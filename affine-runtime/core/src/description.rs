@@ -166,4 +166,31 @@ pub enum Conserved {
     DeviatorCasimir2,
     /// `tr sigma^3` of the traceless part; only for `n = 3`.
     DeviatorCasimir3,
+    /// Entries of momenta that are not conserved as a whole: `Vort_12`, `p_1`, `S_12 - 2*S_13`.
+    Component(Component),
+}
+
+/// A sum of multiples of entries of momenta, read in orthonormal bases as the momenta are.
+///
+/// A model lists a basis of the sums that it conserves, without those that follow from momenta that it conserves as a whole. Sums
+/// whose factors depend on the fields of the model, or are quotients of numbers above 32768, are not listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Component {
+    /// The formula.
+    pub symbol: &'static str,
+    /// The summands.
+    pub entries: &'static [Entry],
+}
+
+/// A multiple of an entry of a momentum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Entry {
+    /// How often it is taken.
+    pub factor: i64,
+    /// The momentum: a vector, a matrix, or a skew matrix.
+    pub of: Conserved,
+    /// The row, from 1.
+    pub row: usize,
+    /// The column, from 1; 1 of a vector. Of a skew matrix it is the larger of both.
+    pub column: usize,
 }

@@ -4,7 +4,9 @@ use core::fmt::Debug;
 
 use crate::condition::condition;
 pub use crate::constraint::Constraint;
-pub use crate::description::{Bound, Conserved, Description, Formula, Guard, LeftOut, Operations, Scope};
+pub use crate::description::{
+    Bound, Component, Conserved, Description, Entry, Formula, Guard, LeftOut, Operations, Scope,
+};
 use crate::matrix::Matrix;
 use crate::metrics::{Bases, Tensor};
 pub use crate::quantity::{Group, Quantity};

@@ -29,8 +29,8 @@ pub use crate::metrics::{
     told_in_given_bases,
 };
 pub use crate::model::{
-    Bound, Conserved, Constraint, Description, Formula, Group, Guard, Handle, LeftOut, Model, Operations,
-    Quantity, Regularity, Scope, Velocity, VelocityDeterminesMomentum,
+    Bound, Component, Conserved, Constraint, Description, Entry, Formula, Group, Guard, Handle, LeftOut,
+    Model, Operations, Quantity, Regularity, Scope, Velocity, VelocityDeterminesMomentum,
 };
 pub use crate::packed::{Four, Packed};
 pub use crate::parametric::{Field, Fields, Parametric};

@@ -15,6 +15,8 @@ pub struct Residue(Option<u64>);
 impl Residue {
     /// The prime.
     pub const MODULUS: u64 = (1 << 61) - 1;
+    /// The largest number in a small fraction.
+    pub const SMALL: i64 = 1 << 15;
     /// 0.
     pub const ZERO: Self = Self(Some(0));
     /// Nothing is known.
@@ -28,6 +30,21 @@ impl Residue {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
         Self(Some(hash % Self::MODULUS))
+    }
+
+    /// The fraction that it stands for, numerator and denominator at most [`SMALL`](Self::SMALL) (Wang, Proc. SYMSAC 1981,
+    /// 212); `None` where no such fraction does. Of all residues one in 2^30 stands for one.
+    #[must_use]
+    pub fn small_fraction(self) -> Option<(i64, i64)> {
+        let modulus = i64::try_from(Self::MODULUS).ok()?;
+        let (mut before, mut above) = (modulus, i64::try_from(self.0?).ok()?);
+        let (mut of_before, mut below) = (0_i64, 1_i64);
+        while above > Self::SMALL {
+            let quotient = before / above;
+            (before, above) = (above, before % above);
+            (of_before, below) = (below, of_before - quotient * below);
+        }
+        (below.abs() <= Self::SMALL).then_some((above * below.signum(), below.abs()))
     }
 
     /// Proved to be different from zero?
@@ -69,7 +86,12 @@ fn product(a: u64, b: u64) -> u64 {
     // 2^61 = 1 modulo the prime; both parts fit 61 bits.
     let low = (wide & u128::from(Residue::MODULUS)) as u64;
     let high = (wide >> 61) as u64;
-    (low + high) % Residue::MODULUS
+    reduced(low + high)
+}
+
+/// The residue of a number below twice the modulus.
+fn reduced(value: u64) -> u64 {
+    if value < Residue::MODULUS { value } else { value - Residue::MODULUS }
 }
 
 impl Field for Residue {
@@ -84,7 +106,7 @@ impl Field for Residue {
 
     fn add(&self, other: &Self) -> Self {
         let (Some(a), Some(b)) = (self.0, other.0) else { return Self::UNKNOWN };
-        Self(Some((a + b) % Self::MODULUS))
+        Self(Some(reduced(a + b)))
     }
 
     fn mul(&self, other: &Self) -> Self {

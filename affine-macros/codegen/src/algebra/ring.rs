@@ -52,7 +52,10 @@ impl Ring for Residue {
         self.plus(&a.mul(b), weight);
     }
     fn plus(&mut self, a: &Self, weight: &Rational) {
-        *self = self.add(&a.mul(&Residue::from_rational(weight)));
+        *self = match weight.is_one() {
+            true => self.add(a),
+            false => self.add(&a.mul(&Residue::from_rational(weight))),
+        };
     }
 }
 

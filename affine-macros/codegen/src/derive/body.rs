@@ -5,7 +5,7 @@ use crate::mechanics::asked::Asked;
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::closed_form::ClosedForm;
-use crate::mechanics::conserved::{Candidate, candidates, still};
+use crate::mechanics::conserved::{Candidate, Conservation};
 use crate::mechanics::equations::Load;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::metric::Definitions;
@@ -17,9 +17,9 @@ use crate::mechanics::term::Frame;
 
 /// What a motion conserves.
 pub(super) struct Kept {
-    pub(super) moving: Vec<Candidate>,
+    pub(super) moving: Conservation,
     /// With `p = 0`.
-    pub(super) at_rest: Vec<Candidate>,
+    pub(super) at_rest: Conservation,
     /// Do rotations of space leave the motion unchanged, and the forces of themselves as well? Friction takes the angular
     /// momentum all the same.
     pub(super) rotations: bool,
@@ -32,26 +32,21 @@ impl Body<'_> {
         let [chart, resting] = [true, false].map(|moving| motion.chart(arena, moving));
         let whole = motion.loads(arena, &chart)?;
         let internal = motion.loads(arena, &resting)?;
-        let mut moving = still(arena, &chart, &whole, candidates(&chart));
+        let mut moving = Conservation::of(&chart);
+        moving.under(arena, &whole);
         // Translation dropped, and with it what it alone makes meaningful.
-        let mut at_rest = match chart.linear {
-            None => moving.clone(),
-            Some(_) => still(arena, &resting, &internal, candidates(&resting)),
-        };
-        if let Some(reaction) = self.multiplier(arena) {
-            moving.retain(|candidate| reaction.keeps(*candidate));
-            at_rest.retain(|candidate| reaction.keeps(*candidate));
+        let mut at_rest = moving.clone();
+        if chart.linear.is_some() {
+            at_rest = Conservation::of(&resting);
+            at_rest.under(arena, &internal);
         }
-        if let Some(u) = self.potential {
-            moving.retain(|candidate| u.keeps(*candidate));
-            at_rest.retain(|candidate| u.keeps(*candidate));
-            // A force on the centre of mass does not leave it at rest.
-            if u.moves_the_centre() {
-                at_rest.clone_from(&moving);
-            }
+        for u in self.multiplier(arena).iter().chain(self.potential) {
+            u.keep(arena, &mut moving);
+            u.keep(arena, &mut at_rest);
         }
         // Of the undamped motion: the forces are held against the same rotations on their own.
-        let rotations = moving.contains(&Candidate::TotalAngularMomentum) && forces.are_isotropic_in_space();
+        let rotations =
+            moving.whole.contains(&Candidate::TotalAngularMomentum) && forces.are_isotropic_in_space();
         if !forces.is_empty() {
             let mut defined = |chart: &Chart, loads: &[Load]| -> Definitions {
                 let names = motion.velocity_names(arena, chart);
@@ -59,14 +54,14 @@ impl Body<'_> {
             };
             let [of_whole, of_internal] = [defined(&chart, &whole), defined(&resting, &internal)];
             let centre = motion.centre_velocity(arena);
-            moving = forces.keep(arena, &chart, (&centre, &of_whole), moving);
-            at_rest = match forces.push_from_rest() {
-                true => moving.clone(),
-                false => {
-                    let fixed = (&CentreVelocity::Fixed, &of_internal);
-                    forces.at_rest().keep(arena, &resting, fixed, at_rest)
-                }
-            };
+            forces.keep(arena, &chart, (&centre, &of_whole), &mut moving);
+            let fixed = (&CentreVelocity::Fixed, &of_internal);
+            forces.at_rest().keep(arena, &resting, fixed, &mut at_rest);
+        }
+        // A force on the centre of mass does not leave it at rest.
+        let pushed = self.potential.is_some_and(Potential::moves_the_centre) || forces.push_from_rest();
+        if pushed {
+            at_rest.clone_from(&moving);
         }
         Some(Kept { moving, at_rest, rotations })
     }

@@ -1,7 +1,6 @@
-//! Symmetries and conserved quantities by their names.
+//! Symmetries by their names.
 
 use super::model::Model;
-use crate::mechanics::conserved::Candidate;
 use crate::mechanics::symmetry::Group;
 
 impl Model {
@@ -27,20 +26,4 @@ impl Model {
         });
         Some((constraint.group_name(n), surviving))
     }
-
-    /// Names of the conserved quantities.
-    #[must_use]
-    pub fn conserved_names(&self) -> Vec<String> {
-        names(&self.conserved)
-    }
-
-    /// Names of the conserved quantities of motions with `p = 0`.
-    #[must_use]
-    pub fn conserved_names_at_rest(&self) -> Vec<String> {
-        names(&self.conserved_at_rest)
-    }
-}
-
-fn names(list: &[Candidate]) -> Vec<String> {
-    list.iter().map(|candidate| format!("{candidate:?}")).collect()
 }

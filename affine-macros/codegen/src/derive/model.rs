@@ -14,9 +14,8 @@ use crate::ir::tangent::with_tangent;
 use crate::ir::taylor::Recurrence;
 use crate::mechanics::asked::Asked;
 use crate::mechanics::closed_form::ClosedForm;
-use crate::mechanics::conserved::Candidate;
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::describe::Formula;
+use crate::mechanics::describe::{Conserved, Formula};
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::reduction::left_out::LeftOut;
 use crate::mechanics::symmetry::Group;
@@ -85,9 +84,9 @@ pub struct Model {
     /// `1/m`, the stiffness and the scale of the dilatational motion, where it is taken out of the state.
     pub dilatation: Option<Program>,
     /// Conserved quantities.
-    pub conserved: Vec<Candidate>,
+    pub conserved: Conserved,
     /// Conserved quantities of motions with `p = 0`.
-    pub conserved_at_rest: Vec<Candidate>,
+    pub conserved_at_rest: Conserved,
     /// Numbers of positive and negative squares.
     pub signature: Option<(usize, usize)>,
     /// Is there a potential or any other force?

@@ -1,9 +1,11 @@
 //! What was derived, as rustdoc and as a constant.
 
-use proc_macro2::TokenStream;
+use std::fmt::Debug;
+
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::derive::Equations;
+use crate::derive::{Component, Conserved, Equations};
 use crate::ir::count::Operations;
 
 use super::context::Context;
@@ -57,10 +59,10 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         ));
     }
     lines.push(String::new());
-    lines.push(format!("Conserved: {}.", listed(&model.conserved_names())));
+    lines.push(format!("Conserved: {}.", listed(&model.conserved)));
     if model.translation.is_some() {
         lines.push(String::new());
-        lines.push(format!("With `p = 0`: {}.", listed(&model.conserved_names_at_rest())));
+        lines.push(format!("With `p = 0`: {}.", listed(&model.conserved_at_rest)));
     }
     lines.into_iter().map(indented).collect()
 }
@@ -90,8 +92,30 @@ pub(super) fn indented(line: String) -> String {
     if line.is_empty() { line } else { format!(" {line}") }
 }
 
-fn listed(names: &[String]) -> String {
-    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+fn listed(conserved: &Conserved) -> String {
+    let whole = conserved.whole.iter().map(|candidate| format!("`{candidate:?}`"));
+    let components = conserved.components.iter().map(|component| format!("`{}`", component.symbol));
+    whole.chain(components).collect::<Vec<_>>().join(", ")
+}
+
+/// What is conserved as expressions.
+fn conserved(context: &Context, Conserved { whole, components }: &Conserved) -> TokenStream {
+    let rt = &context.names.rt;
+    let name = |candidate: &dyn Debug| format_ident!("{}", format!("{candidate:?}"));
+    let whole = whole.iter().map(|candidate| {
+        let name = name(candidate);
+        quote!(#rt::Conserved::#name)
+    });
+    let components = components.iter().map(|Component { symbol, entries }| {
+        let terms = entries.iter().map(|entry| {
+            let (factor, of) = (Literal::i64_unsuffixed(entry.factor), name(&entry.of));
+            let (row, column) = (number(entry.row), number(entry.column));
+            quote!(#rt::Entry { factor: #factor, of: #rt::Conserved::#of, row: #row, column: #column })
+        });
+        quote!(#rt::Conserved::Component(#rt::Component { symbol: #symbol, entries: &[#(#terms),*] }))
+    });
+    let list = whole.chain(components);
+    quote!(&[#(#list),*])
 }
 
 pub(super) fn counts(operations: Operations) -> String {
@@ -176,15 +200,9 @@ pub(super) fn constant(context: &Context) -> TokenStream {
             },
         ),
         of_both(
-            [
-                ("conserved", &model.conserved_names()),
-                ("conserved_at_rest", &model.conserved_names_at_rest()),
-            ],
+            [("conserved", &model.conserved), ("conserved_at_rest", &model.conserved_at_rest)],
             &quote!(&[#rt::Conserved]),
-            |names| {
-                let names = names.iter().map(|name| format_ident!("{name}"));
-                quote!(&[#(#rt::Conserved::#names),*])
-            },
+            |list| conserved(context, list),
         ),
         of_both(
             [("full", &model.full.groups), ("reduced", &model.reduced.groups)],

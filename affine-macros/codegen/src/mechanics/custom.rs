@@ -4,13 +4,15 @@
 //! specification says: the form of a force and whether it has power, the class of a potential.
 
 use crate::algebra::kernel::{Asked, Callee, Group};
-use crate::algebra::ring::{Square, product, table, transpose};
+use crate::algebra::residue::Residue;
+use crate::algebra::ring::{Square, product, sum, table, transpose};
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 use crate::symbol::Quantity;
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
-use super::conserved::Candidate;
+use super::conserved::{Conservation, Momenta};
 use super::equations::Load;
+use super::group_point::{GroupPoint, inverse};
 use super::shared::{CentreVelocity, Shared, atoms, frame_of};
 use super::term::Frame;
 
@@ -205,30 +207,46 @@ impl Custom {
         Some((Polynomial::atom(energy), kernel))
     }
 
-    /// Does it leave the candidate at rest, whatever the field computes?
-    #[must_use]
-    pub fn keeps(&self, candidate: Candidate) -> bool {
-        use Candidate::{
-            ComovingLinearMomentum, Energy, LinearMomentum, OrbitalAngularMomentum, Spin, SpinNorm,
-            TotalAffineMomentum, TotalAngularMomentum, Vorticity, VorticityNorm,
+    /// What it leaves of what a chart conserves, whatever the field computes: any force of its form, any slopes of its class.
+    pub fn keep(&self, arena: &mut Arena, chart: &Chart, conservation: &mut Conservation) {
+        let energy = match self.role {
+            Role::Force { gyroscopic, .. } => gyroscopic,
+            Role::Potential { .. } => true,
         };
-        let of_the_centre =
-            matches!(candidate, LinearMomentum | ComovingLinearMomentum | OrbitalAngularMomentum);
-        match self.role {
-            Role::Force { on, gyroscopic } => match candidate {
-                Energy => gyroscopic,
-                TotalAffineMomentum | TotalAngularMomentum => false,
-                _ => of_the_centre != (on == On::Centre),
-            },
-            Role::Potential { class, moves } => match candidate {
-                Energy => true,
-                _ if of_the_centre => !moves,
-                Spin | SpinNorm => class.keeps_spin(),
-                TotalAngularMomentum => class.keeps_spin() && !moves,
-                Vorticity | VorticityNorm => class.keeps_vorticity(),
-                _ => false,
-            },
-        }
+        let placed = Chart::new(arena, chart.dim, Momentum::Body, Some(Linear::Space));
+        let rates = |seed| self.rates(&GroupPoint::numbered(arena, &placed, chart.confined, seed), chart);
+        conservation.under_forces(energy, &rates);
+    }
+
+    /// The rates of the momenta by a force of its form.
+    fn rates(&self, point: &GroupPoint, chart: &Chart) -> Momenta {
+        let n = chart.dim;
+        let any = |k: usize| point.random(format!("{} of {}", k, self.name));
+        let square = |k: usize| table(n, |a, b| any(n * (n * k + a) + b));
+        let phi = table(n, |i, a| point.value(&Quantity::Placement.at([i + 1, a + 1])));
+        let x: Vec<Residue> = (1..=n).map(|i| point.value(&Quantity::Position.at([i]))).collect();
+        let symmetric = || sum(&square(1), &transpose(&square(1)));
+        let nothing = table(n, |_, _| Residue::ZERO);
+        let (on_centre, on_pi) = match self.role {
+            Role::Force { on: On::Centre, .. } => (true, nothing),
+            Role::Force { on: On::Space, .. } => (false, product(&inverse(&phi), &square(1))),
+            Role::Force { on: On::Body, .. } => (false, product(&square(1), &inverse(&phi))),
+            Role::Potential { class, moves } => (
+                moves,
+                match class {
+                    Class::General => square(1),
+                    Class::Green => product(&symmetric(), &transpose(&phi)),
+                    Class::Finger => product(&transpose(&phi), &symmetric()),
+                    Class::Isotropic => product(&isotropic(&phi, &any), &transpose(&phi)),
+                },
+            ),
+        };
+        let on_p: Vec<Residue> = (0..n).map(|i| if on_centre { any(i) } else { Residue::ZERO }).collect();
+        let on_pi = match chart.confined {
+            Some(group) => product(&inverse(&phi), &group.projected(&product(&phi, &on_pi))),
+            None => on_pi,
+        };
+        Momenta::by_forces((&x, &phi), &on_p, &on_pi)
     }
 
     /// Does the centre of mass move as without it, and need not be known to it?
@@ -266,6 +284,17 @@ impl Custom {
     fn matrix(&self, arena: &mut Arena, of: Quantity, n: usize) -> Matrix {
         Matrix::symbols(arena, of.at([self.place]), n)
     }
+}
+
+/// Any isotropic function of `G`: a sum of its powers, of which a matrix has no more than its rows.
+fn isotropic(phi: &Square<Residue>, any: &dyn Fn(usize) -> Residue) -> Square<Residue> {
+    let (n, green) = (phi.len(), product(&transpose(phi), phi));
+    // Horner's scheme.
+    (0..n).fold(table(n, |_, _| Residue::ZERO), |value, k| {
+        let coefficient = any(n + k);
+        let constant = table(n, |a, b| if a == b { coefficient } else { Residue::ZERO });
+        sum(&product(&value, &green), &constant)
+    })
 }
 
 /// A call, forces on the affine momentum of the chart and on `p`, power of what is no potential.

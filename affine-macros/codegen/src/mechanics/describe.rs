@@ -1,6 +1,7 @@
 //! The derivation as formulas, in text and LaTeX. A matrix formula is stated only after its components were
 //! compared with the derived ones.
 
+mod conserved;
 mod equations;
 mod forces;
 mod hamiltonian;
@@ -16,6 +17,7 @@ use crate::mechanics::notation::MatrixName;
 use crate::mechanics::term::{Coefficient, Frame, Pattern, Term, TermKind};
 
 pub use super::notation::{Described, Formula, Notation};
+pub use conserved::{Component, Conserved, conserved};
 pub use equations::equations;
 pub use hamiltonian::{hamiltonian, kinetic_energy_of_momenta};
 pub use system::system;

@@ -10,6 +10,7 @@ use crate::algebra::residue::Residue;
 use crate::algebra::ring::{Square, difference, outer, product, sum, table, times, transpose};
 
 use super::charts::{Chart, Coordinate, Momentum};
+use super::conserved::Momenta;
 use super::equations::Load;
 use super::group_point::inverse;
 
@@ -19,9 +20,9 @@ pub(super) type Moving<T> = [T; 2];
 /// A phase point in canonical coordinates and its velocity.
 pub(super) struct Flow {
     x: Moving<Vec<Residue>>,
-    pub(super) p: Moving<Vec<Residue>>,
+    p: Moving<Vec<Residue>>,
     phi: Moving<Square<Residue>>,
-    pub(super) pi: Moving<Square<Residue>>,
+    pi: Moving<Square<Residue>>,
     /// `Sigma = phi Pi`.
     pub(super) sigma: Moving<Square<Residue>>,
     /// `Sigma_hat = Pi phi`.
@@ -79,18 +80,20 @@ impl Flow {
         }
     }
 
-    /// `d(phi^T p)/dt`.
-    pub(super) fn comoving_momentum_rate(&self) -> Vec<Residue> {
-        let [kept, turned] = [(0, 1), (1, 0)].map(|(k, l)| times(&transpose(&self.phi[k]), &self.p[l]));
-        kept.iter().zip(&turned).map(|(a, b)| a.add(b)).collect()
-    }
-
-    /// `d(x p^T)/dt`.
-    pub(super) fn orbital_rate(&self) -> Square<Residue> {
-        match self.p[0].is_empty() {
-            true => table(self.phi[0].len(), |_, _| Residue::ZERO),
-            false => sum(&outer(&self.x[1], &self.p[0]), &outer(&self.x[0], &self.p[1])),
-        }
+    /// The momenta that are linear in `p` and `Pi`, and their rates.
+    pub(super) fn momenta(&self) -> [Momenta; 2] {
+        let [p, p_dot] = &self.p;
+        let ([x, x_dot], [phi, phi_dot]) = (&self.x, &self.phi);
+        let p_hat = times(&transpose(phi), p);
+        let turned = [times(&transpose(phi), p_dot), times(&transpose(phi_dot), p)];
+        let p_hat_dot: Vec<Residue> = turned[0].iter().zip(&turned[1]).map(|(a, b)| a.add(b)).collect();
+        let orbital = outer(x, p);
+        let orbital_dot = sum(&outer(x_dot, p), &outer(x, p_dot));
+        let moves = !p.is_empty();
+        let centre = [(p.as_slice(), p_hat.as_slice(), &orbital), (p_dot, &p_hat_dot, &orbital_dot)];
+        [0, 1].map(|k| {
+            Momenta::new(moves.then_some(centre[k]), [&self.sigma[k], &self.sigma_hat[k], &self.pi[k]])
+        })
     }
 }
 
@@ -99,10 +102,10 @@ fn moving_product(a: &Moving<Square<Residue>>, b: &Moving<Square<Residue>>) -> M
 }
 
 /// `tr(m^(k-1) m_dot)`, the rate of `tr m^k / k`.
-pub(super) fn power_rate(k: usize, [m, m_dot]: &Moving<Square<Residue>>) -> Vec<Residue> {
+pub(super) fn power_rate(k: usize, [m, m_dot]: &Moving<Square<Residue>>) -> Residue {
     let mut power = m_dot.clone();
     for _ in 1..k {
         power = product(m, &power);
     }
-    vec![(0..m.len()).fold(Residue::ZERO, |trace, a| trace.add(&power[a][a]))]
+    (0..m.len()).fold(Residue::ZERO, |trace, a| trace.add(&power[a][a]))
 }

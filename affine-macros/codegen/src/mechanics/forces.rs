@@ -4,7 +4,7 @@ use crate::algebra::{Arena, Expr};
 use crate::symbol::Quantity;
 
 use super::charts::Chart;
-use super::conserved::{Candidate, still};
+use super::conserved::{Candidate, Conservation};
 use super::custom::Custom;
 use super::dissipation::Dissipation;
 use super::equations::Load;
@@ -38,23 +38,23 @@ impl Forces {
         loads
     }
 
-    /// Those of the candidates that they leave at rest, for all momenta; `chart` is that of the model's own frame with `p`
-    /// spatial, and `shared` defines its velocities. `T` is quadratic in the momenta, the forces are linear: the rates that
-    /// they and the bracket with `H` give have different degrees, so that each has to vanish for itself.
+    /// What they leave of what is conserved, for all momenta; `chart` is that of the model's own frame with `p` spatial, and
+    /// `shared` defines its velocities. `T` is quadratic in the momenta, the forces are linear: the rates that they and the bracket
+    /// with `H` give have different degrees, so that each has to vanish for itself.
     pub fn keep(
         &self,
         arena: &mut Arena,
         chart: &Chart,
         (centre, shared): (&CentreVelocity, &Definitions),
-        mut candidates: Vec<Candidate>,
-    ) -> Vec<Candidate> {
-        candidates.retain(|candidate| self.customs.iter().all(|custom| custom.keeps(*candidate)));
-        let Some(dissipation) = &self.dissipation else { return candidates };
+        conservation: &mut Conservation,
+    ) {
+        self.customs.iter().for_each(|custom| custom.keep(arena, chart, conservation));
+        let Some(dissipation) = &self.dissipation else { return };
         // The forces take energy out of every motion that they act on.
-        candidates.retain(|candidate| *candidate != Candidate::Energy);
+        conservation.whole.retain(|candidate| *candidate != Candidate::Energy);
         let load = dissipation.load(arena, chart, centre);
         let shared = Load { shared: shared.clone(), ..Load::default() };
-        still(arena, chart, &[shared, load], candidates)
+        conservation.under(arena, &[shared, load]);
     }
 
     /// Those that act where `p = 0`.

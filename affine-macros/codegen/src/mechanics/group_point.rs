@@ -5,10 +5,12 @@
 //! over `2^61` (Schwartz, J. ACM 27 (1980) 701; the groups are rational varieties), at [`POINTS`] points with that to
 //! the power [`POINTS`].
 
-use std::collections::HashMap;
+use std::cell::RefCell;
 use std::fmt::Display;
 
-use crate::algebra::evaluate::{Field, evaluate_polynomial};
+use rustc_hash::FxHashMap;
+
+use crate::algebra::evaluate::{Field, evaluate};
 use crate::algebra::fault::never_missing;
 use crate::algebra::residue::Residue;
 use crate::algebra::ring::{Ring, Square, adjugate, product, table};
@@ -20,23 +22,26 @@ use super::constraint::Constraint;
 use super::metric::Definitions;
 
 /// Number of points that decide.
-const POINTS: usize = 3;
+pub(super) const POINTS: usize = 3;
 
 /// Values of the placement, of a projected momentum and of `exp(q)`; of every other name one that depends on it alone.
 #[derive(Clone)]
 pub(super) struct GroupPoint {
     seed: usize,
-    values: HashMap<Symbol, Residue>,
+    values: FxHashMap<Symbol, Residue>,
+    /// Of symbols that were asked for: polynomials name them many times.
+    known: RefCell<FxHashMap<Expr, Residue>>,
 }
 
 impl GroupPoint {
     /// The points that decide about a chart of a motion, on the group of its constraint where it has one.
     pub(super) fn all(arena: &Arena, chart: &Chart, group: Option<Constraint>) -> Vec<Self> {
-        (0..POINTS).map(|seed| Self::new(arena, chart, group, seed)).collect()
+        (0..POINTS).map(|seed| Self::numbered(arena, chart, group, seed)).collect()
     }
 
-    fn new(arena: &Arena, chart: &Chart, group: Option<Constraint>, seed: usize) -> Self {
-        let mut point = Self { seed, values: HashMap::new() };
+    /// The point of this number.
+    pub(super) fn numbered(arena: &Arena, chart: &Chart, group: Option<Constraint>, seed: usize) -> Self {
+        let mut point = Self { seed, values: FxHashMap::default(), known: RefCell::default() };
         let scale = match group {
             None | Some(Constraint::Conformal) => point.random("scale"),
             Some(Constraint::Isochoric | Constraint::Rigid) => Residue::from_rational(&Rational::ONE),
@@ -75,7 +80,7 @@ impl GroupPoint {
 
     /// The first of them.
     pub(super) fn first(arena: &Arena, chart: &Chart) -> Self {
-        Self::new(arena, chart, chart.confined, 0)
+        Self::numbered(arena, chart, chart.confined, 0)
     }
 
     /// A point at `phi = 1`, without other relations.
@@ -83,15 +88,16 @@ impl GroupPoint {
         let one = table(chart.dim, |i, a| Residue::from_rational(&Rational::from(i64::from(i == a))));
         let entries = chart.phi.0.concat().into_iter().zip(one.concat());
         let named = entries.filter_map(|(symbol, value)| Some((arena.as_symbol(symbol)?.clone(), value)));
-        Self { seed: 0, values: named.collect() }
+        Self { seed: 0, values: named.collect(), known: RefCell::default() }
     }
 
     /// Gives quantities the values of their definitions, in order.
     pub(super) fn define(&mut self, arena: &Arena, definitions: &Definitions) {
         for (symbol, definition) in definitions {
             let value = self.evaluate(arena, definition);
-            if let Some(symbol) = arena.as_symbol(*symbol) {
-                self.values.insert(symbol.clone(), value);
+            if let Some(name) = arena.as_symbol(*symbol) {
+                self.values.insert(name.clone(), value);
+                self.known.get_mut().insert(*symbol, value);
             }
         }
     }
@@ -118,8 +124,27 @@ impl GroupPoint {
 
     /// The value of a polynomial.
     pub(super) fn evaluate(&self, arena: &Arena, polynomial: &Polynomial) -> Residue {
-        let value = evaluate_polynomial(arena, polynomial, &|symbol| Some(self.value(symbol)));
-        never_missing(value, "a form of the energy has values on the group", Residue::UNKNOWN)
+        let mut sum = Residue::ZERO;
+        for (monomial, coefficient) in polynomial.terms() {
+            let mut product = Residue::from_rational(coefficient);
+            for atom in monomial {
+                product = product.mul(&self.of_atom(arena, *atom));
+            }
+            sum = sum.add(&product);
+        }
+        sum
+    }
+
+    fn of_atom(&self, arena: &Arena, atom: Expr) -> Residue {
+        if let Some(value) = self.known.borrow().get(&atom) {
+            return *value;
+        }
+        let value = evaluate(arena, atom, &|symbol| Some(self.value(symbol)));
+        let value = never_missing(value, "a form of the energy has values on the group", Residue::UNKNOWN);
+        if arena.as_symbol(atom).is_some() {
+            self.known.borrow_mut().insert(atom, value);
+        }
+        value
     }
 }
 

@@ -31,8 +31,8 @@ use crate::algebra::residue::vanishes;
 use crate::algebra::{Arena, Expr};
 use crate::symbol::Quantity;
 
-use super::charts::Momentum;
-use super::conserved::Candidate;
+use super::charts::{Chart, Linear, Momentum};
+use super::conserved::{Candidate, Conservation};
 use super::constraint::Constraint;
 pub use axes::OnAxes;
 pub use base::Base;
@@ -135,6 +135,14 @@ impl Potential {
             return !self.depends_on_time();
         }
         self.invariance.keeps(candidate)
+    }
+
+    /// What it leaves of what is conserved: `{J, T}` is of another degree in the momenta than `{J, U}`, so that both vanish
+    /// each for itself.
+    pub fn keep(&self, arena: &mut Arena, conservation: &mut Conservation) {
+        let chart = Chart::new(arena, self.dim, Momentum::Body, Some(Linear::Space));
+        let energy = !self.depends_on_time();
+        conservation.under_forces(energy, &|seed| self.invariance.at(arena, &chart, seed));
     }
 
     /// The potential with what keeps the state within its domain.

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod brackets;
+mod components;
 mod conservation;
 mod derivation;
 mod expansion;

@@ -11,6 +11,7 @@ use affine_codegen::mechanics::term::Frame;
 use affine_codegen::spec;
 use affine_oracle::{Kinetic, Matrix, Observable, Random, State, Term, rational};
 
+use super::components::assert_both_complete;
 use super::derivation::point;
 use super::models::{literal, matrix_literal, symmetric};
 use super::points::{Values, agree, coordinates, exact, fraction, own, put, rates, run, velocities};
@@ -252,8 +253,12 @@ fn the_lists_are_exactly_what_is_conserved() {
                 .map(|observable| observable.name())
                 .collect();
             let list = if at_rest { &model.conserved_at_rest } else { &model.conserved };
-            let listed: Vec<String> = list.iter().map(|candidate| format!("{candidate:?}")).collect();
+            let listed: Vec<String> = list.whole.iter().map(|candidate| format!("{candidate:?}")).collect();
             assert_eq!(listed, expected, "{}, at rest: {at_rest}", sum.text);
+        }
+        if n == 2 {
+            let lists = [&model.conserved, &model.conserved_at_rest];
+            assert_both_complete(&sum.text, &mut random, &sum.kinetic, lists);
         }
     }
 }

@@ -4,7 +4,7 @@
 use affine_codegen::algebra::{Arena, Polynomial, Rational};
 use affine_codegen::mechanics::brackets::poisson;
 use affine_codegen::mechanics::charts::{Chart, Linear, Momentum};
-use affine_codegen::mechanics::conserved::{Candidate, candidates, still};
+use affine_codegen::mechanics::conserved::{Candidate, Conservation};
 use affine_codegen::mechanics::kinetics::Kinetics;
 
 use super::brackets::Canonical;
@@ -205,7 +205,9 @@ fn hamiltonians(chart: &Chart) -> Vec<(&'static str, Polynomial)> {
 /// What the motion of a Hamiltonian keeps.
 fn conserved(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> Vec<Candidate> {
     let motion = Kinetics::polynomial(arena, chart, h).load();
-    still(arena, chart, &[motion], candidates(chart))
+    let mut conservation = Conservation::of(chart);
+    conservation.under(arena, &[motion]);
+    conservation.whole
 }
 
 #[test]

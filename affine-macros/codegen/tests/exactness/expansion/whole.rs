@@ -6,7 +6,7 @@ use affine_codegen::algebra::{Arena, Polynomial};
 use affine_codegen::mechanics::body::Body;
 use affine_codegen::mechanics::charts::{Chart, Coordinate, Momentum};
 use affine_codegen::mechanics::closed_form::ClosedForm;
-use affine_codegen::mechanics::conserved::{Candidate, candidates, still};
+use affine_codegen::mechanics::conserved::{Candidate, Conservation};
 use affine_codegen::mechanics::equations::{Form as Way, System};
 use affine_codegen::mechanics::forces::Forces;
 use affine_codegen::mechanics::form::Form;
@@ -57,8 +57,9 @@ impl Whole {
         weight.iter().chain(&acting).for_each(|load| full.add(load));
         let keeps = |candidate| potential.as_ref().is_none_or(|u| u.keeps(candidate));
         let moving: Vec<_> = weight.into_iter().chain([kinetics.load()]).collect();
-        let kept = still(&arena, &own, &moving, candidates(&own));
-        let rotations = kept.contains(&Candidate::TotalAngularMomentum)
+        let mut kept = Conservation::of(&own);
+        kept.under(&arena, &moving);
+        let rotations = kept.whole.contains(&Candidate::TotalAngularMomentum)
             && keeps(Candidate::TotalAngularMomentum)
             && forces.are_isotropic_in_space();
         Self { args: args.to_owned(), arena, motion, h, potential, forces, own, full, rotations }

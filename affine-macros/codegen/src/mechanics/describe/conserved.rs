@@ -1,0 +1,68 @@
+//! What is conserved, by names and formulas.
+
+use crate::algebra::{Arena, Polynomial, Rational};
+use crate::mechanics::conserved::{Candidate, Conservation, Entry};
+use crate::mechanics::notation::Notation;
+use crate::symbol::{Quantity, Symbol};
+
+/// What a motion conserves.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Conserved {
+    /// Momenta, and functions of them, as a whole.
+    pub whole: Vec<Candidate>,
+    /// Sums of entries of momenta of which not all are conserved.
+    pub components: Vec<Component>,
+}
+
+/// A sum of multiples of entries of momenta.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Component {
+    /// The formula: `Vort_12`.
+    pub symbol: String,
+    /// The summands.
+    pub entries: Vec<Entry>,
+}
+
+/// What is conserved, as it is listed.
+pub fn conserved(arena: &mut Arena, notation: &Notation, conservation: &Conservation) -> Conserved {
+    let components = conservation.components(arena).into_iter().map(|entries| {
+        let mut sum = Polynomial::zero();
+        for entry in &entries {
+            sum.add_scaled(&written(arena, entry), &Rational::from(entry.factor));
+        }
+        Component { symbol: notation.polynomial(arena, &sum).text, entries }
+    });
+    Conserved { components: components.collect(), whole: conservation.whole.clone() }
+}
+
+/// The entry as formulas write it: of angular momenta of which no entry has a symbol, by the products and entries that it is
+/// made of.
+fn written(arena: &mut Arena, Entry { of, row, column, .. }: &Entry) -> Polynomial {
+    let (row, column) = (*row, *column);
+    let mut atom = |symbol: Symbol| Polynomial::atom(arena.symbol(symbol));
+    let one = match of {
+        Candidate::OrbitalAngularMomentum => {
+            let mut product =
+                |i, j| atom(Quantity::Position.at([i])).mul(&atom(Quantity::LinearMomentum.at([j])));
+            return difference(product(row, column), &product(column, row));
+        }
+        Candidate::TotalAngularMomentum => {
+            let mut entry = |i, j| atom(Quantity::TotalAffineMomentum.at([i, j]));
+            return difference(entry(row, column), &entry(column, row));
+        }
+        Candidate::LinearMomentum => Quantity::LinearMomentum.at([row]),
+        Candidate::ComovingLinearMomentum => Quantity::ComovingLinearMomentum.at([row]),
+        Candidate::Spin => Quantity::Spin.at([row, column]),
+        Candidate::Vorticity => Quantity::Vorticity.at([row, column]),
+        Candidate::ComovingAffineSpin => Quantity::ComovingAffineSpin.at([row, column]),
+        Candidate::TotalAffineMomentum => Quantity::TotalAffineMomentum.at([row, column]),
+        Candidate::CanonicalMomentum => Quantity::CanonicalMomentum.at([row, column]),
+        _ => Quantity::AffineSpin.at([row, column]),
+    };
+    atom(one)
+}
+
+fn difference(mut a: Polynomial, b: &Polynomial) -> Polynomial {
+    a.add_scaled(b, &Rational::MINUS_ONE);
+    a
+}
