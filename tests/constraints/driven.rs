@@ -1,13 +1,16 @@
 //! Forces under constraints. At one state a force is the slope of a potential that is linear in `x` and `phi`: under that
 //! the oracle's multipliers give the motion.
 
-use affine_oracle::{Constraint, Differential, Kinetic, Observable, Place, State, Term, rational};
+use affine_oracle::{
+    Constraint, Differential, Kinetic, Matrix as Exact, Observable, Place, State, Term, rational,
+};
 use affine_runtime::force::Motion;
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 
 use affine_tests::charts::{
-    T0, assert_charts_lead_back, assert_reduced_equations_move, exists, groups, matrix, vector,
+    T0, assert_charts_lead_back, assert_reduced_equations_move, exists, groups, listed_as_a_whole, matrix,
+    vector,
 };
 use affine_tests::fields::{
     Fibre, Kneading, Spring, Stirring, Wind, blown, canonical, kneaded, stirred, under,
@@ -85,22 +88,23 @@ fn agrees_with_the_oracle<const N: usize, M: Driven<N>>() {
 fn lists_are_exact<const N: usize, M: Driven<N>>(decided: bool) {
     let (model, kinetic) = (M::body(), M::kinetic());
     let spin = M::DESCRIPTION.full.last().unwrap().name();
-    let listed: Vec<Observable> = M::DESCRIPTION
-        .conserved
-        .iter()
-        .map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap())
-        .collect();
-    for &observable in Observable::ALL {
-        if observable == Observable::Energy {
-            continue;
-        }
-        let rates = model.points().into_iter().flat_map(|point| {
+    let brackets = |observable: Observable| -> Vec<Exact> {
+        let bracket = |point| {
             let state = exact_state(spin, &point);
             let (on_p, on_pi) = M::linear(T0, &state);
             let linear = |place: &Place| energy::<N>(place, &on_p, &on_pi);
             let motion = kinetic.constrained_motion(M::CONSTRAINT, &state, T0, linear).unwrap();
-            motion.bracket(observable).unwrap().to_f64()
-        });
+            motion.bracket(observable).unwrap()
+        };
+        model.points().into_iter().map(bracket).collect()
+    };
+    let is_decided = |observable| decided && exists(observable, N, M::TRANSLATION);
+    let listed = listed_as_a_whole(M::DESCRIPTION.conserved, is_decided, BRACKET_ZERO, &brackets);
+    for &observable in Observable::ALL {
+        if observable == Observable::Energy {
+            continue;
+        }
+        let rates = brackets(observable).into_iter().flat_map(|rate| rate.to_f64());
         let largest = rates.fold(0.0, |largest: f64, rate| largest.max(rate.abs()));
         assert!(
             largest <= BRACKET_ZERO || largest > BRACKET_VISIBLE,

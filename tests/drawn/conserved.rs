@@ -1,17 +1,20 @@
 //! What is conserved: a quantity of the free motion stays so exactly where the energy is the same after every motion of the
 //! group that the quantity generates. Elements are drawn, and the energy is evaluated as written.
 
-use affine_codegen::mechanics::conserved::Candidate;
+use affine_codegen::mechanics::conserved::{Candidate, Entry};
 use affine_oracle::Random;
 use affine_runtime::scalar::Scalar;
 use qd::Quad;
 
 use super::check::{Case, Mistakes, same};
-use super::number::Rounded;
+use super::number::{Rounded, size};
 use super::place::{Measures, Place, Square, applied, product, short, square};
 
 /// Elements of a group at each place.
 const ELEMENTS: usize = 2;
+
+/// How far a place goes along what a component generates.
+const STEP: f64 = 1e-12;
 
 impl Case<'_> {
     /// Both lists, moving and at rest, by the energy at these places; whether a list is short, of an energy with roots: that
@@ -22,17 +25,17 @@ impl Case<'_> {
         let left = |list: &[Candidate], kept: &mut dyn FnMut(&Candidate) -> bool| -> Vec<Candidate> {
             list.iter().copied().filter(kept).collect()
         };
-        let moving = left(&self.free.conserved, &mut kept);
+        let moving = left(&self.free.conserved.whole, &mut kept);
         // A force on the centre of mass does not leave it at rest.
         let at_rest = match kept(&Candidate::LinearMomentum) {
-            true => left(&self.free.conserved_at_rest, &mut kept),
+            true => left(&self.free.conserved_at_rest.whole, &mut kept),
             false => moving.clone(),
         };
         let lists = [
-            ("conserved", &self.model.conserved, moving),
-            ("conserved at rest", &self.model.conserved_at_rest, at_rest),
+            ("conserved", &self.model.conserved.whole, moving),
+            ("conserved at rest", &self.model.conserved_at_rest.whole, at_rest),
         ];
-        let mut is_short = false;
+        let mut is_short = self.keeps_components(places, mistakes);
         for (what, found, expected) in lists {
             let within = found.iter().all(|candidate| expected.contains(candidate));
             if *found != expected && within && self.energy.has_roots() {
@@ -42,6 +45,56 @@ impl Case<'_> {
             }
         }
         is_short
+    }
+
+    /// The components: along what they generate the energy does not change; along what entries of momenta generate that are
+    /// conserved without it, it does, where these are not listed. Whether any of an energy with roots is missing.
+    fn keeps_components(&self, places: &[Place], mistakes: &mut Mistakes) -> bool {
+        let (model, free) = (self.model, self.free);
+        let changes = |entries: &[Entry]| places.iter().any(|place| self.changes(entries, place));
+        for component in model.conserved.components.iter().chain(&model.conserved_at_rest.components) {
+            if changes(&component.entries) {
+                mistakes.push(format!("{} is not conserved", component.symbol));
+            }
+        }
+        let mut is_short = false;
+        for of in [
+            Candidate::LinearMomentum,
+            Candidate::Spin,
+            Candidate::OrbitalAngularMomentum,
+            Candidate::Vorticity,
+        ] {
+            if !free.conserved.whole.contains(&of) || model.conserved.whole.contains(&of) {
+                continue;
+            }
+            let n = places[0].dim();
+            let above = (1..=n).flat_map(|row| (row + 1..=n).map(move |column| (row, column)));
+            let entries: Vec<(usize, usize)> = match of {
+                Candidate::LinearMomentum => (1..=n).map(|row| (row, 1)).collect(),
+                _ => above.collect(),
+            };
+            for (row, column) in entries {
+                let entry = Entry { factor: 1, of, row, column };
+                let listed = model.conserved.components.iter().any(|known| known.entries == [entry]);
+                let is_missing = !listed && !changes(&[entry]);
+                if is_missing && self.energy.has_roots() {
+                    is_short = true;
+                } else if is_missing {
+                    mistakes.push(format!("{of:?}, entry {row}{column}, is conserved"));
+                }
+            }
+        }
+        is_short
+    }
+
+    /// Does the energy at this place change along what the entries generate?
+    fn changes(&self, entries: &[Entry], place: &Place) -> bool {
+        let value = |place: &Place| self.energy.value(&Measures::at(place, self.energy.is_stretched())).value;
+        let there = along(entries, place, Quad::from(STEP));
+        let (here, there) = (value(place), value(&there));
+        let change = size(there.value - here.value);
+        // To second order in the step, and to the first where it changes.
+        change > 1e-8 * STEP * (1.0 + size(here.value)) + here.error + there.error
     }
 
     /// Is the energy at this place that after motions of the group?
@@ -94,6 +147,56 @@ fn moved(random: &mut Random, candidate: Candidate, place: &Place) -> Place {
         }
     }
     there
+}
+
+/// The place after a short way along what a sum of entries of momenta generates: `x_j` by `d/dp_j`, `phi_jA` by `d/dPi_Aj`.
+fn along(entries: &[Entry], place: &Place, step: Quad) -> Place {
+    let mut there = place.clone();
+    let n = place.dim();
+    for Entry { factor, of, row, column } in entries {
+        let (i, j) = (row - 1, column - 1);
+        let signed = |sign: f64| step * Quad::from(sign * *factor as f64);
+        let across = [(i, j, signed(1.0)), (j, i, signed(-1.0))];
+        for (i, j, step) in across.into_iter().take(if is_skew(*of) { 2 } else { 1 }) {
+            let orbital = [
+                Candidate::OrbitalAngularMomentum,
+                Candidate::TotalAngularMomentum,
+                Candidate::TotalAffineMomentum,
+            ];
+            let spatial = [
+                Candidate::AffineSpin,
+                Candidate::Spin,
+                Candidate::TotalAngularMomentum,
+                Candidate::TotalAffineMomentum,
+            ];
+            if orbital.contains(of) {
+                there.x[j] += step * place.x[i];
+            }
+            for a in 0..n {
+                match of {
+                    _ if spatial.contains(of) => there.phi[j][a] += step * place.phi[i][a],
+                    Candidate::ComovingAffineSpin | Candidate::Vorticity => {
+                        there.phi[a][i] += step * place.phi[a][j];
+                    }
+                    Candidate::ComovingLinearMomentum => there.x[a] += step * place.phi[a][i],
+                    Candidate::CanonicalMomentum if a == i => there.phi[j][a] += step,
+                    Candidate::LinearMomentum if a == i => there.x[a] += step,
+                    _ => {}
+                }
+            }
+        }
+    }
+    there
+}
+
+fn is_skew(of: Candidate) -> bool {
+    matches!(
+        of,
+        Candidate::Spin
+            | Candidate::OrbitalAngularMomentum
+            | Candidate::TotalAngularMomentum
+            | Candidate::Vorticity
+    )
 }
 
 /// Near the identity.

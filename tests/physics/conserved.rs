@@ -5,14 +5,15 @@ use affine_oracle::{Kinetic, Observable, Random, State};
 use affine_runtime::model::Conserved;
 
 use crate::families::{Family, Parameters};
-pub(crate) use affine_tests::charts::exists;
+pub(crate) use affine_tests::charts::{exists, listed_as_a_whole};
 
 fn assert_conserved(kinetic: &Kinetic, state: &State, listed: &[Conserved], translation: bool) {
-    let listed: Vec<Observable> =
-        listed.iter().map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap()).collect();
     let motion = kinetic.motion(state).unwrap();
+    let n = state.dimension();
+    let brackets = |of| vec![motion.bracket(of).unwrap()];
+    let listed = listed_as_a_whole(listed, |of| exists(of, n, translation), 0.0, brackets);
     for &quantity in Observable::ALL {
-        if !exists(quantity, state.dimension(), translation) {
+        if !exists(quantity, n, translation) {
             assert!(!listed.contains(&quantity), "{quantity:?} does not exist");
         } else {
             let conserved = motion.bracket(quantity).unwrap().is_zero();

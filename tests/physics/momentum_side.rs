@@ -6,7 +6,7 @@ use affine_oracle::{
 use affine_runtime::prelude::*;
 
 use crate::canonical::{assert_charts_lead_back, assert_reduced_equations_move, groups};
-use crate::conserved::exists;
+use crate::conserved::{exists, listed_as_a_whole};
 use crate::families::{Closed, matrix, vector};
 use crate::geodesics::{T0, assert_motion};
 use affine_tests::reference::{Reference, assert_close, entries, norm};
@@ -120,8 +120,8 @@ fn lists_are_exact<const N: usize, S: Statement<N>>() {
             (state.at_rest(), S::DESCRIPTION.conserved_at_rest, false),
             (state, S::DESCRIPTION.conserved, S::TRANSLATION),
         ] {
-            let listed: Vec<Observable> =
-                listed.iter().map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap()).collect();
+            let brackets = |of| vec![hamiltonian.bracket(of, &state)];
+            let listed = listed_as_a_whole(listed, |of| exists(of, N, translation), 0.0, brackets);
             for &quantity in Observable::ALL {
                 let conserved =
                     exists(quantity, N, translation) && hamiltonian.bracket(quantity, &state).is_zero();

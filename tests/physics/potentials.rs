@@ -8,7 +8,7 @@ use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 
 use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
-use crate::conserved::exists;
+use crate::conserved::{exists, listed_as_a_whole};
 use crate::families::{matrix, vector};
 use crate::stated::{
     body_inertia, body_translation, casimir1_squared, casimir2, dalembert, dalembert_scalar, is_moving,
@@ -86,11 +86,11 @@ pub(crate) fn lists_are_exact<const N: usize, M: Loaded<N>>() {
 }
 
 fn assert_listed<const N: usize, M: Loaded<N>>(listed: &[Conserved], states: Vec<State>, translation: bool) {
-    let listed: Vec<Observable> =
-        listed.iter().map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap()).collect();
     let kinetic = M::kinetic();
     let motions: Vec<Motion> =
         states.iter().map(|state| kinetic.motion(state).unwrap().under(T0, M::potential).unwrap()).collect();
+    let brackets = |of| motions.iter().map(|motion| motion.bracket(of).unwrap()).collect();
+    let listed = listed_as_a_whole(listed, |of| exists(of, N, translation), BRACKET_ZERO, brackets);
     for &observable in Observable::ALL {
         let expected = if observable == Observable::Energy {
             // The oracle's observable is the kinetic energy alone; dH/dt = dU/dt.

@@ -1,8 +1,8 @@
 //! What generated models of every kind are held against: layouts, the ways between charts, the flow of the reduced
 //! equations.
 
-use affine_oracle::{Observable, State};
-use affine_runtime::model::{Group, StateVector};
+use affine_oracle::{Matrix as Exact, Observable, State, rounded};
+use affine_runtime::model::{Conserved, Group, StateVector};
 use affine_runtime::prelude::*;
 
 use crate::dual::Dual;
@@ -99,6 +99,63 @@ pub fn exists(quantity: Observable, n: usize, translation: bool) -> bool {
         Casimir3 | DeviatorCasimir3 => n == 3,
         _ => true,
     }
+}
+
+/// The quantities that are listed as a whole. The components beside them do not change along the motions of these brackets, but
+/// for roundings of size `zero`; of each momentum that `exists` and is not listed as a whole, every entry that does not change is
+/// among them.
+pub fn listed_as_a_whole(
+    listed: &[Conserved],
+    exists: impl Fn(Observable) -> bool,
+    zero: f64,
+    brackets: impl Fn(Observable) -> Vec<Exact>,
+) -> Vec<Observable> {
+    let (mut whole, mut components) = (Vec::new(), Vec::new());
+    for quantity in listed {
+        match quantity {
+            Conserved::Component(component) => components.push(component),
+            quantity => whole.push(observable(*quantity)),
+        }
+    }
+    let rates = |of: Observable, row: usize, column: usize| -> Vec<f64> {
+        brackets(of).iter().map(|rate| rounded(&rate.entry(row - 1, column - 1))).collect()
+    };
+    for component in &components {
+        let (mut sums, mut size) = (Vec::new(), 0.0);
+        for entry in component.entries {
+            let rates = rates(observable(entry.of), entry.row, entry.column);
+            sums.resize(rates.len(), 0.0);
+            sums.iter_mut().zip(&rates).for_each(|(sum, rate)| *sum += entry.factor as f64 * rate);
+            size += entry.factor.abs() as f64;
+        }
+        assert!(sums.iter().all(|rate| rate.abs() <= zero * size), "{}: {sums:?}", component.symbol);
+    }
+    for of in [
+        Observable::LinearMomentum,
+        Observable::Spin,
+        Observable::OrbitalAngularMomentum,
+        Observable::Vorticity,
+    ] {
+        if !exists(of) || whole.contains(&of) {
+            continue;
+        }
+        let (rows, columns) = brackets(of)[0].shape();
+        for (row, column) in (1..=rows).flat_map(|row| (1..=columns).map(move |column| (row, column))) {
+            if of == Observable::LinearMomentum || row < column {
+                let is_at_rest = rates(of, row, column).iter().all(|rate| rate.abs() <= zero);
+                let is_listed = components.iter().any(|component| match component.entries {
+                    [entry] => (observable(entry.of), entry.row, entry.column) == (of, row, column),
+                    _ => false,
+                });
+                assert_eq!(is_listed, is_at_rest, "{of:?}, entry {row}{column}");
+            }
+        }
+    }
+    whole
+}
+
+fn observable(quantity: Conserved) -> Observable {
+    Observable::named(&format!("{quantity:?}")).unwrap()
 }
 
 /// `N x N`, from row-major entries.

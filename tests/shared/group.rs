@@ -5,7 +5,7 @@ use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 use affine_runtime::state::Euclidean;
 
-use crate::charts::exists;
+use crate::charts::{exists, listed_as_a_whole};
 use crate::reference::{Reference, assert_close};
 use crate::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO};
 
@@ -84,22 +84,27 @@ pub fn assert_listed(
     motions: &[Motion],
     translation: bool,
 ) {
-    let listed: Vec<Observable> =
-        listed.iter().map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap()).collect();
+    let named = |observable| {
+        exists(observable, n, translation) && !has_another_name(constraint, multiplier, observable)
+    };
+    let brackets = |observable| motions.iter().map(|motion| motion.bracket(observable).unwrap()).collect();
+    let listed = listed_as_a_whole(listed, &named, BRACKET_ZERO, brackets);
     for &observable in Observable::ALL {
         if observable == Observable::Energy {
             assert!(listed.contains(&observable));
             continue;
         }
-        let named =
-            exists(observable, n, translation) && !has_another_name(constraint, multiplier, observable);
         let rates = motions.iter().flat_map(|motion| motion.bracket(observable).unwrap().to_f64());
         let largest = rates.fold(0.0, |largest: f64, rate| largest.max(rate.abs()));
         assert!(
             largest <= BRACKET_ZERO || largest > BRACKET_VISIBLE,
             "{observable:?} undecided: {largest:e}"
         );
-        assert_eq!(listed.contains(&observable), named && largest <= BRACKET_ZERO, "{observable:?} listed");
+        assert_eq!(
+            listed.contains(&observable),
+            named(observable) && largest <= BRACKET_ZERO,
+            "{observable:?} listed"
+        );
     }
 }
 

@@ -6,7 +6,8 @@ use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 
 use affine_tests::charts::{
-    T0, assert_charts_lead_back, assert_reduced_equations_move, exists, groups, matrix, vector,
+    T0, assert_charts_lead_back, assert_reduced_equations_move, exists, groups, listed_as_a_whole, matrix,
+    vector,
 };
 use affine_tests::drawn::Coefficients;
 use affine_tests::fields::{Fibre, Stirring, Wind, blown, stirred, under};
@@ -88,9 +89,9 @@ fn reduction_keeps_the_motion<const N: usize, M: Damped<N>>() {
 fn lists_are_exact<const N: usize, M: Damped<N>>() {
     let (_, kinetic, dissipation) = M::models().next().unwrap();
     let holds = |listed: &[Conserved], states: Vec<State>, translation: bool| {
-        let listed: Vec<Observable> =
-            listed.iter().map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap()).collect();
         let motions: Vec<Motion> = states.iter().map(|state| motion(&kinetic, state, &dissipation)).collect();
+        let brackets = |of| motions.iter().map(|motion| motion.bracket(of).unwrap()).collect();
+        let listed = listed_as_a_whole(listed, |of| exists(of, N, translation), 0.0, brackets);
         for &quantity in Observable::ALL {
             let conserved = exists(quantity, N, translation)
                 && motions.iter().all(|motion| motion.bracket(quantity).unwrap().is_zero());

@@ -5,7 +5,7 @@ use affine_runtime::model::{Conserved, StateVector};
 use affine_runtime::prelude::*;
 
 use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
-use crate::conserved::exists;
+use crate::conserved::{exists, listed_as_a_whole};
 use crate::families::{matrix, vector};
 use crate::stated::{
     body_inertia, body_translation, casimir1_squared, casimir2, dalembert, diagonal, is_moving, phase_point,
@@ -78,9 +78,9 @@ fn reduction_keeps_the_motion<const N: usize, M: Damped<N>>() {
 fn lists_are_exact<const N: usize, M: Damped<N>>() {
     let (kinetic, dissipation) = (M::kinetic(), M::dissipation());
     let holds = |listed: &[Conserved], states: Vec<State>, translation: bool| {
-        let listed: Vec<Observable> =
-            listed.iter().map(|quantity| Observable::named(&format!("{quantity:?}")).unwrap()).collect();
         let motions: Vec<Motion> = states.iter().map(|state| motion(&kinetic, state, &dissipation)).collect();
+        let brackets = |of| motions.iter().map(|motion| motion.bracket(of).unwrap()).collect();
+        let listed = listed_as_a_whole(listed, |of| exists(of, N, translation), 0.0, brackets);
         for &quantity in Observable::ALL {
             let conserved = exists(quantity, N, translation)
                 && motions.iter().all(|motion| motion.bracket(quantity).unwrap().is_zero());
