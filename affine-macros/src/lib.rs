@@ -41,7 +41,9 @@ use proc_macro::TokenStream;
 /// `SMatrix<f64, 3, 3>` or `[[f64; 3]; 3]`, the type written out with any path before it; `9 x 9` for a tensor of
 /// `dim = 3`. `prepare()` takes its symmetric part, refuses it where the two triangles differ by more than rounding, and
 /// inverts the energy once. Symmetries and conserved quantities are those for every such matrix, so that a claim that
-/// only a special one keeps is refused.
+/// only a special one keeps is refused. Of momenta that are not conserved as a whole the components that are stand in
+/// the list of what is conserved, `Vort_12` or `S_12 + 2*S_13 - S_23`: sums over translations and rotations of space and of
+/// the body, or over the entries of one affine momentum, with factors that depend on no field.
 ///
 /// On the momentum side, `X = Sigma = phi Pi` or `Sigma_hat = Pi phi`, `|W|^2` the sum over `a < b` of `W_ab^2`:
 ///

@@ -172,8 +172,9 @@ pub enum Conserved {
 
 /// A sum of multiples of entries of momenta, read in orthonormal bases as the momenta are.
 ///
-/// A model lists a basis of the sums that it conserves, without those that follow from momenta that it conserves as a whole. Sums
-/// whose factors depend on the fields of the model, or are quotients of numbers above 32768, are not listed.
+/// A model lists the sums over `p`, `S`, `x p^T - p x^T` and `Vort`, and over the entries of each affine momentum, that it
+/// conserves: a basis, without what follows from momenta that are conserved as a whole. Sums whose factors depend on the fields
+/// of the model, or have ratios of numbers above 32768, are not listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Component {
     /// The formula.
