@@ -94,7 +94,7 @@ impl Case<'_> {
         let (here, there) = (value(place), value(&there));
         let change = size(there.value - here.value);
         // To second order in the step, and to the first where it changes.
-        change > 1e-8 * STEP * (1.0 + size(here.value)) + here.error + there.error
+        change > 1e-8 * STEP * (1.0 + size(here.value))
     }
 
     /// Is the energy at this place that after motions of the group?

@@ -4,6 +4,7 @@ mod batch;
 mod body;
 mod components;
 mod conditions;
+mod conserved;
 mod dilatation;
 mod domain;
 mod equations;
@@ -29,7 +30,7 @@ mod written;
 use crate::algebra::bind::Constants;
 use crate::ir::fuse::fuse;
 use crate::mechanics::body::Body;
-use crate::mechanics::describe::{self, Described, Notation};
+use crate::mechanics::describe::{Described, Notation};
 use crate::mechanics::form::Form;
 use crate::mechanics::motion::Motion;
 use crate::optimise::straight_line;
@@ -41,8 +42,8 @@ use programs::Reduced;
 use quantities::Quantities;
 use ways::Ways;
 
-pub use crate::mechanics::describe::{Component, Conserved};
 pub use components::Components;
+pub use conserved::{Component, Conserved};
 pub use dilatation::DilatationalMotion;
 pub use domain::{Domain, Sign, SignedArgument};
 pub use equations::Equations;
@@ -131,8 +132,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         closed_form,
         isotropic: programs.isotropic,
         dilatation,
-        conserved: describe::conserved(arena, &notation, &moving),
-        conserved_at_rest: describe::conserved(arena, &notation, &at_rest),
+        conserved: Conserved::of(arena, &notation, &moving),
+        conserved_at_rest: Conserved::of(arena, &notation, &at_rest),
         signature: conditions::signature(arena, &motion, hessian.as_ref(), positive, require_positive),
         has_forces: !body.is_free(),
         groups: (form.space_group, form.body_group),

@@ -1,6 +1,7 @@
 //! Everything that is emitted about a model.
 
 use super::components::Components;
+use super::conserved::Conserved;
 use super::domain::Domain;
 use super::equations::Equations;
 use super::lattice::TwoPolar;
@@ -15,7 +16,7 @@ use crate::ir::taylor::Recurrence;
 use crate::mechanics::asked::Asked;
 use crate::mechanics::closed_form::ClosedForm;
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::describe::{Conserved, Formula};
+use crate::mechanics::describe::Formula;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::reduction::left_out::LeftOut;
 use crate::mechanics::symmetry::Group;

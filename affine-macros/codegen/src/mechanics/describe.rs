@@ -17,7 +17,7 @@ use crate::mechanics::notation::MatrixName;
 use crate::mechanics::term::{Coefficient, Frame, Pattern, Term, TermKind};
 
 pub use super::notation::{Described, Formula, Notation};
-pub use conserved::{Component, Conserved, conserved};
+pub use conserved::component;
 pub use equations::equations;
 pub use hamiltonian::{hamiltonian, kinetic_energy_of_momenta};
 pub use system::system;

@@ -1,38 +1,17 @@
-//! What is conserved, by names and formulas.
+//! Components of momenta as formulas.
 
 use crate::algebra::{Arena, Polynomial, Rational};
-use crate::mechanics::conserved::{Candidate, Conservation, Entry};
+use crate::mechanics::conserved::{Candidate, Entry};
 use crate::mechanics::notation::Notation;
 use crate::symbol::{Quantity, Symbol};
 
-/// What a motion conserves.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Conserved {
-    /// Momenta, and functions of them, as a whole.
-    pub whole: Vec<Candidate>,
-    /// Sums of entries of momenta of which not all are conserved.
-    pub components: Vec<Component>,
-}
-
-/// A sum of multiples of entries of momenta.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Component {
-    /// The formula: `Vort_12`.
-    pub symbol: String,
-    /// The summands.
-    pub entries: Vec<Entry>,
-}
-
-/// What is conserved, as it is listed.
-pub fn conserved(arena: &mut Arena, notation: &Notation, conservation: &Conservation) -> Conserved {
-    let components = conservation.components(arena).into_iter().map(|entries| {
-        let mut sum = Polynomial::zero();
-        for entry in &entries {
-            sum.add_scaled(&written(arena, entry), &Rational::from(entry.factor));
-        }
-        Component { symbol: notation.polynomial(arena, &sum).text, entries }
-    });
-    Conserved { components: components.collect(), whole: conservation.whole.clone() }
+/// A sum of multiples of entries of momenta: `Vort_12`.
+pub fn component(arena: &mut Arena, notation: &Notation, entries: &[Entry]) -> String {
+    let mut sum = Polynomial::zero();
+    for entry in entries {
+        sum.add_scaled(&written(arena, entry), &Rational::from(entry.factor));
+    }
+    notation.polynomial(arena, &sum).text
 }
 
 /// The entry as formulas write it: of angular momenta of which no entry has a symbol, by the products and entries that it is
