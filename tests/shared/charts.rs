@@ -1,7 +1,7 @@
 //! What generated models of every kind are held against: layouts, the ways between charts, the flow of the reduced
 //! equations.
 
-use affine_oracle::{Matrix as Exact, Observable, State, rounded};
+use affine_oracle::{Matrix as Exact, Observable, Rational, State, rational, rounded};
 use affine_runtime::model::{Conserved, Group, StateVector};
 use affine_runtime::prelude::*;
 
@@ -117,18 +117,18 @@ pub fn listed_as_a_whole(
             quantity => whole.push(observable(*quantity)),
         }
     }
-    let rates = |of: Observable, row: usize, column: usize| -> Vec<f64> {
-        brackets(of).iter().map(|rate| rounded(&rate.entry(row - 1, column - 1))).collect()
+    let rates = |of: Observable, row: usize, column: usize| -> Vec<Rational> {
+        brackets(of).iter().map(|rate| rate.entry(row - 1, column - 1)).collect()
     };
     for component in &components {
         let (mut sums, mut size) = (Vec::new(), 0.0);
         for entry in component.entries {
             let rates = rates(observable(entry.of), entry.row, entry.column);
-            sums.resize(rates.len(), 0.0);
-            sums.iter_mut().zip(&rates).for_each(|(sum, rate)| *sum += entry.factor as f64 * rate);
+            sums.resize(rates.len(), rational(0, 1));
+            sums.iter_mut().zip(rates).for_each(|(sum, rate)| *sum += rational(entry.factor, 1) * rate);
             size += entry.factor.abs() as f64;
         }
-        assert!(sums.iter().all(|rate| rate.abs() <= zero * size), "{}: {sums:?}", component.symbol);
+        assert!(sums.iter().all(|rate| rounded(rate).abs() <= zero * size), "{}: {sums:?}", component.symbol);
     }
     for of in [
         Observable::LinearMomentum,
@@ -142,7 +142,7 @@ pub fn listed_as_a_whole(
         let (rows, columns) = brackets(of)[0].shape();
         for (row, column) in (1..=rows).flat_map(|row| (1..=columns).map(move |column| (row, column))) {
             if of == Observable::LinearMomentum || row < column {
-                let is_at_rest = rates(of, row, column).iter().all(|rate| rate.abs() <= zero);
+                let is_at_rest = rates(of, row, column).iter().all(|rate| rounded(rate).abs() <= zero);
                 let is_listed = components.iter().any(|component| match component.entries {
                     [entry] => (observable(entry.of), entry.row, entry.column) == (of, row, column),
                     _ => false,
