@@ -29,7 +29,7 @@ quantities! {
     InversePlacement "phi_inverse" AffineVelocity "omega" ComovingAffineVelocity "omega_hat"
     LinearMomentum "p" ComovingLinearMomentum "p_hat" CanonicalMomentum "pi"
     AffineSpin "sigma" ComovingAffineSpin "sigma_hat" TotalAffineMomentum "total"
-    Spin "spin" Vorticity "vorticity"
+    Vorticity "vorticity"
     // Mass matrices, and the basis of velocities that a constraint leaves.
     InverseBlock "inverse" InverseColumn "inverse" SpaceInertia "space_inertia" Cauchy "cauchy"
     Speed "speed" TurnedVelocity "turned"
