@@ -129,3 +129,34 @@ fn what_they_conserve() {
         (phi[1,2]^2) [Energy];
     }
 }
+
+/// A diagonal inertia stays diagonal in orthonormal bases of a diagonal metric, as `J' = B J B^T`, here `diag(3 1.5, 7 2, 2 3)`.
+/// Of `phi_dot` alone, `T` is the same after `phi -> phi exp(E)` with `E J' + J' E^T = 0`, which conserves
+/// `J'_b sigma_hat_ab - J'_a sigma_hat_ba`; a potential of `det phi` does not change that.
+#[test]
+fn what_the_carried_inertia_conserves() {
+    #[affine_model(
+        dim = 3,
+        metrics(space = diag(2, 3, 5), body = diag(3, 7, 2)),
+        kinetic(dalembert = diag(1.5, 2, 3)),
+        potential = hyperbolic_dilatation(1)
+    )]
+    struct Body;
+    #[affine_model(dim = 3, kinetic(dalembert = diag(4.5, 14, 6)), potential = hyperbolic_dilatation(1))]
+    struct Carried;
+    let symbols: Vec<&str> = Body::DESCRIPTION.conserved.iter().map(|quantity| quantity.symbol()).collect();
+    let components = [
+        "28*sigma_hat_12 - 9*sigma_hat_21",
+        "4*sigma_hat_13 - 3*sigma_hat_31",
+        "3*sigma_hat_23 - 7*sigma_hat_32",
+    ];
+    assert_eq!(symbols, [&["H", "S = Sigma - Sigma^T", "|S|^2"][..], &components].concat());
+    assert_eq!(Body::DESCRIPTION.conserved, Carried::DESCRIPTION.conserved);
+
+    let phi = Matrix::<3>::new(1.1, 0.2, -0.1, 0.3, 0.9, 0.15, -0.2, 0.05, 1.2);
+    let spin = Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, 0.5, 0.7, 0.6, -0.4, 0.3);
+    let start = Body.at_momentum(phi, Comoving(spin)).unwrap();
+    let run = Simulation::new(&Body, start).until(1.0).tolerance(1e-13).run().unwrap();
+    assert_eq!(run.conservation().drifts().len(), 6);
+    assert!(run.conservation().worst() < 1e-11, "{}", run.conservation());
+}

@@ -88,7 +88,7 @@ pub fn assert_listed(
         exists(observable, n, translation) && !has_another_name(constraint, multiplier, observable)
     };
     let brackets = |observable| motions.iter().map(|motion| motion.bracket(observable).unwrap()).collect();
-    let listed = listed_as_a_whole(listed, &named, BRACKET_ZERO, brackets);
+    let listed = listed_as_a_whole(listed, named, BRACKET_ZERO, brackets);
     for &observable in Observable::ALL {
         if observable == Observable::Energy {
             assert!(listed.contains(&observable));

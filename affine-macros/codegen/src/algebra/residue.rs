@@ -22,14 +22,17 @@ impl Residue {
     /// Nothing is known.
     pub const UNKNOWN: Self = Self(None);
 
-    /// A value for an indeterminate that depends on its name alone (FNV-1a).
+    /// A value for an indeterminate that depends on its name alone: FNV-1a, and the last steps of SplitMix64 (Steele et al.,
+    /// OOPSLA 2014), without which names that differ in the last letter alone have values in arithmetic progression.
     #[must_use]
     pub fn sample(name: &str) -> Self {
         let mut hash = 0xcbf2_9ce4_8422_2325_u64;
         for byte in name.bytes() {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
-        Self(Some(hash % Self::MODULUS))
+        hash = (hash ^ (hash >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        hash = (hash ^ (hash >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        Self(Some((hash ^ (hash >> 31)) % Self::MODULUS))
     }
 
     /// The fraction that it stands for, numerator and denominator at most [`SMALL`](Self::SMALL) (Wang, Proc. SYMSAC 1981,

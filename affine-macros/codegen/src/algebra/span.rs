@@ -114,6 +114,19 @@ mod tests {
         assert_eq!(found, [Some(vec![0, 0, 1, 0]), Some(vec![1, -2, 0, 1])]);
     }
 
+    /// Names that differ in one letter have values that nothing ties to each other.
+    #[test]
+    fn samples_are_independent() {
+        let mut span = Span::default();
+        for point in 0..8 {
+            let value = |name: &str| Residue::sample(&format!("{name} at point {point}"));
+            assert!(
+                span.insert(&["x_1", "x_2", "x_3", "p_1", "p_2", "p_3", "phi_11", "phi_12"].map(value)),
+                "{point}"
+            );
+        }
+    }
+
     #[test]
     fn fractions_are_read_back() {
         let read = |entries: &[(i64, i64)]| whole_multiple(&vector(entries));
