@@ -99,7 +99,7 @@ fn lists_are_exact<const N: usize, M: Driven<N>>(decided: bool) {
         model.points().into_iter().map(bracket).collect()
     };
     let is_decided = |observable| decided && exists(observable, N, M::TRANSLATION);
-    let listed = listed_as_a_whole(M::DESCRIPTION.conserved, is_decided, BRACKET_ZERO, &brackets);
+    let listed = listed_as_a_whole(M::DESCRIPTION.conserved, is_decided, BRACKET_ZERO, brackets);
     for &observable in Observable::ALL {
         if observable == Observable::Energy {
             continue;
