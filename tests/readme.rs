@@ -1,4 +1,4 @@
-//! What README and audit show: programs that can be copied, commands that exist.
+//! What README, guide and audit show: programs that can be copied, commands that exist, sentences that can be read.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::collections::BTreeSet;
@@ -13,24 +13,67 @@ fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
+/// The README and the pages of the guide, with their paths.
+fn guide() -> Vec<(String, String)> {
+    let pages = fs::read_dir(root().join("affine-runtime/docs")).unwrap();
+    let names = pages.map(|page| page.unwrap().file_name().into_string().unwrap());
+    let names = names.map(|name| format!("affine-runtime/docs/{name}")).chain(["README.md".to_owned()]);
+    names.map(|name| (name.clone(), text(&name))).collect()
+}
+
 /// Lines that rustdoc hides are shown everywhere else, and statements without a function compile nowhere else.
 #[test]
 fn examples_are_programs() {
-    let readme = text("README.md");
-    let examples: Vec<&str> =
-        readme.split("```rust\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
-    assert!(!examples.is_empty());
-    for example in examples {
-        assert!(example.contains("fn main()"), "{example}");
-        assert!(!example.lines().any(|line| line == "#" || line.starts_with("# ")), "{example}");
+    let mut examples = 0;
+    for (page, text) in guide() {
+        for example in text.split("```rust\n").skip(1).map(|rest| rest.split("```").next().unwrap()) {
+            examples += 1;
+            assert!(example.contains("fn main()"), "{page}: {example}");
+            assert!(!example.lines().any(|line| line == "#" || line.starts_with("# ")), "{page}: {example}");
+        }
     }
+    assert!(examples >= 9, "{examples}");
+}
+
+/// Words of the longest sentence that a reader has to hold together.
+const LONGEST_SENTENCE: usize = 30;
+
+#[test]
+fn no_sentence_is_long() {
+    for (page, text) in guide() {
+        let long: Vec<String> =
+            sentences(&text).filter(|sentence| words(sentence) > LONGEST_SENTENCE).collect();
+        assert!(long.is_empty(), "{page}: {long:#?}");
+    }
+}
+
+/// The sentences of paragraphs and items of lists; code, tables, pictures and headings left aside.
+fn sentences(page: &str) -> impl Iterator<Item = String> {
+    let prose: Vec<&str> = page.split("```").step_by(2).collect();
+    let lines = prose.join("\n\n");
+    let lines = lines.lines().map(str::trim).map(|line| match line.chars().next() {
+        Some('|' | '#' | '!') => "\n\n".to_owned(),
+        Some('-') => format!("\n\n{line}"),
+        _ => format!("{line}\n"),
+    });
+    let paragraphs: String = lines.collect();
+    let paragraphs: Vec<String> = paragraphs.split("\n\n").map(|text| text.replace('\n', " ")).collect();
+    paragraphs.into_iter().flat_map(|text| text.split_inclusive(". ").map(str::to_owned).collect::<Vec<_>>())
+}
+
+/// Code is one word, whatever stands in it.
+fn words(sentence: &str) -> usize {
+    let outside = sentence.split('`').enumerate();
+    let text: String = outside.map(|(k, text)| if k % 2 == 0 { text } else { "code" }).collect();
+    text.split_whitespace().count()
 }
 
 /// Commands in code, `cargo test ..` and `cargo run ..`, on one line or two.
 fn commands() -> BTreeSet<String> {
     let mut commands = BTreeSet::new();
-    for page in ["README.md", "tests/AUDIT.md", "tests/README.md"] {
-        let text = text(page).replace('\n', " ");
+    let others = ["tests/AUDIT.md", "tests/README.md"].map(|page| (page.to_owned(), text(page)));
+    for (_, text) in guide().into_iter().chain(others) {
+        let text = text.replace('\n', " ");
         let code =
             text.split('`').filter(|code| code.starts_with("cargo test ") || code.starts_with("cargo run "));
         commands.extend(code.map(str::to_owned));

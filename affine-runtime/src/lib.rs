@@ -81,11 +81,26 @@ pub mod prelude {
     pub use crate::affine_model;
 }
 
-/// Pages on what the code rests on.
+/// Pages to read, one a subject; the README is where to begin.
 #[cfg(all(doc, feature = "macros", feature = "std"))]
 pub mod guide {
+    #[doc = include_str!("../docs/energies.md")]
+    pub mod energies {}
+
     #[doc = include_str!("../docs/errata.md")]
     pub mod errata {}
+
+    #[doc = include_str!("../docs/forces.md")]
+    pub mod forces {}
+
+    #[doc = include_str!("../docs/lattice.md")]
+    pub mod lattice {}
+
+    #[doc = include_str!("../docs/methods.md")]
+    pub mod methods {}
+
+    #[doc = include_str!("../docs/runs.md")]
+    pub mod runs {}
 }
 
 /// The examples of the README, compiled.
