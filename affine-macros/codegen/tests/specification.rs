@@ -75,7 +75,8 @@ fn fields_generics_matrices_and_the_rest() {
         expected.map(|(kind, texts)| (kind, texts.into_iter().map(str::to_owned).collect::<Vec<_>>()));
     assert_eq!(terms(&spec), expected);
     assert_eq!(spec.item.documented(&[]).to_string(), item.to_string());
-    let documented: syn::ItemStruct = syn::parse2(spec.item.documented(&["T".to_owned()])).expect("a struct");
+    let documented: syn::DeriveInput =
+        syn::parse2(spec.item.documented(&["T".to_owned()])).expect("a struct");
     // What the user wrote, a gap, and the line.
     assert_eq!(documented.attrs.len(), 1 + 2);
     assert_eq!(spec.item.generics.params.len(), 2);
