@@ -95,6 +95,7 @@ fn folder(package: Option<&str>) -> PathBuf {
         Some("affine-integrators") => "affine-runtime/integrators",
         Some("affine-codegen") => "affine-macros/codegen",
         Some("affine-allocations") => "tests/allocations",
+        Some("affine-oracle") => "tests/oracle",
         Some("affine-comparison") => "tests/comparison",
         Some(other) => panic!("no package {other}"),
     };

@@ -8,6 +8,7 @@ use affine_codegen::spec::{Claim, POTENTIAL_SYMBOLS, SYMBOLS, Spec, Symbol, Valu
 use affine_codegen::symbol::TermKind;
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
+use syn::parse::Parser;
 
 fn read(args: TokenStream, item: TokenStream) -> Spec {
     let spec = gate(|found| parse(args, item, found)).expect("a specification");
@@ -212,14 +213,20 @@ fn a_refused_struct_is_emitted_unchanged_with_every_reason() {
 
 #[test]
 fn an_accepted_struct_is_emitted_too() {
-    let item = quote!(
-        #[derive(Clone)]
+    let attribute = quote!(#[derive(Clone)]);
+    let declaration = quote!(
         pub struct Model {
             pub a: f64,
         }
     );
-    let tokens = expand(quote!(dim = 2, kinetic(casimir2 = a, body_inertia = 1)), item.clone()).to_string();
-    assert!(tokens.starts_with(&item.to_string()) && !tokens.contains("compile_error"));
+    let item = quote!(#attribute #declaration);
+    let tokens = expand(quote!(dim = 2, kinetic(casimir2 = a, body_inertia = 1)), item).to_string();
+    // Between them stands the documentation, and nothing else.
+    let rest = tokens.strip_prefix(&attribute.to_string()).expect("the attribute comes first");
+    let (documentation, _) = rest.split_once(&declaration.to_string()).expect("the declaration follows");
+    let documentation = syn::Attribute::parse_outer.parse_str(documentation).expect("attributes");
+    assert!(documentation.len() > 3 && documentation.iter().all(|line| line.path().is_ident("doc")));
+    assert!(!tokens.contains("compile_error"));
 }
 
 #[test]
