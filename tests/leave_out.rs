@@ -300,7 +300,7 @@ fn row(name: &str, args: &str) -> String {
     let model = derive::derive(energy, false).unwrap();
     let size =
         |equations: &derive::Equations| equations.groups.iter().map(|(_, names)| names.len()).sum::<usize>();
-    let operations = model.reduced.program.operations();
+    let operations = model.dynamics.reduced.program.operations();
     let file: syn::File = syn::parse2(expansion(args)).unwrap();
     let text = prettyplease::unparse(&file);
     let items = text.lines().filter(|line| {
@@ -311,8 +311,8 @@ fn row(name: &str, args: &str) -> String {
     });
     format!(
         "{name:20} {:>5} {:>8} {:>5} {:>5} {:>5} {:>5} {:>6} {:>6}\n",
-        size(&model.full),
-        size(&model.reduced),
+        size(&model.dynamics.full),
+        size(&model.dynamics.reduced),
         operations.mul,
         operations.add,
         operations.div,

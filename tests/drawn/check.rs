@@ -68,10 +68,10 @@ impl Case<'_> {
         let ratio = |found: Quad, expected: Rounded| {
             size(found - expected.value) / (f64::EPSILON * expected.error.max(f64::MIN_POSITIVE))
         };
-        let rates = run(&model.full.program, Reads::State);
+        let rates = run(&model.dynamics.full.program, Reads::State);
         let forces = point.forces().into_iter().map(|(name, force)| ratio(rates[&name], force));
-        let potential = if model.has_forces { point.energy.value } else { Rounded::ZERO };
-        [forces.fold(0.0, f64::max), ratio(run(&model.hamiltonian, Reads::Point)["energy"], potential)]
+        let potential = if model.description.has_forces { point.energy.value } else { Rounded::ZERO };
+        [forces.fold(0.0, f64::max), ratio(run(&model.point.hamiltonian, Reads::Point)["energy"], potential)]
     }
 }
 
@@ -97,7 +97,7 @@ impl Point<'_> {
             (0..n).fold(Rounded::ZERO, |sum, k| sum.plus(term(k))).negated()
         };
         let pull = |i: usize| self.energy.slopes[1 + i];
-        let groups = self.case.model.full.groups.iter();
+        let groups = self.case.model.dynamics.full.groups.iter();
         let listed = groups.flat_map(|(group, names)| {
             let entry = |(k, symbol): (usize, &Symbol)| {
                 let (a, b) = (k / n, k % n);
@@ -120,8 +120,8 @@ impl Point<'_> {
     /// Hamilton's equations are those of the kinetic energy, and the forces.
     fn equations(&self, mistakes: &mut Mistakes) {
         let Case { model, free, .. } = self.case;
-        let found = self.run(&model.full.program, Reads::State);
-        let without = self.phase.run::<Number>(free, &free.full.program, Reads::State);
+        let found = self.run(&model.dynamics.full.program, Reads::State);
+        let without = self.phase.run::<Number>(free, &free.dynamics.full.program, Reads::State);
         for (name, force) in self.forces() {
             let expected = Rounded::stored(without[&name]).plus(force);
             compare(&name, found[&name], expected, mistakes);
@@ -131,12 +131,12 @@ impl Point<'_> {
     /// `H = T + U`, in each of its forms.
     fn hamiltonians(&self, mistakes: &mut Mistakes) {
         let Case { model, free, .. } = self.case;
-        let kinetic = self.phase.run::<Number>(free, &free.hamiltonian, Reads::Point)["energy"];
+        let kinetic = self.phase.run::<Number>(free, &free.point.hamiltonian, Reads::Point)["energy"];
         // A constant moves nothing and leaves no trace, as is written in the checks; that its slopes vanish is looked at.
-        let potential = if model.has_forces { self.energy.value } else { Rounded::ZERO };
+        let potential = if model.description.has_forces { self.energy.value } else { Rounded::ZERO };
         let expected = Rounded::stored(kinetic).plus(potential);
-        compare("energy", self.run(&model.hamiltonian, Reads::Point)["energy"], expected, mistakes);
-        if let Some(program) = &model.hamiltonian_far_away {
+        compare("energy", self.run(&model.point.hamiltonian, Reads::Point)["energy"], expected, mistakes);
+        if let Some(program) = &model.point.hamiltonian_far_away {
             compare("energy far away", self.run(program, Reads::Point)["energy"], expected, mistakes);
         }
     }
@@ -144,14 +144,14 @@ impl Point<'_> {
     /// `dH/dt = dU/dt`, where a program has it.
     fn power(&self, mistakes: &mut Mistakes) {
         let expected = self.energy.slopes[0];
-        let program = self.case.model.power.as_ref();
+        let program = self.case.model.point.power.as_ref();
         let found = program.map_or(Quad::ZERO, |program| self.run(program, Reads::Point)["power"]);
         compare("power", found, expected, mistakes);
     }
 
     /// The energy has a value here, so that every guard says so.
     fn domain(&self, mistakes: &mut Mistakes) {
-        let Some(domain) = &self.case.model.domain else { return };
+        let Some(domain) = &self.case.model.point.domain else { return };
         let values = self.run(&domain.program, Reads::Point);
         for (k, guard) in domain.guards.iter().enumerate() {
             let value = values[&format!("guard_{}", k + 1)].0;

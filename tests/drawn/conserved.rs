@@ -25,15 +25,15 @@ impl Case<'_> {
         let left = |list: &[Candidate], kept: &mut dyn FnMut(&Candidate) -> bool| -> Vec<Candidate> {
             list.iter().copied().filter(kept).collect()
         };
-        let moving = left(&self.free.conserved.whole, &mut kept);
+        let moving = left(&self.free.description.conserved.whole, &mut kept);
         // A force on the centre of mass does not leave it at rest.
         let at_rest = match kept(&Candidate::LinearMomentum) {
-            true => left(&self.free.conserved_at_rest.whole, &mut kept),
+            true => left(&self.free.description.conserved_at_rest.whole, &mut kept),
             false => moving.clone(),
         };
         let lists = [
-            ("conserved", &self.model.conserved.whole, moving),
-            ("conserved at rest", &self.model.conserved_at_rest.whole, at_rest),
+            ("conserved", &self.model.description.conserved.whole, moving),
+            ("conserved at rest", &self.model.description.conserved_at_rest.whole, at_rest),
         ];
         let mut is_short = self.keeps_components(places, mistakes);
         for (what, found, expected) in lists {
@@ -52,7 +52,13 @@ impl Case<'_> {
     fn keeps_components(&self, places: &[Place], mistakes: &mut Mistakes) -> bool {
         let (model, free) = (self.model, self.free);
         let changes = |entries: &[Entry]| places.iter().any(|place| self.changes(entries, place));
-        for component in model.conserved.components.iter().chain(&model.conserved_at_rest.components) {
+        for component in model
+            .description
+            .conserved
+            .components
+            .iter()
+            .chain(&model.description.conserved_at_rest.components)
+        {
             if changes(&component.entries) {
                 mistakes.push(format!("{} is not conserved", component.symbol));
             }
@@ -64,7 +70,9 @@ impl Case<'_> {
             Candidate::OrbitalAngularMomentum,
             Candidate::Vorticity,
         ] {
-            if !free.conserved.whole.contains(&of) || model.conserved.whole.contains(&of) {
+            if !free.description.conserved.whole.contains(&of)
+                || model.description.conserved.whole.contains(&of)
+            {
                 continue;
             }
             let n = places[0].dim();
@@ -75,7 +83,8 @@ impl Case<'_> {
             };
             for (row, column) in entries {
                 let entry = Entry { factor: 1, of, row, column };
-                let listed = model.conserved.components.iter().any(|known| known.entries == [entry]);
+                let listed =
+                    model.description.conserved.components.iter().any(|known| known.entries == [entry]);
                 let is_missing = !listed && !changes(&[entry]);
                 if is_missing && self.energy.has_roots() {
                     is_short = true;

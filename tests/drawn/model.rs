@@ -135,7 +135,7 @@ impl Phase {
 
     /// The results of a program by name; with the coefficients that the model is prepared with.
     pub(crate) fn run<F: Machine>(&self, model: &Model, program: &Program, reads: Reads) -> Named {
-        let mut inputs = self.results::<F>(&model.coefficients, &self.named(&["self.a", "self.b"]));
+        let mut inputs = self.results::<F>(&model.prepared.coefficients, &self.named(&["self.a", "self.b"]));
         inputs.extend(self.inputs(model, reads));
         self.results::<F>(program, &inputs)
     }
@@ -143,18 +143,18 @@ impl Phase {
     /// What a program may read of the point.
     fn inputs(&self, model: &Model, reads: Reads) -> Named {
         let state = match reads {
-            Reads::State | Reads::Point => model.full.symbols(),
-            Reads::Reduced => model.reduced.symbols(),
+            Reads::State | Reads::Point => model.dynamics.full.symbols(),
+            Reads::Reduced => model.dynamics.reduced.symbols(),
             Reads::Trajectory => Vec::new(),
         };
-        let fixed = if reads == Reads::Trajectory { model.fixed.as_slice() } else { &[] };
+        let fixed = if reads == Reads::Trajectory { model.dynamics.fixed.as_slice() } else { &[] };
         let state: Vec<String> = state.iter().chain(fixed).map(Symbol::to_string).collect();
         let mut names: Vec<&str> = state.iter().map(String::as_str).collect();
         names.push("t");
         match reads {
             Reads::State => {}
             Reads::Reduced => {
-                let constants = self.run::<Number>(model, &model.trajectory, Reads::Trajectory);
+                let constants = self.run::<Number>(model, &model.dynamics.trajectory, Reads::Trajectory);
                 return self.named(&names).into_iter().chain(constants).collect();
             }
             Reads::Point => names.extend(["q", "dilatation", "q_1", "q_2", "q_3"]),

@@ -36,14 +36,14 @@ impl Point<'_> {
     /// The reduced equations follow from the whole ones; whether they were looked at.
     pub(crate) fn reduced(&self, mistakes: &mut Mistakes) -> bool {
         let model = self.case.model;
-        if !is_plain(&model.reduction) {
+        if !is_plain(&model.dynamics.reduction) {
             return false;
         }
-        let expected = self.along(&self.canonical(&self.run(&model.full.program, Reads::State)));
-        let found = self.run(&model.reduced.program, Reads::Reduced);
+        let expected = self.along(&self.canonical(&self.run(&model.dynamics.full.program, Reads::State)));
+        let found = self.run(&model.dynamics.reduced.program, Reads::Reduced);
         let terms = expected.values().map(|rate| rate.error).fold(1.0, f64::max);
         let error = self.forces().iter().map(|(_, force)| force.error).fold(terms, f64::max);
-        for name in model.reduced.symbols().iter().map(Symbol::to_string) {
+        for name in model.dynamics.reduced.symbols().iter().map(Symbol::to_string) {
             let expected = Rounded { error, ..expected[&name] };
             compare(&format!("reduced d_{name}"), found[&format!("d_{name}")], expected, mistakes);
         }

@@ -39,7 +39,6 @@ use crate::symbol::Quantity;
 use body::Kept;
 use prepared::{coefficient_program, damping, numeric_blocks};
 use programs::Reduced;
-use quantities::Quantities;
 use ways::Ways;
 
 pub use components::Components;
@@ -49,9 +48,9 @@ pub use domain::{Domain, Sign, SignedArgument};
 pub use equations::Equations;
 pub use lattice::{PieceProgram, PiecePrograms, Places, RatioProgram, TwoPolar};
 pub use metrics::{ChangeOfBases, GivenMatrix, GivenSource, Preparation};
-pub use model::{
-    Balance, BalancedQuantities, Formulas, Metric, MixedMasses, Model, Regularity, VelocitySide,
-};
+use model::{Dynamics, Facts, Methods, Prepared};
+pub use model::{Formulas, MixedMasses, Model, PointPrograms, Regularity, VelocitySide};
+pub use quantities::{Balance, BalancedQuantities, Metric, Quantities};
 pub use symbols::{VolumeMeasure, reads_time};
 pub use trajectory::{AffineMomentum, Trajectory};
 pub use well_posed::{Condition, Damping, Factor, NumericBlock, Relation};
@@ -83,7 +82,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     };
     let notation = Notation::new(arena, &described);
     let formulas = body.formulas(arena, &notation, &chart, &reduction, closed_form)?;
-    let programs = body.programs(arena, &chart, &mut coefficients)?;
+    let point = body.programs(arena, &chart, &mut coefficients)?;
     let dilatation = reduction
         .dilatation
         .as_ref()
@@ -97,54 +96,43 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         lattice::two_polar(arena, &notation, h, potential, (form.unitary, asked), &mut coefficients)
     });
     let regularity = conditions::regularity(arena, &motion, positive, require_positive, &mut coefficients)?;
-    let Quantities { metric, acceleration, balance } =
-        body.quantities(arena, &chart, asked, &mut coefficients)?;
+    let quantities = body.quantities(arena, &chart, asked, &mut coefficients)?;
     let model = Model {
         dim: motion.dim(),
         constraint: motion.constraint(),
         projected: motion.confined().is_some(),
         frame: motion.frame(),
         translation: motion.masses.frame(),
-        conditions: match &stated {
-            None => conditions::conditions(arena, &motion, hessian.as_ref(), require_positive),
-            Some(stated) => stated::conditions(arena, stated, require_positive),
-        },
-        coefficients: coefficient_program(arena, &coefficients),
-        numeric_blocks: numeric_blocks(arena, &motion, require_positive),
-        damping: damping(arena, &forces),
-        velocity_side: programs.velocity_side,
-        velocity: programs.velocity,
-        mass: programs.mass,
-        mixed_masses: programs.mixed_masses,
         regularity,
-        metric,
-        acceleration,
-        balance,
-        hamiltonian: programs.hamiltonian,
-        hamiltonian_far_away: programs.hamiltonian_far_away,
-        domain: programs.domain,
-        power: programs.power,
-        full,
-        reduced,
-        reduction,
-        trajectory,
-        fixed,
-        closed_form,
-        isotropic: programs.isotropic,
-        dilatation,
-        conserved: Conserved::of(arena, &notation, &moving),
-        conserved_at_rest: Conserved::of(arena, &notation, &at_rest),
-        signature: conditions::signature(arena, &motion, hessian.as_ref(), positive, require_positive),
-        has_forces: !body.is_free(),
-        groups: (form.space_group, form.body_group),
-        metrics: form.metrics.map(|metrics| ChangeOfBases::of(arena, metrics, &form.rebased)),
-        formulas,
-        two_polar,
-        taylor: None,
-        tangent: None,
-        splitting: pieces.splitting,
-        second_order: pieces.second_order,
-        packed: None,
+        point,
+        quantities,
+        dynamics: Dynamics { full, reduced, reduction, trajectory, fixed, closed_form, dilatation },
+        description: Facts {
+            conserved: Conserved::of(arena, &notation, &moving),
+            conserved_at_rest: Conserved::of(arena, &notation, &at_rest),
+            signature: conditions::signature(arena, &motion, hessian.as_ref(), positive, require_positive),
+            has_forces: !body.is_free(),
+            groups: (form.space_group, form.body_group),
+            formulas,
+        },
+        methods: Methods {
+            two_polar,
+            taylor: None,
+            splitting: pieces.splitting,
+            tangent: None,
+            second_order: pieces.second_order,
+            packed: None,
+        },
+        prepared: Prepared {
+            coefficients: coefficient_program(arena, &coefficients),
+            numeric_blocks: numeric_blocks(arena, &motion, require_positive),
+            conditions: match &stated {
+                None => conditions::conditions(arena, &motion, hessian.as_ref(), require_positive),
+                Some(stated) => stated::conditions(arena, stated, require_positive),
+            },
+            damping: damping(arena, &forces),
+            metrics: form.metrics.map(|metrics| ChangeOfBases::of(arena, metrics, &form.rebased)),
+        },
     };
     Some(model.completed(asked))
 }

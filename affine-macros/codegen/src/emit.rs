@@ -48,8 +48,8 @@ use parametric::Method;
 
 /// The user's item and everything that belongs to it.
 pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
-    let bases_of_fields = matches!(model.metrics, Some(ChangeOfBases::Prepared(_)));
-    let has_fields = !model.coefficients.outputs.is_empty() || bases_of_fields;
+    let bases_of_fields = matches!(model.prepared.metrics, Some(ChangeOfBases::Prepared(_)));
+    let has_fields = !model.prepared.coefficients.outputs.is_empty() || bases_of_fields;
     let names = Names::new(spec, has_fields);
     let runtime = runtime(spec.runtime.as_ref());
     let context = Context { spec, model, names: &names, has_fields, common: Function::of(model) };
@@ -116,7 +116,7 @@ fn model_impl(context: &Context) -> (TokenStream, TokenStream) {
     let n = context.dim();
     let size =
         |equations: &Equations| number(equations.groups.iter().map(|(_, components)| components.len()).sum());
-    let (full, reduced) = (size(&context.model.full), size(&context.model.reduced));
+    let (full, reduced) = (size(&context.model.dynamics.full), size(&context.model.dynamics.reduced));
     let point = context.point(&quote!(#scalar));
     let description = description::constant(context);
     let geodesic = closed_form::geodesic(context);

@@ -114,7 +114,11 @@ fn high_multiples_of_logarithms_stay_in_their_functions() {
             let potential = potential.replace('k', multiple);
             let args = format!("dim = 2, kinetic(casimir2 = 1, body_inertia = 2), potential = {potential}");
             let model = derived(&args);
-            assert!(model.full.program.steps.len() < 200, "{args}: {}", model.full.program.steps.len());
+            assert!(
+                model.dynamics.full.program.steps.len() < 200,
+                "{args}: {}",
+                model.dynamics.full.program.steps.len()
+            );
         }
         for potential in ["exp(k*q1)+exp(k*q2)", "exp(k*q1)+exp(k*q2)-q1*q2", "(exp(k*q1)+exp(k*q2))^2"] {
             let potential = potential.replace('k', multiple);
@@ -122,7 +126,11 @@ fn high_multiples_of_logarithms_stay_in_their_functions() {
                 "dim = 2, kinetic(casimir2 = 1, body_inertia = 2), emit(two_polar), potential = {potential}"
             );
             let model = derived(&args);
-            assert!(model.full.program.steps.len() < 200, "{args}: {}", model.full.program.steps.len());
+            assert!(
+                model.dynamics.full.program.steps.len() < 200,
+                "{args}: {}",
+                model.dynamics.full.program.steps.len()
+            );
         }
     }
 }
@@ -204,11 +212,11 @@ proptest! {
                 Symbol::Component(Quantity::Placement, entry) if entry[0] == entry[1] => Some(1.0),
                 other => Some(if *other == Quantity::Position.at([i + 1]) { x } else { 0.0 }),
             };
-            let energy = model.hamiltonian.run::<f64>(&at).expect("an energy")[0];
+            let energy = model.point.hamiltonian.run::<f64>(&at).expect("an energy")[0];
             prop_assert!((energy - expected).abs() < 1e-12 * expected, "{}: U = {}", args, energy);
-            let rates = model.full.program.run::<f64>(&at).expect("rates");
+            let rates = model.dynamics.full.program.run::<f64>(&at).expect("rates");
             let wanted = Quantity::LinearMomentum.at([i + 1]).seen(Aspect::Rate);
-            let place = model.full.program.results().position(|name| *name == wanted);
+            let place = model.dynamics.full.program.results().position(|name| *name == wanted);
             let force = rates[place.expect("a force")] * x;
             prop_assert!((force + 2.0 * expected).abs() < 1e-12 * expected, "{}: x f = {}", args, force);
         }

@@ -8,7 +8,7 @@ impl Model {
     #[must_use]
     pub fn invariance(&self) -> [String; 2] {
         let n = self.dim;
-        [self.groups.0, self.groups.1].map(|group| match group {
+        [self.description.groups.0, self.description.groups.1].map(|group| match group {
             Group::Affine => format!("GL({n})"),
             Group::Metric => format!("O({n})"),
             Group::Less => format!("a proper subgroup of O({n})"),
@@ -19,7 +19,7 @@ impl Model {
     #[must_use]
     pub fn confinement(&self) -> Option<(String, [String; 2])> {
         let (n, constraint) = (self.dim, self.constraint?);
-        let surviving = [self.groups.0, self.groups.1].map(|group| match group {
+        let surviving = [self.description.groups.0, self.description.groups.1].map(|group| match group {
             Group::Affine => constraint.group_name(n),
             Group::Metric => format!("SO({n})"),
             Group::Less => format!("a proper subgroup of SO({n})"),

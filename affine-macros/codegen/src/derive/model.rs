@@ -1,11 +1,11 @@
 //! Everything that is emitted about a model.
 
-use super::components::Components;
 use super::conserved::Conserved;
 use super::domain::Domain;
 use super::equations::Equations;
 use super::lattice::TwoPolar;
 use super::metrics::ChangeOfBases;
+use super::quantities::Quantities;
 use super::well_posed::{Condition, Damping, NumericBlock};
 use super::{second_order, splitting};
 use crate::ir::Program;
@@ -35,14 +35,24 @@ pub struct Model {
     pub frame: Frame,
     /// Frame of the translational energy.
     pub translation: Option<Frame>,
-    /// Coefficients that depend on the fields, and the program that computes them when the model is prepared.
-    pub coefficients: Program,
-    /// Inverse blocks that need numbers.
-    pub numeric_blocks: Vec<NumericBlock>,
-    /// What `prepare()` must find different from zero.
-    pub conditions: Vec<Condition>,
-    /// What `prepare()` must find not negative in the dissipation.
-    pub damping: Damping,
+    /// What decides whether the mass matrix is regular at a placement, where that is not known for all.
+    pub regularity: Option<Regularity>,
+    /// What is computed at one point of phase space.
+    pub point: PointPrograms,
+    /// Quantities that are emitted where they are asked for.
+    pub quantities: Quantities,
+    /// What `prepare()` computes and checks.
+    pub prepared: Prepared,
+    /// Hamilton's equations and the motion as it is integrated.
+    pub dynamics: Dynamics,
+    /// What is told of a model.
+    pub description: Facts,
+    /// What methods of integration take beside the reduced equations, where asked for or worth while.
+    pub methods: Methods,
+}
+
+/// What is computed at one point of phase space.
+pub struct PointPrograms {
     /// What starts from velocities; with `phi` where the mass matrix depends on it, as in the next ones. `None` where
     /// they do not determine the momentum.
     pub velocity_side: Option<VelocitySide>,
@@ -52,14 +62,6 @@ pub struct Model {
     pub mass: Option<Program>,
     /// Translation with masses in body and space.
     pub mixed_masses: Option<MixedMasses>,
-    /// What decides whether the mass matrix is regular at a placement, where that is not known for all.
-    pub regularity: Option<Regularity>,
-    /// The configuration metric, where asked for.
-    pub metric: Option<Metric>,
-    /// Point -> acceleration of the centre of mass, where asked for.
-    pub acceleration: Option<Program>,
-    /// The balance laws, where asked for.
-    pub balance: Option<Balance>,
     /// Point -> `H`.
     pub hamiltonian: Program,
     /// The same where stretches are far from 1, where that takes another form.
@@ -68,6 +70,26 @@ pub struct Model {
     pub domain: Option<Domain>,
     /// Point -> power of the forces that no potential has.
     pub power: Option<Program>,
+    /// `1/alpha`, `1/beta`, `1/mu` of an isotropic model, and the coefficient of `C(3)/3` where there is one.
+    pub isotropic: Option<Program>,
+}
+
+/// What `prepare()` computes and checks.
+pub struct Prepared {
+    /// Coefficients that depend on the fields, and the program that computes them when the model is prepared.
+    pub coefficients: Program,
+    /// Inverse blocks that need numbers.
+    pub numeric_blocks: Vec<NumericBlock>,
+    /// What `prepare()` must find different from zero.
+    pub conditions: Vec<Condition>,
+    /// What `prepare()` must find not negative in the dissipation.
+    pub damping: Damping,
+    /// Metrics other than the identity.
+    pub metrics: Option<ChangeOfBases>,
+}
+
+/// Hamilton's equations and the motion as it is integrated.
+pub struct Dynamics {
     /// Hamilton's equations in the model's own frames.
     pub full: Equations,
     /// The reduced equations.
@@ -80,10 +102,12 @@ pub struct Model {
     pub fixed: Vec<Symbol>,
     /// Closed form of the geodesics; whether it needs `p = 0`.
     pub closed_form: Option<(ClosedForm, bool)>,
-    /// `1/alpha`, `1/beta`, `1/mu` of an isotropic model, and the coefficient of `C(3)/3` where there is one.
-    pub isotropic: Option<Program>,
     /// `1/m`, the stiffness and the scale of the dilatational motion, where it is taken out of the state.
     pub dilatation: Option<Program>,
+}
+
+/// What is told of a model.
+pub struct Facts {
     /// Conserved quantities.
     pub conserved: Conserved,
     /// Conserved quantities of motions with `p = 0`.
@@ -94,10 +118,12 @@ pub struct Model {
     pub has_forces: bool,
     /// Symmetry groups of space and body that leave the kinetic energy unchanged.
     pub groups: (Group, Group),
-    /// Metrics other than the identity.
-    pub metrics: Option<ChangeOfBases>,
     /// `T`, `H`, and the equations.
     pub formulas: Formulas,
+}
+
+/// What methods of integration take beside the reduced equations, where asked for or worth while.
+pub struct Methods {
     /// The two-polar form, where it is asked for.
     pub two_polar: Option<TwoPolar>,
     /// Taylor coefficients of the reduced equations, if asked for.
@@ -150,48 +176,22 @@ pub struct Regularity {
     pub positive: bool,
 }
 
-/// The configuration metric over `(x_dot, phi_dot)`.
-pub struct Metric {
-    /// Number of rows.
-    pub size: usize,
-    /// `phi ->` entries, row after row.
-    pub entries: Program,
-    /// `phi ->` entries of the inverse, row after row.
-    pub inverse: Program,
-}
-
-/// The balance laws of a d'Alembert model.
-pub struct Balance {
-    /// Quantities of the internal motion, matrices.
-    pub internal: BalancedQuantities,
-    /// Quantities of the centre of mass, vectors, where it moves.
-    pub centre: Option<BalancedQuantities>,
-}
-
-/// The two sides of balance laws.
-pub struct BalancedQuantities {
-    /// Each quantity with its components.
-    pub quantities: Vec<(Quantity, Components)>,
-    /// Point -> their entries, one quantity after the other.
-    pub program: Program,
-}
-
 impl Model {
     /// With what is derived from the reduced equations: recurrence and variational equations, where they are asked for,
     /// and vectors of four.
     pub(super) fn completed(mut self, asked: Asked) -> Self {
-        let states = self.reduced.symbols();
-        let program = &self.reduced.program;
-        self.taylor = asked.taylor.then(|| Recurrence::of(program, &states));
-        self.tangent = asked.tangent.then(|| {
+        let states = self.dynamics.reduced.symbols();
+        let program = &self.dynamics.reduced.program;
+        self.methods.taylor = asked.taylor.then(|| Recurrence::of(program, &states));
+        self.methods.tangent = asked.tangent.then(|| {
             let changes =
                 |symbol: &Symbol| symbol.quantity() == Some(Quantity::Constant) || states.contains(symbol);
             fuse(&with_tangent(program, &changes))
         });
         // Charts of groups take single components; Runge-Kutta-Nystrom steps and closed forms leave nothing to do.
-        let is_closed = matches!(self.closed_form, Some((_, false)));
-        if self.constraint.is_none() && self.second_order.is_none() && !is_closed {
-            self.packed = Packed::of(program, &self.reduced.components());
+        let is_closed = matches!(self.dynamics.closed_form, Some((_, false)));
+        if self.constraint.is_none() && self.methods.second_order.is_none() && !is_closed {
+            self.methods.packed = Packed::of(program, &self.dynamics.reduced.components());
         }
         self
     }

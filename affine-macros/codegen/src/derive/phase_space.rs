@@ -15,7 +15,7 @@ impl Model {
     /// beside the placement, or of a straight line. And whether they need `p = 0`.
     #[must_use]
     pub fn geodesics(&self) -> Option<(Components, bool)> {
-        let (form, at_rest) = self.closed_form?;
+        let (form, at_rest) = self.dynamics.closed_form?;
         let components = match form {
             ClosedForm::Body => Components::Comoving,
             ClosedForm::Space => Components::Spatial,

@@ -4,7 +4,6 @@ use std::slice::from_ref;
 
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
-use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::Chart;
@@ -14,22 +13,9 @@ use crate::mechanics::potential::{Base, Potential};
 use crate::optimise::Batch;
 use crate::symbol::Quantity;
 
-use super::domain::{Domain, domain};
-use super::model::{MixedMasses, VelocitySide};
+use super::domain::domain;
+use super::model::{MixedMasses, PointPrograms, VelocitySide};
 use super::programs::shortest_program;
-
-/// The programs of one point.
-pub(super) struct Programs {
-    pub(super) velocity_side: Option<VelocitySide>,
-    pub(super) velocity: Program,
-    pub(super) mass: Option<Program>,
-    pub(super) mixed_masses: Option<MixedMasses>,
-    pub(super) hamiltonian: Program,
-    pub(super) hamiltonian_far_away: Option<Program>,
-    pub(super) domain: Option<Domain>,
-    pub(super) power: Option<Program>,
-    pub(super) isotropic: Option<Program>,
-}
 
 impl Body<'_> {
     /// The programs of a point of a chart.
@@ -38,7 +24,7 @@ impl Body<'_> {
         arena: &mut Arena,
         chart: &Chart,
         coefficients: &mut Constants,
-    ) -> Option<Programs> {
+    ) -> Option<PointPrograms> {
         let (n, frame) = (chart.dim, self.motion.frame());
         let phi = chart.phi.0.concat();
         let point = self.point(arena, chart);
@@ -85,7 +71,7 @@ impl Body<'_> {
             false => None,
         };
         let isotropic = self.isotropic().map(|batch| program(arena, from_ref(&batch), &[]));
-        Some(Programs {
+        Some(PointPrograms {
             velocity_side,
             velocity,
             mass,

@@ -18,13 +18,42 @@ use crate::mechanics::term::Frame;
 use crate::optimise::{Batch, straight_line};
 use crate::symbol::{Aspect, Factorised, Quantity, Symbol};
 
-use super::model::{Balance, BalancedQuantities, Metric};
+use super::components::Components;
 
-/// What is asked for besides the equations.
-pub(super) struct Quantities {
-    pub(super) metric: Option<Metric>,
-    pub(super) acceleration: Option<Program>,
-    pub(super) balance: Option<Balance>,
+/// Quantities that are emitted where they are asked for.
+pub struct Quantities {
+    /// The configuration metric, where asked for.
+    pub metric: Option<Metric>,
+    /// Point -> acceleration of the centre of mass, where asked for.
+    pub acceleration: Option<Program>,
+    /// The balance laws, where asked for.
+    pub balance: Option<Balance>,
+}
+
+/// The configuration metric over `(x_dot, phi_dot)`.
+pub struct Metric {
+    /// Number of rows.
+    pub size: usize,
+    /// `phi ->` entries, row after row.
+    pub entries: Program,
+    /// `phi ->` entries of the inverse, row after row.
+    pub inverse: Program,
+}
+
+/// The balance laws of a d'Alembert model.
+pub struct Balance {
+    /// Quantities of the internal motion, matrices.
+    pub internal: BalancedQuantities,
+    /// Quantities of the centre of mass, vectors, where it moves.
+    pub centre: Option<BalancedQuantities>,
+}
+
+/// The two sides of balance laws.
+pub struct BalancedQuantities {
+    /// Each quantity with its components.
+    pub quantities: Vec<(Quantity, Components)>,
+    /// Point -> their entries, one quantity after the other.
+    pub program: Program,
 }
 
 impl Body<'_> {

@@ -66,12 +66,12 @@ impl Trajectory {
     /// Those of a model.
     #[must_use]
     pub fn of(model: &Model) -> Self {
-        let reduction = &model.reduction;
+        let reduction = &model.dynamics.reduction;
         let Commuting { rotation, drift } = &reduction.commuting;
         let rotation = rotation.as_ref().map(|rotation| rotation.frame.into());
         let drift = drift.is_some();
         let linear = reduction.chart.linear;
-        let pushed = linear.is_some_and(|linear| model.reduced.has(linear.quantity()));
+        let pushed = linear.is_some_and(|linear| model.dynamics.reduced.has(linear.quantity()));
         Self {
             origin: rotation.is_some() || drift,
             turn: reduction.turn.is_some(),
@@ -83,11 +83,11 @@ impl Trajectory {
             momentum: reduction.chart.momentum.into(),
             momentum_entries: reduction.chart.momentum.quantity(),
             conserved: reduction.conserved.affine,
-            fixed: model.fixed.clone(),
+            fixed: model.dynamics.fixed.clone(),
             rotation,
             dilatation: reduction.dilatation.as_ref().map(|separation| (&separation.slope).into()),
             carried: reduction.carried.iter().copied().map(VolumeMeasure::from).collect(),
-            coefficients: model.trajectory.outputs.len(),
+            coefficients: model.dynamics.trajectory.outputs.len(),
         }
     }
 }

@@ -4,9 +4,9 @@
 use super::second_order::Halves;
 use super::splitting::{FlowProgram, PrincipalProgram, Programs};
 use super::{
-    Balance, BalancedQuantities, ChangeOfBases, Condition, Damping, Domain, Equations, GivenMatrix,
-    GivenSource, Metric, MixedMasses, Model, NumericBlock, PieceProgram, PiecePrograms, Preparation,
-    RatioProgram, Regularity, TwoPolar, VelocitySide,
+    Balance, BalancedQuantities, ChangeOfBases, Condition, Damping, Domain, Dynamics, Equations, GivenMatrix,
+    GivenSource, Methods, Metric, MixedMasses, Model, NumericBlock, PieceProgram, PiecePrograms,
+    PointPrograms, Preparation, Prepared, Quantities, RatioProgram, Regularity, TwoPolar, VelocitySide,
 };
 use crate::algebra::Rational;
 use crate::ir::packed::Packed;
@@ -116,12 +116,16 @@ macro_rules! written {
 
 written! {
     Model {
-        coefficients, numeric_blocks, conditions, damping, velocity_side, velocity, mass, mixed_masses, regularity,
-        metric, acceleration, balance, hamiltonian, hamiltonian_far_away, domain, power, full, reduced, trajectory, isotropic,
-        dilatation, metrics, two_polar, taylor, splitting, tangent, second_order, packed;
-        dim, constraint, projected, frame, translation, reduction, fixed, closed_form, conserved, conserved_at_rest,
-        signature, has_forces, groups, formulas
+        regularity, point, quantities, prepared, dynamics, methods;
+        dim, constraint, projected, frame, translation, description
     }
+    PointPrograms {
+        velocity_side, velocity, mass, mixed_masses, hamiltonian, hamiltonian_far_away, domain, power, isotropic;
+    }
+    Quantities { metric, acceleration, balance; }
+    Prepared { coefficients, numeric_blocks, conditions, damping, metrics; }
+    Dynamics { full, reduced, trajectory, dilatation; reduction, fixed, closed_form }
+    Methods { two_polar, taylor, splitting, tangent, second_order, packed; }
     VelocitySide { legendre, kinetic_energy; }
     Domain { program; guards }
     Equations { dependent, program; groups }

@@ -25,7 +25,7 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
             }
         }
     });
-    let drift = match (&context.model.mass, drifts) {
+    let drift = match (&context.model.point.mass, drifts) {
         (Some(program), true) => {
             let p = quote!(#rt::Phase::p(point));
             let (lets, drift) = context.times(p, (program, Quantity::InverseMass), Number::Double);
@@ -36,11 +36,11 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
     let straight = components == Components::TwoPoint;
     let spin = own_spin(context);
     let typed = context.bases(Some(&f64), Coefficients::Own);
-    let velocity = match context.model.metrics {
+    let velocity = match context.model.prepared.metrics {
         None => quote!(#rt::Model::velocity(self, point)),
         Some(_) => quote!(#typed.velocity(&#rt::Model::velocity(self, stated))),
     };
-    let stated = (context.model.metrics.is_some() && straight).then(|| quote!(let stated = point;));
+    let stated = (context.model.prepared.metrics.is_some() && straight).then(|| quote!(let stated = point;));
     // A straight line reads the velocity alone, and the momentum of a free centre.
     let inward = (!straight || drifts).then(|| context.inward(Coefficients::Own));
     let on_geodesic = context.with_metrics(quote! {
@@ -54,7 +54,7 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
             #rt::Phase::from_orthonormal(&geodesic.point(t, &start), &#typed)
         }
     });
-    let motion = match (components, &context.model.isotropic) {
+    let motion = match (components, &context.model.point.isotropic) {
         (Components::TwoPoint, _) | (_, None) => quote! {
             let motion = #rt::Motion::straight(#velocity.phi_dot);
         },

@@ -23,9 +23,13 @@ pub(super) struct Function {
 impl Function {
     /// That of a model, where energies or equations share much with the velocity.
     pub(super) fn of(model: &Model) -> Option<Self> {
-        let energies = [Some(&model.hamiltonian), model.hamiltonian_far_away.as_ref(), model.power.as_ref()];
-        let equations = [Some(&model.full.program), Some(&model.reduced.program)];
-        let common = Common::of(&model.velocity, energies.into_iter().chain(equations).flatten())?;
+        let energies = [
+            Some(&model.point.hamiltonian),
+            model.point.hamiltonian_far_away.as_ref(),
+            model.point.power.as_ref(),
+        ];
+        let equations = [Some(&model.dynamics.full.program), Some(&model.dynamics.reduced.program)];
+        let common = Common::of(&model.point.velocity, energies.into_iter().chain(equations).flatten())?;
         let places = || (1..=model.dim).flat_map(|i| (1..=model.dim).map(move |j| [i, j]));
         let is_read = |matrix: &Quantity| {
             places().all(|place| common.program.symbols().any(|read| *read == matrix.at(place)))

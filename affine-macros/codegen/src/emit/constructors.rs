@@ -47,7 +47,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
         )
     };
     let (momentum_errors, velocity_errors) = (errors("momentum"), errors("velocity"));
-    let at_velocity = match &context.model.velocity_side {
+    let at_velocity = match &context.model.point.velocity_side {
         None => refused::without_velocity(context, &point),
         Some(VelocitySide { legendre: program, .. }) => {
             let legendre = legendre(context, program);
@@ -187,7 +187,7 @@ fn legendre(context: &Context, program: &Program) -> TokenStream {
 /// `p = m x_dot` or `p = m C x_dot`, (4.7).
 fn momentum_of_centre(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
-    let Some(program) = &context.model.mass else { return mixed::momentum_of_centre(context) };
+    let Some(program) = &context.model.point.mass else { return mixed::momentum_of_centre(context) };
     let (first, velocity) = match context.model.centre() {
         Some(Components::Comoving) => {
             (quote!(let to_body = #rt::inverse(&phi);), quote!(to_body.tr_mul(&(to_body * x_dot))))

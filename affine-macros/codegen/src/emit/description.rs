@@ -16,7 +16,7 @@ use super::number::number;
 /// Documentation below the user's own, line by line.
 pub(super) fn docs(context: &Context) -> Vec<String> {
     let model = context.model;
-    let formulas = &model.formulas;
+    let formulas = &model.description.formulas;
     let mut lines = vec![
         format!("`{}`", formulas.kinetic_energy.text),
         String::new(),
@@ -29,11 +29,11 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         lines.extend(formulas.left_out.iter().map(|left_out| format!("- {}", left_out.what)));
         lines.push(String::new());
     }
-    lines.push(match model.signature {
+    lines.push(match model.description.signature {
         Some((p, 0)) => format!("The kinetic metric is positive definite, ({p}, 0)."),
         Some((0, q)) => format!("The kinetic metric is negative definite, (0, {q})."),
         Some((p, q)) => format!("The kinetic metric is indefinite, ({p}, {q})."),
-        None if model.velocity_side.is_none() => {
+        None if model.point.velocity_side.is_none() => {
             "The velocity is quadratic in the momentum: the kinetic metric \
             depends on the momentum, and is singular on a hypersurface of it."
                 .to_owned()
@@ -47,7 +47,7 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
     });
     lines.push(String::new());
     let [in_space, in_the_body] = model.invariance();
-    let invariant = match (model.has_forces, model.constraint) {
+    let invariant = match (model.description.has_forces, model.constraint) {
         (_, Some(_)) => "Without its constraint the kinetic energy is invariant",
         (true, None) => "The kinetic energy is invariant",
         (false, None) => "Invariant",
@@ -59,10 +59,10 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
         ));
     }
     lines.push(String::new());
-    lines.push(format!("Conserved: {}.", listed(&model.conserved)));
+    lines.push(format!("Conserved: {}.", listed(&model.description.conserved)));
     if model.translation.is_some() {
         lines.push(String::new());
-        lines.push(format!("With `p = 0`: {}.", listed(&model.conserved_at_rest)));
+        lines.push(format!("With `p = 0`: {}.", listed(&model.description.conserved_at_rest)));
     }
     lines.into_iter().map(indented).collect()
 }
@@ -70,7 +70,7 @@ pub(super) fn docs(context: &Context) -> Vec<String> {
 /// Hamilton's equations, and what they cost. The reduced ones are long, and stand in the description alone, which programs
 /// print.
 fn equations(context: &Context) -> Vec<String> {
-    let (full, reduced) = (&context.model.full, &context.model.reduced);
+    let (full, reduced) = (&context.model.dynamics.full, &context.model.dynamics.reduced);
     let counted =
         |what: &str, equations: &Equations| format!("{what}, {}", counts(equations.program.operations()));
     let what = match full == reduced {
@@ -78,7 +78,7 @@ fn equations(context: &Context) -> Vec<String> {
         false => "Hamilton's equations",
     };
     let mut lines = vec![format!("{}:", counted(what, full)), "```text".to_owned()];
-    lines.extend(context.model.formulas.equations.iter().map(|f| f.text.clone()));
+    lines.extend(context.model.description.formulas.equations.iter().map(|f| f.text.clone()));
     lines.push("```".to_owned());
     if full != reduced {
         lines.push(format!("{}: `DESCRIPTION.reduced_equations`.", counted("Reduced equations", reduced)));
@@ -174,7 +174,7 @@ pub(super) fn formula(context: &Context, text: &str, latex: &str) -> TokenStream
 pub(super) fn constant(context: &Context) -> TokenStream {
     let (model, rt) = (context.model, &context.names.rt);
     let name = context.names.model.to_string();
-    let formulas = &model.formulas;
+    let formulas = &model.description.formulas;
     let kinetic_energy = formula(context, &formulas.kinetic_energy.text, &formulas.kinetic_energy.latex);
     let hamiltonian = formula(context, &formulas.hamiltonian.text, &formulas.hamiltonian.latex);
     let left_out = formulas.left_out.iter().map(|left_out| {
@@ -183,7 +183,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
     });
     let domain = domain::guards(context);
     let angles = domain::angles(context);
-    let signature = match model.signature {
+    let signature = match model.description.signature {
         Some((p, q)) => {
             let (p, q) = (number(p), number(q));
             quote!(::core::option::Option::Some((#p, #q)))
@@ -200,19 +200,22 @@ pub(super) fn constant(context: &Context) -> TokenStream {
             },
         ),
         of_both(
-            [("conserved", &model.conserved), ("conserved_at_rest", &model.conserved_at_rest)],
+            [
+                ("conserved", &model.description.conserved),
+                ("conserved_at_rest", &model.description.conserved_at_rest),
+            ],
             &quote!(&[#rt::Conserved]),
             |list| conserved(context, list),
         ),
         of_both(
-            [("full", &model.full.groups), ("reduced", &model.reduced.groups)],
+            [("full", &model.dynamics.full.groups), ("reduced", &model.dynamics.reduced.groups)],
             &quote!(&[#rt::Group]),
             |list| groups(context, list),
         ),
         of_both(
             [
-                ("full_operations", &model.full.program.operations()),
-                ("reduced_operations", &model.reduced.program.operations()),
+                ("full_operations", &model.dynamics.full.program.operations()),
+                ("reduced_operations", &model.dynamics.reduced.program.operations()),
             ],
             &quote!(#rt::Operations),
             |count| operations(context, *count),
@@ -224,7 +227,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         None => quote!(::core::option::Option::None),
     };
     // The multiplier of a constraint depends on the velocity.
-    let second_order = model.constraint.is_none() && model.reduced.is_second_order();
+    let second_order = model.constraint.is_none() && model.dynamics.reduced.is_second_order();
     let description = quote! {
         #rt::Description {
             name: #name,

@@ -12,7 +12,7 @@ use super::point::{at_placement, bind_point};
 /// The functions of the state that keep their sign, in the description of the model.
 pub(super) fn guards(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
-    let arguments = context.model.domain.iter().flat_map(Domain::arguments);
+    let arguments = context.model.point.domain.iter().flat_map(Domain::arguments);
     let guards = arguments.map(|SignedArgument { part, argument, sign }| {
         let bound = match sign {
             Sign::Positive => quote!(Positive),
@@ -26,13 +26,13 @@ pub(super) fn guards(context: &Context) -> TokenStream {
 
 /// The parts of the potential with an angle that the time turns.
 pub(super) fn angles(context: &Context) -> TokenStream {
-    let parts = context.model.domain.iter().flat_map(Domain::angles);
+    let parts = context.model.point.domain.iter().flat_map(Domain::angles);
     quote!(&[#(#parts),*])
 }
 
 /// `domain`: nothing where the potential has a value at every state.
 pub(super) fn values(context: &Context) -> TokenStream {
-    let Some(domain) = &context.model.domain else { return TokenStream::new() };
+    let Some(domain) = &context.model.point.domain else { return TokenStream::new() };
     let rt = &context.names.rt;
     let program = &domain.program;
     let (time, inward) = (time(program), context.inward(Coefficients::Own));

@@ -39,8 +39,8 @@ fn velocity(context: &Context) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
     let spin = own_spin(context);
     let entries = entries(context.model.frame.momentum(), context.model.dim);
-    let entries = table_pattern(&entries, &context.model.velocity.inputs());
-    let Body { lets, results } = context.generic(&context.model.velocity, Coefficients::Given);
+    let entries = table_pattern(&entries, &context.model.point.velocity.inputs());
+    let Body { lets, results } = context.generic(&context.model.point.velocity, Coefficients::Given);
     let out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
     let velocity = quote!(#rt::matrix([#(#out),*]));
     let phi_dot = match context.model.spin() {
@@ -48,8 +48,8 @@ fn velocity(context: &Context) -> TokenStream {
         Components::Spatial => quote!(#velocity * #rt::Phase::phi(point)),
         Components::TwoPoint => velocity,
     };
-    let placement = placement(context, &context.model.velocity, &quote!(#rt::Phase::phi(point)));
-    let (mass, x_dot) = match (&context.model.mass, context.model.centre()) {
+    let placement = placement(context, &context.model.point.velocity, &quote!(#rt::Phase::phi(point)));
+    let (mass, x_dot) = match (&context.model.point.mass, context.model.centre()) {
         (None, Some(_)) => mixed::velocity_of_centre(context),
         (Some(program), Some(components)) => {
             let momentum = match components {
@@ -63,14 +63,14 @@ fn velocity(context: &Context) -> TokenStream {
     let inward = context.inward(Coefficients::Given);
     let velocity = quote!(#rt::Velocity { x_dot: #x_dot, phi_dot });
     let bases = context.bases(Some(&quote!(#t)), Coefficients::Given);
-    let velocity = match context.model.metrics {
+    let velocity = match context.model.prepared.metrics {
         Some(_) => quote!(#bases.reversed().velocity(&#velocity)),
         None => velocity,
     };
-    let masses = context.model.mixed_masses.as_ref().map(|masses| masses.velocity.clone());
-    let factor = context.model.mass.as_ref().map(|mass| mass.only(&Quantity::InverseMass.into()));
+    let masses = context.model.point.mixed_masses.as_ref().map(|masses| masses.velocity.clone());
+    let factor = context.model.point.mass.as_ref().map(|mass| mass.only(&Quantity::InverseMass.into()));
     let programs: Vec<Program> =
-        [context.model.velocity.clone()].into_iter().chain(factor.or(masses)).collect();
+        [context.model.point.velocity.clone()].into_iter().chain(factor.or(masses)).collect();
     let Evaluation { name, parameter } = Evaluation::of_points(context, "velocity", &programs);
     quote! {
         fn #name<#t: #rt::Real>(&self, #parameter point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
@@ -87,7 +87,7 @@ fn velocity(context: &Context) -> TokenStream {
 
 fn kinetic_energy(context: &Context) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
-    let Some(VelocitySide { kinetic_energy: program, .. }) = &context.model.velocity_side else {
+    let Some(VelocitySide { kinetic_energy: program, .. }) = &context.model.point.velocity_side else {
         let Evaluation { name, parameter } = Evaluation::reading(context, "kinetic_energy", false);
         return quote! {
             fn #name<#t: #rt::Real>(
@@ -127,8 +127,8 @@ fn kinetic_energy(context: &Context) -> TokenStream {
     let inward = context.with_metrics(quote! {
         let velocity = &#bases.velocity(velocity);
     });
-    let phi_inward =
-        (reads_phi && context.model.metrics.is_some()).then(|| quote!(let phi = &#bases.placement(phi);));
+    let phi_inward = (reads_phi && context.model.prepared.metrics.is_some())
+        .then(|| quote!(let phi = &#bases.placement(phi);));
     let inward = quote!(#inward #phi_inward);
     quote! {
         fn #name<#t: #rt::Real>(
@@ -150,14 +150,14 @@ fn kinetic_energy(context: &Context) -> TokenStream {
 
 fn hamiltonian(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
-    let program = &context.model.hamiltonian;
+    let program = &context.model.point.hamiltonian;
     let time = time(program);
     let near = energy(context, program);
     let inward = context.inward(Coefficients::Given);
     let programs: Vec<Program> =
-        [program].into_iter().chain(&context.model.hamiltonian_far_away).cloned().collect();
+        [program].into_iter().chain(&context.model.point.hamiltonian_far_away).cloned().collect();
     let Evaluation { name, parameter } = Evaluation::of_points(context, "hamiltonian", &programs);
-    let Some(program) = &context.model.hamiltonian_far_away else {
+    let Some(program) = &context.model.point.hamiltonian_far_away else {
         return quote! {
             fn #name<#t: #rt::Real>(&self, #parameter #time: #t, point: &Self::Point<#t>) -> #t {
                 #inward
@@ -196,7 +196,7 @@ fn energy(context: &Context, program: &Program) -> TokenStream {
 fn flat(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let n = context.model.dim;
-    let all = context.model.full.symbols();
+    let all = context.model.dynamics.full.symbols();
     let names = identifiers(&all);
     let bound = bind_components(context, &all);
     let rows = |of: Quantity| {
@@ -209,8 +209,8 @@ fn flat(context: &Context) -> TokenStream {
     };
     let own = rows(context.model.frame.momentum());
     let (phi, wrap) = (rows(Quantity::Placement), wrapper(context, context.model.spin()));
-    let dependent = context.dependent(&context.model.full);
-    let comoving = context.model.full.has(Quantity::ComovingLinearMomentum);
+    let dependent = context.dependent(&context.model.dynamics.full);
+    let comoving = context.model.dynamics.full.has(Quantity::ComovingLinearMomentum);
     let centre = match (context.model.translation, comoving) {
         (None, _) => quote!(let centre = #rt::Pinned;),
         (Some(_), false) => {
@@ -251,8 +251,8 @@ fn flat(context: &Context) -> TokenStream {
 
 fn hamilton_equations(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
-    let program = &context.model.full.program;
-    let bound = pattern(&context.model.full.symbols(), &program.inputs());
+    let program = &context.model.dynamics.full.program;
+    let bound = pattern(&context.model.dynamics.full.symbols(), &program.inputs());
     let time = time(program);
     let Body { lets, results } = context.generic(program, Coefficients::Given);
     let inline = context.inline();

@@ -12,7 +12,7 @@ use super::point::bind_point;
 
 /// `power`: nothing where the energy is that of the trait's default, conserved.
 pub(super) fn power(context: &Context) -> TokenStream {
-    let Some(program) = &context.model.power else { return TokenStream::new() };
+    let Some(program) = &context.model.point.power else { return TokenStream::new() };
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let bound = bind_point(context, program);
     let time = time(program);

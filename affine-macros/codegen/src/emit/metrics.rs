@@ -21,7 +21,7 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
             }
         }
     };
-    let bases = match &context.model.metrics {
+    let bases = match &context.model.prepared.metrics {
         None => return (TokenStream::new(), TokenStream::new()),
         Some(ChangeOfBases::Prepared(_)) => {
             return (TokenStream::new(), method(quote!(#rt::bases_beside(&self.coefficients))));
@@ -60,7 +60,7 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
 /// What linters would say of the expansion, where the user cannot mend it: differences in lists seem to lack a comma where the
 /// attribute has several lines, and roots of numbers, in bases that are known, may be near to constants.
 pub(super) fn lints(context: &Context) -> TokenStream {
-    match context.model.metrics {
+    match context.model.prepared.metrics {
         Some(ChangeOfBases::Known(_)) => {
             quote!(#[allow(clippy::possible_missing_comma, clippy::approx_constant)])
         }
@@ -70,7 +70,8 @@ pub(super) fn lints(context: &Context) -> TokenStream {
 
 /// The statement that finds the bases from the fields.
 pub(super) fn prepared(context: &Context) -> Option<TokenStream> {
-    let Some(ChangeOfBases::Prepared(Preparation { metrics: [space, body], .. })) = &context.model.metrics
+    let Some(ChangeOfBases::Prepared(Preparation { metrics: [space, body], .. })) =
+        &context.model.prepared.metrics
     else {
         return None;
     };
@@ -88,7 +89,7 @@ pub(super) fn prepared(context: &Context) -> Option<TokenStream> {
 
 /// The statements that carry inertias and tensors to the bases, which are found before.
 pub(super) fn rebased(context: &Context) -> TokenStream {
-    let Some(ChangeOfBases::Prepared(Preparation { matrices, .. })) = &context.model.metrics else {
+    let Some(ChangeOfBases::Prepared(Preparation { matrices, .. })) = &context.model.prepared.metrics else {
         return TokenStream::new();
     };
     let (rt, n) = (&context.names.rt, context.dim());
@@ -128,7 +129,7 @@ fn factors(components: Components) -> TokenStream {
 /// A result whose error has a velocity in orthonormal bases that it found before.
 pub(super) fn told_in_given_bases(context: &Context, result: TokenStream) -> TokenStream {
     let rt = &context.names.rt;
-    match &context.model.metrics {
+    match &context.model.prepared.metrics {
         Some(ChangeOfBases::Prepared(Preparation { matrices, .. })) if !matrices.is_empty() => {
             let factors = factors(context.model.spin());
             quote!(#rt::told_in_given_bases(#factors, #result))

@@ -21,7 +21,7 @@ fn vector(context: &Context, program: &Program, of: Quantity, value: &TokenStrea
 
 /// `x_dot` of a point from `phi` and `p`: statements, and the vector.
 pub(super) fn velocity_of_centre(context: &Context) -> (TokenStream, TokenStream) {
-    let Some(masses) = &context.model.mixed_masses else { return Default::default() };
+    let Some(masses) = &context.model.point.mixed_masses else { return Default::default() };
     let (rt, program) = (&context.names.rt, &masses.velocity);
     let placement = placement(context, program, &quote!(#rt::Phase::phi(point)));
     let p = vector(context, program, Quantity::LinearMomentum, &quote!(#rt::Phase::p(point)));
@@ -31,7 +31,7 @@ pub(super) fn velocity_of_centre(context: &Context) -> (TokenStream, TokenStream
 
 /// `p` from `phi` and `x_dot`.
 pub(super) fn momentum_of_centre(context: &Context) -> TokenStream {
-    let Some(masses) = &context.model.mixed_masses else { return TokenStream::new() };
+    let Some(masses) = &context.model.point.mixed_masses else { return TokenStream::new() };
     let (rt, program) = (&context.names.rt, &masses.momentum);
     let placement = placement(context, program, &quote!(&phi));
     let velocity = vector(context, program, Quantity::CentreVelocity, &quote!(x_dot));

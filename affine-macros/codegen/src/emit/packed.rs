@@ -15,7 +15,7 @@ use super::trajectory;
 
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context) -> TokenStream {
-    let Some(packed) = &context.model.packed else { return TokenStream::new() };
+    let Some(packed) = &context.model.methods.packed else { return TokenStream::new() };
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
     let size = number(4 * packed.state.len());
@@ -32,7 +32,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
 
 /// The hook by which a simulation finds the capability.
 pub(super) fn capability(context: &Context) -> TokenStream {
-    if context.model.packed.is_none() {
+    if context.model.methods.packed.is_none() {
         return TokenStream::new();
     }
     let (rt, n) = (&context.names.rt, context.dim());
@@ -48,7 +48,7 @@ pub(super) fn capability(context: &Context) -> TokenStream {
 /// `packed` and `unpacked`.
 fn change_of_storage(context: &Context, packed: &Packed) -> TokenStream {
     let rt = &context.names.rt;
-    let all = identifiers(&context.model.reduced.symbols());
+    let all = identifiers(&context.model.dynamics.reduced.symbols());
     let lanes: Vec<Option<usize>> = packed.state.iter().flatten().copied().collect();
     let filled = lanes.iter().map(|lane| match lane {
         Some(component) => {

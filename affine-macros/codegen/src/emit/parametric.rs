@@ -92,7 +92,7 @@ fn with_own(context: &Context) -> TokenStream {
     let own = quote!(::core::borrow::Borrow::borrow(&#t::of_doubles(&self.coefficients)));
     let equations =
         if context.has_multiplier() { quote!(free_equations) } else { quote!(hamilton_equations) };
-    let power = context.model.power.is_some().then(|| {
+    let power = context.model.point.power.is_some().then(|| {
         quote! {
             fn power<#t: #rt::Real>(&self, t: #t, point: &Self::Point<#t>) -> #t {
                 #rt::Parametric::power_with(self, #own, t, point)
@@ -159,7 +159,7 @@ fn with_own(context: &Context) -> TokenStream {
 
 /// Do reduced equations read coefficients, besides those of their trajectory? Fields that they call stand in the user's bases.
 pub(super) fn asks_again(context: &Context) -> bool {
-    let mut calls = context.model.reduced.program.calls.iter();
+    let mut calls = context.model.dynamics.reduced.program.calls.iter();
     context.has_prepared_bases() && calls.any(|call| call.field().is_some())
 }
 

@@ -64,7 +64,7 @@ pub(super) fn bind_components(context: &Context, used: &[Symbol]) -> TokenStream
     let rt = &context.names.rt;
     let spin = own_spin(context);
     let mut lets = TokenStream::new();
-    for (group, symbols) in &context.model.full.groups {
+    for (group, symbols) in &context.model.dynamics.full.groups {
         if !reads(used, symbols) {
             continue;
         }

@@ -119,13 +119,13 @@ fn coefficients(context: &Context) -> TokenStream {
     let bases = metrics::prepared(context);
     let rebased = metrics::rebased(context);
     let blocks: TokenStream =
-        context.model.numeric_blocks.iter().map(|block| numeric_block(context, block)).collect();
-    let axes = context.model.splitting.iter().flat_map(|split| &split.principal);
+        context.model.prepared.numeric_blocks.iter().map(|block| numeric_block(context, block)).collect();
+    let axes = context.model.methods.splitting.iter().flat_map(|split| &split.principal);
     let axes: TokenStream = axes.map(|form| principal(names, form)).collect();
-    let damping = damping(&context.model.damping, names);
+    let damping = damping(&context.model.prepared.damping, names);
     // What is carried to orthonormal bases is looked at in them.
     let (first, last) = if rebased.is_empty() { (None, bases.as_ref()) } else { (bases.as_ref(), None) };
-    let Body { lets, results } = over_fields(names, &context.model.coefficients);
+    let Body { lets, results } = over_fields(names, &context.model.prepared.coefficients);
     let all = match &bases {
         Some(_) => quote! {
             let coefficients = #rt::finite([#(#results),*])?;

@@ -22,7 +22,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
 }
 
 fn metric(context: &Context) -> TokenStream {
-    let Some(metric) = &context.model.metric else { return TokenStream::new() };
+    let Some(metric) = &context.model.quantities.metric else { return TokenStream::new() };
     let (rt, n, size) = (&context.names.rt, context.dim(), number(metric.size));
     let visibility = &context.spec.item.visibility;
     let moving = metric.size > context.model.dim * context.model.dim;
@@ -41,7 +41,7 @@ fn metric(context: &Context) -> TokenStream {
         let rows = results.chunks(metric.size).map(|row| quote!([#(#row),*]));
         let reads = !placement.is_empty();
         let (mut inward, mut form) = (TokenStream::new(), quote!(#rt::matrix([#(#rows),*])));
-        if context.model.metrics.is_some() {
+        if context.model.prepared.metrics.is_some() {
             let carried = format_ident!("{carried}");
             inward = if reads { quote!(let phi = &#bases.placement(phi);) } else { TokenStream::new() };
             form = quote!(#rt::#carried::<#n, #size>(&#bases, #form));
@@ -68,7 +68,7 @@ fn metric(context: &Context) -> TokenStream {
 }
 
 fn acceleration(context: &Context) -> TokenStream {
-    let Some(program) = &context.model.acceleration else { return TokenStream::new() };
+    let Some(program) = &context.model.quantities.acceleration else { return TokenStream::new() };
     let (rt, n) = (&context.names.rt, context.dim());
     let visibility = &context.spec.item.visibility;
     let point = context.point(&quote!(#rt::f64));
@@ -79,7 +79,7 @@ fn acceleration(context: &Context) -> TokenStream {
     let inward = if bound.is_empty() { TokenStream::new() } else { context.inward(Coefficients::Own) };
     let acceleration = quote!(#rt::vector([#(#results),*]));
     let bases = context.bases(Some(&quote!(#rt::f64)), Coefficients::Own);
-    let acceleration = match context.model.metrics {
+    let acceleration = match context.model.prepared.metrics {
         Some(_) => quote!(#bases.space_inverse * #acceleration),
         None => acceleration,
     };
@@ -96,7 +96,7 @@ fn acceleration(context: &Context) -> TokenStream {
 }
 
 fn balance(context: &Context) -> TokenStream {
-    let Some(balance) = &context.model.balance else { return TokenStream::new() };
+    let Some(balance) = &context.model.quantities.balance else { return TokenStream::new() };
     let (rt, n, dim) = (&context.names.rt, context.dim(), context.model.dim);
     let visibility = &context.spec.item.visibility;
     let point = context.point(&quote!(#rt::f64));

@@ -82,10 +82,10 @@ fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
         None => bind_state(context, parts),
     });
     lets.extend(carried::computed(context, &parts.carried, &quote!(#rt::Phase::phi(point))));
-    let body = context.generic(&context.model.trajectory, Coefficients::Given);
+    let body = context.generic(&context.model.dynamics.trajectory, Coefficients::Given);
     let (coefficients, results) = (body.lets, body.results);
     let whirl = whirl(context, parts);
-    let reduced = &context.model.reduced;
+    let reduced = &context.model.dynamics.reduced;
     let work = reduced.has(Quantity::Work).then(|| quote!(let work = #t::zero();));
     let state = identifiers(&reduced.symbols());
     let kept = trajectory::constants(context, parts, &results);
@@ -121,11 +121,11 @@ fn programs(context: &Context, parts: &Trajectory) -> Vec<Program> {
     };
     let dilates = parts.dilatation.is_some();
     [
-        Some(model.trajectory.clone()),
-        of(&model.isotropic, Quantity::InverseMu, parts.rotation.is_some()),
-        of(&model.isotropic, Quantity::InverseAlpha, dilates),
-        of(&model.mass, Quantity::InverseMass, parts.drift),
-        model.dilatation.clone().filter(|_| dilates),
+        Some(model.dynamics.trajectory.clone()),
+        of(&model.point.isotropic, Quantity::InverseMu, parts.rotation.is_some()),
+        of(&model.point.isotropic, Quantity::InverseAlpha, dilates),
+        of(&model.point.mass, Quantity::InverseMass, parts.drift),
+        model.dynamics.dilatation.clone().filter(|_| dilates),
     ]
     .into_iter()
     .flatten()
@@ -135,8 +135,8 @@ fn programs(context: &Context, parts: &Trajectory) -> Vec<Program> {
 /// Components of state and momenta in turned space, as variables.
 fn bind_state(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.model.dim);
-    let mut used = context.model.reduced.symbols();
-    used.extend(context.model.trajectory.inputs());
+    let mut used = context.model.dynamics.reduced.symbols();
+    used.extend(context.model.dynamics.trajectory.inputs());
     used.extend(parts.fixed.clone());
     let turned = |value: TokenStream| if parts.turn { quote!((turn * #value)) } else { value };
     let mut lets = TokenStream::new();
@@ -177,12 +177,12 @@ fn bind_state(context: &Context, parts: &Trajectory) -> TokenStream {
 fn whirl(context: &Context, parts: &Trajectory) -> TokenStream {
     let t = &context.names.scalar;
     let mut lets = TokenStream::new();
-    if let (Some(side), Some(program)) = (parts.rotation, &context.model.isotropic) {
+    if let (Some(side), Some(program)) = (parts.rotation, &context.model.point.isotropic) {
         let spin = spin(context, side);
         let (inner, whirl) = context.times(quote!(skew), (program, Quantity::InverseMu), Number::Generic(t));
         lets.extend(quote!(#inner let spin = #spin; let skew = spin.transpose() - spin; let whirl = #whirl;));
     }
-    if let (true, Some(program)) = (parts.drift, &context.model.mass) {
+    if let (true, Some(program)) = (parts.drift, &context.model.point.mass) {
         let (inner, drift) = context.times(quote!(p), (program, Quantity::InverseMass), Number::Generic(t));
         lets.extend(quote!(#inner let drift = #drift;));
     }
@@ -191,9 +191,9 @@ fn whirl(context: &Context, parts: &Trajectory) -> TokenStream {
 
 fn reduced_equations(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
-    let program = &context.model.reduced.program;
+    let program = &context.model.dynamics.reduced.program;
     let used = program.inputs();
-    let all = context.model.reduced.symbols();
+    let all = context.model.dynamics.reduced.symbols();
     let bound = pattern(&all, &used);
     let coefficients = pattern(&trajectory::all(context), &used);
     let read = (parts.coefficients > 0).then(|| quote!(let #coefficients = constants.coefficients;));

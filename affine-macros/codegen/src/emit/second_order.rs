@@ -15,7 +15,7 @@ use super::trajectory::coefficients;
 
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context) -> TokenStream {
-    let Some(Halves { positions, momenta, velocity, force }) = &context.model.second_order else {
+    let Some(Halves { positions, momenta, velocity, force }) = &context.model.methods.second_order else {
         return TokenStream::new();
     };
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
@@ -51,7 +51,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
 
 /// The hook by which a simulation finds the capability.
 pub(super) fn capability(context: &Context) -> TokenStream {
-    if context.model.second_order.is_none() {
+    if context.model.methods.second_order.is_none() {
         return TokenStream::new();
     }
     let (rt, n) = (&context.names.rt, context.dim());

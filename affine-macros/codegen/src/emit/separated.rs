@@ -13,7 +13,7 @@ use super::pattern::{entries, ident, identifiers, table, table_pattern};
 pub(super) fn split(context: &Context, motion: DilatationalMotion) -> TokenStream {
     let rt = &context.names.rt;
     let n = context.model.dim;
-    let used = [context.model.reduced.symbols(), context.model.fixed.clone()].concat();
+    let used = [context.model.dynamics.reduced.symbols(), context.model.dynamics.fixed.clone()].concat();
     let psi = table_pattern(&entries(Quantity::IsochoricPlacement, n), &used);
     let parts = table_pattern(&shear_and_turn(n), &used);
     let (inverse_alpha, inverse_alpha_lets) = inverse_alpha(context);
@@ -69,7 +69,7 @@ fn shear_and_turn(n: usize) -> Vec<Vec<Symbol>> {
 }
 
 fn inverse_alpha(context: &Context) -> (TokenStream, TokenStream) {
-    match &context.model.isotropic {
+    match &context.model.point.isotropic {
         Some(program) => {
             let body = context.generic(&program.only(&Quantity::InverseAlpha.into()), Coefficients::Given);
             (body.result(), body.lets)
@@ -80,7 +80,7 @@ fn inverse_alpha(context: &Context) -> (TokenStream, TokenStream) {
 
 fn dilatation(context: &Context, motion: DilatationalMotion) -> TokenStream {
     let rt = &context.names.rt;
-    let Some(program) = &context.model.dilatation else { return TokenStream::new() };
+    let Some(program) = &context.model.dynamics.dilatation else { return TokenStream::new() };
     let body = context.generic(program, Coefficients::Given);
     let (lets, values) = (&body.lets, &body.results);
     let path = closed_form(motion);

@@ -17,7 +17,9 @@ use super::trajectory::{self, coefficients};
 
 /// The implementation of the capability.
 pub(super) fn splitting_impl(context: &Context) -> TokenStream {
-    let Some(Programs { pieces, nystrom, .. }) = &context.model.splitting else { return TokenStream::new() };
+    let Some(Programs { pieces, nystrom, .. }) = &context.model.methods.splitting else {
+        return TokenStream::new();
+    };
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
     let t = &context.names.scalar;
@@ -72,7 +74,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
 
 /// The hook by which a simulation finds the capability.
 pub(super) fn capability(context: &Context) -> TokenStream {
-    if context.model.splitting.is_none() {
+    if context.model.methods.splitting.is_none() {
         return TokenStream::new();
     }
     let (rt, n) = (&context.names.rt, context.dim());
@@ -90,7 +92,7 @@ fn bound(context: &Context, program: &Program, more: &[Symbol]) -> TokenStream {
     let mut used = program.inputs();
     let (read, _) = coefficients(context, &used);
     used.extend(more.iter().cloned());
-    let states = context.model.reduced.symbols();
+    let states = context.model.dynamics.reduced.symbols();
     let bind = reads(&used, &states).then(|| {
         let bound = pattern(&states, &used);
         quote!(let #bound = *state;)
@@ -103,6 +105,7 @@ fn accumulated(context: &Context, component: &Symbol, rise: TokenStream) -> Toke
     let rt = &context.names.rt;
     let at = context
         .model
+        .dynamics
         .reduced
         .symbols()
         .iter()
@@ -216,7 +219,7 @@ fn added(context: &Context, names: &[Vec<Symbol>], rise: &str) -> TokenStream {
     let rise = quote::format_ident!("{rise}");
     let entries =
         names.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, n)| (i, j, n)));
-    let states = context.model.reduced.symbols();
+    let states = context.model.dynamics.reduced.symbols();
     entries
         .filter(|(.., name)| states.contains(name))
         .map(|(i, j, name)| {

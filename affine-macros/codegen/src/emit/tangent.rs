@@ -14,16 +14,16 @@ use super::trajectory;
 
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context) -> TokenStream {
-    let Some(program) = &context.model.tangent else { return TokenStream::new() };
+    let Some(program) = &context.model.methods.tangent else { return TokenStream::new() };
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
     let t = &context.names.scalar;
-    let groups = context.model.reduced.groups.iter().map(|(quantity, components)| {
+    let groups = context.model.dynamics.reduced.groups.iter().map(|(quantity, components)| {
         let len = number(components.len());
         group(context, *quantity, &len)
     });
     let groups: Vec<TokenStream> = groups.collect();
-    let mut states = context.model.reduced.symbols();
+    let mut states = context.model.dynamics.reduced.symbols();
     let (len, both) = (number(states.len()), number(2 * states.len()));
     let changes = |of: &[Symbol]| of.iter().map(|s| s.clone().seen(Aspect::Change)).collect::<Vec<_>>();
     states.extend(changes(&states));

@@ -21,7 +21,7 @@ use writer::Writer;
 
 /// The implementation of the capability.
 pub(super) fn taylor_impl(context: &Context) -> TokenStream {
-    let Some(recurrence) = &context.model.taylor else { return TokenStream::new() };
+    let Some(recurrence) = &context.model.methods.taylor else { return TokenStream::new() };
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
     let t = &context.names.scalar;
@@ -41,7 +41,7 @@ pub(super) fn taylor_impl(context: &Context) -> TokenStream {
 
 /// The hook by which a simulation finds the capability.
 pub(super) fn capability(context: &Context) -> TokenStream {
-    if context.model.taylor.is_none() {
+    if context.model.methods.taylor.is_none() {
         return TokenStream::new();
     }
     let (rt, n) = (&context.names.rt, context.dim());

@@ -110,7 +110,7 @@ pub(super) fn constants(
 
 /// The coefficients of a trajectory: `k_1`, `k_2`, ..
 pub(super) fn all(context: &Context) -> Vec<Symbol> {
-    context.model.trajectory.results().cloned().collect()
+    context.model.dynamics.trajectory.results().cloned().collect()
 }
 
 /// The statement that binds those of some inputs, and the name of the parameter that it takes them from.

@@ -20,7 +20,7 @@ use super::point::{own_spin, wrapper};
 
 /// The implementations of the lattice traits, where they were asked for.
 pub(super) fn implementations(context: &Context) -> TokenStream {
-    let Some(form) = &context.model.two_polar else { return TokenStream::new() };
+    let Some(form) = &context.model.methods.two_polar else { return TokenStream::new() };
     let lattice = lattice(context, form);
     let conversions = conversions(context);
     let ratios = ratios::implementation(context, form);
@@ -29,7 +29,7 @@ pub(super) fn implementations(context: &Context) -> TokenStream {
 
 /// The lattice of U(n), which has no real phase points to convert to.
 pub(super) fn lattice_of_circle(context: &Context) -> TokenStream {
-    context.model.two_polar.as_ref().map(|form| lattice(context, form)).unwrap_or_default()
+    context.model.methods.two_polar.as_ref().map(|form| lattice(context, form)).unwrap_or_default()
 }
 
 fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
@@ -105,7 +105,7 @@ fn conversions(context: &Context) -> TokenStream {
     let (frame, spin, wrap) = (context.frame(), own_spin(context), wrapper(context, context.model.spin()));
     let f64 = quote!(#rt::f64);
     let some = quote!(::core::option::Option::Some);
-    let isotropic = match &context.model.isotropic {
+    let isotropic = match &context.model.point.isotropic {
         None => quote!(::core::option::Option::None),
         Some(program) => {
             let Body { lets, results } = context.double(program);
@@ -173,7 +173,7 @@ fn description(context: &Context, form: &TwoPolar) -> TokenStream {
         Places::Stretches => format_ident!("Stretches"),
         Places::Angles => format_ident!("Angles"),
     };
-    let potential = match (context.model.has_forces, form.dilatation_only) {
+    let potential = match (context.model.description.has_forces, form.dilatation_only) {
         (false, _) => format_ident!("None"),
         (true, true) => format_ident!("Dilatation"),
         (true, false) => format_ident!("Stretches"),

@@ -187,9 +187,14 @@ fn symbols(conserved: &Conserved) -> Vec<String> {
 fn lists(dim: usize, statement: &str, terms: Vec<Term>, expected: &[&str]) {
     let args = format!("dim = {dim}, {statement}");
     let model = derived(&args, "struct Model;");
-    assert_eq!(symbols(&model.conserved), expected, "{args}");
+    assert_eq!(symbols(&model.description.conserved), expected, "{args}");
     let kinetic = Kinetic::new(dim, terms).unwrap();
-    assert_both_complete(&args, &mut Random::new(71), &kinetic, [&model.conserved, &model.conserved_at_rest]);
+    assert_both_complete(
+        &args,
+        &mut Random::new(71),
+        &kinetic,
+        [&model.description.conserved, &model.description.conserved_at_rest],
+    );
 }
 
 /// `diag(2, 2, 3)` with its axis along each of the coordinates; the plane across it, and the other two.
@@ -216,7 +221,11 @@ fn soft_symmetric_tops() {
         let dalembert = vec![Term::DAlembert(inertia)];
         let args = format!("dim = 3, kinetic(dalembert = {text}), potential = tr(G)^2 + 1/det");
         let model = derived(&args, "struct Model;");
-        assert_eq!(symbols(&model.conserved), ["Energy", "Spin", "SpinNorm", &vorticity], "{args}");
+        assert_eq!(
+            symbols(&model.description.conserved),
+            ["Energy", "Spin", "SpinNorm", &vorticity],
+            "{args}"
+        );
         let free = format!("kinetic(dalembert = {text})");
         let expected = ["Energy", "Spin", "SpinNorm", "CanonicalMomentum", &vorticity];
         // Of phi_dot alone, T is the same after every rotation that J calls so.
@@ -246,14 +255,14 @@ fn weights() {
     let heavy = model("2*9.81*x[3] + tr(G)^2", terms);
     let about_the_vertical = ["p_1", "p_2", "x_1*p_2 - x_2*p_1"];
     let own = ["Energy", "Spin", "SpinNorm", "Vorticity", "VorticityNorm"];
-    assert_eq!(symbols(&heavy.conserved), [&own[..], &about_the_vertical].concat());
-    assert_eq!(heavy.conserved_at_rest, heavy.conserved);
+    assert_eq!(symbols(&heavy.description.conserved), [&own[..], &about_the_vertical].concat());
+    assert_eq!(heavy.description.conserved_at_rest, heavy.description.conserved);
     // What holds space and body together leaves the sum of both angular momenta.
     let hung = model("x[1]*phi[1,3] + x[2]*phi[2,3] + x[3] + tr(G)^2", terms);
-    assert_eq!(symbols(&hung.conserved), ["Energy", "I_12 - I_21", "Vort_12"]);
+    assert_eq!(symbols(&hung.description.conserved), ["Energy", "I_12 - I_21", "Vort_12"]);
     // Of the plane of x and y, U knows the distance alone; of the body nothing.
     let held = model("x[1]^2 + x[2]^2 + x[3]^4", terms);
-    let list = symbols(&held.conserved);
+    let list = symbols(&held.description.conserved);
     assert!(list.ends_with(&["x_1*p_2 - x_2*p_1".to_owned()]), "{list:?}");
 }
 
@@ -266,7 +275,7 @@ fn rotations_of_both() {
             let args = format!("dim = {n}, kinetic(dalembert = 1), potential = {potential}");
             let model = derived(&args, "struct Model;");
             assert_eq!(
-                symbols(&model.conserved),
+                symbols(&model.description.conserved),
                 ["Energy".to_owned(), format!("S_12 {sign} Vort_12")],
                 "{args}"
             );
@@ -279,7 +288,7 @@ fn rotations_of_both() {
 fn forces_of_fields() {
     let model = |terms: &str, forces: &str| {
         let args = format!("dim = 3, kinetic({terms}), {forces}");
-        symbols(&derived(&args, "struct Model { w: Wind }").conserved)
+        symbols(&derived(&args, "struct Model { w: Wind }").description.conserved)
     };
     let top = "dalembert = diag(2, 2, 3)";
     let of_class = |class: &str| model(top, &format!("potential = custom(w, {class})"));
@@ -295,7 +304,7 @@ fn friction() {
     let model = |dissipation: &str| {
         let terms = "space_inertia = diag(2, 2, 3), body_inertia = diag(2, 2, 3), space_translation = 2";
         let args = format!("dim = 3, kinetic({terms}), dissipation({dissipation})");
-        symbols(&derived(&args, "struct Model;").conserved)
+        symbols(&derived(&args, "struct Model;").description.conserved)
     };
     let centre = ["LinearMomentum", "OrbitalAngularMomentum"];
     let list = model("casimir1_squared = 1");

@@ -47,12 +47,12 @@ fn the_list_is_exactly_what_is_conserved() {
                 let sample = Sample::new(&mut random, n, internal, translation);
                 let model = sample.derived();
                 let moving = observed(&mut random, &sample.kinetic, false);
-                assert_eq!(names(&model.conserved), moving, "{}", sample.args);
+                assert_eq!(names(&model.description.conserved), moving, "{}", sample.args);
                 let at_rest = observed(&mut random, &sample.kinetic, true);
-                assert_eq!(names(&model.conserved_at_rest), at_rest, "{} at rest", sample.args);
+                assert_eq!(names(&model.description.conserved_at_rest), at_rest, "{} at rest", sample.args);
                 // In space few: a point for every momentum is many points. Of an inertia of long fractions, which is conserved
                 // along the orthogonal group of its own metric, the components have longer ones.
-                let lists = [&model.conserved, &model.conserved_at_rest];
+                let lists = [&model.description.conserved, &model.description.conserved_at_rest];
                 let is_long = matches!(internal, Internal::DalembertMatrix | Internal::DalembertDiagonal);
                 if !is_long && (n == 2 || random.integer(0, 5) == 0) {
                     assert_both_complete(&sample.args, &mut random, &sample.kinetic, lists);
@@ -70,9 +70,22 @@ fn vanishing_coefficients() {
         for (terms, energy) in sparse(n) {
             let model = derived(&format!("dim = {n}, kinetic({terms})"), "struct Model;");
             let kinetic = Kinetic::new(n, energy).unwrap();
-            assert_eq!(names(&model.conserved), observed(&mut random, &kinetic, false), "{terms}, n = {n}");
-            assert_eq!(names(&model.conserved_at_rest), observed(&mut random, &kinetic, true), "{terms}");
-            assert_both_complete(terms, &mut random, &kinetic, [&model.conserved, &model.conserved_at_rest]);
+            assert_eq!(
+                names(&model.description.conserved),
+                observed(&mut random, &kinetic, false),
+                "{terms}, n = {n}"
+            );
+            assert_eq!(
+                names(&model.description.conserved_at_rest),
+                observed(&mut random, &kinetic, true),
+                "{terms}"
+            );
+            assert_both_complete(
+                terms,
+                &mut random,
+                &kinetic,
+                [&model.description.conserved, &model.description.conserved_at_rest],
+            );
         }
     }
 }
@@ -110,7 +123,7 @@ fn a_chiral_energy() {
     let k = affine_oracle::Matrix::from_rationals(4, 4, &entries);
     let kinetic = Kinetic::new(2, vec![affine_oracle::Term::BodyTensor(k)]).unwrap();
     let model = derived(&format!("dim = 2, kinetic(body_tensor = {text})"), "struct Chiral;");
-    let list = names(&model.conserved);
+    let list = names(&model.description.conserved);
     assert_eq!(list, observed(&mut random, &kinetic, false));
     assert!(list.contains(&"Vorticity".to_owned()));
 }
@@ -129,7 +142,12 @@ fn sparse_tensors() {
         tried += 1;
         let args = format!("dim = 2, kinetic(space_tensor = {})", matrix_literal(&k));
         let model = derived(&args, "struct Model;");
-        assert_eq!(names(&model.conserved), observed(&mut random, &kinetic, false), "{args}");
-        assert_both_complete(&args, &mut random, &kinetic, [&model.conserved, &model.conserved_at_rest]);
+        assert_eq!(names(&model.description.conserved), observed(&mut random, &kinetic, false), "{args}");
+        assert_both_complete(
+            &args,
+            &mut random,
+            &kinetic,
+            [&model.description.conserved, &model.description.conserved_at_rest],
+        );
     }
 }

@@ -41,18 +41,18 @@ pub(crate) fn check(what: &str, model: &Model, kinetic: &Kinetic, state: &State,
         values.iter().filter_map(|(k, v)| Some((k.strip_prefix(stem)?.to_owned(), v.clone()))).collect()
     };
 
-    agree(what, &run(&model.velocity, &here), velocity, &stem(&moving, velocity), n * n);
-    let velocity_side = model.velocity_side.as_ref().expect("the velocity determines the momentum");
+    agree(what, &run(&model.point.velocity, &here), velocity, &stem(&moving, velocity), n * n);
+    let velocity_side = model.point.velocity_side.as_ref().expect("the velocity determines the momentum");
     agree(what, &run(&velocity_side.legendre, &moving), spin, &stem(&here, spin), n * n);
-    for (program, inputs) in [(&velocity_side.kinetic_energy, &moving), (&model.hamiltonian, &here)] {
+    for (program, inputs) in [(&velocity_side.kinetic_energy, &moving), (&model.point.hamiltonian, &here)] {
         let energy = run(program, inputs);
         assert_eq!(energy["energy"], own(motion.energy()), "{what}: energy");
         assert_eq!(energy.len(), 1);
     }
     let size = n * n + if kinetic.has_translation() { n } else { 0 };
-    agree(what, &run(&model.full.program, &here), "d_", &rates(&motion), 2 * size);
-    let rates = model.full.symbols().into_iter().map(|symbol| symbol.seen(Aspect::Rate));
-    assert!(rates.eq(model.full.program.results().cloned()), "{what}: order of the state");
+    agree(what, &run(&model.dynamics.full.program, &here), "d_", &rates(&motion), 2 * size);
+    let rates = model.dynamics.full.symbols().into_iter().map(|symbol| symbol.seen(Aspect::Rate));
+    assert!(rates.eq(model.dynamics.full.program.results().cloned()), "{what}: order of the state");
 }
 
 #[test]
@@ -101,9 +101,9 @@ fn well_described(sample: &Sample, model: &Model) {
     };
     assert_eq!(model.frame, frame, "{what}");
     let signature = sample.signature();
-    assert_eq!(model.signature, Some((signature.positive, signature.negative)), "{what}");
-    assert_eq!(model.mass.is_some(), sample.translation != Translation::None);
-    if let Some(mass) = &model.mass {
+    assert_eq!(model.description.signature, Some((signature.positive, signature.negative)), "{what}");
+    assert_eq!(model.point.mass.is_some(), sample.translation != Translation::None);
+    if let Some(mass) = &model.point.mass {
         let mass = run(mass, &Values::new());
         assert_eq!(exact(&mass["mass"]), sample.m, "{what}");
         assert_eq!(exact(&mass["inverse_mass"]), sample.m.recip(), "{what}");
@@ -119,7 +119,7 @@ fn isotropic_coefficients() {
             for translation in TRANSLATIONS {
                 let sample = Sample::new(&mut random, n, internal, translation);
                 let model = sample.derived();
-                let found = run(model.isotropic.as_ref().expect("isotropic"), &Values::new());
+                let found = run(model.point.isotropic.as_ref().expect("isotropic"), &Values::new());
                 let (i, a, b) = (&sample.i, &sample.a, &sample.b);
                 let shear = i + a;
                 let dilatation = &shear + rational(i64::try_from(n).unwrap(), 1) * b;
@@ -143,6 +143,6 @@ fn only_isotropic_affine_energies_have_isotropic_coefficients() {
         Internal::FlatTensor,
     ] {
         let sample = Sample::new(&mut random, 2, internal, Translation::None);
-        assert!(sample.derived().isotropic.is_none(), "{}", sample.args);
+        assert!(sample.derived().point.isotropic.is_none(), "{}", sample.args);
     }
 }

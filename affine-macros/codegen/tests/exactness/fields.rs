@@ -12,7 +12,7 @@ use super::reduction::{equations, rest, turned};
 /// The coefficients of the prepared model, numeric blocks inverted by the oracle.
 pub(crate) fn prepared(model: &Model, fields: &Values) -> Values {
     let mut inputs = fields.clone();
-    for NumericBlock { program, inverse, size, .. } in &model.numeric_blocks {
+    for NumericBlock { program, inverse, size, .. } in &model.prepared.numeric_blocks {
         let values = run(program, fields);
         let places: Vec<(usize, usize)> = (0..*size).flat_map(|i| (i..*size).map(move |j| (i, j))).collect();
         let entry = |i: usize, j: usize| {
@@ -25,7 +25,7 @@ pub(crate) fn prepared(model: &Model, fields: &Values) -> Values {
             inputs.insert(name.to_string(), own(&inverted.entry(*i, *j)));
         }
     }
-    run(&model.coefficients, &inputs)
+    run(&model.prepared.coefficients, &inputs)
 }
 
 #[test]
@@ -44,11 +44,11 @@ fn every_family_with_fields() {
                 let (args, item, fields) = sample.with_fields();
                 let model = derived(&args, item);
                 let coefficients = prepared(&model, &fields);
-                let rest = rest(&sample, &model.reduction);
+                let rest = rest(&sample, &model.dynamics.reduction);
                 for _ in 0..if large { 1 } else { 2 } {
                     let mut state = point(&mut random, &sample.kinetic);
                     check(&args, &model, &sample.kinetic, &state, &coefficients);
-                    if model.reduction.turn.is_some() {
+                    if model.dynamics.reduction.turn.is_some() {
                         state = turned(state);
                     }
                     if !rest.has_translation() {
@@ -58,9 +58,12 @@ fn every_family_with_fields() {
                 }
                 if !large {
                     let numeric = sample.derived();
-                    assert_eq!(model.conserved, numeric.conserved, "{args}");
-                    assert_eq!(model.conserved_at_rest, numeric.conserved_at_rest, "{args}");
-                    assert_eq!(model.reduced.groups, numeric.reduced.groups, "{args}");
+                    assert_eq!(model.description.conserved, numeric.description.conserved, "{args}");
+                    assert_eq!(
+                        model.description.conserved_at_rest, numeric.description.conserved_at_rest,
+                        "{args}"
+                    );
+                    assert_eq!(model.dynamics.reduced.groups, numeric.dynamics.reduced.groups, "{args}");
                 }
             }
         }
@@ -81,8 +84,8 @@ fn inertia_with_fields() {
         let j = Matrix::from_rationals(n, n, &entries);
         let args = format!("dim = {n}, kinetic(dalembert = {text}, space_translation = m)");
         let model = derived(&args, "struct Model { i: f64, a: f64, m: f64 }");
-        assert_eq!(model.numeric_blocks.len(), 1, "one block for all rows");
-        assert!(model.numeric_blocks[0].positive);
+        assert_eq!(model.prepared.numeric_blocks.len(), 1, "one block for all rows");
+        assert!(model.prepared.numeric_blocks[0].positive);
         let terms = vec![Term::DAlembert(j), Term::SpaceTranslation(rational(2, 3))];
         let kinetic = Kinetic::new(n, terms).unwrap();
         let fields = [("self.i", rational(1, 1)), ("self.a", rational(1, 1)), ("self.m", rational(2, 3))];
@@ -109,11 +112,11 @@ fn conditions_of_prepare() {
                     Internal::DalembertScalar => vec![("J", i.clone())],
                     _ => vec![("I + A", i + a), ("I - A", i - a), ("I + A + n B", i + a + count * b)],
                 };
-                if model.mass.is_some() {
+                if model.point.mass.is_some() {
                     expected.push(("m", sample.m.clone()));
                 }
                 let mut found: Vec<(&str, _)> = Vec::new();
-                for condition in &model.conditions {
+                for condition in &model.prepared.conditions {
                     let values = run(&condition.program, &fields);
                     let sizes = values.iter().filter(|(name, _)| *name != "value_1");
                     let sum = sizes.fold(Rational::ZERO, |sum, (_, value)| &sum + value);

@@ -105,9 +105,9 @@ fn inverts(random: &mut Random, energy: &Anisotropic, model: &Model, coefficient
     let (mut inputs, mut expected) = (coefficients.clone(), Values::new());
     put(&mut inputs, spin, &x);
     put(&mut expected, velocity, &o);
-    assert_eq!(run(&model.velocity, &inputs), expected);
+    assert_eq!(run(&model.point.velocity, &inputs), expected);
     let energy = (&x * &o).trace().scaled(&rational(1, 2)).entry(0, 0);
-    assert_eq!(exact(&run(&model.hamiltonian, &inputs)["energy"]), energy);
+    assert_eq!(exact(&run(&model.point.hamiltonian, &inputs)["energy"]), energy);
 }
 
 #[test]
@@ -118,7 +118,7 @@ fn velocities_of_diagonal_inertias() {
             for _ in 0..4 {
                 let energy = Anisotropic::random(&mut random, n);
                 let model = derived(&energy.args(key), "struct Model;");
-                assert!(model.numeric_blocks.is_empty());
+                assert!(model.prepared.numeric_blocks.is_empty());
                 inverts(&mut random, &energy, &model, &Values::new());
             }
         }
@@ -135,10 +135,11 @@ fn velocities_of_diagonal_inertias_with_fields() {
             let inertia = if n == 2 { "diag(j1, j2)" } else { "diag(j1, j2, j3)" };
             let args = format!("dim = {n}, kinetic({key} = {inertia}, casimir2 = a, casimir1_squared = b)");
             let model = derived(&args, "struct Model { j1: f64, j2: f64, j3: f64, a: f64, b: f64 }");
-            let mut sizes: Vec<usize> = model.numeric_blocks.iter().map(|block| block.size).collect();
+            let mut sizes: Vec<usize> =
+                model.prepared.numeric_blocks.iter().map(|block| block.size).collect();
             sizes.sort_unstable();
             assert_eq!(sizes, if n == 2 { vec![2, 2] } else { vec![2, 2, 2, 3] });
-            assert!(model.numeric_blocks.iter().all(|block| !block.positive));
+            assert!(model.prepared.numeric_blocks.iter().all(|block| !block.positive));
             let mut fields: Values =
                 [("self.a".to_owned(), own(&energy.a)), ("self.b".to_owned(), own(&energy.b))].into();
             let inertias = energy.j.iter().enumerate();
@@ -216,10 +217,10 @@ fn same_programs(one: &str, other: &str) {
         assert_eq!(found, expected, "{name} of {one}");
     }
     assert_eq!(programs(&first).len(), programs(&second).len());
-    assert_eq!(first.conserved, second.conserved, "{one}");
-    assert_eq!(first.closed_form, second.closed_form, "{one}");
-    assert_eq!(first.groups, second.groups, "{one}");
-    assert_eq!(first.signature, second.signature, "{one}");
+    assert_eq!(first.description.conserved, second.description.conserved, "{one}");
+    assert_eq!(first.dynamics.closed_form, second.dynamics.closed_form, "{one}");
+    assert_eq!(first.description.groups, second.description.groups, "{one}");
+    assert_eq!(first.description.signature, second.description.signature, "{one}");
 }
 
 /// An inertia has the programs of its tensor, in every frame; a multiple of the identity those of its factor.
@@ -247,7 +248,7 @@ fn inertias_have_the_programs_of_their_tensors() {
             }
             let sample = Sample::new(&mut random, n, internal, Translation::None);
             assert_eq!(
-                sample.derived().numeric_blocks.len(),
+                sample.derived().prepared.numeric_blocks.len(),
                 0,
                 "numbers are inverted when the model is compiled"
             );
@@ -272,7 +273,10 @@ fn flat_tensors_may_be_indefinite() {
             indefinite += usize::from(sample.is_indefinite());
             // The mass is that of the masses of `dalembert`.
             let positive = internal == Internal::FlatSum;
-            assert!(model.conditions.iter().all(|condition| condition.positive == positive), "{args}");
+            assert!(
+                model.prepared.conditions.iter().all(|condition| condition.positive == positive),
+                "{args}"
+            );
         }
     }
     assert!(indefinite >= 3);
@@ -286,12 +290,12 @@ fn masses_beside_a_flat_tensor() {
         &format!("dim = 2, kinetic({tensor}, dalembert = [[i, a], [a, 3]])"),
         "struct Model { i: f64, a: f64 }",
     );
-    assert!(model.numeric_blocks.iter().all(|block| !block.positive));
-    let minors: Vec<_> = model.conditions.iter().filter(|condition| condition.positive).collect();
+    assert!(model.prepared.numeric_blocks.iter().all(|block| !block.positive));
+    let minors: Vec<_> = model.prepared.conditions.iter().filter(|condition| condition.positive).collect();
     let fields: Values =
         [("self.i".to_owned(), own(&rational(5, 1))), ("self.a".to_owned(), own(&rational(2, 1)))].into();
     let values: Vec<Rational> =
         minors.iter().map(|condition| exact(&run(&condition.program, &fields)["value_1"])).collect();
     assert_eq!(values, [rational(5, 1), rational(11, 1)]);
-    assert_eq!(model.signature, None);
+    assert_eq!(model.description.signature, None);
 }

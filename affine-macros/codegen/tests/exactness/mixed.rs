@@ -161,31 +161,31 @@ fn programs_agree(sum: &Sum, model: &Model, state: &State) {
     put(&mut moving, "phi", &state.phi);
     put(&mut moving, "x_dot", &motion.rate().x);
     let (velocity, spin) = names(model.frame);
-    agree(what, &run(&model.velocity, &here), velocity, &stem(&moving, velocity), n * n);
+    agree(what, &run(&model.point.velocity, &here), velocity, &stem(&moving, velocity), n * n);
     agree(
         what,
-        &run(&model.velocity_side.as_ref().unwrap().legendre, &moving),
+        &run(&model.point.velocity_side.as_ref().unwrap().legendre, &moving),
         spin,
         &stem(&here, spin),
         n * n,
     );
-    if let Some(masses) = &model.mixed_masses {
+    if let Some(masses) = &model.point.mixed_masses {
         agree(what, &run(&masses.velocity, &here), "x_dot_", &stem(&moving, "x_dot_"), n);
         agree(what, &run(&masses.momentum, &moving), "p_", &stem(&here, "p_"), n);
     }
     assert_eq!(
-        run(&model.velocity_side.as_ref().unwrap().kinetic_energy, &moving)["energy"],
+        run(&model.point.velocity_side.as_ref().unwrap().kinetic_energy, &moving)["energy"],
         own(motion.energy()),
         "{what}: T"
     );
-    assert_eq!(run(&model.hamiltonian, &here)["energy"], own(motion.energy()), "{what}: H");
+    assert_eq!(run(&model.point.hamiltonian, &here)["energy"], own(motion.energy()), "{what}: H");
     let size = n * n + if kinetic.has_translation() { n } else { 0 };
-    agree(what, &run(&model.full.program, &here), "d_", &rates(&motion), 2 * size);
+    agree(what, &run(&model.dynamics.full.program, &here), "d_", &rates(&motion), 2 * size);
 }
 
 /// The reduced equations: those of the energy that a free centre of mass leaves, at a point in turned space.
 fn reduction_agrees(sum: &Sum, model: &Model, state: &State) {
-    let reduction = &model.reduction;
+    let reduction = &model.dynamics.reduction;
     let mut state = if reduction.turn.is_some() { turned(state.clone()) } else { state.clone() };
     let rest = match reduction.commuting.drift.is_some() {
         false => sum.kinetic.clone(),
@@ -202,7 +202,7 @@ fn reduction_agrees(sum: &Sum, model: &Model, state: &State) {
 fn quantities_agree(sum: &Sum, model: &Model, state: &State) {
     let (what, kinetic) = (&sum.text, &sum.kinetic);
     let here = coordinates(kinetic, state);
-    let metric = model.metric.as_ref().expect("asked for");
+    let metric = model.quantities.metric.as_ref().expect("asked for");
     let expected = kinetic.mass_matrix(&state.phi).unwrap();
     let square = |values: &Values| {
         let entry = |i: usize, j: usize| exact(&values[&format!("entry_{}_{}", i + 1, j + 1)]);
@@ -215,7 +215,7 @@ fn quantities_agree(sum: &Sum, model: &Model, state: &State) {
     assert!((&square(&run(&metric.entries, &here)) - &expected).is_zero(), "{what}: Gamma");
     let product = &square(&run(&metric.inverse, &here)) * &expected;
     assert!((&product - &Matrix::identity(metric.size)).is_zero(), "{what}: Gamma^-1");
-    if let Some(program) = &model.acceleration {
+    if let Some(program) = &model.quantities.acceleration {
         let motion = kinetic.motion(state).unwrap();
         let (x_dot, _) = kinetic.velocity(&state.along(motion.rate())).unwrap();
         let mut expected = Values::new();
@@ -252,12 +252,13 @@ fn the_lists_are_exactly_what_is_conserved() {
                 .filter(|observable| motions.iter().all(|m| m.bracket(**observable).unwrap().is_zero()))
                 .map(|observable| observable.name())
                 .collect();
-            let list = if at_rest { &model.conserved_at_rest } else { &model.conserved };
+            let list =
+                if at_rest { &model.description.conserved_at_rest } else { &model.description.conserved };
             let listed: Vec<String> = list.whole.iter().map(|candidate| format!("{candidate:?}")).collect();
             assert_eq!(listed, expected, "{}, at rest: {at_rest}", sum.text);
         }
         if n == 2 {
-            let lists = [&model.conserved, &model.conserved_at_rest];
+            let lists = [&model.description.conserved, &model.description.conserved_at_rest];
             assert_both_complete(&sum.text, &mut random, &sum.kinetic, lists);
         }
     }
@@ -268,7 +269,7 @@ fn the_lists_are_exactly_what_is_conserved() {
 fn sums_of_squares_are_positive_definite() {
     let regular = |terms: &str| {
         let model = derived(&format!("dim = 2, kinetic({terms})"));
-        (model.signature, model.regularity.is_some())
+        (model.description.signature, model.regularity.is_some())
     };
     assert_eq!(regular("dalembert = 1, body_inertia = 2"), (Some((4, 0)), false));
     assert_eq!(regular("dalembert = 1, casimir1_squared = 2"), (Some((4, 0)), false));

@@ -12,8 +12,8 @@ use super::points::{fraction, own};
 
 /// Holds the packed program of a model against the scalar one at a random point, whether it pays or not.
 fn agrees(model: &Model, random: &mut Random) -> Option<(Packed, usize)> {
-    let program: &Program = &model.reduced.program;
-    let (packed, cost) = Packed::cheapest(program, &model.reduced.components())?;
+    let program: &Program = &model.dynamics.reduced.program;
+    let (packed, cost) = Packed::cheapest(program, &model.dynamics.reduced.components())?;
     let values: Vec<Rational> = program.steps.iter().map(|_| own(&fraction(random))).collect();
     let input = |symbol: &Symbol| {
         let place = program.steps.iter().position(|op| matches!(op, Op::Input(known) if known == symbol))?;
@@ -86,7 +86,8 @@ fn benchmark_problems() {
 #[test]
 fn rows_of_a_symmetric_matrix() {
     let model = derived(VIBRATING, "struct Body;");
-    let (packed, _) = Packed::cheapest(&model.reduced.program, &model.reduced.components()).unwrap();
+    let (packed, _) =
+        Packed::cheapest(&model.dynamics.reduced.program, &model.dynamics.reduced.components()).unwrap();
     let row = |components: [usize; 3]| {
         let [a, b, c] = components.map(Some);
         [a, b, c, None]
@@ -104,9 +105,9 @@ fn left_out() {
         "dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), potential = q1^4 + q2^4 + q3^4",
         "dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), constraint = isochoric, potential = neo_hookean(0.5)",
     ] {
-        assert!(derived(args, "struct Body;").packed.is_none(), "{args}");
+        assert!(derived(args, "struct Body;").methods.packed.is_none(), "{args}");
     }
     for args in [VIBRATING, MISSILE, STIFF_MISSILE, ELASTIC] {
-        assert!(derived(args, "struct Body;").packed.is_some(), "{args}");
+        assert!(derived(args, "struct Body;").methods.packed.is_some(), "{args}");
     }
 }

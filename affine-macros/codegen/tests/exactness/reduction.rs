@@ -68,14 +68,14 @@ fn every_family_is_reduced_exactly() {
             for translation in TRANSLATIONS {
                 let sample = Sample::new(&mut random, n, internal, translation);
                 let model = sample.derived();
-                let rest = rest(&sample, &model.reduction);
+                let rest = rest(&sample, &model.dynamics.reduction);
                 for _ in 0..2 {
                     let mut state = point(&mut random, &sample.kinetic);
-                    if model.reduction.turn.is_some() {
+                    if model.dynamics.reduction.turn.is_some() {
                         turns += 1;
                         state = turned(state);
                     }
-                    let split = split_energy(&model.reduction, &sample.kinetic, &state);
+                    let split = split_energy(&model.dynamics.reduction, &sample.kinetic, &state);
                     let whole = sample.kinetic.hamiltonian(&state).unwrap().entry(0, 0);
                     if !rest.has_translation() {
                         state = state.at_rest();
@@ -94,17 +94,17 @@ fn every_family_is_reduced_exactly() {
 pub(crate) fn equations(what: &str, model: &Model, rest: &Kinetic, state: &State, coefficients: &Values) {
     let mut here = coordinates(rest, state);
     here.extend(coefficients.clone());
-    let mut inputs = run(&model.trajectory, &here);
+    let mut inputs = run(&model.dynamics.trajectory, &here);
     inputs.extend(coefficients.clone());
-    let listed = names(&model.reduced.symbols());
+    let listed = names(&model.dynamics.reduced.symbols());
     for name in &listed {
         inputs.insert(name.clone(), here[name].clone());
     }
     let constants = constants(model);
-    for name in names(&model.trajectory.inputs()) {
+    for name in names(&model.dynamics.trajectory.inputs()) {
         // Turned space has p = (p_1, 0, 0).
         assert!(
-            model.reduction.turn.is_none() || !["p_2", "p_3"].contains(&name.as_str()),
+            model.dynamics.reduction.turn.is_none() || !["p_2", "p_3"].contains(&name.as_str()),
             "{what}: {name} is zero"
         );
         assert!(
@@ -113,7 +113,7 @@ pub(crate) fn equations(what: &str, model: &Model, rest: &Kinetic, state: &State
         );
     }
     let expected = rates(&rest.motion(state).unwrap());
-    let found = run(&model.reduced.program, &inputs);
+    let found = run(&model.dynamics.reduced.program, &inputs);
     assert_eq!(found.len(), listed.len());
     for name in &listed {
         assert_eq!(found[&format!("d_{name}")], expected[name], "{what}: {name}");
@@ -128,14 +128,14 @@ pub(crate) fn equations(what: &str, model: &Model, rest: &Kinetic, state: &State
 fn constants(model: &Model) -> Vec<String> {
     let n = model.dim;
     let mut list = Vec::new();
-    if model.reduction.chart.linear.is_some() {
+    if model.dynamics.reduction.chart.linear.is_some() {
         list.extend((1..=n).map(|i| format!("p_{i}")));
     }
-    if model.reduction.conserved.affine {
-        let stem = model.reduction.chart.momentum.quantity().stem();
+    if model.dynamics.reduction.conserved.affine {
+        let stem = model.dynamics.reduction.chart.momentum.quantity().stem();
         list.extend((1..=n).flat_map(|i| (1..=n).map(move |j| format!("{stem}_{i}{j}"))));
     }
-    list.extend(names(&model.fixed));
+    list.extend(names(&model.dynamics.fixed));
     list
 }
 
@@ -148,7 +148,7 @@ fn each_family_reduces_as_far_as_it_can() {
             for translation in TRANSLATIONS {
                 let sample = Sample::new(&mut random, n, internal, translation);
                 let model = sample.derived();
-                let reduction = &model.reduction;
+                let reduction = &model.dynamics.reduction;
                 let what = &sample.args;
                 let flat = model.frame == Frame::Flat;
                 let isotropic = matches!(internal, Internal::Affine | Internal::Body | Internal::Space);
@@ -178,7 +178,7 @@ fn each_family_reduces_as_far_as_it_can() {
                 if (isotropic && !(clash && moving)) || (flat && !moving) {
                     assert!(reduction.conserved.affine, "{what}");
                 }
-                let x_in_state = model.reduced.has(Quantity::Position);
+                let x_in_state = model.dynamics.reduced.has(Quantity::Position);
                 assert_eq!(x_in_state, moving, "{what}");
                 // At p = 0 the skew part of every isotropic energy commutes with the rest.
                 let closed = match (isotropic, model.frame) {
@@ -187,7 +187,7 @@ fn each_family_reduces_as_far_as_it_can() {
                     (true, Frame::Body) => Some(ClosedForm::Body),
                     (true, Frame::Space) => Some(ClosedForm::Space),
                 };
-                assert_eq!(model.closed_form, closed.map(|form| (form, moving)), "{what}");
+                assert_eq!(model.dynamics.closed_form, closed.map(|form| (form, moving)), "{what}");
             }
         }
     }
@@ -199,10 +199,11 @@ fn the_drunk_missile_integrates_position_and_placement() {
     let args =
         "dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1)";
     let model = super::models::derived(args, "struct Missile;");
-    assert_eq!(model.reduction.chart.momentum, Momentum::Total);
-    let quantities: Vec<Quantity> = model.reduced.groups.iter().map(|(quantity, _)| *quantity).collect();
+    assert_eq!(model.dynamics.reduction.chart.momentum, Momentum::Total);
+    let quantities: Vec<Quantity> =
+        model.dynamics.reduced.groups.iter().map(|(quantity, _)| *quantity).collect();
     assert_eq!(quantities, [Quantity::Position, Quantity::Placement]);
-    let size: usize = model.reduced.groups.iter().map(|(_, components)| components.len()).sum();
+    let size: usize = model.dynamics.reduced.groups.iter().map(|(_, components)| components.len()).sum();
     assert_eq!(size, 12);
-    assert!(model.coefficients.outputs.is_empty());
+    assert!(model.prepared.coefficients.outputs.is_empty());
 }

@@ -25,9 +25,10 @@ fn what_is_shared_keeps_the_value() {
     for (args, sharing) in MODELS {
         let mut taken = 0;
         let model = derived(args, "struct Model;");
-        let others = [&model.hamiltonian, &model.full.program, &model.reduced.program];
-        let common = Common::of(&model.velocity, others).expect("much in common");
-        for program in others.into_iter().chain([&model.velocity]) {
+        let others =
+            [&model.point.hamiltonian, &model.dynamics.full.program, &model.dynamics.reduced.program];
+        let common = Common::of(&model.point.velocity, others).expect("much in common");
+        for program in others.into_iter().chain([&model.point.velocity]) {
             let Some(rest) = common.taken_from(program) else { continue };
             let mut point: HashMap<String, Rational> =
                 program.symbols().map(|symbol| (symbol.to_string(), own(&fraction(&mut random)))).collect();

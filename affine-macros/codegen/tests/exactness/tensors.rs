@@ -23,17 +23,17 @@ pub(crate) fn isotropic(n: usize, i: &Rational, a: &Rational, b: &Rational) -> M
 }
 
 pub(crate) fn programs(model: &Model) -> Vec<(&'static str, &Program)> {
-    let velocity_side = model.velocity_side.as_ref().expect("the velocity determines the momentum");
+    let velocity_side = model.point.velocity_side.as_ref().expect("the velocity determines the momentum");
     let mut list = vec![
-        ("full", &model.full.program),
-        ("reduced", &model.reduced.program),
-        ("trajectory", &model.trajectory),
+        ("full", &model.dynamics.full.program),
+        ("reduced", &model.dynamics.reduced.program),
+        ("trajectory", &model.dynamics.trajectory),
         ("legendre", &velocity_side.legendre),
-        ("velocity", &model.velocity),
+        ("velocity", &model.point.velocity),
         ("kinetic energy", &velocity_side.kinetic_energy),
-        ("hamiltonian", &model.hamiltonian),
+        ("hamiltonian", &model.point.hamiltonian),
     ];
-    list.extend(model.isotropic.as_ref().map(|program| ("isotropic", program)));
+    list.extend(model.point.isotropic.as_ref().map(|program| ("isotropic", program)));
     list
 }
 
@@ -57,13 +57,13 @@ fn isotropic_tensors_have_the_programs_of_their_named_terms() {
                     assert_eq!(found, expected, "{name} of {}", sample.args);
                 }
                 assert_eq!(programs(&disguised).len(), programs(&named).len());
-                assert_eq!(disguised.full.groups, named.full.groups);
-                assert_eq!(disguised.reduced.groups, named.reduced.groups);
-                assert_eq!(disguised.conserved, named.conserved);
-                assert_eq!(disguised.conserved_at_rest, named.conserved_at_rest);
-                assert_eq!(disguised.closed_form, named.closed_form);
-                assert_eq!(disguised.groups, named.groups);
-                assert_eq!(disguised.signature, named.signature);
+                assert_eq!(disguised.dynamics.full.groups, named.dynamics.full.groups);
+                assert_eq!(disguised.dynamics.reduced.groups, named.dynamics.reduced.groups);
+                assert_eq!(disguised.description.conserved, named.description.conserved);
+                assert_eq!(disguised.description.conserved_at_rest, named.description.conserved_at_rest);
+                assert_eq!(disguised.dynamics.closed_form, named.dynamics.closed_form);
+                assert_eq!(disguised.description.groups, named.description.groups);
+                assert_eq!(disguised.description.signature, named.description.signature);
             }
         }
     }

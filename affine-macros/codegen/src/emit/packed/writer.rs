@@ -35,7 +35,7 @@ pub(super) fn written(context: &Context, packed: &Packed) -> Written {
     let mut writer = Writer {
         context,
         packed,
-        names: names::of_vectors(packed, &context.model.reduced.symbols()),
+        names: names::of_vectors(packed, &context.model.dynamics.reduced.symbols()),
         uses: uses(packed),
         depth: HashMap::new(),
         bound: HashMap::new(),

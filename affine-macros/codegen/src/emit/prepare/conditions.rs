@@ -24,8 +24,8 @@ pub(super) fn conditions(context: &Context) -> TokenStream {
         let entries = conditions.iter().map(|c| condition(c, names));
         quote!(#rt::well_posed(&[#(#entries),*])?;)
     };
-    let eigenvalues = list(context.model.conditions.iter().filter(|c| !is_mass(c)).collect());
-    let masses = list(context.model.conditions.iter().filter(is_mass).collect());
+    let eigenvalues = list(context.model.prepared.conditions.iter().filter(|c| !is_mass(c)).collect());
+    let masses = list(context.model.prepared.conditions.iter().filter(is_mass).collect());
     quote!(#eigenvalues #masses)
 }
 

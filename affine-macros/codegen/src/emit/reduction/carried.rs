@@ -12,7 +12,7 @@ use crate::symbol::{Quantity, Symbol};
 /// The state with `1/D` and `q` from its placement.
 pub(super) fn renewed(context: &Context, list: &[VolumeMeasure]) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
-    let all = context.model.reduced.symbols();
+    let all = context.model.dynamics.reduced.symbols();
     let names = identifiers(&all);
     let rows = table(&entries(Quantity::Placement, n));
     let is_carried = |symbol: &Symbol| list.iter().any(|carried| *symbol == carried.quantity().into());

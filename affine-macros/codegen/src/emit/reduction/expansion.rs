@@ -14,7 +14,7 @@ use crate::symbol::{Quantity, Symbol};
 /// `expand`: what moves in closed form is put back, and space turned back.
 pub(super) fn expand(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.model.dim);
-    let all = context.model.reduced.symbols();
+    let all = context.model.dynamics.reduced.symbols();
     // No phase point holds the work, and 1/D and q follow from phi.
     let follows = [Quantity::InverseDilatation, Quantity::MeanLogStretch, Quantity::Work].map(Symbol::from);
     let needed: Vec<Symbol> = all.iter().filter(|symbol| !follows.contains(symbol)).cloned().collect();
@@ -96,7 +96,7 @@ pub(super) fn expand(context: &Context, parts: &Trajectory) -> TokenStream {
     let point = quote!(#rt::point(phi, #spin, #centre));
     let point = context.outward(&quote!(#t), point, Coefficients::Given);
     // The parts of a momentum whose trace moves apart are velocities: `1/alpha` takes them back.
-    let scale = context.model.isotropic.as_ref().filter(|_| parts.dilatation.is_some());
+    let scale = context.model.point.isotropic.as_ref().filter(|_| parts.dilatation.is_some());
     let scale = scale.map(|program| program.only(&Quantity::InverseAlpha.into()));
     let Evaluation { name, parameter } = Evaluation::of_points(context, "expand", scale.as_slice());
     quote! {
@@ -123,7 +123,7 @@ fn expanded_momentum(context: &Context, parts: &Trajectory, rows: &TokenStream) 
         let fixed = identifiers(&parts.fixed);
         lets.extend(quote!(let [#(#fixed),*] = constants.fixed;));
     }
-    lets.extend(context.dependent(&context.model.reduced));
+    lets.extend(context.dependent(&context.model.dynamics.reduced));
     let momentum = match (parts.turn, parts.momentum) {
         (false, _) | (_, AffineMomentum::Spin(Components::Comoving)) => quote!(#rows),
         (true, AffineMomentum::Spin(Components::TwoPoint)) => quote!(#rows * constants.turn),

@@ -14,13 +14,15 @@ use crate::emit::parametric::{Evaluation, equations_head};
 pub(super) fn is_plain(context: &Context, parts: &Trajectory) -> bool {
     let nothing_moves_apart = !parts.origin && !parts.turn && parts.dilatation.is_none();
     let nothing_is_constant = !parts.linear && !parts.conserved && parts.fixed.is_empty();
-    context.model.full == context.model.reduced && nothing_moves_apart && nothing_is_constant
+    context.model.dynamics.full == context.model.dynamics.reduced
+        && nothing_moves_apart
+        && nothing_is_constant
 }
 
 /// `reduce`: the plain array.
 pub(super) fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
     let (rt, t, constants) = (&context.names.rt, &context.names.scalar, &context.names.constants);
-    let program = &context.model.trajectory;
+    let program = &context.model.dynamics.trajectory;
     let Body { lets, results } = context.generic(program, Coefficients::Given);
     let fields = match parts.coefficients {
         0 => quote!(scalar: ::core::marker::PhantomData),

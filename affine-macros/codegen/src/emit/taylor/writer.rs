@@ -20,7 +20,7 @@ pub(super) struct Writer<'a> {
 
 impl Writer<'_> {
     pub(super) fn states(&self) -> Vec<Symbol> {
-        self.context.model.reduced.symbols()
+        self.context.model.dynamics.reduced.symbols()
     }
 
     /// The statement that binds the coefficients of the trajectory that a program reads, and the parameter.

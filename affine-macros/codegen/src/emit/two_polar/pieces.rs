@@ -59,7 +59,7 @@ fn turning(context: &Context) -> TokenStream {
         Components::TwoPoint => return TokenStream::new(),
     };
     // On U(n) there is none, and no coefficient of it is computed.
-    let program = match (&context.model.isotropic, &context.spec.group) {
+    let program = match (&context.model.point.isotropic, &context.spec.group) {
         (Some(program), None) => program,
         _ => return TokenStream::new(),
     };

@@ -22,9 +22,10 @@ fn rates(program: &Program, inputs: &Named) -> Option<Named> {
 fn taken(model: &Model) -> Taken {
     let number = |p: &Polynomial| Number::from_rational(&p.as_constant().expect("a number"));
     let none = Named::new();
-    let dilatation = model.dilatation.as_ref().map(|program| {
+    let dilatation = model.dynamics.dilatation.as_ref().map(|program| {
         let motion = run(program, &none).expect("numbers");
-        let isotropic = run(model.isotropic.as_ref().expect("an isotropic energy"), &none).expect("numbers");
+        let isotropic =
+            run(model.point.isotropic.as_ref().expect("an isotropic energy"), &none).expect("numbers");
         Dilatation {
             alpha: isotropic["inverse_alpha"].inverse(),
             inverse_mass: motion["inverse_dilatational_mass"],
@@ -38,29 +39,33 @@ fn taken(model: &Model) -> Taken {
             },
         }
     });
-    Taken::new(model.constraint.filter(|_| model.projected), &model.reduction, dilatation, &number)
+    Taken::new(model.constraint.filter(|_| model.projected), &model.dynamics.reduction, dilatation, &number)
 }
 
 /// The expansion of the reduced motion against the full one, at a random point.
 pub(super) fn check(random: &mut Random, args: &str, model: &Model) {
     let taken = taken(model);
-    let coefficients = run(&model.coefficients, &Named::new()).expect("numbers");
+    let coefficients = run(&model.prepared.coefficients, &Named::new()).expect("numbers");
     for _ in 0..TRIES {
         let point = Point::random(random, &taken);
         let mut here = point.reduced(&taken);
         here.extend(coefficients.clone());
-        let Some(constants) = run(&model.trajectory, &here) else { continue };
+        let Some(constants) = run(&model.dynamics.trajectory, &here) else { continue };
         here.extend(constants);
-        let Some(reduced) = rates(&model.reduced.program, &here) else { continue };
+        let Some(reduced) = rates(&model.dynamics.reduced.program, &here) else { continue };
         let phase = point.expanded(&taken, &reduced);
         let (mut there, moving) = phase.coordinates(model.frame);
         there.extend(coefficients.clone());
         there.insert("t".to_owned(), point.t);
-        let Some(expected) = rates(&model.full.program, &there) else { continue };
+        let Some(expected) = rates(&model.dynamics.full.program, &there) else { continue };
         for (name, expected) in &expected {
-            assert_eq!(&moving[name], expected, "{name} of {args}, reduced to {:?}", model.reduced.groups);
+            assert_eq!(
+                &moving[name], expected,
+                "{name} of {args}, reduced to {:?}",
+                model.dynamics.reduced.groups
+            );
         }
-        if let (Some(program), Some(work)) = (&model.power, reduced.get("work")) {
+        if let (Some(program), Some(work)) = (&model.point.power, reduced.get("work")) {
             let Some(power) = run(program, &there) else { continue };
             assert_eq!(power["power"], *work, "power of {args}");
         }
