@@ -179,7 +179,7 @@ pub enum Conserved {
 pub struct Component {
     /// The formula.
     pub symbol: &'static str,
-    /// The summands.
+    /// The multiples of entries of momenta whose sum it is.
     pub entries: &'static [Entry],
 }
 

@@ -7,7 +7,7 @@ use super::method::Method;
 use super::trajectory::{Computation, Trajectory};
 use crate::integrate::splitting::ORDER;
 use crate::integrate::taylor::order_for;
-use crate::model::{Constraint, Description, LeftOut, Quantity, Scope};
+use crate::model::{Conserved, Constraint, Description, LeftOut, Quantity, Scope};
 use crate::state::Phase;
 
 /// Condition numbers from here on take more than half the digits.
@@ -305,10 +305,9 @@ impl Why {
 
     fn scene(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Computation { method, no_whirl, at_rest, .. } = self.computation;
-        let translates = self.description.full.iter().any(|group| {
-            matches!(group.quantity, Quantity::LinearMomentum | Quantity::ComovingLinearMomentum)
-        });
-        if at_rest && translates {
+        // Where a force acts on the centre of mass, it does not stay at rest.
+        let stays = self.description.conserved.contains(&Conserved::LinearMomentum);
+        if at_rest && stays {
             writeln!(f, "left out of this run: p = 0, the centre of mass exerts nothing on the placement")?;
         }
         if no_whirl && method == Method::ClosedForm {

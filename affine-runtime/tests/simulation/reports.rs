@@ -1,9 +1,8 @@
 //! What a trajectory tells about itself.
 
+use affine_runtime::Error;
 use affine_runtime::model::Conserved;
-use affine_runtime::simulate::Method;
-use affine_runtime::state::Phase;
-use affine_runtime::{Error, Simulation};
+use affine_runtime::prelude::*;
 
 use crate::models::drunk_missile::{self, DrunkMissile};
 use crate::models::planar::{self, Planar};
@@ -33,6 +32,18 @@ fn at_rest_more_is_conserved() {
     assert!(conservation.of(Conserved::LinearMomentum).is_none(), "{conservation}");
     assert!(conservation.worst() < 1e-9, "{conservation}");
     assert!(run.why().to_string().contains("p = 0"), "{}", run.why());
+}
+
+/// A body that is dropped has `p = 0` at the start alone.
+#[test]
+fn what_falls_does_not_stay_at_rest() {
+    #[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = 9.81*x[2])]
+    struct Dropped;
+    let (zero, phi_dot) = (Vector::<2>::zeros(), Matrix::<2>::new(0.0, 1.0, -1.0, 0.0));
+    let start = Dropped.at_velocity(zero, Matrix::identity(), zero, phi_dot).unwrap();
+    let run = Simulation::new(&Dropped, start).until(1.0).run().unwrap();
+    assert!(run.end().1.p()[1] < -9.0);
+    assert!(!run.why().to_string().contains("p = 0"), "{}", run.why());
 }
 
 #[test]

@@ -10,10 +10,17 @@ use super::ring::Ring;
 pub struct Span(Vec<(usize, Vec<Residue>)>);
 
 impl Span {
-    /// Takes a vector in; `false` where it lies in the span already, or has entries of which nothing is known.
+    /// Takes a vector in; `false` where it lies in the span already. With an entry of which nothing is known it may be any vector:
+    /// then all are taken in.
     pub fn insert(&mut self, vector: &[Residue]) -> bool {
         if vector.contains(&Residue::UNKNOWN) {
-            return false;
+            let before = self.dimension();
+            for place in 0..vector.len() {
+                let mut unit = vec![Residue::ZERO; vector.len()];
+                unit[place] = Residue::from_rational(&Rational::ONE);
+                self.insert(&unit);
+            }
+            return self.dimension() > before;
         }
         let mut vector = vector.to_vec();
         for (leading, row) in &self.0 {
@@ -29,14 +36,14 @@ impl Span {
         true
     }
 
-    /// Takes vectors in.
+    /// Takes vectors in, one after the other.
     pub fn extend(&mut self, vectors: &[Vec<Residue>]) {
         for vector in vectors {
             self.insert(vector);
         }
     }
 
-    /// Its dimension.
+    /// How many of the vectors that were taken in do not follow from others.
     #[must_use]
     pub fn dimension(&self) -> usize {
         self.0.len()
@@ -125,6 +132,13 @@ mod tests {
                 "{point}"
             );
         }
+    }
+
+    #[test]
+    fn nothing_vanishes_on_what_is_not_known() {
+        let mut span = Span::default();
+        assert!(span.insert(&[Residue::ZERO, Residue::UNKNOWN, Residue::ZERO]));
+        assert!(span.annihilators(3).is_empty());
     }
 
     #[test]

@@ -18,7 +18,7 @@ pub struct Conserved {
 pub struct Component {
     /// The formula: `Vort_12`.
     pub symbol: String,
-    /// The summands.
+    /// The multiples of entries of momenta whose sum it is.
     pub entries: Vec<Entry>,
 }
 

@@ -10,7 +10,7 @@ use super::number::number;
 
 /// How a method begins that coefficients are given to.
 pub(super) struct Evaluation {
-    /// Its name.
+    /// The name of the method.
     pub(super) name: Ident,
     /// Its parameter for coefficients; nothing for a model without fields.
     pub(super) parameter: Option<TokenStream>,
