@@ -10,6 +10,7 @@ mod conservation;
 mod course;
 #[cfg(feature = "csv")]
 mod csv;
+mod dense;
 mod departure;
 mod domain;
 mod ensemble;
@@ -19,6 +20,7 @@ mod fingerprint;
 mod flow;
 mod follow;
 mod guard;
+mod interpolant;
 mod layout;
 mod mechanics;
 mod method;

@@ -42,6 +42,15 @@ pub(crate) struct Drop;
 #[derive(Clone, Copy)]
 pub(crate) struct Free;
 
+/// A geodesic in bases that are not orthonormal.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.5, body_inertia = 1),
+    metrics(space = [[2, 0.5], [0.5, 1.5]], body = [[1, -0.4], [-0.4, 3]]),
+)]
+#[derive(Clone, Copy)]
+pub(crate) struct Skewed;
+
 /// Nothing keeps it from turning inside out.
 #[affine_model(dim = 2, kinetic(dalembert = 1), potential = pull*(phi[1,1] + phi[2,2]), emit(splitting))]
 #[derive(Clone, Copy)]

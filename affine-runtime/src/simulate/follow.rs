@@ -7,7 +7,7 @@ use super::motion::Motion;
 use super::output::Schedule;
 use super::point::is_clearly_positive;
 use super::recorder::Recorder;
-use super::trajectory::Computation;
+use super::trajectory::{Computation, Trajectory};
 use super::watcher::Sampling;
 use crate::error::Reason;
 use crate::frames::Matrix;
@@ -36,7 +36,26 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             trajectory.end = (t, point);
             trajectory.energies.work_at_end = self.place.work() + work;
         }
-        outcome
+        // Up to an event or a halt within the last step.
+        let kept = self.keep_through(motion, self.turned_at());
+        outcome.and(kept)
+    }
+
+    /// Keeps the motion up to a time, where it is to be asked for afterwards.
+    fn keep_through(&mut self, motion: &mut dyn Motion<P>, until: f64) -> Result<(), Reason> {
+        let Trajectory { dense, computation, description, .. } = &mut *self.trajectory;
+        let (Some(keep), Some(dense)) = (self.keep, dense) else { return Ok(()) };
+        if dense.reached() == until {
+            return Ok(());
+        }
+        let (Computation { asked, tolerance, .. }, model, t) = (*computation, description.name, motion.t());
+        keep(dense, until, tolerance, &mut |due| match due == t {
+            true => Ok(motion.reached().0),
+            false => match motion.between(due) {
+                Ok((point, _)) => Ok(point),
+                Err(failure) => Err(failed(failure, (asked, tolerance), model)),
+            },
+        })
     }
 
     /// Steps to the end. A step without output whose state shows that it is good is not expanded: it is only kept, for
@@ -45,6 +64,8 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let (model, start) = (self.model, self.trajectory.end.1);
         let cost = self.place.cost().steps;
         self.take_up(motion);
+        let begin = self.trajectory.end;
+        self.trajectory.dense.iter_mut().for_each(|dense| dense.begin(begin));
         let Computation { asked, tolerance, .. } = self.trajectory.computation;
         let mut guard = Guard::begin(model, motion, (since, &start), (asked, tolerance))?;
         let is_watched = self.progress.is_some() || self.is_watched();
@@ -82,6 +103,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 }
             }
             motion.keep();
+            self.keep_through(motion, t)?;
             if is_watched {
                 self.pass(motion);
             }

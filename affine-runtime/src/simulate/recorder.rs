@@ -2,6 +2,7 @@
 
 use super::checkpoint::{Bits, Place};
 use super::course::Choice;
+use super::dense::Keep;
 use super::domain::Domain;
 use super::event::{Action, Occurrence};
 use super::mechanics::Mechanics;
@@ -28,6 +29,8 @@ pub(super) struct Recorder<'r, 'a, const N: usize, P> {
     /// The method forms `det phi`.
     pub(super) needs_determinant: bool,
     pub(super) trajectory: &'r mut Trajectory<N, P>,
+    /// How what lies between the outputs is kept, where it is.
+    pub(super) keep: Option<Keep<N, P>>,
     pub(super) schedule: Schedule,
     pub(super) progress: Option<Watch<'a>>,
     pub(super) observe: Option<Observe<'a, P>>,
@@ -141,6 +144,14 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// The state of the integrator after a step, or the time in closed form, from which the run can go on.
     pub(super) fn passed(&mut self, integrator: Vec<u64>) {
         self.place.passed(integrator, self.watcher.memory());
+    }
+
+    /// Where the motion ends that is integrated: where an event changes the point, or at the last good one.
+    pub(super) fn turned_at(&self) -> f64 {
+        match &self.turn {
+            Some(Turn::Changed { t, .. }) => *t,
+            _ => self.trajectory.end.0,
+        }
     }
 
     /// Tells how far the run has come.

@@ -2,6 +2,7 @@
 
 use super::checkpoint::{Checkpoint, Place};
 use super::course::{Choice, Course};
+use super::dense::Dense;
 use super::fingerprint::fingerprint;
 use super::layout::total;
 use super::mechanics::Mechanics;
@@ -104,6 +105,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             events: Vec::new(),
             stopped_by: None,
             checkpoint: None,
+            dense: self.settings.dense.map(|_| Box::new(Dense::new((t0, *start)))),
             computation: Computation {
                 asked: self.settings.plan.method,
                 method: Method::RungeKutta8,
@@ -132,6 +134,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             model: self.model,
             needs_determinant: false,
             trajectory,
+            keep: self.settings.dense,
             schedule,
             progress: self.settings.progress.take(),
             observe: self.settings.observe.take(),
@@ -224,7 +227,13 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             (Method::ClosedForm, None) => {
                 Err(Setting::NoClosedForm { model: self.model.description().name }.into())
             }
-            (Method::Automatic | Method::ClosedForm, Some(geodesic)) => recorder.evaluate(&geodesic, &course),
+            (Method::Automatic | Method::ClosedForm, Some(geodesic)) => {
+                let outcome = recorder.evaluate(&geodesic, &course);
+                let (start, to) = ((t0, *start), recorder.turned_at());
+                let dense = recorder.trajectory.dense.as_mut().filter(|_| to != t0);
+                dense.into_iter().for_each(|dense| dense.close(&geodesic, start, to));
+                outcome
+            }
             _ => {
                 recorder.begin(t0, start)?;
                 let mut choice = Choice::default();

@@ -1,6 +1,7 @@
 //! The settings of a simulation, checked.
 
 use super::checkpoint::Checkpoint;
+use super::dense::Keep;
 use super::event::Event;
 use super::mechanics::Mechanics;
 use super::method::Method;
@@ -47,6 +48,8 @@ pub(super) struct Settings<'a, const N: usize, P> {
     pub(super) observe: Option<Observe<'a, P>>,
     pub(super) events: Vec<Event<'a, N, P>>,
     pub(super) checkpoint: Option<Checkpoint>,
+    /// How what lies between the outputs is kept, where it is.
+    pub(super) dense: Option<Keep<N, P>>,
 }
 
 /// The part of it that phase points do not enter.
@@ -76,7 +79,7 @@ impl Default for Plan {
 impl<const N: usize, P> Settings<'_, N, P> {
     pub(super) fn new(start: P) -> Self {
         let plan = Plan::default();
-        Self { start, plan, progress: None, observe: None, events: Vec::new(), checkpoint: None }
+        Self { start, plan, progress: None, observe: None, events: Vec::new(), checkpoint: None, dense: None }
     }
 
     /// The end and the outputs, of settings that make sense for a model.

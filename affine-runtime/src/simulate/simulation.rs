@@ -3,6 +3,7 @@
 use core::ops::ControlFlow;
 
 use super::checkpoint::Checkpoint;
+use super::dense::Dense;
 use super::event::Event;
 use super::mechanics::{Begin, Moving};
 use super::method::Method;
@@ -69,6 +70,22 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     #[must_use]
     pub fn every(mut self, dt: f64) -> Self {
         self.settings.plan.output = Output::Every(dt);
+        self
+    }
+
+    /// Keeps the motion between the outputs, for [`Trajectory::at`](super::Trajectory::at) at any time afterwards. Steps and outputs
+    /// stay what they are.
+    ///
+    /// A step is kept as a polynomial of degree 4, 8 or 16 for each number of a phase point, in several parts where that is not
+    /// enough, within a tenth of the tolerance, in the norm of [`ErrorNorm`](crate::integrate::ErrorNorm); methods with equal
+    /// steps take the tolerance for that alone. Of degree 8, the rule at the default, it is 1.7 kB in three dimensions and 0.9 kB in two.
+    /// Where a force jumps within a step, the step is parted into 32 at the most. A closed form is kept as it is, in some hundred bytes.
+    ///
+    /// Runge-Kutta and Taylor steps cost little more; a method that has no polynomial of its own takes a shorter step for each
+    /// of some 15 times.
+    #[must_use]
+    pub fn dense(mut self) -> Self {
+        self.settings.dense = Some(Dense::extend);
         self
     }
 

@@ -3,8 +3,10 @@
 use core::fmt;
 
 use super::checkpoint::Checkpoint;
+use super::dense::Dense;
 use super::event::Occurrence;
 use super::method::Method;
+use crate::error::{Setting, Stop};
 use crate::integrate::Statistics;
 use crate::metrics::Bases;
 use crate::model::Description;
@@ -28,6 +30,8 @@ pub struct Trajectory<const N: usize, P> {
     pub(super) checkpoint: Option<Box<Checkpoint>>,
     /// Bases in which the model's metrics are the identity.
     pub(super) bases: Option<Box<Bases<N>>>,
+    /// What lies between the outputs, where that was asked for.
+    pub(super) dense: Option<Box<Dense<N, P>>>,
 }
 
 /// How a trajectory was computed.
@@ -121,6 +125,26 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     #[must_use]
     pub fn end(&self) -> (f64, &P) {
         (self.end.0, &self.end.1)
+    }
+
+    /// The phase point at any time of a run that was asked to be [`dense`](super::Simulation::dense), an output or not: within a
+    /// tenth of the tolerance of what an output there would be, and the same where a step ends or a closed form is known. At
+    /// the time of an event that changes the point, the point before.
+    ///
+    /// # Errors
+    /// A [`Stop`] with [`Setting::NotDense`] for a run that was not asked to be, and with [`Setting::OutsideRun`] for a time
+    /// before its start, or that of the part that was resumed, or behind its end, wherever that was.
+    pub fn at(&self, t: f64) -> Result<P, Stop> {
+        let refused =
+            |setting: Setting| Stop { reason: setting.into(), t: self.end.0, steps: self.statistics.steps };
+        let dense = self.dense.as_deref().ok_or_else(|| refused(Setting::NotDense { t }))?;
+        let (from, to) = dense.interval().unwrap_or((self.start.0, self.end.0));
+        match t == self.start.0 && t == from {
+            true => Ok(self.start.1),
+            false => {
+                dense.at(t, self.bases.as_deref()).ok_or_else(|| refused(Setting::OutsideRun { t, from, to }))
+            }
+        }
     }
 
     /// The events in the order in which they happened.

@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod constraints;
+mod dense;
 mod events;
 mod gauss;
 mod halts;

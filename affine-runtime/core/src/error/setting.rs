@@ -124,6 +124,20 @@ pub enum Setting {
         /// The time reached.
         to: f64,
     },
+    /// A run was asked for a time, and has not kept what lies between its outputs.
+    NotDense {
+        /// The time.
+        t: f64,
+    },
+    /// A run was asked for a time outside of it.
+    OutsideRun {
+        /// The time.
+        t: f64,
+        /// Where the run began.
+        from: f64,
+        /// Where it ended.
+        to: f64,
+    },
     /// `Method::ClosedForm` was asked for and there is none.
     NoClosedForm {
         /// Name of the model.
@@ -211,6 +225,14 @@ impl fmt::Display for Setting {
                 f,
                 "time {t} lies outside the last step, from {from} to {to}: a flow knows no other; keep the points of \
                  earlier times, or run a simulation"
+            ),
+            Setting::NotDense { t } => write!(
+                f,
+                "the run has not kept what lies between its outputs: run it with `.dense()`, or with `.output([{t}])`"
+            ),
+            Setting::OutsideRun { t, from, to } => write!(
+                f,
+                "time {t} lies outside the run, from {from} to {to}: extend it, `.until({t})`, or begin it there"
             ),
             Setting::NoClosedForm { model } => write!(
                 f,
