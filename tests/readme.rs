@@ -32,7 +32,39 @@ fn examples_are_programs() {
             assert!(!example.lines().any(|line| line == "#" || line.starts_with("# ")), "{page}: {example}");
         }
     }
-    assert!(examples >= 9, "{examples}");
+    assert!(examples >= 24, "{examples}");
+}
+
+/// The files that a page links, beside it.
+fn linked(page: &str) -> impl Iterator<Item = &str> {
+    let targets = page.split("](").skip(1).map(|rest| rest.split([')', '#']).next().unwrap());
+    targets.filter(|target| !target.starts_with("http") && !target.contains("::"))
+}
+
+/// Links lead to files; pages of the guide name each other as rustdoc does, and each is one of its modules.
+#[test]
+fn links_lead_somewhere_and_every_page_is_in_the_guide() {
+    let mut links = 0;
+    for target in
+        linked(&text("README.md")).chain(linked(&text("tests/AUDIT.md")).filter(|to| to.ends_with(".md")))
+    {
+        links += 1;
+        let beside = [root().join(target), root().join("tests").join(target)];
+        assert!(beside.iter().any(|path| path.exists()), "no file {target}");
+    }
+    assert!(links >= 12, "{links}");
+
+    let library = text("affine-runtime/src/lib.rs");
+    let modules = library.split_once("pages! {").unwrap().1.split_once('}').unwrap().0;
+    let modules: BTreeSet<&str> = modules.split_whitespace().collect();
+    let pages = guide();
+    let names = pages.iter().filter_map(|(path, _)| path.strip_prefix("affine-runtime/docs/"));
+    let names: BTreeSet<&str> = names.map(|name| name.trim_end_matches(".md")).collect();
+    assert_eq!(modules, names);
+    // A file beside a page is none beside its module.
+    for (path, page) in pages.iter().filter(|(path, _)| path != "README.md") {
+        assert_eq!(linked(page).collect::<Vec<_>>(), [""; 0], "{path}");
+    }
 }
 
 /// Words of the longest sentence that a reader has to hold together.

@@ -2,25 +2,64 @@
 
 use proc_macro::TokenStream;
 
-/// States the kinetic energy of an affinely-rigid body and derives everything else.
+/// Turns the energies of an affinely-rigid body, stated on a struct, into a model of it.
 ///
-/// On a unit struct, or a struct with named fields: `f64`, or a matrix (other fields are left alone):
+/// # A short lesson
+///
+/// A body has the placement `x, phi`: its point `a` is at `x + phi a`. Say how many dimensions there are and which kinetic
+/// energy, and add what else there is. Everything else follows.
+///
+/// ```
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(
+///     dim = 3,                                              // n, 2 or 3
+///     kinetic(dalembert = i, space_translation = 2),        // i/2 tr(phi_dot phi_dot^T) + 2/2 |x_dot|^2
+///     potential = neo_hookean(0.5) + 3*(det - 1)^2 + x[3],  // entries count from one; ^ is the power
+///     dissipation(dalembert = r),                           // friction: the same terms
+/// )]
+/// struct Jelly { i: f64, r: f64 }                           // parameters that vary are fields
+///
+/// let jelly = Jelly { i: 1.0, r: 0.1 }.prepare()?;          // checks them; a struct without fields needs no prepare()
+/// let (x, v) = (Vector::<3>::zeros(), Vector::<3>::new(1.0, 0.0, 4.0));
+/// let start = jelly.at_velocity(x, Matrix::<3>::identity() * 1.1, v, Matrix::<3>::zeros())?;
+/// let velocity = jelly.velocity(&start);                    // the Legendre transformation and back
+/// assert!((velocity.x_dot - v).norm() < 1e-14);
+/// let run = Simulation::new(&jelly, start).until(1.0).run()?;
+/// println!("{}\n{}", run.conservation(), run.why());
+/// # Ok::<(), affine_runtime::Error>(())
+/// ```
+///
+/// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where coefficients
+/// depend on fields, `prepare()` checks their values and returns the model as `PreparedName`, else it returns the model
+/// itself. Energies, equations, conserved quantities and operation counts stand in its documentation. The signature of the
+/// energy is `affine_runtime::signature::signature`.
+///
+/// A model is refused, with the condition, its numbers and the remedy, where the Legendre transformation is degenerate, a
+/// claim is broken, a matrix is not what its term asks for, or a number of its equations is none that `f64` holds.
+///
+/// Below, `Oh = phi^-1 phi_dot` is the co-moving and `Om = phi_dot phi^-1` the spatial affine velocity. The guide of
+/// `affine_runtime` has a page with examples on every subject, and a table from papers to attributes.
+///
+/// # Keys
 ///
 /// | key | value | meaning |
 /// |---|---|---|
 /// | `dim` | `2`, `3` | dimension; `n` in expressions |
-/// | `kinetic(...)` | terms | the kinetic energy, a sum of the terms below |
-/// | `group` | `unitary` | placements in U(n) instead of GL(n, R): `-A/2 tr Om^2 - B/2 (tr Om)^2`, emitted as its lattice on the circle |
-/// | `hamiltonian(...)` | terms | instead of `kinetic(...)`: the same, stated through momenta, below |
-/// | `metrics(space = g, body = eta)` | matrices | constant metrics other than the identity, below |
-/// | `constraint` | `isochoric`, `rigid`, `conformal` | motion confined to SL(n), SO(n), R+ SO(n), below; without it GL+(n) |
-/// | `potential` | expression | the potential energy, below |
-/// | `dissipation(...)` | terms | Rayleigh's function `R`, a sum of the same terms, positive semidefinite |
-/// | `forces` | sum of `custom(..)` | forces that fields compute, below |
+/// | `kinetic(...)` | terms | the kinetic energy, a sum |
+/// | `hamiltonian(...)` | terms | instead of `kinetic(...)`: the same, stated through momenta |
+/// | `potential` | expression | the potential energy |
+/// | `constraint` | `isochoric`, `rigid`, `conformal` | motion confined to SL(n), SO(n), R+ SO(n); without it GL+(n) |
+/// | `dissipation(...)` | terms | Rayleigh's function `R`, a sum of kinetic terms, positive semidefinite |
+/// | `forces` | sum of `custom(..)` | forces that fields compute |
+/// | `metrics(space = g, body = eta)` | matrices | constant metrics other than the identity |
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
-/// | `emit(...)` | `taylor`, `nystrom`, `splitting`, `tangent`, `two_polar`, `ratios`, `lanes`, `metric`, `acceleration`, `balance` | what is emitted beyond the default, below |
+/// | `emit(...)` | names | what is emitted beyond the default |
+/// | `group` | `unitary` | placements in U(n) instead of GL(n, R): `-A/2 tr Om^2 - B/2 (tr Om)^2`, emitted as its lattice on the circle |
 /// | `crate` | path | the runtime, where it has another name than `affine_runtime` |
+///
+/// # Kinetic terms
 ///
 /// | term | energy |
 /// |---|---|
@@ -34,20 +73,15 @@ use proc_macro::TokenStream;
 /// | `body_tensor = [[..], ..]`, `space_tensor = [[..], ..]` | `1/2 K[nA+B][nC+D] O[A][B] O[C][D]`, (4.1), (4.2) |
 /// | `flat_tensor = [[..], ..]` | the same over `phi_dot` |
 ///
-/// `Oh = phi^-1 phi_dot`, `Om = phi_dot phi^-1`. A coefficient is an arithmetic expression over exact decimal literals,
-/// fields and `n`; `^` binds tightest and to the right, above the sign: `-a^2` is `-(a^2)`.
+/// Terms of different frames add: the mass matrix then depends on `phi`, and is factorised in the equations. A sum that
+/// is not positive definite at every placement is checked at each start, and a motion into a degenerate mass matrix ends
+/// with `Reason::Degenerate`.
 ///
-/// Where a matrix may stand, a field of matrix type may, alone: `body_inertia = j` with `j: Matrix<3>`, `Matrix3<f64>`,
-/// `SMatrix<f64, 3, 3>` or `[[f64; 3]; 3]`, the type written out with any path before it; `9 x 9` for a tensor of
-/// `dim = 3`. `prepare()` takes its symmetric part, refuses it where the two triangles differ by more than rounding, and
-/// inverts the energy once. Symmetries and conserved quantities are those for every such matrix, so that a claim that
-/// only a special one keeps is refused. Of momenta that are not conserved as a whole the components that are stand in
-/// the list of what is conserved, `Vort_12` or `S_12 + 2*S_13 - S_23`: sums over translations and rotations of space and of
-/// the body, or over the entries of one affine momentum, with factors that depend on no field.
+/// # Hamiltonian terms
 ///
-/// On the momentum side, `X = Sigma = phi Pi` or `Sigma_hat = Pi phi`, `|W|^2` the sum over `a < b` of `W_ab^2`:
+/// `X = Sigma = phi Pi` or `Sigma_hat = Pi phi`, `|W|^2` the sum over `a < b` of `W_ab^2`:
 ///
-/// | term of `hamiltonian(...)` | energy |
+/// | term | energy |
 /// |---|---|
 /// | `casimir2 = a` | `a/2 tr X^2` |
 /// | `casimir1_squared = b` | `b/2 (tr X)^2` |
@@ -58,67 +92,40 @@ use proc_macro::TokenStream;
 ///
 /// `I + A = 1/a`, `I - A = 1/(2c - a)`, `I + A + n B = 1/(a + n b)` is the same model on the velocity side.
 ///
-/// With `metrics(...)`, `g` and `eta` symmetric and positive definite, every transpose and norm is the metric one
-/// (`g^-1 Y^T g` in space, `eta^-1 X^T eta` in the body), and `det phi`, `q` are those of orthonormal bases. Points have
-/// the user's coordinates; equations, reduced states and plain arrays those of orthonormal bases. A matrix `J` has upper
-/// indices, `1/2 eta_KL Oh^K_A Oh^L_B J^AB` (4.17) and `1/2 g_ij phi_dot^i_A phi_dot^j_B J^AB` (2.1), in space
-/// `1/2 g_ij Om^i_k Om^j_l J^kl`, so that the scalar `I` is `J = I eta^-1`, in space `I g^-1`; a tensor `K` is contracted with
-/// the components of the velocity and reads no metric. Both are carried to orthonormal bases when the program compiles, or
-/// by `prepare()` where the metric is a field. Forces and potentials of fields are told placements and velocities in the
-/// user's bases and answer there; `isotropic`, `green` and `finger` mean rotations of the metrics. Entries in potentials are
-/// those of the user's bases, `G_AB = g_ij phi^i_A phi^j_B` and `Ct^ij = eta^AB phi^i_A phi^j_B`; `tr(phi)` and `tr(G*Ct)`,
-/// which depend on the bases, are refused.
+/// # Coefficients and fields
 ///
-/// Terms of different frames add: the mass matrix then depends on `phi`, and is factorised in the equations. A sum that
-/// is not positive definite at every placement is checked at each start, and a motion into a degenerate mass matrix ends
-/// with `Reason::Degenerate`.
-///
-/// `emit(metric)` adds the methods `metric(&phi)` and `inverse_metric(&phi)`, the configuration metric over
-/// `(x_dot, phi_dot)` with `phi_dot` row by row, and its inverse, under a constraint that on the velocities left free;
-/// `emit(acceleration)` adds `acceleration(&point)`, the acceleration of the centre of mass, `acceleration(t, &point)` where
-/// it depends on the time. `emit(balance)` adds, for `dalembert` models, `balance(t, &point)` and
-/// `centre_balance(t, &point)`: the kinematical spin
-/// `K = phi J phi_dot^T` and both sides of its balance in space and body, (3.6), (3.8), (3.9).
-///
-/// `emit(splitting)` adds the exact flows of pieces of `H`, for `Method::Splitting` and, by which `Method::Automatic` passes
-/// over a stiff dilatation, `Method::AdaptiveSplitting`: the Casimirs and the norm of vorticity or
-/// spin of an isotropic energy, the squares `d/2 <E, X>^2` that any other energy of affine velocities is a sum of
-/// (`phi -> phi exp(t d <E, X> E)`), `T(Pi)`, translation and potential, and the dilatation of an isotropic energy along its
-/// closed form under the stiffest summand `c q^2` or `c sinh(k q)^2` of the potential, whatever the others are. Constraints
-/// go with it, but not `dalembert` under `isochoric`, with its multiplier, or `conformal`, with its weight `D^2`; nor do
-/// terms of different frames.
-///
-/// `emit(two_polar)` is the lattice form `(q, p, M, N)` of doubly isotropic models. Beside it, `splitting` adds the exact flows
-/// of the lattice's pieces (`lattice::LatticeSplitting`; with `group = unitary` it stands alone), and `ratios`, for affine
-/// velocities without a potential, the same equations in `exp(q_b - q_a)`, `M + N` and `M - N`, where they are rational.
-/// `emit(nystrom)` states the equations of `dalembert` and `flat_tensor` under a potential as `q'' = f(t, q)`, for
-/// Runge-Kutta-Nystrom steps of orders 8 and 12; `emit(tangent)` adds the variational equations of motions without a
-/// constraint, which `affine_runtime::variation::Variation` integrates.
-///
-/// A potential is an expression in `q = ln(det phi)/n`, `D = exp(q)`, `det`, the invariants `I1..In` of `G`, traces, the
-/// entries of `G = phi^T phi`, `Ct = phi phi^T` and `phi`, such as `G[1,2]`, with translation `x[1]` and `norm(x)`, the time `t`,
-/// and the functions `exp ln sqrt abs sin cos tan sinh cosh tanh`; `log(u)` is `ln(u)`, `log1p(u)` is `ln(1 + u)` and `expm1(u)`
-/// is `exp(u) - 1`. Exponents are whole numbers, and fractions of `det`, `D`, `In` and single stretches, which are positive:
-/// `tr(G)*det^(-2/3)`. It is differentiated symbolically.
-///
-/// A trace is taken of a polynomial in `G`, `Ct` and `phi`, where a number stands for that multiple of the identity, so that
-/// `tr(1) = n`, and is expanded to traces of products:
-///
-/// | trace | the same |
+/// | coefficient | may be |
 /// |---|---|
-/// | `tr(G^2)` | `tr(G*G)` |
-/// | `tr((G - 1)*(G - 1))`, `tr((G - 1)^2)` | `tr(G*G) - 2*tr(G) + n` |
-/// | `tr(2*G*G - 3*G + 1)` | `2*tr(G*G) - 3*tr(G) + n` |
-/// | `tr((G - tr(G)/n)^2)` | `tr(G*G) - tr(G)^2/n` |
-/// | `tr(G^-1)`, `tr(Ct^-1)` | `I1/I2 = tr(G)/det^2` for n = 2, `I2/I3` for n = 3 |
+/// | number | an arithmetic expression over exact decimal literals, fields of type `f64`, and `n`; `0.2` is 1/5 |
+/// | power | `^`, which binds tightest and to the right, above the sign: `-a^2` is `-(a^2)` |
+/// | matrix | `diag(..)`, `[[..], ..]`, or a field alone: `body_inertia = j` |
+/// | field of a matrix | `Matrix<3>`, `Matrix3<f64>`, `SMatrix<f64, 3, 3>`, `[[f64; 3]; 3]`, with any path before it; `9 x 9` for a tensor of `dim = 3` |
+/// | other fields | are left alone |
 ///
-/// The log-stretches `q1..qn`, the stretches `Q1..Qn = exp(q1)..exp(qn)` (singular values of `phi`), and
-/// `pairs(f(d))`, the sum of an even `f(q_a - q_b)` over `a < b`, make isotropic potentials. Exchanging two stretches must
-/// change nothing, and no root, logarithm or quotient may vanish where two coincide; what is a function of `q`, `tr(G)` and
-/// `tr(G*G)` is written through these. `abs` is for what keeps its sign, for fields, and inside even functions such as
-/// `abs(q)^2`. With `t` the energy is not conserved.
+/// `prepare()` takes the symmetric part of a matrix field, refuses it where the two triangles differ by more than rounding,
+/// and inverts the energy once. Symmetries and conserved quantities are those for every such matrix, so that a claim that
+/// only a special one keeps is refused. Of momenta that are not conserved as a whole the components that are stand in
+/// the list of what is conserved, `Vort_12` or `S_12 + 2*S_13 - S_23`: sums over translations and rotations of space and of
+/// the body, or over the entries of one affine momentum, with factors that depend on no field.
 ///
-/// Named potentials are written `name(coefficient, ..)`:
+/// # Potentials
+///
+/// An expression, differentiated symbolically, in these:
+///
+/// | written | is |
+/// |---|---|
+/// | `q`, `D`, `det` | `ln(det phi)/n`, `exp(q)`, `det phi` |
+/// | `I1..In` | the invariants of `G` |
+/// | `G[1,2]`, `Ct[1,2]`, `phi[1,2]` | entries of `G = phi^T phi`, `Ct = phi phi^T`, `phi` |
+/// | `tr(..)` | the trace of a polynomial in `G`, `Ct`, `phi`; a number in it is that multiple of the identity |
+/// | `q1..qn`, `Q1..Qn` | log-stretches, and stretches `exp(q1)..exp(qn)`, the singular values of `phi` |
+/// | `pairs(f(d))` | the sum of an even `f(q_a - q_b)` over `a < b` |
+/// | `x[1]`, `norm(x)` | the centre of mass, with translation |
+/// | `t` | the time; the energy then is not conserved |
+/// | `exp ln sqrt abs sin cos tan sinh cosh tanh` | functions; `log(u)` is `ln(u)`, `log1p(u)` is `ln(1 + u)`, `expm1(u)` is `exp(u) - 1` |
+/// | `custom(field, class)` | computed by a field whose type implements `affine_runtime::potential::Potential` |
+///
+/// Exponents are whole numbers, and fractions of `det`, `D`, `In` and single stretches, which are positive: `tr(G)*det^(-2/3)`.
 ///
 /// | name | formula |
 /// |---|---|
@@ -130,43 +137,120 @@ use proc_macro::TokenStream;
 /// | `orthogonality(k)` | `k tr((G - 1)^2)` |
 /// | `gas(k)` | `k exp(-2q)` |
 ///
-/// A constraint confines `phi` to a group and affine velocities to its Lie algebra: traceless, skew, or skew plus multiples
-/// of the identity. The energy is inverted there, the affine spin is the part of it that acts there (a matrix of the
-/// same kind), and only the eigenvalues on the directions left free have to differ from zero: `I+A`, `I-A` (isochoric),
-/// `I-A` (rigid), `I-A`, `I+A+nB` (conformal). `dalembert` is `body_inertia` under `rigid` and `D^2` times that under
-/// `conformal`; under `isochoric` Hamilton's equations are those of `(phi, Pi)` without the force of the multiplier. Terms of
-/// different frames, and `flat_tensor`, have a mass matrix on the Lie algebra that depends on `phi`, factorised as without the
-/// constraint; what is the same on the group counts as one frame, as scalar inertias of body and space where `phi` is a rotation
-/// up to scale. A Hamiltonian stands for the energy of its velocities, restricted to those that are left free. A term that
-/// vanishes on the group and a potential that is constant there are mistakes; a symmetry is claimed of the energy
-/// without the constraint. Starting points off the constraint by more than 32 roundings times the condition of `phi`
+/// A trace is expanded to traces of products:
+///
+/// | trace | the same |
+/// |---|---|
+/// | `tr(1)` | `n` |
+/// | `tr(G^2)` | `tr(G*G)` |
+/// | `tr((G - 1)*(G - 1))`, `tr((G - 1)^2)` | `tr(G*G) - 2*tr(G) + n` |
+/// | `tr(2*G*G - 3*G + 1)` | `2*tr(G*G) - 3*tr(G) + n` |
+/// | `tr((G - tr(G)/n)^2)` | `tr(G*G) - tr(G)^2/n` |
+/// | `tr(G^-1)`, `tr(Ct^-1)` | `I1/I2 = tr(G)/det^2` for n = 2, `I2/I3` for n = 3 |
+///
+/// Potentials of single stretches are isotropic: exchanging two stretches must change nothing, and no root, logarithm or
+/// quotient may vanish where two coincide. What is a function of `q`, `tr(G)` and `tr(G*G)` is written through these. `abs` is
+/// for what keeps its sign, for fields, and inside even functions such as `abs(q)^2`.
+///
+/// The class of `custom(field, class)` is one of these, with `position` after it where the potential depends on `x`. What stays
+/// conserved follows from the class, which is compared with the one that the type declares.
+///
+/// | class | a function of |
+/// |---|---|
+/// | `isotropic` | stretches |
+/// | `green` | `G` |
+/// | `finger` | `Ct` |
+/// | `general` | `phi` |
+///
+/// # Constraints
+///
+/// A constraint confines `phi` to a group and affine velocities to its Lie algebra. The energy is inverted there, the affine
+/// spin is the part of it that acts there (a matrix of the same kind), and only the eigenvalues on the directions left free
+/// have to differ from zero:
+///
+/// | constraint | velocities | eigenvalues | `dalembert` is |
+/// |---|---|---|---|
+/// | `isochoric` | traceless | `I+A`, `I-A` | kept by a multiplier: Hamilton's equations are those of `(phi, Pi)` without its force |
+/// | `rigid` | skew | `I-A` | `body_inertia` |
+/// | `conformal` | skew plus multiples of the identity | `I-A`, `I+A+nB` | `D^2` times `body_inertia` |
+///
+/// Terms of different frames, and `flat_tensor`, have a mass matrix on the Lie algebra that depends on `phi`, factorised as
+/// without the constraint; what is the same on the group counts as one frame, as scalar inertias of body and space where
+/// `phi` is a rotation up to scale. A Hamiltonian stands for the energy of its velocities, restricted to those that are left
+/// free. A term that vanishes on the group and a potential that is constant there are mistakes; a symmetry is claimed of the
+/// energy without the constraint. Starting points off the constraint by more than 32 roundings times the condition of `phi`
 /// are refused with their defect.
 ///
-/// A summand `custom(field, class)` is computed by a field whose type implements `affine_runtime::potential::Potential`;
-/// the class is `isotropic`, `green` (a function of `G`), `finger` (of `Ct`) or `general`, with `position` after it where
-/// it depends on `x`. What stays conserved follows from the class, which is compared with the one that the type declares.
+/// # Friction and forces
 ///
-/// `dissipation(...)` adds the forces `Q_hat = -(dR/dOh)^T`, `Q = -(dR/dOm)^T`, `N = -(dR/dphi_dot)^T`, `Q_tr = -dR/dx_dot`,
-/// each in the frame of its term, whatever the frame of `T`; `dH/dt = -2 R`. `R >= 0` is proved, or checked by `prepare()`,
-/// frame by frame; the Casimir terms count with those of the body, or else with those of space.
+/// | key | force | power |
+/// |---|---|---|
+/// | `dissipation(...)` | `Q_hat = -(dR/dOh)^T`, `Q = -(dR/dOm)^T`, `N = -(dR/dphi_dot)^T`, `Q_tr = -dR/dx_dot`, each in the frame of its term, whatever the frame of `T` | `dH/dt = -2 R` |
+/// | `forces = custom(field, spatial)` | `Q` | `tr(Q Om)` |
+/// | `forces = custom(field, comoving)` | `Q_hat` | `tr(Q_hat Oh)` |
+/// | `forces = custom(field, translation)` | `Q_tr` | `Q_tr . x_dot` |
+/// | `gyroscopic` after the form | likewise | none: the energy stays conserved |
 ///
-/// `forces = custom(field, form) + ..` calls fields whose types implement `affine_runtime::force::Force`; the form is
-/// `spatial` (`Q`), `comoving` (`Q_hat`) or `translation` (`Q_tr`), with `gyroscopic` after it where the force has no power:
-/// the energy then stays conserved.
+/// The type of a field implements `affine_runtime::force::Force`. `R >= 0` is proved, or checked by `prepare()`, frame by frame;
+/// the Casimir terms count with those of the body, or else with those of space. Under a constraint the forces are projected to
+/// its group.
 ///
-/// Under a constraint the forces are projected to its group. Dissipation and fields are refused beside `casimir3`,
-/// `group = unitary`, `emit(splitting)`, `emit(nystrom)` and `emit(two_polar)`, fields also beside `emit(taylor)`;
-/// `constraint = isochoric` of `dalembert`, which a multiplier keeps, takes only potentials. The power `dU/dt` of a potential
-/// that contains `t` is part of the balance of energy, with forces or alone, but beside `emit(splitting)`, `emit(nystrom)`
-/// and that multiplier.
+/// | refused beside | |
+/// |---|---|
+/// | `casimir3`, `group = unitary`, `emit(splitting)`, `emit(nystrom)`, `emit(two_polar)` | dissipation and fields |
+/// | `emit(taylor)` | fields |
+/// | `constraint = isochoric` of `dalembert`, which a multiplier keeps | dissipation and forces; it takes potentials alone |
 ///
-/// The struct becomes a model of the runtime, with `at_momentum` and `at_velocity` to make phase points. Where
-/// coefficients depend on fields, `prepare()` checks their values and returns the model as `PreparedName`, else it returns
-/// the model itself; the signature of its energy is `affine_runtime::signature::signature`.
+/// The power `dU/dt` of a potential that contains `t` is part of the balance of energy, with forces or alone, but beside
+/// `emit(splitting)`, `emit(nystrom)` and that multiplier.
 ///
-/// A model is refused, with the condition, its numbers and the remedy, where the Legendre transformation is
-/// degenerate, a claim is broken, a matrix is not what its term asks for, or a number of its equations is none that `f64`
-/// holds.
+/// # Metrics
+///
+/// With `metrics(...)`, `g` and `eta` symmetric and positive definite, every transpose and norm is the metric one
+/// (`g^-1 Y^T g` in space, `eta^-1 X^T eta` in the body), and `det phi`, `q` are those of orthonormal bases.
+///
+/// | what | stands in |
+/// |---|---|
+/// | points | the user's coordinates |
+/// | equations, reduced states, plain arrays | orthonormal bases |
+/// | a matrix `J` | upper indices: `1/2 eta_KL Oh^K_A Oh^L_B J^AB` (4.17), `1/2 g_ij phi_dot^i_A phi_dot^j_B J^AB` (2.1), in space `1/2 g_ij Om^i_k Om^j_l J^kl` |
+/// | a scalar `I` | `J = I eta^-1`, in space `I g^-1` |
+/// | a tensor `K` | contracted with the components of the velocity; reads no metric |
+/// | entries in potentials | the user's bases, `G_AB = g_ij phi^i_A phi^j_B`, `Ct^ij = eta^AB phi^i_A phi^j_B` |
+/// | forces and potentials of fields | are told placements and velocities in the user's bases and answer there |
+/// | `isotropic`, `green`, `finger` | rotations of the metrics |
+///
+/// Matrices and tensors are carried to orthonormal bases when the program compiles, or by `prepare()` where the metric is a
+/// field. `tr(phi)` and `tr(G*Ct)`, which depend on the bases, are refused.
+///
+/// # What `emit(...)` adds
+///
+/// | name | adds | for |
+/// |---|---|---|
+/// | `taylor` | Taylor coefficients of the motion | `Method::Taylor`, cheaper at tolerances up to 1e-8 |
+/// | `nystrom` | the equations as `q'' = f(t, q)` | `dalembert` and `flat_tensor` under a potential: Runge-Kutta-Nystrom steps of orders 8 and 12 |
+/// | `splitting` | exact flows of pieces of `H` | `Method::Splitting`; `Method::AdaptiveSplitting`, by which `Method::Automatic` passes over a stiff dilatation |
+/// | `tangent` | the variational equations of motions without a constraint | `affine_runtime::variation::Variation` |
+/// | `two_polar` | the lattice form `(q, p, M, N)` | doubly isotropic models |
+/// | `ratios`, beside `two_polar` | the same in `exp(q_b - q_a)`, `M + N`, `M - N`, where it is rational | affine velocities without a potential |
+/// | `lanes` | the equations over vectors | `Ensemble` |
+/// | `metric` | `metric(&phi)` and `inverse_metric(&phi)`, over `(x_dot, phi_dot)` with `phi_dot` row by row | under a constraint that on the velocities left free |
+/// | `acceleration` | `acceleration(&point)`, of the centre of mass | `acceleration(t, &point)` where it depends on the time |
+/// | `balance` | `balance(t, &point)`, `centre_balance(t, &point)`: `K = phi J phi_dot^T` and both sides of its balance in space and body, (3.6), (3.8), (3.9) | `dalembert` |
+///
+/// The pieces of `splitting`:
+///
+/// | piece | where |
+/// |---|---|
+/// | the Casimirs and the norm of vorticity or spin | isotropic energies |
+/// | squares `d/2 <E, X>^2`, which move `phi -> phi exp(t d <E, X> E)` | any other energy of affine velocities, a sum of them |
+/// | `T(Pi)` | `dalembert`, `flat_tensor` |
+/// | translation and potential | always |
+/// | the dilatation, along its closed form under the stiffest summand `c q^2` or `c sinh(k q)^2` of the potential, whatever the others are | isotropic energies |
+/// | those of the lattice (`lattice::LatticeSplitting`) | beside `two_polar`; with `group = unitary` alone |
+///
+/// Constraints go with `splitting`, but not `dalembert` under `isochoric`, with its multiplier, or `conformal`, with its weight
+/// `D^2`; nor do terms of different frames.
 #[proc_macro_attribute]
 pub fn affine_model(args: TokenStream, item: TokenStream) -> TokenStream {
     affine_codegen::expand(args.into(), item.into()).into()

@@ -1,8 +1,62 @@
-//! Phase points, kinematics, integrators and reports for affinely-rigid bodies.
+//! Mechanics of affinely-rigid bodies: energies in; equations of motion, conserved quantities and checked motions out.
 //!
-//! An affinely-rigid body has the placement `x, phi` with `phi` in GL+(n), n = 2 or 3: the body point `a` is at
-//! `x + phi a`. The attribute `#[affine_model(...)]` turns a kinetic energy into a [`Model`]; a `Simulation` runs
-//! it to an end, and a `Flow` steps it in a loop of your own.
+//! An affinely-rigid body deforms homogeneously. It has the placement `x, phi` with `phi` in GL+(n), n = 2 or 3: the body
+//! point `a` is at `x + phi a`. The attribute [`affine_model`] turns energies into a [`Model`]. A [`Simulation`] runs it to an
+//! end, and a [`Flow`] steps it in a loop of your own.
+//!
+//! ```
+//! use affine_runtime::prelude::*;
+//!
+//! /// A soft ball, thrown: elastic energy and gravity.
+//! #[affine_model(
+//!     dim = 3,
+//!     kinetic(dalembert = 0.2, space_translation = 1),
+//!     potential = neo_hookean(2) + 5*(det - 1)^2 + 9.81*x[3],
+//! )]
+//! struct Ball;
+//!
+//! let start = Ball.at_velocity(
+//!     Vector::<3>::zeros(),                                  // x
+//!     Matrix::<3>::identity(),                               // phi
+//!     Vector::<3>::new(1.0, 0.0, 5.0),                       // x_dot
+//!     Matrix::<3>::new(0.0, -2.0, 0.0, 2.0, 0.3, 0.0, 0.0, 0.0, 0.0), // phi_dot
+//! )?;
+//! let run = Simulation::new(&Ball, start).until(1.0).run()?;
+//! println!("{}", run.conservation()); // drift of everything that Ball conserves
+//! println!("{}", run.why()); // which method ran, and why
+//! let (_, end) = run.end();
+//! assert!((end.x()[2] - (5.0 - 9.81 / 2.0)).abs() < 1e-8);
+//! println!("strain {}", end.lagrange_strain().0.0);
+//! # Ok::<(), affine_runtime::Error>(())
+//! ```
+//!
+//! # Where to read on
+//!
+//! | you want | page |
+//! |---|---|
+//! | to begin | [`guide::first_run`] |
+//! | the model of a paper | [`guide::models`] |
+//! | every key of the attribute | [`affine_model`] |
+//! | energies, potentials, constraints, forces | [`guide::energies`], [`guide::potentials`], [`guide::constraints`], [`guide::forces`] |
+//! | to run it | [`Simulation`], [`guide::events`], [`guide::long_runs`], [`guide::methods`] |
+//! | many bodies, frame loops | [`guide::ensembles`], [`guide::frame_loops`] |
+//! | to know whether to believe it | [`guide::reading`] |
+//! | to find out what is wrong | [`guide::mistakes`] |
+//! | the equations in another tool | [`guide::elsewhere`] |
+//! | stretches as a lattice | [`guide::lattice`] |
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`prelude`] | what a scene needs |
+//! | [`frames`], [`kinematics`], [`state`] | quantities that know where they live, and phase points |
+//! | [`model`], [`capability`] | what the attribute emits, as traits |
+//! | [`simulate`] | runs, events, flows, ensembles |
+//! | [`force`], [`potential`] | forces and potentials of your own |
+//! | [`decompose`], [`lattice`] | stretches, polar and two-polar form |
+//! | [`variation`], [`dual`], [`parametric`] | derivatives |
+//! | [`integrate`] | the integrators alone |
+//!
+//! # Names
 //!
 //! ```text
 //! Omega     = phi_dot phi^-1     Sigma     = phi Pi = (dT/dOmega)^T        spatial
@@ -15,6 +69,18 @@
 //! quantities, velocities and momenta are different types (see [`frames`] and [`kinematics`]): a formula that
 //! mixes them does not compile. Equation numbers are those of Slawianowski et al., *Affine symmetry in mechanics
 //! of collective and internal modes, Part I*; where that differs, [`guide::errata`] says so.
+//!
+//! # Features
+//!
+//! | feature | gives |
+//! |---|---|
+//! | `macros` (default) | the attribute |
+//! | `std` (default) | [`simulate`]; without it models, conversions and integrators, without allocation |
+//! | `csv` (default) | tables of trajectories |
+//! | `report` | pictures, error against run time |
+//! | `parallel` | ensembles on all processors |
+//! | `serde` | checkpoints that can be written and read |
+//! | `double-double` | numbers of 31 digits |
 #![cfg_attr(not(feature = "std"), no_std)]
 
 #[cfg(feature = "std")]
@@ -81,26 +147,50 @@ pub mod prelude {
     pub use crate::affine_model;
 }
 
-/// Pages to read, one a subject; the README is where to begin.
+/// Pages of the guide: a module of each text in `docs/`. A page names another one in brackets alone, `[energies]`, and items
+/// likewise where their paths stand here.
+#[cfg(all(doc, feature = "macros", feature = "std"))]
+macro_rules! pages {
+    ($($page:ident)*) => { $(
+        #[doc = include_str!(concat!("../docs/", stringify!($page), ".md"))]
+        ///
+        /// [`Dual`]: crate::dual::Dual
+        /// [`Ensemble`]: crate::simulate::Ensemble
+        /// [`Event`]: crate::simulate::Event
+        /// [`Flow`]: crate::simulate::Flow
+        /// [`Method::Rattle`]: crate::simulate::Method::Rattle
+        /// [`Trajectory`]: crate::simulate::Trajectory
+        /// [`Variation`]: crate::variation::Variation
+        pub mod $page {}
+    )* };
+}
+
+/// Pages to read, one a subject; [`first_run`](guide::first_run) is where to begin.
+///
+/// | page | for |
+/// |---|---|
+/// | [`first_run`](guide::first_run) | a body that falls, line by line |
+/// | [`models`](guide::models) | which model is mine: from papers to attributes |
+/// | [`energies`](guide::energies) | kinetic energies, frames, Hamiltonians, metrics |
+/// | [`potentials`](guide::potentials) | elastic energies, gravity, time |
+/// | [`constraints`](guide::constraints) | rigid, incompressible and conformal bodies |
+/// | [`forces`](guide::forces) | friction, and forces and potentials of your own |
+/// | [`events`](guide::events) | events, output, runs that stop early |
+/// | [`long_runs`](guide::long_runs) | which method, which step, which tolerance |
+/// | [`methods`](guide::methods) | what each method keeps |
+/// | [`ensembles`](guide::ensembles) | many starts, many parameters |
+/// | [`frame_loops`](guide::frame_loops) | bodies that your own loop steps |
+/// | [`reading`](guide::reading) | what `why()` and `conservation()` say |
+/// | [`lattice`](guide::lattice) | stretches and the two-polar form |
+/// | [`mistakes`](guide::mistakes) | what goes wrong most often |
+/// | [`elsewhere`](guide::elsewhere) | the equations in other tools, Jacobians |
+/// | [`errata`](guide::errata) | where this crate and the paper differ |
 #[cfg(all(doc, feature = "macros", feature = "std"))]
 pub mod guide {
-    #[doc = include_str!("../docs/energies.md")]
-    pub mod energies {}
-
-    #[doc = include_str!("../docs/errata.md")]
-    pub mod errata {}
-
-    #[doc = include_str!("../docs/forces.md")]
-    pub mod forces {}
-
-    #[doc = include_str!("../docs/lattice.md")]
-    pub mod lattice {}
-
-    #[doc = include_str!("../docs/methods.md")]
-    pub mod methods {}
-
-    #[doc = include_str!("../docs/runs.md")]
-    pub mod runs {}
+    pages! {
+        first_run models energies potentials constraints forces events long_runs methods ensembles frame_loops reading lattice
+        mistakes elsewhere errata
+    }
 }
 
 /// The examples of the README, compiled.
