@@ -51,6 +51,7 @@
 //! | [`frames`], [`kinematics`], [`state`] | quantities that know where they live, and phase points |
 //! | [`model`], [`capability`] | what the attribute emits, as traits |
 //! | [`simulate`] | runs, events, flows, ensembles |
+//! | [`inertia`], [`material`] | inertias of shapes; material points, and moments about any point |
 //! | [`force`], [`potential`] | forces and potentials of your own |
 //! | [`decompose`], [`lattice`] | stretches, polar and two-polar form |
 //! | [`variation`], [`dual`], [`parametric`] | derivatives |
@@ -87,7 +88,9 @@
 pub mod counting;
 pub mod dual;
 pub mod force;
+pub mod inertia;
 pub mod lattice;
+pub mod material;
 pub mod potential;
 mod private;
 #[cfg(feature = "report")]
@@ -159,6 +162,8 @@ macro_rules! pages {
         /// [`Event`]: crate::simulate::Event
         /// [`Flow`]: crate::simulate::Flow
         /// [`Method::Rattle`]: crate::simulate::Method::Rattle
+        /// [`inertia`]: crate::inertia
+        /// [`inertia::from_rotational`]: crate::inertia::from_rotational
         /// [`Trajectory`]: crate::simulate::Trajectory
         /// [`Variation`]: crate::variation::Variation
         pub mod $page {}
