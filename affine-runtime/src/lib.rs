@@ -198,7 +198,11 @@ pub mod guide {
     }
 }
 
-/// The examples of the README, compiled.
+/// The examples of the README files, compiled.
 #[cfg(all(doctest, feature = "macros", feature = "std"))]
-#[doc = include_str!("../../README.md")]
-mod readme {}
+mod readme {
+    #[doc = include_str!("../../README.md")]
+    mod workspace {}
+    #[doc = include_str!("../README.md")]
+    mod package {}
+}
