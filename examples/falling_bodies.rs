@@ -1,15 +1,18 @@
-//! Soft bodies that fall: 200 affine bodies in a frame loop, 60 frames a second, by splitting of order 2.
+//! Soft bodies that fall: 200 affine bodies in a frame loop, 60 frames a second; in free fall by splitting of order 2, and on a
+//! ground that they bounce off, a force at their corners, by steps that follow their error.
 //!
 //! Each body is a `Flow` with a model of its own, stepped from frame to frame as a game or a controller would. What is measured
-//! is the time of one step of one body with everything that a frame does; what is checked is where the centres of mass are,
-//! which gravity alone moves, and the energies.
+//! is the time of one step, or frame, of one body with everything that a frame does; what is checked is where the centres of mass are,
+//! which gravity alone moves, and the energies, with that of the ground.
 //!
 //! Run times on shared machines are noise: the least of several seconds counts.
 
 use std::time::Instant;
 
+use affine_runtime::force::{AtPoint, PointForce, Spatial, Translation};
 use affine_runtime::model::Owned;
 use affine_runtime::prelude::*;
+use affine_runtime::scalar::Scalar;
 
 /// A cube of unit edge and mass that resists whatever is no rotation, as in affine body dynamics.
 #[affine_model(
@@ -24,39 +27,82 @@ pub struct Cube {
     pub g: f64,
 }
 
+/// The same with a ground below.
+#[affine_model(
+    dim = 3,
+    kinetic(dalembert = 1/12, space_translation = 1),
+    potential = orthogonality(1e4) + g*x[3],
+    forces = custom(press, translation) + custom(turn, spatial),
+)]
+#[derive(Clone, Copy)]
+pub struct Bouncing {
+    /// Acceleration of free fall.
+    pub g: f64,
+    /// What the ground does to the centre.
+    pub press: AtPoint<3, Ground, Translation, 8>,
+    /// What it does to the placement.
+    pub turn: AtPoint<3, Ground, Spatial, 8>,
+}
+
+/// Presses what is below it upward, in proportion to the depth.
+#[derive(Clone, Copy)]
+pub struct Ground {
+    /// Force by depth.
+    pub stiffness: f64,
+}
+
+impl PointForce<3> for Ground {
+    fn force<T: Scalar>(&self, _: T, x: &Vector<3, T>, _: &Vector<3, T>) -> Vector<3, T> {
+        let depth = (-x[2]).max(T::zero());
+        Vector::<3, T>::new(T::zero(), T::zero(), T::constant(self.stiffness, 0.0) * depth)
+    }
+}
+
 const BODIES: usize = 200;
 const SECONDS: u32 = 10;
 const FRAMES: u32 = 60;
 /// Steps of a frame. The vibration of a stretch, of angular frequency `sqrt(8 k/m) = 980`, takes six of them.
 const STEPS: u32 = 16;
+/// Of steps that follow their error.
+const TOLERANCE: f64 = 1e-6;
+/// Seconds on the ground.
+const BOUNCING: u32 = 2;
 const GRAVITY: f64 = 9.81;
-
-type Body = Flow<'static, 3, Owned<PreparedCube>>;
+/// Softer than the body by far.
+const GROUND: Ground = Ground { stiffness: 2e3 };
+const CORNERS: [[f64; 3]; 8] = [
+    [-0.5, -0.5, -0.5],
+    [0.5, -0.5, -0.5],
+    [-0.5, 0.5, -0.5],
+    [0.5, 0.5, -0.5],
+    [-0.5, -0.5, 0.5],
+    [0.5, -0.5, 0.5],
+    [-0.5, 0.5, 0.5],
+    [0.5, 0.5, 0.5],
+];
 
 fn main() -> affine_runtime::Result<()> {
-    let mut bodies = (0..BODIES).map(body).collect::<affine_runtime::Result<Vec<Body>>>()?;
-    let starts: Vec<_> = bodies.iter().map(Flow::point).collect();
-    let mut least = f64::INFINITY;
-    println!("{BODIES} bodies, {FRAMES} frames a second, {STEPS} steps a frame");
-    for second in 1..=SECONDS {
-        let began = Instant::now();
-        for frame in (second - 1) * FRAMES + 1..=second * FRAMES {
-            for body in &mut bodies {
-                body.advance_to(f64::from(frame) / f64::from(FRAMES))?;
-            }
-        }
-        let steps = BODIES as f64 * f64::from(FRAMES * STEPS);
-        let cost = began.elapsed().as_secs_f64() * 1e9 / steps;
-        least = least.min(cost);
-        println!("t = {second:>2}: {cost:.0} ns a body and step");
-    }
-    println!("least: {least:.0} ns a body and step");
+    println!("{BODIES} bodies, {FRAMES} frames a second, in free fall {STEPS} steps a frame");
+    in_free_fall()?;
+    on_the_ground()
+}
 
+/// Centres of mass are where gravity alone takes them.
+fn in_free_fall() -> affine_runtime::Result<()> {
+    let cube = Cube { g: GRAVITY }.prepare()?;
+    let start = |k| {
+        let (x, spin) = placed(k, 600.0);
+        cube.at_velocity(x, Matrix::identity(), Vector::zeros(), spin)
+    };
+    let step = 1.0 / f64::from(FRAMES * STEPS);
+    let method = Method::Splitting { order: 2, step };
+    let (bodies, starts, least) = fallen("in free fall", &cube, (method, SECONDS), start)?;
+    println!("least: {:.0} ns a body and step", least / f64::from(STEPS));
     let (mut off, mut swing) = (0.0_f64, 0.0_f64);
     for (body, start) in bodies.iter().zip(&starts) {
         let (t, point) = (body.t(), body.point());
-        let fallen = start.x()[2] - 0.5 * GRAVITY * t * t;
-        off = off.max((point.x()[2] - fallen).abs() / fallen.abs());
+        let height = start.x()[2] - 0.5 * GRAVITY * t * t;
+        off = off.max((point.x()[2] - height).abs() / height.abs());
         let energy = |point| body.model().hamiltonian(t, point);
         swing = swing.max((energy(&point) - energy(start)).abs() / energy(start).abs());
     }
@@ -67,13 +113,73 @@ fn main() -> affine_runtime::Result<()> {
     Ok(())
 }
 
-/// A body that spins, each another way.
-fn body(k: usize) -> affine_runtime::Result<Body> {
-    let cube = Cube { g: GRAVITY }.prepare()?;
+/// What the ground takes up it gives back.
+fn on_the_ground() -> affine_runtime::Result<()> {
+    let bouncing =
+        Bouncing { g: GRAVITY, press: AtPoint::new(CORNERS, GROUND), turn: AtPoint::new(CORNERS, GROUND) };
+    let cube = bouncing.prepare()?;
+    let start = |k| {
+        let (x, spin) = placed(k, 1.5);
+        cube.at_velocity(x, Matrix::identity(), Vector::zeros(), spin)
+    };
+    let (bodies, starts, _) = fallen("on the ground", &cube, (Method::RungeKutta8, BOUNCING), start)?;
+    let (mut deepest, mut highest, mut swing) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+    for (body, start) in bodies.iter().zip(&starts) {
+        let (t, point) = (body.t(), body.point());
+        let energy = |point: &<PreparedBouncing as Model<3>>::Point<f64>| {
+            body.model().hamiltonian(t, point) + pressed(point)
+        };
+        swing = swing.max((energy(&point) - energy(start)).abs() / energy(start).abs());
+        deepest = deepest.min(point.x()[2]);
+        highest = highest.max(point.x()[2]);
+    }
+    println!(
+        "on the ground after {BOUNCING} s: centres between {deepest:.2} and {highest:.2}, energies {swing:.1e} off the first"
+    );
+    assert!(deepest > 0.2 && highest < 2.0 && swing < 0.1, "the ground holds and gives back");
+    Ok(())
+}
+
+/// The energy of the ground below the corners of a cube.
+fn pressed<P: Phase<3>>(point: &P) -> f64 {
+    let depth = |corner: &[f64; 3]| {
+        let place = point.x() + point.phi() * Vector::<3>::from(*corner);
+        (-place[2]).max(0.0)
+    };
+    CORNERS.iter().map(|corner| 0.5 * GROUND.stiffness * depth(corner).powi(2)).sum()
+}
+
+/// The bodies of a model at the end, where they began, and the least nanoseconds of a frame.
+#[allow(clippy::type_complexity)]
+fn fallen<M: Model<3> + Clone + 'static>(
+    name: &str,
+    model: &M,
+    (method, seconds): (Method, u32),
+    start: impl Fn(usize) -> affine_runtime::Result<M::Point<f64>>,
+) -> affine_runtime::Result<(Vec<Flow<'static, 3, Owned<M>>>, Vec<M::Point<f64>>, f64)> {
+    let body = |k| Ok(Flow::by(method, Owned(model.clone()), (0.0, start(k)?))?);
+    let mut bodies = (0..BODIES).map(body).collect::<affine_runtime::Result<Vec<_>>>()?;
+    bodies.iter_mut().try_for_each(|body| body.set_tolerance(TOLERANCE))?;
+    let starts = bodies.iter().map(Flow::point).collect();
+    let mut least = f64::INFINITY;
+    for second in 1..=seconds {
+        let began = Instant::now();
+        for frame in (second - 1) * FRAMES + 1..=second * FRAMES {
+            for body in &mut bodies {
+                body.advance_to(f64::from(frame) / f64::from(FRAMES))?;
+            }
+        }
+        let frames = BODIES as f64 * f64::from(FRAMES);
+        let cost = began.elapsed().as_secs_f64() * 1e9 / frames;
+        least = least.min(cost);
+        println!("{name}, t = {second:>2}: {cost:.0} ns a body and frame");
+    }
+    Ok((bodies, starts, least))
+}
+
+/// Centre and velocity of a body that spins, each another way.
+fn placed(k: usize, height: f64) -> (Vector<3>, Matrix<3>) {
     let part = k as f64 / BODIES as f64;
-    let x = Vector::<3>::new(2.0 * k as f64, 0.0, 600.0);
     let spin = Matrix::<3>::new(0.0, -1.0, part, 1.0, 0.0, -0.3, -part, 0.3, 0.0);
-    let start = cube.at_velocity(x, Matrix::identity(), Vector::zeros(), spin)?;
-    let step = 1.0 / f64::from(FRAMES * STEPS);
-    Flow::by(Method::Splitting { order: 2, step }, Owned(cube), (0.0, start)).map_err(Into::into)
+    (Vector::<3>::new(2.0 * k as f64, 0.0, height), spin)
 }

@@ -135,6 +135,10 @@ impl Scalar for Counting {
     fn copysign(self, sign: Self) -> Self {
         Self(Scalar::copysign(self.0, sign.0))
     }
+
+    fn max(self, other: Self) -> Self {
+        Self(Scalar::max(self.0, other.0))
+    }
 }
 
 impl Real for Counting {

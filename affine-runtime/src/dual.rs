@@ -161,6 +161,11 @@ impl<T: Scalar> Scalar for Dual<T> {
         let value = self.value.copysign(sign.value);
         self.chain(value, T::one().copysign(self.value) * T::one().copysign(value))
     }
+    fn max(self, other: Self) -> Self {
+        let part = (T::one() + (self.value - other.value).signum()) * T::constant(0.5, 0.0);
+        let slope = self.slope * part + other.slope * (T::one() - part);
+        Self { value: self.value.max(other.value), slope }
+    }
 }
 
 impl<T: Real> Real for Dual<T> {

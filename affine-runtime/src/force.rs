@@ -1,8 +1,11 @@
 //! Forces of a type of your own, see [`Force`], and whether they are what they say.
 
+mod at_point;
+
 use core::fmt;
 
 pub use affine_core::force::*;
+pub use at_point::{AtPoint, PointForce};
 
 /// A force that is said to be gyroscopic and has power.
 #[derive(Clone, Copy, PartialEq)]

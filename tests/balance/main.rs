@@ -3,6 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod acceleration;
+mod at_points;
 mod power;
 
 use affine_oracle::{Differential, Place, Random, Slopes};

@@ -125,6 +125,18 @@ pub trait Scalar:
     fn signum(self) -> Self {
         Self::one().copysign(self)
     }
+    /// The larger of two finite numbers, NaN where one is: what a force of contact is made of. Its slope is that of the larger
+    /// one, and that of either where they are equal.
+    #[must_use]
+    fn max(self, other: Self) -> Self {
+        let part = (Self::one() + (self - other).signum()) * Self::constant(0.5, 0.0);
+        self * part + other * (Self::one() - part)
+    }
+    /// The smaller of two numbers, as [`max`](Self::max) has the larger.
+    #[must_use]
+    fn min(self, other: Self) -> Self {
+        -(-self).max(-other)
+    }
 }
 
 /// An ordered number, for everything outside right-hand sides.

@@ -130,6 +130,11 @@ impl<S: Real, const LANES: usize> Scalar for Several<S, LANES> {
         self.with(sign, S::copysign)
     }
 
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.with(other, S::max)
+    }
+
     elementary!(
         sqrt,
         abs,

@@ -88,6 +88,9 @@ impl Scalar for Quad {
     fn copysign(self, sign: Self) -> Self {
         if self.0.is_sign_negative() == sign.0.is_sign_negative() { self } else { -self }
     }
+    fn max(self, other: Self) -> Self {
+        if self > other || self.0.is_nan() { self } else { other }
+    }
 }
 
 impl Real for Quad {

@@ -38,6 +38,11 @@ macro_rules! primitive {
                 <$type>::copysign(self, sign)
             }
 
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if (self > other) | self.is_nan() { self } else { other }
+            }
+
             $(
                 #[inline(always)]
                 fn $function(self) -> Self {

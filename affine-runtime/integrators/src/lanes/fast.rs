@@ -40,6 +40,10 @@ impl Scalar for Fast {
     fn copysign(self, sign: Self) -> Self {
         Self(self.0.copysign(sign.0))
     }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(Scalar::max(self.0, other.0))
+    }
     functions!(
         sqrt = Scalar::sqrt,
         abs = Scalar::abs,
