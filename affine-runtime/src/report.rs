@@ -37,6 +37,7 @@
 //!
 //! [`Trajectory::save_svg`](crate::Trajectory::save_svg) draws the motion, the log-stretches and the drift of what
 //! should be conserved. Documents are well-formed SVG 1.1, the same bytes for the same data.
+//! [`Trajectory::save_html`](crate::Trajectory::save_html) writes a page on which the body moves.
 
 mod axes;
 mod canvas;
@@ -44,6 +45,7 @@ mod curves;
 mod diagram;
 mod drift;
 mod local_error;
+mod page;
 mod palette;
 mod picture;
 mod reference;

@@ -40,4 +40,23 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     {
         self.never()
     }
+
+    /// Does not compile without the feature `report`.
+    pub fn to_html(&self) -> String
+    where
+        Self: Pictures,
+    {
+        self.never()
+    }
+
+    /// Does not compile without the feature `report`.
+    ///
+    /// # Errors
+    /// None: it cannot be called.
+    pub fn save_html(&self, _path: impl AsRef<Path>) -> Result<()>
+    where
+        Self: Pictures,
+    {
+        self.never()
+    }
 }

@@ -64,16 +64,8 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     }
 
     fn caption(&self, canvas: &mut Canvas<'_>) {
-        let computation = self.computation();
-        let (method, (t0, _), (t_end, _)) = (method_name(computation.method), self.start(), self.end());
-        let accuracy = match self.statistics().steps {
-            0 => String::new(),
-            steps if computation.method.step().is_some() => format!(", {steps} steps"),
-            steps => format!(", tolerance {:e}, {steps} steps", computation.tolerance),
-        };
         canvas.text(self.description().name, (84.0, 30.0), Lettering::new(16.0, INK).bold());
-        let caption = format!("t = {t0} to {t_end}: {method}{accuracy}");
-        canvas.text(&caption, (84.0, 52.0), Lettering::new(SMALL, INK));
+        canvas.text(&summary(self), (84.0, 52.0), Lettering::new(SMALL, INK));
     }
 
     fn paint_drifts(&self, canvas: &mut Canvas<'_>, samples: &Samples<N>) {
@@ -95,6 +87,18 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     }
 }
 
+/// Interval, method and cost in a line.
+pub(super) fn summary<const N: usize, P: Phase<N>>(run: &Trajectory<N, P>) -> String {
+    let computation = run.computation();
+    let (method, (t0, _), (t_end, _)) = (method_name(computation.method), run.start(), run.end());
+    let accuracy = match run.statistics().steps {
+        0 => String::new(),
+        steps if computation.method.step().is_some() => format!(", {steps} steps"),
+        steps => format!(", tolerance {:e}, {steps} steps", computation.tolerance),
+    };
+    format!("t = {t0} to {t_end}: {method}{accuracy}")
+}
+
 /// A stroke of the colour with a text; where the next line begins.
 fn legend_line(canvas: &mut Canvas<'_>, spot: Spot, colour: (u8, u8, u8), text: &str) -> Spot {
     canvas.line(spot, (spot.0 + 18.0, spot.1), Pen::new(colour, 2.4));
@@ -103,12 +107,12 @@ fn legend_line(canvas: &mut Canvas<'_>, spot: Spot, colour: (u8, u8, u8), text: 
 }
 
 /// Start, outputs and end of a trajectory, each time once.
-struct Samples<const N: usize> {
-    bodies: Vec<(f64, Body<N>)>,
+pub(super) struct Samples<const N: usize> {
+    pub(super) bodies: Vec<(f64, Body<N>)>,
 }
 
 impl<const N: usize> Samples<N> {
-    fn of<P: Phase<N>>(trajectory: &Trajectory<N, P>) -> Self {
+    pub(super) fn of<P: Phase<N>>(trajectory: &Trajectory<N, P>) -> Self {
         let (start, end) = (trajectory.start(), trajectory.end());
         let span = end.0 - start.0;
         let mut bodies: Vec<(f64, Body<N>)> = Vec::with_capacity(trajectory.len() + 2);
@@ -183,7 +187,7 @@ impl<const N: usize> Samples<N> {
 
 /// Half the logarithms of the eigenvalues of `phi^T phi`, the largest first; good for a picture, since squaring
 /// costs the small ones digits.
-fn log_stretches<const N: usize>(phi: &Matrix<N>) -> Vec<f64> {
+pub(super) fn log_stretches<const N: usize>(phi: &Matrix<N>) -> Vec<f64> {
     let green = phi.tr_mul(phi);
     let eigenvalues = nalgebra::DMatrix::from_fn(N, N, |a, b| green[(a, b)]).symmetric_eigenvalues();
     let mut stretches: Vec<f64> = eigenvalues.iter().map(|value| 0.5 * value.ln()).collect();

@@ -8,6 +8,7 @@ mod simulation {
     pub mod models;
     pub mod reference;
 }
+mod page;
 mod svg;
 mod truth;
 

@@ -1,0 +1,150 @@
+//! The page of a run, read back: its numbers are those of the trajectory, and it asks for nothing from elsewhere.
+
+use affine_runtime::Trajectory;
+use affine_runtime::prelude::*;
+use serde_json::Value;
+
+#[affine_model(
+    dim = 3,
+    kinetic(dalembert = 1, space_translation = 1),
+    potential = orthogonality(2) + x[3],
+    dissipation(dalembert = 0.1),
+)]
+struct Block;
+
+#[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1), potential = neo_hookean(0.5) + 2*q^2)]
+struct Disc;
+
+#[affine_model(
+    dim = 2,
+    metrics(space = diag(4, 1), body = diag(1, 1)),
+    kinetic(casimir2 = 0.2, body_inertia = 1)
+)]
+struct Skew;
+
+/// The text between two marks.
+fn between<'a>(page: &'a str, start: &str, end: &str) -> &'a str {
+    let (_, after) = page.split_once(start).unwrap_or_else(|| panic!("no {start}"));
+    after.split_once(end).unwrap_or_else(|| panic!("no {end}")).0
+}
+
+fn data(page: &str) -> Value {
+    serde_json::from_str(between(page, "<script type=\"application/json\" id=\"data\">", "</script>"))
+        .unwrap()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+/// The page asks for nothing: every address in it is a part of itself.
+fn assert_alone(page: &str) {
+    for word in ["http:", "https:", "//cdn", "src=", "href=", "@import", "url(", "fetch(", "import "] {
+        assert!(!page.contains(word), "{word}");
+    }
+    assert!(page.contains("default-src 'none'"));
+    for word in ["<!--", "/*data*/", "/*script*/"] {
+        assert!(!page.contains(word), "{word} is not filled in");
+    }
+}
+
+/// Frames are the start, the outputs and the end, exactly; drifts those of `conservation()`.
+fn assert_read_back<const N: usize, P: Phase<N>>(run: &Trajectory<N, P>) -> Value {
+    let page = run.to_html();
+    assert_alone(&page);
+    let data = data(&page);
+    assert_eq!(data["n"], N);
+    let (times, outputs) = (numbers(&data["t"]), numbers(&data["outputs"]));
+    assert_eq!(outputs, run.times());
+    assert_eq!((times[0], *times.last().unwrap()), (run.start().0, run.end().0));
+    for (t, point) in run.iter().chain([run.start(), run.end()]) {
+        let k = times.iter().position(|time| *time == t).unwrap();
+        let body = run.orthonormal(point);
+        assert_eq!(numbers(&data["x"][k]), body.x().as_slice());
+        let phi = Matrix::<N>::from_row_slice(&numbers(&data["phi"][k]));
+        assert_eq!(&phi, body.phi());
+        // What stretches have of phi without being computed from it: their product, and the sum of their squares.
+        let stretches = numbers(&data["stretches"][k]);
+        let sum: f64 = stretches.iter().sum();
+        assert!((sum - N as f64 * body.mean_log_stretch()).abs() < 1e-12);
+        let squares: f64 = stretches.iter().map(|q| (2.0 * q).exp()).sum();
+        assert!((squares - phi.norm_squared()).abs() < 1e-12 * squares);
+    }
+    let conservation = run.conservation();
+    let drifts = data["drifts"].as_array().unwrap();
+    assert_eq!(drifts.len(), conservation.drifts().len());
+    let table = between(&page, "<table>", "</table>");
+    for (found, drift) in drifts.iter().zip(conservation.drifts()) {
+        assert_eq!(found["symbol"], drift.quantity.symbol());
+        assert_eq!(numbers(&found["values"]), run.relative_drifts(drift));
+        assert!(table.contains(&format!("<td>{:.2e}</td>", drift.relative())));
+    }
+    let plain = page.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
+    assert!(plain.contains(&run.why().to_string()));
+    data
+}
+
+fn thrown() -> Trajectory<3, <Block as Model<3>>::Point<f64>> {
+    let (x, v) = (Vector::<3>::zeros(), Vector::<3>::new(1.0, 0.0, 3.0));
+    let rate = Matrix::<3>::new(0.2, -1.0, 0.0, 1.0, 0.0, 0.5, 0.0, 0.0, -0.3);
+    let start = Block.at_velocity(x, Matrix::<3>::identity(), v, rate).unwrap();
+    let top =
+        Event::new("top \"</script>\" & <b>", |_, point: &<Block as Model<3>>::Point<f64>| point.p()[2]);
+    // Outputs that are neither start nor end.
+    Simulation::new(&Block, start).until(6.0).output([0.5, 1.0, 2.5, 5.0]).event(top.falling()).run().unwrap()
+}
+
+#[test]
+fn a_page_holds_the_run() {
+    let run = thrown();
+    let data = assert_read_back(&run);
+    assert_eq!(data["t"].as_array().unwrap().len(), 6);
+    assert_eq!(data["events"].as_array().unwrap().len(), 1);
+    assert_eq!(data["events"][0]["name"], run.events()[0].name);
+    assert_eq!(data["events"][0]["t"].as_f64(), Some(run.events()[0].t));
+    assert!(run.conservation().balance().is_some_and(|balance| {
+        let page = run.to_html();
+        page.contains("&lt;b&gt;") && page.contains(&balance.to_string().replace('>', "&gt;"))
+    }));
+    // Names of the user end neither the data nor the page.
+    assert_eq!(run.to_html().matches("</script>").count(), 2);
+}
+
+#[test]
+fn discs_runs_backward_and_single_points_have_pages() {
+    let start = Disc.at_velocity(Matrix::<2>::identity(), Matrix::<2>::new(0.3, 0.5, -0.2, 0.1)).unwrap();
+    let simulation = |t_end: f64| Simulation::new(&Disc, start).until(t_end).run().unwrap();
+    for t_end in [3.0, -3.0, 0.0] {
+        assert_read_back(&simulation(t_end));
+    }
+}
+
+#[test]
+fn bodies_with_metrics_are_drawn_where_lengths_are_those_of_the_metrics() {
+    let spin = Comoving(Matrix::<2>::new(0.1, 0.3, -0.2, 0.2));
+    let start = Skew.at_momentum(Matrix::<2>::identity(), spin).unwrap();
+    let run = Simulation::new(&Skew, start).until(1.0).every(0.5).run().unwrap();
+    let data = assert_read_back(&run);
+    // g = diag(4, 1): the first axis of space is twice as long.
+    assert_eq!(numbers(&data["phi"][0]), [2.0, 0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn a_page_is_written() {
+    let folder = std::env::temp_dir();
+    let path = folder.join(format!("affine-page-{}.html", std::process::id()));
+    let run = thrown();
+    run.save_html(&path).unwrap();
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), run.to_html());
+    std::fs::remove_file(&path).unwrap();
+    assert!(run.save_html(folder.join("no such folder").join("page.html")).is_err());
+}
+
+/// What is drawn with is small, and asks for no library.
+#[test]
+fn the_script_is_short() {
+    let page = thrown().to_html();
+    let script = between(&page, "<script>\n", "\n</script>");
+    assert!(script.lines().count() <= 301, "{}", script.lines().count());
+    assert!(script.contains("webgl2") && !script.contains("require"));
+}
