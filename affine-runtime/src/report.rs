@@ -96,6 +96,7 @@ fn method_name(method: Method) -> &'static str {
         Method::Splitting { order: 6, .. } => "splitting 6",
         Method::Splitting { .. } => "splitting 8",
         Method::AdaptiveSplitting { .. } => "adaptive splitting",
+        Method::Radau { .. } => "Radau",
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod accumulation;
 mod by_equations;
+mod by_radau;
 mod checkpoint;
 mod choice;
 mod closed_form;
@@ -19,6 +20,7 @@ mod failed;
 mod fingerprint;
 mod flow;
 mod follow;
+mod friction;
 mod guard;
 mod interpolant;
 mod layout;
@@ -45,13 +47,14 @@ mod stepped;
 mod stepper;
 mod stiffness;
 mod trajectory;
+mod velocities;
 mod watcher;
 mod why;
 mod witness;
 
 pub use crate::error::{Callback, Reason, Setting, Stop};
 pub use checkpoint::Checkpoint;
-pub use choice::{NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
+pub use choice::{NYSTROM_TOLERANCE, STIFF_FRICTION, TAYLOR_TOLERANCE};
 pub use conservation::{Conservation, Drift};
 pub use ensemble::{Ends, Ensemble};
 pub use event::{Direction, Event, Occurrence};

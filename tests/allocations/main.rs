@@ -47,7 +47,8 @@ struct Block {
     g: f64,
 }
 
-const METHODS: [Method; 9] = [
+const METHODS: [Method; 10] = [
+    Method::Radau { stages: None },
     Method::Automatic,
     Method::RungeKutta8,
     Method::RungeKutta5,

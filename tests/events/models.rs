@@ -25,7 +25,7 @@ pub(crate) const GRAVITY: f64 = 9.81;
 pub(crate) type Point = <Ball as Model<2>>::Point<f64>;
 
 /// All that integrate [`Ball`].
-pub(crate) const FALLING: [Method; 10] = [
+pub(crate) const FALLING: [Method; 11] = [
     Method::Automatic,
     Method::RungeKutta8,
     Method::RungeKutta5,
@@ -36,6 +36,7 @@ pub(crate) const FALLING: [Method; 10] = [
     Method::Splitting { order: 2, step: 0.01 },
     Method::Splitting { order: 4, step: 0.02 },
     Method::AdaptiveSplitting { order: None },
+    Method::Radau { stages: None },
 ];
 
 fn placement() -> (Matrix<2>, Matrix<2>) {

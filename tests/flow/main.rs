@@ -71,7 +71,8 @@ fn takes_a_run_in_one_frame<const N: usize, M: Model<N>>(
     }
 }
 
-const BY_THEIR_ERROR: [Method; 6] = [
+const BY_THEIR_ERROR: [Method; 7] = [
+    Method::Radau { stages: None },
     Method::RungeKutta8,
     Method::RungeKutta5,
     Method::RungeKuttaNystrom12,

@@ -125,6 +125,12 @@ fn of_other_orders(method: Method) -> Vec<(Method, String)> {
         Method::Gauss { step, .. } => [0, 1, 99, usize::MAX]
             .map(|stages| (Method::Gauss { stages, step }, format!("Gauss collocation with {stages} stages")))
             .to_vec(),
+        Method::Radau { .. } => [0, 1, 4, usize::MAX]
+            .map(|given| {
+                let words = format!("Radau collocation with {given} stages");
+                (Method::Radau { stages: Some(given) }, words)
+            })
+            .to_vec(),
         Method::Rattle { step, .. } => {
             [0, 3, 10, usize::MAX].map(|order| named(Method::Rattle { order, step }, order)).to_vec()
         }
@@ -142,7 +148,7 @@ fn of_other_orders(method: Method) -> Vec<(Method, String)> {
 }
 
 /// One of every kind of method.
-fn all_methods() -> [Method; 10] {
+fn all_methods() -> [Method; 11] {
     let step = 0.1;
     [
         Method::Automatic,
@@ -155,6 +161,7 @@ fn all_methods() -> [Method; 10] {
         Method::Rattle { order: 4, step },
         Method::Splitting { order: 4, step },
         Method::AdaptiveSplitting { order: None },
+        Method::Radau { stages: None },
     ]
 }
 

@@ -87,6 +87,7 @@ fn what_is_counted_is_what_was_asked() {
         Method::RungeKutta5,
         Method::Gauss { stages: 3, step: 0.05 },
         Method::Gauss { stages: 2, step: 2.0 },
+        Method::Radau { stages: None },
     ] {
         let run = || Simulation::new(&model, start).until(4.0).method(method).every(0.3).run().unwrap();
         let (counted, asked) = counts(run);
@@ -96,9 +97,12 @@ fn what_is_counted_is_what_was_asked() {
     let phi = phi / phi.determinant().cbrt();
     let phi_dot = phi * (phi_dot - Matrix::<3>::identity() * (phi_dot.trace() / 3.0));
     let start = model.at_velocity(phi, phi_dot).unwrap();
-    for method in
-        [Method::Automatic, Method::Gauss { stages: 2, step: 0.05 }, Method::Rattle { order: 4, step: 0.05 }]
-    {
+    for method in [
+        Method::Automatic,
+        Method::Gauss { stages: 2, step: 0.05 },
+        Method::Rattle { order: 4, step: 0.05 },
+        Method::Radau { stages: None },
+    ] {
         let run = || Simulation::new(&model, start).until(1.0).method(method).every(0.3).run().unwrap();
         let (counted, asked) = counts(run);
         assert_eq!(counted, asked, "isochoric, {method:?}");

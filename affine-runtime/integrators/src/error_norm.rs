@@ -14,7 +14,7 @@ use affine_core::model::{Group, Quantity, StateVector};
 use affine_core::scalar::Scalar;
 
 /// A state vector has at most so many groups with a floor of their own.
-const GROUPS: usize = 8;
+pub(crate) const GROUPS: usize = 8;
 /// An error of a momentum is tolerated that moves the placement, over one step, by this part of what the
 /// placement's own error may be. Ten times less than the balance, for what adds up over an oscillation.
 const PART_OF_DISPLACEMENT: f64 = 0.1;
@@ -156,6 +156,21 @@ impl ErrorNorm {
         self.extent(configuration, y)
     }
 
+    /// The norm without what is a function of the placement and carried beside it, where a method computes it anew.
+    pub(crate) fn without_carried(mut self) -> Self {
+        for (measure, group) in self.measures.iter_mut().zip(self.groups) {
+            if matches!(group.quantity, Quantity::InverseDilatation | Quantity::MeanLogStretch) {
+                *measure = Measure::Nothing;
+            }
+        }
+        self
+    }
+
+    /// The groups that the norm measures, one after the other.
+    pub(crate) fn groups(&self) -> &'static [Group] {
+        self.groups
+    }
+
     /// The norm without the groups after so many components.
     pub(crate) fn of_the_first(self, components: usize) -> Self {
         let mut end = 0;
@@ -171,6 +186,20 @@ impl ErrorNorm {
     #[inline(always)]
     #[doc(hidden)]
     pub fn largest(&self, h: f64, before: &[f64], after: &[f64], value: impl Fn(Range<usize>) -> f64) -> f64 {
+        self.largest_within(h, &[f64::INFINITY; GROUPS], before, after, value)
+    }
+
+    /// The same, where what an error of a momentum may be is at most a bound of its group: a long step lets any momentum
+    /// move the placement by little, and one that is larger than the body has had cannot be meant.
+    #[inline(always)]
+    pub(crate) fn largest_within(
+        &self,
+        h: f64,
+        bounds: &[f64; GROUPS],
+        before: &[f64],
+        after: &[f64],
+        value: impl Fn(Range<usize>) -> f64,
+    ) -> f64 {
         let mut largest = 0.0;
         let mut start = 0;
         for (k, group) in self.groups.iter().enumerate() {
@@ -180,7 +209,8 @@ impl ErrorNorm {
             if measure == Measure::Nothing {
                 continue;
             }
-            let floor = self.floor(k, h);
+            let (floor, bound) = (self.floor(k, h), bounds.get(k).copied().unwrap_or(f64::INFINITY));
+            let floor = if floor < bound { floor } else { bound };
             let scale = self.scale(measure, range.clone(), before, after);
             let value = value(range);
             if value != 0.0 || !scale.is_finite() {

@@ -2,9 +2,10 @@
 
 mod coefficients;
 mod equations;
-mod newton;
 
 pub use coefficients::Tableau;
+#[cfg(test)]
+pub(crate) use coefficients::legendre_roots as exact;
 
 use core::fmt;
 

@@ -1,15 +1,17 @@
 //! Methods for any equations of motion: explicit Runge-Kutta steps and Gauss collocation.
 
+use super::by_radau::tableau;
 use super::course::Course;
-use super::layout::{Layout, placement_in};
+use super::layout::{Layout, has_work, placement_in};
 use super::method::Method;
 use super::motion::{At, Begun, Boxed, Purpose, begun, boxed, expansion};
 use super::stepper::Explicit;
 use crate::error::{Reason, Setting};
 use crate::integrate::gauss::Tableau;
 use crate::integrate::lie::{Chart, Coordinates};
+use crate::integrate::radau::Differences;
 use crate::integrate::rattle::Reaction;
-use crate::integrate::{Gauss, RungeKutta5, RungeKutta8};
+use crate::integrate::{Gauss, Radau, RungeKutta5, RungeKutta8};
 use crate::model::{Constraint, Group, Model, StateVector};
 
 /// The reduced state by a method for any equations.
@@ -114,6 +116,16 @@ where
                 let begin = (course.t0, state);
                 let gauss = Gauss::within(coordinates, closed, tableau, begin, course.t_end, step);
                 Ok(Begun { evaluations, ..begun::<N, M, _, _>(course, gauss, expand)? })
+            })
+        }
+        Method::Radau { stages } if const { NAMED || has_work(&M::DESCRIPTION) } => {
+            boxed(at, layout, spent, move |model, course| {
+                let Equations { state, closed, expand, evaluations, .. } = system(model, course)?;
+                let Course { t0, t_end, tolerance, .. } = *course;
+                let tableau = tableau(stages, tolerance)?;
+                let (equations, start) = ((closed, Differences), (t0, state));
+                let radau = Radau::within(coordinates, equations, tableau, groups, start, t_end, tolerance);
+                Ok(Begun { evaluations, ..begun::<N, M, _, _>(course, radau, expand)? })
             })
         }
         Method::RungeKutta5 if const { NAMED } => boxed(at, layout, spent, move |model, course| {

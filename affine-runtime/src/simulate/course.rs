@@ -32,6 +32,8 @@ pub(super) struct Choice {
     pub(super) missing: Option<&'static str>,
     /// Radians of a stiff motion that a step can pass over.
     pub(super) stiffness: Option<f64>,
+    /// The rate at which friction takes velocities away, where that is stiff.
+    pub(super) friction: Option<f64>,
     /// The method forms `det phi`.
     pub(super) needs_determinant: bool,
     /// Evaluations that the choice and the beginning took.
@@ -41,6 +43,13 @@ pub(super) struct Choice {
 impl Default for Choice {
     fn default() -> Self {
         let method = Method::RungeKutta8;
-        Self { method, missing: None, stiffness: None, needs_determinant: false, evaluations: 0 }
+        Self {
+            method,
+            missing: None,
+            stiffness: None,
+            friction: None,
+            needs_determinant: false,
+            evaluations: 0,
+        }
     }
 }

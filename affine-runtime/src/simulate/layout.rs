@@ -40,6 +40,23 @@ impl Layout {
     }
 }
 
+/// Energy goes elsewhere: friction, a drive, a force of the user.
+pub(super) const fn has_work(model: &Description) -> bool {
+    components!(model.reduced, Quantity::Work).is_some()
+}
+
+/// Components of a state that are the internal momentum, in whatever frame, where it has all `n^2` of them.
+pub(super) const fn momentum_in(groups: &[Group], n: usize) -> Option<Range<usize>> {
+    let momentum = components!(
+        groups,
+        Quantity::CanonicalMomentum | Quantity::AffineSpin | Quantity::ComovingAffineSpin
+    );
+    match momentum {
+        Some(range) if range.end - range.start == n * n => Some(range),
+        _ => None,
+    }
+}
+
 /// Number of components.
 pub(super) const fn total(groups: &[Group]) -> usize {
     let mut total = 0;

@@ -50,6 +50,15 @@ pub enum Method {
         /// Length of a step, positive; the interval is divided into equal steps that are not longer.
         step: f64,
     },
+    /// Radau IIA collocation, [`Radau`](crate::integrate::Radau): implicit and L-stable, for friction that takes velocities away
+    /// faster than the motion goes on. The number of steps does not depend on how strong the friction is. Steps run over
+    /// affine velocities in the frame in which the friction does not depend on the placement: there the motions that are left
+    /// lie in a plane, and long steps stay in it. [`Method::Automatic`] takes it where velocities die out
+    /// [`STIFF_FRICTION`](super::STIFF_FRICTION) times in a run.
+    Radau {
+        /// Number of stages, 3, 5 or 7, of orders 5, 9 and 13; `None`: 3 at tolerances from 1e-4 up, 5 from 1e-7 up, 7 below.
+        stages: Option<usize>,
+    },
     /// [`Rattle`](crate::integrate::Rattle), for isochoric bodies with `H = T(Pi) + U(phi)`: explicit but for its
     /// multiplier, symmetric, in equal steps; the tolerance plays no part. Keeps both constraints, and spin and vorticity
     /// where they are conserved, up to rounding, and is symplectic on the constrained phase space. Output times between
@@ -102,6 +111,7 @@ impl Method {
             | Method::RungeKuttaNystrom12
             | Method::RungeKuttaNystrom8
             | Method::AdaptiveSplitting { .. }
+            | Method::Radau { .. }
             | Method::Taylor { .. } => None,
         }
     }

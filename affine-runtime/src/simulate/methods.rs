@@ -1,9 +1,10 @@
 //! The integrators, each begun on the state that it steps.
 
 use super::by_equations::{chart, reduced, with_reaction};
+use super::by_radau::by_radau;
 use super::choice::choose;
 use super::course::{Choice, Course};
-use super::layout::{Layout, has_multiplier, is_canonical, moves_on_group};
+use super::layout::{Layout, has_multiplier, has_work, is_canonical, moves_on_group};
 use super::method::Method;
 use super::motion::{At, Boxed, Purpose, begun, boxed, expansion};
 use super::range::in_range;
@@ -59,6 +60,11 @@ fn begin<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>, con
         }
         Method::AdaptiveSplitting { order } => {
             by_adaptive_pieces::<N, M, _, _, NAMED>(at, |model: H| M::splitting(model), order, spent)
+        }
+        Method::Radau { stages }
+            if const { !moves_on_group(&M::DESCRIPTION, N) && (NAMED || has_work(&M::DESCRIPTION)) } =>
+        {
+            by_radau(at, stages, spent)
         }
         Method::RungeKuttaNystrom12 => {
             by_halves(at, |model: H| M::second_order(model), &Tableau::ORDER_12, spent)

@@ -100,6 +100,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let computation = &mut self.trajectory.computation;
         computation.method = choice.method;
         computation.stiffness = choice.stiffness;
+        computation.friction = choice.friction;
         computation.missing = choice.missing;
         self.needs_determinant = choice.needs_determinant;
         self.place.spend(choice.evaluations);

@@ -116,6 +116,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                 at_rest: start.p().iter().all(|p| *p == 0.0),
                 missing: None,
                 stiffness: None,
+                friction: None,
                 condition: self.model.condition(start.phi()),
                 residual: None,
                 energy_defect: 0.0,

@@ -1,5 +1,6 @@
 //! The settings of a simulation, checked.
 
+use super::by_radau::tableau;
 use super::checkpoint::Checkpoint;
 use super::dense::Keep;
 use super::event::Event;
@@ -121,6 +122,9 @@ impl Plan {
             }
             Method::Gauss { stages, .. } => {
                 Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
+            }
+            Method::Radau { stages } => {
+                tableau(stages, self.tolerance)?;
             }
             Method::Rattle { order, .. } => {
                 Composition::of_order(order).ok_or(Setting::Order { given: order })?;

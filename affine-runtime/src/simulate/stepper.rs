@@ -3,6 +3,7 @@
 use super::checkpoint::Bits;
 use crate::integrate::lie::Coordinates;
 use crate::integrate::nystrom::SecondOrder;
+use crate::integrate::radau::{Jacobian, Radau};
 use crate::integrate::runge_kutta::{Dense, Field, Pair, RungeKutta};
 use crate::integrate::splitting::{AdaptiveSplitting, Pieces, Splitting};
 use crate::integrate::taylor::{Series, Taylor};
@@ -118,6 +119,19 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Stepper<S> for
     }
     fn is_exchanged(&self) -> bool {
         !self.is_stiff()
+    }
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>> Stepper<S>
+    for Radau<S, F, J, C>
+{
+    by_the_same_names!(Radau);
+    fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
+        Radau::aim(self, t_end);
+        Ok(())
+    }
+    fn between(&mut self, t: f64) -> Result<S, Failure> {
+        Ok(self.at(t))
     }
 }
 

@@ -58,6 +58,8 @@ pub struct Computation {
     /// How many radians of the fastest motion a step by pieces can be long, where that is why [`Method::Automatic`] takes
     /// [`Method::AdaptiveSplitting`].
     pub stiffness: Option<f64>,
+    /// The rate at which friction takes velocities away, where that is why [`Method::Automatic`] takes [`Method::Radau`].
+    pub friction: Option<f64>,
     /// Condition number of a kinetic energy whose coefficients are fields, [`Model::condition`](crate::model::Model::condition),
     /// at the start; `None` where they are numbers, which were checked when the model was compiled.
     pub condition: Option<f64>,

@@ -2,9 +2,10 @@
 
 use core::fmt;
 
-use super::choice::{NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
+use super::choice::{NYSTROM_TOLERANCE, STIFF_FRICTION, TAYLOR_TOLERANCE};
 use super::method::Method;
 use super::trajectory::{Computation, Trajectory};
+use crate::integrate::radau::Tableau;
 use crate::integrate::splitting::ORDER;
 use crate::integrate::taylor::order_for;
 use crate::model::{Conserved, Constraint, Description, LeftOut, Quantity, Scope};
@@ -67,6 +68,7 @@ impl Why {
             }
             Method::RungeKuttaNystrom12 | Method::RungeKuttaNystrom8 => self.nystrom(f),
             Method::Gauss { stages, step } => self.gauss(f, stages, step),
+            Method::Radau { stages } => self.radau(f, stages),
             Method::Rattle { order, step } => self.rattle(f, order, step),
             Method::Splitting { order, step } => self.splitting(f, order, step),
             Method::AdaptiveSplitting { order } => self.adaptive_splitting(f, order.unwrap_or(ORDER)),
@@ -88,6 +90,21 @@ impl Why {
                  {NYSTROM_TOLERANCE:e}"
             ),
             _ => writeln!(f, "as asked for; there is no closed form"),
+        }
+    }
+
+    fn radau(&self, f: &mut fmt::Formatter<'_>, stages: Option<usize>) -> fmt::Result {
+        let Computation { tolerance, friction, .. } = self.computation;
+        let stages = stages.unwrap_or(Tableau::for_tolerance(tolerance).stages());
+        let order = 2 * stages - 1;
+        write!(f, "Radau IIA of {stages} stages, order {order}, relative error {tolerance:e} per step: ")?;
+        match friction {
+            Some(rate) => writeln!(
+                f,
+                "friction takes velocities away at a rate of {rate:.2e}, more than {STIFF_FRICTION} times in this run: explicit \
+                 steps would have to follow that, and these do not"
+            ),
+            None => writeln!(f, "as asked for"),
         }
     }
 

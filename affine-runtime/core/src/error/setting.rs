@@ -32,6 +32,11 @@ pub enum Setting {
     },
     /// No step is allowed.
     NoSteps,
+    /// Radau collocation is available with 3, 5 and 7 stages.
+    RadauStages {
+        /// The number of stages asked for.
+        given: usize,
+    },
     /// Gauss collocation is available with 2, 3, 4 and 6 stages.
     Stages {
         /// The number of stages asked for.
@@ -161,6 +166,9 @@ impl fmt::Display for Setting {
                  double precision) and below 1; 1e-6 to 1e-13 are common"
             ),
             Setting::NoSteps => f.write_str("max_steps(0) allows no step: give a positive number"),
+            Setting::RadauStages { given } => {
+                write!(f, "Radau collocation with {given} stages: there are 3, 5 and 7")
+            }
             Setting::Stages { given } => write!(
                 f,
                 "Gauss collocation with {given} stages: give 2, 3, 4 or 6 stages, of orders 4, 6, 8 and 12"

@@ -10,16 +10,17 @@
 //! `cargo run --release --example work_precision -- symplectic`.
 
 #[cfg(test)]
-mod legendre_roots;
+pub(crate) mod legendre_roots;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod order_conditions;
 
+use crate::newton::Mode;
+
 /// The most stages there are.
 pub(super) const MOST_STAGES: usize = 6;
-
-/// A complex number, real part first.
-pub(super) type Pair = (f64, f64);
+/// Modes of that method.
+pub(super) const MODES: usize = 3;
 
 /// A Gauss collocation method, of [`Tableau::TWO`] stages, [`Tableau::THREE`], [`Tableau::FOUR`] or [`Tableau::SIX`].
 ///
@@ -31,17 +32,8 @@ pub struct Tableau {
     pub(super) nodes: &'static [f64],
     pub(super) weights: &'static [f64],
     pub(super) ratios: [[f64; MOST_STAGES]; MOST_STAGES],
+    /// Of the matrix `b_i a_ij/b_j`.
     pub(super) modes: &'static [Mode],
-}
-
-/// An eigenvalue `lambda` of the matrix `b_i a_ij/b_j`, with eigenvectors such that the matrix is
-/// `sum_modes Re(right_i lambda left_j)` and the identity `sum_modes Re(right_i left_j)`: of a conjugate pair one
-/// stands for both.
-#[derive(Debug, PartialEq)]
-pub(super) struct Mode {
-    pub(super) eigenvalue: Pair,
-    pub(super) right: &'static [Pair],
-    pub(super) left: &'static [Pair],
 }
 
 /// `mu_ij` from those below the diagonal, row by row: `mu_ji = 1 - mu_ij`, which doubles between 1/2 and 2 fulfil exactly.
@@ -271,6 +263,11 @@ impl Tableau {
             6 => Some(&Self::SIX),
             _ => None,
         }
+    }
+
+    /// Nodes and weights of the quadrature on [0, 1], exact for polynomials of degree `2 stages - 1`.
+    pub(crate) fn quadrature(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.nodes.iter().copied().zip(self.weights.iter().copied())
     }
 
     /// Number of stages.

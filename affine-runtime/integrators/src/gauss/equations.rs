@@ -1,8 +1,8 @@
 //! The stage equations `L_i = h b_i f(t + c_i h, y + sum_j mu_ij L_j)` of one step, iterated to rounding.
 
-use super::coefficients::{MOST_STAGES, Tableau};
-use super::newton::Newton;
+use super::coefficients::{MODES, MOST_STAGES, Tableau};
 use crate::lie::{Coordinates, Sum};
+use crate::newton::Newton;
 use affine_core::__private::numerics::larger;
 use affine_core::model::StateVector;
 use affine_core::scalar::Scalar;
@@ -81,14 +81,14 @@ pub(super) struct Unsolved {
 #[derive(Clone)]
 pub(super) struct Equations<S> {
     pub(super) tableau: &'static Tableau,
-    newton: Newton<S>,
+    newton: Newton<S, MODES>,
     stiff: bool,
     pub(super) evaluations: u64,
 }
 
 impl<S: StateVector<f64>> Equations<S> {
     pub(super) fn new(tableau: &'static Tableau) -> Self {
-        Self { tableau, newton: Newton::new(tableau), stiff: false, evaluations: 0 }
+        Self { tableau, newton: Newton::new(tableau.modes), stiff: false, evaluations: 0 }
     }
 
     /// Newton's iteration has been needed.
@@ -110,7 +110,7 @@ impl<S: StateVector<f64>> Equations<S> {
                 Err(Unsolved { residual }) => least = residual,
             }
         }
-        if !Newton::<S>::FITS {
+        if !Newton::<S, MODES>::FITS {
             return Err(Unsolved { residual: least });
         }
         // A continuation of the step before may lead far astray; no motion at all is the other start.

@@ -12,12 +12,12 @@ const STORED: [&Tableau; 4] = [&Tableau::TWO, &Tableau::THREE, &Tableau::FOUR, &
 /// Binary digits of the enclosures.
 const DIGITS: usize = 160;
 
-fn number(numerator: i64, denominator: i64) -> BigRational {
+pub(crate) fn number(numerator: i64, denominator: i64) -> BigRational {
     BigRational::new(BigInt::from(numerator), BigInt::from(denominator))
 }
 
 /// Coefficients, constant first.
-type Polynomial = Vec<BigRational>;
+pub(crate) type Polynomial = Vec<BigRational>;
 
 fn value(polynomial: &Polynomial, x: &BigRational) -> BigRational {
     polynomial.iter().rev().fold(BigRational::zero(), |sum, c| sum * x + c)
@@ -40,7 +40,7 @@ fn integral(polynomial: &Polynomial, x: &BigRational) -> BigRational {
 }
 
 /// `P_s(2x - 1)` by Bonnet's recurrence `k P_k = (2k - 1) z P_(k-1) - (k - 1) P_(k-2)`.
-fn legendre(s: usize) -> Polynomial {
+pub(crate) fn legendre(s: usize) -> Polynomial {
     let z = vec![number(-1, 1), number(2, 1)];
     let (mut before, mut last) = (vec![number(1, 1)], z.clone());
     for k in 2..=s as i64 {
@@ -76,16 +76,23 @@ fn roots(polynomial: &Polynomial) -> Vec<BigRational> {
 }
 
 /// Nodes, weights and matrix of collocation.
-struct Collocation {
-    c: Vec<BigRational>,
-    b: Vec<BigRational>,
-    a: Vec<Vec<BigRational>>,
+pub(crate) struct Collocation {
+    pub(crate) c: Vec<BigRational>,
+    pub(crate) b: Vec<BigRational>,
+    pub(crate) a: Vec<Vec<BigRational>>,
 }
 
 impl Collocation {
     fn of(s: usize) -> Self {
-        let c = roots(&legendre(s));
-        assert_eq!(c.len(), s, "Legendre polynomials have simple roots in (0, 1)");
+        let gauss = Self::with_nodes(&legendre(s), None);
+        assert_eq!(gauss.c.len(), s, "Legendre polynomials have simple roots in (0, 1)");
+        gauss
+    }
+
+    /// At the roots of a polynomial in (0, 1), and at one more node.
+    pub(crate) fn with_nodes(polynomial: &Polynomial, more: Option<BigRational>) -> Self {
+        let c: Vec<_> = roots(polynomial).into_iter().chain(more).collect();
+        let s = c.len();
         let basis: Vec<Polynomial> = (0..s)
             .map(|j| {
                 let others = (0..s).filter(|k| *k != j);
@@ -102,7 +109,7 @@ impl Collocation {
 }
 
 /// The enclosures, through polynomials with coefficients below `10^6`.
-fn is_small(defect: &BigRational) -> bool {
+pub(crate) fn is_small(defect: &BigRational) -> bool {
     defect.abs() * pow(BigRational::from(BigInt::from(2)), DIGITS - 40) < BigRational::one()
 }
 
@@ -110,7 +117,7 @@ fn is_small(defect: &BigRational) -> bool {
 fn simplifying_assumptions_give_the_order() {
     for s in STORED.map(Tableau::stages) {
         let Collocation { c, b, a } = Collocation::of(s);
-        let power = |j: usize, k: usize| pow(c[j].clone(), k);
+        let power = |j: usize, k: usize| power(&c[j], k);
         let moment =
             |k: usize| (0..s).map(|i| &b[i] * power(i, k - 1)).sum::<BigRational>() - number(1, k as i64);
         assert!((1..=2 * s).all(|k| is_small(&moment(k))), "B({})", 2 * s);
@@ -134,14 +141,19 @@ fn simplifying_assumptions_give_the_order() {
     }
 }
 
+/// `x^k`.
+pub(crate) fn power(x: &BigRational, k: usize) -> BigRational {
+    pow(x.clone(), k)
+}
+
+/// A stored number is the exact one, up to half a unit in the last place of numbers between 1/2 and 2.
+pub(crate) fn close(stored: f64, exact: &BigRational) -> bool {
+    let stored = BigRational::from_float(stored).unwrap_or_else(BigRational::zero);
+    (stored - exact).to_f64().is_some_and(|error| error.abs() < 1.2e-16)
+}
+
 #[test]
 fn stored_doubles_are_these_numbers() {
-    // Half a unit in the last place of numbers between 1/2 and 2.
-    let rounding = 1.2e-16;
-    let close = |stored: f64, exact: &BigRational| {
-        let stored = BigRational::from_float(stored).unwrap_or_else(BigRational::zero);
-        (stored - exact).to_f64().is_some_and(|error| error.abs() < rounding)
-    };
     for stored in STORED {
         let Collocation { c, b, a } = Collocation::of(stored.stages());
         for i in 0..stored.stages() {

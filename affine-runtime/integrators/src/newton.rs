@@ -1,4 +1,4 @@
-//! Newton's corrections of the stage equations: `(1 - h M (x) J) dL = r`, `M_ij = b_i a_ij/b_j`.
+//! Newton's corrections of the stage equations of collocation: `(1 - h M (x) J) dL = r`, `M` the matrix of the method.
 //!
 //! By the eigenvalues of `M` the system falls apart into one of dimension `dim y` for each mode,
 //! `(1 - h lambda J) u = sum_j left_j r_j`, `dL_i = sum_modes Re(right_i u)`, as in Hairer, Wanner, Solving Ordinary
@@ -7,17 +7,27 @@
 
 use nalgebra::Complex;
 
-use super::coefficients::{MOST_STAGES, Mode, Tableau};
 use affine_core::model::StateVector;
 use affine_core::scalar::Scalar;
 
 /// Components of the largest state for which there is room: memory is fixed, so that nothing allocates. The
 /// placement, its momentum and the centre of mass of a body in space have 24.
-pub(super) const CAPACITY: usize = 32;
-/// Modes of the largest method.
-const MODES: usize = 3;
+pub(crate) const CAPACITY: usize = 32;
 /// Relative change for the differences: balances rounding, `eps/change`, and curvature, `change`.
 const CHANGE: f64 = 1.5e-8;
+
+/// A complex number, real part first.
+pub(crate) type Pair = (f64, f64);
+
+/// An eigenvalue `lambda` of the matrix `M` of a method, with eigenvectors such that the matrix is
+/// `sum_modes Re(right_i lambda left_j)` and the identity `sum_modes Re(right_i left_j)`: of a conjugate pair one
+/// stands for both.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Mode {
+    pub(crate) eigenvalue: Pair,
+    pub(crate) right: &'static [Pair],
+    pub(crate) left: &'static [Pair],
+}
 
 type Entry = Complex<f64>;
 type Square = [[Entry; CAPACITY]; CAPACITY];
@@ -26,8 +36,8 @@ const ZERO: Entry = Complex::new(0.0, 0.0);
 
 /// The Jacobian and the factors of the systems.
 #[derive(Clone, Copy)]
-pub(super) struct Newton<S> {
-    tableau: &'static Tableau,
+pub(crate) struct Newton<S, const MODES: usize> {
+    modes: &'static [Mode],
     /// Column by column; valid where `known`.
     columns: [S; CAPACITY],
     known: bool,
@@ -36,10 +46,10 @@ pub(super) struct Newton<S> {
     h: f64,
 }
 
-impl<S: StateVector<f64>> Newton<S> {
-    pub(super) fn new(tableau: &'static Tableau) -> Self {
+impl<S: StateVector<f64>, const MODES: usize> Newton<S, MODES> {
+    pub(crate) fn new(modes: &'static [Mode]) -> Self {
         Self {
-            tableau,
+            modes,
             columns: [S::zeros(); CAPACITY],
             known: false,
             factors: [Factors::NONE; MODES],
@@ -48,53 +58,39 @@ impl<S: StateVector<f64>> Newton<S> {
     }
 
     /// The state is not too large.
-    pub(super) const FITS: bool = S::LEN <= CAPACITY;
+    pub(crate) const FITS: bool = S::LEN <= CAPACITY;
 
     /// There is a Jacobian, of this step or an earlier one.
-    pub(super) fn is_known(&self) -> bool {
+    pub(crate) fn is_known(&self) -> bool {
         self.known
     }
 
     /// The next iteration needs a new Jacobian.
-    pub(super) fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         self.known = false;
     }
 
     /// The Jacobian of `f` at `(t, y)`, where components change by about `extent` within a step. One evaluation,
     /// and one for each component.
-    pub(super) fn differentiate(&mut self, f: &impl Fn(f64, &S) -> S, t: f64, y: &S, extent: &S) {
-        let slope = f(t, y);
-        let size = y.as_ref().iter().fold(0.0, |largest: f64, y| largest.max(y.abs()));
-        for (c, column) in self.columns.iter_mut().enumerate().take(S::LEN) {
-            let own = y.as_ref()[c].abs() + extent.as_ref()[c].abs();
-            let scale = if own > 0.0 {
-                own
-            } else if size > 0.0 {
-                size
-            } else {
-                1.0
-            };
-            let mut changed = *y;
-            changed.as_mut()[c] += CHANGE * scale;
-            // What the sum really changed by.
-            let change = changed.as_ref()[c] - y.as_ref()[c];
-            *column = f(t, &changed);
-            for (entry, slope) in column.as_mut().iter_mut().zip(slope.as_ref()) {
-                *entry = (*entry - slope) / change;
-            }
-        }
+    pub(crate) fn differentiate(&mut self, f: &impl Fn(f64, &S) -> S, t: f64, y: &S, extent: &S) {
+        self.learn(|columns| by_differences(f, (t, y, &f(t, y)), extent, columns));
+    }
+
+    /// A Jacobian, column by column.
+    pub(crate) fn learn(&mut self, fill: impl FnOnce(&mut [S])) {
+        fill(&mut self.columns[..S::LEN]);
         self.known = true;
         self.h = f64::NAN;
     }
 
     /// Factors for steps of length `h`. `false` where a system is singular or not finite.
     #[must_use]
-    pub(super) fn prepare(&mut self, h: f64) -> bool {
+    pub(crate) fn prepare(&mut self, h: f64) -> bool {
         if self.h == h {
             return true;
         }
         self.h = f64::NAN;
-        for (mode, factors) in self.tableau.modes.iter().zip(&mut self.factors) {
+        for (mode, factors) in self.modes.iter().zip(&mut self.factors) {
             let factor = Complex::new(mode.eigenvalue.0, mode.eigenvalue.1) * h;
             for (c, column) in self.columns.iter().enumerate().take(S::LEN) {
                 for (r, entry) in column.as_ref().iter().enumerate() {
@@ -111,24 +107,66 @@ impl<S: StateVector<f64>> Newton<S> {
     }
 
     /// `dL` from the defects `r`.
-    pub(super) fn correction(&self, defects: &[S; MOST_STAGES]) -> [S; MOST_STAGES] {
-        let stages = self.tableau.stages();
-        let mut correction = [S::zeros(); MOST_STAGES];
-        for (Mode { right, left, .. }, factors) in self.tableau.modes.iter().zip(&self.factors) {
+    pub(crate) fn correction<const STAGES: usize>(&self, defects: &[S; STAGES]) -> [S; STAGES] {
+        let mut correction = [S::zeros(); STAGES];
+        for (Mode { right, left, .. }, factors) in self.modes.iter().zip(&self.factors) {
             let mut u = [ZERO; CAPACITY];
             for (i, u) in u.iter_mut().enumerate().take(S::LEN) {
-                for (left, defect) in left.iter().zip(defects).take(stages) {
+                for (left, defect) in left.iter().zip(defects) {
                     *u += Complex::new(left.0, left.1) * defect.as_ref()[i];
                 }
             }
             factors.solve(&mut u, S::LEN);
-            for (right, correction) in right.iter().zip(&mut correction).take(stages) {
+            for (right, correction) in right.iter().zip(&mut correction) {
                 for (value, u) in correction.as_mut().iter_mut().zip(&u) {
                     *value += right.0 * u.re - right.1 * u.im;
                 }
             }
         }
         correction
+    }
+
+    /// `(1 - h lambda J)^-1 r` for the first mode, where that is real.
+    pub(crate) fn filtered(&self, r: &S) -> S {
+        let mut u = [ZERO; CAPACITY];
+        for (u, r) in u.iter_mut().zip(r.as_ref()) {
+            u.re = *r;
+        }
+        self.factors[0].solve(&mut u, S::LEN);
+        let mut filtered = S::zeros();
+        for (filtered, u) in filtered.as_mut().iter_mut().zip(&u) {
+            *filtered = u.re;
+        }
+        filtered
+    }
+}
+
+/// The Jacobian of `f` at `(t, y)`, where it is `slope`, column by column, where components change by about `extent` within a
+/// step. One evaluation for each component.
+pub(crate) fn by_differences<S: StateVector<f64>>(
+    f: &impl Fn(f64, &S) -> S,
+    (t, y, slope): (f64, &S, &S),
+    extent: &S,
+    columns: &mut [S],
+) {
+    let size = y.as_ref().iter().fold(0.0, |largest: f64, y| largest.max(y.abs()));
+    for (c, column) in columns.iter_mut().enumerate() {
+        let own = y.as_ref()[c].abs() + extent.as_ref()[c].abs();
+        let scale = if own > 0.0 {
+            own
+        } else if size > 0.0 {
+            size
+        } else {
+            1.0
+        };
+        let mut changed = *y;
+        changed.as_mut()[c] += CHANGE * scale;
+        // What the sum really changed by.
+        let change = changed.as_ref()[c] - y.as_ref()[c];
+        *column = f(t, &changed);
+        for (entry, slope) in column.as_mut().iter_mut().zip(slope.as_ref()) {
+            *entry = (*entry - slope) / change;
+        }
     }
 }
 

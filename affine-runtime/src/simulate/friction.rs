@@ -1,0 +1,135 @@
+//! How fast friction takes velocities away.
+
+use super::course::Course;
+use super::layout::{Layout, has_work};
+use crate::model::{Model, Quantity};
+
+/// Components of all momenta of a body: `n^2 + n`.
+const MOMENTA: usize = 12;
+/// Squarings of a matrix, after which the size of the power is that of the largest eigenvalue, within
+/// `12^(1/64)`, four percent.
+const SQUARINGS: i32 = 6;
+
+type Form = nalgebra::SMatrix<f64, MOMENTA, MOMENTA>;
+
+/// The fastest rate at which friction takes velocities away, `1/time`, and the evaluations that it took to see.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Fastest {
+    pub(super) rate: Option<f64>,
+    pub(super) evaluations: u64,
+}
+
+/// The fastest rate at which the friction of a model takes velocities away at a start: the largest eigenvalue of
+/// `M^-1 R`, with `T = 1/2 v^T M v` the kinetic energy and `1/2 v^T R v` the dissipation function. `None` where there is no
+/// such force, or no momentum that it acts on.
+///
+/// Both forms are read off the energies, at momenta along the axes and between two of them. An oscillation, however fast, is
+/// in neither.
+pub(super) fn rate_of_friction<const N: usize, M: Model<N>>(
+    model: &M,
+    course: &Course<'_, M::Point<f64>>,
+) -> Fastest {
+    if const { !has_work(&M::DESCRIPTION) } {
+        return Fastest::default();
+    }
+    let asked = core::cell::Cell::new(0);
+    let rate = fastest(model, course, &asked).filter(|rate| rate.is_finite());
+    Fastest { rate, evaluations: asked.get() }
+}
+
+fn fastest<const N: usize, M: Model<N>>(
+    model: &M,
+    course: &Course<'_, M::Point<f64>>,
+    asked: &core::cell::Cell<u64>,
+) -> Option<f64> {
+    let (reduced, constants) = model.reduce(course.t0, course.start);
+    let work = const { Layout::of(M::DESCRIPTION.reduced, N) }.work?;
+    let (mut places, mut start) = ([0; MOMENTA], 0);
+    let mut count = 0;
+    for group in M::DESCRIPTION.reduced {
+        let end = start + group.len;
+        if is_momentum(group.quantity) && count + group.len <= MOMENTA {
+            places[count..count + group.len].iter_mut().zip(start..end).for_each(|(place, k)| *place = k);
+            count += group.len;
+        }
+        start = end;
+    }
+    let places = places.get(..count).filter(|places| !places.is_empty())?;
+    // Energy and power at momenta `a e_i + b e_j`, and none else.
+    let at = |steps: [(usize, f64); 2]| {
+        let mut state = reduced;
+        places.iter().for_each(|place| state.as_mut()[*place] = 0.0);
+        steps.iter().for_each(|(i, step)| state.as_mut()[places[*i]] += step);
+        let state = model.renewed(&state);
+        asked.set(asked.get() + 1);
+        let rates = model.reduced_equations(course.t0, &constants, &state);
+        let energy = model.hamiltonian(course.t0, &model.expand(course.t0, &constants, &state));
+        (energy, rates.as_ref()[work])
+    };
+    let (mut inertia, mut friction) = (Form::identity(), Form::zeros());
+    let unit = unit(|step| at([(0, step), (0, 0.0)]).0);
+    let (energy, power) = at([(0, 0.0); 2]);
+    let mut before = [(0.0, 0.0); MOMENTA];
+    for i in 0..count {
+        let (ahead, behind) = (at([(i, unit), (0, 0.0)]), at([(i, -unit), (0, 0.0)]));
+        inertia[(i, i)] = ahead.0 + behind.0 - 2.0 * energy;
+        friction[(i, i)] = power - 0.5 * (ahead.1 + behind.1);
+        for (j, other) in before.iter().enumerate().take(i) {
+            let both = at([(i, unit), (j, unit)]);
+            let mixed_energy = both.0 - ahead.0 - other.0 + energy;
+            let mixed_power = -0.5 * (both.1 - ahead.1 - other.1 + power);
+            (inertia[(i, j)], inertia[(j, i)]) = (mixed_energy, mixed_energy);
+            (friction[(i, j)], friction[(j, i)]) = (mixed_power, mixed_power);
+        }
+        before[i] = ahead;
+    }
+    Some(spectral_radius(inertia.lu().solve(&friction)?))
+}
+
+/// A momentum whose energy is about that of the body at rest, so that neither is lost in the rounding of the other.
+fn unit(energy: impl Fn(f64) -> f64) -> f64 {
+    let at_rest = energy(0.0);
+    let unit = libm::sqrt((1.0 + at_rest.abs()) / (energy(1.0) - at_rest).abs());
+    if unit.is_finite() && unit > 0.0 { unit } else { 1.0 }
+}
+
+/// `|A^k|^(1/k)`, `k` a power of two.
+fn spectral_radius(matrix: Form) -> f64 {
+    let (mut power, mut logarithm) = (matrix, 0.0);
+    for squaring in 0..=SQUARINGS {
+        let size = power.norm();
+        if size == 0.0 || !size.is_finite() {
+            return size;
+        }
+        logarithm += libm::log(size) / f64::from(1 << squaring);
+        power /= size;
+        power = power * power;
+    }
+    libm::exp(logarithm)
+}
+
+fn is_momentum(quantity: Quantity) -> bool {
+    matches!(
+        quantity,
+        Quantity::LinearMomentum
+            | Quantity::ComovingLinearMomentum
+            | Quantity::CanonicalMomentum
+            | Quantity::AffineSpin
+            | Quantity::ComovingAffineSpin
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_grow_by_the_largest_eigenvalue() {
+        let mut matrix = Form::zeros();
+        (matrix[(0, 0)], matrix[(0, 1)], matrix[(1, 1)]) = (3.0, 1.0, 2.0);
+        assert!((spectral_radius(matrix) / 3.0 - 1.0).abs() < 0.04);
+        assert_eq!(spectral_radius(Form::zeros()), 0.0);
+        matrix[(0, 0)] = f64::NAN;
+        assert!(spectral_radius(matrix).is_nan());
+    }
+}
