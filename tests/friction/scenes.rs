@@ -139,7 +139,7 @@ fn events_are_found_between_steps() {
     let reached = long().run().unwrap().end().1.phi()[(0, 0)];
     let level = 0.5 * (PHI[0] + reached);
     let passes = || Event::new("passes", move |_: f64, point: &_| Phase::<3>::phi(point)[(0, 0)] - level);
-    let [coarse, fine] =
-        [1e-6, 1e-11].map(|tolerance| long().tolerance(tolerance).event(passes()).run().unwrap().events()[0].t);
+    let [coarse, fine] = [1e-6, 1e-11]
+        .map(|tolerance| long().tolerance(tolerance).event(passes()).run().unwrap().events()[0].t);
     assert!((coarse - fine).abs() < 1e-4 * fine, "{coarse} for {fine}");
 }

@@ -1,6 +1,7 @@
 //! Radau IIA collocation: implicit, for motions with friction that is fast and dies out.
 
 mod coefficients;
+mod polynomial;
 mod solve;
 mod work;
 
@@ -19,11 +20,8 @@ use super::{Failure, Statistics, sound};
 use affine_core::__private::numerics::norm;
 use affine_core::model::{Group, StateVector};
 use coefficients::{MODES, MOST_STAGES};
-use solve::{Field, Problem};
+use solve::{Field, Problem, Stages, plus};
 use work::Work;
-
-/// Changes of the state from the beginning of a step to its stages, in the coordinates of the step.
-type Stages<S> = [S; MOST_STAGES];
 
 /// Adaptive integration of `y' = f(t, y)` from `t0` to `t_end`, in either direction of time, by Radau IIA collocation of 3, 5
 /// or 7 stages (order 5, 9 or 13; E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.8, and
@@ -242,40 +240,6 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
         solved
     }
 
-    /// Where the polynomial of the last step would lead, unless that is too far to be believed.
-    fn continued(&self, h: f64) -> Option<Stages<S>> {
-        if self.h == 0.0 {
-            return None;
-        }
-        let mut guess = [S::zeros(); MOST_STAGES];
-        let reached = &self.stages[self.tableau.stages() - 1];
-        for (guess, node) in guess.iter_mut().zip(self.tableau.nodes) {
-            *guess = self.polynomial(1.0 + node * h / self.h);
-            for (guess, reached) in guess.as_mut().iter_mut().zip(reached.as_ref()) {
-                *guess -= reached;
-            }
-        }
-        let base = self.end.value;
-        let is_near = |guess: &S| {
-            let after = plus(&base, guess);
-            let value = |range: core::ops::Range<usize>| norm(&guess.as_ref()[range]);
-            self.error_norm.largest_within(h.abs(), &self.largest, base.as_ref(), after.as_ref(), value) < 0.5
-        };
-        guess.iter().take(self.tableau.stages()).all(is_near).then_some(guess)
-    }
-
-    /// The collocation polynomial of the last step at a part of it, from its beginning.
-    fn polynomial(&self, part: f64) -> S {
-        let mut sum = S::zeros();
-        for (i, stage) in self.stages.iter().enumerate().take(self.tableau.stages()) {
-            let weight = self.tableau.lagrange(i, part);
-            for (sum, stage) in sum.as_mut().iter_mut().zip(stage.as_ref()) {
-                *sum += weight * stage;
-            }
-        }
-        sum
-    }
-
     /// Estimated error of a step relative to the tolerance.
     fn error(
         &mut self,
@@ -321,12 +285,6 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
         self.end.value.as_mut()[work.place] = self.begin.value.as_ref()[work.place] + done;
     }
 
-    /// The state at a part of the last step.
-    fn inside(&self, part: f64) -> S {
-        let origin = self.coordinates.origin(&self.begin).value;
-        self.coordinates.state(&self.begin, &plus(&origin, &self.polynomial(part))).value
-    }
-
     fn note_sizes(&mut self) {
         let mut start = 0;
         for (largest, group) in self.largest.iter_mut().zip(self.error_norm.groups()) {
@@ -334,22 +292,6 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
             *largest = if size > *largest { size } else { *largest };
             start += group.len;
         }
-    }
-
-    /// The state at a time within the last step, by the collocation polynomial; without evaluations, but for the work up to
-    /// there. The state reached where no step has been taken.
-    pub fn at(&mut self, t: f64) -> S {
-        if self.h == 0.0 || t == self.t {
-            return self.end.value;
-        }
-        let from = self.t - self.h;
-        let mut state = self.inside((t - from) / self.h);
-        if let Some(work) = self.work {
-            let done = work.along(from, t - from, |t| (self.f)(t, &self.inside((t - from) / self.h)));
-            self.statistics.evaluations += work.evaluations();
-            state.as_mut()[work.place] = self.begin.value.as_ref()[work.place] + done;
-        }
-        state
     }
 
     /// Goes on to another end of the interval.
@@ -398,15 +340,6 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
         let evaluations = self.statistics.evaluations * self.jacobian.worth();
         Statistics { evaluations, ..self.statistics }
     }
-}
-
-/// Sum of components.
-fn plus<S: StateVector<f64>>(a: &S, b: &S) -> S {
-    let mut sum = *a;
-    for (sum, b) in sum.as_mut().iter_mut().zip(b.as_ref()) {
-        *sum += b;
-    }
-    sum
 }
 
 impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>> fmt::Debug

@@ -1,10 +1,12 @@
 //! The stage equations `Z_i = h sum_j a_ij f(t + c_j h, y + Z_j)` of one step, by Newton's iteration.
 
-use super::coefficients::{MODES, Tableau};
-use super::{Stages, plus};
+use super::coefficients::{MODES, MOST_STAGES, Tableau};
 use crate::lie::{Coordinates, Sum};
 use crate::newton::{Newton, by_differences};
 use affine_core::model::StateVector;
+
+/// Changes of the state from the beginning of a step to its stages, in the coordinates of the step.
+pub(super) type Stages<S> = [S; MOST_STAGES];
 
 /// Corrections from one start: they converge within a few, or the step is too long.
 const MOST_CORRECTIONS: u32 = 12;
@@ -121,12 +123,12 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Problem<'_, S,
     /// `h sum_j a_ij f_j - Z_i`: one evaluation for each stage.
     fn defects(&mut self, stages: &Stages<S>) -> Stages<S> {
         let (t, origin) = self.from;
-        let mut slopes = [S::zeros(); super::MOST_STAGES];
+        let mut slopes = [S::zeros(); MOST_STAGES];
         for ((slope, stage), node) in slopes.iter_mut().zip(stages).zip(self.tableau.nodes) {
             *slope = self.field.slope(t + node * self.h, &plus(origin, stage));
         }
         self.evaluations += self.tableau.stages() as u64;
-        let mut defects = [S::zeros(); super::MOST_STAGES];
+        let mut defects = [S::zeros(); MOST_STAGES];
         for ((defect, stage), row) in defects.iter_mut().zip(stages).zip(self.tableau.matrix) {
             for (c, defect) in defect.as_mut().iter_mut().enumerate() {
                 let sum: f64 = row.iter().zip(&slopes).map(|(a, slope)| a * slope.as_ref()[c]).sum();
@@ -135,6 +137,15 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Problem<'_, S,
         }
         defects
     }
+}
+
+/// Sum of components.
+pub(super) fn plus<S: StateVector<f64>>(a: &S, b: &S) -> S {
+    let mut sum = *a;
+    for (sum, b) in sum.as_mut().iter_mut().zip(b.as_ref()) {
+        *sum += b;
+    }
+    sum
 }
 
 impl Tableau {
