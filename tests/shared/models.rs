@@ -68,11 +68,12 @@ pub struct Served<M, P> {
 
 type Point<M, const N: usize> = <M as Model<N>>::Point<f64>;
 
-const EXPLICIT: [Method; 3] = [Method::Automatic, Method::RungeKutta8, Method::RungeKutta5];
+const EVERYWHERE: [Method; 4] =
+    [Method::Automatic, Method::RungeKutta8, Method::RungeKutta5, Method::Radau { stages: None }];
 
-/// The explicit methods, and others.
-fn explicit_and(others: impl IntoIterator<Item = Method>) -> Vec<Method> {
-    EXPLICIT.into_iter().chain(others).collect()
+/// The methods that serve every model, and others.
+fn everywhere_and(others: impl IntoIterator<Item = Method>) -> Vec<Method> {
+    EVERYWHERE.into_iter().chain(others).collect()
 }
 
 /// Collocation takes two evaluations and more for a stage: steps twice as long.
@@ -101,7 +102,7 @@ pub fn anchored(step: f64) -> Served<Anchored, Point<Anchored, 2>> {
     let (x, p) = centre();
     let start = Anchored.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
     let nystrom = [Method::RungeKuttaNystrom8, Method::RungeKuttaNystrom12];
-    let methods = explicit_and(nystrom.into_iter().chain([gauss(2, step), gauss(3, step)]));
+    let methods = everywhere_and(nystrom.into_iter().chain([gauss(2, step), gauss(3, step)]));
     Served { model: Anchored, start, methods }
 }
 
@@ -110,7 +111,7 @@ pub fn vibrating(step: f64) -> Served<Vibrating, Point<Vibrating, 2>> {
     let (x, p) = centre();
     let start = Vibrating.at_momentum(x, placement(), p, Comoving(momentum())).unwrap();
     let orders = [None, Some(12)].map(|order| Method::Taylor { order });
-    Served { model: Vibrating, start, methods: explicit_and(orders.into_iter().chain([gauss(3, step)])) }
+    Served { model: Vibrating, start, methods: everywhere_and(orders.into_iter().chain([gauss(3, step)])) }
 }
 
 /// [`Springs`], its start and its methods.
@@ -118,7 +119,7 @@ pub fn springs(step: f64) -> Served<Springs, Point<Springs, 2>> {
     let (x, p) = centre();
     let start = Springs.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
     let pieces = [2, 4, 6, 8].map(|order| Method::Splitting { order, step });
-    let methods = explicit_and(pieces.into_iter().chain([None, Some(6)].map(adaptive)));
+    let methods = everywhere_and(pieces.into_iter().chain([None, Some(6)].map(adaptive)));
     Served { model: Springs, start, methods }
 }
 
@@ -126,14 +127,14 @@ pub fn springs(step: f64) -> Served<Springs, Point<Springs, 2>> {
 pub fn driven(step: f64) -> Served<Driven, Point<Driven, 2>> {
     let (x, p) = centre();
     let start = Driven.at_momentum(x, placement(), p, TwoPoint(momentum())).unwrap();
-    Served { model: Driven, start, methods: explicit_and([gauss(2, step), gauss(3, step)]) }
+    Served { model: Driven, start, methods: everywhere_and([gauss(2, step), gauss(3, step)]) }
 }
 
 /// [`Free`], its start and its methods.
 pub fn free(step: f64) -> Served<Free, Point<Free, 2>> {
     let (x, p) = centre();
     let start = Free.at_momentum(x, placement(), p, Comoving(momentum())).unwrap();
-    Served { model: Free, start, methods: explicit_and([Method::ClosedForm, gauss(2, step)]) }
+    Served { model: Free, start, methods: everywhere_and([Method::ClosedForm, gauss(2, step)]) }
 }
 
 /// [`Top`], its start and its methods.
@@ -143,7 +144,7 @@ pub fn top(step: f64) -> Served<Top, Point<Top, 3>> {
     let start = Top.at_velocity(x, Matrix::<3>::identity(), v, omega).unwrap();
     let pieces = [2, 4, 6, 8].map(|order| Method::Splitting { order, step });
     let others = [gauss(2, step), gauss(3, step), adaptive(Some(8))];
-    let methods = explicit_and(pieces.into_iter().chain(others));
+    let methods = everywhere_and(pieces.into_iter().chain(others));
     Served { model: Top, start, methods }
 }
 
@@ -153,6 +154,6 @@ pub fn droplet(step: f64) -> Served<Droplet, Point<Droplet, 2>> {
     let phi = Matrix::<2>::new(2.0, 0.0, 0.0, 0.5);
     let start = Droplet.at_velocity(x, phi, v, Matrix::<2>::new(0.4, 0.0, 0.6, -0.1)).unwrap();
     let rattles = [2, 4, 6, 8].map(|order| Method::Rattle { order, step });
-    let methods = explicit_and(rattles.into_iter().chain([gauss(2, step), gauss(3, step)]));
+    let methods = everywhere_and(rattles.into_iter().chain([gauss(2, step), gauss(3, step)]));
     Served { model: Droplet, start, methods }
 }

@@ -1,6 +1,6 @@
 //! Integrators of `y' = f(t, y)` for fixed-size state vectors. They do not allocate. Users name `affine_runtime`, which has
 //! them as its module `integrate`.
-#![cfg_attr(not(feature = "std"), no_std)]
+#![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 mod composition;
 mod equal_steps;
