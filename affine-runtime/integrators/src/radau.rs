@@ -169,16 +169,18 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
             spent = jacobian.columns(&|t: f64, z: &S| field.slope(t, z), (t, &origin, &slope), columns);
         });
         self.statistics.evaluations += spent;
-        let mut not_solved = None;
+        let (mut rejected, mut not_solved) = (false, None);
         loop {
             let to = next_time(self.t, self.length, self.t_end);
             let h = to - self.t;
-            if h == 0.0 || self.length <= shortest(self.t, self.t_end) {
+            let is_lost = self.length <= shortest(self.t, self.t_end);
+            if h == 0.0 || is_lost && rejected {
                 return Err(not_solved.unwrap_or(Failure::StepUnderflow));
             }
             let Some(stages) = self.solved(&base, &origin, h) else {
                 // A step a quarter as long, as in section IV.8 there.
                 self.statistics.rejected += 1;
+                rejected = true;
                 self.unjudged = true;
                 self.length = 0.25 * h.abs();
                 not_solved = Some(Failure::NoSolution { residual: f64::NAN });
@@ -189,6 +191,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
             let rate = if error <= 1.0 { self.rate_at(to, &end.value) } else { None };
             let Some(rate) = rate else {
                 self.statistics.rejected += 1;
+                rejected = true;
                 self.unjudged = true;
                 self.length = h.abs() * self.controller.reject(error);
                 not_solved = (!error.is_finite()).then_some(Failure::NotFinite);
