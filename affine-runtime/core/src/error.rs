@@ -148,6 +148,14 @@ impl From<Stop> for Error {
     }
 }
 
+/// As of a run that did not begin: an ensemble is refused in the same words.
+#[cfg(feature = "std")]
+impl From<Setting> for Error {
+    fn from(setting: Setting) -> Self {
+        Stop { reason: setting.into(), t: 0.0, steps: 0 }.into()
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

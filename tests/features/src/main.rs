@@ -9,5 +9,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let run = Simulation::new(&Disc, start).until(1.0).every(0.1).run()?;
     run.save_svg("disc.svg")?;
     println!("{}", run.to_svg()?);
+    run.save_html("disc.html")?;
+    println!("{}", run.to_html());
     Ok(())
 }
