@@ -16,17 +16,16 @@
 
 mod circle;
 mod classify;
-mod conversion;
+pub(crate) mod conversion;
 mod flow;
-mod pieces;
+pub(crate) mod pieces;
 mod ratios;
 
 pub use circle::CircleFlow;
-pub use classify::{Class, Dilatation, Growth, classify};
-pub use conversion::LatticeFrame;
+pub use classify::{Dilatation, Growth, MotionClass, classify};
 pub(crate) use conversion::{lattice_of, placement_and_spin};
 pub use flow::{LatticeFlow, LatticeStop, StopReason};
-pub use pieces::{LatticePieces, LatticeSplitting, rotation, turned};
+pub use pieces::{LatticePieces, LatticeSplitting};
 pub use ratios::RatioForm;
 
 use core::fmt::Debug;

@@ -105,7 +105,7 @@ mod without_report;
 
 pub use affine_core::{
     balance, conserved, decompose, error, frames, geodesic, kinematics, metrics, model, parametric, scalar,
-    state, system,
+    state,
 };
 pub use affine_integrators as integrate;
 pub use affine_integrators::lanes;
@@ -113,12 +113,20 @@ pub use affine_integrators::lanes;
 /// What a model has beyond the default, by `emit(...)`, and how code that serves every model finds it.
 pub mod capability {
     pub use crate::variation::Tangent;
-    pub use affine_core::capability::*;
+    pub use affine_core::capability::{InLanes, SecondOrderEquations, Splitting, Taylor};
+}
+
+/// State vectors, and what is known of their equations.
+pub mod system {
+    pub use affine_core::system::{Packing, Pieces, SecondOrder, Series, StateVector, Sum};
 }
 
 /// What of the other crates is for this one alone.
 mod inner {
+    #[cfg(feature = "std")]
+    pub(crate) use affine_core::__private::gathered;
     pub(crate) use affine_core::__private::numerics::*;
+    pub(crate) use affine_integrators::__private::accumulate;
     pub(crate) use affine_integrators::__private::runs::*;
 }
 

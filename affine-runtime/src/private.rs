@@ -4,9 +4,11 @@ pub use affine_core::__private::*;
 pub use affine_integrators::__private::*;
 
 pub use crate::dual::Dual;
+pub use crate::lattice::conversion::LatticeFrame;
+pub use crate::lattice::pieces::{rotation, turned};
 pub use crate::lattice::{
-    Isotropic, Lattice, LatticeDescription, LatticeForm, LatticeFrame, LatticePieces, MetricSide,
-    PotentialClass, RatioForm, TwoPolarForm, Variables, rotation, turned,
+    Isotropic, Lattice, LatticeDescription, LatticeForm, LatticePieces, MetricSide, PotentialClass,
+    RatioForm, TwoPolarForm, Variables,
 };
 pub use crate::variation::Tangent;
 

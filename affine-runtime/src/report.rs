@@ -59,16 +59,13 @@ use std::io;
 use std::path::Path;
 
 pub use curves::{Curve, CurveDiagram, CurvePanel};
-pub use diagram::{LEAST_ERROR, Series, WorkPrecisionDiagram, WorkPrecisionPoint};
+pub use diagram::{WorkPrecisionDiagram, WorkPrecisionPoint, WorkPrecisionSeries};
 pub use reference::reference_solution;
 pub use stability::{
     Demand, Finding, Oracle, Scene, StabilityCase, StabilityReport, Verdict, relative_distance,
     relative_distance_by_rows,
 };
-pub use work_precision::{
-    DEFAULT_REPEATS, DEFAULT_TIME_CAP, DEFAULT_TOLERANCES, Measurement, Row, WorkPrecision,
-    WorkPrecisionReport,
-};
+pub use work_precision::{Measurement, Row, WorkPrecision, WorkPrecisionReport};
 
 use crate::error::{Error, Result};
 use crate::simulate::Method;

@@ -1,7 +1,7 @@
 //! Right-hand sides and Runge-Kutta steps in vectors of four give the bits of those over single components.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use affine_runtime::integrate::taylor::Portable;
+use affine_runtime::__private::numerics::Portable;
 use affine_runtime::integrate::{RungeKutta5, RungeKutta8};
 use affine_runtime::model::Model;
 use affine_runtime::prelude::*;

@@ -1,7 +1,8 @@
 //! Order, accuracy and cost of the Taylor series method on nonlinear problems with known solutions.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use affine_runtime::integrate::taylor::{HIGHEST_ORDER, Series, order_for};
+use affine_runtime::__private::numerics::HIGHEST_ORDER;
+use affine_runtime::integrate::taylor::{Series, order_for};
 use affine_runtime::integrate::{Failure, Statistics, Taylor};
 use affine_runtime::model::{Group, Quantity};
 

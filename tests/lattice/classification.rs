@@ -2,7 +2,7 @@
 
 use affine_oracle::Random;
 use affine_runtime::frames::Matrix;
-use affine_runtime::lattice::{Class, Dilatation, Growth, LatticeFlow, TwoPolarForm, classify};
+use affine_runtime::lattice::{Dilatation, Growth, LatticeFlow, MotionClass, TwoPolarForm, classify};
 use affine_runtime::prelude::*;
 
 use crate::models::*;
@@ -36,7 +36,7 @@ fn planar_shear_is_bounded_below_the_threshold() {
             std::cmp::Ordering::Greater => Growth::Escaping { rate: w },
             std::cmp::Ordering::Equal => Growth::Marginal,
         };
-        let Class { shear, dilatation, whirl } = class!(AffineAffine2, sigma);
+        let MotionClass { shear, dilatation, whirl } = class!(AffineAffine2, sigma);
         match (shear, expected) {
             (Growth::Bounded { period: Some(a) }, Growth::Bounded { period: Some(b) })
             | (Growth::Escaping { rate: a }, Growth::Escaping { rate: b }) => {

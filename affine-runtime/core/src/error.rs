@@ -102,17 +102,17 @@ pub struct IllPosed {
     /// The threshold it is held against.
     pub threshold: f64,
     /// A velocity of unit size on which it is that value, for forms that are looked at in numbers.
-    pub velocity: Option<Direction>,
+    pub velocity: Option<UnitVelocity>,
 }
 
 /// An affine velocity of the energy's frame: `Oh`, `Om` or `phi_dot`, `n x n`, in the user's bases, to seven digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Direction {
+pub struct UnitVelocity {
     dim: usize,
     entries: [f32; 9],
 }
 
-impl Direction {
+impl UnitVelocity {
     /// With these entries, row after row; at most three rows.
     pub(crate) fn new(dim: usize, entry: impl Fn(usize) -> f64) -> Self {
         Self { dim, entries: core::array::from_fn(|k| if k < dim * dim { entry(k) as f32 } else { 0.0 }) }
@@ -124,7 +124,7 @@ impl Direction {
     }
 }
 
-impl fmt::Display for Direction {
+impl fmt::Display for UnitVelocity {
     /// `[[1.000, 0.000], [0.000, -1.000]]`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("[")?;

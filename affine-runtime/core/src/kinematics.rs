@@ -83,7 +83,7 @@
 //! ```
 
 mod deformation;
-mod dilatation;
+pub(crate) mod dilatation;
 mod momenta;
 mod sums;
 mod velocities;
@@ -92,10 +92,8 @@ pub use deformation::{
     CauchyTensor, GreenTensor, InertialQuadrupole, InverseCauchyTensor, InverseGreenTensor, Strain,
     characteristic_invariants,
 };
-#[doc(hidden)]
-pub use dilatation::LogDeterminant;
-pub(crate) use dilatation::integer;
-pub use dilatation::{dilatation, far_from_undeformed, isochoric_part, mean_log_stretch};
+pub(crate) use dilatation::{LogDeterminant, integer};
+pub use dilatation::{dilatation, isochoric_part, mean_log_stretch};
 pub use momenta::{AffineMomentum, AngularMomentum, LinearMomentum, Vorticity};
 pub use velocities::LinearVelocity;
 

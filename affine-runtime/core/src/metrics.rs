@@ -1,7 +1,7 @@
 //! Constant metrics of space and body: bases in which they are the identity.
 
-mod forms;
-mod quantities;
+pub(crate) mod forms;
+pub(crate) mod quantities;
 mod tensor;
 
 use crate::error::{Error, IllPosed, Result};
@@ -9,10 +9,6 @@ use crate::frames::Matrix;
 use crate::model::Velocity;
 use crate::scalar::{Real, Scalar};
 
-#[doc(hidden)]
-pub use forms::{rebased_inertia, rebased_tensor, told_in_given_bases};
-#[doc(hidden)]
-pub use quantities::{form_in_given_bases, inverse_in_given_bases};
 pub use tensor::Tensor;
 
 /// A change of the bases of space and body, `x' = A x`, `phi' = A phi B^-1`.

@@ -21,13 +21,13 @@ pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, OfCentre, Space, Spatial, TwoPoint, Vector, inverse,
 };
 pub use crate::geodesic::{Geodesic, Motion};
-pub use crate::kinematics::{dilatation, far_from_undeformed, isochoric_part, mean_log_stretch};
+pub use crate::kinematics::dilatation::far_from_undeformed;
+pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
 pub use crate::lanes::{Lanes, gathered, in_lane};
 pub use crate::matrix_field::symmetric_part;
-pub use crate::metrics::{
-    Bases, form_in_given_bases, inverse_in_given_bases, orthonormal, rebased_inertia, rebased_tensor,
-    told_in_given_bases,
-};
+pub use crate::metrics::forms::{rebased_inertia, rebased_tensor, told_in_given_bases};
+pub use crate::metrics::quantities::{form_in_given_bases, inverse_in_given_bases};
+pub use crate::metrics::{Bases, orthonormal};
 pub use crate::model::{
     Bound, Component, Conserved, Constraint, Description, Entry, Formula, Group, Guard, Handle, LeftOut,
     Model, Operations, Quantity, Regularity, Scope, Velocity, VelocityDeterminesMomentum,
@@ -138,7 +138,7 @@ pub fn vector<const N: usize, T: Real>(components: [T; N]) -> Vector<N, T> {
 pub mod numerics {
     pub use crate::decompose::exponential::{LN2_HIGH, LN2_LOW, SERIES};
     pub use crate::divisor::{Divisor, HIGHEST_ORDER, LOWEST_ORDER};
-    pub use crate::kinematics::LogDeterminant;
+    pub use crate::kinematics::dilatation::LogDeterminant;
     pub use crate::norm::{IN_RANGE, larger, norm, scaled_norm, square, sum_of_squares};
     pub use crate::reduction::jacobi;
     pub use crate::scalar::inverse_cbrt::of_regular;

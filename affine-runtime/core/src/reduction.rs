@@ -1,6 +1,6 @@
 //! Support for emitted reductions: turning space, closed forms, well-posedness of prepared models.
 
-use crate::error::{Direction, Error, IllPosed, Result};
+use crate::error::{Error, IllPosed, Result, UnitVelocity};
 use crate::frames::{Matrix, Vector};
 use crate::geodesic::Motion;
 use crate::scalar::Real;
@@ -233,7 +233,7 @@ fn direction<const N: usize, const K: usize>(
     eigen: &Eigen<K, f64>,
     k: usize,
     basis: &[&[(usize, f64)]; K],
-) -> Direction {
+) -> UnitVelocity {
     let mut velocity = [[0.0; N]; N];
     for (i, vector) in basis.iter().enumerate() {
         for (entry, weight) in vector.iter() {
@@ -241,7 +241,7 @@ fn direction<const N: usize, const K: usize>(
         }
     }
     let norm = libm::sqrt(velocity.iter().flatten().map(|entry| entry * entry).sum());
-    Direction::new(N, |entry| velocity[entry / N][entry % N] / norm)
+    UnitVelocity::new(N, |entry| velocity[entry / N][entry % N] / norm)
 }
 
 /// The symmetric matrix with this upper triangle, row after row.

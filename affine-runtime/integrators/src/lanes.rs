@@ -24,7 +24,7 @@ use num_traits::{One, Zero};
 
 use affine_core::scalar::{Real, Scalar};
 
-pub use affine_core::lanes::{Lanes, gathered, in_lane};
+pub use affine_core::lanes::Lanes;
 pub use fast::{FAST_ULP, Fast};
 
 /// `LANES` doubles that are computed with as numbers `S`. A line of the cache, or several whole ones, so that no vector stands in two of them.

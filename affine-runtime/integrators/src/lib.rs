@@ -39,10 +39,11 @@ use core::fmt;
 /// What emitted code and runs use besides. No stable interface.
 #[doc(hidden)]
 pub mod __private {
-    pub use crate::splitting::{
-        accumulate, conjugated, dilated, elongation, growth, left_product, right_product, turning,
+    pub use crate::splitting::dilated::dilated;
+    pub use crate::splitting::growth::{
+        accumulate, conjugated, elongation, growth, left_product, right_product, turning,
     };
-    pub use crate::taylor::{
+    pub use crate::taylor::lanes::{
         add_pair, add_products, between, divided, doubled, halved, halves, lanes, set_lanes, subtract_pair,
         subtract_products,
     };
@@ -52,13 +53,16 @@ pub mod __private {
         pub use crate::equal_steps::{parts, step_count};
         #[cfg(feature = "std")]
         pub use crate::lanes::equations::Equations;
+        pub use crate::rattle::reaction::Reaction;
+        pub use crate::runge_kutta::field::{Field, InVectors};
         #[cfg(feature = "std")]
         pub use crate::runge_kutta::in_lanes::{Fate, RungeKutta8InLanes};
         pub use crate::runge_kutta::start::Start;
         #[cfg(feature = "std")]
         pub use crate::runge_kutta::start::starts_in_lanes;
         pub use crate::sound;
-        pub use crate::splitting::{EVALUATIONS_OF_FASTEST, fastest};
+        pub use crate::splitting::adaptive::{EVALUATIONS as EVALUATIONS_OF_FASTEST, ORDER, fastest};
+        pub use crate::splitting::coefficients::Sweeps;
         pub use crate::tape::Tape;
     }
 }

@@ -2,10 +2,9 @@
 
 mod constraint;
 mod layout;
-mod reaction;
+pub(crate) mod reaction;
 
 pub use crate::composition::Composition;
-pub use reaction::Reaction;
 
 use core::fmt;
 

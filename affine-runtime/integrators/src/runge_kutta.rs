@@ -2,7 +2,7 @@
 
 mod dormand_prince_54;
 mod dormand_prince_853;
-mod field;
+pub(crate) mod field;
 #[cfg(feature = "std")]
 pub(crate) mod in_lanes;
 mod judged;
@@ -13,7 +13,7 @@ mod step;
 mod trees;
 
 use field::called;
-pub use field::{Field, InVectors, Stages};
+use field::{Field, InVectors};
 use judged::Judged;
 pub use pair::{DormandPrince54, DormandPrince853, Step};
 pub use step::{Dense, OneStep, Pair};

@@ -1,17 +1,14 @@
 //! Splitting: exact flows of pieces of the Hamiltonian in turn, explicit and symplectic, with a fixed step or to a
 //! tolerance.
 
-mod adaptive;
-mod coefficients;
-mod dilated;
-mod growth;
+pub(crate) mod adaptive;
+pub(crate) mod coefficients;
+pub(crate) mod dilated;
+pub(crate) mod growth;
 
-pub use adaptive::{AdaptiveSplitting, ORDER};
-pub use adaptive::{EVALUATIONS as EVALUATIONS_OF_FASTEST, fastest};
+pub use adaptive::AdaptiveSplitting;
 pub use affine_core::system::Pieces;
-pub use coefficients::Sweeps;
-pub use dilated::dilated;
-pub use growth::{accumulate, conjugated, elongation, growth, left_product, right_product, turning};
+use coefficients::Sweeps;
 
 use core::fmt;
 

@@ -1,13 +1,8 @@
 //! Taylor series method with choice of order and step.
 
-mod lanes;
+pub(crate) mod lanes;
 
-pub use affine_core::__private::numerics::{Divisor, HIGHEST_ORDER, LOWEST_ORDER, Portable, Vectors};
 pub use affine_core::system::Series;
-pub use lanes::{
-    add_pair, add_products, between, divided, doubled, halved, halves, lanes, set_lanes, subtract_pair,
-    subtract_products,
-};
 
 use core::fmt;
 
@@ -19,7 +14,9 @@ use super::tape::Tape;
 use super::vectors::Baseline;
 use super::widest::{Work, roomiest};
 use super::{Failure, Statistics, sound};
-use affine_core::__private::numerics::{IN_RANGE as USUAL_SQUARES, larger, sum_of_squares};
+use affine_core::__private::numerics::{
+    HIGHEST_ORDER, IN_RANGE as USUAL_SQUARES, LOWEST_ORDER, Vectors, larger, sum_of_squares,
+};
 use affine_core::model::{Group, StateVector};
 use affine_core::scalar::Scalar;
 

@@ -27,7 +27,7 @@ const FARTHEST: f64 = 230.0;
 
 /// What becomes of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Class {
+pub struct MotionClass {
     /// The shear, `phi/det(phi)^(1/n)`.
     pub shear: Growth,
     /// Angular frequency of the second, rotating factor: `|Vort/mu|` or `|S/mu|`.
@@ -74,7 +74,7 @@ pub enum Dilatation {
     Free,
 }
 
-impl Class {
+impl MotionClass {
     /// Is `phi` bounded, and bounded away from singular matrices, for all times?
     #[must_use]
     pub fn is_bounded(&self) -> bool {
@@ -86,7 +86,7 @@ impl Class {
 /// The class of the motion through a phase point by the exact criterion; `None` where there is none: for d'Alembert's
 /// model, whose free motions are straight lines, and for potentials of more than `q = ln(det phi)/n`.
 #[must_use]
-pub fn classify<const N: usize, M: TwoPolarForm<N>>(model: &M, point: &M::Point<f64>) -> Option<Class> {
+pub fn classify<const N: usize, M: TwoPolarForm<N>>(model: &M, point: &M::Point<f64>) -> Option<MotionClass> {
     let isotropic = model.isotropic()?;
     let point = model.orthonormal(point);
     let p_dil = point.dilatational_momentum();
@@ -106,7 +106,7 @@ pub fn classify<const N: usize, M: TwoPolarForm<N>>(model: &M, point: &M::Point<
         MetricSide::Body => point.vorticity().norm_squared(),
         MetricSide::Space => point.spin().norm_squared(),
     };
-    Some(Class {
+    Some(MotionClass {
         shear: growth(&point.mixed_spin(), isotropic.inverse_alpha),
         whirl: (libm::sqrt(whirl) * isotropic.inverse_mu).abs(),
         dilatation,

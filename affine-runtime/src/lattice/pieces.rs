@@ -6,9 +6,10 @@ use super::{Lattice, LatticeForm, LatticeStop, MetricSide, StopReason, Variables
 use crate::decompose::skew_exponential;
 use crate::error::Error;
 use crate::frames::Matrix;
+use crate::inner::accumulate;
 use crate::integrate::Statistics;
 use crate::integrate::lie::Sum;
-use crate::integrate::splitting::{Pieces, Splitting, accumulate};
+use crate::integrate::splitting::{Pieces, Splitting};
 use crate::scalar::{Real, Scalar};
 
 /// A step that takes a coupled pair nearer than this part of its distance does not resolve the pole between them.

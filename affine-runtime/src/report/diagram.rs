@@ -11,7 +11,7 @@ use crate::error::Result;
 
 /// Errors at or below this are drawn at it, above the figure 0: a logarithmic axis has no place for an error of
 /// exactly 0, and nothing smaller is an error of double precision.
-pub const LEAST_ERROR: f64 = 1e-17;
+const LEAST_ERROR: f64 = 1e-17;
 
 /// The page and its parts; its width depends on the legend.
 const HEIGHT: u32 = 470;
@@ -30,19 +30,19 @@ const LETTER: f64 = 7.2;
 pub struct WorkPrecisionDiagram {
     title: String,
     error: String,
-    series: Vec<Series>,
+    series: Vec<WorkPrecisionSeries>,
 }
 
 /// One line of a [`WorkPrecisionDiagram`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series {
+pub struct WorkPrecisionSeries {
     /// Name in the legend.
     pub name: String,
     /// Points, joined in this order.
     pub points: Vec<WorkPrecisionPoint>,
 }
 
-/// One measurement of a [`Series`].
+/// One measurement of a [`WorkPrecisionSeries`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorkPrecisionPoint {
     /// True relative error.
@@ -61,14 +61,14 @@ impl WorkPrecisionDiagram {
 
     /// Adds a line.
     #[must_use]
-    pub fn series(mut self, series: Series) -> Self {
+    pub fn series(mut self, series: WorkPrecisionSeries) -> Self {
         self.series.push(series);
         self
     }
 
     /// Adds lines, for instance [all of a report](super::WorkPrecisionReport::series).
     #[must_use]
-    pub fn all(mut self, series: impl IntoIterator<Item = Series>) -> Self {
+    pub fn all(mut self, series: impl IntoIterator<Item = WorkPrecisionSeries>) -> Self {
         self.series.extend(series);
         self
     }
@@ -126,7 +126,7 @@ fn time_label(seconds: f64) -> String {
     format!("{} {name}", (seconds / unit).round())
 }
 
-fn draw_series(canvas: &mut Canvas<'_>, panel: &Panel, index: usize, series: &Series) {
+fn draw_series(canvas: &mut Canvas<'_>, panel: &Panel, index: usize, series: &WorkPrecisionSeries) {
     let colour = category(index);
     let points = || series.points.iter().map(|point| (drawn_error(point.error), point.seconds));
     panel.curve(canvas, points(), Pen::new(colour, 2.0));

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::diagram::{Series, WorkPrecisionDiagram, WorkPrecisionPoint};
+use super::diagram::{WorkPrecisionDiagram, WorkPrecisionPoint, WorkPrecisionSeries};
 use super::local_error::share_above;
 use super::reference::reference_solution;
 use super::{method_name, save};
@@ -14,11 +14,11 @@ use crate::model::{Conserved, Group, Model};
 use crate::simulate::{Halt, Method, Reason, Simulation, Stop, Trajectory};
 
 /// Tolerances of a report that names none.
-pub const DEFAULT_TOLERANCES: [f64; 7] = [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-14];
+const DEFAULT_TOLERANCES: [f64; 7] = [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-14];
 /// Timed repeats of each run unless said otherwise.
-pub const DEFAULT_REPEATS: usize = 15;
+const DEFAULT_REPEATS: usize = 15;
 /// No further repeat begins once the repeats of a run have taken this long, unless said otherwise.
-pub const DEFAULT_TIME_CAP: Duration = Duration::from_secs(2);
+const DEFAULT_TIME_CAP: Duration = Duration::from_secs(2);
 
 /// What a run gives.
 type Attempt<const N: usize, P> = core::result::Result<Trajectory<N, P>, Halt<N, P>>;
@@ -57,7 +57,7 @@ pub struct WorkPrecision<'a, const N: usize, M: Model<N>> {
 
 impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     /// A comparison on the motion of `model` from the phase point `start` at time 0 to `t_end`, of
-    /// [`Method::RungeKutta8`] at [`DEFAULT_TOLERANCES`], of [`Method::RungeKuttaNystrom8`],
+    /// [`Method::RungeKutta8`] at seven tolerances from 1e-3 to 1e-14, of [`Method::RungeKuttaNystrom8`],
     /// [`Method::RungeKuttaNystrom12`] and [`Method::Taylor`] where they were emitted, of [`Method::AdaptiveSplitting`] where a
     /// dilatation has a closed form in what was emitted and, where there is one, of the closed form.
     #[must_use]
@@ -108,13 +108,13 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
         self.against(exact(t_end))
     }
 
-    /// Number of timed repeats of each run, at least 1; [`DEFAULT_REPEATS`] if not set.
+    /// Number of timed repeats of each run, at least 1; 15 if not set.
     #[must_use]
     pub fn repeats(self, repeats: usize) -> Self {
         Self { repeats: repeats.max(1), ..self }
     }
 
-    /// No further repeat of a run begins once its repeats have taken this long; [`DEFAULT_TIME_CAP`] if not set.
+    /// No further repeat of a run begins once its repeats have taken this long; 2 seconds if not set.
     /// One repeat is always timed.
     #[must_use]
     pub fn time_cap(self, time_cap: Duration) -> Self {
@@ -352,15 +352,15 @@ impl WorkPrecisionReport {
     /// One series per method for a [`WorkPrecisionDiagram`], over the error of `phi`. With `prefix`, say the
     /// problem's name, several reports keep apart in one picture.
     #[must_use]
-    pub fn series(&self, prefix: &str) -> Vec<Series> {
-        let mut all: Vec<Series> = Vec::new();
+    pub fn series(&self, prefix: &str) -> Vec<WorkPrecisionSeries> {
+        let mut all: Vec<WorkPrecisionSeries> = Vec::new();
         for row in &self.rows {
             let (Some(error), Ok(measured)) = (self.error(row, "phi"), &row.outcome) else { continue };
             let name = format!("{prefix}{}", method_name(row.method));
             let point = WorkPrecisionPoint { error, seconds: measured.run_time.as_secs_f64() };
             match all.iter_mut().find(|series| series.name == name) {
                 Some(series) => series.points.push(point),
-                None => all.push(Series { name, points: vec![point] }),
+                None => all.push(WorkPrecisionSeries { name, points: vec![point] }),
             }
         }
         all

@@ -7,10 +7,10 @@ use super::method::Method;
 use super::motion::{At, Begun, Boxed, Purpose, begun, boxed, expansion};
 use super::stepper::Explicit;
 use crate::error::{Reason, Setting};
+use crate::inner::Reaction;
 use crate::integrate::gauss::Tableau;
 use crate::integrate::lie::{Chart, Coordinates};
 use crate::integrate::radau::Differences;
-use crate::integrate::rattle::Reaction;
 use crate::integrate::{Gauss, Radau, RungeKutta5, RungeKutta8};
 use crate::model::{Constraint, Group, Model, StateVector};
 

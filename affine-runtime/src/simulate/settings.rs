@@ -9,11 +9,9 @@ use super::method::Method;
 use super::output::{Output, Schedule};
 use super::progress::{Observe, Watch};
 use crate::error::Setting;
-use crate::inner::step_count;
+use crate::inner::{HIGHEST_ORDER, LOWEST_ORDER, Sweeps, step_count};
 use crate::integrate::gauss::Tableau;
 use crate::integrate::rattle::Composition;
-use crate::integrate::splitting::Sweeps;
-use crate::integrate::taylor::{HIGHEST_ORDER, LOWEST_ORDER};
 use crate::model::{Constraint, Description};
 use crate::state::Phase;
 

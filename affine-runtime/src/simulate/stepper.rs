@@ -1,10 +1,11 @@
 //! What a simulation asks of an integrator.
 
 use super::checkpoint::Bits;
+use crate::inner::Field;
 use crate::integrate::lie::Coordinates;
 use crate::integrate::nystrom::SecondOrder;
 use crate::integrate::radau::{Jacobian, Radau};
-use crate::integrate::runge_kutta::{Dense, Field, Pair, RungeKutta};
+use crate::integrate::runge_kutta::{Dense, Pair, RungeKutta};
 use crate::integrate::splitting::{AdaptiveSplitting, Pieces, Splitting};
 use crate::integrate::taylor::{Series, Taylor};
 use crate::integrate::{Failure, Gauss, Rattle, RungeKuttaNystrom, Statistics};

@@ -17,7 +17,7 @@ use std::time::Duration;
 use affine_runtime::frames::{AffineSpin, Matrix, TwoPoint};
 use affine_runtime::model::Model;
 use affine_runtime::report::{
-    Series, WorkPrecision, WorkPrecisionDiagram, WorkPrecisionPoint, WorkPrecisionReport,
+    WorkPrecision, WorkPrecisionDiagram, WorkPrecisionPoint, WorkPrecisionReport, WorkPrecisionSeries,
 };
 use affine_runtime::simulate::{Reason, Setting};
 use affine_runtime::state::{Phase, Pinned};
@@ -237,7 +237,7 @@ fn csv_of_a_stopped_run_quotes_the_reason() {
 #[test]
 fn diagrams_have_a_line_per_series() {
     let missile = missile().run().unwrap();
-    let other = Series {
+    let other = WorkPrecisionSeries {
         name: "another tool, <unknown> & \"quoted\"".to_owned(),
         points: [(1e-4, 2e-3), (1e-9, 5e-2), (0.0, 0.1), (f64::NAN, 0.2)]
             .map(|(error, seconds)| WorkPrecisionPoint { error, seconds })

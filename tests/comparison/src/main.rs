@@ -28,7 +28,7 @@ use std::time::Duration;
 
 use affine_runtime::capability::InLanes;
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Series, WorkPrecision, WorkPrecisionDiagram, WorkPrecisionPoint};
+use affine_runtime::report::{WorkPrecision, WorkPrecisionDiagram, WorkPrecisionPoint, WorkPrecisionSeries};
 
 use equal_steps::{Curve, Curves, Motion};
 use frontier::{ERRORS, front, least_cost};
@@ -154,7 +154,7 @@ impl Visitor for Comparison {
 impl Comparison {
     /// What other tools reached on a problem, one series each: repeats and settings that others of the tool beat left
     /// out.
-    fn elsewhere(&self, problem: &str) -> Vec<Series> {
+    fn elsewhere(&self, problem: &str) -> Vec<WorkPrecisionSeries> {
         let mut tools: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
         for peer in self.peers.iter().filter(|peer| peer.problem.replace('_', " ") == problem) {
             match tools.iter_mut().find(|(tool, _)| *tool == peer.tool) {
@@ -165,7 +165,7 @@ impl Comparison {
         let series = |(tool, runs): (&str, Vec<_>)| {
             let points =
                 front(&runs).into_iter().map(|(error, seconds)| WorkPrecisionPoint { error, seconds });
-            Series { name: tool.to_owned(), points: points.collect() }
+            WorkPrecisionSeries { name: tool.to_owned(), points: points.collect() }
         };
         tools.into_iter().map(series).collect()
     }
@@ -192,9 +192,9 @@ impl Comparison {
     }
 }
 
-fn series(tool: &str, runs: &[Measured]) -> Series {
+fn series(tool: &str, runs: &[Measured]) -> WorkPrecisionSeries {
     let point = |run: &Measured| WorkPrecisionPoint { error: run.error, seconds: run.time.as_secs_f64() };
-    Series { name: format!("{tool}, by hand"), points: runs.iter().map(point).collect() }
+    WorkPrecisionSeries { name: format!("{tool}, by hand"), points: runs.iter().map(point).collect() }
 }
 
 fn ratios(name: &str, ours: &[(f64, f64)], theirs: &[(f64, f64)]) -> String {

@@ -1,6 +1,6 @@
 //! Inertias and tensors of prepared models, from the user's bases to orthonormal ones.
 
-use crate::error::{Direction, Error, IllPosed, Result};
+use crate::error::{Error, IllPosed, Result, UnitVelocity};
 use crate::frames::Matrix;
 use crate::scalar::{Real, Scalar};
 
@@ -51,7 +51,7 @@ pub fn told_in_given_bases<const N: usize, T: Real, R>(
                 row.iter().enumerate().for_each(|(b, entry)| carried[(a, b)] = f64::from(*entry));
             }
             let told = (left * carried * right).normalize();
-            let velocity = Some(Direction::new(N, |entry| told[(entry / N, entry % N)]));
+            let velocity = Some(UnitVelocity::new(N, |entry| told[(entry / N, entry % N)]));
             Error::IllPosed(IllPosed { velocity, ..defect })
         }
         other => other,

@@ -7,7 +7,7 @@ use core::any::Any;
 
 use wide::f64x2;
 
-use super::Vectors;
+use affine_core::__private::numerics::Vectors;
 use affine_core::__private::{Divisor, over};
 use affine_core::scalar::Scalar;
 

@@ -4,9 +4,9 @@ use core::ops::Range;
 
 use crate::capability::InLanes;
 use crate::frames::Matrix;
-use crate::inner::{Equations, Fate, RungeKutta8InLanes};
+use crate::inner::{Equations, Fate, RungeKutta8InLanes, gathered};
 use crate::inner::{Start, starts_in_lanes};
-use crate::lanes::{Lanes, gathered};
+use crate::lanes::Lanes;
 use crate::model::{Group, StateVector};
 use crate::simulate::layout::{Layout, placement_in};
 use crate::simulate::motion::WithWork;
