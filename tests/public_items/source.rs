@@ -123,9 +123,9 @@ impl Sources {
         if item.is_some() || module_too.is_some() {
             return Some(Target { module: module_too, item });
         }
-        let imported = module.imports.iter().filter(|import| import.name == *name);
+        let mut imported = module.imports.iter().filter(|import| import.name == *name);
         let globs = module.imports.iter().filter(|import| import.name == "*");
-        for import in imported {
+        if let Some(import) = imported.next() {
             return Some(self.steps(at, &[&import.path, rest].concat(), left - 1));
         }
         globs.filter(|_| left > 1).find_map(|import| {
