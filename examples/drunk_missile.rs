@@ -41,6 +41,7 @@ fn main() -> affine_runtime::Result<()> {
     println!("\n{}", run.conservation());
     run.save_csv(output.join("drunk_missile.csv"))?;
     run.save_svg(output.join("drunk_missile.svg"))?;
+    run.save_html(output.join("drunk_missile.html"))?;
 
     println!("\nIts twin with p = 0\n");
     at_rest(&start)?;
@@ -50,7 +51,7 @@ fn main() -> affine_runtime::Result<()> {
     println!("{report}");
     report.save_csv(output.join("drunk_missile_work_precision.csv"))?;
     report.save_svg(output.join("drunk_missile_work_precision.svg"))?;
-    println!("\nwritten to output/: drunk_missile.csv, .svg, drunk_missile_work_precision.csv, .svg");
+    println!("\nwritten to output/: drunk_missile.csv, .svg, .html, drunk_missile_work_precision.csv, .svg");
     Ok(())
 }
 
