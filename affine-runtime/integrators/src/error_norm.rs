@@ -156,10 +156,10 @@ impl ErrorNorm {
         self.extent(configuration, y)
     }
 
-    /// The norm without what is a function of the placement and carried beside it, where a method computes it anew.
+    /// The norm without `1/D`, where that is computed anew from the placement.
     pub(crate) fn without_carried(mut self) -> Self {
         for (measure, group) in self.measures.iter_mut().zip(self.groups) {
-            if matches!(group.quantity, Quantity::InverseDilatation | Quantity::MeanLogStretch) {
+            if group.quantity == Quantity::InverseDilatation {
                 *measure = Measure::Nothing;
             }
         }

@@ -5,10 +5,9 @@
 //! Differential Equations II, section IV.8. The Jacobian `J` is made of differences: its errors change how fast the
 //! corrections converge, not what they converge to.
 
-use nalgebra::Complex;
+use nalgebra::{Complex, ComplexField};
 
 use affine_core::model::StateVector;
-use affine_core::scalar::Scalar;
 
 /// Components of the largest state for which there is room: memory is fixed, so that nothing allocates. The
 /// placement, its momentum and the centre of mass of a body in space have 24.
@@ -30,7 +29,6 @@ pub(crate) struct Mode {
 }
 
 type Entry = Complex<f64>;
-type Square = [[Entry; CAPACITY]; CAPACITY];
 
 const ZERO: Entry = Complex::new(0.0, 0.0);
 
@@ -41,7 +39,13 @@ pub(crate) struct Newton<S, const MODES: usize> {
     /// Column by column; valid where `known`.
     columns: [S; CAPACITY],
     known: bool,
-    factors: [Factors; MODES],
+    /// Of the components from here on nothing depends.
+    dimension: usize,
+    /// The first mode is solved for in real numbers.
+    has_real_mode: bool,
+    /// Of that mode, and of the others.
+    real: Factors<f64>,
+    factors: [Factors<Entry>; MODES],
     /// The step length of the factors; NaN before there are any.
     h: f64,
 }
@@ -52,9 +56,18 @@ impl<S: StateVector<f64>, const MODES: usize> Newton<S, MODES> {
             modes,
             columns: [S::zeros(); CAPACITY],
             known: false,
-            factors: [Factors::NONE; MODES],
+            dimension: S::LEN,
+            has_real_mode: false,
+            real: Factors::none(0.0),
+            factors: [Factors::none(ZERO); MODES],
             h: f64::NAN,
         }
+    }
+
+    /// For equations that depend on the first components alone, the others being integrals over these, by a method whose first
+    /// mode is real.
+    pub(crate) fn with_real_mode(modes: &'static [Mode], dimension: usize) -> Self {
+        Self { dimension, has_real_mode: true, ..Self::new(modes) }
     }
 
     /// The state is not too large.
@@ -90,15 +103,15 @@ impl<S: StateVector<f64>, const MODES: usize> Newton<S, MODES> {
             return true;
         }
         self.h = f64::NAN;
-        for (mode, factors) in self.modes.iter().zip(&mut self.factors) {
-            let factor = Complex::new(mode.eigenvalue.0, mode.eigenvalue.1) * h;
-            for (c, column) in self.columns.iter().enumerate().take(S::LEN) {
-                for (r, entry) in column.as_ref().iter().enumerate() {
-                    let diagonal = if r == c { 1.0 } else { 0.0 };
-                    factors.entries[r][c] = -factor * *entry + diagonal;
+        let (columns, dimension) = (&self.columns[..self.dimension], self.dimension);
+        for (k, (mode, factors)) in self.modes.iter().zip(&mut self.factors).enumerate() {
+            let factored = match self.has_real_mode && k == 0 {
+                true => self.real.of(-h * mode.eigenvalue.0, columns, dimension),
+                false => {
+                    factors.of(Complex::new(mode.eigenvalue.0, mode.eigenvalue.1) * -h, columns, dimension)
                 }
-            }
-            if !factors.eliminate(S::LEN) {
+            };
+            if !factored {
                 return false;
             }
         }
@@ -109,14 +122,22 @@ impl<S: StateVector<f64>, const MODES: usize> Newton<S, MODES> {
     /// `dL` from the defects `r`.
     pub(crate) fn correction<const STAGES: usize>(&self, defects: &[S; STAGES]) -> [S; STAGES] {
         let mut correction = [S::zeros(); STAGES];
-        for (Mode { right, left, .. }, factors) in self.modes.iter().zip(&self.factors) {
+        for (k, (mode, factors)) in self.modes.iter().zip(&self.factors).enumerate() {
+            let Mode { right, left, .. } = mode;
             let mut u = [ZERO; CAPACITY];
             for (i, u) in u.iter_mut().enumerate().take(S::LEN) {
                 for (left, defect) in left.iter().zip(defects) {
                     *u += Complex::new(left.0, left.1) * defect.as_ref()[i];
                 }
             }
-            factors.solve(&mut u, S::LEN);
+            match self.has_real_mode && k == 0 {
+                true => {
+                    let mut real = u.map(|u| u.re);
+                    self.real.solve(&mut real, self.dimension);
+                    u.iter_mut().zip(real).for_each(|(u, real)| u.re = real);
+                }
+                false => factors.solve(&mut u, self.dimension),
+            }
             for (right, correction) in right.iter().zip(&mut correction) {
                 for (value, u) in correction.as_mut().iter_mut().zip(&u) {
                     *value += right.0 * u.re - right.1 * u.im;
@@ -126,17 +147,13 @@ impl<S: StateVector<f64>, const MODES: usize> Newton<S, MODES> {
         correction
     }
 
-    /// `(1 - h lambda J)^-1 r` for the first mode, where that is real.
+    /// `(1 - h lambda J)^-1 r` for the real mode.
     pub(crate) fn filtered(&self, r: &S) -> S {
-        let mut u = [ZERO; CAPACITY];
-        for (u, r) in u.iter_mut().zip(r.as_ref()) {
-            u.re = *r;
-        }
-        self.factors[0].solve(&mut u, S::LEN);
+        let mut u = [0.0; CAPACITY];
+        u.iter_mut().zip(r.as_ref()).for_each(|(u, r)| *u = *r);
+        self.real.solve(&mut u, self.dimension);
         let mut filtered = S::zeros();
-        for (filtered, u) in filtered.as_mut().iter_mut().zip(&u) {
-            *filtered = u.re;
-        }
+        filtered.as_mut().iter_mut().zip(u).for_each(|(filtered, u)| *filtered = u);
         filtered
     }
 }
@@ -172,58 +189,68 @@ pub(crate) fn by_differences<S: StateVector<f64>>(
 
 /// `P A = L U` with the unit diagonal of `L` left out.
 #[derive(Clone, Copy)]
-struct Factors {
-    entries: Square,
+struct Factors<E> {
+    entries: [[E; CAPACITY]; CAPACITY],
     pivots: [usize; CAPACITY],
 }
 
-impl Factors {
-    const NONE: Self = Self { entries: [[ZERO; CAPACITY]; CAPACITY], pivots: [0; CAPACITY] };
+impl<E: ComplexField<RealField = f64> + Copy> Factors<E> {
+    fn none(zero: E) -> Self {
+        Self { entries: [[zero; CAPACITY]; CAPACITY], pivots: [0; CAPACITY] }
+    }
+
+    /// Factors `1 + factor J`, `J` given by its columns. `false` where that is singular or not finite.
+    fn of<S: AsRef<[f64]>>(&mut self, factor: E, columns: &[S], dimension: usize) -> bool {
+        for (c, column) in columns.iter().enumerate() {
+            for (r, entry) in column.as_ref().iter().enumerate().take(dimension) {
+                let diagonal = if r == c { E::one() } else { E::zero() };
+                self.entries[r][c] = factor * E::from_real(*entry) + diagonal;
+            }
+        }
+        self.eliminate(dimension)
+    }
 
     /// Gaussian elimination in place, with the largest entry of each column as the pivot.
     fn eliminate(&mut self, dimension: usize) -> bool {
-        let size = |entry: Entry| Scalar::abs(entry.re) + Scalar::abs(entry.im);
         for k in 0..dimension {
             let mut pivot = k;
             for r in k + 1..dimension {
-                if size(self.entries[r][k]) > size(self.entries[pivot][k]) {
+                if self.entries[r][k].norm1() > self.entries[pivot][k].norm1() {
                     pivot = r;
                 }
             }
             self.pivots[k] = pivot;
             self.entries.swap(k, pivot);
-            let largest = size(self.entries[k][k]);
+            let largest = self.entries[k][k].norm1();
             if !(largest > 0.0 && largest.is_finite()) {
                 return false;
             }
-            let inverse = Complex::new(1.0, 0.0) / self.entries[k][k];
+            let inverse = E::one() / self.entries[k][k];
             let row = self.entries[k];
             for below in &mut self.entries[k + 1..dimension] {
                 let factor = below[k] * inverse;
                 below[k] = factor;
-                for c in k + 1..dimension {
-                    below[c] -= factor * row[c];
+                for (entry, above) in below[k + 1..dimension].iter_mut().zip(&row[k + 1..dimension]) {
+                    *entry -= factor * *above;
                 }
             }
         }
         true
     }
 
-    fn solve(&self, u: &mut [Entry; CAPACITY], dimension: usize) {
+    fn solve(&self, u: &mut [E; CAPACITY], dimension: usize) {
         // Multipliers moved with their rows in the elimination: the whole permutation comes first.
         for k in 0..dimension {
             u.swap(k, self.pivots[k]);
         }
         for r in 0..dimension {
-            for c in 0..r {
-                u[r] -= self.entries[r][c] * u[c];
-            }
+            let sum = |sum: E, (entry, u): (&E, &E)| sum - *entry * *u;
+            u[r] = self.entries[r][..r].iter().zip(&u[..r]).fold(u[r], sum);
         }
         for r in (0..dimension).rev() {
-            for c in r + 1..dimension {
-                u[r] -= self.entries[r][c] * u[c];
-            }
-            u[r] /= self.entries[r][r];
+            let sum = |sum: E, (entry, u): (&E, &E)| sum - *entry * *u;
+            let above = self.entries[r][r + 1..dimension].iter().zip(&u[r + 1..dimension]);
+            u[r] = above.fold(u[r], sum) / self.entries[r][r];
         }
     }
 }

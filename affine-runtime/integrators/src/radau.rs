@@ -18,7 +18,7 @@ use super::step_size::{Controller, first_step, next_time, shortest};
 use super::tape::Tape;
 use super::{Failure, Statistics, sound};
 use affine_core::__private::numerics::norm;
-use affine_core::model::{Group, StateVector};
+use affine_core::model::{Group, Quantity, StateVector};
 use coefficients::{MODES, MOST_STAGES};
 use solve::{Field, Problem, Stages, plus};
 use work::Work;
@@ -120,7 +120,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
             jacobian,
             coordinates,
             tableau,
-            newton: Newton::new(tableau.modes),
+            newton: Newton::with_real_mode(tableau.modes, independent(groups)),
             error_norm,
             largest: [0.0; GROUPS],
             tolerance,
@@ -343,6 +343,13 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
         let evaluations = self.statistics.evaluations * self.jacobian.worth();
         Statistics { evaluations, ..self.statistics }
     }
+}
+
+/// Components before those that nothing depends on: `1/D`, which is computed anew from the placement, and the work.
+fn independent(groups: &[Group]) -> usize {
+    let is_integral = |group: &Group| matches!(group.quantity, Quantity::InverseDilatation | Quantity::Work);
+    let last = groups.iter().rposition(|group| !is_integral(group)).map_or(0, |last| last + 1);
+    groups[..last].iter().map(|group| group.len).sum()
 }
 
 impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>> fmt::Debug

@@ -6,6 +6,7 @@ mod collapse;
 mod degenerate;
 mod energies;
 mod flat;
+mod friction;
 mod growth;
 mod long_runs;
 mod many_steps;
@@ -34,6 +35,7 @@ pub(crate) fn report(extent: Extent) -> affine_runtime::Result<StabilityReport> 
     let mut report = StabilityReport::new();
     stiff::cases(&mut report)?;
     penalty::cases(&mut report)?;
+    friction::cases(&mut report)?;
     degenerate::cases(&mut report)?;
     stretches::cases(&mut report)?;
     energies::cases(&mut report)?;

@@ -1,0 +1,88 @@
+//! Stiff friction: viscous bodies against solutions of 25 digits, with the friction over six powers of ten.
+
+use affine_runtime::prelude::*;
+use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
+
+use super::shared::scene;
+
+/// Viscosity of every deformation.
+#[affine_model(
+    dim = 3,
+    symmetry(space = affine, body = metric),
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
+    potential = 10/2*sinh(q)^2 + 0.5*(tr(G)*exp(-2*q) - n),
+    dissipation(body_inertia = r),
+)]
+struct Viscous {
+    r: f64,
+}
+
+/// Viscosity of the volume, and a little of the rest.
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1),
+    potential = (tr(G) - n)^2,
+    dissipation(casimir1_squared = r, body_inertia = 0.1),
+)]
+struct Bulk {
+    r: f64,
+}
+
+const VISCOUS: [(f64, &str); 3] = [
+    (1e4, include_str!("../../../tests/data/p9_1e4.csv")),
+    (1e6, include_str!("../../../tests/data/p9_1e6_long.csv")),
+    (1e8, include_str!("../../../tests/data/p9_1e8.csv")),
+];
+const BULK: [(f64, &str); 3] = [
+    (1e3, include_str!("../../../tests/data/p10_1e3.csv")),
+    (1e5, include_str!("../../../tests/data/p10_1e5.csv")),
+    (1e7, include_str!("../../../tests/data/p10_1e7.csv")),
+];
+const TOLERANCES: [f64; 3] = [1e-3, 1e-6, 1e-10];
+
+pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> {
+    report.heading("stiff friction");
+    for (r, data) in VISCOUS {
+        let model = Viscous { r }.prepare()?;
+        let [(_, phi, spin), end] = ends::<3>(data);
+        creeps(report, ("viscous body", r), &model, model.at_momentum(phi, Comoving(spin))?, end);
+    }
+    for (r, data) in BULK {
+        let model = Bulk { r }.prepare()?;
+        let [(_, phi, spin), end] = ends::<2>(data);
+        creeps(report, ("bulk viscosity", r), &model, model.at_momentum(phi, Comoving(spin))?, end);
+    }
+    Ok(())
+}
+
+/// Time, placement and `Sigma_hat`.
+type Row<const N: usize> = (f64, Matrix<N>, Matrix<N>);
+
+/// The first and the last row of a solution.
+fn ends<const N: usize>(data: &str) -> [Row<N>; 2] {
+    let mut rows = data.lines().filter(|line| !line.starts_with(['#', 't'])).map(|line| {
+        let numbers: Vec<f64> = line.split(',').filter_map(|number| number.parse().ok()).collect();
+        let matrix = |from: usize| Matrix::<N>::from_row_slice(&numbers[from..from + N * N]);
+        (numbers[0], matrix(1), matrix(1 + N * N))
+    });
+    let nothing = (f64::NAN, Matrix::<N>::zeros(), Matrix::<N>::zeros());
+    let first = rows.next().unwrap_or(nothing);
+    [first, rows.next_back().unwrap_or(nothing)]
+}
+
+fn creeps<const N: usize, M: Model<N>>(
+    report: &mut StabilityReport,
+    (name, r): (&'static str, f64),
+    model: &M,
+    start: M::Point<f64>,
+    (t_end, phi, _): Row<N>,
+) {
+    for tolerance in TOLERANCES {
+        let named = scene(name, N, format!("r = {r:e}, {tolerance:e}"), "phi", Oracle::Reference);
+        report.case(named, Demand::Held(tolerance), || {
+            let run =
+                Simulation::new(model, start).until(t_end).tolerance(tolerance).output([t_end]).run()?;
+            Ok((relative_distance(run.end().1.phi(), &phi), run.statistics().steps))
+        });
+    }
+}
