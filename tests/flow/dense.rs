@@ -68,6 +68,7 @@ fn free_bodies_by_every_method() {
         Method::RungeKuttaNystrom12,
         Method::RungeKuttaNystrom8,
         Method::Taylor { order: None },
+        Method::Radau { stages: None },
         Method::AdaptiveSplitting { order: None },
         Method::Automatic,
     ];

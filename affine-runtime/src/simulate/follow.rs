@@ -26,8 +26,6 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             explained(self.model, motion, (good, &point), reason)
         });
         let trajectory = &mut *self.trajectory;
-        trajectory.statistics = self.place.cost().and(motion.statistics());
-        trajectory.computation.residual = motion.residual();
         let end = trajectory.end.0;
         let is_later = |t: f64| if self.backward { t < end } else { t > end };
         if motion.kept_at().is_some_and(is_later)
@@ -38,6 +36,8 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         }
         // Up to an event or a halt within the last step.
         let kept = self.keep_through(motion, self.turned_at());
+        self.trajectory.statistics = self.place.cost().and(motion.statistics());
+        self.trajectory.computation.residual = motion.residual();
         outcome.and(kept)
     }
 

@@ -72,3 +72,29 @@ fn a_change_at_the_start() {
     assert_eq!(run.at(0.0).unwrap(), outputs.points()[0]);
     assert!(distance(&run.at(0.3).unwrap(), &outputs.points()[1]) < 1e-9);
 }
+
+/// What is evaluated to keep a step counts, also of one that an event ends: as many as outputs within every step take.
+#[test]
+fn what_it_costs_counts() {
+    let ends = || simulation().event(Event::new("end", |t, _: &Disc| t - 0.9).stop());
+    let plain = ends().output([]).run().unwrap().statistics();
+    let dense = ends().dense().output([]).run().unwrap().statistics();
+    assert_eq!(dense.steps, plain.steps);
+    // Events have formed the dense output of every step already.
+    assert_eq!(dense.evaluations, plain.evaluations);
+    let each = (0..=2000).map(|k| 1.25 * f64::from(k) / 2000.0);
+    let outputs = simulation().output(each).run().unwrap().statistics();
+    let dense = simulation().dense().output([]).run().unwrap().statistics();
+    assert_eq!(dense, outputs, "what outputs within every step cost");
+    // Each time within a step of collocation costs about a step: the step that an event ends is counted like the others.
+    let step = 0.25;
+    let gauss = |t: f64| {
+        let end = Event::new("end", move |now, _: &Disc| now - t).stop();
+        simulation().method(Method::Gauss { stages: 2, step }).event(end).output([])
+    };
+    let kept = |t: f64| {
+        let plain = gauss(t).run().unwrap().statistics().evaluations;
+        gauss(t).dense().run().unwrap().statistics().evaluations - plain
+    };
+    assert!(kept(0.2) > 0, "the only step is the one that the event ends");
+}
