@@ -54,11 +54,12 @@ mod witness;
 
 pub use crate::error::{Callback, Reason, Setting, Stop};
 pub use checkpoint::Checkpoint;
-pub use choice::{NYSTROM_TOLERANCE, STIFF_FRICTION, TAYLOR_TOLERANCE};
+pub use choice::{NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 pub use conservation::{Conservation, Drift};
 pub use ensemble::{Ends, Ensemble};
 pub use event::{Direction, Event, Occurrence};
 pub use flow::Flow;
+pub use friction::STIFF_FRICTION;
 pub use method::Method;
 pub use outcome::{Halt, Outcome};
 pub use power_balance::PowerBalance;

@@ -90,3 +90,16 @@ pub(crate) struct Moving {
 pub(crate) struct Isochoric {
     pub(crate) r: f64,
 }
+
+/// P9 for many bodies.
+#[affine_model(
+    dim = 3,
+    symmetry(space = affine, body = metric),
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
+    potential = 10/2*sinh(q)^2 + 0.5*(tr(G)*exp(-2*q) - n),
+    dissipation(body_inertia = r),
+    emit(lanes)
+)]
+pub(crate) struct Crowd {
+    pub(crate) r: f64,
+}

@@ -4,7 +4,7 @@
 use affine_runtime::prelude::*;
 use affine_runtime::state::Phase;
 
-use crate::models::{Everywhere, Isochoric, Moving, Spatial, Viscous};
+use crate::models::{Crowd, Everywhere, Isochoric, Moving, Spatial, Viscous};
 
 const PHI: [f64; 9] = [1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05];
 const SPIN: [f64; 9] = [0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05];
@@ -142,4 +142,23 @@ fn events_are_found_between_steps() {
     let [coarse, fine] = [1e-6, 1e-11]
         .map(|tolerance| long().tolerance(tolerance).event(passes()).run().unwrap().events()[0].t);
     assert!((coarse - fine).abs() < 1e-4 * fine, "{coarse} for {fine}");
+}
+
+/// Bodies of an ensemble leave the lanes where their friction is stiff, and are where they are alone.
+#[test]
+fn ensembles_are_not_stopped() {
+    for (r, t_end) in [(1e6, 10.0), (1.0, 0.5)] {
+        let model = Crowd { r }.prepare().unwrap();
+        let starts: Vec<_> = (0..20)
+            .map(|k| model.at_momentum(phi(), Comoving(spin() * (1.0 + 0.1 * f64::from(k)))).unwrap())
+            .collect();
+        let ends = Ensemble::new(&model, starts.clone()).until(t_end).tolerance(1e-8).run().unwrap();
+        for (start, end) in starts.into_iter().zip(ends) {
+            let alone = Simulation::new(&model, start).until(t_end).tolerance(1e-8).run().unwrap();
+            let (end, is_stiff) = (end.unwrap(), alone.computation().friction.is_some());
+            assert_eq!(is_stiff, r > 1e3);
+            assert!(!is_stiff || end == *alone.end().1, "to the bit");
+            assert!((end.phi() - alone.end().1.phi()).norm() < 1e-8, "in lanes");
+        }
+    }
 }

@@ -59,6 +59,30 @@ fn overdamped_bodies_come_to_their_end() {
     }
 }
 
+/// Where friction ends velocities ten thousand times within a step, Gauss collocation turns them around at every step, and its
+/// stages balance energy and work all the same. The report says so.
+#[test]
+fn a_wrong_motion_whose_balance_closes_is_named() {
+    let run = |r: f64, method: Method| {
+        let model = Viscous { r }.prepare().unwrap();
+        let (phi, phi_dot) = viscous_start();
+        let start = model.at_velocity(phi, phi_dot).unwrap();
+        Simulation::new(&model, start).until(1.0).method(method).run().unwrap()
+    };
+    let gauss = Method::Gauss { stages: 2, step: 0.01 };
+    let wrong = run(1e6, gauss);
+    assert!(wrong.power_balance().unwrap().relative() < 1e-6, "{}", wrong.power_balance().unwrap());
+    assert!(
+        wrong.computation().unresolved_power > 100.0 && wrong.why().to_string().contains("Method::Radau")
+    );
+    let right = run(1e6, Method::Automatic);
+    let apart = wrong.end().1.pi().0.0 - right.end().1.pi().0.0;
+    assert!(apart.norm() > 0.1, "velocities that friction has ended: {apart}");
+    for resolved in [run(1.0, gauss), right] {
+        assert_eq!(resolved.computation().unresolved_power, 0.0, "{}", resolved.why());
+    }
+}
+
 /// Steps of a hundred times the time in which friction stops a dilatation, and the rounding of its forces as many times
 /// larger than that of the momentum.
 #[test]

@@ -1,7 +1,7 @@
 //! The choice of a method.
 
 use super::course::{Choice, Course};
-use super::friction::{Fastest, rate_of_friction};
+use super::friction::{Fastest, is_stiff, rate_of_friction};
 use super::layout::carries_dilatation;
 use super::method::Method;
 use super::range::in_range;
@@ -18,11 +18,6 @@ pub const TAYLOR_TOLERANCE: f64 = 1e-8;
 /// less.
 pub const NYSTROM_TOLERANCE: f64 = 1e-3;
 
-/// [`Method::Automatic`] takes the Radau method where velocities die out so many times, by powers of e, from the start to the
-/// end: steps of order 8 are at most 6.4 of these times long, and on problems of viscous bodies 250 of them take as many
-/// operations as the few implicit steps that do not see the friction.
-pub const STIFF_FRICTION: f64 = 1600.0;
-
 /// The integrator to take, noted with what was missing for a better one.
 pub(super) fn choose<const N: usize, M: Model<N>>(
     model: &M,
@@ -34,11 +29,11 @@ pub(super) fn choose<const N: usize, M: Model<N>>(
         || in_range(course.t0, model.orthonormal(course.start).phi()).is_ok();
     let by_halves = !course.within_steps && in_reach;
     let Fastest { rate, evaluations } = match course.method {
-        Method::Automatic => rate_of_friction::<N, M>(model, course),
+        Method::Automatic => rate_of_friction::<N, M>(model, (course.t0, course.start)),
         _ => Fastest::default(),
     };
     choice.evaluations += evaluations;
-    choice.friction = rate.filter(|rate| rate * (course.t_end - course.t0).abs() > STIFF_FRICTION);
+    choice.friction = rate.filter(|rate| is_stiff(*rate, course.t_end - course.t0));
     let Trial { radians: stiffness, evaluations } = match course.method {
         Method::Automatic if by_halves => stiffness(model, M::splitting(model), course),
         _ => Trial::default(),

@@ -4,6 +4,7 @@ mod bodies;
 
 use core::fmt;
 
+use super::friction::{is_stiff, rate_of_friction};
 use super::layout::placement_in;
 use super::mechanics::Moving;
 use super::method::Method;
@@ -131,21 +132,31 @@ impl<const N: usize, M: Model<N>> Ensemble<'_, N, M> {
         M: InLanes<N> + Sync,
         M::Point<f64>: Send + Sync,
     {
-        let Self { t0, t_end, tolerance, max_steps, .. } = self;
+        let Self { model, t0, t_end, tolerance, max_steps, .. } = self;
         let plan = Plan { t0, t_end, tolerance, max_steps, ..Plan::default() };
         let (t_end, _) = plan.checked(&M::DESCRIPTION)?;
         if self.starts.is_empty() {
             return Ok(Vec::new());
         }
-        Ok(in_parts(&self.starts, T::LANES, |starts| self.ends::<T>(starts, t_end)))
+        let may_be_stiff = self.starts.first().is_some_and(|first| {
+            let time = PART_OF_STIFF * (t_end - t0);
+            rate_of_friction(model, (t0, first)).rate.is_some_and(|rate| is_stiff(rate, time))
+        });
+        Ok(in_parts(&self.starts, T::LANES, |starts| self.ends::<T>(starts, t_end, may_be_stiff)))
     }
 }
 
 impl<const N: usize, M: InLanes<N>> Ensemble<'_, N, M> {
     /// Bodies one after the other through the same lanes, but for those that are apart. Where a body that cannot go on in
     /// lanes comes to, and why it stops, is found alone.
-    fn ends<T: Lanes>(&self, starts: &[M::Point<f64>], t_end: f64) -> Ends<M::Point<f64>> {
-        let apart: Vec<Option<Method>> = starts.iter().map(|start| self.apart(start, t_end)).collect();
+    fn ends<T: Lanes>(
+        &self,
+        starts: &[M::Point<f64>],
+        t_end: f64,
+        may_be_stiff: bool,
+    ) -> Ends<M::Point<f64>> {
+        let apart = |start| self.stiff(start, t_end, may_be_stiff).or_else(|| self.apart(start, t_end));
+        let apart: Vec<Option<Method>> = starts.iter().map(apart).collect();
         let together = starts.iter().enumerate().filter(|(body, _)| apart[*body].is_none());
         let together: Vec<_> = together.collect();
         let &Self { model, t0, tolerance, max_steps, .. } = self;
@@ -167,6 +178,15 @@ impl<const N: usize, M: InLanes<N>> Ensemble<'_, N, M> {
         }
         let alone = |body: usize| self.alone(starts[body], apart[body].unwrap_or(Method::RungeKutta8));
         ends.into_iter().enumerate().map(|(body, end)| end.map_or_else(|| alone(body), Ok)).collect()
+    }
+
+    /// The method of a body whose friction is stiff.
+    fn stiff(&self, start: &M::Point<f64>, t_end: f64, may_be_stiff: bool) -> Option<Method> {
+        if !may_be_stiff {
+            return None;
+        }
+        let rate = rate_of_friction(self.model, (self.t0, start)).rate?;
+        is_stiff(rate, t_end - self.t0).then_some(Method::Radau { stages: None })
     }
 
     /// The method of a body that is not taken into lanes: with a closed form, or with steps that have to be looked at.
@@ -200,6 +220,10 @@ impl<const N: usize, M: InLanes<N>> Ensemble<'_, N, M> {
         self.is_sound(t_end, end) && witness.look(model, (t_end, end), (energy(t_end, end), *work)).is_ok()
     }
 }
+
+/// Friction is looked at body by body where that of the first one is stiff in a hundred times the time: what it does to a
+/// body depends on its placement, but not that much.
+const PART_OF_STIFF: f64 = 100.0;
 
 /// One part after the other: there is one.
 #[cfg(not(feature = "parallel"))]

@@ -19,6 +19,7 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn condition(&self, phi: &Matrix<N>) -> Option<f64>;
     fn regularity(&self, phi: &Matrix<N>) -> Option<Regularity>;
     fn hamiltonian(&self, t: f64, point: &P) -> f64;
+    fn power(&self, t: f64, point: &P) -> f64;
     fn domain(&self, t: f64, point: &P, each: &mut dyn FnMut(f64));
     fn velocity(&self, point: &P) -> Velocity<N>;
     fn geodesic(&self, t0: f64, point: &P) -> Option<Geodesic<N>>;
@@ -61,6 +62,9 @@ impl<'a, const N: usize, M: Model<N>, H: Purpose<'a, N, Model = M>> Mechanics<N,
     }
     fn hamiltonian(&self, t: f64, point: &M::Point<f64>) -> f64 {
         self.handle.model().hamiltonian(t, point)
+    }
+    fn power(&self, t: f64, point: &M::Point<f64>) -> f64 {
+        self.handle.model().power(t, point)
     }
     fn domain(&self, t: f64, point: &M::Point<f64>, each: &mut dyn FnMut(f64)) {
         self.handle.model().domain(t, point, each);

@@ -22,6 +22,8 @@ use crate::state::Phase;
 
 /// Samples of a step after which it tells how far it has come.
 const SAMPLES_UNHEARD: u32 = 1 << 10;
+/// Equal steps do not resolve forces that would take so many times the energy of the body within one of them.
+const UNRESOLVED: f64 = 10.0;
 
 /// What is recorded of a run, and how far it has come.
 pub(super) struct Recorder<'r, 'a, const N: usize, P> {
@@ -316,6 +318,12 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             self.place.met_energy(witness.scale());
             let defect = &mut self.trajectory.computation.energy_defect;
             *defect = larger(*defect, witness.worst());
+            if let Some(step) = self.trajectory.computation.method.step() {
+                let in_a_step = (step * self.model.power(t, point)).abs() / witness.scale();
+                let unresolved = &mut self.trajectory.computation.unresolved_power;
+                *unresolved =
+                    if in_a_step > UNRESOLVED { larger(*unresolved, in_a_step) } else { *unresolved };
+            }
             looked?;
         }
         Ok(energy)

@@ -120,6 +120,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                 condition: self.model.condition(start.phi()),
                 residual: None,
                 energy_defect: 0.0,
+                unresolved_power: 0.0,
                 turns: None,
             },
         }

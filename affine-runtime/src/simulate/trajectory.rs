@@ -69,6 +69,10 @@ pub struct Computation {
     /// is more than 1e4 tolerances and more than an error of ten tolerances in the placement is worth; 0 elsewhere, and where the
     /// energy is neither conserved nor balanced by a work. An event that changes the point starts it anew.
     pub energy_defect: f64,
+    /// How many times the largest `|T| + |U|` met the forces that no potential has would take or give within one of the equal
+    /// steps, at the output where that is most; 0 up to 10, and for methods in other steps. The stages of collocation close a
+    /// balance of energy and work on a motion that is not resolved, too.
+    pub unresolved_power: f64,
     /// The largest part of a turn that an angle of the potential, such as `w*t` in `cos(w*t)`, makes by the time alone within one
     /// step, with that part of the potential; `None` where there is no such angle, and in a run that takes no steps. A resumed run
     /// knows only the steps of its own part.

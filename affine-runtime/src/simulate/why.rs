@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-use super::choice::{NYSTROM_TOLERANCE, STIFF_FRICTION, TAYLOR_TOLERANCE};
+use super::choice::{NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
+use super::friction::STIFF_FRICTION;
 use super::method::Method;
 use super::trajectory::{Computation, Trajectory};
 use crate::inner::ORDER;
@@ -320,6 +321,17 @@ impl Why {
         }
     }
 
+    fn power(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.computation.unresolved_power {
+            0.0 => Ok(()),
+            times => writeln!(
+                f,
+                "within one step the forces that no potential has would take {times:.1e} times the energy of the body: these \
+                 steps turn velocities around that friction ends; take Method::Radau, or shorter steps"
+            ),
+        }
+    }
+
     fn scene(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Computation { method, no_whirl, at_rest, .. } = self.computation;
         // Where a force acts on the centre of mass, it does not stay at rest.
@@ -351,6 +363,7 @@ impl fmt::Display for Why {
         self.scene(f)?;
         self.tolerance(f)?;
         self.turns(f)?;
+        self.power(f)?;
         self.energy(f)
     }
 }
