@@ -162,3 +162,31 @@ fn ensembles_are_not_stopped() {
         }
     }
 }
+
+/// Down to the rounding of doubles steps are found, and none is worse than the coarser ones.
+#[test]
+fn the_finest_tolerances() {
+    let model = Viscous { r: 1e4 }.prepare().unwrap();
+    let start = model.at_momentum(phi(), Comoving(spin())).unwrap();
+    let run = |tolerance: f64| Simulation::new(&model, start).until(1.0).tolerance(tolerance).run().unwrap();
+    let fine = run(1e-12);
+    for tolerance in [1e-13, 1e-14, 1e-15] {
+        let finer = run(tolerance);
+        let apart = (finer.end().1.phi() - fine.end().1.phi()).norm();
+        assert!(apart < 2e-12, "{tolerance:e}: {apart:e}");
+        assert!(finer.statistics().steps < 1000, "{tolerance:e}: {} steps", finer.statistics().steps);
+    }
+}
+
+/// Backward in time what friction takes away grows: that is followed, or the run says why not.
+#[test]
+fn backward_in_time() {
+    let model = Viscous { r: 1e5 }.prepare().unwrap();
+    let start = model.at_momentum(phi(), Comoving(spin())).unwrap();
+    let back = Simulation::new(&model, start).until(-1.0).tolerance(1e-8).max_steps(2000).run();
+    assert!(back.is_err(), "velocities grow by e^125000: steps follow that, and are many");
+    let near = Simulation::new(&model, start).until(-1e-5).tolerance(1e-10).run().unwrap();
+    assert_eq!(near.computation().method, Method::RungeKutta8);
+    let again = Simulation::new(&model, *near.end().1).until(1e-5).tolerance(1e-10).run().unwrap();
+    assert!((again.end().1.phi() - phi()).norm() < 1e-8);
+}

@@ -123,9 +123,10 @@ fn is_momentum(quantity: Quantity) -> bool {
     )
 }
 
-/// Velocities die out so often within a time that the Radau method is taken.
+/// Velocities die out so often within a time that the Radau method is taken. Backward in time they grow, and no method may
+/// pass over that.
 pub(super) fn is_stiff(rate: f64, time: f64) -> bool {
-    rate * time.abs() > STIFF_FRICTION
+    rate * time > STIFF_FRICTION
 }
 
 #[cfg(test)]
