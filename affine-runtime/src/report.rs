@@ -31,7 +31,8 @@
 //! # Stability
 //!
 //! [`StabilityReport`] gathers stiff and extreme cases: each has an [`Oracle`], a [`Demand`] and a [`Finding`], and displays as
-//! held, refused in words, or fell short; `cargo run --release --example stability` fills one.
+//! held, refused in words, or fell short; `cargo run --release --example stability` fills one. [`Stress`] fills one for any model
+//! and start, without an oracle of their own.
 //!
 //! # Pictures
 //!
@@ -51,6 +52,7 @@ mod picture;
 mod reference;
 mod scene;
 mod stability;
+mod stress;
 mod table;
 mod view;
 mod work_precision;
@@ -65,6 +67,7 @@ pub use stability::{
     Demand, Finding, Oracle, Scene, StabilityCase, StabilityReport, Verdict, relative_distance,
     relative_distance_by_rows,
 };
+pub use stress::Stress;
 pub use work_precision::{Measurement, Row, WorkPrecision, WorkPrecisionReport};
 
 use crate::error::{Error, Result};

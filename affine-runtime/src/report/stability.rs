@@ -14,6 +14,8 @@ pub enum Oracle {
     ClosedForm,
     /// A reference solution of more digits than a double has.
     Reference,
+    /// A run at the tolerance 1e-14, by another method than the one under test.
+    TighterRun,
     /// Two motions that are one by an exact symmetry of the equations, or a constant of the motion.
     Invariance,
     /// The body under the constraint that a stiff potential tends to; the distance between the two is of the order of the
@@ -30,6 +32,7 @@ impl Oracle {
         match self {
             Self::ClosedForm => "closed form",
             Self::Reference => "reference",
+            Self::TighterRun => "tighter run",
             Self::Invariance => "invariance",
             Self::Limit => "limit",
             Self::Documentation => "documented",
@@ -180,11 +183,16 @@ impl StabilityReport {
             Ok((error, steps)) => Finding::Ran { error, steps },
             Err(error) => Finding::Stopped(error.to_string()),
         };
-        let Scene { model, n, scene, quantity, oracle } = scene;
         let index = self.cases.len();
+        self.add(scene, demand, finding);
+        &self.cases[index]
+    }
+
+    /// A case that was tried elsewhere.
+    pub(super) fn add(&mut self, scene: Scene, demand: Demand, finding: Finding) {
+        let Scene { model, n, scene, quantity, oracle } = scene;
         let heading = self.heading;
         self.cases.push(StabilityCase { heading, model, n, scene, quantity, oracle, demand, finding });
-        &self.cases[index]
     }
 
     /// All cases.

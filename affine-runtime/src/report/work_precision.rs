@@ -241,7 +241,7 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
 }
 
 /// Accuracy is set by a tolerance: not by the step, and not exact.
-fn has_tolerance(method: Method) -> bool {
+pub(super) fn has_tolerance(method: Method) -> bool {
     !matches!(method, Method::ClosedForm) && method.step().is_none()
 }
 

@@ -9,6 +9,7 @@ mod simulation {
     pub mod reference;
 }
 mod page;
+mod stress;
 mod svg;
 mod truth;
 
