@@ -53,6 +53,7 @@
 //! | [`simulate`] | runs, events, flows, ensembles |
 //! | [`inertia`], [`material`] | inertias of shapes; material points, and moments about any point |
 //! | [`force`], [`potential`] | forces and potentials of your own |
+//! | [`analysis`] | Jacobians, equilibria, stability, branches |
 //! | [`decompose`], [`lattice`] | stretches, polar and two-polar form |
 //! | [`variation`], [`dual`], [`parametric`] | derivatives |
 //! | [`integrate`] | the integrators alone |
@@ -79,11 +80,14 @@
 //! | `std` (default) | [`simulate`]; without it models, conversions and integrators, without allocation |
 //! | `csv` (default) | tables of trajectories |
 //! | `report` | pictures, error against run time |
+//! | `analysis` | [`analysis`]: Jacobians |
 //! | `parallel` | ensembles on all processors |
 //! | `serde` | checkpoints that can be written and read |
 //! | `double-double` | numbers of 31 digits |
 #![cfg_attr(not(feature = "std"), no_std)]
 
+#[cfg(feature = "analysis")]
+pub mod analysis;
 #[cfg(feature = "std")]
 pub mod counting;
 pub mod dual;
@@ -202,7 +206,12 @@ macro_rules! pages {
 pub mod guide {
     pages! {
         first_run models energies potentials constraints forces events long_runs methods ensembles frame_loops reading lattice
-        mistakes elsewhere errata
+        mistakes errata
+    }
+    // Their programs need the feature.
+    #[cfg(any(not(doctest), feature = "analysis"))]
+    pages! {
+        elsewhere
     }
 }
 

@@ -1,0 +1,125 @@
+//! Jacobians by elimination against dual numbers, which differentiate by another route, and what they cost.
+
+use affine_runtime::analysis::JacobianMatrix;
+use affine_runtime::counting::Counting;
+use affine_runtime::dual::Dual;
+use affine_runtime::force::{Comoving, Force, Motion};
+use affine_runtime::frames::Matrix;
+use affine_runtime::model::{Model, Operations, StateVector};
+use affine_runtime::prelude::*;
+use affine_runtime::scalar::Scalar;
+
+/// Problems P2 and P3.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
+    potential = hyperbolic_dilatation(10) + neo_hookean(0.5)
+)]
+struct Vibrating;
+#[affine_model(dim = 3, kinetic(dalembert = diag(1, 1.5, 2)), potential = hyperbolic_dilatation(10) + neo_hookean(0.5))]
+struct Elastic;
+
+/// Every operation that equations have, friction and a force of the user among them.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1),
+    potential = cosh(q) + sqrt(1 + tr(G)) + tanh(tr(G)/9) + exp(-tr(G)) + ln(1 + det^2) + tan(det/9) + sinh(tr(Ct)/20)
+        + cos(t)*sin(tr(Ct)/5) + x[1]^2,
+    dissipation(body_inertia = 0.3),
+    forces = custom(motor, comoving),
+)]
+struct Driven {
+    motor: Motor,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Motor;
+
+impl Force<2> for Motor {
+    type Form = Comoving;
+    fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Matrix<2, T> {
+        let largest = motion.phi[(0, 0)].max(motion.phi[(1, 1)]).copysign(motion.phi[(0, 1)]);
+        motion.phi_dot * largest.abs() / (T::one() + motion.t * motion.t).cbrt().asinh()
+    }
+}
+
+fn point<const N: usize, M: Model<N>>(model: &M) -> M::Full<f64> {
+    let mut full = M::Full::<f64>::zeros();
+    let mut start = 0;
+    for group in M::DESCRIPTION.full {
+        for k in 0..group.len {
+            let diagonal = if group.name() == "phi" && k % (N + 1) == 0 { 1.2 } else { 0.0 };
+            full.as_mut()[start + k] = diagonal + 0.3 * ((3 * (start + k) + k * k) as f64).sin();
+        }
+        start += group.len;
+    }
+    model.flatten(&model.unflatten(&full))
+}
+
+fn assert_near(exact: f64, expected: f64, size: f64, what: impl std::fmt::Debug) {
+    assert!((exact - expected).abs() <= 1e-12 * size, "{what:?}: {exact} and not {expected}");
+}
+
+/// Entries against those of dual numbers, one column a pass.
+fn assert_columns<const N: usize, M: Model<N>>(model: &M) {
+    let (t, full) = (0.3, point::<N, M>(model));
+    let matrix = JacobianMatrix::of(model, t, &model.unflatten(&full)).at(t, full);
+    let size = matrix.amax();
+    for k in 0..full.as_ref().len() {
+        let mut varied = M::Full::<Dual<f64>>::zeros();
+        varied.as_mut().iter_mut().zip(full.as_ref()).for_each(|(dual, value)| *dual = Dual::fixed(*value));
+        varied.as_mut()[k].slope = 1.0;
+        let rates = model.hamilton_equations(Dual::fixed(t), &varied);
+        for (i, rate) in rates.as_ref().iter().enumerate() {
+            assert_near(matrix[(i, k)], rate.slope, size, (i, k));
+        }
+    }
+}
+
+#[test]
+fn columns_are_those_of_dual_numbers() {
+    assert_columns::<3, Vibrating>(&Vibrating);
+    assert_columns::<3, Elastic>(&Elastic);
+    assert_columns::<2, _>(&Driven { motor: Motor }.prepare().unwrap());
+}
+
+fn total(operations: Operations) -> usize {
+    let Operations { mul, add, div, sqrt, exp, ln } = operations;
+    mul + add + div + sqrt + exp + ln
+}
+
+/// The operations of the Jacobian of the reduced equations, counted as they are done, and those of the equations.
+fn costs<M: Model<3>>(model: &M) -> (usize, usize) {
+    let point = model.unflatten(&point::<3, M>(model));
+    let (reduced, _) = model.reduce(0.0, &point);
+    let jacobian = JacobianMatrix::of_reduced(model, 0.0, &point);
+    let mut counting = M::Reduced::<Counting>::zeros();
+    counting
+        .as_mut()
+        .iter_mut()
+        .zip(reduced.as_ref())
+        .for_each(|(count, value)| *count = Counting::from(*value));
+    let (matrix, operations) = Counting::count(|| jacobian.at(Counting::from(0.0), counting));
+    let full = model.flatten(&point);
+    let mut fixed = M::Full::<Dual<f64>>::zeros();
+    fixed.as_mut().iter_mut().zip(full.as_ref()).for_each(|(dual, value)| *dual = Dual::fixed(*value));
+    let (_, varied) = model.reduce(Dual::fixed(0.0), &model.unflatten(&fixed));
+    for k in 0..reduced.as_ref().len() {
+        let mut state = M::Reduced::<Dual<f64>>::zeros();
+        state.as_mut().iter_mut().zip(reduced.as_ref()).for_each(|(dual, value)| *dual = Dual::fixed(*value));
+        state.as_mut()[k].slope = 1.0;
+        let rates = model.reduced_equations(Dual::fixed(0.0), &varied, &state);
+        for (i, rate) in rates.as_ref().iter().enumerate() {
+            assert_near(matrix[(i, k)].value(), rate.slope, 10.0, (i, k));
+        }
+    }
+    (total(operations), total(M::DESCRIPTION.reduced_operations))
+}
+
+/// Problems P2 and P3: at most 8 times the equations themselves.
+#[test]
+fn operations_are_few() {
+    for (jacobian, equations) in [costs(&Vibrating), costs(&Elastic)] {
+        assert!(jacobian <= 8 * equations, "{jacobian} operations for {equations}");
+    }
+}
