@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use super::tape::{Operand, Operation, Unary};
+use super::tape::{Kind, Operand, Operation};
 use crate::dual::Dual;
 use crate::scalar::Scalar;
 
@@ -15,8 +15,8 @@ use crate::scalar::Scalar;
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Weight {
     Constant(f64),
-    /// What stands in a place, or its negative.
-    In(Place, Sign),
+    /// What stands in a place, times 1 or -1.
+    In(Place, f64),
 }
 
 /// What an operation or a step gave.
@@ -26,62 +26,62 @@ enum Place {
     Step(usize),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Sign {
-    Plus,
-    Minus,
-}
-
 impl Weight {
     fn of(operand: Operand) -> Self {
         match operand {
-            Operand::Node(node) => Self::In(Place::Operation(node), Sign::Plus),
+            Operand::Node(node) => Self::In(Place::Operation(node), 1.0),
             Operand::Constant(value) => Self::Constant(value),
         }
     }
 
-    fn negative(self) -> Self {
+    /// It is 1 or -1, and a product with it is free.
+    fn unit(self) -> Option<f64> {
         match self {
-            Self::Constant(value) => Self::Constant(-value),
-            Self::In(place, Sign::Plus) => Self::In(place, Sign::Minus),
-            Self::In(place, Sign::Minus) => Self::In(place, Sign::Plus),
+            Self::Constant(value) if value.abs() == 1.0 => Some(value),
+            _ => None,
         }
     }
 
-    /// It is 1 or -1, and a product with it is free.
-    fn is_unit(self) -> bool {
-        matches!(self, Self::Constant(value) if value.abs() == 1.0)
+    fn signed(self, sign: f64) -> Self {
+        match self {
+            Self::Constant(value) => Self::Constant(sign * value),
+            Self::In(place, own) => Self::In(place, sign * own),
+        }
+    }
+
+    /// A product that takes no operation.
+    fn free_product(self, other: Self) -> Option<Self> {
+        match (self, other) {
+            (Self::Constant(a), Self::Constant(b)) => Some(Self::Constant(a * b)),
+            _ => self.unit().map(|sign| other.signed(sign)).or(other.unit().map(|sign| self.signed(sign))),
+        }
     }
 }
 
-/// What is computed for the derivatives, one slot each.
+/// What is computed for the derivatives.
 #[derive(Clone, Copy, Debug)]
 enum Step {
-    Product(Weight, Weight),
-    Sum(Weight, Weight),
     /// `a*b + c`.
-    ProductSum(Weight, Weight, Weight),
-    /// `1/a`.
-    Reciprocal(Weight),
-    /// `df/dx` at `x`.
-    Slope(Unary, Weight),
-    /// The derivative of `x.copysign(sign)` by `x`.
-    SlopeOfSign(Weight, Weight),
-    /// The derivative of the larger by the first.
-    SlopeOfLarger(Weight, Weight),
+    ProductSum([Weight; 3]),
+    /// `a*b`.
+    Product([Weight; 3]),
+    /// `a + b`.
+    Sum([Weight; 3]),
+    /// The derivative of an operation by the number at a place among those that it reads.
+    Partial(Kind, usize, [Weight; 3]),
 }
 
 impl Step {
-    fn operands(self) -> [Option<Weight>; 3] {
+    fn operands(self) -> [Weight; 3] {
         match self {
-            Self::Product(a, b) | Self::Sum(a, b) | Self::SlopeOfSign(a, b) | Self::SlopeOfLarger(a, b) => {
-                [Some(a), Some(b), None]
-            }
-            Self::ProductSum(a, b, c) => [Some(a), Some(b), Some(c)],
-            Self::Reciprocal(a) | Self::Slope(_, a) => [Some(a), None, None],
+            Self::ProductSum(operands) | Self::Product(operands) | Self::Sum(operands) => operands,
+            Self::Partial(_, _, operands) => operands,
         }
     }
 }
+
+const ZERO: Weight = Weight::Constant(0.0);
+const ONE: Weight = Weight::Constant(1.0);
 
 /// Edges into each node, by where they come from.
 struct Graph {
@@ -93,106 +93,44 @@ struct Graph {
 impl Graph {
     /// The graph of operations, with their partial derivatives.
     fn of(tape: &[Operation]) -> Self {
-        let mut graph = Self {
-            into: vec![BTreeMap::new(); tape.len()],
-            out_of: vec![Vec::new(); tape.len()],
-            steps: Vec::new(),
-        };
-        tape.iter().enumerate().for_each(|(node, operation)| graph.differentiate(node, *operation));
+        let (into, out_of) = (vec![BTreeMap::new(); tape.len()], vec![Vec::new(); tape.len()]);
+        let mut graph = Self { into, out_of, steps: Vec::new() };
+        for (node, (kind, operands)) in tape.iter().enumerate() {
+            let weights = operands.map(Weight::of);
+            for (k, operand) in operands.iter().enumerate() {
+                if let Operand::Node(from) = operand {
+                    let partial = graph.partial(*kind, k, weights);
+                    graph.add(*from, node, (partial, ONE));
+                }
+            }
+        }
         graph
     }
 
     fn step(&mut self, step: Step) -> Weight {
         self.steps.push(step);
-        Weight::In(Place::Step(self.steps.len() - 1), Sign::Plus)
+        Weight::In(Place::Step(self.steps.len() - 1), 1.0)
     }
 
-    /// The edges into a node.
-    fn differentiate(&mut self, node: usize, operation: Operation) {
-        const ONE: Weight = Weight::Constant(1.0);
-        let edge = |graph: &mut Self, from: Operand, weight: Weight| {
-            if let Operand::Node(from) = from {
-                graph.add(from, node, (weight, ONE));
-            }
-        };
-        match operation {
-            Operation::Argument => {}
-            Operation::Add(a, b) => {
-                edge(self, a, ONE);
-                edge(self, b, ONE);
-            }
-            Operation::Sub(a, b) => {
-                edge(self, a, ONE);
-                edge(self, b, ONE.negative());
-            }
-            Operation::Mul(a, b) => {
-                edge(self, a, Weight::of(b));
-                edge(self, b, Weight::of(a));
-            }
-            Operation::Fma(a, b, c) => {
-                edge(self, a, Weight::of(b));
-                edge(self, b, Weight::of(a));
-                edge(self, c, ONE);
-            }
-            Operation::Div(a, b) => {
-                let reciprocal = match b {
-                    Operand::Node(_) => self.step(Step::Reciprocal(Weight::of(b))),
-                    Operand::Constant(b) => Weight::Constant(1.0 / b),
-                };
-                edge(self, a, reciprocal);
-                if matches!(b, Operand::Node(_)) {
-                    let quotient = Weight::of(Operand::Node(node));
-                    let slope = self.step(Step::Product(quotient.negative(), reciprocal));
-                    edge(self, b, slope);
-                }
-            }
-            Operation::Neg(a) => edge(self, a, ONE.negative()),
-            Operation::CopySign(a, sign) => {
-                let slope = self.step(Step::SlopeOfSign(Weight::of(a), Weight::of(sign)));
-                edge(self, a, slope);
-            }
-            Operation::Max(a, b) => {
-                for (this, other) in [(a, b), (b, a)] {
-                    let slope = self.step(Step::SlopeOfLarger(Weight::of(this), Weight::of(other)));
-                    edge(self, this, slope);
-                }
-            }
-            Operation::Of(function, a) => {
-                let slope = self.step(Step::Slope(function, Weight::of(a)));
-                edge(self, a, slope);
-            }
+    fn partial(&mut self, kind: Kind, k: usize, operands: [Weight; 3]) -> Weight {
+        match (kind, k) {
+            (Kind::Add, _) | (Kind::Sub, 0) | (Kind::Fma, 2) => ONE,
+            (Kind::Sub | Kind::Neg, _) => Weight::Constant(-1.0),
+            (Kind::Mul | Kind::Fma, k) => operands[1 - k],
+            _ => self.step(Step::Partial(kind, k, operands)),
         }
     }
 
     /// Adds a product to the edge between two nodes.
     fn add(&mut self, from: usize, to: usize, (a, b): (Weight, Weight)) {
-        let product = |graph: &mut Self| match (a, b) {
-            (Weight::Constant(a), Weight::Constant(b)) => Weight::Constant(a * b),
-            (Weight::Constant(unit), other) | (other, Weight::Constant(unit)) if unit == 1.0 => other,
-            (Weight::Constant(unit), other) | (other, Weight::Constant(unit)) if unit == -1.0 => {
-                other.negative()
-            }
-            _ => graph.step(Step::Product(a, b)),
-        };
-        let sum = match self.into[to].get(&from).copied() {
-            None => {
+        let sum = match (self.into[to].get(&from).copied(), a.free_product(b)) {
+            (None, product) => {
                 self.out_of[from].push(to);
-                product(self)
+                product.unwrap_or_else(|| self.step(Step::Product([a, b, ZERO])))
             }
-            Some(Weight::Constant(there)) if matches!((a, b), (Weight::Constant(_), Weight::Constant(_))) => {
-                match product(self) {
-                    Weight::Constant(more) => Weight::Constant(there + more),
-                    more => self.step(Step::Sum(Weight::Constant(there), more)),
-                }
-            }
-            Some(there) if a.is_unit() || b.is_unit() => {
-                let more = product(self);
-                match there == more {
-                    true => self.step(Step::Product(Weight::Constant(2.0), more)),
-                    false => self.step(Step::Sum(there, more)),
-                }
-            }
-            Some(there) => self.step(Step::ProductSum(a, b, there)),
+            (Some(Weight::Constant(there)), Some(Weight::Constant(more))) => Weight::Constant(there + more),
+            (Some(there), Some(more)) => self.step(Step::Sum([there, more, ZERO])),
+            (Some(there), None) => self.step(Step::ProductSum([a, b, there])),
         };
         self.into[to].insert(from, sum);
     }
@@ -203,8 +141,7 @@ impl Graph {
         for to in &self.out_of[node] {
             let Some(after) = self.into[*to].get(&node) else { continue };
             for (from, before) in &self.into[node] {
-                let is_constant = matches!((before, after), (Weight::Constant(_), Weight::Constant(_)));
-                cost += usize::from(!before.is_unit() && !after.is_unit() && !is_constant);
+                cost += usize::from(before.free_product(*after).is_none());
                 cost += usize::from(self.into[*to].contains_key(from));
             }
         }
@@ -225,12 +162,28 @@ impl Graph {
             self.out_of[*from].retain(|to| *to != node);
         }
         let mut changed: Vec<usize> = before.keys().copied().chain(after.iter().copied()).collect();
-        for to in &after {
-            changed.extend(self.into[*to].keys().copied());
-        }
+        changed.extend(after.iter().flat_map(|to| self.into[*to].keys().copied()));
         changed.sort_unstable();
         changed.dedup();
         changed
+    }
+
+    /// Eliminates nodes, the one that costs least first; what leads to no result costs nothing.
+    fn eliminate_all(&mut self, nodes: core::ops::Range<usize>) {
+        for node in nodes.clone().rev() {
+            if self.out_of[node].is_empty() {
+                self.eliminate(node);
+            }
+        }
+        let mut left: BTreeMap<usize, usize> = nodes.map(|node| (node, self.cost(node))).collect();
+        while let Some((&node, _)) = left.iter().min_by_key(|(_, cost)| **cost) {
+            left.remove(&node);
+            for changed in self.eliminate(node) {
+                if let Some(cost) = left.get_mut(&changed) {
+                    *cost = self.cost(changed);
+                }
+            }
+        }
     }
 }
 
@@ -241,100 +194,70 @@ pub(super) struct Program {
     steps: Vec<Step>,
     /// Entries that are not zero: row, column, value.
     entries: Vec<(usize, usize, Weight)>,
-    needed: Needed,
+    /// What the entries depend on.
+    needed: (Vec<bool>, Vec<bool>),
 }
 
 impl Program {
     /// The derivatives of recorded operations by so many of the first arguments; results get nodes of their own.
     pub(super) fn new(mut tape: Vec<Operation>, results: &[Operand], columns: usize) -> Self {
-        let arguments = tape.iter().take_while(|operation| **operation == Operation::Argument).count();
-        let mut nodes = Vec::new();
-        for result in results {
-            tape.push(Operation::Add(*result, Operand::Constant(0.0)));
-            nodes.push(tape.len() - 1);
-        }
+        let arguments = tape.iter().take_while(|(kind, _)| *kind == Kind::Argument).count();
+        let inner = arguments..tape.len();
+        let zero = Operand::Constant(0.0);
+        tape.extend(results.iter().map(|result| (Kind::Add, [*result, zero, zero])));
         let mut graph = Graph::of(&tape);
-        let inner = arguments..tape.len() - results.len();
-        // What leads to no result goes first, and costs nothing.
-        for node in inner.clone().rev() {
-            if graph.out_of[node].is_empty() {
-                graph.eliminate(node);
-            }
+        graph.eliminate_all(inner.clone());
+        let mut entries = Vec::new();
+        for (row, node) in (inner.end..tape.len()).enumerate() {
+            let edges = graph.into[node].range(..columns);
+            entries.extend(edges.map(|(column, weight)| (row, *column, *weight)));
         }
-        let mut left: BTreeMap<usize, usize> = inner.map(|node| (node, graph.cost(node))).collect();
-        while let Some((node, _)) =
-            left.iter().map(|(node, cost)| (*node, *cost)).min_by_key(|(_, cost)| *cost)
-        {
-            left.remove(&node);
-            for changed in graph.eliminate(node) {
-                if let Some(cost) = left.get_mut(&changed) {
-                    *cost = graph.cost(changed);
-                }
-            }
-        }
-        let row = |(row, node): (usize, &usize)| {
-            let entries = graph.into[*node].range(..columns);
-            entries.map(|(column, weight)| (row, *column, *weight)).collect::<Vec<_>>()
+        let needed = (vec![false; tape.len()], vec![false; graph.steps.len()]);
+        let mut program = Self { tape, steps: graph.steps, entries, needed };
+        program.find_needed();
+        program
+    }
+
+    fn find_needed(&mut self) {
+        let (operations, steps) = &mut self.needed;
+        let mut mark = |steps: &mut Vec<bool>, weight: Weight| match weight {
+            Weight::In(Place::Operation(node), _) => operations[node] = true,
+            Weight::In(Place::Step(step), _) => steps[step] = true,
+            Weight::Constant(_) => {}
         };
-        let entries: Vec<_> = nodes.iter().enumerate().flat_map(row).collect();
-        let needed = Needed::by(&tape, &graph.steps, &entries);
-        Self { tape, steps: graph.steps, entries, needed }
+        self.entries.iter().for_each(|(_, _, weight)| mark(steps, *weight));
+        for (k, step) in self.steps.iter().enumerate().rev() {
+            if steps[k] {
+                step.operands().into_iter().for_each(|weight| mark(steps, weight));
+            }
+        }
+        for (node, (_, operands)) in self.tape.iter().enumerate().rev() {
+            let nodes = operands.iter().filter(|_| operations[node]).filter_map(|operand| match operand {
+                Operand::Node(from) => Some(*from),
+                Operand::Constant(_) => None,
+            });
+            nodes.collect::<Vec<_>>().into_iter().for_each(|from| operations[from] = true);
+        }
     }
 
     /// The entries of the Jacobian that are not zero at arguments, each given to `each` with its row and column.
     pub(super) fn evaluate<T: Scalar>(&self, arguments: &[T], mut each: impl FnMut(usize, usize, T)) {
         let mut slots = Slots { operations: Vec::with_capacity(self.tape.len()), steps: Vec::new() };
-        for (node, (operation, is_needed)) in self.tape.iter().zip(&self.needed.operations).enumerate() {
-            let value = match operation {
-                Operation::Argument => arguments[node],
-                operation if *is_needed => slots.computed(*operation),
-                _ => T::zero(),
-            };
-            slots.operations.push(value);
+        for (node, (kind, operands)) in self.tape.iter().enumerate() {
+            slots.operations.push(match arguments.get(node) {
+                Some(argument) => *argument,
+                None if self.needed.0[node] => {
+                    kind.of(operands.map(|operand| slots.value(Weight::of(operand))))
+                }
+                None => T::zero(),
+            });
         }
-        for (step, is_needed) in self.steps.iter().zip(&self.needed.steps) {
+        for (step, is_needed) in self.steps.iter().zip(&self.needed.1) {
             let value = if *is_needed { slots.stepped(*step) } else { T::zero() };
             slots.steps.push(value);
         }
         for (row, column, weight) in &self.entries {
             each(*row, *column, slots.value(*weight));
-        }
-    }
-}
-
-/// What the entries of a Jacobian depend on.
-#[derive(Clone, Debug)]
-struct Needed {
-    operations: Vec<bool>,
-    steps: Vec<bool>,
-}
-
-impl Needed {
-    fn by(tape: &[Operation], steps: &[Step], entries: &[(usize, usize, Weight)]) -> Self {
-        let mut needed = Self { operations: vec![false; tape.len()], steps: vec![false; steps.len()] };
-        entries.iter().for_each(|(_, _, weight)| needed.mark(*weight));
-        for (k, step) in steps.iter().enumerate().rev() {
-            if needed.steps[k] {
-                step.operands().into_iter().flatten().for_each(|weight| needed.mark(weight));
-            }
-        }
-        for (node, operation) in tape.iter().enumerate().rev() {
-            if needed.operations[node] {
-                operation
-                    .operands()
-                    .into_iter()
-                    .flatten()
-                    .for_each(|operand| needed.mark(Weight::of(operand)));
-            }
-        }
-        needed
-    }
-
-    fn mark(&mut self, weight: Weight) {
-        match weight {
-            Weight::In(Place::Operation(node), _) => self.operations[node] = true,
-            Weight::In(Place::Step(step), _) => self.steps[step] = true,
-            Weight::Constant(_) => {}
         }
     }
 }
@@ -347,44 +270,25 @@ struct Slots<T> {
 
 impl<T: Scalar> Slots<T> {
     fn value(&self, weight: Weight) -> T {
-        let (place, sign) = match weight {
+        let (value, sign) = match weight {
             Weight::Constant(value) => return T::constant(value, 0.0),
-            Weight::In(place, sign) => (place, sign),
+            Weight::In(Place::Operation(node), sign) => (self.operations[node], sign),
+            Weight::In(Place::Step(step), sign) => (self.steps[step], sign),
         };
-        let value = match place {
-            Place::Operation(node) => self.operations[node],
-            Place::Step(step) => self.steps[step],
-        };
-        if sign == Sign::Plus { value } else { -value }
-    }
-
-    fn computed(&self, operation: Operation) -> T {
-        let of = |operand: Operand| self.value(Weight::of(operand));
-        match operation {
-            Operation::Argument => T::zero(),
-            Operation::Add(a, b) => of(a) + of(b),
-            Operation::Sub(a, b) => of(a) - of(b),
-            Operation::Mul(a, b) => of(a) * of(b),
-            Operation::Div(a, b) => of(a) / of(b),
-            Operation::Neg(a) => -of(a),
-            Operation::Fma(a, b, c) => of(a).fma(of(b), of(c)),
-            Operation::CopySign(a, sign) => of(a).copysign(of(sign)),
-            Operation::Max(a, b) => of(a).max(of(b)),
-            Operation::Of(function, a) => function.of(of(a)),
-        }
+        if sign > 0.0 { value } else { -value }
     }
 
     fn stepped(&self, step: Step) -> T {
-        let of = |weight: Weight| self.value(weight);
-        let varied = |weight: Weight| Dual { value: of(weight), slope: T::one() };
+        let [a, b, c] = step.operands().map(|weight| self.value(weight));
         match step {
-            Step::Product(a, b) => of(a) * of(b),
-            Step::Sum(a, b) => of(a) + of(b),
-            Step::ProductSum(a, b, c) => of(a).fma(of(b), of(c)),
-            Step::Reciprocal(a) => T::one() / of(a),
-            Step::Slope(function, a) => function.of(varied(a)).slope,
-            Step::SlopeOfSign(a, sign) => varied(a).copysign(Dual::fixed(of(sign))).slope,
-            Step::SlopeOfLarger(a, b) => varied(a).max(Dual::fixed(of(b))).slope,
+            Step::ProductSum(_) => a.fma(b, c),
+            Step::Product(_) => a * b,
+            Step::Sum(_) => a + b,
+            Step::Partial(kind, k, _) => {
+                let mut varied = [a, b, c].map(Dual::fixed);
+                varied[k].slope = T::one();
+                kind.of(varied).slope
+            }
         }
     }
 }

@@ -15,77 +15,97 @@ pub(super) enum Operand {
     Constant(f64),
 }
 
-/// An elementary function of one number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Unary {
-    Sqrt,
-    Cbrt,
-    InverseCbrt,
-    Exp,
-    ExpM1,
-    Ln,
-    Ln1p,
-    Sin,
-    Cos,
-    Tan,
-    Sinh,
-    Cosh,
-    Tanh,
-    Asinh,
-    Abs,
+/// An operation with what it reads; those of one or two numbers read zeros besides.
+pub(super) type Operation = (Kind, [Operand; 3]);
+
+macro_rules! operations {
+    ({ $($operator:ident $operate:ident $assign:ident $operate_assign:ident;)* } { $($name:ident $function:ident;)* }) => {
+        /// What is done.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub(super) enum Kind {
+            Argument,
+            Neg,
+            /// `a*b + c`.
+            Fma,
+            CopySign,
+            Max,
+            $($operator,)*
+            $($name,)*
+        }
+
+        impl Kind {
+            pub(super) fn of<T: Scalar>(self, [a, b, c]: [T; 3]) -> T {
+                match self {
+                    Self::Argument => a,
+                    Self::Neg => -a,
+                    Self::Fma => a.fma(b, c),
+                    Self::CopySign => a.copysign(b),
+                    Self::Max => Scalar::max(a, b),
+                    $(Self::$operator => a.$operate(b),)*
+                    $(Self::$name => Scalar::$function(a),)*
+                }
+            }
+        }
+
+        $(
+            impl $operator for Recorded {
+                type Output = Self;
+                fn $operate(self, other: Self) -> Self {
+                    Self::result(Kind::$operator, [self, other, Self::zero()])
+                }
+            }
+            impl $assign for Recorded {
+                fn $operate_assign(&mut self, other: Self) {
+                    *self = self.$operate(other);
+                }
+            }
+        )*
+
+        impl Scalar for Recorded {
+            fn constant(hi: f64, _lo: f64) -> Self {
+                Self { value: hi, node: None }
+            }
+            fn fma(self, factor: Self, term: Self) -> Self {
+                Self::result(Kind::Fma, [self, factor, term])
+            }
+            fn copysign(self, sign: Self) -> Self {
+                Self::result(Kind::CopySign, [self, sign, Self::zero()])
+            }
+            fn max(self, other: Self) -> Self {
+                Self::result(Kind::Max, [self, other, Self::zero()])
+            }
+            $(
+                fn $function(self) -> Self {
+                    Self::result(Kind::$name, [self, Self::zero(), Self::zero()])
+                }
+            )*
+        }
+    };
 }
 
-impl Unary {
-    pub(super) fn of<T: Scalar>(self, x: T) -> T {
-        match self {
-            Self::Sqrt => x.sqrt(),
-            Self::Cbrt => x.cbrt(),
-            Self::InverseCbrt => x.inverse_cbrt(),
-            Self::Exp => x.exp(),
-            Self::ExpM1 => x.exp_m1(),
-            Self::Ln => x.ln(),
-            Self::Ln1p => x.ln_1p(),
-            Self::Sin => x.sin(),
-            Self::Cos => x.cos(),
-            Self::Tan => x.tan(),
-            Self::Sinh => x.sinh(),
-            Self::Cosh => x.cosh(),
-            Self::Tanh => x.tanh(),
-            Self::Asinh => x.asinh(),
-            Self::Abs => x.abs(),
-        }
+operations! {
+    {
+        Add add AddAssign add_assign;
+        Sub sub SubAssign sub_assign;
+        Mul mul MulAssign mul_assign;
+        Div div DivAssign div_assign;
     }
-}
-
-/// An operation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Operation {
-    Argument,
-    Add(Operand, Operand),
-    Sub(Operand, Operand),
-    Mul(Operand, Operand),
-    Div(Operand, Operand),
-    Neg(Operand),
-    /// `a*b + c`.
-    Fma(Operand, Operand, Operand),
-    CopySign(Operand, Operand),
-    Max(Operand, Operand),
-    Of(Unary, Operand),
-}
-
-impl Operation {
-    pub(super) fn operands(self) -> [Option<Operand>; 3] {
-        match self {
-            Self::Argument => [None; 3],
-            Self::Add(a, b)
-            | Self::Sub(a, b)
-            | Self::Mul(a, b)
-            | Self::Div(a, b)
-            | Self::CopySign(a, b)
-            | Self::Max(a, b) => [Some(a), Some(b), None],
-            Self::Fma(a, b, c) => [Some(a), Some(b), Some(c)],
-            Self::Neg(a) | Self::Of(_, a) => [Some(a), None, None],
-        }
+    {
+        Sqrt sqrt;
+        Cbrt cbrt;
+        InverseCbrt inverse_cbrt;
+        Exp exp;
+        ExpM1 exp_m1;
+        Ln ln;
+        Ln1p ln_1p;
+        Sin sin;
+        Cos cos;
+        Tan tan;
+        Sinh sinh;
+        Cosh cosh;
+        Tanh tanh;
+        Asinh asinh;
+        Abs abs;
     }
 }
 
@@ -99,7 +119,8 @@ pub(super) fn recorded(
     arguments: &[f64],
     work: impl FnOnce(&[Recorded]) -> Vec<Recorded>,
 ) -> (Vec<Operation>, Vec<Operand>) {
-    let before = TAPE.replace(Some(vec![Operation::Argument; arguments.len()]));
+    let argument = (Kind::Argument, [Operand::Constant(0.0); 3]);
+    let before = TAPE.replace(Some(vec![argument; arguments.len()]));
     let numbers = arguments.iter().enumerate().map(|(k, value)| Recorded { value: *value, node: Some(k) });
     let results = work(&numbers.collect::<Vec<_>>());
     let tape = TAPE.replace(before).unwrap_or_default();
@@ -118,21 +139,17 @@ impl Recorded {
         self.node.map_or(Operand::Constant(self.value), Operand::Node)
     }
 
-    /// The result of an operation.
-    fn result(value: f64, operands: &[Self], operation: Operation) -> Self {
+    fn result(kind: Kind, operands: [Self; 3]) -> Self {
+        let value = kind.of(operands.map(|operand| operand.value));
         if operands.iter().all(|operand| operand.node.is_none()) {
             return Self { value, node: None };
         }
         let node = TAPE.with_borrow_mut(|tape| {
             let tape = tape.as_mut()?;
-            tape.push(operation);
+            tape.push((kind, operands.map(|operand| operand.operand())));
             Some(tape.len() - 1)
         });
         Self { value, node }
-    }
-
-    fn of(self, function: Unary) -> Self {
-        Self::result(function.of(self.value), &[self], Operation::Of(function, self.operand()))
     }
 }
 
@@ -149,34 +166,10 @@ impl PartialOrd for Recorded {
     }
 }
 
-macro_rules! recorded_operators {
-    ($($trait:ident $method:ident $assign:ident $assign_method:ident;)*) => { $(
-        impl $trait for Recorded {
-            type Output = Self;
-            fn $method(self, other: Self) -> Self {
-                let operation = Operation::$trait(self.operand(), other.operand());
-                Self::result(self.value.$method(other.value), &[self, other], operation)
-            }
-        }
-        impl $assign for Recorded {
-            fn $assign_method(&mut self, other: Self) {
-                *self = self.$method(other);
-            }
-        }
-    )* };
-}
-
-recorded_operators! {
-    Add add AddAssign add_assign;
-    Sub sub SubAssign sub_assign;
-    Mul mul MulAssign mul_assign;
-    Div div DivAssign div_assign;
-}
-
 impl Neg for Recorded {
     type Output = Self;
     fn neg(self) -> Self {
-        Self::result(-self.value, &[self], Operation::Neg(self.operand()))
+        Self::result(Kind::Neg, [self, Self::zero(), Self::zero()])
     }
 }
 
@@ -192,50 +185,6 @@ impl Zero for Recorded {
 impl One for Recorded {
     fn one() -> Self {
         Self { value: 1.0, node: None }
-    }
-}
-
-macro_rules! recorded_functions {
-    ($($function:ident $name:ident;)*) => { $(
-        fn $function(self) -> Self {
-            self.of(Unary::$name)
-        }
-    )* };
-}
-
-impl Scalar for Recorded {
-    fn constant(hi: f64, _lo: f64) -> Self {
-        Self { value: hi, node: None }
-    }
-    fn fma(self, factor: Self, term: Self) -> Self {
-        let operation = Operation::Fma(self.operand(), factor.operand(), term.operand());
-        Self::result(self.value.fma(factor.value, term.value), &[self, factor, term], operation)
-    }
-    fn copysign(self, sign: Self) -> Self {
-        let operation = Operation::CopySign(self.operand(), sign.operand());
-        Self::result(Scalar::copysign(self.value, sign.value), &[self, sign], operation)
-    }
-    fn max(self, other: Self) -> Self {
-        let operation = Operation::Max(self.operand(), other.operand());
-        Self::result(Scalar::max(self.value, other.value), &[self, other], operation)
-    }
-
-    recorded_functions! {
-        sqrt Sqrt;
-        cbrt Cbrt;
-        inverse_cbrt InverseCbrt;
-        exp Exp;
-        exp_m1 ExpM1;
-        ln Ln;
-        ln_1p Ln1p;
-        sin Sin;
-        cos Cos;
-        tan Tan;
-        sinh Sinh;
-        cosh Cosh;
-        tanh Tanh;
-        asinh Asinh;
-        abs Abs;
     }
 }
 

@@ -1,0 +1,97 @@
+//! What can come of an analysis instead of an answer.
+
+use core::fmt;
+
+use crate::error::Error;
+use crate::integrate::Failure;
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum AnalysisError {
+    /// Newton's iteration finds no solution near the guess.
+    NoConvergence {
+        /// Norm of the equations where it ended.
+        residual: f64,
+        /// Steps taken.
+        steps: usize,
+    },
+    /// The iteration leaves the placements that preserve orientation.
+    LeftGroup {
+        /// `det phi`.
+        determinant: f64,
+    },
+    /// A generator is none of a symmetry that the model is proved to have.
+    NotASymmetry {
+        /// How far the generator is from those of symmetries, relative to its size.
+        defect: f64,
+    },
+    /// The potential contains the time: nothing rests.
+    DependsOnTime,
+    /// The equations are not those of small vibrations about rest: something moves, a force has no potential, or the mass
+    /// matrix is not positive.
+    NoVibrations,
+    /// A branch meets points that it has no single continuation from.
+    Singular {
+        /// Directions in which solutions go on, along orbits of symmetries not counted.
+        directions: usize,
+    },
+    /// Steps along a branch have become too short.
+    StepUnderflow {
+        /// Length of the last one.
+        step: f64,
+    },
+    /// There is no such point on the branch, or it has no direction to switch to.
+    NoBranchPoint,
+    /// Eigenvalues or singular values were not found.
+    NoDecomposition,
+    /// The model, at some value of its parameter.
+    Model(Error),
+    /// The integration of a motion.
+    Integration(Failure),
+}
+
+impl fmt::Display for AnalysisError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoConvergence { residual, steps } => {
+                write!(
+                    f,
+                    "no solution near the guess: after {steps} steps the equations have norm {residual:e}"
+                )
+            }
+            Self::LeftGroup { determinant } => write!(f, "the iteration leads to det phi = {determinant:e}"),
+            Self::NotASymmetry { defect } => {
+                write!(
+                    f,
+                    "no symmetry that the model is proved to have has this generator: defect {defect:e}"
+                )
+            }
+            Self::DependsOnTime => write!(f, "the potential contains the time: nothing rests"),
+            Self::NoVibrations => write!(
+                f,
+                "no small vibrations about rest: something moves, a force has no potential, or masses are not positive"
+            ),
+            Self::Singular { directions } => write!(f, "solutions go on in {directions} directions"),
+            Self::StepUnderflow { step } => write!(f, "steps along the branch are too short: {step:e}"),
+            Self::NoBranchPoint => write!(f, "no branch point there, or no direction that leads away"),
+            Self::NoDecomposition => write!(f, "eigenvalues were not found"),
+            Self::Model(error) => error.fmt(f),
+            Self::Integration(failure) => failure.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for AnalysisError {}
+
+impl From<Error> for AnalysisError {
+    fn from(error: Error) -> Self {
+        Self::Model(error)
+    }
+}
+
+impl From<Failure> for AnalysisError {
+    fn from(failure: Failure) -> Self {
+        Self::Integration(failure)
+    }
+}

@@ -1,0 +1,261 @@
+//! One-parameter groups of symmetries, and those that a model is proved to have.
+
+use nalgebra::DVector;
+
+use super::error::AnalysisError;
+use super::linear::decomposed;
+use crate::dual::Dual;
+use crate::frames::{Matrix, Vector};
+use crate::model::{Conserved, Constraint, Entry, Model, Quantity, StateVector};
+use crate::scalar::Real;
+use crate::state::Phase;
+
+/// Relative distance of a generator from those of symmetries that rounding leaves.
+const ROUNDING: f64 = 1e-12;
+
+/// The generator of `phi -> exp(t xi) phi exp(t eta)`, `x -> exp(t xi') x + t c`, in orthonormal bases.
+///
+/// Its momentum is `J = tr(Sigma xi) + tr(Sigma_hat eta) + p.(xi' x + c)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Generator<const N: usize> {
+    /// `xi`, which acts on the placement in space.
+    pub space: Matrix<N>,
+    /// `xi'`, which acts on the position; `xi` where space turns as a whole.
+    pub orbit: Matrix<N>,
+    /// `eta`, which acts on the placement in the body.
+    pub body: Matrix<N>,
+    /// `c`.
+    pub drift: Vector<N>,
+}
+
+impl<const N: usize> Generator<N> {
+    /// What moves nothing.
+    #[must_use]
+    pub fn zero() -> Self {
+        let zero = Matrix::<N>::zeros();
+        Self { space: zero, orbit: zero, body: zero, drift: Vector::<N>::zeros() }
+    }
+
+    /// Space turns from axis `i` to axis `j`, numbered from 1; the momentum is the `ij` entry of the total angular momentum,
+    /// `S_ij` of a body without translation. Axes that there are not turn nothing.
+    #[must_use]
+    pub fn rotation(i: usize, j: usize) -> Self {
+        let turn = skew(i, j);
+        Self { space: turn, orbit: turn, ..Self::zero() }
+    }
+
+    /// The body turns: the momentum is the `ij` entry of the vorticity.
+    #[must_use]
+    pub fn vorticity(i: usize, j: usize) -> Self {
+        Self { body: skew(i, j), ..Self::zero() }
+    }
+
+    /// Space moves along axis `i`, numbered from 1: the momentum is `p_i`.
+    #[must_use]
+    pub fn translation(i: usize) -> Self {
+        Self { drift: Vector::<N>::from_fn(|k, _| f64::from(u8::from(k + 1 == i))), ..Self::zero() }
+    }
+
+    /// `self + factor other`.
+    #[must_use]
+    pub fn plus(&self, factor: f64, other: &Self) -> Self {
+        Self {
+            space: self.space + other.space * factor,
+            orbit: self.orbit + other.orbit * factor,
+            body: self.body + other.body * factor,
+            drift: self.drift + other.drift * factor,
+        }
+    }
+
+    /// The bracket of the fields of two generators, which is that of matrices in space and its negative in the body.
+    pub(super) fn bracket(&self, other: &Self) -> Self {
+        Self {
+            space: self.space * other.space - other.space * self.space,
+            orbit: self.orbit * other.orbit - other.orbit * self.orbit,
+            body: other.body * self.body - self.body * other.body,
+            drift: self.orbit * other.drift - other.orbit * self.drift,
+        }
+    }
+
+    /// Its components. Multiples of the identity do the same to `phi` from either side, and are taken in space.
+    pub(super) fn components(&self) -> DVector<f64> {
+        let one = Matrix::<N>::identity();
+        let mean = self.body.trace() / N as f64;
+        let (space, body) = (self.space + one * mean, self.body - one * mean);
+        let all = space.iter().chain(body.iter()).chain(self.orbit.iter()).chain(self.drift.iter());
+        DVector::from_iterator(3 * N * N + N, all.copied())
+    }
+
+    /// The momentum `J` of a point.
+    pub(super) fn momentum<M: Model<N>, T: Real>(&self, model: &M, point: &M::Point<T>) -> T {
+        let point = model.orthonormal(point);
+        let over = |matrix: &Matrix<N>| matrix.map(|entry| T::constant(entry, 0.0));
+        let drift = self.drift.map(|entry| T::constant(entry, 0.0));
+        (point.sigma().0.0 * over(&self.space)).trace()
+            + (point.sigma_hat().0.0 * over(&self.body)).trace()
+            + point.p().dot(&(over(&self.orbit) * point.x() + drift))
+    }
+
+    /// The field of the group over the plain array.
+    pub(super) fn field<M: Model<N>, T: Real>(&self, model: &M, full: &M::Full<T>) -> M::Full<T> {
+        let over = |matrix: &Matrix<N>| matrix.map(|entry| T::constant(entry, 0.0));
+        let (space, orbit, body) = (over(&self.space), over(&self.orbit), over(&self.body));
+        let drift = self.drift.map(|entry| T::constant(entry, 0.0));
+        let point = model.orthonormal(&model.unflatten(full));
+        let (phi, x, p) = (*point.phi(), point.x(), point.p());
+        let (spin, spin_rate) = if has::<N, M>(Quantity::CanonicalMomentum) {
+            let pi = point.pi().0.0;
+            (pi, -(pi * space + body * pi))
+        } else if has::<N, M>(Quantity::AffineSpin) {
+            let sigma = point.sigma().0.0;
+            (sigma, space * sigma - sigma * space)
+        } else {
+            let sigma_hat = point.sigma_hat().0.0;
+            (sigma_hat, sigma_hat * body - body * sigma_hat)
+        };
+        let rates = [space * phi + phi * body, spin_rate];
+        let vectors = [(x, orbit * x + drift), (p, -(orbit.transpose() * p))];
+        let of_matrices = [phi, spin].into_iter().zip(rates);
+        let of_matrices = of_matrices.flat_map(|(value, rate)| pairs(value.as_slice(), rate.as_slice()));
+        let of_vectors =
+            vectors.into_iter().flat_map(|(value, rate)| pairs(value.as_slice(), rate.as_slice()));
+        let mut entries = of_matrices.chain(of_vectors).collect::<Vec<_>>().into_iter();
+        let varied = model.orthonormal(&model.unflatten(&lifted::<M::Full<T>, M::Full<Dual<T>>, T>(full)));
+        let moved = varied.with_entries(&mut || entries.next().unwrap_or_else(|| Dual::fixed(T::zero())));
+        let moved = match model.bases() {
+            Some(bases) => <M::Point<Dual<T>>>::from_orthonormal(&moved, &bases.over()),
+            None => {
+                let mut own = Vec::new();
+                moved.entries(&mut |entry| own.push(entry));
+                let mut own = own.into_iter();
+                let point = model.unflatten(&lifted::<M::Full<T>, M::Full<Dual<T>>, T>(full));
+                point.with_entries(&mut || own.next().unwrap_or_else(|| Dual::fixed(T::zero())))
+            }
+        };
+        let mut rates = M::Full::<T>::zeros();
+        let moved = model.flatten(&moved);
+        rates.as_mut().iter_mut().zip(moved.as_ref()).for_each(|(rate, both)| *rate = both.slope);
+        rates
+    }
+}
+
+/// Numbers with their derivatives.
+fn pairs<T: Real>(values: &[T], slopes: &[T]) -> Vec<Dual<T>> {
+    values.iter().zip(slopes).map(|(value, slope)| Dual { value: *value, slope: *slope }).collect()
+}
+
+/// Numbers that do not change.
+fn lifted<S: StateVector<T>, D: StateVector<Dual<T>>, T: Real>(state: &S) -> D {
+    let mut fixed = D::zeros();
+    fixed.as_mut().iter_mut().zip(state.as_ref()).for_each(|(both, value)| *both = Dual::fixed(*value));
+    fixed
+}
+
+fn has<const N: usize, M: Model<N>>(quantity: Quantity) -> bool {
+    M::DESCRIPTION.full.iter().any(|group| group.quantity == quantity)
+}
+
+/// `E_ji - E_ij`, numbered from 1.
+fn skew<const N: usize>(i: usize, j: usize) -> Matrix<N> {
+    unit(j, i) - unit(i, j)
+}
+
+/// `E_ij`, numbered from 1.
+fn unit<const N: usize>(i: usize, j: usize) -> Matrix<N> {
+    Matrix::<N>::from_fn(|row, column| f64::from(u8::from((row + 1, column + 1) == (i, j))))
+}
+
+/// The algebra of the symmetries that the energy is proved to have, as far as they move points linearly: a basis.
+pub(super) fn symmetries<const N: usize, M: Model<N>>() -> Vec<Generator<N>> {
+    let mut basis: Vec<Generator<N>> = Vec::new();
+    let mut directions: Vec<DVector<f64>> = Vec::new();
+    for generator in M::DESCRIPTION.conserved.iter().flat_map(|quantity| generators::<N>(*quantity)) {
+        let generator = confined::<N, M>(&generator);
+        let components = generator.components();
+        let mut rest = components.clone();
+        directions.iter().for_each(|direction| rest -= direction * direction.dot(&components));
+        if rest.norm() > ROUNDING.sqrt() {
+            directions.push(rest.normalize());
+            basis.push(generator);
+        }
+    }
+    basis
+}
+
+/// Checks that a generator is one of symmetries.
+pub(super) fn assert_symmetry<const N: usize>(
+    basis: &[Generator<N>],
+    generator: &Generator<N>,
+) -> Result<(), AnalysisError> {
+    let components = generator.components();
+    let rows = components.len();
+    let span = nalgebra::DMatrix::from_fn(rows, basis.len(), |i, k| basis[k].components()[i]);
+    let rest = if basis.is_empty() {
+        components.clone()
+    } else {
+        let svd = decomposed(span.clone()).ok_or(AnalysisError::NoDecomposition)?;
+        let solution = svd.solve(&components, ROUNDING).map_err(|_| AnalysisError::NoDecomposition)?;
+        &components - span * solution
+    };
+    let defect = rest.norm() / components.norm();
+    if components.norm() == 0.0 || defect <= ROUNDING {
+        Ok(())
+    } else {
+        Err(AnalysisError::NotASymmetry { defect })
+    }
+}
+
+/// What leaves the group to which the motion is confined is left out, and what moves a centre of mass that the model has not.
+pub(super) fn confined<const N: usize, M: Model<N>>(generator: &Generator<N>) -> Generator<N> {
+    let skew = |matrix: &Matrix<N>| (matrix - matrix.transpose()) * 0.5;
+    let mean = |matrix: &Matrix<N>| Matrix::<N>::identity() * (matrix.trace() / N as f64);
+    let kept = |matrix: &Matrix<N>| match M::DESCRIPTION.constraint {
+        None => *matrix,
+        Some(Constraint::Isochoric) => matrix - mean(matrix),
+        Some(Constraint::Rigid) => skew(matrix),
+        Some(Constraint::Conformal) => skew(matrix) + mean(matrix),
+    };
+    let (space, body) = (kept(&generator.space), kept(&generator.body));
+    match has::<N, M>(Quantity::Position) {
+        true => Generator { space, body, ..*generator },
+        false => Generator { space, body, ..Generator::zero() },
+    }
+}
+
+/// The generators whose momenta a quantity consists of.
+fn generators<const N: usize>(quantity: Conserved) -> Vec<Generator<N>> {
+    if let Conserved::Component(component) = quantity {
+        let add = |sum: Generator<N>, entry: &Entry| {
+            let (row, column) = if entry.of == Conserved::LinearMomentum {
+                (entry.row, 1)
+            } else {
+                (entry.row, entry.column)
+            };
+            generator_of(entry.of, row, column).map_or(sum, |one| sum.plus(entry.factor as f64, &one))
+        };
+        return vec![component.entries.iter().fold(Generator::zero(), add)];
+    }
+    let all = (1..=N).flat_map(|row| (1..=N).map(move |column| (row, column)));
+    all.filter_map(|(row, column)| generator_of(quantity, row, column)).collect()
+}
+
+/// The generator of an entry of a momentum.
+fn generator_of<const N: usize>(quantity: Conserved, row: usize, column: usize) -> Option<Generator<N>> {
+    let one = Generator::<N>::zero();
+    let (full, turn) = (unit::<N>(column, row), skew::<N>(row, column));
+    let mean = if row == column { Matrix::<N>::identity() / N as f64 } else { Matrix::<N>::zeros() };
+    Some(match quantity {
+        Conserved::LinearMomentum => Generator { drift: Generator::<N>::translation(row).drift, ..one },
+        Conserved::OrbitalAngularMomentum => Generator { orbit: turn, ..one },
+        Conserved::TotalAngularMomentum => Generator { space: turn, orbit: turn, ..one },
+        Conserved::TotalAffineMomentum => Generator { space: full, orbit: full, ..one },
+        Conserved::Spin => Generator { space: turn, ..one },
+        Conserved::AffineSpin => Generator { space: full, ..one },
+        Conserved::Deviator => Generator { space: full - mean, ..one },
+        Conserved::Vorticity => Generator { body: turn, ..one },
+        Conserved::ComovingAffineSpin => Generator { body: full, ..one },
+        Conserved::ComovingDeviator => Generator { body: full - mean, ..one },
+        Conserved::Casimir1 => Generator { space: mean, ..one },
+        _ => return None,
+    })
+}

@@ -1,0 +1,265 @@
+//! Equilibria and relative equilibria: points at which the motion is that of a group of symmetries.
+
+use core::fmt;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::error::AnalysisError;
+use super::field::{
+    confinement, depends_on_time, determinant, full, generated_jacobian, momentum, motion, motion_jacobian,
+    orbit, symplectic_form, vector,
+};
+use super::generator::{Generator, assert_symmetry, confined, symmetries};
+use super::linear::{RANK, decomposed, kernel};
+use super::newton::{Equations, Solution, solve};
+use crate::model::Model;
+use crate::state::Phase;
+
+/// What is asked of a relative equilibrium, by the place of a generator in the list of those that are free, from 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Condition {
+    /// The velocity of a generator: the factor with which it stands in `zeta`.
+    Velocity(usize, f64),
+    /// Its momentum.
+    Momentum(usize, f64),
+}
+
+/// A point of rest, or one through which the motion is `exp(t zeta)`.
+#[derive(Clone, PartialEq)]
+pub struct RelativeEquilibrium<const N: usize, P> {
+    pub(super) point: P,
+    pub(super) zeta: Generator<N>,
+    pub(super) velocities: Vec<f64>,
+    pub(super) residual: f64,
+    pub(super) steps: usize,
+}
+
+impl<const N: usize, P: fmt::Debug> fmt::Debug for RelativeEquilibrium<N, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = f.debug_struct("RelativeEquilibrium");
+        shown.field("point", &self.point).field("velocities", &self.velocities);
+        shown.field("residual", &self.residual).finish_non_exhaustive()
+    }
+}
+
+impl<const N: usize, P> RelativeEquilibrium<N, P> {
+    /// The phase point.
+    pub fn point(&self) -> &P {
+        &self.point
+    }
+
+    /// The generator `zeta` of the motion; zero at rest.
+    pub fn zeta(&self) -> &Generator<N> {
+        &self.zeta
+    }
+
+    /// The velocity of each generator that was free.
+    #[must_use]
+    pub fn velocities(&self) -> &[f64] {
+        &self.velocities
+    }
+
+    /// Norm of the equations that are solved, `X_H - X_zeta` and the conditions.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.residual
+    }
+
+    /// Steps of Newton's iteration.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+}
+
+/// A point of rest near a guess, `X_H = 0`: the nearest one to rounding, where symmetries make families of them.
+///
+/// ```
+/// use affine_runtime::analysis::equilibrium;
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(dim = 3, kinetic(dalembert = 1), potential = neo_hookean(0.5) + 5*q^2)]
+/// struct Ball;
+///
+/// let guess = Ball.at_velocity(Matrix::<3>::identity() * 1.1, Matrix::<3>::zeros())?;
+/// let rest = equilibrium(&Ball, &guess)?;
+/// assert!((rest.point().phi() - Matrix::<3>::identity()).norm() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`AnalysisError`].
+pub fn equilibrium<const N: usize, M: Model<N>>(
+    model: &M,
+    guess: &M::Point<f64>,
+) -> Result<RelativeEquilibrium<N, M::Point<f64>>, AnalysisError> {
+    relative_equilibrium(model, guess, &[], &[])
+}
+
+/// A relative equilibrium near a guess: `X_H = X_zeta`, where `zeta` is a sum of multiples of the generators, under conditions.
+///
+/// The generators are those of symmetries that the energy is proved to have, [`Description::conserved`]. What the conditions
+/// leave open stays near the guess; the velocities begin at those that move the guess most like its motion does.
+///
+/// [`Description::conserved`]: crate::model::Description::conserved
+///
+/// # Errors
+/// [`AnalysisError`].
+pub fn relative_equilibrium<const N: usize, M: Model<N>>(
+    model: &M,
+    guess: &M::Point<f64>,
+    generators: &[Generator<N>],
+    conditions: &[Condition],
+) -> Result<RelativeEquilibrium<N, M::Point<f64>>, AnalysisError> {
+    let basis = symmetries::<N, M>();
+    let generators: Vec<_> = generators.iter().map(confined::<N, M>).collect();
+    let generators = generators.as_slice();
+    generators.iter().try_for_each(|generator| assert_symmetry(&basis, generator))?;
+    let z = vector(&model.flatten(guess));
+    if depends_on_time(model, &z) {
+        return Err(AnalysisError::DependsOnTime);
+    }
+    let mut velocities = moved_alike(model, generators, &z)?;
+    for condition in conditions {
+        if let Condition::Velocity(k, value) = condition
+            && let Some(velocity) = velocities.get_mut(*k)
+        {
+            *velocity = *value;
+        }
+    }
+    let problem = Problem { model, generators, conditions };
+    let start = DVector::from_iterator(z.len() + velocities.len(), z.iter().copied().chain(velocities));
+    let solution =
+        solve(start, |unknowns| problem.equations(unknowns)).map_err(|error| problem.explained(error, &z))?;
+    Ok(problem.relative_equilibrium(&solution))
+}
+
+/// The velocities of generators that come closest to a motion.
+fn moved_alike<const N: usize, M: Model<N>>(
+    model: &M,
+    generators: &[Generator<N>],
+    z: &DVector<f64>,
+) -> Result<Vec<f64>, AnalysisError> {
+    if generators.is_empty() {
+        return Ok(Vec::new());
+    }
+    let svd = decomposed(orbit(model, generators, z)).ok_or(AnalysisError::NoDecomposition)?;
+    let solution = svd.solve(&motion(model, z), RANK).map_err(|_| AnalysisError::NoDecomposition)?;
+    Ok(solution.iter().copied().collect())
+}
+
+/// The equations of a relative equilibrium in `(z, velocities)`.
+pub(super) struct Problem<'a, const N: usize, M> {
+    pub(super) model: &'a M,
+    pub(super) generators: &'a [Generator<N>],
+    pub(super) conditions: &'a [Condition],
+}
+
+impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
+    fn split(&self, unknowns: &DVector<f64>) -> (DVector<f64>, Vec<f64>) {
+        let components = unknowns.len() - self.generators.len();
+        (unknowns.rows(0, components).into_owned(), unknowns.iter().skip(components).copied().collect())
+    }
+
+    pub(super) fn zeta(&self, velocities: &[f64]) -> Generator<N> {
+        let terms = self.generators.iter().zip(velocities);
+        terms.fold(Generator::zero(), |sum, (generator, velocity)| sum.plus(*velocity, generator))
+    }
+
+    /// Rows of `X_H - X_zeta`, of the constraints of the model, of the conditions. `None` where `det phi <= 0`.
+    pub(super) fn equations(&self, unknowns: &DVector<f64>) -> Option<Equations> {
+        let (z, velocities) = self.split(unknowns);
+        let point = self.model.unflatten(&full::<N, M>(&z));
+        if determinant(point.phi()) <= 0.0 {
+            return None;
+        }
+        let (model, zeta) = (self.model, self.zeta(&velocities));
+        let fields = orbit(model, self.generators, &z);
+        let moved = motion(model, &z);
+        let turned = &fields * DVector::from_vec(velocities.clone());
+        let slopes = motion_jacobian(model, &z) - generated_jacobian(model, &zeta, &z);
+        let (defects, normals) = confinement(model, &z);
+        let (own, confined, conditions) = (z.len(), defects.len(), self.conditions.len());
+        let mut values = DVector::zeros(own + confined + conditions);
+        let mut jacobian = DMatrix::zeros(values.len(), unknowns.len());
+        values.rows_mut(0, own).copy_from(&(&moved - &turned));
+        values.rows_mut(own, confined).copy_from(&defects);
+        jacobian.view_mut((0, 0), (own, own)).copy_from(&slopes);
+        jacobian.view_mut((0, own), fields.shape()).copy_from(&-&fields);
+        jacobian.view_mut((own, 0), normals.shape()).copy_from(&normals);
+        let form = self.conditions.iter().any(|one| matches!(one, Condition::Momentum(..)));
+        let form = form.then(|| symplectic_form(model, &z));
+        for (k, condition) in self.conditions.iter().enumerate() {
+            let row = own + confined + k;
+            match *condition {
+                Condition::Velocity(generator, value) => {
+                    values[row] = velocities.get(generator)? - value;
+                    jacobian[(row, own + generator)] = 1.0;
+                }
+                Condition::Momentum(generator, value) => {
+                    values[row] = momentum(model, self.generators.get(generator)?, &z) - value;
+                    let slope = fields.column(generator).transpose() * form.as_ref()?;
+                    jacobian.view_mut((row, 0), (1, own)).copy_from(&slope);
+                }
+            }
+        }
+        let scale = moved.norm()
+            + turned.norm()
+            + slopes.norm() * z.norm()
+            + values.rows(own, confined + conditions).norm();
+        Some(Equations { values, jacobian, scale: scale.max(f64::MIN_POSITIVE) })
+    }
+
+    pub(super) fn relative_equilibrium(&self, solution: &Solution) -> RelativeEquilibrium<N, M::Point<f64>> {
+        let (z, velocities) = self.split(&solution.at);
+        RelativeEquilibrium {
+            point: self.model.unflatten(&full::<N, M>(&z)),
+            zeta: self.zeta(&velocities),
+            velocities,
+            residual: solution.residual,
+            steps: solution.steps,
+        }
+    }
+
+    /// A start without orientation is no failure of the iteration.
+    fn explained(&self, error: AnalysisError, z: &DVector<f64>) -> AnalysisError {
+        let determinant = determinant(self.model.unflatten(&full::<N, M>(z)).phi());
+        if determinant > 0.0 { error } else { AnalysisError::LeftGroup { determinant } }
+    }
+}
+
+/// A point with what its linearised motion is made of.
+pub(super) struct Linearised<const N: usize> {
+    pub(super) symmetries: Vec<Generator<N>>,
+    /// An orthonormal basis of the directions in which the constraint lets points go, over the plain array.
+    pub(super) basis: DMatrix<f64>,
+    /// `D(X_H - X_zeta)` in the basis.
+    pub(super) motion: DMatrix<f64>,
+    /// The symplectic form in the basis.
+    pub(super) form: DMatrix<f64>,
+    /// Fields of the symmetries in the basis.
+    pub(super) orbit: DMatrix<f64>,
+}
+
+impl<const N: usize> Linearised<N> {
+    pub(super) fn at<M: Model<N>>(model: &M, zeta: &Generator<N>, point: &M::Point<f64>) -> Self {
+        let z = vector(&model.flatten(point));
+        let symmetries = symmetries::<N, M>();
+        let basis = kernel(&confinement(model, &z).1, RANK);
+        let slopes = motion_jacobian(model, &z) - generated_jacobian(model, zeta, &z);
+        let form = symplectic_form(model, &z);
+        let orbit = basis.tr_mul(&orbit(model, &symmetries, &z));
+        Self {
+            motion: basis.tr_mul(&slopes) * &basis,
+            form: basis.tr_mul(&form) * &basis,
+            symmetries,
+            basis,
+            orbit,
+        }
+    }
+
+    /// `D2(H - J_zeta)(u, v) = omega(A u, v)`, as it comes: symmetric where the motion is Hamiltonian.
+    pub(super) fn second_variation(&self) -> DMatrix<f64> {
+        self.motion.tr_mul(&self.form)
+    }
+}

@@ -1,0 +1,119 @@
+//! Eigenvalues with their errors, and the signs of the energies of their motions.
+
+use nalgebra::{Complex, DMatrix, Schur};
+
+use super::error::AnalysisError;
+use super::linear::{MOST_SWEEPS, decomposed};
+
+/// An error bound is so many times the first-order estimate.
+const SAFETY: f64 = 10.0;
+/// Parts of the largest eigenvalue of a form below which one is zero.
+const ZERO: f64 = 1e-11;
+
+/// An eigenvalue of the linearised motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eigenvalue {
+    /// Its value: `exp(value t)`.
+    pub value: Complex<f64>,
+    /// A bound of its error by rounding.
+    pub error: f64,
+    /// The sign of the energy of its motions, 1 or -1, where it is imaginary and the motion is Hamiltonian; 0 elsewhere.
+    pub sign: i8,
+    /// Equal eigenvalues, of which this is one, have energies of both signs.
+    pub(super) is_mixed: bool,
+}
+
+/// The eigenvalues of a motion, by imaginary part.
+pub(super) fn spectrum(
+    motion: &DMatrix<f64>,
+    energy: Option<&DMatrix<f64>>,
+) -> Result<Vec<Eigenvalue>, AnalysisError> {
+    if motion.is_empty() {
+        return Ok(Vec::new());
+    }
+    let schur =
+        Schur::try_new(motion.clone(), f64::EPSILON, MOST_SWEEPS).ok_or(AnalysisError::NoDecomposition)?;
+    let values: Vec<Complex<f64>> = schur.complex_eigenvalues().iter().copied().collect();
+    let size = motion.norm();
+    let errors: Vec<f64> = values.iter().map(|value| error(motion, *value, size)).collect();
+    let mut all: Vec<Eigenvalue> = (0..values.len())
+        .map(|k| {
+            let (value, error) = (values[k], errors[k]);
+            let alike =
+                (0..values.len()).filter(|j| (values[*j] - value).norm() <= 2.0 * (error + errors[*j]));
+            let (sign, is_mixed) = match energy {
+                Some(energy) if value.re.abs() <= error => signed(motion, energy, value, alike.count()),
+                _ => (0, false),
+            };
+            Eigenvalue { value, error, sign, is_mixed }
+        })
+        .collect();
+    all.sort_by(|a, b| a.value.im.total_cmp(&b.value.im).then(a.value.re.total_cmp(&b.value.re)));
+    Ok(all)
+}
+
+fn shifted(motion: &DMatrix<f64>, value: Complex<f64>) -> DMatrix<Complex<f64>> {
+    let complex = motion.map(|entry| Complex::new(entry, 0.0));
+    complex - DMatrix::from_diagonal_element(motion.nrows(), motion.nrows(), value)
+}
+
+/// `eps |A|/|y^* x|` of the unit eigenvectors, of a cluster the cosine between what it is mapped from and to.
+fn error(motion: &DMatrix<f64>, value: Complex<f64>, size: f64) -> f64 {
+    let Some(svd) = decomposed(shifted(motion, value)) else { return f64::INFINITY };
+    let (Some(u), Some(v_t)) = (&svd.u, &svd.v_t) else { return f64::INFINITY };
+    let null: Vec<usize> =
+        (0..svd.singular_values.len()).filter(|k| svd.singular_values[*k] <= 1e-9 * size).collect();
+    if null.is_empty() {
+        return SAFETY * svd.singular_values.min();
+    }
+    let overlap =
+        DMatrix::from_fn(null.len(), null.len(), |a, b| u.column(null[a]).dotc(&v_t.row(null[b]).adjoint()));
+    let cosine = overlap.svd(false, false).singular_values.min();
+    // A Jordan block: the square root of a rounding.
+    SAFETY * size * (f64::EPSILON / cosine).min(f64::EPSILON.sqrt())
+}
+
+/// The sign of `v^* E v` of an eigenspace, and whether it has both.
+fn signed(
+    motion: &DMatrix<f64>,
+    energy: &DMatrix<f64>,
+    value: Complex<f64>,
+    multiplicity: usize,
+) -> (i8, bool) {
+    let Some(svd) = decomposed(shifted(motion, Complex::new(0.0, value.im))) else { return (0, true) };
+    let Some(v_t) = &svd.v_t else { return (0, true) };
+    let rows = v_t.nrows();
+    let mut order: Vec<usize> = (0..rows).collect();
+    order.sort_by(|a, b| svd.singular_values[*a].total_cmp(&svd.singular_values[*b]));
+    let chosen: Vec<_> = order.iter().take(multiplicity).map(|k| v_t.row(*k).adjoint()).collect();
+    let vectors = DMatrix::from_columns(&chosen);
+    let complex = energy.map(|entry| Complex::new(entry, 0.0));
+    let form = vectors.adjoint() * complex * &vectors;
+    let values = form.symmetric_eigenvalues();
+    let threshold = ZERO * energy.norm();
+    match (values.iter().any(|one| *one > threshold), values.iter().any(|one| *one < -threshold)) {
+        (true, false) => (1, false),
+        (false, true) => (-1, false),
+        _ => (0, true),
+    }
+}
+
+/// With each eigenvalue its negative and its conjugate stand.
+pub(super) fn is_paired(eigenvalues: &[Eigenvalue]) -> bool {
+    let stands = |value: Complex<f64>, error: f64| {
+        eigenvalues.iter().any(|one| (one.value - value).norm() <= error + one.error)
+    };
+    eigenvalues.iter().all(|one| stands(-one.value, one.error) && stands(one.value.conj(), one.error))
+}
+
+/// Numbers of positive, negative and zero eigenvalues of a form.
+pub(super) fn signs(form: &DMatrix<f64>) -> (usize, usize, usize) {
+    if form.is_empty() {
+        return (0, 0, 0);
+    }
+    let values = form.symmetric_eigenvalues();
+    let threshold = ZERO * values.amax();
+    let positive = values.iter().filter(|value| **value > threshold).count();
+    let negative = values.iter().filter(|value| **value < -threshold).count();
+    (positive, negative, values.len() - positive - negative)
+}

@@ -1,0 +1,287 @@
+//! Whether motions near a relative equilibrium stay near it.
+
+use nalgebra::{Complex, DMatrix, DVector};
+
+use super::error::AnalysisError;
+use super::field::{generated_jacobian, vector};
+use super::generator::Generator;
+use super::linear::{RANK, absolute_kernel, kernel, span};
+use super::relative::{Linearised, RelativeEquilibrium};
+use super::spectrum::{Eigenvalue, is_paired, signs, spectrum};
+use crate::model::Model;
+
+/// A part of a second variation by which it may fail to be symmetric.
+const ASYMMETRY: f64 = 1e-9;
+/// Sections of an interval in the search for a definite second variation.
+const SECTIONS: usize = 60;
+/// Rounds of that search over the generators of an isotropy group.
+const ROUNDS: usize = 8;
+
+/// What becomes of motions near a relative equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum StabilityVerdict {
+    /// They stay near its orbit: the second variation of `H - J_zeta` is definite, modulo the symmetries that keep the momentum.
+    /// With friction, they come to it.
+    Stable,
+    /// Those of the linearised motion do: all eigenvalues are imaginary and simple, or of one signature.
+    LinearlyStable,
+    /// Some leave it.
+    Unstable {
+        /// The fastest rate, of `exp(rate t)`.
+        rate: f64,
+    },
+    /// Neither is shown.
+    Undecided(Doubt),
+}
+
+/// Why a stability is undecided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// An eigenvalue is zero though no symmetry makes it so: a branch point.
+    ZeroMode,
+    /// Equal eigenvalues have energies of both signs.
+    MixedSigns,
+    /// The symmetries that keep the momentum are not compact: motions may drift along them.
+    NonCompact,
+    /// Eigenvalues are too close to be told apart.
+    Cluster,
+    /// Neither damped nor growing.
+    Neutral,
+}
+
+/// The linearised motion near a relative equilibrium, without the directions of symmetries and of conserved momenta.
+#[derive(Clone, Debug)]
+pub struct Stability<const N: usize> {
+    /// What follows.
+    pub verdict: StabilityVerdict,
+    /// Numbers of positive, negative and zero directions of the second variation of `H - J_zeta` where the momenta are kept;
+    /// `None` where the motion is not Hamiltonian.
+    pub signature: Option<(usize, usize, usize)>,
+    /// Eigenvalues, with bounds of their errors.
+    pub eigenvalues: Vec<Eigenvalue>,
+    /// Eigenvalues of the second variation without the directions of symmetries, from the least.
+    pub stiffnesses: Vec<f64>,
+    /// The `zeta` of the second variation: of those that move the point alike, the one for which it is nearest to definite.
+    pub zeta: Generator<N>,
+    /// Dimension of the group that does not move the point.
+    pub isotropy: usize,
+}
+
+impl<const N: usize, P> RelativeEquilibrium<N, P> {
+    /// Its stability.
+    ///
+    /// # Errors
+    /// [`AnalysisError::NoDecomposition`].
+    pub fn stability<M: Model<N, Point<f64> = P>>(&self, model: &M) -> Result<Stability<N>, AnalysisError> {
+        let at = Linearised::at(model, &self.zeta, &self.point);
+        let slice = Slice::of(&at);
+        let eigenvalues = spectrum(&slice.motion(&at), slice.energy(&at).as_ref())?;
+        let isotropy = kernel(&at.orbit, RANK);
+        let Some(energy) = slice.energy(&at) else {
+            let verdict = damped(&eigenvalues);
+            let isotropy = isotropy.ncols();
+            return Ok(Stability {
+                verdict,
+                signature: None,
+                eigenvalues,
+                stiffnesses: Vec::new(),
+                zeta: self.zeta,
+                isotropy,
+            });
+        };
+        let own = isotropic(model, self, &at, &isotropy);
+        let variations: Vec<_> = own.iter().map(|(_, slopes)| slice.form(&slopes.tr_mul(&at.form))).collect();
+        let (factors, energy) = nearest_to_definite(&energy, &variations);
+        let terms = own.iter().zip(&factors);
+        let zeta = terms.fold(self.zeta, |zeta, ((generator, _), factor)| zeta.plus(*factor, generator));
+        let (positive, negative, zero) = signs(&energy);
+        let verdict = if zero > 0 {
+            match growth(&eigenvalues) {
+                Some(rate) => StabilityVerdict::Unstable { rate },
+                None => StabilityVerdict::Undecided(Doubt::ZeroMode),
+            }
+        } else if positive == 0 || negative == 0 {
+            match slice.is_compact {
+                true => StabilityVerdict::Stable,
+                false => StabilityVerdict::Undecided(Doubt::NonCompact),
+            }
+        } else {
+            conservative(&eigenvalues)
+        };
+        let mut stiffnesses: Vec<f64> = energy.symmetric_eigenvalues().iter().copied().collect();
+        stiffnesses.sort_by(f64::total_cmp);
+        Ok(Stability {
+            verdict,
+            signature: Some((positive, negative, zero + slice.along_orbit)),
+            eigenvalues,
+            stiffnesses,
+            zeta,
+            isotropy: isotropy.ncols(),
+        })
+    }
+}
+
+/// The directions that keep all momenta, without those along the orbit of the group that keeps them.
+struct Slice {
+    /// Orthonormal columns.
+    columns: DMatrix<f64>,
+    /// Dimension of what was left out of the kernel of the momenta.
+    along_orbit: usize,
+    is_compact: bool,
+}
+
+impl Slice {
+    fn of<const N: usize>(at: &Linearised<N>) -> Self {
+        let keeping = kernel(&at.orbit.tr_mul(&at.form), RANK);
+        let moments = at.orbit.tr_mul(&at.form) * &at.orbit;
+        let size = (at.orbit.norm() * at.orbit.norm() * at.form.norm()).max(f64::MIN_POSITIVE);
+        let stays = absolute_kernel(&moments, RANK * size);
+        let along = span(&keeping.tr_mul(&(&at.orbit * &stays)), RANK);
+        let columns = &keeping * kernel(&along.transpose(), RANK);
+        Self { columns, along_orbit: along.ncols(), is_compact: is_compact(&at.symmetries, &stays) }
+    }
+
+    fn form(&self, form: &DMatrix<f64>) -> DMatrix<f64> {
+        let form = self.columns.tr_mul(form) * &self.columns;
+        (&form + form.transpose()) * 0.5
+    }
+
+    fn motion<const N: usize>(&self, at: &Linearised<N>) -> DMatrix<f64> {
+        self.columns.tr_mul(&at.motion) * &self.columns
+    }
+
+    /// The second variation, where the motion is Hamiltonian.
+    fn energy<const N: usize>(&self, at: &Linearised<N>) -> Option<DMatrix<f64>> {
+        let whole = at.second_variation();
+        let defect = (&whole - whole.transpose()).norm();
+        (defect <= ASYMMETRY * whole.norm()).then(|| self.form(&whole))
+    }
+}
+
+/// The algebra has an inner product that its group keeps: Killing's form is negative beside the centre.
+fn is_compact<const N: usize>(symmetries: &[Generator<N>], stays: &DMatrix<f64>) -> bool {
+    let element = |column: usize| {
+        let factors = stays.column(column);
+        let terms = symmetries.iter().zip(factors.iter());
+        terms.fold(Generator::<N>::zero(), |sum, (generator, factor)| sum.plus(*factor, generator))
+    };
+    let elements: Vec<_> = (0..stays.ncols()).map(element).collect();
+    if elements.is_empty() {
+        return true;
+    }
+    let components = DMatrix::from_columns(&elements.iter().map(Generator::components).collect::<Vec<_>>());
+    let Ok(inverse) = components.pseudo_inverse(RANK) else { return false };
+    let adjoint: Vec<DMatrix<f64>> = elements
+        .iter()
+        .map(|a| {
+            let brackets: Vec<_> = elements.iter().map(|b| &inverse * a.bracket(b).components()).collect();
+            DMatrix::from_columns(&brackets)
+        })
+        .collect();
+    let killing =
+        DMatrix::from_fn(elements.len(), elements.len(), |a, b| (&adjoint[a] * &adjoint[b]).trace());
+    let stacked: Vec<_> = adjoint.iter().map(|one| DVector::from_column_slice(one.as_slice())).collect();
+    let values = killing.symmetric_eigenvalues();
+    let size = values.amax().max(1.0);
+    let negative = values.iter().filter(|value| **value < -RANK * size).count();
+    let positive = values.iter().any(|value| *value > RANK * size);
+    let centre = absolute_kernel(&DMatrix::from_columns(&stacked), RANK).ncols();
+    !positive && negative + centre == elements.len()
+}
+
+/// Generators that do not move the point, with the derivatives of their fields, by which `zeta` may change.
+fn isotropic<const N: usize, M: Model<N>>(
+    model: &M,
+    turn: &RelativeEquilibrium<N, M::Point<f64>>,
+    at: &Linearised<N>,
+    isotropy: &DMatrix<f64>,
+) -> Vec<(Generator<N>, DMatrix<f64>)> {
+    let z = vector(&model.flatten(&turn.point));
+    let of = |column: usize| {
+        let terms = at.symmetries.iter().zip(isotropy.column(column).iter().copied().collect::<Vec<_>>());
+        let generator = terms.fold(Generator::zero(), |sum, (generator, factor)| sum.plus(factor, generator));
+        let slopes = at.basis.tr_mul(&generated_jacobian(model, &generator, &z)) * &at.basis;
+        // The augmented Hamiltonian changes by `-J`.
+        (generator, -slopes)
+    };
+    let all = (0..isotropy.ncols()).map(of);
+    // What turns `zeta` itself away would not be conserved by the linearised motion.
+    all.filter(|(generator, _)| {
+        let bracket = generator.bracket(&turn.zeta).components().norm();
+        bracket <= RANK * (1.0 + turn.zeta.components().norm())
+    })
+    .collect()
+}
+
+/// The factors of variations for which the least eigenvalue of a form, or of its negative, is largest: a concave function.
+fn nearest_to_definite(energy: &DMatrix<f64>, variations: &[DMatrix<f64>]) -> (Vec<f64>, DMatrix<f64>) {
+    let mut best = (vec![0.0; variations.len()], energy.clone());
+    if energy.is_empty() || variations.is_empty() {
+        return best;
+    }
+    let mut height = f64::NEG_INFINITY;
+    for sign in [1.0, -1.0] {
+        let least = |form: &DMatrix<f64>| (form * sign).symmetric_eigenvalues().min();
+        if least(energy) > 0.0 {
+            return (vec![0.0; variations.len()], energy.clone());
+        }
+        let (mut factors, mut form) = (vec![0.0; variations.len()], energy.clone());
+        for _ in 0..if variations.len() == 1 { 1 } else { ROUNDS } {
+            for (factor, variation) in factors.iter_mut().zip(variations).filter(|(_, one)| one.norm() > 0.0)
+            {
+                let reach = 4.0 * form.norm() / variation.norm();
+                let shift = highest((-reach, reach), |shift| least(&(&form + variation * shift)));
+                *factor += shift;
+                form += variation * shift;
+            }
+        }
+        if least(&form) > height.max(0.0) {
+            height = least(&form);
+            best = (factors, form);
+        }
+    }
+    best
+}
+
+/// Where a concave function is highest, by golden sections.
+fn highest((mut low, mut high): (f64, f64), value: impl Fn(f64) -> f64) -> f64 {
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    for _ in 0..SECTIONS {
+        let (a, b) = (high - golden * (high - low), low + golden * (high - low));
+        if value(a) < value(b) { low = a } else { high = b }
+    }
+    0.5 * (low + high)
+}
+
+/// The largest rate that is above its error.
+fn growth(eigenvalues: &[Eigenvalue]) -> Option<f64> {
+    let growing = eigenvalues.iter().filter(|one| one.value.re > one.error);
+    growing.map(|one| one.value.re).reduce(f64::max)
+}
+
+fn conservative(eigenvalues: &[Eigenvalue]) -> StabilityVerdict {
+    if let Some(rate) = growth(eigenvalues) {
+        return StabilityVerdict::Unstable { rate };
+    }
+    let zero = |value: Complex<f64>, error: f64| value.norm() <= error;
+    if eigenvalues.iter().any(|one| zero(one.value, one.error)) {
+        return StabilityVerdict::Undecided(Doubt::ZeroMode);
+    }
+    if eigenvalues.iter().any(|one| one.is_mixed) {
+        return StabilityVerdict::Undecided(Doubt::MixedSigns);
+    }
+    match is_paired(eigenvalues) {
+        true => StabilityVerdict::LinearlyStable,
+        false => StabilityVerdict::Undecided(Doubt::Cluster),
+    }
+}
+
+fn damped(eigenvalues: &[Eigenvalue]) -> StabilityVerdict {
+    match growth(eigenvalues) {
+        Some(rate) => StabilityVerdict::Unstable { rate },
+        None if eigenvalues.iter().all(|one| one.value.re < -one.error) => StabilityVerdict::Stable,
+        None => StabilityVerdict::Undecided(Doubt::Neutral),
+    }
+}

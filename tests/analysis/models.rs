@@ -1,0 +1,70 @@
+//! The models of these tests.
+
+use affine_runtime::model::Model;
+use affine_runtime::prelude::*;
+
+/// A planar body with d'Alembert's inertia.
+#[affine_model(dim = 2, kinetic(dalembert = i), potential = hyperbolic_dilatation(kappa) + neo_hookean(c1))]
+pub(crate) struct Disc {
+    pub(crate) i: f64,
+    pub(crate) kappa: f64,
+    pub(crate) c1: f64,
+}
+
+/// A symmetric top: `u phi_33` is the height of its centre of mass.
+#[affine_model(dim = 3, constraint = rigid, kinetic(dalembert = diag(j1, j1, j3)), potential = u*phi[3,3])]
+pub(crate) struct Top {
+    pub(crate) j1: f64,
+    pub(crate) j3: f64,
+    pub(crate) u: f64,
+}
+
+/// A top that nothing turns.
+#[affine_model(dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 1.5, 2)))]
+pub(crate) struct FreeTop;
+
+/// A soft body of inertia `diag(j)`, of Saint Venant's material.
+#[affine_model(dim = 3, kinetic(dalembert = diag(1, 1.5, 2)), potential = saint_venant_kirchhoff(1, 5))]
+pub(crate) struct Soft;
+
+/// Left-invariant in space, isotropic in the body, which flies as well.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
+    potential = hyperbolic_dilatation(10) + neo_hookean(0.5)
+)]
+pub(crate) struct Missile;
+
+/// A model whose energy is invariant in space and anisotropic in the body.
+#[affine_model(dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = diag(1, 1.5, 2)))]
+pub(crate) struct Geodesic;
+
+pub(crate) fn turning<const N: usize>(omega: f64) -> Matrix<N> {
+    let mut turn = Matrix::<N>::zeros();
+    (turn[(1, 0)], turn[(0, 1)]) = (omega, -omega);
+    turn
+}
+
+/// The largest distance of a motion from `exp(t zeta)`, over a time.
+pub(crate) fn unrest<const N: usize, M: Model<N>>(
+    model: &M,
+    turn: &affine_runtime::analysis::RelativeEquilibrium<N, M::Point<f64>>,
+    time: f64,
+) -> f64 {
+    let run =
+        Simulation::new(model, *turn.point()).until(time).every(time / 8.0).tolerance(1e-13).run().unwrap();
+    let exponential = |matrix: Matrix<N>| {
+        let (mut sum, mut term) = (Matrix::<N>::identity(), Matrix::<N>::identity());
+        let small = matrix / 1024.0;
+        for k in 1..12 {
+            term = term * small / f64::from(k);
+            sum += term;
+        }
+        (0..10).fold(sum, |power, _| power * power)
+    };
+    let zeta = turn.zeta();
+    let error = |t: f64, phi: &Matrix<N>| {
+        (phi - exponential(zeta.space * t) * turn.point().phi() * exponential(zeta.body * t)).norm()
+    };
+    run.iter().map(|(t, point)| error(t, point.phi())).fold(0.0, f64::max)
+}
