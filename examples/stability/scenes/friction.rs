@@ -28,6 +28,26 @@ struct Bulk {
     r: f64,
 }
 
+/// Anisotropic viscosity beside a stiff spring of shear, whose oscillations die out.
+#[affine_model(
+    dim = 3,
+    symmetry(space = affine, body = metric),
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
+    potential = 10/2*sinh(q)^2 + 3e7*(tr(G)*exp(-2*q) - n),
+    dissipation(body_inertia = [[502000, 250000, 500000], [250000, 127000, 250000], [500000, 250000, 502000]]),
+)]
+struct Spring;
+
+/// A light body that follows its drive: friction is fast for ever.
+#[affine_model(
+    dim = 3,
+    symmetry(space = affine, body = metric),
+    kinetic(casimir2 = 2e-7, casimir1_squared = 1e-7, body_inertia = 1e-6),
+    potential = 10/2*sinh(q)^2 + 0.5*(tr(G)*exp(-2*q) - n) + 0.3*sin(5*t)*G[1,2],
+    dissipation(body_inertia = 1),
+)]
+struct Driven;
+
 const VISCOUS: [(f64, &str); 3] = [
     (1e4, include_str!("../../../tests/data/p9_1e4.csv")),
     (1e6, include_str!("../../../tests/data/p9_1e6_long.csv")),
@@ -38,6 +58,8 @@ const BULK: [(f64, &str); 3] = [
     (1e5, include_str!("../../../tests/data/p10_1e5.csv")),
     (1e7, include_str!("../../../tests/data/p10_1e7.csv")),
 ];
+const SPRING: &str = include_str!("../../../tests/data/p11.csv");
+const DRIVEN: &str = include_str!("../../../tests/data/p12.csv");
 const TOLERANCES: [f64; 3] = [1e-3, 1e-6, 1e-10];
 
 pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> {
@@ -45,13 +67,21 @@ pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> 
     for (r, data) in VISCOUS {
         let model = Viscous { r }.prepare()?;
         let [(_, phi, spin), end] = ends::<3>(data);
-        creeps(report, ("viscous body", r), &model, model.at_momentum(phi, Comoving(spin))?, end);
+        let start = model.at_momentum(phi, Comoving(spin))?;
+        creeps(report, ("viscous body", format!("r = {r:e}")), &model, start, end);
     }
     for (r, data) in BULK {
         let model = Bulk { r }.prepare()?;
         let [(_, phi, spin), end] = ends::<2>(data);
-        creeps(report, ("bulk viscosity", r), &model, model.at_momentum(phi, Comoving(spin))?, end);
+        let start = model.at_momentum(phi, Comoving(spin))?;
+        creeps(report, ("bulk viscosity", format!("r = {r:e}")), &model, start, end);
     }
+    let [(_, phi, spin), end] = ends::<3>(SPRING);
+    let start = Spring.at_momentum(phi, Comoving(spin))?;
+    creeps(report, ("viscous body", "stiff spring".to_owned()), &Spring, start, end);
+    let [(_, phi, spin), end] = ends::<3>(DRIVEN);
+    let start = Driven.at_momentum(phi, Comoving(spin))?;
+    creeps(report, ("viscous body", "light and driven".to_owned()), &Driven, start, end);
     Ok(())
 }
 
@@ -72,13 +102,13 @@ fn ends<const N: usize>(data: &str) -> [Row<N>; 2] {
 
 fn creeps<const N: usize, M: Model<N>>(
     report: &mut StabilityReport,
-    (name, r): (&'static str, f64),
+    (name, extreme): (&'static str, String),
     model: &M,
     start: M::Point<f64>,
     (t_end, phi, _): Row<N>,
 ) {
     for tolerance in TOLERANCES {
-        let named = scene(name, N, format!("r = {r:e}, {tolerance:e}"), "phi", Oracle::Reference);
+        let named = scene(name, N, format!("{extreme}, {tolerance:e}"), "phi", Oracle::Reference);
         report.case(named, Demand::Held(tolerance), || {
             let run =
                 Simulation::new(model, start).until(t_end).tolerance(tolerance).output([t_end]).run()?;

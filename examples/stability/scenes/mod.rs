@@ -3,6 +3,7 @@
 mod bad_input;
 mod coincident;
 mod collapse;
+mod contact;
 mod degenerate;
 mod energies;
 mod flat;
@@ -36,6 +37,7 @@ pub(crate) fn report(extent: Extent) -> affine_runtime::Result<StabilityReport> 
     stiff::cases(&mut report)?;
     penalty::cases(&mut report)?;
     friction::cases(&mut report)?;
+    contact::cases(&mut report)?;
     degenerate::cases(&mut report)?;
     stretches::cases(&mut report)?;
     energies::cases(&mut report)?;
