@@ -51,7 +51,7 @@ fn tolerances_are_met() {
         };
     }
     each_model!(visit);
-    assert_eq!(count, 34);
+    assert_eq!(count, 39);
 }
 
 #[test]

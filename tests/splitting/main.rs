@@ -4,6 +4,7 @@
 mod adaptive;
 mod anisotropic;
 mod confined;
+mod fields;
 mod models;
 mod motions;
 mod pieces;

@@ -242,6 +242,7 @@ macro_rules! each_model {
         $visit!("moored", 2, &model, start);
         crate::anisotropic::each_anisotropic!($visit);
         crate::confined::each_confined!($visit);
+        crate::fields::each_with_fields!($visit);
     }};
 }
 pub(crate) use each_model;

@@ -68,8 +68,10 @@ pub fn forces(
 }
 
 fn custom_field(place: usize, written: &spec::Custom) -> Custom {
-    let force = |on: On| Role::Force { on, gyroscopic: written.marked };
-    let potential = |class: Class| Role::Potential { class, moves: written.marked };
+    let is = |mark: spec::Mark| written.mark == Some(mark);
+    let force =
+        |on: On| Role::Force { on, gyroscopic: is(spec::Mark::Gyroscopic), at_rest: is(spec::Mark::Position) };
+    let potential = |class: Class| Role::Potential { class, moves: is(spec::Mark::Position) };
     let role = match written.role.value {
         spec::Role::Spatial => force(On::Space),
         spec::Role::Comoving => force(On::Body),

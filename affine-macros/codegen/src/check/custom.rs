@@ -26,7 +26,7 @@ pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
         let form = format!("custom({}, ..)", custom.field);
         if custom.role.value == Role::Translation {
             found.report(custom.span, ForceMistake::FixedCentreForce { term: form, key: "forces" });
-        } else if custom.marked && !custom.role.value.is_force() {
+        } else if custom.mark.is_some() && !custom.role.value.is_force() {
             found.report(custom.span, PotentialMistake::FixedCentre { form });
         }
     }

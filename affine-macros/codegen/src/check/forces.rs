@@ -15,6 +15,8 @@ pub(super) fn stand_alone(spec: &Spec, found: &mut Diagnostics) {
         span: term.kind.span,
         under_a_multiplier: false,
         is_formula: true,
+        is_kick: false,
+        has_power: true,
     });
     for force in damping.into_iter().chain(spec.customs.iter().map(Force::of)) {
         for (key, _) in beside(spec, &force).into_iter().filter(|(_, stated)| *stated) {
@@ -32,12 +34,24 @@ struct Force {
     under_a_multiplier: bool,
     /// Is it known by its formula?
     is_formula: bool,
+    /// Is it constant while positions are?
+    is_kick: bool,
+    /// Does it do work, which is integrated beside the motion?
+    has_power: bool,
 }
 
 impl Force {
     fn of(custom: &Custom) -> Self {
         let name = format!("custom({}, ..)", custom.field);
-        Self { name, span: custom.span, under_a_multiplier: !custom.role.value.is_force(), is_formula: false }
+        let is_force = custom.role.value.is_force();
+        Self {
+            name,
+            span: custom.span,
+            under_a_multiplier: !is_force,
+            is_formula: false,
+            is_kick: custom.is_kick(),
+            has_power: is_force,
+        }
     }
 }
 
@@ -52,8 +66,8 @@ fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 7] {
         ("`casimir3`", spec.hamiltonian.as_ref().is_some_and(cubic)),
         ("`group = unitary`", spec.group.is_some()),
         ("`emit(taylor)`", emitted(Capability::Taylor) && !force.is_formula),
-        ("`emit(splitting)`", emitted(Capability::Splitting)),
-        ("`emit(nystrom)`", emitted(Capability::Nystrom)),
+        ("`emit(splitting)`", emitted(Capability::Splitting) && !force.is_kick),
+        ("`emit(nystrom)`", emitted(Capability::Nystrom) && (!force.is_kick || force.has_power)),
         ("`emit(two_polar)`", emitted(Capability::TwoPolar)),
     ]
 }

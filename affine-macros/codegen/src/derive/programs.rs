@@ -54,12 +54,12 @@ impl Body<'_> {
     ) -> Option<Reduced> {
         let reductions = self.reductions(arena, rotations, asked)?;
         let time = self.time(arena);
-        let (h, u) = (self.motion.hamiltonian(), self.potential);
+        let h = self.motion.hamiltonian();
         let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
             let split = h.filter(|_| asked.splitting);
-            let split = split.and_then(|h| Programs::of(arena, h, u, reduction, constants));
+            let split = split.and_then(|h| Programs::of(arena, (h, self), reduction, constants));
             let halves = h.filter(|_| asked.nystrom);
-            let second_order = halves.and_then(|h| Halves::of(arena, h, u, reduction, constants));
+            let second_order = halves.and_then(|h| Halves::of(arena, (h, self), reduction, constants));
             Pieces { splitting: split, second_order }
         };
         shortest_reduction(arena, reductions, time, pieces, coefficients)

@@ -5,8 +5,8 @@ use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::equations::System;
+use crate::mechanics::body::Body;
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::potential::Potential;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::second_order::second_order;
 use crate::optimise::straight_line;
@@ -30,15 +30,14 @@ impl Halves {
     /// Those of the chosen reduction; coefficients that a trajectory fixes join `constants`.
     pub(super) fn of(
         arena: &mut Arena,
-        h: &Hamiltonian,
-        potential: Option<&Potential>,
+        (h, body): (&Hamiltonian, &Body),
         reduction: &Reduction,
         constants: &mut Constants,
     ) -> Option<Self> {
-        let halves = second_order(arena, h, potential, reduction)?;
+        let halves = second_order(arena, (h, body), reduction)?;
         let mut varying: Vec<Expr> =
             reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
-        varying.extend(potential.and_then(Potential::time));
+        varying.extend(body.time(arena));
         let names = |arena: &Arena, system: &System| -> Vec<Symbol> {
             let symbols = system.rates.iter().map(|(_, symbol, _)| *symbol);
             symbols.map(|s| arena.symbol_of(s)).collect()

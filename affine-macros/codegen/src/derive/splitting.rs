@@ -4,8 +4,8 @@ use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
+use crate::mechanics::body::Body;
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::potential::Potential;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::splitting::{Flow, Principal, splitting};
 use crate::optimise::{Batch, straight_line};
@@ -92,15 +92,14 @@ impl Programs {
     /// The pieces of the chosen reduction; coefficients that a trajectory fixes join `constants`.
     pub(super) fn of(
         arena: &mut Arena,
-        h: &Hamiltonian,
-        potential: Option<&Potential>,
+        (h, body): (&Hamiltonian, &Body),
         reduction: &Reduction,
         constants: &mut Constants,
     ) -> Option<Self> {
-        let split = splitting(arena, h, potential, reduction)?;
+        let split = splitting(arena, (h, body), reduction)?;
         let mut varying: Vec<Expr> =
             reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
-        varying.extend(potential.and_then(Potential::time));
+        varying.extend(body.time(arena));
         varying.push(arena.symbol(Quantity::TimeOfFlow));
         let mut pieces = Vec::new();
         for piece in split.pieces {

@@ -36,6 +36,8 @@ pub enum Role {
         on: On,
         /// It has no power.
         gyroscopic: bool,
+        /// It depends on no velocity: what it is told of one is zero.
+        at_rest: bool,
     },
     /// A potential.
     Potential {
@@ -95,7 +97,9 @@ impl Custom {
     pub fn load(&self, arena: &mut Arena, chart: &Chart, velocity: &CentreVelocity) -> Load {
         let mut shared = Shared { arena, list: Vec::new() };
         let (kernel, affine, centre, work) = match self.role {
-            Role::Force { on, gyroscopic } => self.force(&mut shared, chart, velocity, on, gyroscopic),
+            Role::Force { on, gyroscopic, at_rest } => {
+                self.force(&mut shared, chart, velocity, (on, gyroscopic, at_rest))
+            }
             Role::Potential { class, moves } => self.slopes(&mut shared, chart, class, moves),
         };
         let mut forces = Vec::new();
@@ -123,17 +127,17 @@ impl Custom {
         shared: &mut Shared,
         chart: &Chart,
         centre: &CentreVelocity,
-        on: On,
-        gyroscopic: bool,
+        (on, gyroscopic, at_rest): (On, bool, bool),
     ) -> Parts {
         let n = chart.dim;
         let phi_dot = shared.phi_dot(chart);
         let phi_dot = shared.matrix(Quantity::PlacementVelocity, &phi_dot);
         let x_dot = shared.x_dot(chart, centre);
         let mut arguments = placed(shared.arena, chart);
-        arguments.push(Group::Vector(or_zero(x_dot.clone(), n)));
-        arguments.push(Group::Matrix(phi_dot.clone()));
         let zero = table(n, |_, _| Polynomial::zero());
+        let told = if at_rest { (Vec::new(), zero.clone()) } else { (x_dot.clone(), phi_dot.clone()) };
+        arguments.push(Group::Vector(or_zero(told.0, n)));
+        arguments.push(Group::Matrix(told.1));
         let mut centre = vec![Polynomial::zero(); chart.p.len()];
         let mut affine = zero;
         let mut power = Polynomial::zero();

@@ -2,10 +2,10 @@
 
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
+use super::body::Body;
 use super::charts::Coordinate;
 use super::equations::System;
 use super::hamiltonian::Hamiltonian;
-use super::potential::Potential;
 use super::reduction::Reduction;
 use super::splitting::{Flow, Piece, splitting};
 use crate::symbol::Quantity;
@@ -25,11 +25,10 @@ pub struct SecondOrder {
 /// Both are decided by the pieces of the Hamiltonian: flows that leave alone what their rates read.
 pub fn second_order(
     arena: &mut Arena,
-    h: &Hamiltonian,
-    potential: Option<&Potential>,
+    (h, body): (&Hamiltonian, &Body),
     reduction: &Reduction,
 ) -> Option<SecondOrder> {
-    let split = splitting(arena, h, potential, reduction)?;
+    let split = splitting(arena, (h, body), reduction)?;
     let [kinetic, kick] = split.pieces.as_slice() else { return None };
     let states: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
     let half = |quantities: [Quantity; 2]| -> Vec<Expr> {

@@ -31,6 +31,7 @@ mod turns;
 
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
+use super::body::Body;
 use super::brackets::poisson;
 use super::charts::{Coordinate, Momentum};
 use super::equations::{Form, System};
@@ -40,6 +41,7 @@ use super::potential::Potential;
 use super::reduction::Reduction;
 use super::separation::Separation;
 use super::term::Frame;
+use crate::symbol::Quantity;
 pub use flows::Flow;
 use flows::{exact_flow, expanded};
 pub use squares::Principal;
@@ -69,19 +71,21 @@ pub struct Piece {
 /// The pieces of a reduced system; `None` where one of them has no flow in closed form.
 pub fn splitting(
     arena: &mut Arena,
-    h: &Hamiltonian,
-    potential: Option<&Potential>,
+    (h, body): (&Hamiltonian, &Body),
     reduction: &Reduction,
 ) -> Option<Splitting> {
+    let potential = body.potential;
     let own = own_dilatation(arena, h, potential, reduction);
     let summands = match (&reduction.dilatation, &own) {
         (Some(_), _) => separated(arena, reduction),
         (None, Some(own)) => summands(arena, &own.h, Some(&own.rest), reduction)?,
         (None, None) => summands(arena, h, potential, reduction)?,
     };
+    let kicks = kicks(arena, body, reduction)?;
     let summands: Vec<Summand> =
-        summands.into_iter().filter(|summand| !summand.system.rates.is_empty()).collect();
-    let flow = |arena: &Arena, system: &System| exact_flow(arena, &reduction.chart, system);
+        summands.into_iter().chain(kicks).filter(|summand| !summand.system.rates.is_empty()).collect();
+    let time = arena.symbol(Quantity::TimeOfFlow);
+    let flow = |arena: &Arena, system: &System| exact_flow(arena, &reduction.chart, system, time);
     let Squares { groups: squares, principal } = match (&h.isotropic, h.frame) {
         (None, Frame::Body | Frame::Space) => Squares::of(arena, &reduction.chart, &h.internal())?,
         _ => Squares::default(),
@@ -223,6 +227,32 @@ fn summands(
     Some(summands)
 }
 
+/// What the fields of the model add, each by itself: forces and slopes that depend on positions, and the work of the forces.
+fn kicks(arena: &mut Arena, body: &Body, reduction: &Reduction) -> Option<Vec<Summand>> {
+    let chart = &reduction.chart;
+    let centre = body.motion.centre_velocity(arena);
+    let mut summands = Vec::new();
+    for custom in &body.forces.customs {
+        let mut load = custom.load(arena, chart, &centre);
+        if load.work.is_some() {
+            let (kinetics, _) = body.motion.kinetics(arena, chart).into_iter().next()?;
+            load.shared.splice(0..0, kinetics.shared);
+        }
+        let load = match chart.confined {
+            Some(group) => load.confined(arena, chart, group),
+            None => load,
+        };
+        let force =
+            |z: &Coordinate| load.forces.iter().find(|(at, _)| at == z).map(|(_, force)| force.clone());
+        let rates = chart.independent().into_iter().filter_map(|z| Some((z, chart.symbol(z), force(&z)?)));
+        let rates = rates.collect();
+        let system = System { rates, shared: load.shared, kernels: load.kernels, work: load.work };
+        let system = over_the_state(arena, reduction, system)?;
+        summands.push(Summand { name: format!("`{}`", custom.name), energy: None, system });
+    }
+    Some(summands)
+}
+
 /// `Psi' = Psi O` and `O' = ` the forces, where the dilatation is out of the state.
 fn separated(arena: &Arena, reduction: &Reduction) -> Vec<Summand> {
     let system = &reduction.system;
@@ -241,6 +271,10 @@ fn separated(arena: &Arena, reduction: &Reduction) -> Vec<Summand> {
 fn is_nystrom(reduction: &Reduction, groups: &[(Vec<Summand>, Vec<Flow>)]) -> bool {
     let [(first, _), (_, flows)] = groups else { return false };
     let [Flow::Shift(kick)] = flows.as_slice() else { return false };
+    // The rate of the work is linear in the momenta.
+    if kick.rates.iter().any(|(z, ..)| matches!(z, Coordinate::Carried(_))) {
+        return false;
+    }
     if reduction.dilatation.is_some() {
         // tr sigma^2/(2 alpha), see `separated` in the reduction.
         return true;

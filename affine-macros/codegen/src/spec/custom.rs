@@ -14,8 +14,8 @@ pub struct Custom {
     pub field: Ident,
     /// What it computes.
     pub role: Spanned<Role>,
-    /// Is more said: `gyroscopic` of a force, `position` of a potential?
-    pub marked: bool,
+    /// What more is said of it.
+    pub mark: Option<Mark>,
     /// `custom(...)`.
     pub span: Region,
 }
@@ -37,6 +37,26 @@ pub enum Role {
     Finger,
     /// Any other potential.
     General,
+}
+
+/// What may be said of what a field computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// A force that has no power.
+    Gyroscopic,
+    /// A potential that depends on `x`; a force that depends on the time, `x` and `phi` alone.
+    Position,
+}
+
+impl Named for Mark {
+    const ALL: &'static [Self] = &[Self::Gyroscopic, Self::Position];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Gyroscopic => "gyroscopic",
+            Self::Position => "position",
+        }
+    }
 }
 
 impl Named for Role {
@@ -71,6 +91,14 @@ impl Role {
     }
 }
 
+impl Custom {
+    /// Does it depend on the time and on positions alone, so that it is constant while it acts?
+    #[must_use]
+    pub fn is_kick(&self) -> bool {
+        !self.role.value.is_force() || self.mark == Some(Mark::Position)
+    }
+}
+
 /// Which key `custom(...)` stands in.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
@@ -96,16 +124,14 @@ impl Place {
             }
             Self::Forces => {
                 "the form of the force, `spatial` (Q), `comoving` (Q_hat) or `translation` (Q_tr), and `gyroscopic` \
-                 where it has no power"
+                 where it has no power or `position` where it depends on no velocity"
             }
         }
     }
 
-    fn mark(self) -> &'static str {
-        match self {
-            Self::Potential => "position",
-            Self::Forces => "gyroscopic",
-        }
+    /// What may be said beside the role.
+    fn takes_mark(self, mark: Mark) -> bool {
+        self == Self::Forces || mark == Mark::Position
     }
 }
 
@@ -167,13 +193,14 @@ fn custom(list: Vec<Piece>, at: Region, place: Place, found: &mut Diagnostics) -
         found.report(at, malformed(place, "no field".to_owned(), None));
         None
     })?;
-    let (mut role, mut marked) = (None, false);
+    let (mut role, mut mark) = (None, None);
     for (name, at) in names {
         let text = name.to_string();
         let named = Role::named(&text).filter(|role| role.is_force() == (place == Place::Forces));
+        let said = Mark::named(&text).filter(|mark| place.takes_mark(*mark));
         match named {
             Some(value) if role.is_none() => role = Some(Spanned { value, span: at }),
-            None if text == place.mark() && !marked => marked = true,
+            None if mark.is_none() && said.is_some() => mark = said,
             _ => {
                 found.report(at, malformed(place, format!("`{text}`"), Some(&field)));
                 return None;
@@ -184,7 +211,7 @@ fn custom(list: Vec<Piece>, at: Region, place: Place, found: &mut Diagnostics) -
         found.report(at, malformed(place, "the field alone".to_owned(), Some(&field)));
         return None;
     };
-    Some(Custom { field, role, marked, span: at })
+    Some(Custom { field, role, mark, span: at })
 }
 
 /// A force that is no `custom(...)`.

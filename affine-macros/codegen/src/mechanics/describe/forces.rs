@@ -63,7 +63,7 @@ impl Forces {
             power.push(("-2 R".to_owned(), "-2 R".to_owned()));
         }
         for custom in &self.customs {
-            let Role::Force { on, gyroscopic: false } = custom.role else { continue };
+            let Role::Force { on, gyroscopic: false, .. } = custom.role else { continue };
             let (name, latex) = symbols(custom);
             power.push(match on {
                 On::Space => (format!("tr({name} Omega)"), format!("\\operatorname{{tr}}({latex} \\Omega)")),

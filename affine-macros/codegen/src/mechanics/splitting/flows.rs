@@ -39,10 +39,13 @@ pub(super) fn expanded(mut system: System) -> System {
 }
 
 /// The flow of a system, where it has one of the two forms.
-pub(super) fn exact_flow(arena: &Arena, chart: &Chart, system: &System) -> Option<Flow> {
+pub(super) fn exact_flow(arena: &Arena, chart: &Chart, system: &System, time: Expr) -> Option<Flow> {
+    let system = &with_work(arena, system, time);
     let moved = |s: Expr| system.rates.iter().any(|(_, symbol, _)| *symbol == s);
     let shared = system.shared.iter().map(|(_, p)| p).chain(system.kernels.iter().flat_map(Kernel::inputs));
-    let read = shared.chain(system.rates.iter().map(|(_, _, rate)| rate));
+    // Nothing reads the work.
+    let rates = system.rates.iter().filter(|(z, ..)| !matches!(z, Coordinate::Carried(_)));
+    let read = shared.chain(rates.map(|(_, _, rate)| rate));
     if !read.into_iter().any(|p| p.any_symbol(arena, &mut |s| moved(s))) {
         return Some(Flow::Shift(system.clone()));
     }
@@ -57,6 +60,32 @@ pub(super) fn exact_flow(arena: &Arena, chart: &Chart, system: &System) -> Optio
         right,
         turns_momentum,
     })
+}
+
+/// The system with the mean rate of its work over a time `h` among the rates. The power `P` is linear in momenta, which rise at
+/// constant rates: the mean is `P + h/2 (dP/dz) z'`.
+fn with_work(arena: &Arena, system: &System, time: Expr) -> System {
+    let mut system = system.clone();
+    let Some((symbol, mut power)) = system.work.take() else { return system };
+    // Velocities change along, and what is named by them: in momenta.
+    let mut moved: Vec<Expr> = system.rates.iter().map(|(_, symbol, _)| *symbol).collect();
+    let mut named: Vec<&(Expr, Polynomial)> = Vec::new();
+    for definition in &system.shared {
+        if definition.1.any_symbol(arena, &mut |s| moved.contains(&s)) {
+            moved.push(definition.0);
+            named.push(definition);
+        }
+    }
+    for (name, value) in named.into_iter().rev() {
+        power = power.substitute(&|atom| (atom == *name).then(|| value.clone()));
+    }
+    let half = Polynomial::term(vec![time], Rational::HALF);
+    let mut mean = power.clone();
+    for (_, s, rate) in &system.rates {
+        mean.add_product(&half.mul(&power.derivative(*s)), rate, &Rational::ONE);
+    }
+    system.rates.push((Coordinate::Carried(symbol), symbol, mean));
+    system.tidied(arena)
 }
 
 /// `Y` with `phi' = phi Y` or `phi' = Y phi` and `Y' = 0`, and whether it stands on the right. Nothing else moves but
