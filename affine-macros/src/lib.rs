@@ -190,6 +190,7 @@ use proc_macro::TokenStream;
 /// | `forces = custom(field, comoving)` | `Q_hat` | `tr(Q_hat Oh)` |
 /// | `forces = custom(field, translation)` | `Q_tr` | `Q_tr . x_dot` |
 /// | `gyroscopic` after the form | likewise | none: the energy stays conserved |
+/// | `position` after the form | likewise; told of velocities that they are zero | as above |
 ///
 /// The type of a field implements `affine_runtime::force::Force`. `R >= 0` is proved, or checked by `prepare()`, frame by frame;
 /// the Casimir terms count with those of the body, or else with those of space. Under a constraint the forces are projected to
@@ -197,7 +198,9 @@ use proc_macro::TokenStream;
 ///
 /// | refused beside | |
 /// |---|---|
-/// | `casimir3`, `group = unitary`, `emit(splitting)`, `emit(nystrom)`, `emit(two_polar)` | dissipation and fields |
+/// | `casimir3`, `group = unitary`, `emit(two_polar)` | dissipation and fields |
+/// | `emit(splitting)` | forces of fields without `position`; kicks of the others and the fading of momenta by friction are pieces |
+/// | `emit(nystrom)` | dissipation and forces of fields, whose work depends on velocities |
 /// | `emit(taylor)` | fields |
 /// | `constraint = isochoric` of `dalembert`, which a multiplier keeps | dissipation and forces; it takes potentials alone |
 ///

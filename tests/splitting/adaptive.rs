@@ -51,7 +51,7 @@ fn tolerances_are_met() {
         };
     }
     each_model!(visit);
-    assert_eq!(count, 39);
+    assert_eq!(count, 43);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What fields of a model compute, as kicks: potentials, and forces that depend on positions alone, with their work.
+//! Pieces besides T and U: kicks by what fields compute, and friction, with their work.
 
 use affine_runtime::force::{Force, Motion, Spatial as SpatialForce, Translation};
 use affine_runtime::prelude::*;
@@ -35,7 +35,9 @@ impl<const N: usize> Force<N> for Twist {
     fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {
         let c = T::constant(self.strength, 0.0);
         let entry = (0..N).fold(T::zero(), |sum, a| sum + m.phi[(0, a)] * m.phi[(1, a)]);
-        Matrix::<N, T>::from_fn(|i, j| c * (m.phi[(0, i)] * m.x[j] + if i == j { entry } else { m.phi[(j, 0)] }))
+        Matrix::<N, T>::from_fn(|i, j| {
+            c * (m.phi[(0, i)] * m.x[j] + if i == j { entry } else { m.phi[(j, 0)] })
+        })
     }
 }
 
@@ -114,6 +116,52 @@ pub(crate) struct Confined {
     pub(crate) twist: Twist,
 }
 
+/// Friction in the frame of the energy: momenta fade in blocks.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
+    potential = hyperbolic_dilatation(10) + neo_hookean(0.5),
+    dissipation(body_inertia = 0.3, casimir1_squared = 0.2),
+    emit(splitting),
+)]
+pub(crate) struct Viscous;
+
+/// Friction in the frames of body and space, of placement and centre, and a field: all momenta fade together.
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = diag(1, 1.5), space_translation = 2),
+    potential = tr(G)/2 - ln(det) + norm(x)^2/2,
+    dissipation(body_inertia = r, space_inertia = 0.2, space_translation = 0.3),
+    forces = custom(twist, spatial, position),
+    emit(splitting),
+)]
+pub(crate) struct Damped {
+    pub(crate) r: f64,
+    pub(crate) twist: Twist,
+}
+
+/// Friction on a group, beside the weight of a centre that the body carries.
+#[affine_model(
+    dim = 3,
+    constraint = isochoric,
+    kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 2),
+    potential = tr(G)/2 + norm(x)^2/2,
+    dissipation(space_inertia = 0.3, body_translation = 0.2),
+    emit(splitting),
+)]
+pub(crate) struct Sticky;
+
+/// Friction of a top.
+#[affine_model(
+    dim = 3,
+    constraint = rigid,
+    kinetic(body_inertia = diag(1, 1.5, 2)),
+    potential = 5*phi[3,3],
+    dissipation(body_inertia = diag(0.1, 0.2, 0.4)),
+    emit(splitting),
+)]
+pub(crate) struct Slowed;
+
 /// Halves of the equations, one of which a field computes.
 #[affine_model(
     dim = 2,
@@ -142,6 +190,19 @@ macro_rules! each_with_fields {
         let model = Confined { twist: Twist { strength: 0.5 } }.prepare().unwrap();
         let phi = phi3() / phi3().determinant().cbrt();
         $visit!("confined", 3, &model, model.at_momentum(phi, Comoving(spin3())).unwrap());
+        let start = Viscous.at_momentum(phi3(), Comoving(spin3())).unwrap();
+        $visit!("viscous", 3, &Viscous, start);
+        let model = Damped { r: 0.4, twist: Twist { strength: 0.5 } }.prepare().unwrap();
+        $visit!("damped", 2, &model, model.at_momentum(x, phi2(), p, Spatial(spin2())).unwrap());
+        let start = Sticky.at_momentum(x3(), phi, p3(), Comoving(spin3())).unwrap();
+        $visit!("sticky", 3, &Sticky, start);
+        let start = Slowed
+            .at_momentum(
+                affine_runtime::decompose::polar(&phi3()).unwrap().rotation,
+                Comoving(3.0 * (spin3() - spin3().transpose())),
+            )
+            .unwrap();
+        $visit!("slowed", 3, &Slowed, start);
     }};
 }
 pub(crate) use each_with_fields;
@@ -172,13 +233,14 @@ fn work_of_kicks() {
         };
     }
     each_with_fields!(visit);
-    assert_eq!(count, 5);
+    assert_eq!(count, 9);
 }
 
 #[test]
 fn halves_with_a_field() {
     let model = Halved { field: Field { strength: 0.3 } }.prepare().unwrap();
-    let start = model.at_momentum(Vector::<2>::new(0.4, -0.1), phi2(), Vector::<2>::new(0.3, -0.2), Spatial(spin2()));
+    let start =
+        model.at_momentum(Vector::<2>::new(0.4, -0.1), phi2(), Vector::<2>::new(0.3, -0.2), Spatial(spin2()));
     let start = start.unwrap();
     let end = |method| {
         let run = Simulation::new(&model, start).until(5.0).tolerance(1e-13).output([5.0]).method(method);

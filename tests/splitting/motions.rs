@@ -50,7 +50,7 @@ fn orders_on_nonlinear_problems() {
         };
     }
     each_model!(visit);
-    assert_eq!(count, 39);
+    assert_eq!(count, 43);
 }
 
 /// The rows of a reference solution: time, `phi`, affine spin.

@@ -75,7 +75,7 @@ fn slopes_add_up_and_times_add() {
         };
     }
     each_model!(visit);
-    assert_eq!(count, 39);
+    assert_eq!(count, 43);
 }
 
 #[test]

@@ -69,8 +69,11 @@ pub fn forces(
 
 fn custom_field(place: usize, written: &spec::Custom) -> Custom {
     let is = |mark: spec::Mark| written.mark == Some(mark);
-    let force =
-        |on: On| Role::Force { on, gyroscopic: is(spec::Mark::Gyroscopic), at_rest: is(spec::Mark::Position) };
+    let force = |on: On| Role::Force {
+        on,
+        gyroscopic: is(spec::Mark::Gyroscopic),
+        at_rest: is(spec::Mark::Position),
+    };
     let potential = |class: Class| Role::Potential { class, moves: is(spec::Mark::Position) };
     let role = match written.role.value {
         spec::Role::Spatial => force(On::Space),

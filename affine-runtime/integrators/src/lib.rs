@@ -40,6 +40,7 @@ use core::fmt;
 #[doc(hidden)]
 pub mod __private {
     pub use crate::splitting::dilated::dilated;
+    pub use crate::splitting::fading::fading;
     pub use crate::splitting::growth::{
         accumulate, conjugated, elongation, growth, left_product, right_product, turning,
     };

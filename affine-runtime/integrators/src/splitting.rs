@@ -4,6 +4,7 @@
 pub(crate) mod adaptive;
 pub(crate) mod coefficients;
 pub(crate) mod dilated;
+pub(crate) mod fading;
 pub(crate) mod growth;
 
 pub use adaptive::AdaptiveSplitting;

@@ -26,6 +26,8 @@ pub enum Callee {
     Elongation,
     /// `x, k -> sinh(x sqrt k)/sqrt k, (cosh(x sqrt k) - 1)/k`.
     Turn,
+    /// `h, A, z -> (exp(-h A) - 1) z`.
+    Fading,
     /// The field `custom_k` of the model, `k` from 1, asked for a force or a potential.
     Custom(usize, Asked),
 }

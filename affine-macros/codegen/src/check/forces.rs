@@ -15,8 +15,8 @@ pub(super) fn stand_alone(spec: &Spec, found: &mut Diagnostics) {
         span: term.kind.span,
         under_a_multiplier: false,
         is_formula: true,
-        is_kick: false,
-        has_power: true,
+        has_a_flow: true,
+        is_conservative: false,
     });
     for force in damping.into_iter().chain(spec.customs.iter().map(Force::of)) {
         for (key, _) in beside(spec, &force).into_iter().filter(|(_, stated)| *stated) {
@@ -34,10 +34,10 @@ struct Force {
     under_a_multiplier: bool,
     /// Is it known by its formula?
     is_formula: bool,
-    /// Is it constant while positions are?
-    is_kick: bool,
-    /// Does it do work, which is integrated beside the motion?
-    has_power: bool,
+    /// Is its motion known while positions stay: a kick, or friction that is linear in velocities?
+    has_a_flow: bool,
+    /// Does it follow from a potential? The work of any other is integrated beside the motion.
+    is_conservative: bool,
 }
 
 impl Force {
@@ -49,8 +49,8 @@ impl Force {
             span: custom.span,
             under_a_multiplier: !is_force,
             is_formula: false,
-            is_kick: custom.is_kick(),
-            has_power: is_force,
+            has_a_flow: custom.is_kick(),
+            is_conservative: !is_force,
         }
     }
 }
@@ -66,8 +66,8 @@ fn beside(spec: &Spec, force: &Force) -> [(&'static str, bool); 7] {
         ("`casimir3`", spec.hamiltonian.as_ref().is_some_and(cubic)),
         ("`group = unitary`", spec.group.is_some()),
         ("`emit(taylor)`", emitted(Capability::Taylor) && !force.is_formula),
-        ("`emit(splitting)`", emitted(Capability::Splitting) && !force.is_kick),
-        ("`emit(nystrom)`", emitted(Capability::Nystrom) && (!force.is_kick || force.has_power)),
+        ("`emit(splitting)`", emitted(Capability::Splitting) && !force.has_a_flow),
+        ("`emit(nystrom)`", emitted(Capability::Nystrom) && !force.is_conservative),
         ("`emit(two_polar)`", emitted(Capability::TwoPolar)),
     ]
 }

@@ -69,6 +69,13 @@ impl ForceMistake {
                         "what it leaves conserved is decided for velocities that are linear in the momenta"
                     }
                     "`group = unitary`" => "the lattice of U(n) is that of the Casimir terms alone",
+                    "`emit(splitting)`" => {
+                        "a force is a piece of its own where it depends on positions alone, and is said to: \
+                         `custom(field, form, position)`"
+                    }
+                    "`emit(nystrom)`" => {
+                        "Nystrom methods integrate q'' = f(t, q), and the work of a force and friction depend on velocities"
+                    }
                     _ => "what is emitted there is derived from T and from potentials that are formulas",
                 },
                 "remove one of the two",

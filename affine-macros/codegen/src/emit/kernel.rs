@@ -22,6 +22,7 @@ pub(super) fn statement(
         Callee::LogStretches => quote!(#rt::principal_log_stretches),
         Callee::Elongation => quote!(#rt::elongation),
         Callee::Turn => quote!(#rt::turning),
+        Callee::Fading => quote!(#rt::fading),
         Callee::Custom(k, asked) => {
             let field = format_ident!("custom_{k}");
             arguments.insert(0, quote!(#field));

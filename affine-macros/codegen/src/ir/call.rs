@@ -23,7 +23,9 @@ impl Call {
     pub fn field(&self) -> Option<usize> {
         match self.callee {
             Callee::Custom(place, _) => Some(place),
-            Callee::Stretches | Callee::LogStretches | Callee::Elongation | Callee::Turn => None,
+            Callee::Stretches | Callee::LogStretches | Callee::Elongation | Callee::Turn | Callee::Fading => {
+                None
+            }
         }
     }
 

@@ -80,7 +80,7 @@ impl Program {
 /// What a runtime function executes.
 fn kernel_operations(call: &Call) -> Operations {
     let n = match call.arguments.as_slice() {
-        [Group::Matrix(rows)] => rows.len(),
+        [Group::Matrix(rows)] | [_, Group::Matrix(rows), _] => rows.len(),
         _ => 0,
     };
     match call.callee {
@@ -90,6 +90,10 @@ fn kernel_operations(call: &Call) -> Operations {
         Callee::Elongation => Operations { exp: 1, mul: 3, add: 1, div: 2, ..Operations::default() },
         // Of a half of the argument.
         Callee::Turn => Operations { exp: 2, mul: 7, div: 1, sqrt: 1, ..Operations::default() },
+        // Eighteen products of a matrix and a vector, where the time is short.
+        Callee::Fading => {
+            Operations { mul: 18 * (n * n + n), add: 18 * (n * n + n), ..Operations::default() }
+        }
         // One-sided Jacobi: scaling, so many rotations of two columns of two matrices, lengths.
         Callee::Stretches => {
             let rotations = if n == 2 { 2 } else { 12 };

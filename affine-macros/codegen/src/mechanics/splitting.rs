@@ -25,6 +25,7 @@
 //! one another in one; translation and potential are one piece where their sum has the first form.
 
 mod flows;
+mod friction;
 mod squares;
 mod summand;
 mod turns;
@@ -34,7 +35,8 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use super::body::Body;
 use super::brackets::poisson;
 use super::charts::{Coordinate, Momentum};
-use super::equations::{Form, System};
+use super::custom::Custom;
+use super::equations::{Form, Load, System};
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetics::Kinetics;
 use super::potential::Potential;
@@ -122,6 +124,7 @@ pub fn splitting(
             system: System::default(),
         });
     }
+    groups.extend(friction(arena, (h, body), reduction)?.map(|(summand, flow)| (vec![summand], vec![flow])));
     let nystrom = is_nystrom(reduction, &groups);
     let name = |list: &[Summand]| list.iter().map(|s| s.name.as_str()).collect::<Vec<_>>().join(" + ");
     let pieces = groups.into_iter().map(|(list, flows)| Piece { name: name(&list), flows }).collect();
@@ -229,28 +232,50 @@ fn summands(
 
 /// What the fields of the model add, each by itself: forces and slopes that depend on positions, and the work of the forces.
 fn kicks(arena: &mut Arena, body: &Body, reduction: &Reduction) -> Option<Vec<Summand>> {
-    let chart = &reduction.chart;
     let centre = body.motion.centre_velocity(arena);
-    let mut summands = Vec::new();
-    for custom in &body.forces.customs {
-        let mut load = custom.load(arena, chart, &centre);
-        if load.work.is_some() {
-            let (kinetics, _) = body.motion.kinetics(arena, chart).into_iter().next()?;
-            load.shared.splice(0..0, kinetics.shared);
-        }
-        let load = match chart.confined {
-            Some(group) => load.confined(arena, chart, group),
-            None => load,
-        };
-        let force =
-            |z: &Coordinate| load.forces.iter().find(|(at, _)| at == z).map(|(_, force)| force.clone());
-        let rates = chart.independent().into_iter().filter_map(|z| Some((z, chart.symbol(z), force(&z)?)));
-        let rates = rates.collect();
-        let system = System { rates, shared: load.shared, kernels: load.kernels, work: load.work };
-        let system = over_the_state(arena, reduction, system)?;
-        summands.push(Summand { name: format!("`{}`", custom.name), energy: None, system });
+    let kick = |custom: &Custom| {
+        let load = custom.load(arena, &reduction.chart, &centre);
+        let system = acting(arena, body, reduction, load)?;
+        Some(Summand { name: format!("`{}`", custom.name), energy: None, system })
+    };
+    body.forces.customs.iter().map(kick).collect()
+}
+
+/// The friction, with its flow.
+fn friction(
+    arena: &mut Arena,
+    (h, body): (&Hamiltonian, &Body),
+    reduction: &Reduction,
+) -> Option<Option<(Summand, Flow)>> {
+    let Some(dissipation) = &body.forces.dissipation else { return Some(None) };
+    let centre = body.motion.centre_velocity(arena);
+    let load = dissipation.load(arena, &reduction.chart, &centre);
+    let system = acting(arena, body, reduction, load)?;
+    let flow = friction::flow(arena, h, reduction, &system)?;
+    Some(Some((Summand { name: "friction".to_owned(), energy: None, system }, flow)))
+}
+
+/// What a load moves of the state by itself.
+fn acting(arena: &mut Arena, body: &Body, reduction: &Reduction, mut load: Load) -> Option<System> {
+    let chart = &reduction.chart;
+    // Its work, and friction all of it, read velocities.
+    if load.work.is_some() {
+        let skew = reduction.commuting.rotation.is_some();
+        let (kinetics, _) = body.motion.kinetics_without(arena, chart, skew).into_iter().next()?;
+        load.shared.splice(0..0, kinetics.shared);
     }
-    Some(summands)
+    let load = match chart.confined {
+        Some(group) => load.confined(arena, chart, group),
+        None => load,
+    };
+    let force = |z: &Coordinate| load.forces.iter().find(|(at, _)| at == z).map(|(_, force)| force.clone());
+    let rates = chart.independent().into_iter().filter_map(|z| Some((z, chart.symbol(z), force(&z)?)));
+    let rates = rates.collect();
+    over_the_state(
+        arena,
+        reduction,
+        System { rates, shared: load.shared, kernels: load.kernels, work: load.work },
+    )
 }
 
 /// `Psi' = Psi O` and `O' = ` the forces, where the dilatation is out of the state.

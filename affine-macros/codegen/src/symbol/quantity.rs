@@ -76,7 +76,7 @@ quantities! {
     BodyRatio "body"
     // Splittings.
     BlockValue "square" BlockAxis "axis" FlowRate "rate" Growth "growth" FlowDecay "decay" Sine "sine"
-    Versine "versine"
+    Versine "versine" Faded "faded"
     // Results of programs.
     Energy "energy" Power "power" Mass "mass" InverseMass "inverse_mass" Acceleration "acceleration"
     InverseAlpha "inverse_alpha" InverseBeta "inverse_beta" InverseMu "inverse_mu" Casimir3 "casimir3"

@@ -66,8 +66,25 @@ pub(super) fn exact_flow(arena: &Arena, chart: &Chart, system: &System, time: Ex
 /// constant rates: the mean is `P + h/2 (dP/dz) z'`.
 fn with_work(arena: &Arena, system: &System, time: Expr) -> System {
     let mut system = system.clone();
-    let Some((symbol, mut power)) = system.work.take() else { return system };
-    // Velocities change along, and what is named by them: in momenta.
+    let Some((symbol, power)) = system.work.take() else { return system };
+    let power = written_out(arena, &system, &power);
+    let half = Polynomial::term(vec![time], Rational::HALF);
+    let mut mean = power.clone();
+    for (_, s, rate) in &system.rates {
+        mean.add_product(&half.mul(&power.derivative(*s)), rate, &Rational::ONE);
+    }
+    system.rates.push((Coordinate::Carried(symbol), symbol, mean));
+    system.tidied(arena)
+}
+
+/// The rates of a system that moves momenta alone, in these: with velocities and forces written out.
+pub(super) fn in_momenta(arena: &Arena, system: &System) -> Vec<(Coordinate, Expr, Polynomial)> {
+    let rates = system.rates.iter();
+    rates.map(|(z, symbol, rate)| (*z, *symbol, written_out(arena, system, rate))).collect()
+}
+
+/// With the definitions of all that changes while a system moves, velocities and what is named by them.
+fn written_out(arena: &Arena, system: &System, polynomial: &Polynomial) -> Polynomial {
     let mut moved: Vec<Expr> = system.rates.iter().map(|(_, symbol, _)| *symbol).collect();
     let mut named: Vec<&(Expr, Polynomial)> = Vec::new();
     for definition in &system.shared {
@@ -76,16 +93,9 @@ fn with_work(arena: &Arena, system: &System, time: Expr) -> System {
             named.push(definition);
         }
     }
-    for (name, value) in named.into_iter().rev() {
-        power = power.substitute(&|atom| (atom == *name).then(|| value.clone()));
-    }
-    let half = Polynomial::term(vec![time], Rational::HALF);
-    let mut mean = power.clone();
-    for (_, s, rate) in &system.rates {
-        mean.add_product(&half.mul(&power.derivative(*s)), rate, &Rational::ONE);
-    }
-    system.rates.push((Coordinate::Carried(symbol), symbol, mean));
-    system.tidied(arena)
+    named.into_iter().rev().fold(polynomial.clone(), |written, (name, value)| {
+        written.substitute(&|atom| (atom == *name).then(|| value.clone()))
+    })
 }
 
 /// `Y` with `phi' = phi Y` or `phi' = Y phi` and `Y' = 0`, and whether it stands on the right. Nothing else moves but
