@@ -27,7 +27,7 @@ fn a_disc_turns_with_its_momentum() {
         let disc = Disc { i, kappa, c1 }.prepare().unwrap();
         let guess = disc.at_velocity(Matrix::<2>::identity() * 1.02, turning(0.8 * omega)).unwrap();
         let turn = [Generator::rotation(1, 2)];
-        let found = relative_equilibrium(&disc, &guess, &turn, &[Condition::Momentum(0, spin)]).unwrap();
+        let found = relative_equilibrium(&disc, &guess, &turn, &[Condition::MomentumMap(0, spin)]).unwrap();
         assert!((found.velocities()[0] - omega).abs() < 1e-13, "{found:?}");
         let stretch = found.point().phi()[(0, 0)].hypot(found.point().phi()[(1, 0)]);
         assert!((stretch - a).abs() < 1e-13, "{stretch}");
@@ -63,7 +63,7 @@ fn a_missile_flies_straight() {
     );
     let drift = [Generator::translation(1)];
     let found =
-        relative_equilibrium(&Missile, &guess.unwrap(), &drift, &[Condition::Momentum(0, 0.5)]).unwrap();
+        relative_equilibrium(&Missile, &guess.unwrap(), &drift, &[Condition::MomentumMap(0, 0.5)]).unwrap();
     assert!((found.velocities()[0] - 0.4156091706895312).abs() < 1e-13);
     let phi = found.point().phi();
     assert!((phi.column(0).norm() - 0.9117117644184825).abs() < 1e-13, "{phi}");

@@ -159,7 +159,7 @@ fn a_missile_vibrates_as_it_flies() {
     );
     let drift = [Generator::translation(1)];
     let found =
-        relative_equilibrium(&Missile, &guess.unwrap(), &drift, &[Condition::Momentum(0, 0.5)]).unwrap();
+        relative_equilibrium(&Missile, &guess.unwrap(), &drift, &[Condition::MomentumMap(0, 0.5)]).unwrap();
     let stability = found.stability(&Missile).unwrap();
     let expected = [
         1.3238796088096094,

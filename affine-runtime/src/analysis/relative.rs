@@ -20,8 +20,8 @@ use crate::state::Phase;
 pub enum Condition {
     /// The velocity of a generator: the factor with which it stands in `zeta`.
     Velocity(usize, f64),
-    /// Its momentum.
-    Momentum(usize, f64),
+    /// The value of its momentum map.
+    MomentumMap(usize, f64),
 }
 
 /// A point of rest, or one through which the motion is `exp(t zeta)`.
@@ -187,7 +187,7 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
         jacobian.view_mut((0, 0), (own, own)).copy_from(&slopes);
         jacobian.view_mut((0, own), fields.shape()).copy_from(&-&fields);
         jacobian.view_mut((own, 0), normals.shape()).copy_from(&normals);
-        let form = self.conditions.iter().any(|one| matches!(one, Condition::Momentum(..)));
+        let form = self.conditions.iter().any(|one| matches!(one, Condition::MomentumMap(..)));
         let form = form.then(|| symplectic_form(model, &z));
         for (k, condition) in self.conditions.iter().enumerate() {
             let row = own + confined + k;
@@ -196,7 +196,7 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
                     values[row] = velocities.get(generator)? - value;
                     jacobian[(row, own + generator)] = 1.0;
                 }
-                Condition::Momentum(generator, value) => {
+                Condition::MomentumMap(generator, value) => {
                     values[row] = momentum(model, self.generators.get(generator)?, &z) - value;
                     let slope = fields.column(generator).transpose() * form.as_ref()?;
                     jacobian.view_mut((row, 0), (1, own)).copy_from(&slope);
