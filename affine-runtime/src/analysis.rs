@@ -4,6 +4,7 @@
 //! |---|---|
 //! | the derivative of the equations of motion | [`JacobianMatrix`] |
 //! | points of rest | [`equilibrium`] |
+//! | their small vibrations | [`RelativeEquilibrium::modes`] |
 //! | motions that symmetries generate | [`relative_equilibrium`], [`Generator`], [`Condition`] |
 //! | whether they are stable | [`RelativeEquilibrium::stability`] |
 
@@ -13,7 +14,10 @@ mod field;
 mod generator;
 mod jacobian;
 mod linear;
+mod modes;
 mod newton;
+#[cfg(feature = "report")]
+mod outlines;
 mod rates;
 mod relative;
 mod spectrum;
@@ -23,6 +27,7 @@ mod tape;
 pub use error::AnalysisError;
 pub use generator::Generator;
 pub use jacobian::JacobianMatrix;
+pub use modes::{Mode, ModeClass, Modes};
 pub use relative::{Condition, RelativeEquilibrium, equilibrium, relative_equilibrium};
 pub use spectrum::Eigenvalue;
 pub use stability::{Doubt, Stability, StabilityVerdict};

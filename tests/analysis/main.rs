@@ -6,5 +6,6 @@
 
 mod jacobian;
 mod models;
+mod modes;
 mod relative;
 mod stability;

@@ -1,0 +1,230 @@
+//! Small vibrations about a point of rest.
+
+use core::fmt;
+
+use nalgebra::{DMatrix, DVector, Dyn, SVD};
+
+use super::error::AnalysisError;
+use super::field::{canonical_slopes, vector};
+use super::linear::{RANK, decomposed, kernel};
+use super::relative::{Linearised, RelativeEquilibrium};
+use crate::frames::{Matrix, Vector};
+use crate::model::{Model, Velocity};
+use crate::state::Phase;
+
+/// Parts of the largest by which squares of frequencies may differ and be one, and below which one is zero.
+const ALIKE: f64 = 1e-10;
+/// Part of a shape that may be of another class.
+const STRAY: f64 = 1e-9;
+
+/// The modes of small vibrations about a point of rest: solutions of `K v = w^2 M v`.
+#[derive(Clone, Debug)]
+pub struct Modes<const N: usize> {
+    /// Modes, from the lowest; equal frequencies are one mode.
+    pub modes: Vec<Mode<N>>,
+    /// Number of directions without restoring force.
+    pub zeros: usize,
+    pub(super) rest: Matrix<N>,
+}
+
+/// A frequency with its shapes.
+#[derive(Clone, Debug)]
+pub struct Mode<const N: usize> {
+    /// `w^2`; negative where it grows.
+    pub squared: f64,
+    /// A bound of its error by rounding.
+    pub error: f64,
+    /// What the shapes have in common.
+    pub class: ModeClass,
+    /// A basis of the changes of position and placement, with `v^T M v = 1`, as many as the multiplicity.
+    pub shapes: Vec<Velocity<N>>,
+}
+
+/// How a shape changes the body, in the principal axes of the deformation at rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ModeClass {
+    /// All stretches alike.
+    Breathing,
+    /// Volume and orientation stay.
+    Shear,
+    /// Of a body with an axis, by the number of waves about it: 0, 1 or 2.
+    Axial(u8),
+    /// Stretches along the axes alone.
+    Diagonal,
+    /// In the plane of two axes, numbered from 1, which do not change their lengths.
+    Pair(usize, usize),
+    /// The centre of mass moves, the body does not change.
+    Drift,
+    /// Several of these.
+    Mixed,
+}
+
+impl<const N: usize> Mode<N> {
+    /// The frequency `w`; NaN where the mode grows.
+    #[must_use]
+    pub fn frequency(&self) -> f64 {
+        self.squared.sqrt()
+    }
+
+    /// Number of independent shapes.
+    #[must_use]
+    pub fn multiplicity(&self) -> usize {
+        self.shapes.len()
+    }
+}
+
+/// A table of frequencies.
+impl<const N: usize> fmt::Display for Modes<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{:>20} {:>9}  {:<8} class", "frequency", "error", "shapes")?;
+        for mode in &self.modes {
+            let (w, error) = (mode.frequency(), mode.error / (2.0 * mode.squared.abs().sqrt()));
+            writeln!(f, "{w:>20.15} {error:>9.1e}  {:<8} {:?}", mode.multiplicity(), mode.class)?;
+        }
+        write!(f, "{} directions without restoring force", self.zeros)
+    }
+}
+
+impl<const N: usize, P: Phase<N>> RelativeEquilibrium<N, P> {
+    /// The small vibrations about a point of rest.
+    ///
+    /// # Errors
+    /// [`AnalysisError::NoVibrations`] where `zeta` or a momentum is not zero, where the linearised forces have no potential, or
+    /// where the mass matrix is not positive.
+    pub fn modes<M: Model<N, Point<f64> = P>>(&self, model: &M) -> Result<Modes<N>, AnalysisError> {
+        let at = Linearised::at(model, &self.zeta, &self.point);
+        let moved = canonical_slopes(model, &vector(&model.flatten(&self.point))) * &at.basis;
+        let moved = moved.rows(0, N + N * N).into_owned();
+        let momenta = kernel(&moved, RANK);
+        let places = kernel(&momenta.transpose(), RANK);
+        let (mass, stiffness) = vibrating(&at, &places, &momenta).ok_or(AnalysisError::NoVibrations)?;
+        let lower = mass.cholesky().ok_or(AnalysisError::NoVibrations)?.l();
+        let inverse = lower.try_inverse().ok_or(AnalysisError::NoVibrations)?;
+        let eigen = (&inverse * stiffness * inverse.transpose()).symmetric_eigen();
+        let vectors = moved * places * inverse.tr_mul(&eigen.eigenvectors);
+        let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+        order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+        let largest = eigen.eigenvalues.amax();
+        let own = |k: usize| eigen.eigenvalues[k];
+        let (zero, moving): (Vec<usize>, Vec<usize>) =
+            order.into_iter().partition(|k| own(*k).abs() <= ALIKE * largest);
+        let frame = Frame::of(self.point.phi());
+        let mode = |group: &[usize]| {
+            let shapes: Vec<_> = group.iter().map(|k| shape(&vectors.column(*k).into_owned())).collect();
+            Mode {
+                squared: group.iter().map(|k| own(*k)).sum::<f64>() / group.len() as f64,
+                error: 10.0 * f64::EPSILON * largest * group.len() as f64,
+                class: frame.class(&shapes),
+                shapes,
+            }
+        };
+        let alike = |a: &usize, b: &usize| (own(*a) - own(*b)).abs() <= ALIKE * largest;
+        let modes = moving.chunk_by(alike).map(mode).collect();
+        Ok(Modes { modes, zeros: zero.len(), rest: *self.point.phi() })
+    }
+}
+
+/// `M` and `K` over the places, from `q' = A_qp p` and `p' = A_pq q`.
+fn vibrating<const N: usize>(
+    at: &Linearised<N>,
+    places: &DMatrix<f64>,
+    momenta: &DMatrix<f64>,
+) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+    let (motion, size) = (&at.motion, at.motion.norm());
+    let at_rest = (places.tr_mul(motion) * places).norm() + (momenta.tr_mul(motion) * momenta).norm();
+    let pairing = places.tr_mul(&at.form) * momenta;
+    if at_rest > RANK * size || !pairing.is_square() {
+        return None;
+    }
+    let mass = &pairing * (places.tr_mul(motion) * momenta).try_inverse()?;
+    let stiffness = -&pairing * (momenta.tr_mul(motion) * places);
+    let is_symmetric = |form: &DMatrix<f64>| (form - form.transpose()).norm() <= RANK * form.norm();
+    (is_symmetric(&mass) && is_symmetric(&stiffness)).then_some((mass, stiffness))
+}
+
+fn shape<const N: usize>(change: &DVector<f64>) -> Velocity<N> {
+    Velocity {
+        x_dot: Vector::<N>::from_fn(|i, _| change[i]),
+        phi_dot: Matrix::<N>::from_fn(|i, a| change[N + a * N + i]),
+    }
+}
+
+/// The principal axes of a placement.
+struct Frame<const N: usize> {
+    left: Matrix<N>,
+    right: Matrix<N>,
+    /// The axis that the others are equal beside.
+    axis: Option<usize>,
+    is_round: bool,
+}
+
+impl<const N: usize> Frame<N> {
+    fn of(phi: &Matrix<N>) -> Self {
+        let near = |a: f64, b: f64| (a - b).abs() <= STRAY * (a + b);
+        let dense = DMatrix::from_fn(N, N, |i, a| phi[(i, a)]);
+        let round =
+            |size: f64| Self { left: phi / size, right: Matrix::<N>::identity(), axis: None, is_round: true };
+        let Some(SVD { u: Some(u), v_t: Some(v_t), singular_values: own }) = decomposed::<f64>(dense) else {
+            return round(1.0);
+        };
+        let own: nalgebra::OVector<f64, Dyn> = own;
+        if (1..N).all(|a| near(own[a], own[0])) {
+            return round(own[0]);
+        }
+        let is_axis = |c: usize| N == 3 && near(own[(c + 1) % N], own[(c + 2) % N]);
+        Self {
+            left: Matrix::<N>::from_fn(|i, a| u[(i, a)]),
+            right: Matrix::<N>::from_fn(|i, a| v_t[(a, i)]),
+            axis: (0..N).find(|c| is_axis(*c)),
+            is_round: false,
+        }
+    }
+
+    /// The first class that has all of the shapes.
+    fn class(&self, shapes: &[Velocity<N>]) -> ModeClass {
+        let strains: Vec<Matrix<N>> =
+            shapes.iter().map(|shape| self.left.transpose() * shape.phi_dot * self.right).collect();
+        let x: f64 = shapes.iter().map(|shape| shape.x_dot.norm_squared()).sum();
+        let size: f64 = strains.iter().map(Matrix::<N>::norm_squared).sum();
+        // What is left of the shapes without a part of theirs.
+        let consist = |part: &dyn Fn(&Matrix<N>) -> Matrix<N>| {
+            x + strains.iter().map(|one| (one - part(one)).norm_squared()).sum::<f64>() <= STRAY * (x + size)
+        };
+        let mean = |one: &Matrix<N>| Matrix::<N>::identity() * (one.trace() / N as f64);
+        let symmetric = |one: &Matrix<N>| (one + one.transpose()) * 0.5;
+        let block = |one: &Matrix<N>, keep: &dyn Fn(usize, usize) -> bool| {
+            Matrix::<N>::from_fn(|i, a| if keep(i, a) { one[(i, a)] } else { 0.0 })
+        };
+        if size <= STRAY * x {
+            return ModeClass::Drift;
+        }
+        if self.is_round && consist(&mean) {
+            return ModeClass::Breathing;
+        }
+        if self.is_round && consist(&|one| symmetric(one) - mean(one)) {
+            return ModeClass::Shear;
+        }
+        if let Some(c) = self.axis {
+            let across = |one: &Matrix<N>| block(one, &|i, a| i != c && a != c);
+            let disc = |one: &Matrix<N>| {
+                block(&Matrix::<N>::identity(), &|i, a| i != c && a != c) * (across(one).trace() / 2.0)
+            };
+            let parts: [&dyn Fn(&Matrix<N>) -> Matrix<N>; 3] = [
+                &|one| disc(one) + block(one, &|i, a| i == c && a == c),
+                &|one| block(one, &|i, a| (i == c) != (a == c)),
+                &|one| symmetric(&across(one)) - disc(one),
+            ];
+            let waves = parts.into_iter().position(consist);
+            return waves.map_or(ModeClass::Mixed, |waves| ModeClass::Axial(waves as u8));
+        }
+        if consist(&|one| block(one, &|i, a| i == a)) {
+            return ModeClass::Diagonal;
+        }
+        let pairs = (0..N).flat_map(|a| (0..a).map(move |b| (b, a)));
+        let pair = pairs
+            .into_iter()
+            .find(|(a, b)| consist(&|one| block(one, &|i, j| (i, j) == (*a, *b) || (i, j) == (*b, *a))));
+        pair.map_or(ModeClass::Mixed, |(a, b)| ModeClass::Pair(a + 1, b + 1))
+    }
+}
