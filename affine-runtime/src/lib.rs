@@ -173,6 +173,7 @@ macro_rules! pages {
         /// [`Ensemble`]: crate::simulate::Ensemble
         /// [`Event`]: crate::simulate::Event
         /// [`Flow`]: crate::simulate::Flow
+        /// [`Member`]: crate::simulate::Member
         /// [`Method::Rattle`]: crate::simulate::Method::Rattle
         /// [`inertia`]: crate::inertia
         /// [`inertia::from_rotational`]: crate::inertia::from_rotational

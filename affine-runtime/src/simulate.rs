@@ -56,7 +56,7 @@ pub use crate::error::{Callback, Reason, Setting, Stop};
 pub use checkpoint::Checkpoint;
 pub use choice::{NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 pub use conservation::{Conservation, Drift};
-pub use ensemble::{Ends, Ensemble};
+pub use ensemble::{Ends, Ensemble, Member};
 pub use event::{Direction, Event, Occurrence};
 pub use flow::Flow;
 pub use friction::STIFF_FRICTION;

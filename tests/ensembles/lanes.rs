@@ -80,7 +80,7 @@ fn equations_agree<const N: usize, M: Sampled<N>, T: Lanes>(model: &M) {
     let t = T::from_lanes(|lane| 0.3 + lane as f64);
     let at_once = model.reduced_equations(t, &in_lanes, &state);
     let mut rates = M::Reduced::<T>::zeros();
-    model.equations_in_lanes(t, &in_lanes, &state, &mut rates);
+    M::equations_in_lanes(|_| model, t, &in_lanes, &state, &mut rates);
     assert_eq!(at_once.as_ref(), rates.as_ref());
     for (lane, (state, constants)) in reduced.iter().enumerate() {
         let alone = model.reduced_equations(0.3 + lane as f64, constants, state);

@@ -6,3 +6,6 @@ mod fast;
 mod lanes;
 mod models;
 mod outcomes;
+mod shards;
+mod sweeps;
+mod watched;

@@ -2,7 +2,9 @@
 
 use affine_oracle::Random;
 use affine_runtime::capability::InLanes;
+use affine_runtime::force::{Force, Motion, Translation};
 use affine_runtime::prelude::*;
+use affine_runtime::scalar::Scalar;
 
 /// Problem P1, whose constants turn space and hold momenta.
 #[affine_model(
@@ -21,6 +23,7 @@ pub(crate) struct DrunkMissile;
     potential = hyperbolic_dilatation(kappa) + neo_hookean(c1),
     emit(lanes),
 )]
+#[derive(Clone)]
 pub(crate) struct Vibrating {
     pub(crate) kappa: f64,
     pub(crate) c1: f64,
@@ -43,6 +46,34 @@ pub(crate) struct Elastic;
     emit(lanes),
 )]
 pub(crate) struct Unprotected;
+
+/// Blows with a strength of its own, which is no coefficient.
+#[derive(Clone)]
+pub(crate) struct Wind(pub(crate) f64);
+
+impl Force<2> for Wind {
+    type Form = Translation;
+    fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Vector<2, T> {
+        Vector::<2, T>::new(T::constant(self.0, 0.0), motion.phi[(0, 0)] * motion.x_dot[1])
+    }
+}
+
+/// Fields that are numbers, one that is a basis, and one that is asked where the body is.
+#[affine_model(
+    dim = 2,
+    metrics(body = eta),
+    kinetic(dalembert = j, space_translation = 1),
+    potential = s*(tr(G) - 2)^2 + hyperbolic_dilatation(1),
+    forces = custom(wind, translation),
+    emit(lanes),
+)]
+#[derive(Clone)]
+pub(crate) struct Blown {
+    pub(crate) eta: Matrix<2>,
+    pub(crate) j: f64,
+    pub(crate) s: f64,
+    pub(crate) wind: Wind,
+}
 
 /// A free top.
 #[affine_model(dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 1, 0.5)), potential = 0.7*phi[3,3], emit(lanes))]

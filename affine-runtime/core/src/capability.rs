@@ -119,17 +119,20 @@ pub trait InLanes<const N: usize>: Model<N> {
     /// The constants of the trajectory in a lane.
     fn constants_of_lane<T: Lanes>(constants: &Self::Constants<T>, lane: usize) -> Self::Constants<T::Lane>;
 
-    /// [`Model::reduced_equations`] of every lane, written to `rates`: a loop over lanes, which compilers turn into vector
-    /// instructions where no function is called in it, as none is with `Fast` numbers but for
-    /// sines, cosines and tangents.
+    /// [`Model::reduced_equations`] of every lane, by the model of the lane, written to `rates`: a loop over lanes, which
+    /// compilers turn into vector instructions where no function is called in it, as none is with `Fast` numbers but for
+    /// sines, cosines and tangents. Fields stand in the constants; the model itself is read where a force or a potential of
+    /// the user is asked.
     #[inline(always)]
-    fn equations_in_lanes<T: Lanes>(
-        &self,
+    fn equations_in_lanes<'m, T: Lanes>(
+        model: impl Fn(usize) -> &'m Self,
         t: T,
         constants: &Self::Constants<T>,
         y: &Self::Reduced<T>,
         rates: &mut Self::Reduced<T>,
-    ) {
+    ) where
+        Self: 'm,
+    {
         // Their own, so that nothing that is read can be what is written: few lanes are not worth a check of that.
         let mut of_lanes = Self::Reduced::<T>::zeros();
         for lane in 0..T::LANES {
@@ -138,7 +141,7 @@ pub trait InLanes<const N: usize>: Model<N> {
                 *component = in_lane(lanes, lane);
             }
             let (t, constants) = (in_lane(&t, lane), Self::constants_of_lane(constants, lane));
-            let of_lane = self.reduced_equations(t, &constants, &state);
+            let of_lane = model(lane).reduced_equations(t, &constants, &state);
             for (lanes, component) in of_lanes.as_mut().iter_mut().zip(of_lane.as_ref()) {
                 lanes.set_lane(lane, component.to_f64());
             }

@@ -1,123 +1,205 @@
-//! Many bodies of one model over the same interval of time.
+//! Many bodies over the same interval of time.
 
+mod asked;
 mod bodies;
+mod part;
+mod recording;
 
 use core::fmt;
+use core::ops::Range;
+use core::sync::atomic::{AtomicU64, Ordering};
 
-use super::friction::{is_stiff, rate_of_friction};
-use super::layout::placement_in;
-use super::mechanics::Moving;
-use super::method::Method;
-use super::methods::automatic;
-use super::motion::{Followed, WithWork};
-use super::orientation::passes_through_zero;
-use super::point::is_clearly_positive;
-use super::settings::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Plan};
-use super::simulation::Simulation;
-use super::witness::Witness;
+use super::event::Event;
+use super::motion::PointOf;
+use super::output::Output;
+use super::settings::Plan;
 use crate::capability::InLanes;
-use crate::error::Setting;
-use crate::error::Stop;
+use crate::error::{Setting, Stop};
 use crate::lanes::{Lanes, Widest};
-use crate::model::Model;
-use crate::state::Phase;
-use bodies::{Bodies, Common, Done, begun};
+use crate::model::{Handle, Model};
+use asked::{Asked, Events, Start};
+
+pub use asked::Member;
 
 /// Where each body of an ensemble is in the end, or why it did not get there.
 pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
 
-/// Many bodies of one model, from their starts to the end of one interval of time.
+/// Many bodies, from their starts to the end of one interval of time: of one model, or each of a model of its own.
 ///
-/// ```text
-/// let ends = Ensemble::new(&model, starts).until(10.0).tolerance(1e-9).run()?;
+/// ```
+/// use affine_runtime::model::Owned;
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(
+///     dim = 2,
+///     kinetic(casimir2 = 0.2, body_inertia = 1),
+///     potential = neo_hookean(c) + hyperbolic_dilatation(10),
+///     emit(lanes),
+/// )]
+/// #[derive(Clone)]
+/// struct Disc { c: f64 }
+///
+/// let disc = Disc { c: 1.0 }.prepare()?;
+/// let start = disc.at_velocity(Matrix::<2>::identity(), Matrix::<2>::new(0.1, 0.5, 0.0, -0.1))?;
+///
+/// // Ends of ten starts, and the largest stretch on the way for ten values of a field.
+/// let starts = (1..=10).map(|k| disc.unflatten(&disc.flatten(&start).map(|y| y * (1.0 + 0.01 * f64::from(k)))));
+/// let ends = Ensemble::new(&disc, starts).until(3.0).run()?;
+/// assert!(ends.iter().all(Result::is_ok));
+///
+/// let discs = (1..=10).map(|k| Disc { c: f64::from(k) }.prepare()).collect::<Result<Vec<_>, _>>()?;
+/// let mut largest = Vec::new();
+/// Ensemble::of(discs.into_iter().map(|disc| (Owned(disc), start)))
+///     .until(3.0)
+///     .every(0.1)
+///     .fold(|_, _| 0.0, |most: &mut f64, _, point| *most = most.max(point.phi().norm()), |body| largest.push(body.folded))?;
+/// assert!(largest[0] > largest[9], "the stiffer the smaller");
+/// # Ok::<(), affine_runtime::Error>(())
 /// ```
 ///
 /// Bodies are computed in lanes, [`Widest`] at once, by the Runge-Kutta method of order 8. Each is at its own time and takes
 /// its own steps, and where one has come to the end, the next takes its lane: every body comes to what
-/// [`Method::RungeKutta8`] gives for it alone, bit for bit in strict lanes, whatever its neighbours and their number. A body
-/// that cannot go on (numbers that are not finite, a collapse, a step that underflows) leaves its lane and is integrated
-/// alone: its outcome, an end or a [`Stop`], is that of a [`Simulation`]. Bodies with a closed form take that, and bodies
+/// [`Method::RungeKutta8`](super::Method::RungeKutta8) gives for it alone, its outputs and events too, bit for bit in strict lanes, whatever its
+/// neighbours, lanes, threads and shard. A body that cannot go on (numbers that are not finite, a collapse, a step that
+/// underflows, an event that changes the point) leaves its lane and is integrated alone: its outcome, an end or a [`Stop`],
+/// is that of a [`Simulation`](super::Simulation). Bodies with a closed form take that, bodies with stiff friction the Radau method, and bodies
 /// under a constraint, whose steps are taken on its group, are integrated one by one; so are bodies in a flat metric whose
 /// potential does not know `q`, of which every step is looked at whether `det phi` stays positive within it, and bodies under
 /// a potential that does not have a value everywhere.
 ///
-/// With the feature `parallel` bodies are spread over the threads of the current `rayon` pool. Results are the same bits
-/// for any number of threads.
-pub struct Ensemble<'a, const N: usize, M: Model<N>> {
-    model: &'a M,
-    starts: Vec<M::Point<f64>>,
-    t0: f64,
-    t_end: Option<f64>,
-    tolerance: f64,
-    max_steps: u64,
+/// Starts are taken from their iterator as they are needed, some thousand at a time, and are not kept: memory does not grow
+/// with their number, but for what a program keeps. With the feature `parallel` bodies are spread over the threads of the
+/// current `rayon` pool.
+pub struct Ensemble<'a, const N: usize, H: Handle<N>> {
+    starts: Box<dyn Iterator<Item = Start<N, H>> + 'a>,
+    plan: Plan,
+    events: Box<Events<'a, N, PointOf<N, H>>>,
+    progress: Box<dyn Fn(u64) + Sync + 'a>,
+    shard: (u64, u64),
 }
 
-impl<'a, const N: usize, M: Model<N>> Ensemble<'a, N, M> {
+impl<'a, const N: usize, M: Model<N>> Ensemble<'a, N, &'a M> {
     /// Bodies of `model` from the phase points `starts` at time 0.
     #[must_use]
-    pub fn new(model: &'a M, starts: impl IntoIterator<Item = M::Point<f64>>) -> Self {
+    pub fn new<S>(model: &'a M, starts: S) -> Self
+    where
+        S: IntoIterator<Item = M::Point<f64>>,
+        S::IntoIter: 'a,
+    {
+        Self::of(starts.into_iter().map(move |point| (model, point)))
+    }
+}
+
+impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
+    /// Bodies, each of a model of its own: lent, `&model`, shared, `Arc`, or kept, [`Owned`](crate::model::Owned).
+    ///
+    /// A sweep over fields takes the time of as many starts of one model: what equations read of fields stands beside the
+    /// constants of each trajectory, in its lane.
+    #[must_use]
+    pub fn of<S>(bodies: S) -> Self
+    where
+        S: IntoIterator<Item = (H, PointOf<N, H>)>,
+        S::IntoIter: 'a,
+    {
+        let starts = (0..).zip(bodies).map(|(number, (handle, point))| Start { number, handle, point });
         Self {
-            model,
-            starts: starts.into_iter().collect(),
-            t0: 0.0,
-            t_end: None,
-            tolerance: DEFAULT_TOLERANCE,
-            max_steps: DEFAULT_MAX_STEPS,
+            starts: Box::new(starts),
+            plan: Plan { output: Output::At(Vec::new()), ..Plan::default() },
+            events: Box::new(Vec::new),
+            progress: Box::new(|_| {}),
+            shard: (0, 1),
         }
     }
 
     /// Time of the start; 0 if not set.
     #[must_use]
-    pub fn from(self, t0: f64) -> Self {
-        Self { t0, ..self }
+    pub fn from(mut self, t0: f64) -> Self {
+        self.plan.t0 = t0;
+        self
     }
 
     /// Time of the end, before or after the start. The end is hit exactly.
     #[must_use]
-    pub fn until(self, t_end: f64) -> Self {
-        Self { t_end: Some(t_end), ..self }
+    pub fn until(mut self, t_end: f64) -> Self {
+        self.plan.t_end = Some(t_end);
+        self
     }
 
-    /// Relative error allowed in each step of each body, as [`Simulation::tolerance`].
+    /// Relative error allowed in each step of each body, as [`Simulation::tolerance`](super::Simulation::tolerance).
     #[must_use]
-    pub fn tolerance(self, eps: f64) -> Self {
-        Self { tolerance: eps, ..self }
+    pub fn tolerance(mut self, eps: f64) -> Self {
+        self.plan.tolerance = eps;
+        self
     }
 
     /// Largest number of accepted steps of a body.
     #[must_use]
-    pub fn max_steps(self, max_steps: u64) -> Self {
-        Self { max_steps, ..self }
+    pub fn max_steps(mut self, max_steps: u64) -> Self {
+        self.plan.max_steps = max_steps;
+        self
     }
 
-    fn simulation(&self, start: M::Point<f64>) -> Simulation<'a, N, M> {
-        let simulation = Simulation::new(self.model, start).from(self.t0);
-        let simulation = simulation.tolerance(self.tolerance).max_steps(self.max_steps).output([]);
-        match self.t_end {
-            Some(t_end) => simulation.until(t_end),
-            None => simulation,
-        }
+    /// Output of every body at exactly these times, as [`Simulation::output`](super::Simulation::output); none if not set.
+    #[must_use]
+    pub fn output(mut self, times: impl IntoIterator<Item = f64>) -> Self {
+        self.plan.output = Output::At(times.into_iter().collect());
+        self
     }
 
-    /// One body by itself.
-    fn alone(&self, start: M::Point<f64>, method: Method) -> core::result::Result<M::Point<f64>, Stop> {
-        match self.simulation(start).by_default(method).run() {
-            Ok(run) => Ok(*run.end().1),
-            Err(halt) => Err(halt.stop),
-        }
+    /// Output of every body at the start, then at every `dt > 0`, and at the end.
+    #[must_use]
+    pub fn every(mut self, dt: f64) -> Self {
+        self.plan.output = Output::Every(dt);
+        self
+    }
+
+    /// The [`Event`]s that every body looks for, made anew for each: sections, first passages. A body whose event changes the
+    /// point goes alone.
+    #[must_use]
+    pub fn events(mut self, events: impl Fn() -> Vec<Event<'a, N, PointOf<N, H>>> + Sync + 'a) -> Self {
+        self.events = Box::new(events);
+        self
+    }
+
+    /// Called whenever a body is done, in the thread where it is, with the number of those done so far.
+    #[must_use]
+    pub fn progress(mut self, callback: impl Fn(u64) + Sync + 'a) -> Self {
+        self.progress = Box::new(callback);
+        self
+    }
+
+    /// Every `of`th body, from number `k < of` on: a part for one process of several, or one job of an array. A body keeps
+    /// its number and its bits; the bodies of all shards, put in the order of their numbers, are those of the ensemble.
+    #[must_use]
+    pub fn shard(mut self, k: u64, of: u64) -> Self {
+        self.shard = (k, of);
+        self.keeping(move |number| number.checked_rem(of) == Some(k))
+    }
+
+    /// The bodies of these numbers alone: one that is to be looked at again, or those that are not done yet. Starts of the
+    /// others are passed over, not run.
+    #[must_use]
+    pub fn numbers(self, numbers: Range<u64>) -> Self {
+        self.keeping(move |number| numbers.contains(&number))
+    }
+
+    fn keeping(mut self, keeps: impl Fn(u64) -> bool + 'a) -> Self {
+        self.starts = Box::new(self.starts.filter(move |start| keeps(start.number)));
+        self
     }
 }
 
 // The bounds stand on the methods, where the message of a missing `emit(lanes)` is read.
-impl<const N: usize, M: Model<N>> Ensemble<'_, N, M> {
+impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
     /// Runs the ensemble: one outcome for each start, in their order.
     ///
     /// # Errors
     /// A [`Setting`] that makes no sense, also of an ensemble without bodies.
-    pub fn run(self) -> core::result::Result<Ends<M::Point<f64>>, Setting>
+    pub fn run(self) -> core::result::Result<Ends<PointOf<N, H>>, Setting>
     where
-        M: InLanes<N> + Sync,
-        M::Point<f64>: Send + Sync,
+        H: Sync,
+        H::Model: InLanes<N>,
+        PointOf<N, H>: Send + Sync,
     {
         self.run_in::<Widest>()
     }
@@ -127,112 +209,118 @@ impl<const N: usize, M: Model<N>> Ensemble<'_, N, M> {
     ///
     /// # Errors
     /// As [`run`](Self::run).
-    pub fn run_in<T: Lanes>(self) -> core::result::Result<Ends<M::Point<f64>>, Setting>
+    pub fn run_in<T: Lanes>(mut self) -> core::result::Result<Ends<PointOf<N, H>>, Setting>
     where
-        M: InLanes<N> + Sync,
-        M::Point<f64>: Send + Sync,
+        H: Sync,
+        H::Model: InLanes<N>,
+        PointOf<N, H>: Send + Sync,
     {
-        let Self { model, t0, t_end, tolerance, max_steps, .. } = self;
-        let plan = Plan { t0, t_end, tolerance, max_steps, ..Plan::default() };
-        let (t_end, _) = plan.checked(&M::DESCRIPTION)?;
-        if self.starts.is_empty() {
-            return Ok(Vec::new());
-        }
-        let may_be_stiff = self.starts.first().is_some_and(|first| {
-            let time = PART_OF_STIFF * (t_end - t0);
-            rate_of_friction(model, (t0, first)).rate.is_some_and(|rate| is_stiff(rate, time))
-        });
-        Ok(in_parts(&self.starts, T::LANES, |starts| self.ends::<T>(starts, t_end, may_be_stiff)))
+        self.plan.output = Output::At(Vec::new());
+        let mut ends = Vec::new();
+        self.fold_in::<T, ()>(|_, _| (), |(), _, _| (), |body| ends.push(body.end))?;
+        Ok(ends)
     }
-}
 
-impl<const N: usize, M: InLanes<N>> Ensemble<'_, N, M> {
-    /// Bodies one after the other through the same lanes, but for those that are apart. Where a body that cannot go on in
-    /// lanes comes to, and why it stops, is found alone.
-    fn ends<T: Lanes>(
-        &self,
-        starts: &[M::Point<f64>],
-        t_end: f64,
-        may_be_stiff: bool,
-    ) -> Ends<M::Point<f64>> {
-        let apart = |start| self.stiff(start, t_end, may_be_stiff).or_else(|| self.apart(start, t_end));
-        let apart: Vec<Option<Method>> = starts.iter().map(apart).collect();
-        let together = starts.iter().enumerate().filter(|(body, _)| apart[*body].is_none());
-        let together: Vec<_> = together.collect();
-        let &Self { model, t0, tolerance, max_steps, .. } = self;
-        let common = Common { model, t0, t_end, tolerance, max_steps };
-        let mut begun = together.chunks(T::LANES).flat_map(|points| begun::<N, T, M>(common, points));
-        let mut ends = vec![None; starts.len()];
-        if let Some(first) = begun.next() {
-            let mut bodies = Bodies::<N, T, M>::filled(common, first, &mut begun);
-            while bodies.are_moving() {
-                for Done { lane, body, end } in bodies.advance() {
-                    ends[body] =
-                        end.filter(|end| self.keeps(&starts[body], (t_end, end))).map(|(end, _)| end);
-                    match begun.next() {
-                        Some(next) => bodies.put(lane, &next),
-                        None => bodies.rest(lane),
-                    }
-                }
+    /// Runs the ensemble and hands over each [`Member`] with its outputs, in the order of their numbers.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn each(
+        self,
+        each: impl FnMut(Member<PointOf<N, H>, Vec<(f64, PointOf<N, H>)>>),
+    ) -> core::result::Result<(), Setting>
+    where
+        H: Sync,
+        H::Model: InLanes<N>,
+        PointOf<N, H>: Send + Sync,
+    {
+        self.fold(|_, _| Vec::new(), |outputs, t, point| outputs.push((t, *point)), each)
+    }
+
+    /// Runs the ensemble and makes something of the outputs of each body as they come, a mean, an extreme, a histogram:
+    /// `begin` with number and model, `add` time and point of each output to it. Nothing else is kept of them. `each` is called
+    /// with one [`Member`] after the other, in the order of their numbers, from one thread, so that sums over bodies have the
+    /// same bits always.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn fold<A: Send>(
+        self,
+        begin: impl Fn(u64, &H) -> A + Sync,
+        add: impl Fn(&mut A, f64, &PointOf<N, H>) + Sync,
+        each: impl FnMut(Member<PointOf<N, H>, A>),
+    ) -> core::result::Result<(), Setting>
+    where
+        H: Sync,
+        H::Model: InLanes<N>,
+        PointOf<N, H>: Send + Sync,
+    {
+        self.fold_in::<Widest, A>(begin, add, each)
+    }
+
+    fn fold_in<T: Lanes, A: Send>(
+        self,
+        begin: impl Fn(u64, &H) -> A + Sync,
+        add: impl Fn(&mut A, f64, &PointOf<N, H>) + Sync,
+        mut each: impl FnMut(Member<PointOf<N, H>, A>),
+    ) -> core::result::Result<(), Setting>
+    where
+        H: Sync,
+        H::Model: InLanes<N>,
+        PointOf<N, H>: Send + Sync,
+    {
+        let Self { mut starts, plan, events, progress, shard: (k, of) } = self;
+        if k >= of {
+            return Err(Setting::Shard { k, of });
+        }
+        for event in events() {
+            if let Some(index) = event.out_of_range {
+                return Err(Setting::EventIndex { event: event.name, index });
             }
         }
-        let alone = |body: usize| self.alone(starts[body], apart[body].unwrap_or(Method::RungeKutta8));
-        ends.into_iter().enumerate().map(|(body, end)| end.map_or_else(|| alone(body), Ok)).collect()
-    }
-
-    /// The method of a body whose friction is stiff.
-    fn stiff(&self, start: &M::Point<f64>, t_end: f64, may_be_stiff: bool) -> Option<Method> {
-        if !may_be_stiff {
-            return None;
+        let (t_end, schedule) = plan.checked(&H::Model::DESCRIPTION)?;
+        let done = AtomicU64::new(0);
+        let asked = Asked {
+            plan: &plan,
+            t_end,
+            within_steps: schedule.peek().is_some() || !events().is_empty(),
+            schedule,
+            events: &*events,
+            begin: &begin,
+            add: &add,
+            tell: &|| progress(done.fetch_add(1, Ordering::Relaxed) + 1),
+        };
+        let chunk = AT_ONCE * threads();
+        loop {
+            let starts: Vec<_> = starts.by_ref().take(chunk).collect();
+            if starts.is_empty() {
+                return Ok(());
+            }
+            in_parts(&starts, T::LANES, |part| asked.of::<T>(part)).into_iter().for_each(&mut each);
         }
-        let rate = rate_of_friction(self.model, (self.t0, start)).rate?;
-        is_stiff(rate, t_end - self.t0).then_some(Method::Radau { stages: None })
-    }
-
-    /// The method of a body that is not taken into lanes: with a closed form, or with steps that have to be looked at.
-    fn apart(&self, start: &M::Point<f64>, t_end: f64) -> Option<Method> {
-        if self.model.geodesic(self.t0, start).is_some() {
-            return Some(Method::ClosedForm);
-        }
-        let is_placed = const { placement_in(M::DESCRIPTION.reduced, N).is_some() };
-        // The signature of a mass matrix that depends on the placement is looked after step by step, as the domain of a
-        // potential is, and the orientation of a body that nothing keeps from losing it within them.
-        let is_special = M::DESCRIPTION.constraint.is_some()
-            || !M::DESCRIPTION.domain.is_empty()
-            || self.model.regularity(start.phi()).is_some()
-            || passes_through_zero(&M::DESCRIPTION);
-        let alone = !is_placed || is_special || t_end == self.t0 || !self.is_sound(self.t0, start);
-        alone.then_some(Method::RungeKutta8)
-    }
-
-    /// A phase point needs no second look.
-    fn is_sound(&self, t: f64, point: &M::Point<f64>) -> bool {
-        let stands = point.is_finite() && is_clearly_positive(point.phi());
-        stands && self.model.hamiltonian(t, point).is_finite()
-    }
-
-    /// Nor does the energy of a motion that ends at one.
-    fn keeps(&self, start: &M::Point<f64>, (t_end, (end, work)): (f64, &WithWork<M::Point<f64>>)) -> bool {
-        let model = &Moving { handle: Followed(self.model), begin: automatic };
-        let energy = |t: f64, point| self.model.hamiltonian(t, point);
-        let mut witness =
-            Witness::begin(model, (energy(self.t0, start), 0.0), (start, 0.0), Some(self.tolerance));
-        self.is_sound(t_end, end) && witness.look(model, (t_end, end), (energy(t_end, end), *work)).is_ok()
     }
 }
 
-/// Friction is looked at body by body where that of the first one is stiff in a hundred times the time: what it does to a
-/// body depends on its placement, but not that much.
-const PART_OF_STIFF: f64 = 100.0;
+/// Bodies that are computed before the next ones are asked for, of each thread: so many that lanes without a body, where a
+/// part comes to its end, do not count.
+const AT_ONCE: usize = 4096;
+
+/// There is one.
+#[cfg(not(feature = "parallel"))]
+fn threads() -> usize {
+    1
+}
+
+/// Those of the pool.
+#[cfg(feature = "parallel")]
+fn threads() -> usize {
+    rayon::current_num_threads()
+}
 
 /// One part after the other: there is one.
 #[cfg(not(feature = "parallel"))]
-fn in_parts<P: Send + Sync>(
-    starts: &[P],
-    _lanes: usize,
-    ends: impl Fn(&[P]) -> Ends<P> + Send + Sync,
-) -> Ends<P> {
-    ends(starts)
+fn in_parts<S: Sync, B: Send>(starts: &[S], _lanes: usize, run: impl Fn(&[S]) -> Vec<B> + Sync) -> Vec<B> {
+    run(starts)
 }
 
 /// Parts of each thread of the pool, of which one may take longer than another.
@@ -241,27 +329,18 @@ const PARTS: usize = 4;
 
 /// Parts on all threads of the pool, each of whole lanes.
 #[cfg(feature = "parallel")]
-fn in_parts<P: Send + Sync>(
-    starts: &[P],
-    lanes: usize,
-    ends: impl Fn(&[P]) -> Ends<P> + Send + Sync,
-) -> Ends<P> {
+fn in_parts<S: Sync, B: Send>(starts: &[S], lanes: usize, run: impl Fn(&[S]) -> Vec<B> + Sync) -> Vec<B> {
     use rayon::prelude::*;
-    let threads = rayon::current_num_threads();
-    let parts = if threads == 1 { 1 } else { PARTS * threads };
+    let parts = if threads() == 1 { 1 } else { PARTS * threads() };
     let size = starts.len().div_ceil(parts).next_multiple_of(lanes);
-    starts.par_chunks(size).flat_map_iter(ends).collect()
+    starts.par_chunks(size).flat_map_iter(&run).collect()
 }
 
-impl<const N: usize, M: Model<N>> fmt::Debug for Ensemble<'_, N, M> {
+impl<const N: usize, H: Handle<N>> fmt::Debug for Ensemble<'_, N, H> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Ensemble")
-            .field("model", &M::DESCRIPTION.name)
-            .field("bodies", &self.starts.len())
-            .field("t0", &self.t0)
-            .field("t_end", &self.t_end)
-            .field("tolerance", &self.tolerance)
-            .field("max_steps", &self.max_steps)
-            .finish()
+            .field("model", &H::Model::DESCRIPTION.name)
+            .field("plan", &self.plan)
+            .finish_non_exhaustive()
     }
 }

@@ -84,46 +84,9 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     }
 
     fn empty_trajectory(&self) -> Trajectory<N, P> {
-        let (t0, start) = (self.settings.plan.t0, &self.settings.start);
-        let energy = self.model.hamiltonian(t0, start);
-        Trajectory {
-            description: self.model.description(),
-            bases: self.model.bases().map(Box::new),
-            start: (t0, *start),
-            end: (t0, *start),
-            times: Vec::new(),
-            points: Vec::new(),
-            energies: Energies {
-                start: energy,
-                end: energy,
-                outputs: Vec::new(),
-                work: Vec::new(),
-                work_at_end: 0.0,
-                scale: energy_scale(self.model, start, energy),
-            },
-            statistics: Statistics::default(),
-            events: Vec::new(),
-            stopped_by: None,
-            checkpoint: None,
-            dense: self.settings.dense.map(|_| Box::new(Dense::new((t0, *start)))),
-            computation: Computation {
-                asked: self.settings.plan.method,
-                method: Method::RungeKutta8,
-                tolerance: self.settings.plan.tolerance_at(self.model, start),
-                tolerance_asked: self.settings.plan.tolerance,
-                closed_form_exists: false,
-                no_whirl: false,
-                at_rest: start.p().iter().all(|p| *p == 0.0),
-                missing: None,
-                stiffness: None,
-                friction: None,
-                condition: self.model.condition(start.phi()),
-                residual: None,
-                energy_defect: 0.0,
-                unresolved_power: 0.0,
-                turns: None,
-            },
-        }
+        let Settings { plan, start, dense, .. } = &self.settings;
+        let dense = dense.map(|_| Box::new(Dense::new((plan.t0, *start))));
+        Trajectory { dense, ..empty_trajectory(self.model, plan, start) }
     }
 
     fn drive(&mut self, trajectory: &mut Trajectory<N, P>) -> Result<(), Reason> {
@@ -244,5 +207,53 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                 recorder.follow(&mut *motion?)
             }
         }
+    }
+}
+
+/// A run before its first step.
+pub(super) fn empty_trajectory<const N: usize, P: Phase<N>>(
+    model: &dyn Mechanics<N, P>,
+    plan: &Plan,
+    start: &P,
+) -> Trajectory<N, P> {
+    let t0 = plan.t0;
+    let energy = model.hamiltonian(t0, start);
+    Trajectory {
+        description: model.description(),
+        bases: model.bases().map(Box::new),
+        start: (t0, *start),
+        end: (t0, *start),
+        times: Vec::new(),
+        points: Vec::new(),
+        energies: Energies {
+            start: energy,
+            end: energy,
+            outputs: Vec::new(),
+            work: Vec::new(),
+            work_at_end: 0.0,
+            scale: energy_scale(model, start, energy),
+        },
+        statistics: Statistics::default(),
+        events: Vec::new(),
+        stopped_by: None,
+        checkpoint: None,
+        dense: None,
+        computation: Computation {
+            asked: plan.method,
+            method: Method::RungeKutta8,
+            tolerance: plan.tolerance_at(model, start),
+            tolerance_asked: plan.tolerance,
+            closed_form_exists: false,
+            no_whirl: false,
+            at_rest: start.p().iter().all(|p| *p == 0.0),
+            missing: None,
+            stiffness: None,
+            friction: None,
+            condition: model.condition(start.phi()),
+            residual: None,
+            energy_defect: 0.0,
+            unresolved_power: 0.0,
+            turns: None,
+        },
     }
 }

@@ -82,6 +82,13 @@ pub enum Setting {
         /// Name of the model.
         model: &'static str,
     },
+    /// There is no such shard of an ensemble.
+    Shard {
+        /// Its number.
+        k: u64,
+        /// How many there are.
+        of: u64,
+    },
     /// The length of a fixed step is not positive, not finite, or lost in the rounding of times.
     Step {
         /// Its value.
@@ -209,6 +216,7 @@ impl fmt::Display for Setting {
                 "the checkpoint is not of this run of {model}: resume with the model, its parameters, the start, method, \
                  tolerance, times, outputs and events of the run that was interrupted"
             ),
+            Setting::Shard { k, of } => write!(f, "shard {k} of {of}: shards are counted from 0"),
             Setting::Step { given, t0, t_end } => write!(
                 f,
                 "a step of {given:e} between {t0} and {t_end}: it is a positive number, coarser than the rounding of \

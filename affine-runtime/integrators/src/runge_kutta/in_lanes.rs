@@ -1,5 +1,7 @@
 //! The method of order 8 for several bodies at once, each in a lane with steps of its own.
 
+mod dense;
+
 use pulp::{Arch, Simd, WithSimd};
 
 use super::dormand_prince_853::*;
@@ -29,6 +31,8 @@ pub struct RungeKutta8InLanes<T, S, F> {
     y: S,
     trial: S,
     stages: [S; STAGES],
+    /// Times, states and slopes where the last attempts began.
+    before: Option<(T, S, S)>,
 }
 
 /// What happens to the body in a lane.
@@ -57,6 +61,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
             y: S::zeros(),
             trial: S::zeros(),
             stages: [S::zeros(); STAGES],
+            before: None,
         }
     }
 
@@ -83,6 +88,9 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
 
     /// Tries one step in every lane; what becomes of a body, where its way ends.
     pub fn advance(&mut self) -> impl Iterator<Item = (usize, Fate)> + use<T, S, F> {
+        if self.before.is_some() {
+            self.keep();
+        }
         let fates = Arch::new().dispatch(Trial(self));
         (0..T::LANES).filter_map(move |lane| match fates.lane(lane) {
             fate::UNDER_WAY => None,

@@ -122,6 +122,14 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
         &self.stages[12]
     }
 
+    /// Takes over an accepted step that was computed elsewhere: its end, and the slopes after the first.
+    #[cfg(feature = "std")]
+    pub(super) fn taken(&mut self, end: (f64, S), slopes: impl Iterator<Item = S>) {
+        (self.t_trial, self.y_trial) = end;
+        self.stages[1..].iter_mut().zip(slopes).for_each(|(stage, slope)| *stage = slope);
+        self.accepted = true;
+    }
+
     /// Turns to the next step, which begins where this one ended.
     #[inline]
     pub fn begin_next(&mut self) {

@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use crate::capability::InLanes;
+use crate::error::Reason;
 use crate::frames::Matrix;
 use crate::inner::{Equations, Fate, RungeKutta8InLanes, gathered};
 use crate::inner::{Start, starts_in_lanes};
@@ -13,39 +14,36 @@ use crate::simulate::motion::WithWork;
 use crate::simulate::point::is_clearly_positive;
 
 /// What all bodies of an ensemble have in common.
-pub(super) struct Common<'a, M> {
-    pub(super) model: &'a M,
+#[derive(Clone, Copy)]
+pub(super) struct Common {
     pub(super) t0: f64,
     pub(super) t_end: f64,
     pub(super) tolerance: f64,
     pub(super) max_steps: u64,
+    /// Times within steps are asked for.
+    pub(super) within_steps: bool,
 }
-
-impl<M> Clone for Common<'_, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<M> Copy for Common<'_, M> {}
 
 /// A body before its first step.
-pub(super) struct Begun<const N: usize, M: InLanes<N>> {
-    body: usize,
+pub(super) struct Begun<'a, const N: usize, M: InLanes<N>> {
+    pub(super) body: usize,
+    model: &'a M,
     state: M::Reduced<f64>,
     constants: M::Constants<f64>,
     start: Start<M::Reduced<f64>>,
 }
 
 /// As many bodies as there are lanes, or fewer, at their start; those are left out for which there is nothing to begin with.
-pub(super) fn begun<const N: usize, T: Lanes, M: InLanes<N>>(
-    common: Common<'_, M>,
-    points: &[(usize, &M::Point<f64>)],
-) -> Vec<Begun<N, M>> {
-    let Common { model, t0, t_end, tolerance, .. } = common;
+pub(super) fn begun<'a, const N: usize, T: Lanes, M: InLanes<N>>(
+    common: Common,
+    points: &[(usize, &'a M, &M::Point<f64>)],
+) -> Vec<Begun<'a, N, M>> {
+    let Common { t0, t_end, tolerance, .. } = common;
+    let Some(&(_, first, _)) = points.first() else { return Vec::new() };
     let (states, constants): (Vec<_>, Vec<_>) =
-        points.iter().map(|(_, point)| model.reduce(t0, point)).unzip();
-    let equations = Reduced { model, constants: M::constants_in_lanes::<T>(&constants) };
+        points.iter().map(|(_, model, point)| model.reduce(t0, point)).unzip();
+    let models = points.iter().map(|(_, model, _)| *model).collect();
+    let equations = Reduced { first, models, constants: M::constants_in_lanes::<T>(&constants) };
     let mut in_lanes = M::Reduced::<T>::zeros();
     for (k, component) in in_lanes.as_mut().iter_mut().enumerate() {
         *component = gathered(&states, |state: &M::Reduced<f64>| state.as_ref()[k]);
@@ -53,29 +51,19 @@ pub(super) fn begun<const N: usize, T: Lanes, M: InLanes<N>>(
     let starts = starts_in_lanes(&equations, (t0, &in_lanes), t_end, tolerance);
     let bodies = points.iter().zip(states).zip(constants).zip(starts);
     bodies
-        .filter_map(|((((body, _), state), constants), start)| {
-            Some(Begun { body: *body, state, constants, start: start? })
+        .filter_map(|((((body, model, _), state), constants), start)| {
+            Some(Begun { body: *body, model: *model, state, constants, start: start? })
         })
         .collect()
-}
-
-/// A body that is done with its lane.
-pub(super) struct Done<P> {
-    pub(super) lane: usize,
-    pub(super) body: usize,
-    /// Where it has come to, with the work done; `None` where it cannot go on.
-    pub(super) end: Option<WithWork<P>>,
 }
 
 /// Lanes, each with a body or at rest.
 pub(super) struct Bodies<'a, const N: usize, T: Lanes, M: InLanes<N>> {
     integration: RungeKutta8InLanes<T, M::Reduced<T>, Reduced<'a, N, M, T>>,
-    model: &'a M,
     t0: f64,
-    t_end: f64,
     bodies: Vec<Option<usize>>,
     /// Of the body that is, or was last, in each lane.
-    constants: Vec<M::Constants<f64>>,
+    of_lanes: Vec<(&'a M, M::Constants<f64>)>,
     /// Those of the equations are others.
     has_changed: bool,
 }
@@ -83,16 +71,19 @@ pub(super) struct Bodies<'a, const N: usize, T: Lanes, M: InLanes<N>> {
 impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
     /// The first bodies, one in every lane; lanes that are left rest where the last of them is.
     pub(super) fn filled(
-        common: Common<'a, M>,
-        first: Begun<N, M>,
-        others: &mut impl Iterator<Item = Begun<N, M>>,
+        common: Common,
+        first: Begun<'a, N, M>,
+        others: &mut impl Iterator<Item = Begun<'a, N, M>>,
     ) -> Self {
-        let Common { model, t0, t_end, tolerance, max_steps } = common;
-        let constants = vec![first.constants; T::LANES];
-        let equations = Reduced { model, constants: M::constants_in_lanes(&constants) };
-        let integration = RungeKutta8InLanes::new(equations, t_end, tolerance, max_steps);
-        let bodies = vec![None; T::LANES];
-        let mut lanes = Self { integration, model, t0, t_end, bodies, constants, has_changed: false };
+        let Common { t0, t_end, tolerance, max_steps, within_steps } = common;
+        let constants = M::constants_in_lanes(&[first.constants]);
+        let equations = Reduced { first: first.model, models: vec![first.model; T::LANES], constants };
+        let mut integration = RungeKutta8InLanes::new(equations, t_end, tolerance, max_steps);
+        if within_steps {
+            integration.keep();
+        }
+        let of_lanes = vec![(first.model, first.constants); T::LANES];
+        let mut lanes = Self { integration, t0, bodies: vec![None; T::LANES], of_lanes, has_changed: false };
         lanes.put(0, &first);
         let mut last = first;
         for lane in 1..T::LANES {
@@ -108,9 +99,9 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
     }
 
     /// Puts a body into a lane.
-    pub(super) fn put(&mut self, lane: usize, begun: &Begun<N, M>) {
+    pub(super) fn put(&mut self, lane: usize, begun: &Begun<'a, N, M>) {
         self.integration.start(lane, (self.t0, &begun.state), &begun.start);
-        self.constants[lane] = begun.constants;
+        self.of_lanes[lane] = (begun.model, begun.constants);
         self.has_changed = true;
         self.bodies[lane] = Some(begun.body);
     }
@@ -126,35 +117,72 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
         self.bodies.iter().any(Option::is_some)
     }
 
-    /// Tries one step of every body; the lanes that this leaves without.
-    pub(super) fn advance(&mut self) -> Vec<Done<M::Point<f64>>> {
-        if core::mem::take(&mut self.has_changed) {
-            self.integration.equations().constants = M::constants_in_lanes(&self.constants);
-        }
-        let mut done = Vec::new();
-        for (lane, fate) in self.integration.advance() {
-            if let Some(body) = self.bodies[lane] {
-                done.push(Done { lane, body, end: (fate == Fate::Arrived).then(|| self.end(lane)) });
-            }
-        }
-        done
+    /// The body in a lane.
+    pub(super) fn body(&self, lane: usize) -> Option<usize> {
+        self.bodies[lane]
     }
 
-    /// The phase point at the end of the interval, with the work done.
-    fn end(&self, lane: usize) -> WithWork<M::Point<f64>> {
+    /// Tries one step of every body; the lanes in which one has arrived, or cannot go on.
+    pub(super) fn advance(&mut self) -> impl Iterator<Item = (usize, Fate)> + use<'a, N, T, M> {
+        if core::mem::take(&mut self.has_changed) {
+            let constants: Vec<_> = self.of_lanes.iter().map(|(_, constants)| *constants).collect();
+            let equations = self.integration.equations();
+            equations.constants = M::constants_in_lanes(&constants);
+            equations
+                .models
+                .iter_mut()
+                .zip(&self.of_lanes)
+                .for_each(|(model, (of_lane, _))| *model = of_lane);
+        }
+        self.integration.advance()
+    }
+
+    /// The last attempt of a lane was a step.
+    pub(super) fn has_stepped(&self, lane: usize) -> bool {
+        self.integration.has_stepped(lane)
+    }
+
+    /// Time reached in a lane.
+    pub(super) fn t(&self, lane: usize) -> f64 {
+        self.integration.t(lane)
+    }
+
+    /// The phase point reached in a lane, with the work done.
+    pub(super) fn reached(&self, lane: usize) -> WithWork<M::Point<f64>> {
         let mut state = M::Reduced::<f64>::zeros();
         for (component, lanes) in state.as_mut().iter_mut().zip(self.integration.y().as_ref()) {
             *component = lanes.lane(lane);
         }
+        self.expanded(lane, self.t(lane), &state)
+    }
+
+    /// The phase points at times within the last step in a lane, whose dense output is formed for the first of them.
+    pub(super) fn within(&self, lane: usize) -> impl FnMut(f64) -> Result<WithWork<M::Point<f64>>, Reason> {
+        let mut dense = None;
+        move |t| {
+            if t == self.t(lane) {
+                return Ok(self.reached(lane));
+            }
+            let (model, constants) = &self.of_lanes[lane];
+            let equations = |t: f64, y: &M::Reduced<f64>| model.reduced_equations(t, constants, y);
+            let dense = dense.get_or_insert_with(|| self.integration.dense(lane, &equations));
+            let state = dense.as_ref().map(|dense| dense.at(t));
+            state.map(|state| self.expanded(lane, t, &state)).ok_or(Reason::NotFinite)
+        }
+    }
+
+    fn expanded(&self, lane: usize, t: f64, state: &M::Reduced<f64>) -> WithWork<M::Point<f64>> {
+        let (model, constants) = &self.of_lanes[lane];
         let work = const { Layout::of(M::DESCRIPTION.reduced, N) }.work;
-        let work = work.map_or(0.0, |place| state.as_ref()[place]);
-        (self.model.expand(self.t_end, &self.constants[lane], &state), work)
+        (model.expand(t, constants, state), work.map_or(0.0, |place| state.as_ref()[place]))
     }
 }
 
 /// The reduced equations of the bodies in lanes.
 struct Reduced<'a, const N: usize, M: InLanes<N>, T: Lanes> {
-    model: &'a M,
+    first: &'a M,
+    /// Of each lane, as far as there are bodies.
+    models: Vec<&'a M>,
     constants: M::Constants<T>,
 }
 
@@ -163,7 +191,8 @@ impl<const N: usize, M: InLanes<N>, T: Lanes> Equations<T, M::Reduced<T>> for Re
 
     #[inline(always)]
     fn slope(&self, t: T, y: &M::Reduced<T>, slope: &mut M::Reduced<T>) {
-        self.model.equations_in_lanes(t, &self.constants, y, slope);
+        let model = |lane: usize| self.models.get(lane).copied().unwrap_or(self.first);
+        M::equations_in_lanes(model, t, &self.constants, y, slope);
     }
 
     #[inline(always)]

@@ -1,0 +1,167 @@
+//! Bodies of an ensemble one after the other through the same lanes.
+
+use super::asked::{Asked, Member, Start};
+use super::bodies::{Bodies, Common, begun};
+use super::recording::{Next, Recording};
+use crate::capability::InLanes;
+use crate::inner::Fate;
+use crate::lanes::Lanes;
+use crate::model::{Handle, Model};
+use crate::simulate::friction::{is_stiff, rate_of_friction};
+use crate::simulate::layout::placement_in;
+use crate::simulate::mechanics::Moving;
+use crate::simulate::method::Method;
+use crate::simulate::methods::automatic;
+use crate::simulate::motion::{Followed, PointOf};
+use crate::simulate::orientation::passes_through_zero;
+use crate::simulate::point::is_clearly_positive;
+use crate::simulate::run::empty_trajectory;
+use crate::simulate::settings::Plan;
+use crate::simulate::simulation::Simulation;
+use crate::state::Phase;
+
+impl<const N: usize, H: Handle<N>, A> Asked<'_, '_, N, H, A>
+where
+    H::Model: InLanes<N>,
+{
+    /// What becomes of bodies, in their order. Those that cannot go on in lanes go alone from their start.
+    pub(super) fn of<T: Lanes>(&self, starts: &[Start<N, H>]) -> Vec<Member<PointOf<N, H>, A>> {
+        let apart: Vec<Option<Method>> = starts.iter().map(|start| self.apart(start)).collect();
+        let mut done: Vec<Option<Member<_, A>>> = starts.iter().map(|_| None).collect();
+        self.in_lanes::<T>(starts, &apart, &mut |body, end| {
+            (self.tell)();
+            done[body] = Some(end);
+        });
+        let alone = |(start, apart): (&Start<N, H>, Option<Method>)| {
+            let body = self.alone(start, apart.unwrap_or(Method::RungeKutta8));
+            (self.tell)();
+            body
+        };
+        let done = done.into_iter().zip(starts.iter().zip(apart));
+        done.map(|(done, start)| done.unwrap_or_else(|| alone(start))).collect()
+    }
+
+    /// Bodies that are not apart, as far as they go in lanes.
+    fn in_lanes<T: Lanes>(
+        &self,
+        starts: &[Start<N, H>],
+        apart: &[Option<Method>],
+        done: &mut dyn FnMut(usize, Member<PointOf<N, H>, A>),
+    ) {
+        let models: Vec<_> = starts.iter().map(|start| moving(start.handle.model())).collect();
+        let together = starts.iter().enumerate().filter(|(body, _)| apart[*body].is_none());
+        let together: Vec<_> =
+            together.map(|(body, start)| (body, start.handle.model(), &start.point)).collect();
+        let common = Common {
+            t0: self.plan.t0,
+            t_end: self.t_end,
+            tolerance: self.plan.tolerance,
+            max_steps: self.plan.max_steps,
+            within_steps: self.within_steps,
+        };
+        let mut waiting =
+            together.chunks(T::LANES).flat_map(|points| begun::<N, T, H::Model>(common, points));
+        let Some(first) = waiting.next() else { return };
+        let trajectory = empty_trajectory(&models[first.body], self.plan, &starts[first.body].point);
+        let mut trajectories = vec![trajectory; T::LANES];
+        let record =
+            |body: usize, trajectory| Recording::begun(self, &starts[body], &models[body], trajectory);
+        let mut bodies = Bodies::<N, T, H::Model>::filled(common, first, &mut waiting);
+        let mut recordings: Vec<_> = trajectories
+            .iter_mut()
+            .enumerate()
+            .map(|(lane, trajectory)| bodies.body(lane).map(|body| (body, record(body, trajectory))))
+            .collect();
+        let mut fates = vec![Next::Step; T::LANES];
+        while bodies.are_moving() {
+            fates.fill(Next::Step);
+            for (lane, fate) in bodies.advance() {
+                fates[lane] = if fate == Fate::Arrived { Next::End } else { Next::Alone };
+            }
+            for lane in 0..T::LANES {
+                let Some((_, recording)) = &mut recordings[lane] else { continue };
+                let next = self.next(&bodies, lane, fates[lane], recording);
+                if next == Next::Step {
+                    continue;
+                }
+                let Some((body, recording)) = recordings[lane].take() else { continue };
+                let (trajectory, folded) = recording.done();
+                if next == Next::End {
+                    let (end, events) = (Ok(trajectory.end.1), core::mem::take(&mut trajectory.events));
+                    done(body, Member { number: starts[body].number, end, events, folded });
+                }
+                match waiting.next() {
+                    Some(next) => {
+                        bodies.put(lane, &next);
+                        recordings[lane] = Some((next.body, record(next.body, trajectory)));
+                    }
+                    None => bodies.rest(lane),
+                }
+            }
+        }
+    }
+
+    /// How the body in a lane goes on after an attempt of a step.
+    fn next<T: Lanes>(
+        &self,
+        bodies: &Bodies<'_, N, T, H::Model>,
+        lane: usize,
+        fate: Next,
+        recording: &mut Recording<'_, '_, N, PointOf<N, H>, A>,
+    ) -> Next {
+        if fate == Next::Alone {
+            return fate;
+        }
+        if self.within_steps && bodies.has_stepped(lane) {
+            let next = recording.step(bodies.t(lane), &mut bodies.within(lane), self.add);
+            if next != Next::Step {
+                return next;
+            }
+        }
+        match fate == Next::End && !recording.arrive(bodies.t(lane), bodies.reached(lane)) {
+            true => Next::Alone,
+            false => fate,
+        }
+    }
+
+    /// The method of a body that is not taken into lanes: with friction that is stiff, with a closed form, or with steps that
+    /// have to be looked at.
+    fn apart(&self, Start { handle, point, .. }: &Start<N, H>) -> Option<Method> {
+        let (model, t0) = (handle.model(), self.plan.t0);
+        let rate = rate_of_friction(model, (t0, point)).rate;
+        if rate.is_some_and(|rate| is_stiff(rate, self.t_end - t0)) {
+            return Some(Method::Radau { stages: None });
+        }
+        if model.geodesic(t0, point).is_some() {
+            return Some(Method::ClosedForm);
+        }
+        let is_placed = const { placement_in(H::Model::DESCRIPTION.reduced, N).is_some() };
+        // The signature of a mass matrix that depends on the placement is looked after step by step, as the domain of a
+        // potential is, and the orientation of a body that nothing keeps from losing it within them.
+        let is_special = H::Model::DESCRIPTION.constraint.is_some()
+            || !H::Model::DESCRIPTION.domain.is_empty()
+            || model.regularity(point.phi()).is_some()
+            || passes_through_zero(&H::Model::DESCRIPTION);
+        let stands = point.is_finite() && is_clearly_positive(point.phi());
+        let is_sound = stands && model.hamiltonian(t0, point).is_finite();
+        (!is_placed || is_special || self.t_end == t0 || !is_sound).then_some(Method::RungeKutta8)
+    }
+
+    /// One body by itself.
+    fn alone(&self, start: &Start<N, H>, method: Method) -> Member<PointOf<N, H>, A> {
+        let mut simulation = Simulation::new(start.handle.model(), start.point).by_default(method);
+        simulation.settings.plan = Plan { method, ..self.plan.clone() };
+        simulation.settings.events = (self.events)();
+        let (end, run) = match simulation.run() {
+            Ok(run) => (Ok(*run.end().1), run),
+            Err(halt) => (Err(halt.stop), *halt.trajectory),
+        };
+        let mut folded = (self.begin)(start.number, &start.handle);
+        run.iter().for_each(|(t, point)| (self.add)(&mut folded, t, point));
+        Member { number: start.number, end, events: run.events, folded }
+    }
+}
+
+fn moving<'m, const N: usize, M: Model<N>>(model: &'m M) -> Moving<'m, N, Followed<'m, M>> {
+    Moving { handle: Followed(model), begin: automatic }
+}

@@ -1,0 +1,122 @@
+//! What is recorded of the body in a lane, as a run of it alone records it.
+
+use super::asked::{Asked, Start};
+use crate::integrate::Statistics;
+use crate::model::{Handle, Model};
+use crate::simulate::checkpoint::Place;
+use crate::simulate::follow::WITHIN_A_STEP;
+use crate::simulate::mechanics::Mechanics;
+use crate::simulate::motion::WithWork;
+use crate::simulate::point::check;
+use crate::simulate::recorder::{Recorder, Turn};
+use crate::simulate::trajectory::Trajectory;
+use crate::simulate::watcher::{At, Sampling, Watcher};
+use crate::state::Phase;
+
+const SAMPLING: Sampling = Sampling { parts: WITHIN_A_STEP, rate: 0.0 };
+
+/// How a body goes on after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Next {
+    /// With the next step.
+    Step,
+    /// Not at all: an event has ended its run.
+    End,
+    /// By itself: something has to be looked at that lanes do not.
+    Alone,
+}
+
+/// A body on its way, with what is folded of it so far.
+pub(super) struct Recording<'r, 'a, const N: usize, P, A> {
+    recorder: Recorder<'r, 'a, N, P>,
+    folded: A,
+    /// A run would not begin.
+    is_refused: bool,
+}
+
+impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
+    /// At the start of a body, in a trajectory that was another's before.
+    pub(super) fn begun<'e: 'a, H>(
+        asked: &Asked<'_, 'e, N, H, A>,
+        start: &Start<N, H>,
+        model: &'a dyn Mechanics<N, P>,
+        trajectory: &'r mut Trajectory<N, P>,
+    ) -> Self
+    where
+        H: Handle<N, Model: Model<N, Point<f64> = P>>,
+    {
+        let (plan, t0) = (asked.plan, asked.plan.t0);
+        (trajectory.start, trajectory.end) = ((t0, start.point), (t0, start.point));
+        trajectory.energies.work_at_end = 0.0;
+        trajectory.times.clear();
+        trajectory.points.clear();
+        trajectory.events.clear();
+        let mut recorder = Recorder {
+            model,
+            needs_determinant: false,
+            trajectory,
+            keep: None,
+            schedule: asked.schedule.clone(),
+            progress: None,
+            observe: None,
+            watcher: Watcher::new((asked.events)(), model.bases()),
+            max_steps: plan.max_steps,
+            origin: t0,
+            t_end: asked.t_end,
+            backward: asked.t_end < t0,
+            steps: 0,
+            place: Place::starting(Vec::new(), (Statistics::default(), 0.0)),
+            witness: None,
+            is_lost: false,
+            turn: None,
+        };
+        let begun = recorder.begin_energy(t0, &start.point, Some(plan.tolerance));
+        let is_refused = begun.and_then(|()| recorder.begin(t0, &start.point)).is_err();
+        Self { recorder, folded: (asked.begin)(start.number, &start.handle), is_refused }
+    }
+
+    /// Looks at a step to a time: events, and outputs.
+    pub(super) fn step(&mut self, t: f64, at: &mut At<'_, P>, add: &dyn Fn(&mut A, f64, &P)) -> Next {
+        if self.is_refused {
+            return Next::Alone;
+        }
+        // Those of the step before.
+        self.recorder.place.met = 0;
+        match self.recorder.meet(t, SAMPLING, at) {
+            Ok(false) => {}
+            Ok(true) if matches!(self.recorder.turn, Some(Turn::Stopped)) => {
+                self.hand_over(add);
+                return Next::End;
+            }
+            _ => return Next::Alone,
+        }
+        self.hand_over(add);
+        let Recorder { schedule, backward, .. } = &mut self.recorder;
+        while let Some(due) = schedule.take_through(t, *backward) {
+            match at(due) {
+                Ok((point, _)) if check(due, &point).is_ok() => add(&mut self.folded, due, &point),
+                _ => return Next::Alone,
+            }
+        }
+        Next::Step
+    }
+
+    /// What was recorded up to an event.
+    fn hand_over(&mut self, add: &dyn Fn(&mut A, f64, &P)) {
+        let Trajectory { times, points, energies, .. } = &mut *self.recorder.trajectory;
+        energies.outputs.clear();
+        energies.work.clear();
+        times.drain(..).zip(points.drain(..)).for_each(|(t, point)| add(&mut self.folded, t, &point));
+    }
+
+    /// Looks at the end of the interval; whether a body may end there.
+    pub(super) fn arrive(&mut self, t: f64, end: WithWork<P>) -> bool {
+        let recorder = &mut self.recorder;
+        !self.is_refused && recorder.reach(t, end).and_then(|()| recorder.arrive()).is_ok()
+    }
+
+    /// The trajectory, for the next body, with the point reached last and the events, and what was folded.
+    pub(super) fn done(self) -> (&'r mut Trajectory<N, P>, A) {
+        (self.recorder.trajectory, self.folded)
+    }
+}

@@ -1,0 +1,83 @@
+//! Parts of an ensemble, and bodies that are run again.
+
+use affine_runtime::model::Owned;
+use affine_runtime::prelude::*;
+use affine_runtime::simulate::Member;
+
+use crate::models::{Elastic, PreparedVibrating, Sampled, Vibrating, vibrating};
+
+type Seen = Vec<Member<<PreparedVibrating as Model<3>>::Point<f64>, f64>>;
+
+const BODIES: usize = 43;
+
+/// Bodies with a model each, and the sum of what they pass through.
+fn seen(
+    part: impl FnOnce(
+        Ensemble<'static, 3, Owned<PreparedVibrating>>,
+    ) -> Ensemble<'static, 3, Owned<PreparedVibrating>>,
+) -> Seen {
+    let starts = vibrating().samples(BODIES, 61);
+    let bodies = starts.into_iter().enumerate().map(|(k, start)| {
+        (Owned(Vibrating { kappa: 10.0, c1: 0.2 + 0.05 * k as f64 }.prepare().unwrap()), start)
+    });
+    let mut seen = Vec::new();
+    part(Ensemble::of(bodies).until(1.0).tolerance(1e-9).every(0.1))
+        .fold(|_, _| 0.0, |sum: &mut f64, t, point| *sum += t * point.phi().norm(), |body| seen.push(body))
+        .unwrap();
+    seen
+}
+
+#[test]
+fn shards_put_together_are_the_ensemble() {
+    let whole = seen(|ensemble| ensemble);
+    assert_eq!(
+        whole.iter().map(|body| body.number).collect::<Vec<_>>(),
+        (0..BODIES as u64).collect::<Vec<_>>()
+    );
+    for of in [1, 2, 3, 7, 50] {
+        let mut merged: Seen = (0..of).flat_map(|k| seen(|ensemble| ensemble.shard(k, of))).collect();
+        merged.sort_by_key(|body| body.number);
+        assert_eq!(merged, whole, "{of} shards");
+    }
+}
+
+#[test]
+fn a_body_is_run_again_from_its_number() {
+    let whole = seen(|ensemble| ensemble);
+    for number in [0, 17, BODIES as u64 - 1] {
+        let again = seen(|ensemble| ensemble.numbers(number..number + 1));
+        assert_eq!(again, whole[number as usize..=number as usize]);
+    }
+    let rest = seen(|ensemble| ensemble.shard(1, 2).numbers(20..u64::MAX));
+    let expected: Seen = whole.into_iter().filter(|body| body.number % 2 == 1 && body.number >= 20).collect();
+    assert_eq!(rest, expected, "what a shard had left");
+}
+
+/// Neither chunks nor threads: more bodies than are there at once, in pools of one thread and of three.
+#[test]
+fn bits_do_not_depend_on_threads_or_chunks() {
+    let start = Elastic.samples(7, 62);
+    let sums = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let (mut sum, mut ends) = (0.0_f64, Vec::new());
+            Ensemble::new(&Elastic, (0..5000).map(|k| start[k % 7]))
+                .until(0.05)
+                .tolerance(1e-6)
+                .every(0.02)
+                .fold(
+                    |_, _| 0.0,
+                    |sum: &mut f64, t, point| *sum += t * point.phi().norm(),
+                    |body| {
+                        sum += body.folded;
+                        ends.push(body.end.unwrap().phi().norm().to_bits());
+                    },
+                )
+                .unwrap();
+            (sum.to_bits(), ends)
+        })
+    };
+    let one = sums(1);
+    assert_eq!(one.1.len(), 5000);
+    assert_eq!(sums(3), one);
+}

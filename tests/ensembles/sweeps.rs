@@ -1,0 +1,79 @@
+//! Bodies that have a model each.
+
+use affine_runtime::lanes::F64x16;
+use affine_runtime::model::Owned;
+use affine_runtime::prelude::*;
+
+use crate::models::{Blown, PreparedBlown, PreparedVibrating, Sampled, Vibrating, Wind, vibrating};
+
+const BODIES: u32 = 21;
+
+fn vibrating_bodies() -> Vec<(Owned<PreparedVibrating>, <PreparedVibrating as Model<3>>::Point<f64>)> {
+    let starts = vibrating().samples(BODIES as usize, 41);
+    let model = |k| Vibrating { kappa: 5.0 + f64::from(k), c1: 0.1 * f64::from(k + 1) }.prepare().unwrap();
+    (0..BODIES).map(model).map(Owned).zip(starts).collect()
+}
+
+#[test]
+fn a_sweep_has_the_bits_of_each_body_alone() {
+    let bodies = vibrating_bodies();
+    let ensemble = || Ensemble::of(bodies.iter().cloned()).until(1.5).tolerance(1e-9);
+    for ends in [ensemble().run().unwrap(), ensemble().run_in::<F64x16>().unwrap()] {
+        for ((Owned(model), start), end) in bodies.iter().zip(ends) {
+            let alone = Simulation::new(model, *start).until(1.5).tolerance(1e-9);
+            assert_eq!(end.unwrap(), *alone.method(Method::RungeKutta8).run().unwrap().end().1);
+        }
+    }
+}
+
+/// A force that equations ask, and bases that depend on fields, are those of the body's own model.
+#[test]
+fn fields_that_are_no_coefficients_are_those_of_each_body() {
+    let model = |k: u32| {
+        let eta = Matrix::<2>::new(1.0 + 0.1 * f64::from(k), 0.2, 0.2, 1.0);
+        Blown { eta, j: 1.0 + 0.2 * f64::from(k), s: 0.5, wind: Wind(0.3 * f64::from(k)) }.prepare().unwrap()
+    };
+    let models: Vec<PreparedBlown> = (0..BODIES).map(model).collect();
+    let start = models[0]
+        .at_velocity(
+            Vector::<2>::zeros(),
+            Matrix::<2>::identity(),
+            Vector::<2>::new(0.1, 0.2),
+            Matrix::<2>::new(0.1, 0.2, 0.0, -0.1),
+        )
+        .unwrap();
+    let ends =
+        Ensemble::of(models.iter().map(|model| (model, start))).until(1.0).tolerance(1e-9).run().unwrap();
+    for (k, (model, end)) in models.iter().zip(&ends).enumerate() {
+        let alone = Simulation::new(model, start).until(1.0).tolerance(1e-9).method(Method::RungeKutta8);
+        assert_eq!(end.as_ref().unwrap(), alone.run().unwrap().end().1, "body {k}");
+    }
+    // The uniform part of the wind alone moves the centre along x by w t^2/2.
+    for (k, end) in ends.iter().enumerate() {
+        let x = end.as_ref().unwrap().x()[0];
+        assert!((x - (0.1 + 0.15 * k as f64)).abs() < 1e-8, "body {k}: {x}");
+    }
+}
+
+/// Of a thousand chunks no more than one is there at a time: starts are taken when they are needed, and not kept.
+#[test]
+fn starts_are_taken_as_they_are_needed() {
+    let model = vibrating();
+    let start = model.samples(1, 5)[0];
+    let (taken, done) = (std::cell::Cell::new(0_u64), std::cell::Cell::new(0_u64));
+    let mut most = 0;
+    let starts = (0..60_000).map(|_| {
+        taken.set(taken.get() + 1);
+        start
+    });
+    let each = |body: affine_runtime::simulate::Member<_, ()>| {
+        assert_eq!(body.number, done.get());
+        done.set(done.get() + 1);
+        most = most.max(taken.get() - done.get());
+    };
+    // An empty interval: what is looked at is the way of the starts.
+    Ensemble::new(&model, starts).until(0.0).fold(|_, _| (), |(), _, _| (), each).unwrap();
+    assert_eq!(done.get(), 60_000);
+    let at_once = 4096 * rayon::current_num_threads() as u64;
+    assert!(most <= at_once, "{most} bodies at once");
+}
