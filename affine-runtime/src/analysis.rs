@@ -7,7 +7,9 @@
 //! | their small vibrations | [`RelativeEquilibrium::modes`] |
 //! | motions that symmetries generate | [`relative_equilibrium`], [`Generator`], [`Condition`] |
 //! | whether they are stable | [`RelativeEquilibrium::stability`] |
+//! | how they branch | [`Continuation`] |
 
+mod branch;
 mod elimination;
 mod error;
 mod field;
@@ -24,6 +26,7 @@ mod spectrum;
 mod stability;
 mod tape;
 
+pub use branch::{Branch, BranchPoint, Continuation, Special};
 pub use error::AnalysisError;
 pub use generator::Generator;
 pub use jacobian::JacobianMatrix;

@@ -4,6 +4,7 @@
 //! forms or Hessian blocks on one side and spectra of Jacobians on the other.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod branches;
 mod jacobian;
 mod models;
 mod modes;

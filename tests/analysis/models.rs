@@ -52,7 +52,7 @@ pub(crate) fn unrest<const N: usize, M: Model<N>>(
     time: f64,
 ) -> f64 {
     let run =
-        Simulation::new(model, *turn.point()).until(time).every(time / 8.0).tolerance(1e-13).run().unwrap();
+        Simulation::new(model, turn.point).until(time).every(time / 8.0).tolerance(1e-13).run().unwrap();
     let exponential = |matrix: Matrix<N>| {
         let (mut sum, mut term) = (Matrix::<N>::identity(), Matrix::<N>::identity());
         let small = matrix / 1024.0;
@@ -62,9 +62,9 @@ pub(crate) fn unrest<const N: usize, M: Model<N>>(
         }
         (0..10).fold(sum, |power, _| power * power)
     };
-    let zeta = turn.zeta();
+    let zeta = &turn.zeta;
     let error = |t: f64, phi: &Matrix<N>| {
-        (phi - exponential(zeta.space * t) * turn.point().phi() * exponential(zeta.body * t)).norm()
+        (phi - exponential(zeta.space * t) * turn.point.phi() * exponential(zeta.body * t)).norm()
     };
     run.iter().map(|(t, point)| error(t, point.phi())).fold(0.0, f64::max)
 }

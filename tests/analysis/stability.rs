@@ -131,7 +131,7 @@ fn a_soft_body_turns_about_its_outer_axes() {
         let turn = Generator::<3>::rotation(axis.0, axis.1);
         let guess = Soft.at_velocity(Matrix::<3>::identity(), turn.space * 0.3).unwrap();
         let found = relative_equilibrium(&Soft, &guess, &[turn], &[Condition::Velocity(0, 0.3)]).unwrap();
-        let columns: Vec<f64> = (0..3).map(|a| found.point().phi().column(a).norm()).collect();
+        let columns: Vec<f64> = (0..3).map(|a| found.point.phi().column(a).norm()).collect();
         assert_near(&columns, &stretches, 1e-12);
         let stability = found.stability(&Soft).unwrap();
         assert_paired(&stability);

@@ -62,25 +62,15 @@ impl Weight {
 #[derive(Clone, Copy, Debug)]
 enum Step {
     /// `a*b + c`.
-    ProductSum([Weight; 3]),
+    ProductSum(Weight, Weight, Weight),
     /// `a*b`.
-    Product([Weight; 3]),
+    Product(Weight, Weight),
     /// `a + b`.
-    Sum([Weight; 3]),
+    Sum(Weight, Weight),
     /// The derivative of an operation by the number at a place among those that it reads.
     Partial(Kind, usize, [Weight; 3]),
 }
 
-impl Step {
-    fn operands(self) -> [Weight; 3] {
-        match self {
-            Self::ProductSum(operands) | Self::Product(operands) | Self::Sum(operands) => operands,
-            Self::Partial(_, _, operands) => operands,
-        }
-    }
-}
-
-const ZERO: Weight = Weight::Constant(0.0);
 const ONE: Weight = Weight::Constant(1.0);
 
 /// Edges into each node, by where they come from.
@@ -126,11 +116,11 @@ impl Graph {
         let sum = match (self.into[to].get(&from).copied(), a.free_product(b)) {
             (None, product) => {
                 self.out_of[from].push(to);
-                product.unwrap_or_else(|| self.step(Step::Product([a, b, ZERO])))
+                product.unwrap_or_else(|| self.step(Step::Product(a, b)))
             }
             (Some(Weight::Constant(there)), Some(Weight::Constant(more))) => Weight::Constant(there + more),
-            (Some(there), Some(more)) => self.step(Step::Sum([there, more, ZERO])),
-            (Some(there), None) => self.step(Step::ProductSum([a, b, there])),
+            (Some(there), Some(more)) => self.step(Step::Sum(there, more)),
+            (Some(there), None) => self.step(Step::ProductSum(a, b, there)),
         };
         self.into[to].insert(from, sum);
     }
@@ -194,8 +184,6 @@ pub(super) struct Program {
     steps: Vec<Step>,
     /// Entries that are not zero: row, column, value.
     entries: Vec<(usize, usize, Weight)>,
-    /// What the entries depend on.
-    needed: (Vec<bool>, Vec<bool>),
 }
 
 impl Program {
@@ -212,49 +200,18 @@ impl Program {
             let edges = graph.into[node].range(..columns);
             entries.extend(edges.map(|(column, weight)| (row, *column, *weight)));
         }
-        let needed = (vec![false; tape.len()], vec![false; graph.steps.len()]);
-        let mut program = Self { tape, steps: graph.steps, entries, needed };
-        program.find_needed();
-        program
-    }
-
-    fn find_needed(&mut self) {
-        let (operations, steps) = &mut self.needed;
-        let mut mark = |steps: &mut Vec<bool>, weight: Weight| match weight {
-            Weight::In(Place::Operation(node), _) => operations[node] = true,
-            Weight::In(Place::Step(step), _) => steps[step] = true,
-            Weight::Constant(_) => {}
-        };
-        self.entries.iter().for_each(|(_, _, weight)| mark(steps, *weight));
-        for (k, step) in self.steps.iter().enumerate().rev() {
-            if steps[k] {
-                step.operands().into_iter().for_each(|weight| mark(steps, weight));
-            }
-        }
-        for (node, (_, operands)) in self.tape.iter().enumerate().rev() {
-            let nodes = operands.iter().filter(|_| operations[node]).filter_map(|operand| match operand {
-                Operand::Node(from) => Some(*from),
-                Operand::Constant(_) => None,
-            });
-            nodes.collect::<Vec<_>>().into_iter().for_each(|from| operations[from] = true);
-        }
+        Self { tape, steps: graph.steps, entries }
     }
 
     /// The entries of the Jacobian that are not zero at arguments, each given to `each` with its row and column.
     pub(super) fn evaluate<T: Scalar>(&self, arguments: &[T], mut each: impl FnMut(usize, usize, T)) {
         let mut slots = Slots { operations: Vec::with_capacity(self.tape.len()), steps: Vec::new() };
         for (node, (kind, operands)) in self.tape.iter().enumerate() {
-            slots.operations.push(match arguments.get(node) {
-                Some(argument) => *argument,
-                None if self.needed.0[node] => {
-                    kind.of(operands.map(|operand| slots.value(Weight::of(operand))))
-                }
-                None => T::zero(),
-            });
+            let operands = operands.map(|operand| slots.value(Weight::of(operand)));
+            slots.operations.push(arguments.get(node).copied().unwrap_or_else(|| kind.of(operands)));
         }
-        for (step, is_needed) in self.steps.iter().zip(&self.needed.1) {
-            let value = if *is_needed { slots.stepped(*step) } else { T::zero() };
-            slots.steps.push(value);
+        for step in &self.steps {
+            slots.steps.push(slots.stepped(*step));
         }
         for (row, column, weight) in &self.entries {
             each(*row, *column, slots.value(*weight));
@@ -279,13 +236,13 @@ impl<T: Scalar> Slots<T> {
     }
 
     fn stepped(&self, step: Step) -> T {
-        let [a, b, c] = step.operands().map(|weight| self.value(weight));
+        let of = |weight: Weight| self.value(weight);
         match step {
-            Step::ProductSum(_) => a.fma(b, c),
-            Step::Product(_) => a * b,
-            Step::Sum(_) => a + b,
-            Step::Partial(kind, k, _) => {
-                let mut varied = [a, b, c].map(Dual::fixed);
+            Step::ProductSum(a, b, c) => of(a).fma(of(b), of(c)),
+            Step::Product(a, b) => of(a) * of(b),
+            Step::Sum(a, b) => of(a) + of(b),
+            Step::Partial(kind, k, operands) => {
+                let mut varied = operands.map(|operand| Dual::fixed(of(operand)));
                 varied[k].slope = T::one();
                 kind.of(varied).slope
             }

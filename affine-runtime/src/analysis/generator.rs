@@ -1,11 +1,13 @@
 //! One-parameter groups of symmetries, and those that a model is proved to have.
 
 use nalgebra::DVector;
+use num_traits::Zero;
 
 use super::error::AnalysisError;
 use super::linear::decomposed;
 use crate::dual::Dual;
 use crate::frames::{Matrix, Vector};
+use crate::metrics::Bases;
 use crate::model::{Conserved, Constraint, Entry, Model, Quantity, StateVector};
 use crate::scalar::Real;
 use crate::state::Phase;
@@ -120,18 +122,13 @@ impl<const N: usize> Generator<N> {
         let of_vectors =
             vectors.into_iter().flat_map(|(value, rate)| pairs(value.as_slice(), rate.as_slice()));
         let mut entries = of_matrices.chain(of_vectors).collect::<Vec<_>>().into_iter();
-        let varied = model.orthonormal(&model.unflatten(&lifted::<M::Full<T>, M::Full<Dual<T>>, T>(full)));
-        let moved = varied.with_entries(&mut || entries.next().unwrap_or_else(|| Dual::fixed(T::zero())));
-        let moved = match model.bases() {
-            Some(bases) => <M::Point<Dual<T>>>::from_orthonormal(&moved, &bases.over()),
-            None => {
-                let mut own = Vec::new();
-                moved.entries(&mut |entry| own.push(entry));
-                let mut own = own.into_iter();
-                let point = model.unflatten(&lifted::<M::Full<T>, M::Full<Dual<T>>, T>(full));
-                point.with_entries(&mut || own.next().unwrap_or_else(|| Dual::fixed(T::zero())))
-            }
-        };
+        let mut varied = M::Full::<Dual<T>>::zeros();
+        varied.as_mut().iter_mut().zip(full.as_ref()).for_each(|(both, value)| *both = Dual::fixed(*value));
+        let varied = model.orthonormal(&model.unflatten(&varied));
+        let moved = varied.with_entries(&mut || entries.next().unwrap_or_else(Dual::zero));
+        let one = Matrix::<N>::identity();
+        let bases = model.bases().unwrap_or_else(|| Bases::of_factors((one, one), (one, one)));
+        let moved = <M::Point<Dual<T>>>::from_orthonormal(&moved, &bases.over());
         let mut rates = M::Full::<T>::zeros();
         let moved = model.flatten(&moved);
         rates.as_mut().iter_mut().zip(moved.as_ref()).for_each(|(rate, both)| *rate = both.slope);
@@ -142,13 +139,6 @@ impl<const N: usize> Generator<N> {
 /// Numbers with their derivatives.
 fn pairs<T: Real>(values: &[T], slopes: &[T]) -> Vec<Dual<T>> {
     values.iter().zip(slopes).map(|(value, slope)| Dual { value: *value, slope: *slope }).collect()
-}
-
-/// Numbers that do not change.
-fn lifted<S: StateVector<T>, D: StateVector<Dual<T>>, T: Real>(state: &S) -> D {
-    let mut fixed = D::zeros();
-    fixed.as_mut().iter_mut().zip(state.as_ref()).for_each(|(both, value)| *both = Dual::fixed(*value));
-    fixed
 }
 
 fn has<const N: usize, M: Model<N>>(quantity: Quantity) -> bool {

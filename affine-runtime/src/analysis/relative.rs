@@ -1,7 +1,5 @@
 //! Equilibria and relative equilibria: points at which the motion is that of a group of symmetries.
 
-use core::fmt;
-
 use nalgebra::{DMatrix, DVector};
 
 use super::error::AnalysisError;
@@ -25,51 +23,18 @@ pub enum Condition {
 }
 
 /// A point of rest, or one through which the motion is `exp(t zeta)`.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RelativeEquilibrium<const N: usize, P> {
-    pub(super) point: P,
-    pub(super) zeta: Generator<N>,
-    pub(super) velocities: Vec<f64>,
-    pub(super) residual: f64,
-    pub(super) steps: usize,
-}
-
-impl<const N: usize, P: fmt::Debug> fmt::Debug for RelativeEquilibrium<N, P> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut shown = f.debug_struct("RelativeEquilibrium");
-        shown.field("point", &self.point).field("velocities", &self.velocities);
-        shown.field("residual", &self.residual).finish_non_exhaustive()
-    }
-}
-
-impl<const N: usize, P> RelativeEquilibrium<N, P> {
     /// The phase point.
-    pub fn point(&self) -> &P {
-        &self.point
-    }
-
-    /// The generator `zeta` of the motion; zero at rest.
-    pub fn zeta(&self) -> &Generator<N> {
-        &self.zeta
-    }
-
+    pub point: P,
+    /// The generator of the motion; zero at rest.
+    pub zeta: Generator<N>,
     /// The velocity of each generator that was free.
-    #[must_use]
-    pub fn velocities(&self) -> &[f64] {
-        &self.velocities
-    }
-
-    /// Norm of the equations that are solved, `X_H - X_zeta` and the conditions.
-    #[must_use]
-    pub fn residual(&self) -> f64 {
-        self.residual
-    }
-
+    pub velocities: Vec<f64>,
+    /// Norm of the equations that are solved: `X_H - X_zeta`, constraints and conditions.
+    pub residual: f64,
     /// Steps of Newton's iteration.
-    #[must_use]
-    pub fn steps(&self) -> usize {
-        self.steps
-    }
+    pub steps: usize,
 }
 
 /// A point of rest near a guess, `X_H = 0`: the nearest one to rounding, where symmetries make families of them.
@@ -83,7 +48,7 @@ impl<const N: usize, P> RelativeEquilibrium<N, P> {
 ///
 /// let guess = Ball.at_velocity(Matrix::<3>::identity() * 1.1, Matrix::<3>::zeros())?;
 /// let rest = equilibrium(&Ball, &guess)?;
-/// assert!((rest.point().phi() - Matrix::<3>::identity()).norm() < 1e-12);
+/// assert!((rest.point.phi() - Matrix::<3>::identity()).norm() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

@@ -106,13 +106,20 @@ pub(super) fn is_paired(eigenvalues: &[Eigenvalue]) -> bool {
     eigenvalues.iter().all(|one| stands(-one.value, one.error) && stands(one.value.conj(), one.error))
 }
 
+/// The eigenvalues of a form, from the least.
+pub(super) fn principal(form: &DMatrix<f64>) -> Vec<f64> {
+    if form.is_empty() {
+        return Vec::new();
+    }
+    let mut values: Vec<f64> = form.symmetric_eigenvalues().iter().copied().collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
 /// Numbers of positive, negative and zero eigenvalues of a form.
 pub(super) fn signs(form: &DMatrix<f64>) -> (usize, usize, usize) {
-    if form.is_empty() {
-        return (0, 0, 0);
-    }
-    let values = form.symmetric_eigenvalues();
-    let threshold = ZERO * values.amax();
+    let values = principal(form);
+    let threshold = ZERO * values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let positive = values.iter().filter(|value| **value > threshold).count();
     let negative = values.iter().filter(|value| **value < -threshold).count();
     (positive, negative, values.len() - positive - negative)

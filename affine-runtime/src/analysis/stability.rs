@@ -7,7 +7,7 @@ use super::field::{generated_jacobian, vector};
 use super::generator::Generator;
 use super::linear::{RANK, absolute_kernel, kernel, span};
 use super::relative::{Linearised, RelativeEquilibrium};
-use super::spectrum::{Eigenvalue, is_paired, signs, spectrum};
+use super::spectrum::{Eigenvalue, is_paired, principal, signs, spectrum};
 use crate::model::Model;
 
 /// A part of a second variation by which it may fail to be symmetric.
@@ -61,7 +61,8 @@ pub struct Stability<const N: usize> {
     pub signature: Option<(usize, usize, usize)>,
     /// Eigenvalues, with bounds of their errors.
     pub eigenvalues: Vec<Eigenvalue>,
-    /// Eigenvalues of the second variation without the directions of symmetries, from the least.
+    /// Eigenvalues of the second variation with the `zeta` of the motion, without the directions of symmetries, from the least: a
+    /// negative one grows under friction at rest in the frame that moves by `zeta`.
     pub stiffnesses: Vec<f64>,
     /// The `zeta` of the second variation: of those that move the point alike, the one for which it is nearest to definite.
     pub zeta: Generator<N>,
@@ -91,6 +92,7 @@ impl<const N: usize, P> RelativeEquilibrium<N, P> {
                 isotropy,
             });
         };
+        let stiffnesses = principal(&energy);
         let own = isotropic(model, self, &at, &isotropy);
         let variations: Vec<_> = own.iter().map(|(_, slopes)| slice.form(&slopes.tr_mul(&at.form))).collect();
         let (factors, energy) = nearest_to_definite(&energy, &variations);
@@ -110,8 +112,6 @@ impl<const N: usize, P> RelativeEquilibrium<N, P> {
         } else {
             conservative(&eigenvalues)
         };
-        let mut stiffnesses: Vec<f64> = energy.symmetric_eigenvalues().iter().copied().collect();
-        stiffnesses.sort_by(f64::total_cmp);
         Ok(Stability {
             verdict,
             signature: Some((positive, negative, zero + slice.along_orbit)),
@@ -120,6 +120,23 @@ impl<const N: usize, P> RelativeEquilibrium<N, P> {
             zeta,
             isotropy: isotropy.ncols(),
         })
+    }
+}
+
+impl<const N: usize> Stability<N> {
+    /// The eigenvalue that grows fastest.
+    pub(super) fn fastest(&self) -> Option<Eigenvalue> {
+        self.eigenvalues.iter().copied().max_by(|a, b| a.value.re.total_cmp(&b.value.re))
+    }
+
+    /// The square of the difference of the two eigenvalues nearest to where a growing one oscillates: negative while both are
+    /// frequencies, positive where they grow and fall, smooth between.
+    pub(super) fn discriminant(&self, growing: Complex<f64>) -> Option<f64> {
+        let target = Complex::new(0.0, growing.im);
+        let mut near: Vec<Complex<f64>> = self.eigenvalues.iter().map(|one| one.value).collect();
+        near.sort_by(|a, b| (a - target).norm().total_cmp(&(b - target).norm()));
+        let [a, b, ..] = near.as_slice() else { return None };
+        Some((a - b).powi(2).re)
     }
 }
 

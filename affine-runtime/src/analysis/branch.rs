@@ -1,0 +1,336 @@
+//! Families of relative equilibria that a parameter runs through.
+
+use core::fmt;
+use core::fmt::Write;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::error::AnalysisError;
+use super::field::{orbit, vector};
+use super::generator::{Generator, confined, symmetries};
+use super::linear::{absolute_kernel, decomposed, kernel, span};
+use super::newton::{Equations, Solution, solve};
+use super::relative::{Condition, Problem, RelativeEquilibrium, relative_equilibrium};
+use super::stability::{Stability, StabilityVerdict};
+use crate::error::Error;
+use crate::model::Model;
+use crate::state::Phase;
+
+/// Singular values at a solution that are none, relative to the largest.
+const RANK: f64 = 1e-8;
+/// The same at a branch point, which is known to fewer digits.
+const RANK_AT_BRANCH_POINT: f64 = 1e-5;
+/// By which a parameter is shifted for differences.
+const SHIFT: f64 = 1e-6;
+/// The cosine of the angle by which a branch may turn in a step.
+const STRAIGHT: f64 = 0.96;
+/// Part of the longest step below which there is none.
+const SHORTEST: f64 = 1e-6;
+/// Points of a branch.
+const MOST_POINTS: usize = 2000;
+
+/// What is special about a point of a branch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Special {
+    /// The parameter turns back.
+    Fold,
+    /// A direction has no stiffness in the frame that moves: another branch begins.
+    Bifurcation,
+    /// Two frequencies meet and leave as growth: a Hamiltonian Hopf bifurcation.
+    Collision,
+}
+
+/// A point of a branch.
+#[derive(Clone, Debug)]
+pub struct BranchPoint<const N: usize, P> {
+    /// The parameter.
+    pub parameter: f64,
+    /// The relative equilibrium.
+    pub turn: RelativeEquilibrium<N, P>,
+    /// Its stability.
+    pub stability: Stability<N>,
+    unknowns: DVector<f64>,
+    tangent: DVector<f64>,
+}
+
+type At<const N: usize, M> = BranchPoint<N, <M as Model<N>>::Point<f64>>;
+type Value<'a, const N: usize, M> = &'a dyn Fn(&At<N, M>) -> Option<f64>;
+
+/// A branch: points in order, and what is special between them.
+#[derive(Clone, Debug)]
+pub struct Branch<const N: usize, P> {
+    /// The points, from the start.
+    pub points: Vec<BranchPoint<N, P>>,
+    /// Special points, each located to rounding, in the same order.
+    pub special: Vec<(Special, BranchPoint<N, P>)>,
+}
+
+impl<const N: usize, P: Phase<N>> BranchPoint<N, P> {
+    /// The stretches of the placement, from the largest.
+    #[must_use]
+    pub fn stretches(&self) -> Vec<f64> {
+        let phi = self.turn.point.phi();
+        let svd = decomposed(DMatrix::from_fn(N, N, |i, a| phi[(i, a)]));
+        svd.map_or(Vec::new(), |svd| svd.singular_values.iter().copied().collect())
+    }
+
+    fn fields(&self) -> Vec<String> {
+        let verdict = match self.stability.verdict {
+            StabilityVerdict::Unstable { .. } => "unstable".to_owned(),
+            StabilityVerdict::Undecided(doubt) => format!("undecided: {doubt:?}"),
+            StabilityVerdict::Stable => "stable".to_owned(),
+            StabilityVerdict::LinearlyStable => "linearly stable".to_owned(),
+        };
+        let rate = self.stability.eigenvalues.iter().map(|one| one.value.re).fold(0.0, f64::max);
+        let numbers = [self.parameter].into_iter().chain(self.turn.velocities.iter().copied());
+        let numbers = numbers.chain(self.stretches()).chain([rate, self.turn.residual]);
+        numbers.map(|number| format!("{number:?}")).chain([verdict]).collect()
+    }
+}
+
+impl<const N: usize, P: Phase<N>> Branch<N, P> {
+    /// The points as comma-separated values.
+    #[must_use]
+    pub fn to_csv(&self) -> String {
+        let velocities = self.points.first().map_or(0, |point| point.turn.velocities.len());
+        let numbered =
+            |name: &str, count: usize| (1..=count).map(|k| format!(",{name}_{k}")).collect::<String>();
+        let mut text = format!(
+            "parameter{}{},rate,residual,stability\n",
+            numbered("velocity", velocities),
+            numbered("Q", N)
+        );
+        self.points.iter().for_each(|point| text += &(point.fields().join(",") + "\n"));
+        text
+    }
+}
+
+/// The special points, one a line.
+impl<const N: usize, P: Phase<N>> fmt::Display for Branch<N, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut lines = String::new();
+        for (kind, point) in &self.special {
+            write!(lines, "\n{kind:?} at {:.12}, stretches {:.9?}", point.parameter, point.stretches())?;
+        }
+        write!(f, "{} points{lines}", self.points.len())
+    }
+}
+
+/// How a branch is followed: by pseudo-arclength, so that it may turn back in the parameter (H. B. Keller, 1977).
+///
+/// The family gives the model and the conditions at a value of the parameter, so that the parameter is a field of the model, a
+/// velocity, a momentum, or several of them at once.
+#[derive(Clone, Debug)]
+pub struct Continuation<const N: usize, F> {
+    family: F,
+    generators: Vec<Generator<N>>,
+    step: f64,
+    range: (f64, f64),
+}
+
+impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Error>> Continuation<N, F> {
+    /// The relative equilibria of a family whose `zeta` is a sum of multiples of generators, within a range of the parameter, by
+    /// steps of at most this length in all unknowns.
+    pub fn new(generators: &[Generator<N>], range: (f64, f64), step: f64, family: F) -> Self {
+        Self { family, generators: generators.iter().map(confined::<N, M>).collect(), step, range }
+    }
+
+    /// The branch through the relative equilibrium that is nearest to a guess at a value of the parameter, towards larger values.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn run(
+        &self,
+        guess: &M::Point<f64>,
+        start: f64,
+    ) -> Result<Branch<N, <M as Model<N>>::Point<f64>>, AnalysisError> {
+        let (model, conditions) = (self.family)(start)?;
+        let turn = relative_equilibrium(&model, guess, &self.generators, &conditions)?;
+        let z = vector(&model.flatten(&turn.point));
+        let all = z.iter().chain(&turn.velocities).copied().chain([start]);
+        let unknowns = DVector::from_iterator(z.len() + self.generators.len() + 1, all);
+        let tangent = self.tangent(&unknowns, None)?;
+        self.followed(self.point(unknowns, tangent)?)
+    }
+
+    /// The other branch through a bifurcation, which begins that far from it.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn switch(
+        &self,
+        at: &At<N, M>,
+        distance: f64,
+    ) -> Result<Branch<N, <M as Model<N>>::Point<f64>>, AnalysisError> {
+        let free = self.free(&at.unknowns, RANK_AT_BRANCH_POINT)?;
+        let away = &free * kernel(&DMatrix::from_rows(&[at.tangent.tr_mul(&free)]), RANK_AT_BRANCH_POINT);
+        if away.is_empty() {
+            return Err(AnalysisError::NoBranchPoint);
+        }
+        let direction = away.column(0).normalize();
+        let solution = self.corrected(&at.unknowns, &direction, distance)?;
+        let secant = (&solution.at - &at.unknowns).normalize();
+        let tangent = self.tangent(&solution.at, Some(&secant))?;
+        self.followed(self.point(solution.at, tangent)?)
+    }
+
+    fn equations(&self, unknowns: &DVector<f64>) -> Option<Equations> {
+        let last = unknowns.len() - 1;
+        let (own, parameter) = (unknowns.rows(0, last).into_owned(), unknowns[last]);
+        let at = |parameter: f64| {
+            let (model, conditions) = (self.family)(parameter).ok()?;
+            Problem { model: &model, generators: &self.generators, conditions: &conditions }.equations(&own)
+        };
+        let shift = SHIFT * (1.0 + parameter.abs());
+        let Equations { values, jacobian, scale } = at(parameter)?;
+        let slope = (at(parameter + shift)?.values - at(parameter - shift)?.values) / (2.0 * shift);
+        let mut jacobian = jacobian.insert_column(last, 0.0);
+        jacobian.set_column(last, &slope);
+        Some(Equations { values, jacobian, scale })
+    }
+
+    /// The point of the branch in the plane at a distance along a direction.
+    fn corrected(
+        &self,
+        from: &DVector<f64>,
+        direction: &DVector<f64>,
+        distance: f64,
+    ) -> Result<Solution, AnalysisError> {
+        solve(from + direction * distance, |unknowns| {
+            let Equations { values, jacobian, scale } = self.equations(unknowns)?;
+            let rows = values.len();
+            let (mut values, mut jacobian) = (values.insert_row(rows, 0.0), jacobian.insert_row(rows, 0.0));
+            values[rows] = direction.dot(&(unknowns - from)) - distance;
+            jacobian.set_row(rows, &direction.transpose());
+            Some(Equations { values, jacobian, scale })
+        })
+    }
+
+    /// Directions in which solutions go on, without those of symmetries.
+    fn free(&self, unknowns: &DVector<f64>, rank: f64) -> Result<DMatrix<f64>, AnalysisError> {
+        let last = unknowns.len() - 1;
+        let singular = AnalysisError::Singular { directions: 0 };
+        let jacobian = self.equations(unknowns).ok_or(singular)?.jacobian;
+        let (model, _) = (self.family)(unknowns[last])?;
+        let z = unknowns.rows(0, last - self.generators.len()).into_owned();
+        let moved = orbit(&model, &symmetries::<N, M>(), &z).resize_vertically(last + 1, 0.0);
+        let turned = &jacobian * &moved;
+        let along =
+            span(&(&moved * absolute_kernel(&turned, rank * jacobian.norm() * (1.0 + moved.norm()))), rank);
+        let all = kernel(&jacobian, rank);
+        Ok(&all * absolute_kernel(&along.tr_mul(&all), 0.5))
+    }
+
+    fn tangent(
+        &self,
+        unknowns: &DVector<f64>,
+        before: Option<&DVector<f64>>,
+    ) -> Result<DVector<f64>, AnalysisError> {
+        let free = self.free(unknowns, RANK)?;
+        let directions = free.ncols();
+        match before {
+            Some(before) if directions > 0 => Ok((&free * free.tr_mul(before)).normalize()),
+            None if directions == 1 => {
+                let rises = free[(free.nrows() - 1, 0)] >= 0.0;
+                Ok(free.column(0) * if rises { 1.0 } else { -1.0 })
+            }
+            _ => Err(AnalysisError::Singular { directions }),
+        }
+    }
+
+    fn point(&self, unknowns: DVector<f64>, tangent: DVector<f64>) -> Result<At<N, M>, AnalysisError> {
+        let last = unknowns.len() - 1;
+        let (model, conditions) = (self.family)(unknowns[last])?;
+        let problem = Problem { model: &model, generators: &self.generators, conditions: &conditions };
+        let own = unknowns.rows(0, last).into_owned();
+        let residual = problem.equations(&own).map_or(f64::NAN, |equations| equations.values.norm());
+        let turn = problem.relative_equilibrium(&Solution { at: own, residual, steps: 0 });
+        let stability = turn.stability(&model)?;
+        Ok(BranchPoint { parameter: unknowns[last], turn, stability, unknowns, tangent })
+    }
+
+    /// The point at a distance from another along its tangent.
+    fn beyond(&self, from: &At<N, M>, distance: f64) -> Result<At<N, M>, AnalysisError> {
+        let solution = self.corrected(&from.unknowns, &from.tangent, distance)?;
+        let tangent = self.tangent(&solution.at, Some(&from.tangent))?;
+        self.point(solution.at, tangent)
+    }
+
+    fn followed(&self, start: At<N, M>) -> Result<Branch<N, <M as Model<N>>::Point<f64>>, AnalysisError> {
+        let mut branch = Branch { points: Vec::new(), special: Vec::new() };
+        let (mut now, mut step) = (start, self.step);
+        while branch.points.len() < MOST_POINTS {
+            let next = self.beyond(&now, step).ok().filter(|next| next.tangent.dot(&now.tangent) > STRAIGHT);
+            let Some(next) = next else {
+                step *= 0.5;
+                if step < SHORTEST * self.step {
+                    return Err(AnalysisError::StepUnderflow { step });
+                }
+                continue;
+            };
+            if next.parameter < self.range.0 || next.parameter > self.range.1 {
+                break;
+            }
+            branch.special.extend(self.special(&now, &next, step));
+            branch.points.push(core::mem::replace(&mut now, next));
+            step = (1.5 * step).min(self.step);
+        }
+        branch.points.push(now);
+        Ok(branch)
+    }
+
+    /// What is special between two points; what is not located is left out.
+    fn special(&self, a: &At<N, M>, b: &At<N, M>, distance: f64) -> Vec<(Special, At<N, M>)> {
+        let last = a.unknowns.len() - 1;
+        let negative =
+            |point: &At<N, M>| point.stability.stiffnesses.iter().filter(|one| **one < 0.0).count();
+        let mode = negative(a).min(negative(b));
+        let growth = [a, b].map(|point| match point.stability.verdict {
+            StabilityVerdict::Unstable { .. } => point.stability.fastest(),
+            _ => None,
+        });
+        let mut found = Vec::new();
+        let mut locate = |kind: Special, value: Value<'_, N, M>| {
+            let place = root(distance, |h| value(&self.beyond(a, h).ok()?));
+            found.extend(place.and_then(|h| Some((kind, self.beyond(a, h).ok()?))));
+        };
+        let turns = a.tangent[last] * b.tangent[last] < 0.0;
+        if turns {
+            locate(Special::Fold, &|point| Some(point.tangent[last]));
+        }
+        if negative(a) != negative(b) && !turns {
+            locate(Special::Bifurcation, &|point| point.stability.stiffnesses.get(mode).copied());
+        }
+        if let [None, Some(fastest)] | [Some(fastest), None] = growth
+            && fastest.value.im.abs() > fastest.error
+        {
+            locate(Special::Collision, &|point| point.stability.discriminant(fastest.value));
+        }
+        found
+    }
+}
+
+/// A zero between 0 and an end at which the signs differ, by false position (the rule of Illinois).
+fn root(end: f64, value: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+    let (mut low, mut high) = ((0.0, value(0.0)?), (end, value(end)?));
+    for _ in 0..60 {
+        if low.1 * high.1 > 0.0 {
+            return None;
+        }
+        let middle = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+        let there = value(middle)?;
+        if there == 0.0
+            || (high.0 - low.0).abs() <= 1e-14 * end
+            || there.abs() <= 1e-14 * (low.1.abs() + high.1.abs())
+        {
+            return Some(middle);
+        }
+        if there * high.1 < 0.0 {
+            low = high;
+        } else {
+            low.1 *= 0.5;
+        }
+        high = (middle, there);
+    }
+    Some(high.0)
+}

@@ -1,0 +1,100 @@
+//! Branches with folds, bifurcations and collisions that are known.
+
+use affine_runtime::analysis::{
+    Branch, BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict,
+};
+use affine_runtime::prelude::*;
+
+use crate::models::{Disc, turning};
+
+fn only<const N: usize, P>(branch: &Branch<N, P>, kind: Special) -> Vec<&BranchPoint<N, P>> {
+    branch.special.iter().filter(|(own, _)| *own == kind).map(|(_, point)| point).collect()
+}
+
+/// Rows "rotating disc, critical points" and "elongated branch": from rest by the momentum, the planar Maclaurin and Jacobi.
+#[test]
+fn a_disc_branches_and_then_breaks() {
+    let family = |spin: f64| {
+        let disc = Disc { i: 1.0, kappa: 4.0, c1: 0.05 }.prepare()?;
+        Ok((disc, vec![Condition::MomentumMap(0, spin)]))
+    };
+    let continuation = Continuation::new(&[Generator::rotation(1, 2)], (-0.01, 1.3), 0.1, family);
+    let disc = Disc { i: 1.0, kappa: 4.0, c1: 0.05 }.prepare().unwrap();
+    let rest = disc.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
+    let round = continuation.run(&rest, 0.0).unwrap();
+    let bifurcation = only(&round, Special::Bifurcation);
+    assert_eq!(bifurcation.len(), 1, "{round}");
+    assert!((bifurcation[0].parameter - 0.6648270638631039).abs() < 1e-9, "{round}");
+    assert!((bifurcation[0].stretches()[0] - 1.0511838859648149).abs() < 1e-9, "{round}");
+    assert!((bifurcation[0].turn.velocities[0] - 0.300830111875804).abs() < 1e-9);
+    let collision = only(&round, Special::Collision);
+    assert_eq!(collision.len(), 1, "{round}");
+    assert!((collision[0].parameter - 0.9878477221590611).abs() < 1e-9, "{round}");
+    assert!((collision[0].stretches()[0] - 1.104447329082993).abs() < 1e-9, "{round}");
+    assert!(only(&round, Special::Fold).is_empty());
+    let (first, last) = (&round.points[0], round.points.last().unwrap());
+    assert_eq!(first.stability.verdict, StabilityVerdict::Stable);
+    assert!(matches!(last.stability.verdict, StabilityVerdict::Unstable { .. }));
+    assert_eq!(round.to_csv().lines().count(), round.points.len() + 1);
+
+    let far = Continuation::new(&[Generator::rotation(1, 2)], (0.0, 2.2), 0.1, family);
+    let elongated = far.switch(bifurcation[0], 0.05).unwrap();
+    for point in &elongated.points {
+        // r^2 + s^2 = (kappa/16 c1)(det^2 - 1), with r, s = (Q1 +- Q2)/2.
+        let q = point.stretches();
+        let det = q[0] * q[1];
+        let sum = (q[0] * q[0] + q[1] * q[1]) / 2.0;
+        assert!((sum - 4.0 / 0.8 * (det * det - 1.0)).abs() < 1e-11, "{q:?}");
+        assert_eq!(point.stability.verdict, StabilityVerdict::Stable, "{q:?}");
+    }
+    assert!(elongated.points.len() > 10 && elongated.points.last().unwrap().stretches()[0] > 2.5);
+}
+
+/// Rows "rotating disc, fold in omega": at `a = sqrt e`, `omega = sqrt(kappa/(4 e I))`, against the velocity and not against the
+/// momentum; the disc is stable on either side.
+#[test]
+fn a_fold_in_velocity_changes_no_stability() {
+    #[affine_model(dim = 2, kinetic(dalembert = 1), potential = q^2 + neo_hookean(1))]
+    struct Harmonic;
+    let start = |omega: f64| Harmonic.at_velocity(Matrix::<2>::identity(), turning(omega)).unwrap();
+    let turn = [Generator::rotation(1, 2)];
+    let by_velocity = |omega: f64| Ok((Harmonic, vec![Condition::Velocity(0, omega)]));
+    let branch = Continuation::new(&turn, (0.2, 1.0), 0.15, by_velocity).run(&start(0.3), 0.3).unwrap();
+    let folds = only(&branch, Special::Fold);
+    assert_eq!(branch.special.len(), 1, "{branch}");
+    assert!((folds[0].parameter - 0.4288819424803534).abs() < 1e-12, "{branch}");
+    assert!((folds[0].stretches()[0] - 0.5_f64.exp()).abs() < 1e-9, "{branch}");
+    let stable = |point: &BranchPoint<2, _>| point.stability.verdict == StabilityVerdict::Stable;
+    assert!(branch.points.iter().all(stable));
+
+    let by_momentum = |spin: f64| Ok((Harmonic, vec![Condition::MomentumMap(0, spin)]));
+    let branch = Continuation::new(&turn, (0.5, 4.0), 0.3, by_momentum).run(&start(0.3), 0.7).unwrap();
+    assert!(branch.special.is_empty(), "{branch}");
+    assert!(branch.points.last().unwrap().stretches()[0] > 2.0);
+}
+
+/// A field as the parameter: a body that is pressed along an axis buckles.
+#[test]
+fn a_field_is_a_parameter() {
+    #[affine_model(dim = 2, kinetic(dalembert = 1), potential = phi[1,1]^4/4 - a*phi[1,1]^2/2 + phi[1,2]^2 + phi[2,1]^2 + (phi[2,2] - 1)^2 + 0.3*phi[1,1])]
+    struct Buckling {
+        a: f64,
+    }
+    // Critical points of the potential: a = x^2 + 0.3/x, with a fold at x^3 = 0.15.
+    let family = |a: f64| Ok((Buckling { a }.prepare()?, Vec::new()));
+    let model = Buckling { a: 2.0 }.prepare().unwrap();
+    let guess = model.at_velocity(Matrix::<2>::new(0.16, 0.0, 0.0, 1.0), Matrix::<2>::zeros()).unwrap();
+    let backward = Continuation::new(&[], (0.0, 3.0), 0.1, family).run(&guess, 2.0).unwrap();
+    assert!(backward.special.is_empty(), "{backward}");
+    let guess = model.at_velocity(Matrix::<2>::new(1.3, 0.0, 0.0, 1.0), Matrix::<2>::zeros()).unwrap();
+    // Towards smaller values: the parameter is turned round.
+    let reversed = |b: f64| Ok((Buckling { a: -b }.prepare()?, Vec::new()));
+    let branch = Continuation::new(&[], (-2.5, 0.0), 0.1, reversed).run(&guess, -2.0).unwrap();
+    let folds = only(&branch, Special::Fold);
+    let x = 0.15_f64.cbrt();
+    assert_eq!(folds.len(), 1, "{branch}");
+    assert!((folds[0].parameter + x * x + 0.3 / x).abs() < 1e-12, "{branch}");
+    let grows =
+        |point: &BranchPoint<2, _>| matches!(point.stability.verdict, StabilityVerdict::Unstable { .. });
+    assert!(!grows(&branch.points[0]) && grows(branch.points.last().unwrap()));
+}
