@@ -150,7 +150,7 @@ pub trait TwoPolarForm<const N: usize>: Model<N> + LatticeForm<N> {
     /// # Errors
     /// Those of [`lattice`](Self::lattice).
     fn lattice_after(&self, point: &Self::Point<f64>, before: &Lattice<N>) -> Result<Lattice<N>>;
-    /// The phase point of a lattice.
+    /// The phase point of a lattice. A centre of mass moves freely beside it: here it is at rest at the origin.
     ///
     /// # Errors
     /// [`Error::CoincidentStretches`](crate::Error::CoincidentStretches) where two `q_a` are equal;

@@ -43,6 +43,24 @@ models! { 3:
     Dalembert3 DalembertDilated3 DalembertSheared3 = (dalembert = 1.5);
 }
 
+/// [`SpatiallyAffineSheared3`] as a Hamiltonian in momenta: `1/(I+A)`, `1/(I+A+nB)` and `1/(I-A)` give its coefficients.
+#[affine_model(
+    dim = 3,
+    hamiltonian(casimir2 = 5/6, casimir1_squared = -1/18, vorticity_squared = 25/24),
+    potential = 2/2*sinh(q)^2 + 0.3*(tr(G)*exp(-2*q) - n) + 0.01*tr(G*G) + 0.005*tr(G*G*G),
+    emit(two_polar)
+)]
+pub(crate) struct Stated3;
+
+/// A body whose centre of mass moves freely.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1, space_translation = 2),
+    potential = hyperbolic_dilatation(2),
+    emit(two_polar)
+)]
+pub(crate) struct Thrown2;
+
 /// The same coefficients as fields.
 #[affine_model(
     dim = 3,

@@ -111,6 +111,32 @@ fn families_of_models() {
     assert_same_motion(&plane, start());
 }
 
+/// A Hamiltonian in momenta has the lattice of the energy in velocities that it is the transform of.
+#[test]
+fn stated_on_the_momentum_side() {
+    assert_same_motion(&Stated3, start());
+    let [stated, derived] = [
+        *LatticeFlow::new(&Stated3, 0.0, start()).advance_to(T_END).unwrap(),
+        *LatticeFlow::new(&SpatiallyAffineSheared3, 0.0, start()).advance_to(T_END).unwrap(),
+    ];
+    assert!(distance(&stated, &derived) < FLOW);
+}
+
+/// A centre of mass that moves freely leaves the lattice alone.
+#[test]
+fn beside_a_free_centre() {
+    assert_same_motion(&Thrown2, start());
+    let lattice = start();
+    let at_rest = Thrown2.at_lattice(&lattice).unwrap();
+    let (x, p) = (Vector::<2>::new(0.3, 1.0), Vector::<2>::new(-2.0, 0.7));
+    let thrown = Thrown2.at_momentum(x, *at_rest.phi(), p, Spatial(at_rest.sigma().0)).unwrap();
+    let run = Simulation::new(&Thrown2, thrown).until(T_END).tolerance(1e-14).output([T_END]).run().unwrap();
+    let (_, end) = run.end();
+    assert!((end.x() - (x + p * (T_END / 2.0))).norm() < 1e-12);
+    let moved = *LatticeFlow::new(&Thrown2, 0.0, lattice).advance_to(T_END).unwrap();
+    assert!(distance(&Thrown2.lattice_after(end, &moved).unwrap(), &moved) < FLOW);
+}
+
 /// One motion of the stretches for three models: affine-affine with `A = 1.2`, and `I = 1`, `A = 0.2` in the body or in
 /// space. The frames differ.
 fn assert_shared<const N: usize>(models: [&dyn Fn(Lattice<N>) -> Lattice<N>; 3]) {

@@ -10,6 +10,9 @@ use affine_tests::jet::{Jet, LENGTH};
 /// Two routes of some hundred roundings each, relative to the largest coefficient of the order.
 const TOLERANCE: f64 = 1e-12;
 
+/// The time that series are about, which potentials of time read.
+const BEGINNING: f64 = 0.3;
+
 /// A point with no special entries and a dominant diagonal of the placement.
 fn sample<const N: usize, M: Model<N>, T: Real>(model: &M) -> M::Point<T> {
     let mut full = M::Full::<T>::zeros();
@@ -23,9 +26,11 @@ fn sample<const N: usize, M: Model<N>, T: Real>(model: &M) -> M::Point<T> {
 
 /// Order by order: the coefficients so far, as a polynomial in `t`, give the next one.
 fn by_series<const N: usize, M: Model<N>>(model: &M) -> Vec<Vec<f64>> {
-    let (mut series, constants) = model.reduce(Jet::fixed(0.0), &sample(model));
+    let mut time = Jet::fixed(BEGINNING);
+    let (mut series, constants) = model.reduce(time, &sample(model));
+    time.0[1] = 1.0;
     for k in 1..LENGTH {
-        let rate = model.reduced_equations(Jet::fixed(0.0), &constants, &series);
+        let rate = model.reduced_equations(time, &constants, &series);
         for (series, rate) in series.as_mut().iter_mut().zip(rate.as_ref()) {
             series.0[k] = rate.0[k - 1] / k as f64;
         }
@@ -34,12 +39,12 @@ fn by_series<const N: usize, M: Model<N>>(model: &M) -> Vec<Vec<f64>> {
 }
 
 fn by_recurrence<const N: usize, M: Taylor<N>, T: Real>(model: &M, unit: f64) -> Vec<Vec<f64>> {
-    let (state, constants) = model.reduce(T::zero(), &sample(model));
+    let (state, constants) = model.reduce(T::from_f64(BEGINNING), &sample(model));
     let mut coefficients = vec![state; LENGTH];
     // Rows from another computation do no harm.
     let mut rows = vec![M::Row::<T>::zeros(); LENGTH - 1];
     rows.iter_mut().for_each(|row| row.as_mut().fill(T::from_f64(7.0)));
-    model.coefficients((T::zero(), T::from_f64(unit)), &constants, &mut coefficients, &mut rows);
+    model.coefficients((T::from_f64(BEGINNING), T::from_f64(unit)), &constants, &mut coefficients, &mut rows);
     coefficients.iter().map(|c| c.as_ref().iter().map(|v| v.to_f64()).collect()).collect()
 }
 
@@ -101,6 +106,9 @@ models! {
     Vibrating2 2 (kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
         potential = hyperbolic_dilatation(10) + neo_hookean(0.5));
     Elastic 3 (kinetic(dalembert = diag(1, 1.5, 2)), potential = hyperbolic_dilatation(10) + neo_hookean(0.5));
+    Driven 2 (kinetic(dalembert = 1), potential = cos(2*t)*tr(G) + t^2*phi[1,2]);
+    Swept 3 (kinetic(casimir2 = 0.2, body_inertia = 1), dissipation(body_inertia = 0.1),
+        potential = (1 + sin(2*t)/2)*(tr(G)/2 - ln(det)) + exp(t/3)*G[1,2]/t);
     Exponential 2 (kinetic(dalembert = 1), potential = exp(tr(G)/4));
     Logarithm 2 (kinetic(dalembert = 1), potential = ln(tr(G)) + q^2);
     Root 2 (kinetic(dalembert = 1), potential = sqrt(tr(G) + 1));

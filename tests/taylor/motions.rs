@@ -45,6 +45,37 @@ struct Elastic {
 )]
 struct Plain;
 
+/// A drive, whose work stands beside the motion.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
+    potential = hyperbolic_dilatation(10) + neo_hookean(0.5) + 0.3*sin(5*t)*G[1,2],
+    emit(taylor),
+)]
+struct Driven;
+
+/// Time is one more variable: long steps against short ones of another method, forth and back, with the balance of energy.
+#[test]
+fn driven_bodies() {
+    let phi = Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05);
+    let spin = Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05);
+    let start = Driven.at_momentum(phi, Comoving(spin)).unwrap();
+    let to = |from: f64, until: f64, method| {
+        let run = Simulation::new(&Driven, start).from(from).until(until).tolerance(1e-14).method(method);
+        run.output([0.4 * from + 0.6 * until, until]).run().unwrap()
+    };
+    for (from, until) in [(0.0, 10.0), (-3.0, 4.0), (2.0, -5.0)] {
+        let [series, steps] =
+            [Method::Taylor { order: None }, Method::RungeKutta8].map(|method| to(from, until, method));
+        for (one, other) in series.points().iter().zip(steps.points()) {
+            let error = (one.phi() - other.phi()).norm();
+            assert!(error < 1e-12, "{from} to {until}: {error:e}");
+        }
+        let balance = series.power_balance().unwrap();
+        assert!(balance.relative() < 1e-13, "{balance}");
+    }
+}
+
 /// Time, `phi` and the affine spin of each row; `x` and `p_hat` between them are left aside.
 fn rows(data: &str) -> Vec<(f64, Matrix<3>, Matrix<3>)> {
     let lines = data.lines().filter(|line| !line.starts_with('#')).skip(1);

@@ -49,18 +49,16 @@ pub(super) fn balance(spec: &Spec, found: &mut Diagnostics) {
     }
 }
 
-/// Taylor coefficients follow from the operations of autonomous right-hand sides; single stretches are found by an
-/// iteration, and a constrained motion is integrated in charts that change from step to step.
+/// Taylor coefficients follow from the operations of right-hand sides; single stretches are found by an iteration, and a constrained motion is integrated in charts that change from step to step.
 pub(super) fn series(spec: &Spec, potential: Option<&Potential>, found: &mut Diagnostics) {
     let Some(taylor) = spec.emit.iter().find(|c| c.value == Capability::Taylor) else { return };
     let beside = [
         ("a constraint", spec.constraint.is_some()),
         ("a potential of single stretches", potential.is_some_and(Potential::has_single_stretches)),
-        ("a potential of time", potential.is_some_and(Potential::depends_on_time)),
     ];
     for (beside, _) in beside.into_iter().filter(|(_, stated)| *stated) {
         let capability = taylor.value.name();
-        let why = "its recurrences follow from the operations of one autonomous right-hand side";
+        let why = "its recurrences follow from the operations of one right-hand side";
         found.report(taylor.span, CapabilityMistake::CapabilityBeside { capability, beside, why });
     }
 }

@@ -4,7 +4,8 @@ use crate::diagnostics::{CapabilityMistake, Diagnostics, Reported};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by};
-use crate::spec::{Capability, Spec};
+use crate::mechanics::term::Frame;
+use crate::spec::{Capability, MomentumKind, Spec};
 
 /// Is `two_polar` asked for? The stretches and `M`, `N` move by themselves only in doubly isotropic models: kinetic and
 /// potential energy unchanged by O(n) in space and in the body, (6.2) to (6.5).
@@ -23,14 +24,16 @@ pub(super) fn asked(
             found.report(asked.span, CapabilityMistake::LatticeWithout { part: part.to_owned(), lacks });
         }
     };
-    without(spec.hamiltonian.is_some(), "`hamiltonian(...)`", "momentum side");
+    let terms = spec.hamiltonian.iter().flatten();
+    let is_cubic = terms.map(|term| term.kind.value).any(|kind| kind == MomentumKind::Casimir3);
+    without(is_cubic, "`casimir3`", "third Casimir");
     without(spec.constraint.is_some(), "a constraint", "constraint");
     without(spec.metrics.iter().any(Option::is_some), "`metrics(...)`", "metrics");
     without(potential.is_some_and(Potential::depends_on_time), "a potential of the time", "time");
-    if let Some(t) = kinetic.translation {
-        let term = spec.kinetic.get(places[t.place]).map_or("translation", |term| term.kind.value.name());
-        without(true, &format!("`{term}`"), "centre of mass");
-    }
+    // A centre of mass that moves freely moves beside it.
+    let coupled = kinetic.translation.as_ref().is_some_and(|t| t.frame == Frame::Body);
+    without(coupled, "`body_translation`", "centre of mass");
+    without(potential.is_some_and(Potential::moves_the_centre), "a potential of `x`", "centre of mass");
     found.verdict()?;
     let mut anisotropic = |part: String, side: Side, transformation: String| {
         let side = if side == Side::Space { "space" } else { "the body" };
@@ -38,7 +41,8 @@ pub(super) fn asked(
     };
     for side in [Side::Space, Side::Body] {
         if let Some((breaker, place)) = broken_by(kinetic, side, Group::Metric) {
-            let term = spec.kinetic[places[place]].kind.value.name();
+            let term = places.get(place).and_then(|place| spec.kinetic.get(*place));
+            let term = term.map_or("kinetic", |term| term.kind.value.name());
             let transformation = match breaker {
                 Breaker::Reflection => "the reflection of the first axis".to_owned(),
                 Breaker::Rotation(a, b) | Breaker::Generator(a, b) => rotation(a, b),

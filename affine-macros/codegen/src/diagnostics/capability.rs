@@ -117,8 +117,7 @@ impl CapabilityMistake {
             ),
             Self::LatticeWithout { part, lacks } => text(
                 format!("`two_polar` with {part}: the lattice has no {lacks}"),
-                "(q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, of an energy in velocities, in \
-                 orthonormal coordinates",
+                "(q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, in orthonormal coordinates",
                 format!("remove `two_polar` from `emit(...)`, or state a model without {part}"),
             ),
             Self::NotRational { part } => text(

@@ -59,6 +59,7 @@ impl Writer<'_> {
     fn start(&self) -> TokenStream {
         let (rt, t) = (&self.context.names.rt, &self.context.names.scalar);
         let program = &self.recurrence.start;
+        let time = super::pattern::time(program);
         let (read, constants) = self.constants(program);
         let (bind, state) = self.bind(&program.inputs(), "state");
         let Body { lets, results } = self.context.generic(program, Coefficients::Own);
@@ -76,7 +77,7 @@ impl Writer<'_> {
             #[inline(always)]
             fn start<#t: #rt::Scalar>(
                 &self,
-                _t: #t,
+                #time: #t,
                 #constants: &Self::Constants<#t>,
                 #state: &Self::Reduced<#t>,
                 row: &mut Self::Row<#t>,
@@ -132,7 +133,8 @@ impl Writer<'_> {
         let rows = if passes > 0 || open.is_some() { quote!(rows) } else { quote!(_rows) };
         let vectors = if passes > 0 { quote!(vectors) } else { quote!(_vectors) };
         let order = if recurrence.reads_order() { quote!(order) } else { quote!(_) };
-        let moves = recurrence.program.outputs.iter().any(|(_, v)| recurrence.moving[*v]);
+        let moves = recurrence.program.outputs.iter().any(|(_, v)| recurrence.moving[*v])
+            || recurrence.rules.iter().any(|(_, rule)| matches!(rule, Rule::Time));
         let divisor = if moves { quote!(divisor) } else { quote!(_) };
         quote! {
             #[inline(always)]

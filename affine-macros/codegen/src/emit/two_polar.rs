@@ -104,6 +104,13 @@ fn conversions(context: &Context) -> TokenStream {
     let (generics, types, clause) = context.generics();
     let (frame, spin, wrap) = (context.frame(), own_spin(context), wrapper(context, context.model.spin()));
     let f64 = quote!(#rt::f64);
+    let centre = match context.model.translation {
+        None => quote!(#rt::Pinned),
+        Some(_) => {
+            let zero = quote!(#rt::Vector::<#n>::zeros());
+            quote!(#rt::Centre { x: #zero, p: #zero })
+        }
+    };
     let some = quote!(::core::option::Option::Some);
     let isotropic = match &context.model.point.isotropic {
         None => quote!(::core::option::Option::None),
@@ -141,7 +148,7 @@ fn conversions(context: &Context) -> TokenStream {
 
             fn at_lattice(&self, lattice: &#rt::Lattice<#n>) -> #rt::Result<Self::Point<#f64>> {
                 let (phi, spin) = #rt::placement_and_spin::<#n, #frame>(lattice)?;
-                #rt::phase_point(phi, #wrap(spin), #rt::Pinned)
+                #rt::phase_point(phi, #wrap(spin), #centre)
             }
 
             fn isotropic(&self) -> ::core::option::Option<#rt::Isotropic> {

@@ -20,6 +20,7 @@ pub(super) fn of(rule: &Rule) -> Vec<Value> {
             numerator.iter().chain([denominator]).copied().collect()
         }
         Rule::Function { argument, .. } => vec![*argument],
+        Rule::Time => Vec::new(),
     }
 }
 
@@ -43,6 +44,7 @@ pub(super) fn fixed(rules: &[&(Value, Rule)]) -> Vec<Value> {
 pub(super) fn first(rule: &Rule) -> bool {
     match rule {
         Rule::Sum(terms) => terms.iter().any(|(_, term)| matches!(term, Term::Ends(..))),
+        Rule::Time => false,
         Rule::Quotient { .. } | Rule::Function { .. } => true,
     }
 }

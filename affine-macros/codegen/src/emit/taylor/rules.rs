@@ -58,6 +58,14 @@ impl Writer<'_> {
             Rule::Function { function, argument, companion, inner } => {
                 self.function(*function, value, *argument, *companion, inner)
             }
+            // 1 at order 1 and 0 beyond, in units of time: the divisor of order 1 is 2.
+            Rule::Time => {
+                let rt = &self.context.names.rt;
+                quote!({
+                    let first = (#t::constant(2.0, 0.0) - order).max(#t::zero());
+                    #rt::over(first + first, divisor)
+                })
+            }
         };
         quote!(let #name = #expression;)
     }

@@ -125,6 +125,8 @@ pub enum Rule {
         /// The convolutions.
         inner: Vec<Place>,
     },
+    /// The time: `t_1 = 1`, and nothing beyond.
+    Time,
 }
 
 /// A summand.
@@ -156,6 +158,7 @@ impl Recurrence {
     pub fn reads_order(&self) -> bool {
         let weighted = |rule: &Rule| match rule {
             Rule::Function { function, .. } => !matches!(function, Function::Sqrt | Function::Abs),
+            Rule::Time => true,
             Rule::Sum(_) | Rule::Quotient { .. } => false,
         };
         self.rules.iter().any(|(_, rule)| weighted(rule))

@@ -1,7 +1,7 @@
 //! Rules for coefficients: what moves, what is ready, which products there are.
 
 use crate::algebra::Function;
-use crate::symbol::Symbol;
+use crate::symbol::{Quantity, Symbol};
 
 use super::super::{Op, Program, Value};
 use super::companions::companion_of;
@@ -40,6 +40,7 @@ enum Outline {
         companion: Option<Value>,
         products: Vec<usize>,
     },
+    Time,
 }
 
 #[derive(Clone, Copy)]
@@ -82,6 +83,7 @@ impl Draft {
                 continue;
             }
             match program.steps[value] {
+                Op::Input(ref name) if is_time(name) => draft.outlines.push((value, Outline::Time)),
                 Op::Input(_) => draft.ready[value] = true,
                 Op::Div(a, b) if reader.moving[b] => draft.quotient(value, (a, b)),
                 Op::Call(function, argument) => {
@@ -112,6 +114,7 @@ impl Draft {
                 companion: *companion,
                 inner: products.iter().map(|p| places[*p].0).collect(),
             },
+            Outline::Time => Rule::Time,
         };
         self.outlines.iter().map(|(value, outline)| (*value, rule(outline))).collect()
     }
@@ -217,7 +220,7 @@ impl<'a> Reader<'a> {
         let mut moving = vec![false; count];
         for (value, step) in program.steps.iter().enumerate() {
             moving[value] = match step {
-                Op::Input(name) => states.contains(name),
+                Op::Input(name) => states.contains(name) || is_time(name),
                 step => step.operands().into_iter().any(|v| moving[v]),
             };
         }
@@ -337,6 +340,11 @@ impl<'a> Reader<'a> {
             }
         }
     }
+}
+
+/// It moves at the rate 1, without being state.
+fn is_time(name: &Symbol) -> bool {
+    name.quantity() == Some(Quantity::Time)
 }
 
 /// What the results need, companions included.
