@@ -82,7 +82,8 @@
 //! | `report` | pictures, error against run time |
 //! | `analysis` | [`analysis`]: Jacobians |
 //! | `parallel` | ensembles on all processors |
-//! | `serde` | checkpoints that can be written and read |
+//! | `serde` | points, tables and checkpoints that can be written and read, runs and descriptions that can be written |
+//! | `npy` | tables as archives of NumPy arrays |
 //! | `double-double` | numbers of 31 digits |
 #![cfg_attr(not(feature = "std"), no_std)]
 
@@ -177,6 +178,7 @@ macro_rules! pages {
         /// [`Method::Rattle`]: crate::simulate::Method::Rattle
         /// [`inertia`]: crate::inertia
         /// [`inertia::from_rotational`]: crate::inertia::from_rotational
+        /// [`Table`]: crate::simulate::Table
         /// [`Trajectory`]: crate::simulate::Trajectory
         /// [`Variation`]: crate::variation::Variation
         pub mod $page {}

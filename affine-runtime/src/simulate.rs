@@ -28,6 +28,8 @@ mod mechanics;
 mod method;
 mod methods;
 mod motion;
+#[cfg(feature = "npy")]
+mod npy;
 mod orientation;
 mod outcome;
 mod output;
@@ -46,6 +48,7 @@ mod standing;
 mod stepped;
 mod stepper;
 mod stiffness;
+mod table;
 mod trajectory;
 mod velocities;
 mod watcher;
@@ -67,6 +70,7 @@ pub use progress::Progress;
 pub use round_trip::RoundTrip;
 pub use settings::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, NEAR_DEGENERATE};
 pub use simulation::Simulation;
+pub use table::Table;
 pub use trajectory::{Computation, Trajectory};
 pub use why::Why;
 

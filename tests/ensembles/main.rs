@@ -6,6 +6,8 @@ mod fast;
 mod lanes;
 mod models;
 mod outcomes;
+mod saved;
 mod shards;
 mod sweeps;
+mod tables;
 mod watched;

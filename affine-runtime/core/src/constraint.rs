@@ -2,6 +2,7 @@
 
 /// The group to which a motion is confined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Constraint {
     /// SL(n): `det phi = 1`.
     Isochoric,

@@ -5,6 +5,7 @@ use crate::quantity::Group;
 
 /// What was derived about a model; made by the macro alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Description {
     /// Name of the user's type.
     pub name: &'static str,
@@ -45,6 +46,7 @@ pub struct Description {
 
 /// Something that is not integrated, and in which runs it is not.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LeftOut {
     /// What it is and why, in words.
     pub what: &'static str,
@@ -54,6 +56,7 @@ pub struct LeftOut {
 
 /// The runs that leave something out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Scope {
     /// Every run of the model.
     Model,
@@ -68,6 +71,7 @@ pub enum Scope {
 /// A part of a potential that has a value only where a function of the state keeps its sign. The values of these functions
 /// are those of [`Model::domain`](crate::Model::domain).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Guard {
     /// The part, as written: `ln(q)`, `1/x[1]`.
     pub part: &'static str,
@@ -79,6 +83,7 @@ pub struct Guard {
 
 /// The signs that a function of the state may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Bound {
     /// Above zero: the argument of a logarithm.
     Positive,
@@ -93,6 +98,7 @@ pub enum Bound {
 /// Fields have the names that they have in the struct. One that is written like a symbol of the mechanics stands as
 /// `self.name`, in LaTeX in typewriter.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Formula {
     /// Plain text.
     pub text: &'static str,
@@ -102,6 +108,7 @@ pub struct Formula {
 
 /// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Operations {
     /// Multiplications.
     pub mul: usize,
@@ -125,6 +132,7 @@ impl Operations {
 /// A quantity that a model may conserve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Conserved {
     /// Energy `H`.
     Energy,
@@ -176,6 +184,7 @@ pub enum Conserved {
 /// conserves: a basis, without what follows from momenta that are conserved as a whole. Sums whose factors depend on the fields
 /// of the model, or have ratios of numbers above 32768, are not listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Component {
     /// The formula.
     pub symbol: &'static str,
@@ -185,6 +194,7 @@ pub struct Component {
 
 /// A multiple of an entry of a momentum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Entry {
     /// How often it is taken.
     pub factor: i64,

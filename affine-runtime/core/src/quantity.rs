@@ -3,6 +3,7 @@
 /// A quantity that stands in a state as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Quantity {
     /// The place of the centre of mass, `x`.
     Position,
@@ -94,6 +95,7 @@ impl Quantity {
 
 /// A run of components of a state vector that form one geometric object.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Group {
     /// What it is.
     pub quantity: Quantity,

@@ -1,5 +1,8 @@
 //! Phase points: placement and momentum, with the centre of mass only where a model has one.
 
+#[cfg(feature = "serde")]
+mod serde;
+
 use core::fmt::Debug;
 
 use crate::error::{Error, Result};
@@ -11,6 +14,11 @@ use crate::scalar::Real;
 /// What a phase point carries besides placement and affine spin: nothing ([`Pinned`]) or the centre of mass
 /// ([`Centre`]).
 pub trait Translation<const N: usize, T: Real>: Copy + Debug + PartialEq {
+    /// There is a centre of mass.
+    const MOVES: bool;
+    /// With these, where there is one; `None` of points that do not exist.
+    #[doc(hidden)]
+    fn at(x: Vector<N, T>, p: Vector<N, T>) -> Option<Self>;
     /// Position of the centre of mass; zero for a pinned body.
     fn position(&self) -> Vector<N, T>;
     /// Linear momentum `p = dT/dx_dot`, a spatial covector; zero for a pinned body.
@@ -20,7 +28,9 @@ pub trait Translation<const N: usize, T: Real>: Copy + Debug + PartialEq {
     fn moved(&self, x: Vector<N, T>) -> Self;
     /// The same at another position and with another momentum; a pinned body stays.
     #[must_use]
-    fn replaced(&self, x: Vector<N, T>, p: Vector<N, T>) -> Self;
+    fn replaced(&self, x: Vector<N, T>, p: Vector<N, T>) -> Self {
+        Self::at(x, p).unwrap_or(*self)
+    }
     /// The same in another basis of space: `x' = A x`, `p' = A^-T p`; a pinned body stays.
     #[must_use]
     fn rebased(&self, bases: &Bases<N, T>) -> Self;
@@ -31,6 +41,10 @@ pub trait Translation<const N: usize, T: Real>: Copy + Debug + PartialEq {
 pub struct Pinned;
 
 impl<const N: usize, T: Real> Translation<N, T> for Pinned {
+    const MOVES: bool = false;
+    fn at(_x: Vector<N, T>, _p: Vector<N, T>) -> Option<Self> {
+        Some(Self)
+    }
     fn position(&self) -> Vector<N, T> {
         Vector::<N, T>::zeros()
     }
@@ -38,9 +52,6 @@ impl<const N: usize, T: Real> Translation<N, T> for Pinned {
         Vector::<N, T>::zeros()
     }
     fn moved(&self, _x: Vector<N, T>) -> Self {
-        *self
-    }
-    fn replaced(&self, _x: Vector<N, T>, _p: Vector<N, T>) -> Self {
         *self
     }
     fn rebased(&self, _bases: &Bases<N, T>) -> Self {
@@ -58,6 +69,10 @@ pub struct Centre<const N: usize, T = f64> {
 }
 
 impl<const N: usize, T: Real> Translation<N, T> for Centre<N, T> {
+    const MOVES: bool = true;
+    fn at(x: Vector<N, T>, p: Vector<N, T>) -> Option<Self> {
+        Some(Self { x, p })
+    }
     fn position(&self) -> Vector<N, T> {
         self.x
     }
@@ -66,9 +81,6 @@ impl<const N: usize, T: Real> Translation<N, T> for Centre<N, T> {
     }
     fn moved(&self, x: Vector<N, T>) -> Self {
         Self { x, p: self.p }
-    }
-    fn replaced(&self, x: Vector<N, T>, p: Vector<N, T>) -> Self {
-        Self { x, p }
     }
     fn rebased(&self, bases: &Bases<N, T>) -> Self {
         Self { x: bases.space * self.x, p: bases.space_inverse.tr_mul(&self.p) }

@@ -57,6 +57,10 @@ pub trait IsPrepared {
 pub enum NotPrepared {}
 
 impl<const N: usize, T: Real> Translation<N, T> for NotPrepared {
+    const MOVES: bool = false;
+    fn at(_: Vector<N, T>, _: Vector<N, T>) -> Option<Self> {
+        None
+    }
     fn position(&self) -> Vector<N, T> {
         match *self {}
     }
@@ -64,9 +68,6 @@ impl<const N: usize, T: Real> Translation<N, T> for NotPrepared {
         match *self {}
     }
     fn moved(&self, _: Vector<N, T>) -> Self {
-        *self
-    }
-    fn replaced(&self, _: Vector<N, T>, _: Vector<N, T>) -> Self {
         *self
     }
     fn rebased(&self, _: &Bases<N, T>) -> Self {

@@ -152,6 +152,7 @@ impl core::error::Error for Failure {}
 /// What an integration cost. All that it asked of the equations is counted: for accepted and rejected steps, for outputs
 /// and events between them, at the start, and for the trial of a method that the automatic choice takes or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Statistics {
     /// Accepted steps.
     pub steps: u64,

@@ -12,6 +12,7 @@ use crate::state::Phase;
 /// Drifts of all conserved quantities over the outputs of a trajectory; displays as a table, with the balance of
 /// energy where forces change it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Conservation {
     model: &'static str,
     drifts: Vec<Drift>,
@@ -20,6 +21,7 @@ pub struct Conservation {
 
 /// Drift of one quantity `Q`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Drift {
     /// The quantity.
     pub quantity: Conserved,
@@ -65,14 +67,18 @@ impl Conservation {
 }
 
 impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
+    /// What the model conserves in this motion.
+    pub(super) fn quantities(&self) -> &'static [Conserved] {
+        match self.computation.at_rest {
+            true => self.description.conserved_at_rest,
+            false => self.description.conserved,
+        }
+    }
+
     /// Drift of every quantity that the model conserves, or conserves while `p = 0` where the start is at rest.
     #[must_use]
     pub fn conservation(&self) -> Conservation {
-        let quantities = if self.computation.at_rest {
-            self.description.conserved_at_rest
-        } else {
-            self.description.conserved
-        };
+        let quantities = self.quantities();
         let drift = |&quantity: &Conserved| self.drift(quantity);
         Conservation {
             model: self.description.name,

@@ -4,6 +4,8 @@ mod asked;
 mod bodies;
 mod part;
 mod recording;
+#[cfg(feature = "csv")]
+mod saved;
 
 use core::fmt;
 use core::ops::Range;
@@ -269,13 +271,33 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         H::Model: InLanes<N>,
         PointOf<N, H>: Send + Sync,
     {
+        let chunk = AT_ONCE * threads();
+        self.chunks::<T, A, Setting>(chunk, &begin, &add, |bodies| {
+            bodies.into_iter().for_each(&mut each);
+            Ok(())
+        })
+    }
+
+    /// Runs so many bodies after the other.
+    fn chunks<T: Lanes, A: Send, E: From<Setting>>(
+        self,
+        chunk: usize,
+        begin: &(dyn Fn(u64, &H) -> A + Sync),
+        add: &(dyn Fn(&mut A, f64, &PointOf<N, H>) + Sync),
+        mut each: impl FnMut(Vec<Member<PointOf<N, H>, A>>) -> core::result::Result<(), E>,
+    ) -> core::result::Result<(), E>
+    where
+        H: Sync,
+        H::Model: InLanes<N>,
+        PointOf<N, H>: Send + Sync,
+    {
         let Self { mut starts, plan, events, progress, shard: (k, of) } = self;
         if k >= of {
-            return Err(Setting::Shard { k, of });
+            return Err(Setting::Shard { k, of }.into());
         }
         for event in events() {
             if let Some(index) = event.out_of_range {
-                return Err(Setting::EventIndex { event: event.name, index });
+                return Err(Setting::EventIndex { event: event.name, index }.into());
             }
         }
         let (t_end, schedule) = plan.checked(&H::Model::DESCRIPTION)?;
@@ -286,17 +308,16 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
             within_steps: schedule.peek().is_some() || !events().is_empty(),
             schedule,
             events: &*events,
-            begin: &begin,
-            add: &add,
+            begin,
+            add,
             tell: &|| progress(done.fetch_add(1, Ordering::Relaxed) + 1),
         };
-        let chunk = AT_ONCE * threads();
         loop {
             let starts: Vec<_> = starts.by_ref().take(chunk).collect();
             if starts.is_empty() {
                 return Ok(());
             }
-            in_parts(&starts, T::LANES, |part| asked.of::<T>(part)).into_iter().for_each(&mut each);
+            each(in_parts(&starts, T::LANES, |part| asked.of::<T>(part)))?;
         }
     }
 }

@@ -100,6 +100,7 @@ pub(super) enum Action<'a, P> {
 
 /// An event as it happened.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Occurrence<P> {
     /// Name of the event.
     pub name: &'static str,

@@ -3,6 +3,7 @@
 /// How a trajectory is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Method {
     /// The closed form where model and start have one; else, where `emit(nystrom)` asked for it and unless there
     /// are events, which look at times within steps, [`Method::RungeKuttaNystrom12`], or at tolerances above

@@ -14,6 +14,7 @@ use crate::state::Phase;
 /// integrated with the motion, as one more variable that the steps do not depend on, so that the balance closes to
 /// the error of the integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PowerBalance {
     /// `H(t_end) - H(t0)`.
     pub energy: f64,

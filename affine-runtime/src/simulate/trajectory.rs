@@ -14,6 +14,7 @@ use crate::state::Phase;
 
 /// Phase points over time, with how they were computed and what they should conserve.
 #[derive(Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Trajectory<const N: usize, P> {
     pub(super) description: &'static Description,
     pub(super) start: (f64, P),
@@ -27,16 +28,20 @@ pub struct Trajectory<const N: usize, P> {
     pub(super) events: Vec<Occurrence<P>>,
     /// Name of the event that ended the run.
     pub(super) stopped_by: Option<&'static str>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) checkpoint: Option<Box<Checkpoint>>,
     /// Bases in which the model's metrics are the identity.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) bases: Option<Box<Bases<N>>>,
     /// What lies between the outputs, where that was asked for.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) dense: Option<Box<Dense<N, P>>>,
 }
 
 /// How a trajectory was computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Computation {
     /// What was asked for.
     pub asked: Method,
@@ -80,6 +85,7 @@ pub struct Computation {
 }
 
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Energies {
     pub(super) start: f64,
     pub(super) end: f64,

@@ -246,6 +246,19 @@ debug_as_displayed!([] Stop, [] Reason);
 
 impl std::error::Error for Stop {}
 
+/// The reason in words, with time and steps.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Stop {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let mut stop = serializer.serialize_struct("Stop", 3)?;
+        stop.serialize_field("reason", &format_args!("{}", self.reason))?;
+        stop.serialize_field("t", &self.t)?;
+        stop.serialize_field("steps", &self.steps)?;
+        stop.end()
+    }
+}
+
 impl From<Setting> for Reason {
     fn from(setting: Setting) -> Self {
         Reason::Setting(setting)

@@ -9,6 +9,7 @@ use crate::simulate::settings::Plan;
 
 /// A member of an ensemble: a body from its start to its end.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Member<P, A> {
     /// Its place among the starts, counted from 0; whatever shard it was in.
     pub number: u64,

@@ -1,0 +1,70 @@
+//! Phase points as they are written and read: `phi` and the momentum of the model's own frame, row by row, then `x` and `p`
+//! where there is a centre of mass. Numbers of text formats that are read exactly give the same bits.
+
+use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+use serde::ser::{Serialize, SerializeTuple, Serializer};
+
+use super::{Basis, PhasePoint, Translation};
+use crate::frames::{Frame, Matrix, Vector};
+use crate::kinematics::LogDeterminant;
+use core::fmt;
+use core::marker::PhantomData;
+
+impl<const N: usize, F: Frame, C: Translation<N, f64>, B: Basis> PhasePoint<N, F, C, f64, B> {
+    /// Numbers of a point.
+    const NUMBERS: usize = 2 * N * N + if C::MOVES { 2 * N } else { 0 };
+}
+
+impl<const N: usize, F: Frame, C: Translation<N, f64>, B: Basis> Serialize for PhasePoint<N, F, C, f64, B> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut numbers = serializer.serialize_tuple(Self::NUMBERS)?;
+        for matrix in [&self.phi, &self.spin] {
+            (0..N * N).try_for_each(|k| numbers.serialize_element(&matrix[(k / N, k % N)]))?;
+        }
+        if C::MOVES {
+            let (x, p) = (self.centre.position(), self.centre.momentum());
+            x.iter().chain(p.iter()).try_for_each(|number| numbers.serialize_element(number))?;
+        }
+        numbers.end()
+    }
+}
+
+impl<'de, const N: usize, F: Frame, C: Translation<N, f64>, B: Basis> Deserialize<'de>
+    for PhasePoint<N, F, C, f64, B>
+{
+    /// Refuses what is no phase point: as many numbers, all finite, and `det phi > 0`.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_tuple(Self::NUMBERS, Numbers(PhantomData))
+    }
+}
+
+struct Numbers<P>(PhantomData<P>);
+
+impl<'de, const N: usize, F: Frame, C: Translation<N, f64>, B: Basis> Visitor<'de>
+    for Numbers<PhasePoint<N, F, C, f64, B>>
+{
+    type Value = PhasePoint<N, F, C, f64, B>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the {} numbers of a phase point, finite, with det phi > 0", Self::Value::NUMBERS)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut numbers: A) -> Result<Self::Value, A::Error> {
+        let mut read = [0.0; 24];
+        let expected = read.get_mut(..Self::Value::NUMBERS).into_iter().flatten();
+        for (k, number) in expected.enumerate() {
+            *number = numbers.next_element()?.ok_or_else(|| A::Error::invalid_length(k, &self))?;
+            if !f64::is_finite(*number) {
+                return Err(A::Error::custom("a number of the phase point is not finite"));
+            }
+        }
+        let mut read = read.into_iter();
+        let mut next = || read.next().unwrap_or_default();
+        let [phi, spin] = [(); 2].map(|()| Matrix::<N>::from_fn(|_, _| next()).transpose());
+        let [x, p] = [(); 2].map(|()| Vector::<N>::from_fn(|_, _| next()));
+        match C::at(x, p) {
+            Some(centre) if LogDeterminant::of(&phi).is_positive() => Ok(PhasePoint::new(phi, spin, centre)),
+            _ => Err(A::Error::custom("the placement of the phase point has no positive determinant")),
+        }
+    }
+}

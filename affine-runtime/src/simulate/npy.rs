@@ -1,0 +1,44 @@
+//! Tables as arrays of NumPy.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Seek, Write};
+use std::path::Path;
+
+use npyz::WriterBuilder;
+use npyz::npz::file_name_from_array_name;
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
+
+use super::table::Table;
+use crate::error::{Error, Result};
+
+impl Table {
+    /// Writes the columns as a `.npz` archive, an array of doubles for each name: `numpy.load` gives them by their names, and
+    /// `pandas.DataFrame(dict(numpy.load(path)))` the table.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn npz(&self, writer: impl Write + Seek) -> io::Result<()> {
+        let mut archive = ZipWriter::new(writer);
+        // As the columns are: nothing is compressed, and files of the same numbers have the same bytes.
+        let options = SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+        for (name, column) in self.columns() {
+            archive.start_file(file_name_from_array_name(name), options.large_file(true))?;
+            let array = npyz::WriteOptions::new().default_dtype().shape(&[column.len() as u64]);
+            let mut array = array.writer(&mut archive).begin_nd()?;
+            array.extend(column.iter().copied())?;
+            array.finish()?;
+        }
+        archive.finish()?.flush()
+    }
+
+    /// The same to a file.
+    ///
+    /// # Errors
+    /// [`Error::File`] with path and kind of the failure.
+    pub fn save_npz(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
+        let written = File::create(path).and_then(|file| self.npz(BufWriter::new(file)));
+        written.map_err(|error| Error::File { path: path.to_path_buf(), kind: error.kind() })
+    }
+}

@@ -1,0 +1,206 @@
+//! Columns of numbers under names: what leaves the program.
+
+use super::trajectory::Trajectory;
+use crate::conserved::evaluate;
+use crate::frames::Matrix;
+use crate::model::{Conserved, Description, Model, Quantity};
+use crate::state::Phase;
+
+/// Columns of numbers under names, the same in every file that is written of them: of the outputs of a run,
+/// [`Trajectory::table`], or of the bodies of an ensemble, [`of_bodies`](Self::of_bodies).
+///
+/// | name | column |
+/// |---|---|
+/// | `body` | number of the body in its ensemble |
+/// | `t` | time |
+/// | `x1`.., `p1`.. | centre and its momentum, where the model has translation |
+/// | `phi11`, `phi12`.. | placement, row by row |
+/// | `Sigma11`.., `Sigma_hat11`.. or `Pi11`.. | the model's momentum likewise; `Pi` has the body index first |
+/// | `energy`, `work` | `H`, and the work of the forces that no potential has |
+/// | `spin12`, `second_Casimir`.. | entries of what is conserved, by its name |
+/// | `drift_energy`, `drift_spin`.. | how far that is from where it was at the start, by its norm |
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Table {
+    names: Vec<String>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Table {
+    fn under(names: Vec<String>) -> Self {
+        Self { columns: names.iter().map(|_| Vec::new()).collect(), names }
+    }
+
+    /// A table of phase points of the bodies of an ensemble, without rows: `body`, a column for each name, `t`, and the
+    /// columns of the point.
+    #[must_use]
+    pub fn of_bodies<const N: usize, M: Model<N>>(names: &[&str]) -> Self {
+        let names = ["body"].iter().chain(names).chain(&["t"]).map(|name| (*name).to_owned());
+        Self::under(names.chain(Columns::<N, M::Point<f64>>::of(&M::DESCRIPTION).names()).collect())
+    }
+
+    /// Adds a row to a table [of bodies](Self::of_bodies): number, a value for each name, time and point. What is missing of
+    /// the values is NaN, and what is too many is left out.
+    pub fn push<const N: usize, M: Model<N>>(
+        &mut self,
+        body: u64,
+        values: &[f64],
+        t: f64,
+        point: &M::Point<f64>,
+    ) {
+        let of_point = Columns::<N, M::Point<f64>>::of(&M::DESCRIPTION).values(point);
+        let named = self.names.len() - 2 - of_point.len().min(self.names.len() - 2);
+        let values = values.iter().copied().chain(core::iter::repeat(f64::NAN)).take(named);
+        let row = core::iter::once(body as f64).chain(values).chain([t]).chain(of_point);
+        self.add(row);
+    }
+
+    fn add(&mut self, row: impl Iterator<Item = f64>) {
+        self.columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+    }
+
+    /// The names of the columns.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// A column, by its name.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let (_, column) = self.columns().find(|(own, _)| *own == name)?;
+        Some(column)
+    }
+
+    /// The columns with their names.
+    pub fn columns(&self) -> impl Iterator<Item = (&str, &[f64])> {
+        self.names.iter().map(String::as_str).zip(self.columns.iter().map(Vec::as_slice))
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
+    }
+
+    /// There are no rows.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The numbers of a row.
+    #[cfg(feature = "csv")]
+    pub(super) fn row(&self, row: usize) -> impl Iterator<Item = f64> {
+        self.columns.iter().map(move |column| column.get(row).copied().unwrap_or(f64::NAN))
+    }
+
+    /// Leaves the names alone.
+    pub fn clear(&mut self) {
+        self.columns.iter_mut().for_each(Vec::clear);
+    }
+}
+
+impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
+    /// The outputs as columns: time, point, energies, what is conserved, and its drift.
+    #[must_use]
+    pub fn table(&self) -> Table {
+        let columns = Columns::<N, P>::of(self.description);
+        let is_balanced = self.description.reduced.iter().any(|group| group.quantity == Quantity::Work);
+        let conserved = self.quantities();
+        let start = self.start.1;
+        let mut names = vec!["t".to_owned()];
+        names.extend(columns.names());
+        names.push("energy".to_owned());
+        names.extend(is_balanced.then(|| "work".to_owned()));
+        names.extend(conserved.iter().flat_map(|quantity| self.names_of(*quantity)));
+        names.extend(conserved.iter().map(|quantity| format!("drift_{}", name(*quantity))));
+        let mut table = Table::under(names);
+        for (k, (t, point)) in self.iter().enumerate() {
+            let energy = self.energies.outputs.get(k).copied().unwrap_or(f64::NAN);
+            let work = is_balanced.then(|| self.energies.work.get(k).copied().unwrap_or(f64::NAN));
+            let at = |quantity: Conserved, point: &P| evaluate(quantity, &self.orthonormal(point));
+            let values = conserved.iter().flat_map(|quantity| {
+                let value = at(*quantity, point);
+                value.iter().flat_map(|value| value.as_slice().to_vec()).collect::<Vec<_>>()
+            });
+            let drifts =
+                conserved.iter().map(|quantity| match (at(*quantity, point), at(*quantity, &start)) {
+                    (Some(value), Some(at_start)) => value.distance(&at_start),
+                    _ => (energy - self.energies.start).abs(),
+                });
+            let head = core::iter::once(t).chain(columns.values(point)).chain([energy]).chain(work);
+            table.add(head.chain(values).chain(drifts));
+        }
+        table
+    }
+
+    /// The columns of a conserved quantity.
+    fn names_of(&self, quantity: Conserved) -> Vec<String> {
+        let own = name(quantity);
+        let Some(value) = evaluate(quantity, &self.orthonormal(&self.start.1)) else { return Vec::new() };
+        let is_vector = matches!(quantity, Conserved::LinearMomentum | Conserved::ComovingLinearMomentum);
+        match value.as_slice().len() {
+            // One entry of a skew matrix has its indices all the same.
+            1 if !matches!(quantity, Conserved::Spin | Conserved::Vorticity) => vec![own],
+            len if is_vector => (1..=len).map(|a| format!("{own}{a}")).collect(),
+            len => {
+                let entries = (0..N * N).map(|k| (k / N + 1, k % N + 1));
+                let entries = entries.filter(|(a, b)| len == N * N || a < b);
+                entries.map(|(a, b)| format!("{own}{a}{b}")).collect()
+            }
+        }
+    }
+}
+
+/// The name of a quantity, as one word.
+fn name(quantity: Conserved) -> String {
+    quantity.name().replace([' ', '-'], "_")
+}
+
+/// The columns of a phase point.
+pub(super) struct Columns<const N: usize, P> {
+    translation: bool,
+    momentum: (&'static str, fn(&P) -> Matrix<N>),
+}
+
+impl<const N: usize, P: Phase<N>> Columns<N, P> {
+    pub(super) fn of(description: &Description) -> Self {
+        let stored = |quantity| description.full.iter().any(|group| group.quantity == quantity);
+        let momentum: (&'static str, fn(&P) -> Matrix<N>) = if stored(Quantity::AffineSpin) {
+            ("Sigma", |point| point.sigma().0.0)
+        } else if stored(Quantity::ComovingAffineSpin) {
+            ("Sigma_hat", |point| point.sigma_hat().0.0)
+        } else {
+            ("Pi", |point| point.pi().0.0)
+        };
+        Self { translation: stored(Quantity::Position), momentum }
+    }
+
+    pub(super) fn names(&self) -> Vec<String> {
+        let vector = |name: &str| (1..=N).map(|a| format!("{name}{a}")).collect::<Vec<_>>();
+        let matrix = |name: &str| {
+            let indices = (0..N * N).map(|k| (k / N + 1, k % N + 1));
+            indices.map(|(a, b)| format!("{name}{a}{b}")).collect::<Vec<_>>()
+        };
+        let momentum = matrix(self.momentum.0);
+        match self.translation {
+            true => [vector("x"), matrix("phi"), vector("p"), momentum].concat(),
+            false => [matrix("phi"), momentum].concat(),
+        }
+    }
+
+    pub(super) fn values(&self, point: &P) -> Vec<f64> {
+        let rows = |m: Matrix<N>| (0..N * N).map(move |k| m[(k / N, k % N)]);
+        let mut values = Vec::with_capacity(2 * N * (N + 1));
+        if self.translation {
+            values.extend(point.x().iter());
+        }
+        values.extend(rows(*point.phi()));
+        if self.translation {
+            values.extend(point.p().iter());
+        }
+        values.extend(rows((self.momentum.1)(point)));
+        values
+    }
+}

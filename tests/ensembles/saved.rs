@@ -1,0 +1,147 @@
+//! Ensembles that are written as they go, killed, and continued.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use affine_runtime::Error;
+use affine_runtime::prelude::*;
+use affine_runtime::simulate::Setting;
+
+use crate::models::{Sampled, Unprotected};
+
+const BODIES: usize = 90;
+const CHUNK: usize = 16;
+/// Where a process of its own writes.
+const PLACE: &str = "AFFINE_TESTS_SAVED";
+
+/// Two bodies of which collapse.
+fn ensemble<'a>() -> Ensemble<'a, 2, &'a Unprotected> {
+    let mut starts = Unprotected.samples(BODIES, 81);
+    for place in [20, 70] {
+        let (zero, one) = (Vector::<2>::zeros(), Matrix::<2>::identity());
+        let collapsing = TwoPoint(Matrix::<2>::new(-5.0, 0.0, 0.0, 0.1));
+        starts[place] = Unprotected.at_momentum(zero, one, zero, collapsing).unwrap();
+    }
+    Ensemble::new(&Unprotected, starts).until(0.6).tolerance(1e-10).every(0.2)
+}
+
+fn save<'a>(ensemble: Ensemble<'a, 2, &'a Unprotected>, folder: &Path) -> affine_runtime::Result<()> {
+    ensemble.save(folder, CHUNK, &["half"], |number| vec![0.5 * number as f64])
+}
+
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("affine-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        Self(path)
+    }
+
+    fn files(&self) -> BTreeMap<String, Vec<u8>> {
+        let files = fs::read_dir(&self.0).unwrap().map(|file| file.unwrap().path());
+        files
+            .map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(&path).unwrap()))
+            .collect()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+#[test]
+fn chunks_hold_the_outputs_of_all_bodies() {
+    let folder = Folder::new("whole");
+    save(ensemble(), &folder.0).unwrap();
+    let files = folder.files();
+    let manifest = String::from_utf8(files["manifest.txt"].clone()).unwrap();
+    assert_eq!(files.len(), 1 + BODIES.div_ceil(CHUNK));
+    assert_eq!(manifest.lines().filter(|line| line.starts_with("stopped ")).count(), 2, "{manifest}");
+    assert!(manifest.contains("\nstopped 70 at "), "{manifest}");
+    let mut rows = files.iter().filter(|(name, _)| name.starts_with("chunk")).flat_map(|(_, text)| {
+        let text = String::from_utf8(text.clone()).unwrap();
+        let numbers = |line: &str| line.split(',').map(|n| n.parse().unwrap()).collect::<Vec<f64>>();
+        text.lines().skip(1).map(numbers).collect::<Vec<_>>()
+    });
+    ensemble()
+        .each(|body| {
+            for (t, point) in body.folded {
+                let row = rows.next().unwrap();
+                assert_eq!(
+                    row[..5],
+                    [body.number as f64, 0.5 * body.number as f64, t, point.x()[0], point.x()[1]]
+                );
+                assert_eq!(row[5], point.phi()[(0, 0)]);
+            }
+        })
+        .unwrap();
+    assert_eq!(rows.next(), None);
+}
+
+/// The writing process of the test below, where that asks for one.
+#[test]
+fn writes_where_it_is_told() {
+    if let Ok(place) = std::env::var(PLACE) {
+        save(ensemble().progress(|_| std::thread::sleep(Duration::from_millis(5))), Path::new(&place))
+            .unwrap();
+    }
+}
+
+#[test]
+fn what_is_killed_is_continued_with_the_same_bytes() {
+    let (whole, killed) = (Folder::new("uninterrupted"), Folder::new("killed"));
+    save(ensemble(), &whole.0).unwrap();
+    let mut process = Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "saved::writes_where_it_is_told"])
+        .env(PLACE, &killed.0)
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    let manifest = || fs::read_to_string(killed.0.join("manifest.txt")).unwrap_or_default();
+    let begin = Instant::now();
+    while manifest().matches("\nchunk ").count() < 2 {
+        assert!(begin.elapsed() < Duration::from_secs(60), "no chunk: {}", manifest());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    process.kill().unwrap();
+    process.wait().unwrap();
+    let (before, there) = (manifest(), killed.files());
+    assert!(before.matches("\nchunk ").count() < BODIES.div_ceil(CHUNK), "it was done too early");
+    // What is there is whole, and can be read; a line that was under way is one more trouble.
+    for line in before.lines().filter(|line| line.starts_with("chunk ")) {
+        let name = line.split(' ').nth(1).unwrap();
+        assert_eq!(there[name], whole.files()[name]);
+    }
+    fs::write(killed.0.join("manifest.txt"), before + "stopped 70 at 1").unwrap();
+    save(ensemble(), &killed.0).unwrap();
+    let rest =
+        |files: BTreeMap<String, Vec<u8>>| files.into_iter().filter(|(name, _)| !name.ends_with(".part"));
+    assert!(rest(killed.files()).eq(rest(whole.files())));
+    // Bodies that are done are not run again.
+    let runs = std::sync::atomic::AtomicU64::new(0);
+    let count = |_| {
+        runs.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+    };
+    save(ensemble().progress(count), &killed.0).unwrap();
+    assert_eq!(runs.into_inner(), 0);
+}
+
+#[test]
+fn a_folder_of_another_run_is_refused() {
+    let folder = Folder::new("refused");
+    save(ensemble().shard(0, 9), &folder.0).unwrap();
+    for other in [ensemble(), ensemble().shard(1, 9), ensemble().shard(0, 9).until(0.7)] {
+        let refused = save(other, &folder.0).unwrap_err();
+        assert_eq!(refused, Error::from(Setting::Checkpoint { model: "Unprotected" }));
+    }
+    let file = Folder::new("file");
+    fs::write(&file.0, "no folder").unwrap();
+    assert!(matches!(save(ensemble(), &file.0), Err(Error::File { .. })));
+    fs::remove_file(&file.0).unwrap();
+}

@@ -1,0 +1,151 @@
+//! What leaves the program: columns, archives of NumPy, JSON.
+
+use std::io::{Cursor, Read};
+
+use affine_runtime::model::Conserved;
+use affine_runtime::prelude::*;
+use affine_runtime::simulate::Table;
+use npyz::NpyFile;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::models::{Blown, DrunkMissile, Elastic, Sampled, Unprotected, Wind, vibrating};
+
+/// Point, energy, work, what is conserved and its drift, each where it belongs.
+#[test]
+fn a_table_has_energies_drifts_and_what_is_conserved() {
+    let run =
+        Simulation::new(&DrunkMissile, DrunkMissile.samples(1, 71)[0]).until(2.0).every(0.5).run().unwrap();
+    let table = run.table();
+    let column = |name: &str| table.column(name).unwrap_or_else(|| panic!("{name} of {:?}", table.names()));
+    assert_eq!((table.len(), column("t")), (5, run.times()));
+    assert_eq!(column("energy"), run.energies());
+    let (_, start) = run.start();
+    for (k, (_, point)) in run.iter().enumerate() {
+        assert_eq!((column("x2")[k], column("phi13")[k]), (point.x()[1], point.phi()[(0, 2)]));
+        assert_eq!(
+            (column("p1")[k], column("Sigma_hat32")[k]),
+            (point.p()[0], point.sigma_hat().0.0[(2, 1)])
+        );
+        let trace = (point.sigma().0.0 * point.sigma().0.0).trace();
+        if let Some(values) = table.column("second_Casimir") {
+            assert!((values[k] - trace).abs() < 1e-12);
+        }
+        assert_eq!(column("linear_momentum3")[k], point.p()[2]);
+        assert_eq!(column("drift_linear_momentum")[k], (point.p() - start.p()).norm());
+    }
+    // The largest entries of the columns are the rows of the table of drifts.
+    for drift in run.conservation().drifts() {
+        let name = format!("drift_{}", drift.quantity.name().replace([' ', '-'], "_"));
+        let largest = column(&name).iter().fold(0.0, |most: f64, value| most.max(*value));
+        assert_eq!(largest, drift.absolute, "{name}");
+    }
+    assert!(run.conservation().of(Conserved::Energy).is_some());
+    assert!(table.column("work").is_none());
+
+    let blown = Blown { eta: Matrix::<2>::identity(), j: 1.0, s: 0.5, wind: Wind(0.3) }.prepare().unwrap();
+    let (zero, one) = (Vector::<2>::zeros(), Matrix::<2>::identity());
+    let start = blown.at_velocity(zero, one, zero, Matrix::<2>::zeros()).unwrap();
+    let table = Simulation::new(&blown, start).until(1.0).every(0.25).run().unwrap().table();
+    // At rest at first: what the centre gains is the work of the wind, w x.
+    for (work, x) in table.column("work").unwrap().iter().zip(table.column("x1").unwrap()) {
+        assert!((work - 0.3 * x).abs() < 1e-9, "{work} {x}");
+    }
+}
+
+/// To the bit, by the names that CSV has; and the same bytes for the same numbers.
+#[test]
+fn archives_read_back_as_the_same_numbers() {
+    let run = Simulation::new(&Elastic, Elastic.samples(1, 72)[0]).until(1.0).every(0.1).run().unwrap();
+    let table = run.table();
+    let bytes = || {
+        let mut bytes = Cursor::new(Vec::new());
+        table.npz(&mut bytes).unwrap();
+        bytes.into_inner()
+    };
+    let mut archive = zip::ZipArchive::new(Cursor::new(bytes())).unwrap();
+    assert_eq!(archive.len(), table.names().len());
+    for (name, column) in table.columns() {
+        let mut array = Vec::new();
+        archive
+            .by_name(&npyz::npz::file_name_from_array_name(name))
+            .unwrap()
+            .read_to_end(&mut array)
+            .unwrap();
+        let read = NpyFile::new(array.as_slice()).unwrap().into_vec::<f64>().unwrap();
+        assert_eq!(read, column, "{name}");
+    }
+    assert_eq!(bytes(), bytes());
+    let mut text = Vec::new();
+    run.csv(&mut text).unwrap();
+    let first = String::from_utf8(text).unwrap().lines().next().unwrap().to_owned();
+    assert_eq!(first, table.names().join(","));
+}
+
+fn comes_back<V: Serialize + DeserializeOwned + PartialEq + std::fmt::Debug>(value: &V) {
+    let text = serde_json::to_string(value).unwrap();
+    assert_eq!(&serde_json::from_str::<V>(&text).unwrap(), value, "{text}");
+}
+
+#[test]
+fn points_and_tables_come_back_from_text_to_the_bit() {
+    DrunkMissile.samples(5, 73).iter().for_each(comes_back);
+    vibrating().samples(5, 73).iter().for_each(comes_back);
+    Elastic.samples(5, 73).iter().for_each(comes_back);
+    Unprotected.samples(5, 73).iter().for_each(comes_back);
+    let run = Simulation::new(&Unprotected, Unprotected.samples(1, 74)[0]).until(0.5).run().unwrap();
+    comes_back(&run.table());
+    let numbers: Vec<f64> = serde_json::from_str(&serde_json::to_string(run.end().1).unwrap()).unwrap();
+    let (phi, pi) = (run.end().1.phi(), run.end().1.pi().0.0);
+    assert_eq!(numbers[..4], [phi[(0, 0)], phi[(0, 1)], phi[(1, 0)], phi[(1, 1)]], "row by row");
+    assert_eq!((numbers[5], numbers.len()), (pi[(0, 1)], 12));
+}
+
+type Planar = <Unprotected as Model<2>>::Point<f64>;
+
+#[test]
+fn what_is_no_point_is_refused() {
+    let read = |text: &str| serde_json::from_str::<Planar>(text).unwrap_err().to_string();
+    let message = read("[1,0,0,-1, 0,0,0,0, 0,0,0,0]");
+    assert!(message.contains("no positive determinant"), "{message}");
+    assert!(read("[1,0,0,1, 0,0,0]").contains("invalid length 7, expected the 12 numbers"));
+    assert!(read("[1,0,0,1, 0,0,0,0, 0,0,0,1e999]").contains("out of range"));
+}
+
+/// A notebook or a page reads a run, a stop and a model.
+#[test]
+fn runs_stops_and_descriptions_are_written() {
+    let start = Unprotected.samples(1, 75)[0];
+    let run = Simulation::new(&Unprotected, start).until(0.5).every(0.25).run().unwrap();
+    let value = serde_json::to_value(&run).unwrap();
+    assert_eq!(value["times"].as_array().unwrap().len(), 3);
+    assert_eq!(value["points"][2][0].as_f64().unwrap(), run.end().1.phi()[(0, 0)]);
+    assert_eq!(value["description"]["name"], "Unprotected");
+    assert_eq!(value["description"]["hamiltonian"]["latex"], Unprotected::DESCRIPTION.hamiltonian.latex);
+    let drifts = serde_json::to_value(run.conservation()).unwrap();
+    assert_eq!(drifts["drifts"][0]["quantity"], "Energy");
+    let halt = Simulation::new(&Unprotected, start).until(0.5).max_steps(1).run().unwrap_err();
+    let value = serde_json::to_value(&halt).unwrap();
+    assert_eq!(value["stop"]["reason"], halt.stop.reason.to_string());
+    assert_eq!(value["stop"]["steps"], 1);
+    let mut written = Vec::new();
+    Ensemble::new(&Unprotected, [start])
+        .until(0.1)
+        .each(|body| written.push(serde_json::to_value(body).unwrap()))
+        .unwrap();
+    assert_eq!(written[0]["number"], 0);
+    assert!(written[0]["end"]["Ok"].is_array());
+}
+
+#[test]
+fn a_table_of_bodies_has_what_it_is_given() {
+    let mut table = Table::of_bodies::<2, Unprotected>(&["a", "b"]);
+    let point = Unprotected.samples(1, 76)[0];
+    table.push::<2, Unprotected>(7, &[0.5, 2.0], 1.5, &point);
+    table.push::<2, Unprotected>(8, &[0.25], 2.5, &point);
+    assert_eq!(table.names()[..6], ["body", "a", "b", "t", "x1", "x2"]);
+    assert_eq!(table.column("body").unwrap(), [7.0, 8.0]);
+    assert_eq!(table.column("t").unwrap(), [1.5, 2.5]);
+    assert!(table.column("b").unwrap()[1].is_nan());
+    assert_eq!(table.column("phi21").unwrap()[0], point.phi()[(1, 0)]);
+}
