@@ -8,12 +8,16 @@
 //!
 //! (S. Chandrasekhar, Ellipsoidal Figures of Equilibrium, 1969, chapter 3). The pressure is the multiplier of the
 //! constraint. Shown: spheroids of Maclaurin turn without changing, an oscillation with its period, and Dedekind's theorem,
-//! that `phi -> phi^T` maps motions to motions. The picture goes to `output/`.
+//! that `phi -> phi^T` maps motions to motions; and, by continuation from the ball at rest, where the ellipsoids of Jacobi branch off
+//! and where spheroids break. The pictures go to `output/`.
 
 use std::f64::consts::TAU;
 use std::fs;
 
-use affine_runtime::decompose::principal_stretches;
+use affine_runtime::analysis::{
+    BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict, branch_panel,
+};
+use affine_runtime::dual::Dual;
 use affine_runtime::frames::Matrix;
 use affine_runtime::potential::{Class, Place, Potential, Slopes};
 use affine_runtime::prelude::*;
@@ -42,25 +46,47 @@ impl Potential<3> for Gravity {
     const CLASS: Class = Class::Isotropic;
 
     fn energy<T: Scalar>(&self, place: &Place<3, T>) -> T {
-        let (stretches, ..) = principal_stretches(rows(&place.phi));
-        -(rational::<T>(3, 5) * carlson_f(stretches.map(|a| a * a)))
+        -(rational::<T>(3, 5) * carlson_f(invariants(&place.phi)))
     }
 
-    /// `dR_F(x, y, z)/dz = -R_D(x, y, z)/6` (NIST Digital Library of Mathematical Functions, 19.18.1): along the principal
-    /// axes `dU/da_i = a_i R_D(a_j^2, a_k^2, a_i^2)/5`.
+    /// By the chain rule through the invariants, with a derivative by each of them from numbers that have one: that exists also
+    /// where stretches are equal.
     fn slopes<T: Scalar>(&self, place: &Place<3, T>) -> Slopes<3, T> {
-        let (stretches, stretched, axes) = principal_stretches(rows(&place.phi));
-        let [x, y, z] = stretches.map(|a| a * a);
-        let pull = [[y, z, x], [z, x, y], [x, y, z]].map(|squares| carlson_d(squares) * rational::<T>(1, 5));
+        let phi = &place.phi;
+        let [sum, pairs, product] = invariants(phi);
+        let slope = |k: usize| {
+            let mut varied = [sum, pairs, product].map(Dual::fixed);
+            varied[k].slope = T::one();
+            -(rational::<T>(6, 5) * carlson_f(varied).slope)
+        };
+        let (by_sum, by_pairs, by_product) = (slope(0), slope(1), slope(2));
+        let cofactors = cofactors(phi);
+        let det = determinant(phi, &cofactors);
+        let stretched = phi * (phi.transpose() * phi);
         let entry = |i: usize, a: usize| {
-            (0..3).fold(T::zero(), |sum, k| sum + stretched[i][k] * pull[k] * axes[a][k])
+            phi[(i, a)] * (by_sum + by_pairs * sum) - stretched[(i, a)] * by_pairs
+                + cofactors[(i, a)] * (by_product * det)
         };
         Slopes { x: Vector::<3, T>::zeros(), phi: Matrix::<3, T>::from_fn(entry) }
     }
 }
 
-fn rows<T: Scalar>(phi: &Matrix<3, T>) -> [[T; 3]; 3] {
-    std::array::from_fn(|i| std::array::from_fn(|a| phi[(i, a)]))
+/// `x + y + z`, `xy + yz + zx` and `xyz` of the squared stretches.
+fn invariants<T: Scalar>(phi: &Matrix<3, T>) -> [T; 3] {
+    let green = phi.transpose() * phi;
+    let (sum, det) = (green.trace(), determinant(phi, &cofactors(phi)));
+    [sum, (sum * sum - (green * green).trace()) * rational(1, 2), det * det]
+}
+
+fn cofactors<T: Scalar>(phi: &Matrix<3, T>) -> Matrix<3, T> {
+    Matrix::<3, T>::from_fn(|i, a| {
+        let ([j, k], [b, c]) = ([(i + 1) % 3, (i + 2) % 3], [(a + 1) % 3, (a + 2) % 3]);
+        phi[(j, b)] * phi[(k, c)] - phi[(j, c)] * phi[(k, b)]
+    })
+}
+
+fn determinant<T: Scalar>(phi: &Matrix<3, T>, cofactors: &Matrix<3, T>) -> T {
+    (0..3).fold(T::zero(), |sum, a| sum + phi[(0, a)] * cofactors[(0, a)])
 }
 
 fn rational<T: Scalar>(numerator: i32, denominator: i32) -> T {
@@ -68,51 +94,43 @@ fn rational<T: Scalar>(numerator: i32, denominator: i32) -> T {
 }
 
 /// Each duplication brings the arguments four times closer to their mean, and what is left out below is of sixth order in
-/// their distance: this many leave less than a rounding for axes in proportions up to a hundred.
-const DUPLICATIONS: usize = 9;
+/// their distance: this many leave less than a rounding for axes in proportions up to ten.
+const DUPLICATIONS: usize = 6;
+/// Steps of Newton's iteration for a sum of roots: of the first, and of those that are nearly equal.
+const NEWTON: [usize; 2] = [6, 3];
 
 /// `R_F(x, y, z)`: the integral of `1/2 ((t + x)(t + y)(t + z))^(-1/2)` over positive `t`, by duplication (B. C. Carlson,
-/// Numer. Algorithms 10 (1995) 13, algorithm 1; the series is DLMF 19.36.1).
-fn carlson_f<T: Scalar>(squares: [T; 3]) -> T {
-    let mut now = squares;
-    for _ in 0..DUPLICATIONS {
-        let lambda = sum_of_products(now.map(Scalar::sqrt));
-        now = now.map(|x| (x + lambda) * rational(1, 4));
+/// Numer. Algorithms 10 (1995) 13, algorithm 1; the series is DLMF 19.36.1). It is given `x + y + z`, `xy + yz + zx` and `xyz`,
+/// of which it is a smooth function where the arguments themselves are not.
+fn carlson_f<T: Scalar>(invariants: [T; 3]) -> T {
+    let [mut sum, mut pairs, mut product] = invariants;
+    for k in 0..DUPLICATIONS {
+        let lambda = pairs_of_roots([sum, pairs, product], NEWTON[k.min(1)]);
+        product = (product + lambda * (pairs + lambda * (sum + lambda))) * rational(1, 64);
+        pairs =
+            (pairs + lambda * (rational::<T>(2, 1) * sum + rational::<T>(3, 1) * lambda)) * rational(1, 16);
+        sum = (sum + rational::<T>(3, 1) * lambda) * rational(1, 4);
     }
-    let mean = (now[0] + now[1] + now[2]) * rational(1, 3);
-    let [x, y, z] = now.map(|x| T::one() - x / mean);
-    let (e2, e3) = (sum_of_products([x, y, z]), x * y * z);
+    // Those of the relative distances from the mean, `1 - x/mean`.
+    let mean = sum * rational(1, 3);
+    let (pairs, product) = (pairs / (mean * mean), product / (mean * mean * mean));
+    let (e2, e3) = (pairs - rational(3, 1), pairs - rational(2, 1) - product);
     let series = T::one() - e2 * rational(1, 10) + e3 * rational(1, 14) + e2 * e2 * rational(1, 24)
         - e2 * e3 * rational(3, 44);
     series / mean.sqrt()
 }
 
-/// `R_D(x, y, z)`: the integral of `3/2 ((t + x)(t + y))^(-1/2) (t + z)^(-3/2)`, likewise (algorithm 4; DLMF 19.36.2).
-fn carlson_d<T: Scalar>(squares: [T; 3]) -> T {
-    let (mut now, mut sum, mut weight) = (squares, T::zero(), T::one());
-    for _ in 0..DUPLICATIONS {
-        let roots = now.map(Scalar::sqrt);
-        let lambda = sum_of_products(roots);
-        sum += weight / (roots[2] * (now[2] + lambda));
-        weight *= rational(1, 4);
-        now = now.map(|x| (x + lambda) * rational(1, 4));
+/// `sqrt(xy) + sqrt(yz) + sqrt(zx)`. With `s` the sum of the roots it is `(s^2 - sum)/2`, and its square is
+/// `pairs + 2 s sqrt(product)`: the largest solution `s`, from above.
+fn pairs_of_roots<T: Scalar>([sum, pairs, product]: [T; 3], steps: usize) -> T {
+    let (root, half) = (product.sqrt(), rational::<T>(1, 2));
+    let mut s = (rational::<T>(3, 1) * sum).sqrt();
+    for _ in 0..steps {
+        let lambda = (s * s - sum) * half;
+        let defect = lambda * lambda - pairs - (root + root) * s;
+        s -= defect / ((lambda * s - root) * rational(2, 1));
     }
-    let mean = (now[0] + now[1] + now[2] * rational(3, 1)) * rational(1, 5);
-    let [x, y, z] = now.map(|x| T::one() - x / mean);
-    let (xy, zz) = (x * y, z * z);
-    let e2 = xy - zz * rational(6, 1);
-    let e3 = (xy * rational(3, 1) - zz * rational(8, 1)) * z;
-    let e4 = (xy - zz) * zz * rational(3, 1);
-    let e5 = xy * zz * z;
-    let series = T::one() - e2 * rational(3, 14) + e3 * rational(1, 6) + e2 * e2 * rational(9, 88)
-        - e4 * rational(3, 22)
-        - e2 * e3 * rational(9, 52)
-        + e5 * rational(3, 26);
-    sum * rational(3, 1) + weight * series / (mean * mean.sqrt())
-}
-
-fn sum_of_products<T: Scalar>([x, y, z]: [T; 3]) -> T {
-    x * y + y * z + z * x
+    (s * s - sum) * half
 }
 
 /// `pi G rho`: the ball of volume `4 pi/3` has mass 1.
@@ -137,7 +155,33 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (there, back) = (motion(start()?)?, motion(adjoint(&start()?)?)?);
     let distance = (back.phi() - there.phi().transpose()).norm();
     println!("Dedekind: |phi'(10) - phi(10)^T| = {distance:.1e} of motions from phi(0) and phi(0)^T");
-    println!("picture: output/ellipsoids.svg");
+    figures_of_equilibrium()?;
+    println!("pictures: output/ellipsoids.svg, output/ellipsoid_branches.svg");
+    Ok(())
+}
+
+/// From the ball at rest along the angular momentum `S_12`: the spheroids of Maclaurin, with the ellipsoids of Jacobi.
+fn figures_of_equilibrium() -> Result<(), Box<dyn std::error::Error>> {
+    let turn = [Generator::rotation(1, 2)];
+    let along = |spin: f64| Ok((STAR, vec![Condition::MomentumMap(0, spin)]));
+    let ball = STAR.at_velocity(Matrix::<3>::identity(), Matrix::<3>::zeros())?;
+    let maclaurin = Continuation::new(&turn, (-0.01, 0.58), 0.08, along).run(&ball, 0.0)?;
+    println!("\nfigures of equilibrium, from the ball at rest by the angular momentum: {maclaurin}");
+    let eccentricity = |point: &BranchPoint<3, Point>| {
+        let q = point.stretches();
+        (1.0 - (q[2] / q[0]).powi(2)).sqrt()
+    };
+    let special =
+        |kind: Special| maclaurin.special.iter().find(|(own, _)| *own == kind).map(|(_, point)| point);
+    let jacobi = special(Special::Bifurcation).ok_or("no ellipsoids of Jacobi")?;
+    let breaking = special(Special::Collision).ok_or("no dynamical instability")?;
+    println!("  Jacobi branches off at e = {:.12} (0.812670010612)", eccentricity(jacobi));
+    println!("  dynamical instability at e = {:.12} (0.952886702034)", eccentricity(breaking));
+    let elongated = Continuation::new(&turn, (0.0, 0.5), 0.08, along).switch(jacobi, 0.04)?;
+    let stable = elongated.points.iter().filter(|point| point.stability.verdict == StabilityVerdict::Stable);
+    println!("  ellipsoids of Jacobi: {} of {} points stable", stable.count(), elongated.points.len());
+    let panel = branch_panel(&[&maclaurin, &elongated], ("angular momentum", "axes"), BranchPoint::stretches);
+    CurveDiagram::new("Maclaurin and Jacobi", vec![panel]).save_svg("output/ellipsoid_branches.svg")?;
     Ok(())
 }
 

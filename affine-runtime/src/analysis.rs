@@ -7,10 +7,9 @@
 //! | their small vibrations | [`RelativeEquilibrium::modes`] |
 //! | motions that symmetries generate | [`relative_equilibrium`], [`Generator`], [`Condition`] |
 //! | whether they are stable | [`RelativeEquilibrium::stability`] |
-//! | how they branch | [`Continuation`] |
+//! | how they branch | [`Continuation`], and `branch_panel` with the feature `report` |
 
 mod branch;
-mod elimination;
 mod error;
 mod field;
 mod generator;
@@ -19,9 +18,10 @@ mod linear;
 mod modes;
 mod newton;
 #[cfg(feature = "report")]
-mod outlines;
+mod pictures;
 mod rates;
 mod relative;
+mod sparse;
 mod spectrum;
 mod stability;
 mod tape;
@@ -31,6 +31,8 @@ pub use error::AnalysisError;
 pub use generator::Generator;
 pub use jacobian::JacobianMatrix;
 pub use modes::{Mode, ModeClass, Modes};
+#[cfg(feature = "report")]
+pub use pictures::branch_panel;
 pub use relative::{Condition, RelativeEquilibrium, equilibrium, relative_equilibrium};
 pub use spectrum::Eigenvalue;
 pub use stability::{Doubt, Stability, StabilityVerdict};

@@ -42,6 +42,7 @@
 //! | many bodies, frame loops | [`guide::ensembles`], [`guide::frame_loops`] |
 //! | to know whether to believe it | [`guide::reading`] |
 //! | to find out what is wrong | [`guide::mistakes`] |
+//! | where it rests and turns, and whether that is stable | [`guide::analysis`] |
 //! | the equations in another tool | [`guide::elsewhere`] |
 //! | stretches as a lattice | [`guide::lattice`] |
 //!
@@ -80,7 +81,7 @@
 //! | `std` (default) | [`simulate`]; without it models, conversions and integrators, without allocation |
 //! | `csv` (default) | tables of trajectories |
 //! | `report` | pictures, error against run time |
-//! | `analysis` | [`analysis`]: Jacobians |
+//! | `analysis` | [`analysis`]: Jacobians, equilibria, stability, branches |
 //! | `parallel` | ensembles on all processors |
 //! | `serde` | points, tables and checkpoints that can be written and read, runs and descriptions that can be written |
 //! | `npy` | tables as archives of NumPy arrays |
@@ -176,6 +177,7 @@ macro_rules! pages {
         /// [`Flow`]: crate::simulate::Flow
         /// [`Member`]: crate::simulate::Member
         /// [`Method::Rattle`]: crate::simulate::Method::Rattle
+        /// [`Generator`]: crate::analysis::Generator
         /// [`inertia`]: crate::inertia
         /// [`inertia::from_rotational`]: crate::inertia::from_rotational
         /// [`Table`]: crate::simulate::Table
@@ -203,6 +205,7 @@ macro_rules! pages {
 /// | [`reading`](guide::reading) | what `why()` and `conservation()` say |
 /// | [`lattice`](guide::lattice) | stretches and the two-polar form |
 /// | [`mistakes`](guide::mistakes) | what goes wrong most often |
+/// | [`analysis`](guide::analysis) | equilibria, stability, branches |
 /// | [`elsewhere`](guide::elsewhere) | the equations in other tools, Jacobians |
 /// | [`errata`](guide::errata) | where this crate and the paper differ |
 #[cfg(all(doc, feature = "macros", feature = "std"))]
@@ -214,7 +217,7 @@ pub mod guide {
     // Their programs need the feature.
     #[cfg(any(not(doctest), feature = "analysis"))]
     pages! {
-        elsewhere
+        analysis elsewhere
     }
 }
 

@@ -1,4 +1,4 @@
-//! Jacobians by elimination against dual numbers, which differentiate by another route, and what they cost.
+//! Jacobians of recorded operations against dual numbers, which differentiate by another route, and what they cost.
 
 use affine_runtime::analysis::JacobianMatrix;
 use affine_runtime::counting::Counting;

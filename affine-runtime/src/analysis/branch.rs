@@ -26,6 +26,9 @@ const SHIFT: f64 = 1e-6;
 const STRAIGHT: f64 = 0.96;
 /// Part of the longest step below which there is none.
 const SHORTEST: f64 = 1e-6;
+/// Secants to a special point, and the part of a step to which it is located.
+const MOST_SECANTS: usize = 40;
+const LOCATED: f64 = 1e-12;
 /// Points of a branch.
 const MOST_POINTS: usize = 2000;
 
@@ -174,16 +177,21 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         self.followed(self.point(solution.at, tangent)?)
     }
 
+    fn problem<'a>(&'a self, model: &'a M, conditions: &'a [Condition]) -> Problem<'a, N, M> {
+        Problem { model, generators: &self.generators, conditions }
+    }
+
     fn equations(&self, unknowns: &DVector<f64>) -> Option<Equations> {
         let last = unknowns.len() - 1;
         let (own, parameter) = (unknowns.rows(0, last).into_owned(), unknowns[last]);
-        let at = |parameter: f64| {
-            let (model, conditions) = (self.family)(parameter).ok()?;
-            Problem { model: &model, generators: &self.generators, conditions: &conditions }.equations(&own)
-        };
         let shift = SHIFT * (1.0 + parameter.abs());
-        let Equations { values, jacobian, scale } = at(parameter)?;
-        let slope = (at(parameter + shift)?.values - at(parameter - shift)?.values) / (2.0 * shift);
+        let values = |parameter: f64| {
+            let (model, conditions) = (self.family)(parameter).ok()?;
+            self.problem(&model, &conditions).values(&own)
+        };
+        let slope = (values(parameter + shift)? - values(parameter - shift)?) / (2.0 * shift);
+        let (model, conditions) = (self.family)(parameter).ok()?;
+        let Equations { values, jacobian, scale } = self.problem(&model, &conditions).equations(&own)?;
         let mut jacobian = jacobian.insert_column(last, 0.0);
         jacobian.set_column(last, &slope);
         Some(Equations { values, jacobian, scale })
@@ -241,9 +249,9 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
     fn point(&self, unknowns: DVector<f64>, tangent: DVector<f64>) -> Result<At<N, M>, AnalysisError> {
         let last = unknowns.len() - 1;
         let (model, conditions) = (self.family)(unknowns[last])?;
-        let problem = Problem { model: &model, generators: &self.generators, conditions: &conditions };
+        let problem = self.problem(&model, &conditions);
         let own = unknowns.rows(0, last).into_owned();
-        let residual = problem.equations(&own).map_or(f64::NAN, |equations| equations.values.norm());
+        let residual = problem.values(&own).map_or(f64::NAN, |values| values.norm());
         let turn = problem.relative_equilibrium(&Solution { at: own, residual, steps: 0 });
         let stability = turn.stability(&model)?;
         Ok(BranchPoint { parameter: unknowns[last], turn, stability, unknowns, tangent })
@@ -313,16 +321,14 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
 /// A zero between 0 and an end at which the signs differ, by false position (the rule of Illinois).
 fn root(end: f64, value: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let (mut low, mut high) = ((0.0, value(0.0)?), (end, value(end)?));
-    for _ in 0..60 {
+    let scale = low.1.abs() + high.1.abs();
+    for _ in 0..MOST_SECANTS {
         if low.1 * high.1 > 0.0 {
             return None;
         }
         let middle = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
         let there = value(middle)?;
-        if there == 0.0
-            || (high.0 - low.0).abs() <= 1e-14 * end
-            || there.abs() <= 1e-14 * (low.1.abs() + high.1.abs())
-        {
+        if there.abs() <= LOCATED * scale || (high.0 - low.0).abs() <= LOCATED * end {
             return Some(middle);
         }
         if there * high.1 < 0.0 {

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::generator::Generator;
-use super::rates::{along, has_multiplier, rates};
+use super::rates::{has_multiplier, rates};
 use crate::dual::Dual;
 use crate::frames::{Matrix, inverse};
 use crate::model::{Constraint, Model, StateVector};
@@ -45,32 +45,37 @@ pub(super) fn orbit<const N: usize, M: Model<N>>(
     if columns.is_empty() { DMatrix::zeros(z.len(), 0) } else { DMatrix::from_columns(&columns) }
 }
 
-/// The Jacobian of a map of plain arrays, one column a pass.
-fn differentiated<const N: usize, M: Model<N>>(
-    z: &DVector<f64>,
-    map: impl Fn(&M::Full<Dual<f64>>) -> M::Full<Dual<f64>>,
-) -> DMatrix<f64> {
-    let at = full::<N, M>(z);
-    let column = |k: usize| {
-        let mut unit = M::Full::<f64>::zeros();
-        unit.as_mut()[k] = 1.0;
-        vector(&along(&at, &unit, &map))
-    };
-    DMatrix::from_columns(&(0..z.len()).map(column).collect::<Vec<_>>())
-}
-
-/// `D X_H`.
-pub(super) fn motion_jacobian<const N: usize, M: Model<N>>(model: &M, z: &DVector<f64>) -> DMatrix<f64> {
-    differentiated::<N, M>(z, |full| rates(model, Dual::fixed(0.0), full))
-}
-
-/// `D X_zeta`.
-pub(super) fn generated_jacobian<const N: usize, M: Model<N>>(
+/// `D(X_H - X_zeta)`.
+pub(super) fn linear_motion<const N: usize, M: Model<N>>(
     model: &M,
     zeta: &Generator<N>,
     z: &DVector<f64>,
 ) -> DMatrix<f64> {
-    differentiated::<N, M>(z, |full| zeta.field(model, full))
+    let motion = columns::<N, M>(z, |full| rates(model, Dual::fixed(0.0), full).as_ref().to_vec());
+    motion - linear_generated(model, zeta, z)
+}
+
+/// `D X_zeta`.
+pub(super) fn linear_generated<const N: usize, M: Model<N>>(
+    model: &M,
+    zeta: &Generator<N>,
+    z: &DVector<f64>,
+) -> DMatrix<f64> {
+    columns::<N, M>(z, |full| zeta.field(model, full).as_ref().to_vec())
+}
+
+/// The Jacobian of a map from plain arrays, one column a pass.
+fn columns<const N: usize, M: Model<N>>(
+    z: &DVector<f64>,
+    map: impl Fn(&M::Full<Dual<f64>>) -> Vec<Dual<f64>>,
+) -> DMatrix<f64> {
+    let column = |k: usize| {
+        let mut varied = M::Full::<Dual<f64>>::zeros();
+        varied.as_mut().iter_mut().zip(z.iter()).for_each(|(both, value)| *both = Dual::fixed(*value));
+        varied.as_mut()[k].slope = 1.0;
+        DVector::from_vec(map(&varied).iter().map(|number| number.slope).collect())
+    };
+    DMatrix::from_columns(&(0..z.len()).map(column).collect::<Vec<_>>())
 }
 
 /// The potential contains the time.
@@ -122,32 +127,14 @@ pub(super) fn determinant<const N: usize, T: Real>(phi: &Matrix<N, T>) -> T {
     }
 }
 
-/// Values of the constraints, and their derivatives in rows.
-pub(super) fn confinement<const N: usize, M: Model<N>>(
-    model: &M,
-    z: &DVector<f64>,
-) -> (DVector<f64>, DMatrix<f64>) {
-    let values = DVector::from_vec(constraints(model, &full::<N, M>(z)));
-    let mut rows = DMatrix::zeros(values.len(), z.len());
-    if !values.is_empty() {
-        for k in 0..z.len() {
-            let slopes = slopes::<N, M>(z, k, |full| constraints(model, full));
-            slopes.iter().enumerate().for_each(|(i, slope)| rows[(i, k)] = *slope);
-        }
-    }
-    (values, rows)
+/// Values of the constraints.
+pub(super) fn confinement<const N: usize, M: Model<N>>(model: &M, z: &DVector<f64>) -> Vec<f64> {
+    constraints(model, &full::<N, M>(z))
 }
 
-/// Derivatives of numbers by a component.
-fn slopes<const N: usize, M: Model<N>>(
-    z: &DVector<f64>,
-    component: usize,
-    of: impl Fn(&M::Full<Dual<f64>>) -> Vec<Dual<f64>>,
-) -> Vec<f64> {
-    let mut varied = M::Full::<Dual<f64>>::zeros();
-    varied.as_mut().iter_mut().zip(z.iter()).for_each(|(both, value)| *both = Dual::fixed(*value));
-    varied.as_mut()[component].slope = 1.0;
-    of(&varied).iter().map(|number| number.slope).collect()
+/// Their derivatives, in rows.
+pub(super) fn normals<const N: usize, M: Model<N>>(model: &M, z: &DVector<f64>) -> DMatrix<f64> {
+    columns::<N, M>(z, |full| constraints(model, full))
 }
 
 /// The canonical symplectic form, `omega(u, v) = u^T W v = u_q.v_p - u_p.v_q`, over the plain array.
@@ -160,13 +147,10 @@ pub(super) fn symplectic_form<const N: usize, M: Model<N>>(model: &M, z: &DVecto
 
 /// `d(x, phi, p, Pi^T)/dz`.
 pub(super) fn canonical_slopes<const N: usize, M: Model<N>>(model: &M, z: &DVector<f64>) -> DMatrix<f64> {
-    let columns = (0..z.len()).map(|k| {
-        DVector::from_vec(slopes::<N, M>(z, k, |full| {
-            let point = model.unflatten(full);
-            let pi = point.pi().0.0.transpose();
-            let (x, phi, p) = (point.x(), *point.phi(), point.p());
-            x.iter().chain(phi.iter()).chain(p.iter()).chain(pi.iter()).copied().collect()
-        }))
-    });
-    DMatrix::from_columns(&columns.collect::<Vec<_>>())
+    columns::<N, M>(z, |full| {
+        let point = model.unflatten(full);
+        let pi = point.pi().0.0.transpose();
+        let (x, phi, p) = (point.x(), *point.phi(), point.p());
+        x.iter().chain(phi.iter()).chain(p.iter()).chain(pi.iter()).copied().collect()
+    })
 }

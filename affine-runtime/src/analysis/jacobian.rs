@@ -2,17 +2,17 @@
 
 use nalgebra::DMatrix;
 
-use super::elimination::Program;
 use super::rates::rates;
-use super::tape::{Recorded, recorded};
+use super::sparse::differentiated;
+use super::tape::{Operand, Operation, Recorded, recorded};
 use crate::model::{Model, StateVector};
 use crate::scalar::Scalar;
 
 /// `df/dy` of equations of motion `y' = f(t, y)`, as straight-line code.
 ///
-/// The operations of `f` are recorded once, at a point, and differentiated by elimination in their graph: the result is exact,
-/// shares what its entries have in common, and knows which of them are zero. Where `f` has a branch, as a force of the user may,
-/// the code is that of the branch at the point.
+/// The operations of `f` are recorded once, at a point, and differentiated one after the other by those components alone that they
+/// depend on: the result is exact, and all of its columns share the values of `f`. Where `f` has a branch, as a force of the user
+/// may, the code is that of the branch at the point.
 ///
 /// ```
 /// use affine_runtime::analysis::JacobianMatrix;
@@ -28,7 +28,8 @@ use crate::scalar::Scalar;
 /// ```
 #[derive(Clone, Debug)]
 pub struct JacobianMatrix {
-    program: Program,
+    tape: Vec<Operation>,
+    results: Vec<Operand>,
     components: usize,
 }
 
@@ -66,7 +67,7 @@ impl JacobianMatrix {
         let components = state.len();
         let arguments = [state, &[t]].concat();
         let (tape, results) = recorded(&arguments, |numbers| f(numbers[components], &numbers[..components]));
-        Self { program: Program::new(tape, &results, components), components }
+        Self { tape, results, components }
     }
 
     /// `df_i/dy_k` at a time and a state, in row `i` and column `k`. Any number will do, in the precision of doubles.
@@ -78,7 +79,9 @@ impl JacobianMatrix {
         arguments.iter_mut().zip(state.as_ref()).take(self.components).for_each(|(a, value)| *a = *value);
         arguments[self.components] = t;
         let mut matrix = DMatrix::from_element(self.components, self.components, T::zero());
-        self.program.evaluate(&arguments, |row, column, value| matrix[(row, column)] = value);
+        differentiated((&self.tape, &self.results), (&arguments, self.components), |row, column, value| {
+            matrix[(row, column)] = value;
+        });
         matrix
     }
 }

@@ -24,7 +24,8 @@ pub struct Modes<const N: usize> {
     pub modes: Vec<Mode<N>>,
     /// Number of directions without restoring force.
     pub zeros: usize,
-    pub(super) rest: Matrix<N>,
+    /// The placement at rest.
+    pub rest: Matrix<N>,
 }
 
 /// A frequency with its shapes.

@@ -50,7 +50,7 @@ pub(super) fn rates<const N: usize, M: Model<N>, T: Real>(model: &M, t: T, full:
 }
 
 /// The derivative of a map along a direction.
-pub(super) fn along<T: Real, S: StateVector<T>, D: StateVector<Dual<T>>>(
+fn along<T: Real, S: StateVector<T>, D: StateVector<Dual<T>>>(
     at: &S,
     direction: &S,
     map: impl Fn(&D) -> D,

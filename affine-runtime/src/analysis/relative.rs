@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::error::AnalysisError;
 use super::field::{
-    confinement, depends_on_time, determinant, full, generated_jacobian, momentum, motion, motion_jacobian,
+    confinement, depends_on_time, determinant, full, generated, linear_motion, momentum, motion, normals,
     orbit, symplectic_form, vector,
 };
 use super::generator::{Generator, assert_symmetry, confined, symmetries};
@@ -131,47 +131,44 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
         terms.fold(Generator::zero(), |sum, (generator, velocity)| sum.plus(*velocity, generator))
     }
 
-    /// Rows of `X_H - X_zeta`, of the constraints of the model, of the conditions. `None` where `det phi <= 0`.
-    pub(super) fn equations(&self, unknowns: &DVector<f64>) -> Option<Equations> {
+    /// `X_H - X_zeta`, the constraints of the model, the conditions. `None` where `det phi <= 0`.
+    pub(super) fn values(&self, unknowns: &DVector<f64>) -> Option<DVector<f64>> {
         let (z, velocities) = self.split(unknowns);
-        let point = self.model.unflatten(&full::<N, M>(&z));
-        if determinant(point.phi()) <= 0.0 {
+        if determinant(self.model.unflatten(&full::<N, M>(&z)).phi()) <= 0.0 {
             return None;
         }
-        let (model, zeta) = (self.model, self.zeta(&velocities));
+        let unmoved = motion(self.model, &z) - generated(self.model, &self.zeta(&velocities), &z);
+        let mut values: Vec<f64> = unmoved.iter().copied().chain(confinement(self.model, &z)).collect();
+        for condition in self.conditions {
+            values.push(match *condition {
+                Condition::Velocity(k, value) => velocities.get(k)? - value,
+                Condition::MomentumMap(k, value) => momentum(self.model, self.generators.get(k)?, &z) - value,
+            });
+        }
+        Some(DVector::from_vec(values))
+    }
+
+    /// These with their derivatives.
+    pub(super) fn equations(&self, unknowns: &DVector<f64>) -> Option<Equations> {
+        let (model, values, (z, velocities)) = (self.model, self.values(unknowns)?, self.split(unknowns));
         let fields = orbit(model, self.generators, &z);
-        let moved = motion(model, &z);
-        let turned = &fields * DVector::from_vec(velocities.clone());
-        let slopes = motion_jacobian(model, &z) - generated_jacobian(model, &zeta, &z);
-        let (defects, normals) = confinement(model, &z);
-        let (own, confined, conditions) = (z.len(), defects.len(), self.conditions.len());
-        let mut values = DVector::zeros(own + confined + conditions);
+        let slopes = linear_motion(model, &self.zeta(&velocities), &z);
+        let normals = normals(model, &z);
+        let (own, first) = (z.len(), z.len() + normals.nrows());
         let mut jacobian = DMatrix::zeros(values.len(), unknowns.len());
-        values.rows_mut(0, own).copy_from(&(&moved - &turned));
-        values.rows_mut(own, confined).copy_from(&defects);
         jacobian.view_mut((0, 0), (own, own)).copy_from(&slopes);
         jacobian.view_mut((0, own), fields.shape()).copy_from(&-&fields);
         jacobian.view_mut((own, 0), normals.shape()).copy_from(&normals);
-        let form = self.conditions.iter().any(|one| matches!(one, Condition::MomentumMap(..)));
-        let form = form.then(|| symplectic_form(model, &z));
         for (k, condition) in self.conditions.iter().enumerate() {
-            let row = own + confined + k;
             match *condition {
-                Condition::Velocity(generator, value) => {
-                    values[row] = velocities.get(generator)? - value;
-                    jacobian[(row, own + generator)] = 1.0;
-                }
-                Condition::MomentumMap(generator, value) => {
-                    values[row] = momentum(model, self.generators.get(generator)?, &z) - value;
-                    let slope = fields.column(generator).transpose() * form.as_ref()?;
-                    jacobian.view_mut((row, 0), (1, own)).copy_from(&slope);
+                Condition::Velocity(generator, _) => jacobian[(first + k, own + generator)] = 1.0,
+                Condition::MomentumMap(generator, _) => {
+                    let slope = fields.column(generator).transpose() * symplectic_form(model, &z);
+                    jacobian.view_mut((first + k, 0), (1, own)).copy_from(&slope);
                 }
             }
         }
-        let scale = moved.norm()
-            + turned.norm()
-            + slopes.norm() * z.norm()
-            + values.rows(own, confined + conditions).norm();
+        let scale = motion(model, &z).norm() + slopes.norm() * z.norm() + values.norm();
         Some(Equations { values, jacobian, scale: scale.max(f64::MIN_POSITIVE) })
     }
 
@@ -210,8 +207,8 @@ impl<const N: usize> Linearised<N> {
     pub(super) fn at<M: Model<N>>(model: &M, zeta: &Generator<N>, point: &M::Point<f64>) -> Self {
         let z = vector(&model.flatten(point));
         let symmetries = symmetries::<N, M>();
-        let basis = kernel(&confinement(model, &z).1, RANK);
-        let slopes = motion_jacobian(model, &z) - generated_jacobian(model, zeta, &z);
+        let basis = kernel(&normals(model, &z), RANK);
+        let slopes = linear_motion(model, zeta, &z);
         let form = symplectic_form(model, &z);
         let orbit = basis.tr_mul(&orbit(model, &symmetries, &z));
         Self {

@@ -3,7 +3,7 @@
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::error::AnalysisError;
-use super::field::{generated_jacobian, vector};
+use super::field::{linear_generated, vector};
 use super::generator::Generator;
 use super::linear::{RANK, absolute_kernel, kernel, span};
 use super::relative::{Linearised, RelativeEquilibrium};
@@ -219,7 +219,7 @@ fn isotropic<const N: usize, M: Model<N>>(
     let of = |column: usize| {
         let terms = at.symmetries.iter().zip(isotropy.column(column).iter().copied().collect::<Vec<_>>());
         let generator = terms.fold(Generator::zero(), |sum, (generator, factor)| sum.plus(factor, generator));
-        let slopes = at.basis.tr_mul(&generated_jacobian(model, &generator, &z)) * &at.basis;
+        let slopes = at.basis.tr_mul(&linear_generated(model, &generator, &z)) * &at.basis;
         // The augmented Hamiltonian changes by `-J`.
         (generator, -slopes)
     };

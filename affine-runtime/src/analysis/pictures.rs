@@ -1,0 +1,97 @@
+//! Pictures of modes and branches.
+
+use core::f64::consts::TAU;
+use std::path::Path;
+
+use super::branch::{Branch, BranchPoint};
+use super::modes::{Mode, Modes};
+use super::stability::StabilityVerdict;
+use crate::error::Result;
+use crate::frames::Matrix;
+use crate::report::{Curve, CurveDiagram, CurvePanel};
+use crate::state::Phase;
+
+/// Points of an outline.
+const POINTS: usize = 96;
+/// How far the largest entry of a shape goes.
+const AMPLITUDE: f64 = 0.25;
+
+impl<const N: usize> Modes<N> {
+    /// A picture: the outline of the unit disc at rest, and at either end of the vibration, in the plane of the axes in which it
+    /// moves most. One panel a mode, its first shape.
+    ///
+    /// # Errors
+    /// [`Error::File`](crate::Error::File).
+    pub fn save_svg(&self, path: impl AsRef<Path>) -> Result<()> {
+        let panels = self.modes.iter().filter_map(|mode| panel(&self.rest, mode)).collect();
+        CurveDiagram::new("Modes", panels).save_svg(path)
+    }
+}
+
+fn panel<const N: usize>(rest: &Matrix<N>, mode: &Mode<N>) -> Option<CurvePanel> {
+    let shape = mode.shapes.first()?;
+    let pairs = (0..N).flat_map(|a| (0..a).map(move |b| (b, a)));
+    let inside = |(a, b): (usize, usize)| {
+        [(a, a), (a, b), (b, a), (b, b)].iter().map(|entry| shape.phi_dot[*entry].powi(2)).sum::<f64>()
+    };
+    let (a, b) = pairs.max_by(|one, other| inside(*one).total_cmp(&inside(*other)))?;
+    let amplitude = AMPLITUDE / shape.phi_dot.amax().max(shape.x_dot.amax());
+    let outline = |category: usize, shift: f64| {
+        let phi = rest + shape.phi_dot * shift;
+        let point = |k: usize| {
+            let (sin, cos) = (TAU * k as f64 / POINTS as f64).sin_cos();
+            let at = |i: usize| phi[(i, a)] * cos + phi[(i, b)] * sin + shape.x_dot[i] * shift;
+            (at(a), at(b))
+        };
+        Curve { category, points: (0..=POINTS).map(point).collect() }
+    };
+    Some(CurvePanel {
+        x: format!("{:?}, w = {:.4}, {} shapes", mode.class, mode.frequency(), mode.multiplicity()),
+        y: format!("axes {}, {}", a + 1, b + 1),
+        logarithmic: false,
+        range: None,
+        curves: vec![outline(0, 0.0), outline(1, amplitude), outline(2, -amplitude)],
+    })
+}
+
+/// Size of the mark of a special point, in parts of the panel.
+const MARK: f64 = 0.012;
+/// The colour of marks.
+const MARKED: usize = 4;
+
+/// A branch diagram: numbers of each point, as its stretches, against its parameter. A branch changes its colour with its
+/// stability: 0 stable, 1 linearly stable, 2 unstable, 3 undecided; special points are marked in colour 4.
+pub fn branch_panel<const N: usize, P: Phase<N>>(
+    branches: &[&Branch<N, P>],
+    (x, y): (&str, &str),
+    numbers: impl Fn(&BranchPoint<N, P>) -> Vec<f64>,
+) -> CurvePanel {
+    let places = |point: &BranchPoint<N, P>| -> Vec<(f64, f64)> {
+        numbers(point).into_iter().map(|number| (point.parameter, number)).collect()
+    };
+    let color = |point: &BranchPoint<N, P>| match point.stability.verdict {
+        StabilityVerdict::Stable => 0,
+        StabilityVerdict::LinearlyStable => 1,
+        StabilityVerdict::Unstable { .. } => 2,
+        StabilityVerdict::Undecided(_) => 3,
+    };
+    let all = || branches.iter().flat_map(|branch| &branch.points).flat_map(places);
+    let reach = |of: fn((f64, f64)) -> f64| {
+        all().map(of).fold(f64::MIN, f64::max) - all().map(of).fold(f64::MAX, f64::min)
+    };
+    let (width, height) = (MARK * reach(|place| place.0), MARK * reach(|place| place.1));
+    let mut curves = Vec::new();
+    for branch in branches {
+        for pair in branch.points.windows(2) {
+            for (from, to) in places(&pair[0]).into_iter().zip(places(&pair[1])) {
+                curves.push(Curve { category: color(&pair[1]), points: vec![from, to] });
+            }
+        }
+        for (x, y) in branch.special.iter().flat_map(|(_, point)| places(point)) {
+            let corners = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (1.0, 0.0)];
+            let points = corners.iter().map(|(a, b)| (x + a * width, y + b * height)).collect();
+            curves.push(Curve { category: MARKED, points });
+        }
+    }
+    CurvePanel { x: x.into(), y: y.into(), logarithmic: false, range: None, curves }
+}
