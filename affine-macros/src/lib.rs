@@ -196,14 +196,6 @@ use proc_macro::TokenStream;
 /// the Casimir terms count with those of the body, or else with those of space. Under a constraint the forces are projected to
 /// its group.
 ///
-/// | refused beside | |
-/// |---|---|
-/// | `casimir3`, `group = unitary`, `emit(two_polar)` | dissipation and fields |
-/// | `emit(splitting)` | forces of fields without `position`; kicks of the others and the fading of momenta by friction are pieces |
-/// | `emit(nystrom)` | dissipation and forces of fields, whose work depends on velocities |
-/// | `emit(taylor)` | fields |
-/// | `constraint = isochoric` of `dalembert`, which a multiplier keeps | dissipation and forces; it takes potentials alone |
-///
 /// The power `dU/dt` of a potential that contains `t` is part of the balance of energy, with forces or alone, but beside
 /// `emit(splitting)`, `emit(nystrom)` and that multiplier.
 ///
@@ -252,8 +244,37 @@ use proc_macro::TokenStream;
 /// | the dilatation, along its closed form under the stiffest summand `c q^2` or `c sinh(k q)^2` of the potential, whatever the others are | isotropic energies |
 /// | those of the lattice (`lattice::LatticeSplitting`) | beside `two_polar`; with `group = unitary` alone |
 ///
-/// Constraints go with `splitting`, but not `dalembert` under `isochoric`, with its multiplier, or `conformal`, with its weight
-/// `D^2`; nor do terms of different frames.
+/// # What goes together
+///
+/// Everything but these pairs; a test tries every one.
+///
+/// | refused | beside | why |
+/// |---|---|---|
+/// | `emit(taylor)`, `emit(tangent)` | a constraint | coordinates of a group change from step to step, and derivatives with them |
+/// | `emit(taylor)`, `emit(tangent)` | a potential of single stretches | stretches are found by an iteration, and what follows from the operations of a formula does not follow from it |
+/// | `emit(taylor)`, `emit(tangent)` | `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential` | what a field computes is not known operation by operation |
+/// | `emit(splitting)` | `constraint = isochoric` of `dalembert` | the force of the multiplier depends on all momenta and positions, and no piece has an exact flow |
+/// | `emit(splitting)` | `constraint = conformal` of `dalembert` | the energy has the weight D^2, and no piece of it is quadratic in momenta with constant coefficients |
+/// | `emit(splitting)` | a sum of different frames | the mass matrix of the sum depends on phi: the flow of the kinetic energy is not known |
+/// | `emit(splitting)` | `custom(field, form)` in `forces` | a force is a piece of its own where it depends on positions alone, and is said to: `custom(field, form, position)` |
+/// | `emit(nystrom)` | a constraint | Nystrom methods integrate q'' = f(t, q); a constraint acts by forces that depend on velocities |
+/// | `emit(nystrom)` | a kinetic energy of affine velocities, a sum of different frames | Nystrom methods integrate q'' = f(t, q); the mass matrix of phi_dot depends on phi here, and phi'' on phi_dot |
+/// | `emit(nystrom)` | a motion without a potential | a body that nothing acts on moves in a straight line, phi = phi0 + t phi_dot0, known in closed form |
+/// | `emit(nystrom)` | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces` | Nystrom methods integrate q'' = f(t, q); friction and the work of a force depend on velocities |
+/// | `emit(two_polar)` | a constraint, `metrics(...)` | (q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, in orthonormal coordinates |
+/// | `emit(two_polar)` | a potential of the time, a potential of `x` | (q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, in orthonormal coordinates |
+/// | `emit(two_polar)` | `body_translation` | the weight of the centre depends on the stretches, and moves them |
+/// | `emit(two_polar)` | `casimir3`, a sum of different frames | the lattice is that of one quadratic energy of velocities (6.2) to (6.5) |
+/// | `emit(two_polar)` | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential` | its equations follow from T and potentials that are formulas |
+/// | `emit(ratios)` | a potential, a kinetic energy of `phi_dot` | in exp(q_b - q_a), M + N and M - N the lattice of the Casimirs is rational, (6.2) to (6.4); forces of a potential and (6.5) are not |
+/// | `emit(metric)`, `emit(acceleration)` | a sum of different frames under a constraint | it is derived over all of phi_dot, of which the constraint leaves a part that turns with phi |
+/// | `emit(balance)` | terms other than `dalembert` and `space_translation`, `hamiltonian(...)`, a constraint, `metrics(...)` | K = phi J phi_dot^T is the affine spin, and dK/dt = phi_dot J phi_dot^T + N (3.6), for the energy m/2 |x_dot|^2 + 1/2 tr(phi_dot J phi_dot^T) (2.1) of a motion on all of GL(n) alone |
+/// | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces` | `constraint = isochoric` of `dalembert` | there a multiplier keeps the constraint, in a method whose kicks do not depend on the velocity: only potentials go with it |
+/// | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential` | `casimir3` | what it leaves conserved is decided for velocities that are linear in the momenta |
+/// | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential` | `group = unitary` | the lattice of U(n) is that of the Casimir terms alone |
+/// | a constraint | `metrics(...)` | the group of a constraint is that of orthonormal bases, and points stand in others |
+/// | a constraint | `casimir3` | the velocity is quadratic in the momentum: the momenta whose velocities the group leaves free form no linear space |
+/// | a sum of different frames | `metrics(...)` | their sum has a mass matrix that depends on phi, and is derived in orthonormal bases |
 #[proc_macro_attribute]
 pub fn affine_model(args: TokenStream, item: TokenStream) -> TokenStream {
     affine_codegen::expand(args.into(), item.into()).into()

@@ -5,12 +5,10 @@
 
 mod arithmetic;
 mod capabilities;
-mod constraint;
 mod custom;
 mod definite;
 mod dimension;
 mod dissipation;
-mod forces;
 mod form;
 mod frames;
 mod identity;
@@ -18,15 +16,20 @@ mod inertia;
 mod metrics;
 mod mixed;
 mod momentum_side;
+mod parts;
 mod potential;
 mod shapes;
 mod size;
 mod smooth;
 mod symbols;
 mod tensors;
+mod together;
 mod two_polar;
 mod unitary;
 mod written;
+
+pub use parts::Part;
+pub use together::{Refusal, refusals, table};
 
 use crate::algebra::Arena;
 use crate::diagnostics::{Diagnostics, Reported};
@@ -42,17 +45,15 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     symbols::hidden(spec, found);
     symbols::resolved(spec, found);
     unitary::casimirs_alone(spec, found);
-    constraint::stands_alone(spec, found);
+    together::as_written(spec, found);
     capabilities::ratios(spec, found);
     capabilities::centre(spec, found);
-    capabilities::balance(spec, found);
     potential::differences(spec, found);
     potential::scalar(spec, found);
     potential::centre(spec, found);
     custom::fields(spec, found);
     custom::centre(spec, found);
     dissipation::centre(spec, found);
-    forces::stand_alone(spec, found);
     frames::internal_motion(spec, found);
     frames::affine_translation(spec, found);
     shapes::shapes(spec, found);

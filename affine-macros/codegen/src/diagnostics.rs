@@ -17,6 +17,7 @@ mod names;
 mod notation;
 mod potential;
 mod term;
+mod together;
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 
@@ -31,6 +32,7 @@ pub use metric::MetricMistake;
 pub use notation::NotationMistake;
 pub use potential::{PotentialMistake, TracedPart};
 pub use term::TermMistake;
+pub use together::TogetherMistake;
 
 /// A stretch of the user's source, from the first to the last token.
 ///

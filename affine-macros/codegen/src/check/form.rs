@@ -1,6 +1,6 @@
 //! Rules on the kinetic energy as a quadratic form, decided exactly.
 
-use super::{capabilities, definite, dissipation, momentum_side, smooth, two_polar};
+use super::{capabilities, definite, dissipation, momentum_side, parts, smooth, together, two_polar};
 use crate::algebra::Arena;
 use crate::diagnostics::{ConstraintMistake, Diagnostics, FormMistake, Reported};
 use crate::lower;
@@ -48,16 +48,11 @@ pub(super) fn beside(
     let group = parts.first().and_then(|part| part.constraint);
     let potential = potential(arena_of, spec, group, (metrics_of, &mut rebased), found);
     forces.driven = driven(spec, potential.as_ref());
-    capabilities::series(spec, potential.as_ref(), found);
-    capabilities::tangent(spec, potential.as_ref(), found);
+    together::with_potential(spec, potential.as_ref(), found);
     let alone = match (&mass, parts.as_slice()) {
         (Mass::Constant(_), [kinetic]) => Some(kinetic),
         _ => None,
     };
-    if let Some(kinetic) = alone {
-        capabilities::pieces(spec, kinetic, found);
-        capabilities::second_order(spec, kinetic.frame == Frame::Flat, potential.as_ref(), found);
-    }
     found.verdict()?;
     // Under `phi -> c phi` the energies of affine frames scale by `1/c^2` against flat ones, and on either side only one
     // affine frame is moved: a sum is invariant exactly if every part is.
@@ -196,8 +191,7 @@ pub(super) fn forces(
 /// the methods that take the equations apart have no place for it.
 fn driven(spec: &Spec, potential: Option<&Potential>) -> bool {
     let apart = [Capability::Splitting, Capability::Nystrom];
-    let taken_apart =
-        super::forces::has_multiplier(spec) || apart.iter().any(|c| capabilities::asked(spec, *c));
+    let taken_apart = parts::has_multiplier(spec) || apart.iter().any(|c| capabilities::asked(spec, *c));
     potential.is_some_and(Potential::depends_on_time) && !taken_apart
 }
 

@@ -1,36 +1,24 @@
 //! Rules on a kinetic energy whose mass matrix depends on the placement: what can be decided for all placements.
 
 use crate::algebra::{Arena, Expr};
-use crate::diagnostics::{CapabilityMistake, Diagnostics, FormMistake, Reported};
+use crate::diagnostics::{Diagnostics, FormMistake, Reported};
 use crate::lower;
 use crate::mechanics::form::{Mass, Positive};
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::mixed::{Internal, Masses, Mixed};
 use crate::mechanics::term::{Frame, Term};
-use crate::spec::{Capability, Requirement, Spec};
+use crate::spec::{Requirement, Spec};
 
+use super::definite;
 use super::form::{self, Energy};
-use super::{capabilities, definite};
 
 /// Builds a sum of energies and holds it against its rules.
 ///
 /// # Errors
 /// [`Reported`] if any is broken; all broken ones are in the bag.
 pub(super) fn energy(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) -> Result<Energy, Reported> {
-    if spec.has_metrics() {
-        found.report(spec.kinetic_key, FormMistake::SumBeside { key: "metrics(...)" });
-    }
     let group = spec.constraint.as_ref().map(|constraint| constraint.value);
-    if let Some(lattice) = spec.emit.iter().find(|capability| capability.value == Capability::TwoPolar) {
-        let part = "terms of different frames".to_owned();
-        found.report(
-            lattice.span,
-            CapabilityMistake::LatticeWithout { part, lacks: "mass matrix that depends on phi" },
-        );
-    }
-    capabilities::one_frame(spec, found);
-    capabilities::on_the_group(spec, found);
     let stated = lower::terms(arena, spec.dim.value, &spec.kinetic);
     let (places, free): (Vec<usize>, Vec<Term>) = stated.iter().cloned().unzip();
     let free = group.map(|_| Mixed::new(arena, spec.dim.value, &free, Frame::Body, None));

@@ -4,8 +4,7 @@ use crate::diagnostics::{CapabilityMistake, Diagnostics, Reported};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::potential::Potential;
 use crate::mechanics::symmetry::{Breaker, Group, Side, broken_by};
-use crate::mechanics::term::Frame;
-use crate::spec::{Capability, MomentumKind, Spec};
+use crate::spec::{Capability, Spec};
 
 /// Is `two_polar` asked for? The stretches and `M`, `N` move by themselves only in doubly isotropic models: kinetic and
 /// potential energy unchanged by O(n) in space and in the body, (6.2) to (6.5).
@@ -19,22 +18,6 @@ pub(super) fn asked(
     let Some(asked) = spec.emit.iter().find(|capability| capability.value == Capability::TwoPolar) else {
         return Ok(false);
     };
-    let mut without = |holds: bool, part: &str, lacks: &'static str| {
-        if holds {
-            found.report(asked.span, CapabilityMistake::LatticeWithout { part: part.to_owned(), lacks });
-        }
-    };
-    let terms = spec.hamiltonian.iter().flatten();
-    let is_cubic = terms.map(|term| term.kind.value).any(|kind| kind == MomentumKind::Casimir3);
-    without(is_cubic, "`casimir3`", "third Casimir");
-    without(spec.constraint.is_some(), "a constraint", "constraint");
-    without(spec.metrics.iter().any(Option::is_some), "`metrics(...)`", "metrics");
-    without(potential.is_some_and(Potential::depends_on_time), "a potential of the time", "time");
-    // A centre of mass that moves freely moves beside it.
-    let coupled = kinetic.translation.as_ref().is_some_and(|t| t.frame == Frame::Body);
-    without(coupled, "`body_translation`", "centre of mass");
-    without(potential.is_some_and(Potential::moves_the_centre), "a potential of `x`", "centre of mass");
-    found.verdict()?;
     let mut anisotropic = |part: String, side: Side, transformation: String| {
         let side = if side == Side::Space { "space" } else { "the body" };
         found.report(asked.span, CapabilityMistake::NotDoublyIsotropic { part, side, transformation });

@@ -6,11 +6,6 @@ use super::names::names;
 /// What does not go with a constraint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ConstraintMistake {
-    /// A constraint beside a key that does not go with it.
-    ConstraintBeside {
-        /// The other key.
-        key: &'static str,
-    },
     /// A term that is zero wherever the constraint holds.
     VanishingTerm {
         /// The term.
@@ -34,7 +29,6 @@ pub enum ConstraintMistake {
 }
 
 names! { ConstraintMistake
-    ConstraintBeside => "constraint-beside",
     VanishingTerm => "vanishing-term",
     ConstrainedPotential => "constrained-potential",
 }
@@ -42,22 +36,6 @@ names! { ConstraintMistake
 impl ConstraintMistake {
     pub(super) fn text(&self) -> Text {
         match self {
-            Self::ConstraintBeside { key } => text(
-                format!("`constraint` does not go with `{key}` in this version"),
-                match *key {
-                    "metrics(...)" => {
-                        "the group of a constraint is that of orthonormal bases, and points stand in others"
-                    }
-                    _ => {
-                        "the velocity is quadratic in the momentum: the momenta whose velocities the group leaves free form no \
-                         linear space"
-                    }
-                },
-                match *key {
-                    "metrics(...)" => "state the model in orthonormal bases and leave out `metrics(...)`",
-                    _ => "leave out `casimir3` or the constraint",
-                },
-            ),
             Self::VanishingTerm { term, constraint, of, directions } => text(
                 format!("`{term}` is zero under `constraint = {constraint}`"),
                 format!("{of} are {directions} there, and it is zero on all of them"),

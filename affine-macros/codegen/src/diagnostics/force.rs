@@ -6,13 +6,6 @@ use super::names::names;
 /// A mistake in a force or in the dissipation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ForceMistake {
-    /// A dissipation, or a force or potential of a field, beside something that does not go with it.
-    ForceBeside {
-        /// The part of the model, as written.
-        force: String,
-        /// The other thing.
-        key: &'static str,
-    },
     /// `custom(...)` that does not say what the field computes, or something else in its place.
     MalformedCustom {
         /// `potential` or `forces`.
@@ -48,7 +41,6 @@ pub enum ForceMistake {
 }
 
 names! { ForceMistake
-    ForceBeside => "force-beside",
     MalformedCustom => "malformed-custom",
     UnknownField => "unknown-field",
     FixedCentreForce => "fixed-centre-force",
@@ -58,28 +50,6 @@ names! { ForceMistake
 impl ForceMistake {
     pub(super) fn text(&self) -> Text {
         match self {
-            Self::ForceBeside { force, key } => text(
-                format!("`{force}` does not go with {key} in this version"),
-                match *key {
-                    "`constraint = isochoric` of `dalembert`" => {
-                        "there a multiplier keeps the constraint, in a method whose kicks do not depend on the velocity: \
-                         only potentials go with it"
-                    }
-                    "`casimir3`" => {
-                        "what it leaves conserved is decided for velocities that are linear in the momenta"
-                    }
-                    "`group = unitary`" => "the lattice of U(n) is that of the Casimir terms alone",
-                    "`emit(splitting)`" => {
-                        "a force is a piece of its own where it depends on positions alone, and is said to: \
-                         `custom(field, form, position)`"
-                    }
-                    "`emit(nystrom)`" => {
-                        "Nystrom methods integrate q'' = f(t, q), and the work of a force and friction depend on velocities"
-                    }
-                    _ => "what is emitted there is derived from T and from potentials that are formulas",
-                },
-                "remove one of the two",
-            ),
             Self::MalformedCustom { key, found, takes, example } => text(
                 format!("`{key}` has {found} where `custom(field, ..)` should say what a field computes"),
                 format!("it is a summand by itself, and takes {takes}"),

@@ -21,11 +21,6 @@ pub enum FormMistake {
     },
     /// Only translation terms, or none.
     NoKineticEnergy,
-    /// A sum of energies of different frames beside a key that does not go with it.
-    SumBeside {
-        /// The other key.
-        key: &'static str,
-    },
     /// The isotropic form vanishes on some directions.
     Degenerate {
         /// The eigenvalue: `I + A + n B`.
@@ -90,7 +85,6 @@ pub enum FormMistake {
 names! { FormMistake
     MixedFrames => "mixed-frames",
     NoKineticEnergy => "no-kinetic-energy",
-    SumBeside => "sum-beside",
     Degenerate => "degenerate",
     DegenerateHamiltonian => "degenerate-hamiltonian",
     DegenerateTensor => "degenerate-tensor",
@@ -115,11 +109,6 @@ impl FormMistake {
                 "there is no kinetic energy of the internal motion",
                 "without a term in phi_dot the Legendre transformation has no inverse: Sigma = (dT/dOm)^T = 0",
                 "add `casimir2`, `body_inertia`, `space_inertia`, `dalembert`, `body_tensor`, `space_tensor` or `flat_tensor`",
-            ),
-            Self::SumBeside { key } => text(
-                format!("`{key}` does not go with terms of different frames in this version"),
-                "their sum has a mass matrix that depends on phi, and is derived in orthonormal bases",
-                format!("keep the terms of one frame, or remove `{key}`"),
             ),
             Self::Degenerate { eigenvalue, numbers, directions } => text(
                 format!(

@@ -13,6 +13,7 @@ use super::metric::MetricMistake;
 use super::notation::NotationMistake;
 use super::potential::PotentialMistake;
 use super::term::TermMistake;
+use super::together::TogetherMistake;
 
 /// A mistake in a model, as the user should hear of it; `Display` is the full message.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,6 +36,8 @@ pub enum Diagnostic {
     Form(FormMistake),
     /// A mistake in a force or in the dissipation.
     Force(ForceMistake),
+    /// Parts that exclude each other.
+    Together(TogetherMistake),
     /// A mistake of the macro.
     Fault(FaultMistake),
 }
@@ -87,5 +90,6 @@ ideas! {
     Constraint(ConstraintMistake),
     Form(FormMistake),
     Force(ForceMistake),
+    Together(TogetherMistake),
     Fault(FaultMistake),
 }

@@ -91,14 +91,6 @@ impl Role {
     }
 }
 
-impl Custom {
-    /// Does it depend on the time and on positions alone, so that it is constant while it acts?
-    #[must_use]
-    pub fn is_kick(&self) -> bool {
-        !self.role.value.is_force() || self.mark == Some(Mark::Position)
-    }
-}
-
 /// Which key `custom(...)` stands in.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
