@@ -225,7 +225,7 @@ use proc_macro::TokenStream;
 /// | `taylor` | Taylor coefficients of the motion | `Method::Taylor`, cheaper at tolerances up to 1e-8 |
 /// | `nystrom` | the equations as `q'' = f(t, q)` | `dalembert` and `flat_tensor` under a potential: Runge-Kutta-Nystrom steps of orders 8 and 12 |
 /// | `splitting` | exact flows of pieces of `H` | `Method::Splitting`; `Method::AdaptiveSplitting`, by which `Method::Automatic` passes over a stiff dilatation |
-/// | `tangent` | the variational equations of motions without a constraint | `affine_runtime::variation::Variation` |
+/// | `tangent` | the variational equations, tangent to the group under a constraint | `affine_runtime::variation::Variation` |
 /// | `two_polar` | the lattice form `(q, p, M, N)` | doubly isotropic models |
 /// | `ratios`, beside `two_polar` | the same in `exp(q_b - q_a)`, `M + N`, `M - N`, where it is rational | affine velocities without a potential |
 /// | `lanes` | the equations over vectors | `Ensemble` |
@@ -250,9 +250,10 @@ use proc_macro::TokenStream;
 ///
 /// | refused | beside | why |
 /// |---|---|---|
-/// | `emit(taylor)`, `emit(tangent)` | a constraint | coordinates of a group change from step to step, and derivatives with them |
+/// | `emit(taylor)` | a constraint | coordinates of a group change from step to step, and series with them |
+/// | `emit(tangent)` | `constraint = isochoric` of `dalembert` | there the equations are those of a free body, and the method adds the multiplier step by step |
 /// | `emit(taylor)`, `emit(tangent)` | a potential of single stretches | stretches are found by an iteration, and what follows from the operations of a formula does not follow from it |
-/// | `emit(taylor)`, `emit(tangent)` | `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential` | what a field computes is not known operation by operation |
+/// | `emit(taylor)` | `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential` | what a field computes is not known operation by operation |
 /// | `emit(splitting)` | `constraint = isochoric` of `dalembert` | the force of the multiplier depends on all momenta and positions, and no piece has an exact flow |
 /// | `emit(splitting)` | `constraint = conformal` of `dalembert` | the energy has the weight D^2, and no piece of it is quadratic in momenta with constant coefficients |
 /// | `emit(splitting)` | a sum of different frames | the mass matrix of the sum depends on phi: the flow of the kinetic energy is not known |

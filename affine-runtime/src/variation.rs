@@ -36,6 +36,7 @@ pub trait Tangent<const N: usize>: Model<N> {
 ///
 /// The reduced state and its change are integrated together, by [`RungeKutta8`] with the error of both below the
 /// tolerance; reduction and expansion are differentiated by dual numbers, what the trajectory conserves included.
+/// Under a constraint a direction is one of the group: it holds the slopes of a curve of points on it, and changes do.
 /// Directions and changes are plain arrays in the layout of [`Description::full`](crate::model::Description::full), like
 /// [`Model::flatten`] gives points.
 ///

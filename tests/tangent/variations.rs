@@ -7,6 +7,7 @@ use affine_runtime::integrate::Failure;
 use affine_runtime::model::StateVector;
 use affine_runtime::prelude::*;
 use affine_runtime::variation::Variation;
+use affine_tests::fields::{Field, Stirring, Wind};
 
 #[affine_model(
     dim = 3,
@@ -146,6 +147,97 @@ fn emitted_equations_are_derivatives_and_changes_are_differences() {
     check!(Damped, Damped.at_momentum(phi(), Comoving(spin())).unwrap());
     check!(Geodesic, Geodesic.at_momentum(phi(), Comoving(spin())).unwrap());
     check!(Mixed, Mixed.at_momentum(phi(), TwoPoint(spin())).unwrap());
+}
+
+/// Fields, whose types compute over dual numbers too.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, space_translation = 2),
+    potential = tr(G)/2 - ln(det) + custom(field, general, position),
+    forces = custom(stirring, spatial) + custom(wind, translation),
+    emit(tangent),
+)]
+struct Stirred {
+    field: Field,
+    stirring: Stirring,
+    wind: Wind,
+}
+
+#[test]
+fn fields_are_differentiated() {
+    let (field, stirring) = (Field { strength: 0.2 }, Stirring { strength: 0.3 });
+    let model = Stirred { field, stirring, wind: Wind { strength: 0.4 } }.prepare().unwrap();
+    let (x, p) = (Vector::<3>::new(0.1, 0.5, -0.2), Vector::<3>::new(0.3, -0.2, 0.5));
+    let start = model.at_momentum(x, phi(), p, Comoving(spin())).unwrap();
+    check!(model, start);
+}
+
+#[affine_model(
+    dim = 3,
+    constraint = rigid,
+    kinetic(dalembert = diag(1, 1.5, 2)),
+    potential = 2*phi[3,3] + phi[3,1]/2,
+    emit(tangent)
+)]
+struct Top;
+
+#[affine_model(
+    dim = 3,
+    constraint = isochoric,
+    kinetic(casimir2 = 0.2, body_inertia = 1),
+    potential = tr(G)/2 + G[1,1]^2/4,
+    emit(tangent)
+)]
+struct Incompressible;
+
+/// Along curves on the group, `phi exp(s X)`, changes are differences, and stay tangent to it.
+#[test]
+fn on_groups() {
+    fn assert_on_group<M: Tangent<3>>(
+        model: &M,
+        along: impl Fn(f64) -> M::Point<f64>,
+        defect: impl Fn(&Matrix<3>, &Matrix<3>) -> f64,
+    ) {
+        let (t_end, distance) = (2.5, 1e-5);
+        let slope = |by: &dyn Fn(f64) -> M::Full<f64>| {
+            let (there, back) = (by(distance), by(-distance));
+            let mut slope = M::Full::<f64>::zeros();
+            for (k, slope) in slope.as_mut().iter_mut().enumerate() {
+                *slope = (there.as_ref()[k] - back.as_ref()[k]) / (2.0 * distance);
+            }
+            slope
+        };
+        let direction = slope(&|s| model.flatten(&along(s)));
+        let mut variation = Variation::new(model, (0.0, &along(0.0)), &direction, 1e-13).unwrap();
+        variation.advance_to(t_end).unwrap();
+        let change = variation.change();
+        let expected = slope(&|s| {
+            let run = Simulation::new(model, along(s)).until(t_end).tolerance(1e-14).output([t_end]);
+            model.flatten(run.run().unwrap().end().1)
+        });
+        let scale: f64 = expected.as_ref().iter().map(|v| v.abs()).sum();
+        for (k, (change, expected)) in change.as_ref().iter().zip(expected.as_ref()).enumerate() {
+            assert!((change - expected).abs() < 2e-8 * scale, "{k}: {change} {expected}");
+        }
+        let by = Matrix::<3>::from_row_slice(&change.as_ref()[..9]);
+        let defect = defect(variation.point().phi(), &by);
+        assert!(defect.abs() < 1e-9 * scale, "{defect:e}");
+    }
+    let x = Matrix::<3>::new(0.2, 0.5, -0.3, 0.1, -0.5, 0.7, 0.4, -0.2, 0.3);
+    let skew = |m: Matrix<3>| m - m.transpose();
+    let rotation = affine_runtime::decompose::polar(&phi::<3>()).unwrap().rotation;
+    let turned = |s: f64| {
+        let phi = rotation * affine_runtime::decompose::skew_exponential(&(skew(x) * s));
+        Top.at_momentum(phi, Comoving(skew(spin::<3>()) + skew(x * x) * s)).unwrap()
+    };
+    assert_on_group(&Top, turned, |phi, by| (phi.tr_mul(by) + by.tr_mul(phi)).norm());
+    let unit = phi::<3>() / phi::<3>().determinant().cbrt();
+    let traceless = |m: Matrix<3>| m - Matrix::<3>::identity() * (m.trace() / 3.0);
+    let sheared = |s: f64| {
+        let phi = unit * affine_runtime::decompose::exponential(&(x * s));
+        Incompressible.at_momentum(phi, Comoving(traceless(spin()) + traceless(x * x) * s)).unwrap()
+    };
+    assert_on_group(&Incompressible, sheared, |phi, by| (phi.try_inverse().unwrap() * by).trace());
 }
 
 /// A d'Alembert body in a quadratic potential: `phi'' = -k phi`, whose flow is linear: changes move like points.

@@ -49,7 +49,7 @@ pub use equations::Equations;
 pub use lattice::{PieceProgram, PiecePrograms, Places, RatioProgram, TwoPolar};
 pub use metrics::{ChangeOfBases, GivenMatrix, GivenSource, Preparation};
 use model::{Dynamics, Facts, Methods, Prepared};
-pub use model::{Formulas, MixedMasses, Model, PointPrograms, Regularity, VelocitySide};
+pub use model::{Formulas, MixedMasses, Model, PointPrograms, Regularity, Variational, VelocitySide};
 pub use quantities::{Balance, BalancedQuantities, Metric, Quantities};
 pub use symbols::{VolumeMeasure, reads_time};
 pub use trajectory::{AffineMomentum, Trajectory};

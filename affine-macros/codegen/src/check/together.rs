@@ -26,11 +26,12 @@ const ACCELERATION: Part = Emitted(Capability::Acceleration);
 const BALANCE: Part = Emitted(Capability::Balance);
 
 /// What does not go together.
-const REFUSED: [Row; 25] = [
+const REFUSED: [Row; 26] = [
+    Row(&[TAYLOR], &[Confined], "coordinates of a group change from step to step, and series with them"),
     Row(
-        &[TAYLOR, TANGENT],
-        &[Confined],
-        "coordinates of a group change from step to step, and derivatives with them",
+        &[TANGENT],
+        &[Multiplier],
+        "there the equations are those of a free body, and the method adds the multiplier step by step",
     ),
     Row(
         &[TAYLOR, TANGENT],
@@ -38,7 +39,7 @@ const REFUSED: [Row; 25] = [
         "stretches are found by an iteration, and what follows from the operations of a formula does not follow from it",
     ),
     Row(
-        &[TAYLOR, TANGENT],
+        &[TAYLOR],
         &[Force, Kick, FieldPotential],
         "what a field computes is not known operation by operation",
     ),

@@ -130,12 +130,18 @@ pub struct Methods {
     pub taylor: Option<Recurrence>,
     /// Exact flows of the pieces of the reduced motion, if asked for.
     pub splitting: Option<splitting::Programs>,
-    /// State and its change -> rates and their changes, if asked for.
-    pub tangent: Option<Program>,
+    /// The variational equations, if asked for.
+    pub tangent: Option<Variational>,
     /// The equations as `q' = V(p)`, `p' = F(t, q)`, if asked for.
     pub second_order: Option<second_order::Halves>,
     /// The reduced equations in vectors of four, where that pays.
     pub packed: Option<Packed>,
+}
+
+/// How a change of the state moves.
+pub struct Variational {
+    /// State and its change -> rates and their changes; `None` where fields compute: these are written for dual numbers too.
+    pub program: Option<Program>,
 }
 
 /// The Legendre transformation and the energy in velocities.
@@ -186,7 +192,8 @@ impl Model {
         self.methods.tangent = asked.tangent.then(|| {
             let changes =
                 |symbol: &Symbol| symbol.quantity() == Some(Quantity::Constant) || states.contains(symbol);
-            fuse(&with_tangent(program, &changes))
+            let asks_fields = program.calls.iter().any(|call| call.field().is_some());
+            Variational { program: (!asks_fields).then(|| fuse(&with_tangent(program, &changes))) }
         });
         // Charts of groups take single components; Runge-Kutta-Nystrom steps and closed forms leave nothing to do.
         let is_closed = matches!(self.dynamics.closed_form, Some((_, false)));

@@ -6,7 +6,8 @@ use super::splitting::{FlowProgram, PrincipalProgram, Programs};
 use super::{
     Balance, BalancedQuantities, ChangeOfBases, Condition, Damping, Domain, Dynamics, Equations, GivenMatrix,
     GivenSource, Methods, Metric, MixedMasses, Model, NumericBlock, PieceProgram, PiecePrograms,
-    PointPrograms, Preparation, Prepared, Quantities, RatioProgram, Regularity, TwoPolar, VelocitySide,
+    PointPrograms, Preparation, Prepared, Quantities, RatioProgram, Regularity, TwoPolar, Variational,
+    VelocitySide,
 };
 use crate::algebra::Rational;
 use crate::ir::packed::Packed;
@@ -126,6 +127,7 @@ written! {
     Prepared { coefficients, numeric_blocks, conditions, damping, metrics; }
     Dynamics { full, reduced, trajectory, dilatation; reduction, fixed, closed_form }
     Methods { two_polar, taylor, splitting, tangent, second_order, packed; }
+    Variational { program; }
     VelocitySide { legendre, kinetic_energy; }
     Domain { program; guards }
     Equations { dependent, program; groups }

@@ -1,8 +1,9 @@
 //! `emit(tangent)`: the variational equations.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use crate::ir::Program;
 use crate::symbol::{Aspect, Symbol};
 
 use super::body::Body;
@@ -14,7 +15,7 @@ use super::trajectory;
 
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context) -> TokenStream {
-    let Some(program) = &context.model.methods.tangent else { return TokenStream::new() };
+    let Some(variational) = &context.model.methods.tangent else { return TokenStream::new() };
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
     let t = &context.names.scalar;
@@ -23,8 +24,45 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
         group(context, *quantity, &len)
     });
     let groups: Vec<TokenStream> = groups.collect();
-    let mut states = context.model.dynamics.reduced.symbols();
+    let states = context.model.dynamics.reduced.symbols();
     let (len, both) = (number(states.len()), number(2 * states.len()));
+    let equations = match &variational.program {
+        Some(program) => by_program(context, program, states),
+        None => by_duals(context, &len),
+    };
+    quote! {
+        impl #generics #rt::Tangent<#n> for #prepared #types #clause {
+            type Varied<#t: #rt::Scalar> = [#t; #both];
+            const VARIED: &'static [#rt::Group] =
+                &[#(#groups,)* #rt::Group::new(#rt::Quantity::TangentVector, #len)];
+
+            #[inline]
+            #equations
+        }
+    }
+}
+
+/// The equations over dual numbers.
+fn by_duals(context: &Context, len: &Literal) -> TokenStream {
+    let (rt, n, t) = (&context.names.rt, context.dim(), &context.names.scalar);
+    quote! {
+        fn variational_equations<#t: #rt::Scalar>(
+            &self,
+            t: #t,
+            constants: &Self::Constants<#rt::Dual<#t>>,
+            varied: &Self::Varied<#t>,
+        ) -> Self::Varied<#t> {
+            let state = ::core::array::from_fn(|k| #rt::Dual { value: varied[k], slope: varied[#len + k] });
+            let rates =
+                <Self as #rt::Model<#n>>::reduced_equations(self, #rt::Dual::fixed(t), constants, &state);
+            ::core::array::from_fn(|k| if k < #len { rates[k].value } else { rates[k - #len].slope })
+        }
+    }
+}
+
+/// The derivative of the equations, operation by operation.
+fn by_program(context: &Context, program: &Program, mut states: Vec<Symbol>) -> TokenStream {
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
     let changes = |of: &[Symbol]| of.iter().map(|s| s.clone().seen(Aspect::Change)).collect::<Vec<_>>();
     states.extend(changes(&states));
     let used = program.inputs();
@@ -41,12 +79,6 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let clock = time(program);
     let Body { lets, results } = context.generic(program, Coefficients::Own);
     quote! {
-        impl #generics #rt::Tangent<#n> for #prepared #types #clause {
-            type Varied<#t: #rt::Scalar> = [#t; #both];
-            const VARIED: &'static [#rt::Group] =
-                &[#(#groups,)* #rt::Group::new(#rt::Quantity::TangentVector, #len)];
-
-            #[inline]
             fn variational_equations<#t: #rt::Scalar>(
                 &self,
                 #clock: #t,
@@ -59,6 +91,5 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
                 #lets
                 [#(#results),*]
             }
-        }
     }
 }
