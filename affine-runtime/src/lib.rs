@@ -84,6 +84,7 @@
 //! | `analysis` | [`analysis`]: Jacobians, equilibria, stability, branches |
 //! | `parallel` | ensembles on all processors |
 //! | `serde` | points, tables and checkpoints that can be written and read, runs and descriptions that can be written |
+//! | `approx` | points that `assert_relative_eq!` compares |
 //! | `npy` | tables as archives of NumPy arrays |
 //! | `double-double` | numbers of 31 digits |
 #![cfg_attr(not(feature = "std"), no_std)]
@@ -141,6 +142,9 @@ mod inner {
 pub mod __private {
     pub use crate::private::*;
 }
+
+/// Matrices and vectors, of the version whose types are in what this crate takes and gives.
+pub use nalgebra;
 
 pub use error::{Error, Result};
 pub use model::Model;

@@ -101,14 +101,17 @@ fn lines_of_code(text: &str) -> usize {
 /// What a model without the standard library is linked against.
 #[test]
 fn the_core_is_small() {
-    // Behind the features `std`, `double-double` and `serde`.
+    // Behind the features `std`, `double-double`, `serde` and `approx`, as lines are that derive what is written.
     let is_left_out = |file: &str| {
-        file.starts_with("error/") || file == "scalar/double_double.rs" || file == "state/serde.rs"
+        file.starts_with("error/") || file.starts_with("state/") || file == "scalar/double_double.rs"
     };
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("core/src");
     let arrows = arrows("core/src");
     let files = arrows.of.keys().filter(|file| !is_left_out(file));
-    let lines: usize =
-        files.map(|file| lines_of_code(&std::fs::read_to_string(src.join(file)).unwrap())).sum();
+    let read = |file: &String| {
+        let text = std::fs::read_to_string(src.join(file)).unwrap();
+        text.replace("#[cfg_attr(feature = \"serde\", derive(serde::Serialize))]", "")
+    };
+    let lines: usize = files.map(|file| lines_of_code(&read(file))).sum();
     assert!((4000..=5000).contains(&lines), "{lines} lines");
 }

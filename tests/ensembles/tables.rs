@@ -3,6 +3,7 @@
 use std::io::{Cursor, Read};
 
 use affine_runtime::model::Conserved;
+use affine_runtime::nalgebra;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Table;
 use npyz::NpyFile;
@@ -148,4 +149,43 @@ fn a_table_of_bodies_has_what_it_is_given() {
     assert_eq!(table.column("t").unwrap(), [1.5, 2.5]);
     assert!(table.column("b").unwrap()[1].is_nan());
     assert_eq!(table.column("phi21").unwrap()[0], point.phi()[(1, 0)]);
+}
+
+#[test]
+fn points_are_transformations_of_nalgebra() {
+    let point = DrunkMissile.samples(1, 77)[0];
+    let a = nalgebra::Point3::new(0.3, -0.2, 0.7);
+    let moved = nalgebra::Affine3::from(&point) * a;
+    assert!((moved.coords - (point.x() + point.phi() * a.coords)).norm() < 1e-15);
+    // Of a rigid body the placement is a rotation; of a stretch along the axes of the body the rotation is what is left.
+    let turn = nalgebra::Rotation3::from_euler_angles(0.3, -0.4, 0.5);
+    let stretch = Matrix::<3>::from_diagonal(&Vector::<3>::new(1.2, 0.9, 1.1));
+    let x = Vector::<3>::new(1.0, 2.0, 3.0);
+    let zero = Comoving(Matrix::<3>::zeros());
+    let stretched = DrunkMissile.at_momentum(x, turn.matrix() * stretch, x, zero).unwrap();
+    let isometry = nalgebra::Isometry3::from(&stretched);
+    assert!((isometry.rotation.to_rotation_matrix().matrix() - turn.matrix()).norm() < 1e-14);
+    assert_eq!(isometry.translation.vector, x);
+    let planar = Unprotected.samples(1, 77)[0];
+    let a = nalgebra::Point2::new(0.3, -0.2);
+    let moved = nalgebra::Affine2::from(&planar) * a;
+    assert!((moved.coords - (planar.x() + planar.phi() * a.coords)).norm() < 1e-15);
+    assert_eq!(nalgebra::Isometry2::from(&planar).translation.vector, planar.x());
+}
+
+#[test]
+fn points_are_compared_number_by_number() {
+    let point = Unprotected.samples(1, 78)[0];
+    let off = |place: usize, by: f64| {
+        let mut numbers = Unprotected.flatten(&point);
+        numbers[place] += by;
+        Unprotected.unflatten(&numbers)
+    };
+    approx::assert_relative_eq!(point, point);
+    for place in 0..12 {
+        approx::assert_abs_diff_eq!(point, off(place, 1e-9), epsilon = 1e-8);
+        approx::assert_abs_diff_ne!(point, off(place, 1e-7), epsilon = 1e-8);
+        approx::assert_relative_ne!(point, off(place, 1e-7));
+        approx::assert_ulps_ne!(point, off(place, 1e-7));
+    }
 }

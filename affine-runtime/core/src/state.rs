@@ -1,7 +1,11 @@
 //! Phase points: placement and momentum, with the centre of mass only where a model has one.
 
+#[cfg(feature = "approx")]
+mod approx;
 #[cfg(feature = "serde")]
-mod serde;
+pub(crate) mod serde;
+#[cfg(feature = "std")]
+mod transforms;
 
 use core::fmt::Debug;
 
@@ -14,11 +18,6 @@ use crate::scalar::Real;
 /// What a phase point carries besides placement and affine spin: nothing ([`Pinned`]) or the centre of mass
 /// ([`Centre`]).
 pub trait Translation<const N: usize, T: Real>: Copy + Debug + PartialEq {
-    /// There is a centre of mass.
-    const MOVES: bool;
-    /// With these, where there is one; `None` of points that do not exist.
-    #[doc(hidden)]
-    fn at(x: Vector<N, T>, p: Vector<N, T>) -> Option<Self>;
     /// Position of the centre of mass; zero for a pinned body.
     fn position(&self) -> Vector<N, T>;
     /// Linear momentum `p = dT/dx_dot`, a spatial covector; zero for a pinned body.
@@ -28,9 +27,7 @@ pub trait Translation<const N: usize, T: Real>: Copy + Debug + PartialEq {
     fn moved(&self, x: Vector<N, T>) -> Self;
     /// The same at another position and with another momentum; a pinned body stays.
     #[must_use]
-    fn replaced(&self, x: Vector<N, T>, p: Vector<N, T>) -> Self {
-        Self::at(x, p).unwrap_or(*self)
-    }
+    fn replaced(&self, x: Vector<N, T>, p: Vector<N, T>) -> Self;
     /// The same in another basis of space: `x' = A x`, `p' = A^-T p`; a pinned body stays.
     #[must_use]
     fn rebased(&self, bases: &Bases<N, T>) -> Self;
@@ -41,9 +38,8 @@ pub trait Translation<const N: usize, T: Real>: Copy + Debug + PartialEq {
 pub struct Pinned;
 
 impl<const N: usize, T: Real> Translation<N, T> for Pinned {
-    const MOVES: bool = false;
-    fn at(_x: Vector<N, T>, _p: Vector<N, T>) -> Option<Self> {
-        Some(Self)
+    fn replaced(&self, _x: Vector<N, T>, _p: Vector<N, T>) -> Self {
+        *self
     }
     fn position(&self) -> Vector<N, T> {
         Vector::<N, T>::zeros()
@@ -69,9 +65,8 @@ pub struct Centre<const N: usize, T = f64> {
 }
 
 impl<const N: usize, T: Real> Translation<N, T> for Centre<N, T> {
-    const MOVES: bool = true;
-    fn at(x: Vector<N, T>, p: Vector<N, T>) -> Option<Self> {
-        Some(Self { x, p })
+    fn replaced(&self, x: Vector<N, T>, p: Vector<N, T>) -> Self {
+        Self { x, p }
     }
     fn position(&self) -> Vector<N, T> {
         self.x

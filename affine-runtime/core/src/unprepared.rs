@@ -57,9 +57,8 @@ pub trait IsPrepared {
 pub enum NotPrepared {}
 
 impl<const N: usize, T: Real> Translation<N, T> for NotPrepared {
-    const MOVES: bool = false;
-    fn at(_: Vector<N, T>, _: Vector<N, T>) -> Option<Self> {
-        None
+    fn replaced(&self, _: Vector<N, T>, _: Vector<N, T>) -> Self {
+        *self
     }
     fn position(&self) -> Vector<N, T> {
         match *self {}
@@ -72,6 +71,14 @@ impl<const N: usize, T: Real> Translation<N, T> for NotPrepared {
     }
     fn rebased(&self, _: &Bases<N, T>) -> Self {
         *self
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<const N: usize> crate::state::serde::Written<N> for NotPrepared {
+    const MOVES: bool = false;
+    fn read(_x: Vector<N>, _p: Vector<N>) -> Option<Self> {
+        None
     }
 }
 

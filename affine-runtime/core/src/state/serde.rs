@@ -4,18 +4,40 @@
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
-use super::{Basis, PhasePoint, Translation};
+use super::{Basis, Centre, PhasePoint, Pinned, Translation};
 use crate::frames::{Frame, Matrix, Vector};
 use crate::kinematics::LogDeterminant;
 use core::fmt;
 use core::marker::PhantomData;
 
-impl<const N: usize, F: Frame, C: Translation<N, f64>, B: Basis> PhasePoint<N, F, C, f64, B> {
+/// What is written of a centre of mass.
+pub trait Written<const N: usize>: Translation<N, f64> {
+    /// There is one.
+    const MOVES: bool;
+    /// It, from what was read; `None` of points that do not exist.
+    fn read(x: Vector<N>, p: Vector<N>) -> Option<Self>;
+}
+
+impl<const N: usize> Written<N> for Pinned {
+    const MOVES: bool = false;
+    fn read(_x: Vector<N>, _p: Vector<N>) -> Option<Self> {
+        Some(Self)
+    }
+}
+
+impl<const N: usize> Written<N> for Centre<N> {
+    const MOVES: bool = true;
+    fn read(x: Vector<N>, p: Vector<N>) -> Option<Self> {
+        Some(Self { x, p })
+    }
+}
+
+impl<const N: usize, F: Frame, C: Written<N>, B: Basis> PhasePoint<N, F, C, f64, B> {
     /// Numbers of a point.
     const NUMBERS: usize = 2 * N * N + if C::MOVES { 2 * N } else { 0 };
 }
 
-impl<const N: usize, F: Frame, C: Translation<N, f64>, B: Basis> Serialize for PhasePoint<N, F, C, f64, B> {
+impl<const N: usize, F: Frame, C: Written<N>, B: Basis> Serialize for PhasePoint<N, F, C, f64, B> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut numbers = serializer.serialize_tuple(Self::NUMBERS)?;
         for matrix in [&self.phi, &self.spin] {
@@ -29,7 +51,7 @@ impl<const N: usize, F: Frame, C: Translation<N, f64>, B: Basis> Serialize for P
     }
 }
 
-impl<'de, const N: usize, F: Frame, C: Translation<N, f64>, B: Basis> Deserialize<'de>
+impl<'de, const N: usize, F: Frame, C: Written<N>, B: Basis> Deserialize<'de>
     for PhasePoint<N, F, C, f64, B>
 {
     /// Refuses what is no phase point: as many numbers, all finite, and `det phi > 0`.
@@ -40,7 +62,7 @@ impl<'de, const N: usize, F: Frame, C: Translation<N, f64>, B: Basis> Deserializ
 
 struct Numbers<P>(PhantomData<P>);
 
-impl<'de, const N: usize, F: Frame, C: Translation<N, f64>, B: Basis> Visitor<'de>
+impl<'de, const N: usize, F: Frame, C: Written<N>, B: Basis> Visitor<'de>
     for Numbers<PhasePoint<N, F, C, f64, B>>
 {
     type Value = PhasePoint<N, F, C, f64, B>;
@@ -62,7 +84,7 @@ impl<'de, const N: usize, F: Frame, C: Translation<N, f64>, B: Basis> Visitor<'d
         let mut next = || read.next().unwrap_or_default();
         let [phi, spin] = [(); 2].map(|()| Matrix::<N>::from_fn(|_, _| next()).transpose());
         let [x, p] = [(); 2].map(|()| Vector::<N>::from_fn(|_, _| next()));
-        match C::at(x, p) {
+        match C::read(x, p) {
             Some(centre) if LogDeterminant::of(&phi).is_positive() => Ok(PhasePoint::new(phi, spin, centre)),
             _ => Err(A::Error::custom("the placement of the phase point has no positive determinant")),
         }
