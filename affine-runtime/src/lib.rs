@@ -83,6 +83,7 @@
 //! | `report` | pictures, error against run time |
 //! | `analysis` | [`analysis`]: Jacobians, equilibria, stability, branches |
 //! | `parallel` | ensembles on all processors |
+//! | `progress` | a bar that shows how many bodies of an ensemble are done |
 //! | `serde` | points, tables and checkpoints that can be written and read, runs and descriptions that can be written |
 //! | `approx` | points that `assert_relative_eq!` compares |
 //! | `npy` | tables as archives of NumPy arrays |

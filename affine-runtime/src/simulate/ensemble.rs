@@ -170,6 +170,16 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         self
     }
 
+    /// A bar on the terminal that shows how many bodies are done, and of how many where the iterator of starts knows.
+    #[cfg(feature = "progress")]
+    #[must_use]
+    pub fn progress_bar(self) -> Self {
+        let (_, of) = self.shard;
+        let count = self.starts.size_hint().1.and_then(|count| (count as u64).checked_div(of));
+        let bar = count.map_or_else(indicatif::ProgressBar::no_length, indicatif::ProgressBar::new);
+        self.progress(move |done| bar.set_position(done))
+    }
+
     /// Every `of`th body, from number `k < of` on: a part for one process of several, or one job of an array. A body keeps
     /// its number and its bits; the bodies of all shards, put in the order of their numbers, are those of the ensemble.
     #[must_use]
