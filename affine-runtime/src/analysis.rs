@@ -7,11 +7,14 @@
 //! | their small vibrations | [`RelativeEquilibrium::modes`] |
 //! | motions that symmetries generate | [`relative_equilibrium`], [`Generator`], [`Condition`] |
 //! | whether they are stable | [`RelativeEquilibrium::stability`] |
+//! | how motions depend on their start | [`FlowMatrix`], [`lyapunov_spectrum`] |
+//! | how they depend on fields | [`field_sensitivities`] |
 //! | how they branch | [`Continuation`], and `branch_panel` with the feature `report` |
 
 mod branch;
 mod error;
 mod field;
+mod flow_matrix;
 mod generator;
 mod jacobian;
 mod linear;
@@ -28,6 +31,7 @@ mod tape;
 
 pub use branch::{Branch, BranchPoint, Continuation, Special};
 pub use error::AnalysisError;
+pub use flow_matrix::{FlowMatrix, LyapunovSpectrum, field_sensitivities, lyapunov_spectrum};
 pub use generator::Generator;
 pub use jacobian::JacobianMatrix;
 pub use modes::{Mode, ModeClass, Modes};

@@ -74,5 +74,5 @@ pub use table::Table;
 pub use trajectory::{Computation, Trajectory};
 pub use why::Why;
 
-#[cfg(feature = "report")]
+#[cfg(any(feature = "analysis", feature = "report"))]
 pub(crate) use layout::has_multiplier;

@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod branches;
+mod flows;
 mod jacobian;
 mod models;
 mod modes;

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use super::error::AnalysisError;
 use super::field::{orbit, vector};
 use super::generator::{Generator, confined, symmetries};
-use super::linear::{absolute_kernel, decomposed, kernel, span};
+use super::linear::{Column, Dense, absolute_kernel, decomposed, kernel, span};
 use super::newton::{Equations, Solution, solve};
 use super::relative::{Condition, Problem, RelativeEquilibrium, relative_equilibrium};
 use super::stability::{Stability, StabilityVerdict};
@@ -52,8 +52,8 @@ pub struct BranchPoint<const N: usize, P> {
     pub turn: RelativeEquilibrium<N, P>,
     /// Its stability.
     pub stability: Stability<N>,
-    unknowns: DVector<f64>,
-    tangent: DVector<f64>,
+    unknowns: Column,
+    tangent: Column,
 }
 
 type At<const N: usize, M> = BranchPoint<N, <M as Model<N>>::Point<f64>>;
@@ -168,7 +168,7 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         let free = self.free(&at.unknowns, RANK_AT_BRANCH_POINT)?;
         let away = &free * kernel(&DMatrix::from_rows(&[at.tangent.tr_mul(&free)]), RANK_AT_BRANCH_POINT);
         if away.is_empty() {
-            return Err(AnalysisError::NoBranchPoint);
+            return Err(AnalysisError::Singular { directions: 1 });
         }
         let direction = away.column(0).normalize();
         let solution = self.corrected(&at.unknowns, &direction, distance)?;
@@ -181,7 +181,7 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         Problem { model, generators: &self.generators, conditions }
     }
 
-    fn equations(&self, unknowns: &DVector<f64>) -> Option<Equations> {
+    fn equations(&self, unknowns: &Column) -> Option<Equations> {
         let last = unknowns.len() - 1;
         let (own, parameter) = (unknowns.rows(0, last).into_owned(), unknowns[last]);
         let shift = SHIFT * (1.0 + parameter.abs());
@@ -198,12 +198,7 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
     }
 
     /// The point of the branch in the plane at a distance along a direction.
-    fn corrected(
-        &self,
-        from: &DVector<f64>,
-        direction: &DVector<f64>,
-        distance: f64,
-    ) -> Result<Solution, AnalysisError> {
+    fn corrected(&self, from: &Column, direction: &Column, distance: f64) -> Result<Solution, AnalysisError> {
         solve(from + direction * distance, |unknowns| {
             let Equations { values, jacobian, scale } = self.equations(unknowns)?;
             let rows = values.len();
@@ -215,7 +210,7 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
     }
 
     /// Directions in which solutions go on, without those of symmetries.
-    fn free(&self, unknowns: &DVector<f64>, rank: f64) -> Result<DMatrix<f64>, AnalysisError> {
+    fn free(&self, unknowns: &Column, rank: f64) -> Result<Dense, AnalysisError> {
         let last = unknowns.len() - 1;
         let singular = AnalysisError::Singular { directions: 0 };
         let jacobian = self.equations(unknowns).ok_or(singular)?.jacobian;
@@ -229,11 +224,7 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         Ok(&all * absolute_kernel(&along.tr_mul(&all), 0.5))
     }
 
-    fn tangent(
-        &self,
-        unknowns: &DVector<f64>,
-        before: Option<&DVector<f64>>,
-    ) -> Result<DVector<f64>, AnalysisError> {
+    fn tangent(&self, unknowns: &Column, before: Option<&Column>) -> Result<Column, AnalysisError> {
         let free = self.free(unknowns, RANK)?;
         let directions = free.ncols();
         match before {
@@ -246,7 +237,7 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         }
     }
 
-    fn point(&self, unknowns: DVector<f64>, tangent: DVector<f64>) -> Result<At<N, M>, AnalysisError> {
+    fn point(&self, unknowns: Column, tangent: Column) -> Result<At<N, M>, AnalysisError> {
         let last = unknowns.len() - 1;
         let (model, conditions) = (self.family)(unknowns[last])?;
         let problem = self.problem(&model, &conditions);

@@ -16,11 +16,6 @@ pub enum AnalysisError {
         /// Steps taken.
         steps: usize,
     },
-    /// The iteration leaves the placements that preserve orientation.
-    LeftGroup {
-        /// `det phi`.
-        determinant: f64,
-    },
     /// A generator is none of a symmetry that the model is proved to have.
     NotASymmetry {
         /// How far the generator is from those of symmetries, relative to its size.
@@ -41,8 +36,8 @@ pub enum AnalysisError {
         /// Length of the last one.
         step: f64,
     },
-    /// There is no such point on the branch, or it has no direction to switch to.
-    NoBranchPoint,
+    /// A multiplier belongs to the motion, which is not differentiated by fields.
+    HasMultiplier,
     /// Eigenvalues or singular values were not found.
     NoDecomposition,
     /// The model, at some value of its parameter.
@@ -55,26 +50,18 @@ impl fmt::Display for AnalysisError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoConvergence { residual, steps } => {
-                write!(
-                    f,
-                    "no solution near the guess: after {steps} steps the equations have norm {residual:e}"
-                )
+                write!(f, "no solution near the guess: residual {residual:e} after {steps} steps")
             }
-            Self::LeftGroup { determinant } => write!(f, "the iteration leads to det phi = {determinant:e}"),
             Self::NotASymmetry { defect } => {
-                write!(
-                    f,
-                    "no symmetry that the model is proved to have has this generator: defect {defect:e}"
-                )
+                write!(f, "the model is not proved to have this symmetry: defect {defect:e}")
             }
             Self::DependsOnTime => write!(f, "the potential contains the time: nothing rests"),
-            Self::NoVibrations => write!(
-                f,
-                "no small vibrations about rest: something moves, a force has no potential, or masses are not positive"
-            ),
+            Self::NoVibrations => {
+                write!(f, "something moves, a force has no potential, or masses are not positive")
+            }
             Self::Singular { directions } => write!(f, "solutions go on in {directions} directions"),
             Self::StepUnderflow { step } => write!(f, "steps along the branch are too short: {step:e}"),
-            Self::NoBranchPoint => write!(f, "no branch point there, or no direction that leads away"),
+            Self::HasMultiplier => write!(f, "the multiplier of a constraint depends on the fields"),
             Self::NoDecomposition => write!(f, "eigenvalues were not found"),
             Self::Model(error) => error.fmt(f),
             Self::Integration(failure) => failure.fmt(f),

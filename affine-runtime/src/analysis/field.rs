@@ -3,35 +3,33 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::generator::Generator;
-use super::rates::{has_multiplier, rates};
+use super::linear::{Column, Dense};
+use super::rates::rates;
 use crate::dual::Dual;
 use crate::frames::{Matrix, inverse};
 use crate::model::{Constraint, Model, StateVector};
 use crate::scalar::Real;
+use crate::simulate::has_multiplier;
 use crate::state::Phase;
 
 /// A plain array of a model.
-pub(super) fn full<const N: usize, M: Model<N>>(z: &DVector<f64>) -> M::Full<f64> {
+pub(super) fn full<const N: usize, M: Model<N>>(z: &Column) -> M::Full<f64> {
     let mut full = M::Full::<f64>::zeros();
     full.as_mut().iter_mut().zip(z.iter()).for_each(|(entry, value)| *entry = *value);
     full
 }
 
-pub(super) fn vector<S: AsRef<[f64]>>(state: &S) -> DVector<f64> {
+pub(super) fn vector<S: AsRef<[f64]>>(state: &S) -> Column {
     DVector::from_column_slice(state.as_ref())
 }
 
 /// `X_H`.
-pub(super) fn motion<const N: usize, M: Model<N>>(model: &M, z: &DVector<f64>) -> DVector<f64> {
+pub(super) fn motion<const N: usize, M: Model<N>>(model: &M, z: &Column) -> Column {
     vector(&rates(model, 0.0, &full::<N, M>(z)))
 }
 
 /// `X_zeta`.
-pub(super) fn generated<const N: usize, M: Model<N>>(
-    model: &M,
-    zeta: &Generator<N>,
-    z: &DVector<f64>,
-) -> DVector<f64> {
+pub(super) fn generated<const N: usize, M: Model<N>>(model: &M, zeta: &Generator<N>, z: &Column) -> Column {
     vector(&zeta.field(model, &full::<N, M>(z)))
 }
 
@@ -39,8 +37,8 @@ pub(super) fn generated<const N: usize, M: Model<N>>(
 pub(super) fn orbit<const N: usize, M: Model<N>>(
     model: &M,
     generators: &[Generator<N>],
-    z: &DVector<f64>,
-) -> DMatrix<f64> {
+    z: &Column,
+) -> Dense {
     let columns: Vec<_> = generators.iter().map(|zeta| generated(model, zeta, z)).collect();
     if columns.is_empty() { DMatrix::zeros(z.len(), 0) } else { DMatrix::from_columns(&columns) }
 }
@@ -49,8 +47,8 @@ pub(super) fn orbit<const N: usize, M: Model<N>>(
 pub(super) fn linear_motion<const N: usize, M: Model<N>>(
     model: &M,
     zeta: &Generator<N>,
-    z: &DVector<f64>,
-) -> DMatrix<f64> {
+    z: &Column,
+) -> Dense {
     let motion = columns::<N, M>(z, |full| rates(model, Dual::fixed(0.0), full).as_ref().to_vec());
     motion - linear_generated(model, zeta, z)
 }
@@ -59,16 +57,16 @@ pub(super) fn linear_motion<const N: usize, M: Model<N>>(
 pub(super) fn linear_generated<const N: usize, M: Model<N>>(
     model: &M,
     zeta: &Generator<N>,
-    z: &DVector<f64>,
-) -> DMatrix<f64> {
+    z: &Column,
+) -> Dense {
     columns::<N, M>(z, |full| zeta.field(model, full).as_ref().to_vec())
 }
 
 /// The Jacobian of a map from plain arrays, one column a pass.
 fn columns<const N: usize, M: Model<N>>(
-    z: &DVector<f64>,
+    z: &Column,
     map: impl Fn(&M::Full<Dual<f64>>) -> Vec<Dual<f64>>,
-) -> DMatrix<f64> {
+) -> Dense {
     let column = |k: usize| {
         let mut varied = M::Full::<Dual<f64>>::zeros();
         varied.as_mut().iter_mut().zip(z.iter()).for_each(|(both, value)| *both = Dual::fixed(*value));
@@ -79,7 +77,7 @@ fn columns<const N: usize, M: Model<N>>(
 }
 
 /// The potential contains the time.
-pub(super) fn depends_on_time<const N: usize, M: Model<N>>(model: &M, z: &DVector<f64>) -> bool {
+pub(super) fn depends_on_time<const N: usize, M: Model<N>>(model: &M, z: &Column) -> bool {
     let mut fixed = M::Full::<Dual<f64>>::zeros();
     fixed.as_mut().iter_mut().zip(z.iter()).for_each(|(both, value)| *both = Dual::fixed(*value));
     // No time at which a sine or a cosine is flat.
@@ -88,7 +86,7 @@ pub(super) fn depends_on_time<const N: usize, M: Model<N>>(model: &M, z: &DVecto
 }
 
 /// The momentum of a generator.
-pub(super) fn momentum<const N: usize, M: Model<N>>(model: &M, zeta: &Generator<N>, z: &DVector<f64>) -> f64 {
+pub(super) fn momentum<const N: usize, M: Model<N>>(model: &M, zeta: &Generator<N>, z: &Column) -> f64 {
     zeta.momentum(model, &model.unflatten(&full::<N, M>(z)))
 }
 
@@ -128,17 +126,17 @@ pub(super) fn determinant<const N: usize, T: Real>(phi: &Matrix<N, T>) -> T {
 }
 
 /// Values of the constraints.
-pub(super) fn confinement<const N: usize, M: Model<N>>(model: &M, z: &DVector<f64>) -> Vec<f64> {
+pub(super) fn confinement<const N: usize, M: Model<N>>(model: &M, z: &Column) -> Vec<f64> {
     constraints(model, &full::<N, M>(z))
 }
 
 /// Their derivatives, in rows.
-pub(super) fn normals<const N: usize, M: Model<N>>(model: &M, z: &DVector<f64>) -> DMatrix<f64> {
+pub(super) fn normals<const N: usize, M: Model<N>>(model: &M, z: &Column) -> Dense {
     columns::<N, M>(z, |full| constraints(model, full))
 }
 
 /// The canonical symplectic form, `omega(u, v) = u^T W v = u_q.v_p - u_p.v_q`, over the plain array.
-pub(super) fn symplectic_form<const N: usize, M: Model<N>>(model: &M, z: &DVector<f64>) -> DMatrix<f64> {
+pub(super) fn symplectic_form<const N: usize, M: Model<N>>(model: &M, z: &Column) -> Dense {
     let canonical = canonical_slopes(model, z);
     let half = canonical.nrows() / 2;
     let (positions, momenta) = (canonical.rows(0, half), canonical.rows(half, half));
@@ -146,7 +144,7 @@ pub(super) fn symplectic_form<const N: usize, M: Model<N>>(model: &M, z: &DVecto
 }
 
 /// `d(x, phi, p, Pi^T)/dz`.
-pub(super) fn canonical_slopes<const N: usize, M: Model<N>>(model: &M, z: &DVector<f64>) -> DMatrix<f64> {
+pub(super) fn canonical_slopes<const N: usize, M: Model<N>>(model: &M, z: &Column) -> Dense {
     columns::<N, M>(z, |full| {
         let point = model.unflatten(full);
         let pi = point.pi().0.0.transpose();

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 use num_traits::Zero;
 
 use super::error::AnalysisError;
-use super::linear::decomposed;
+use super::linear::{Column, Dense, solved};
 use crate::dual::Dual;
 use crate::frames::{Matrix, Vector};
 use crate::metrics::Bases;
@@ -80,7 +80,7 @@ impl<const N: usize> Generator<N> {
     }
 
     /// Its components. Multiples of the identity do the same to `phi` from either side, and are taken in space.
-    pub(super) fn components(&self) -> DVector<f64> {
+    pub(super) fn components(&self) -> Column {
         let one = Matrix::<N>::identity();
         let mean = self.body.trace() / N as f64;
         let (space, body) = (self.space + one * mean, self.body - one * mean);
@@ -158,7 +158,7 @@ fn unit<const N: usize>(i: usize, j: usize) -> Matrix<N> {
 /// The algebra of the symmetries that the energy is proved to have, as far as they move points linearly: a basis.
 pub(super) fn symmetries<const N: usize, M: Model<N>>() -> Vec<Generator<N>> {
     let mut basis: Vec<Generator<N>> = Vec::new();
-    let mut directions: Vec<DVector<f64>> = Vec::new();
+    let mut directions: Vec<Column> = Vec::new();
     for generator in M::DESCRIPTION.conserved.iter().flat_map(|quantity| generators::<N>(*quantity)) {
         let generator = confined::<N, M>(&generator);
         let components = generator.components();
@@ -178,15 +178,8 @@ pub(super) fn assert_symmetry<const N: usize>(
     generator: &Generator<N>,
 ) -> Result<(), AnalysisError> {
     let components = generator.components();
-    let rows = components.len();
-    let span = nalgebra::DMatrix::from_fn(rows, basis.len(), |i, k| basis[k].components()[i]);
-    let rest = if basis.is_empty() {
-        components.clone()
-    } else {
-        let svd = decomposed(span.clone()).ok_or(AnalysisError::NoDecomposition)?;
-        let solution = svd.solve(&components, ROUNDING).map_err(|_| AnalysisError::NoDecomposition)?;
-        &components - span * solution
-    };
+    let span = Dense::from_fn(components.len(), basis.len(), |i, k| basis[k].components()[i]);
+    let rest = &components - &span * solved(&span, &components)?;
     let defect = rest.norm() / components.norm();
     if components.norm() == 0.0 || defect <= ROUNDING {
         Ok(())

@@ -2,6 +2,12 @@
 
 use nalgebra::{ComplexField, DMatrix, DVector, Dyn, SVD};
 
+use super::error::AnalysisError;
+
+/// Vectors and matrices.
+pub(super) type Column = DVector<f64>;
+pub(super) type Dense = DMatrix<f64>;
+
 /// Singular values below this part of the largest are taken for zero.
 pub(super) const RANK: f64 = 1e-9;
 /// Sweeps of a decomposition.
@@ -15,7 +21,7 @@ pub(super) fn decomposed<T: ComplexField<RealField = f64>>(matrix: DMatrix<T>) -
 
 /// An orthonormal basis of what a matrix maps to zero: singular values below a part of the largest are none. Empty where
 /// there is no decomposition.
-pub(super) fn kernel(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
+pub(super) fn kernel(matrix: &Dense, tolerance: f64) -> Dense {
     let columns = matrix.ncols();
     if matrix.nrows() == 0 || columns == 0 {
         return DMatrix::identity(columns, columns);
@@ -29,17 +35,26 @@ pub(super) fn kernel(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
     };
     let largest = singular_values.max();
     let none = (0..columns).filter(|k| singular_values[*k] <= tolerance * largest);
-    let vectors: Vec<DVector<f64>> = none.map(|k| v_t.row(k).transpose()).collect();
+    let vectors: Vec<Column> = none.map(|k| v_t.row(k).transpose()).collect();
     if vectors.is_empty() { DMatrix::zeros(columns, 0) } else { DMatrix::from_columns(&vectors) }
 }
 
 /// An orthonormal basis of the columns' span.
-pub(super) fn span(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
+pub(super) fn span(matrix: &Dense, tolerance: f64) -> Dense {
     kernel(&kernel(&matrix.transpose(), tolerance).transpose(), tolerance)
 }
 
+/// The least-norm solution of linear equations, as nearly as they have one.
+pub(super) fn solved(matrix: &Dense, right: &Column) -> Result<Column, AnalysisError> {
+    if matrix.is_empty() {
+        return Ok(Column::zeros(matrix.ncols()));
+    }
+    let svd = decomposed(matrix.clone()).ok_or(AnalysisError::NoDecomposition)?;
+    svd.solve(right, RANK).map_err(|_| AnalysisError::NoDecomposition)
+}
+
 /// What a matrix maps to less than a number.
-pub(super) fn absolute_kernel(matrix: &DMatrix<f64>, threshold: f64) -> DMatrix<f64> {
+pub(super) fn absolute_kernel(matrix: &Dense, threshold: f64) -> Dense {
     let largest = decomposed(matrix.clone()).map_or(0.0, |svd| svd.singular_values.max());
     if largest <= threshold {
         DMatrix::identity(matrix.ncols(), matrix.ncols())

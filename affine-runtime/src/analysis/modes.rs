@@ -2,11 +2,11 @@
 
 use core::fmt;
 
-use nalgebra::{DMatrix, DVector, Dyn, SVD};
+use nalgebra::{DMatrix, Dyn, SVD};
 
 use super::error::AnalysisError;
 use super::field::{canonical_slopes, vector};
-use super::linear::{RANK, decomposed, kernel};
+use super::linear::{Column, Dense, RANK, decomposed, kernel};
 use super::relative::{Linearised, RelativeEquilibrium};
 use crate::frames::{Matrix, Vector};
 use crate::model::{Model, Velocity};
@@ -127,11 +127,7 @@ impl<const N: usize, P: Phase<N>> RelativeEquilibrium<N, P> {
 }
 
 /// `M` and `K` over the places, from `q' = A_qp p` and `p' = A_pq q`.
-fn vibrating<const N: usize>(
-    at: &Linearised<N>,
-    places: &DMatrix<f64>,
-    momenta: &DMatrix<f64>,
-) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+fn vibrating<const N: usize>(at: &Linearised<N>, places: &Dense, momenta: &Dense) -> Option<(Dense, Dense)> {
     let (motion, size) = (&at.motion, at.motion.norm());
     let at_rest = (places.tr_mul(motion) * places).norm() + (momenta.tr_mul(motion) * momenta).norm();
     let pairing = places.tr_mul(&at.form) * momenta;
@@ -140,11 +136,11 @@ fn vibrating<const N: usize>(
     }
     let mass = &pairing * (places.tr_mul(motion) * momenta).try_inverse()?;
     let stiffness = -&pairing * (momenta.tr_mul(motion) * places);
-    let is_symmetric = |form: &DMatrix<f64>| (form - form.transpose()).norm() <= RANK * form.norm();
+    let is_symmetric = |form: &Dense| (form - form.transpose()).norm() <= RANK * form.norm();
     (is_symmetric(&mass) && is_symmetric(&stiffness)).then_some((mass, stiffness))
 }
 
-fn shape<const N: usize>(change: &DVector<f64>) -> Velocity<N> {
+fn shape<const N: usize>(change: &Column) -> Velocity<N> {
     Velocity {
         x_dot: Vector::<N>::from_fn(|i, _| change[i]),
         phi_dot: Matrix::<N>::from_fn(|i, a| change[N + a * N + i]),

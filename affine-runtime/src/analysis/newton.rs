@@ -1,9 +1,9 @@
 //! Solutions of equations that have whole families of them.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::error::AnalysisError;
-use super::linear::decomposed;
+use super::linear::{Column, Dense, decomposed};
 
 /// Steps that an iteration may take.
 const MOST_STEPS: usize = 80;
@@ -17,8 +17,8 @@ const HALVINGS: usize = 30;
 
 /// Equations at a point.
 pub(super) struct Equations {
-    pub(super) values: DVector<f64>,
-    pub(super) jacobian: DMatrix<f64>,
+    pub(super) values: Column,
+    pub(super) jacobian: Dense,
     /// Size of what the values are differences of.
     pub(super) scale: f64,
 }
@@ -26,7 +26,7 @@ pub(super) struct Equations {
 /// A solution.
 #[derive(Clone, Debug)]
 pub(super) struct Solution {
-    pub(super) at: DVector<f64>,
+    pub(super) at: Column,
     pub(super) residual: f64,
     pub(super) steps: usize,
 }
@@ -34,7 +34,7 @@ pub(super) struct Solution {
 /// The step of Levenberg and Marquardt whose damping falls with the square of the residual: quadratic convergence to the
 /// nearest solutions wherever the residual measures the distance from them, isolated or not (N. Yamashita, M. Fukushima,
 /// Computing Suppl. 15 (2001) 239).
-fn step(equations: &Equations) -> Result<DVector<f64>, AnalysisError> {
+fn step(equations: &Equations) -> Result<Column, AnalysisError> {
     let Equations { values, jacobian, scale } = equations;
     let svd = decomposed(jacobian.clone()).ok_or(AnalysisError::NoDecomposition)?;
     let (Some(u), Some(v_t)) = (&svd.u, &svd.v_t) else { return Err(AnalysisError::NoDecomposition) };
@@ -50,8 +50,8 @@ fn step(equations: &Equations) -> Result<DVector<f64>, AnalysisError> {
 
 /// A solution near a start. `equations` is `None` outside of where they are defined.
 pub(super) fn solve(
-    start: DVector<f64>,
-    equations: impl Fn(&DVector<f64>) -> Option<Equations>,
+    start: Column,
+    equations: impl Fn(&Column) -> Option<Equations>,
 ) -> Result<Solution, AnalysisError> {
     let mut at = start;
     let no_convergence = |residual: f64, steps| AnalysisError::NoConvergence { residual, steps };

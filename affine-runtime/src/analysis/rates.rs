@@ -2,13 +2,9 @@
 
 use crate::dual::Dual;
 use crate::frames::{Matrix, inverse};
-use crate::model::{Constraint, Description, Model, Quantity, StateVector};
+use crate::model::{Description, Model, Quantity, StateVector};
 use crate::scalar::Real;
-
-/// A multiplier keeps `det phi = 1`: the momentum is `Pi`, with all of its components.
-pub(super) fn has_multiplier(model: &Description) -> bool {
-    model.constraint == Some(Constraint::Isochoric) && place(model, Quantity::CanonicalMomentum).is_some()
-}
+use crate::simulate::has_multiplier;
 
 /// Where a quantity begins in the plain array.
 pub(super) fn place(model: &Description, quantity: Quantity) -> Option<usize> {

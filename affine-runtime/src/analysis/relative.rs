@@ -8,7 +8,7 @@ use super::field::{
     orbit, symplectic_form, vector,
 };
 use super::generator::{Generator, assert_symmetry, confined, symmetries};
-use super::linear::{RANK, decomposed, kernel};
+use super::linear::{Column, Dense, RANK, kernel, solved};
 use super::newton::{Equations, Solution, solve};
 use crate::model::Model;
 use crate::state::Phase;
@@ -84,33 +84,11 @@ pub fn relative_equilibrium<const N: usize, M: Model<N>>(
     if depends_on_time(model, &z) {
         return Err(AnalysisError::DependsOnTime);
     }
-    let mut velocities = moved_alike(model, generators, &z)?;
-    for condition in conditions {
-        if let Condition::Velocity(k, value) = condition
-            && let Some(velocity) = velocities.get_mut(*k)
-        {
-            *velocity = *value;
-        }
-    }
+    let velocities = solved(&orbit(model, generators, &z), &motion(model, &z))?;
     let problem = Problem { model, generators, conditions };
-    let start = DVector::from_iterator(z.len() + velocities.len(), z.iter().copied().chain(velocities));
-    let solution =
-        solve(start, |unknowns| problem.equations(unknowns)).map_err(|error| problem.explained(error, &z))?;
+    let start = DVector::from_iterator(z.len() + velocities.len(), z.iter().chain(&velocities).copied());
+    let solution = solve(start, |unknowns| problem.equations(unknowns))?;
     Ok(problem.relative_equilibrium(&solution))
-}
-
-/// The velocities of generators that come closest to a motion.
-fn moved_alike<const N: usize, M: Model<N>>(
-    model: &M,
-    generators: &[Generator<N>],
-    z: &DVector<f64>,
-) -> Result<Vec<f64>, AnalysisError> {
-    if generators.is_empty() {
-        return Ok(Vec::new());
-    }
-    let svd = decomposed(orbit(model, generators, z)).ok_or(AnalysisError::NoDecomposition)?;
-    let solution = svd.solve(&motion(model, z), RANK).map_err(|_| AnalysisError::NoDecomposition)?;
-    Ok(solution.iter().copied().collect())
 }
 
 /// The equations of a relative equilibrium in `(z, velocities)`.
@@ -121,7 +99,7 @@ pub(super) struct Problem<'a, const N: usize, M> {
 }
 
 impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
-    fn split(&self, unknowns: &DVector<f64>) -> (DVector<f64>, Vec<f64>) {
+    fn split(&self, unknowns: &Column) -> (Column, Vec<f64>) {
         let components = unknowns.len() - self.generators.len();
         (unknowns.rows(0, components).into_owned(), unknowns.iter().skip(components).copied().collect())
     }
@@ -132,7 +110,7 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
     }
 
     /// `X_H - X_zeta`, the constraints of the model, the conditions. `None` where `det phi <= 0`.
-    pub(super) fn values(&self, unknowns: &DVector<f64>) -> Option<DVector<f64>> {
+    pub(super) fn values(&self, unknowns: &Column) -> Option<Column> {
         let (z, velocities) = self.split(unknowns);
         if determinant(self.model.unflatten(&full::<N, M>(&z)).phi()) <= 0.0 {
             return None;
@@ -149,7 +127,7 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
     }
 
     /// These with their derivatives.
-    pub(super) fn equations(&self, unknowns: &DVector<f64>) -> Option<Equations> {
+    pub(super) fn equations(&self, unknowns: &Column) -> Option<Equations> {
         let (model, values, (z, velocities)) = (self.model, self.values(unknowns)?, self.split(unknowns));
         let fields = orbit(model, self.generators, &z);
         let slopes = linear_motion(model, &self.zeta(&velocities), &z);
@@ -182,25 +160,19 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
             steps: solution.steps,
         }
     }
-
-    /// A start without orientation is no failure of the iteration.
-    fn explained(&self, error: AnalysisError, z: &DVector<f64>) -> AnalysisError {
-        let determinant = determinant(self.model.unflatten(&full::<N, M>(z)).phi());
-        if determinant > 0.0 { error } else { AnalysisError::LeftGroup { determinant } }
-    }
 }
 
 /// A point with what its linearised motion is made of.
 pub(super) struct Linearised<const N: usize> {
     pub(super) symmetries: Vec<Generator<N>>,
     /// An orthonormal basis of the directions in which the constraint lets points go, over the plain array.
-    pub(super) basis: DMatrix<f64>,
+    pub(super) basis: Dense,
     /// `D(X_H - X_zeta)` in the basis.
-    pub(super) motion: DMatrix<f64>,
+    pub(super) motion: Dense,
     /// The symplectic form in the basis.
-    pub(super) form: DMatrix<f64>,
+    pub(super) form: Dense,
     /// Fields of the symmetries in the basis.
-    pub(super) orbit: DMatrix<f64>,
+    pub(super) orbit: Dense,
 }
 
 impl<const N: usize> Linearised<N> {
@@ -221,7 +193,7 @@ impl<const N: usize> Linearised<N> {
     }
 
     /// `D2(H - J_zeta)(u, v) = omega(A u, v)`, as it comes: symmetric where the motion is Hamiltonian.
-    pub(super) fn second_variation(&self) -> DMatrix<f64> {
+    pub(super) fn second_variation(&self) -> Dense {
         self.motion.tr_mul(&self.form)
     }
 }

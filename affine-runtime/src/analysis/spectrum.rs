@@ -3,7 +3,7 @@
 use nalgebra::{Complex, DMatrix, Schur};
 
 use super::error::AnalysisError;
-use super::linear::{MOST_SWEEPS, decomposed};
+use super::linear::{Dense, MOST_SWEEPS, decomposed};
 
 /// An error bound is so many times the first-order estimate.
 const SAFETY: f64 = 10.0;
@@ -24,10 +24,7 @@ pub struct Eigenvalue {
 }
 
 /// The eigenvalues of a motion, by imaginary part.
-pub(super) fn spectrum(
-    motion: &DMatrix<f64>,
-    energy: Option<&DMatrix<f64>>,
-) -> Result<Vec<Eigenvalue>, AnalysisError> {
+pub(super) fn spectrum(motion: &Dense, energy: Option<&Dense>) -> Result<Vec<Eigenvalue>, AnalysisError> {
     if motion.is_empty() {
         return Ok(Vec::new());
     }
@@ -52,13 +49,13 @@ pub(super) fn spectrum(
     Ok(all)
 }
 
-fn shifted(motion: &DMatrix<f64>, value: Complex<f64>) -> DMatrix<Complex<f64>> {
+fn shifted(motion: &Dense, value: Complex<f64>) -> DMatrix<Complex<f64>> {
     let complex = motion.map(|entry| Complex::new(entry, 0.0));
     complex - DMatrix::from_diagonal_element(motion.nrows(), motion.nrows(), value)
 }
 
 /// `eps |A|/|y^* x|` of the unit eigenvectors, of a cluster the cosine between what it is mapped from and to.
-fn error(motion: &DMatrix<f64>, value: Complex<f64>, size: f64) -> f64 {
+fn error(motion: &Dense, value: Complex<f64>, size: f64) -> f64 {
     let Some(svd) = decomposed(shifted(motion, value)) else { return f64::INFINITY };
     let (Some(u), Some(v_t)) = (&svd.u, &svd.v_t) else { return f64::INFINITY };
     let null: Vec<usize> =
@@ -74,12 +71,7 @@ fn error(motion: &DMatrix<f64>, value: Complex<f64>, size: f64) -> f64 {
 }
 
 /// The sign of `v^* E v` of an eigenspace, and whether it has both.
-fn signed(
-    motion: &DMatrix<f64>,
-    energy: &DMatrix<f64>,
-    value: Complex<f64>,
-    multiplicity: usize,
-) -> (i8, bool) {
+fn signed(motion: &Dense, energy: &Dense, value: Complex<f64>, multiplicity: usize) -> (i8, bool) {
     let Some(svd) = decomposed(shifted(motion, Complex::new(0.0, value.im))) else { return (0, true) };
     let Some(v_t) = &svd.v_t else { return (0, true) };
     let rows = v_t.nrows();
@@ -98,16 +90,8 @@ fn signed(
     }
 }
 
-/// With each eigenvalue its negative and its conjugate stand.
-pub(super) fn is_paired(eigenvalues: &[Eigenvalue]) -> bool {
-    let stands = |value: Complex<f64>, error: f64| {
-        eigenvalues.iter().any(|one| (one.value - value).norm() <= error + one.error)
-    };
-    eigenvalues.iter().all(|one| stands(-one.value, one.error) && stands(one.value.conj(), one.error))
-}
-
 /// The eigenvalues of a form, from the least.
-pub(super) fn principal(form: &DMatrix<f64>) -> Vec<f64> {
+pub(super) fn principal(form: &Dense) -> Vec<f64> {
     if form.is_empty() {
         return Vec::new();
     }
@@ -117,7 +101,7 @@ pub(super) fn principal(form: &DMatrix<f64>) -> Vec<f64> {
 }
 
 /// Numbers of positive, negative and zero eigenvalues of a form.
-pub(super) fn signs(form: &DMatrix<f64>) -> (usize, usize, usize) {
+pub(super) fn signs(form: &Dense) -> (usize, usize, usize) {
     let values = principal(form);
     let threshold = ZERO * values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let positive = values.iter().filter(|value| **value > threshold).count();

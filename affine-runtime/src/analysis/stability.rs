@@ -5,9 +5,9 @@ use nalgebra::{Complex, DMatrix, DVector};
 use super::error::AnalysisError;
 use super::field::{linear_generated, vector};
 use super::generator::Generator;
-use super::linear::{RANK, absolute_kernel, kernel, span};
+use super::linear::{Dense, RANK, absolute_kernel, kernel, span};
 use super::relative::{Linearised, RelativeEquilibrium};
-use super::spectrum::{Eigenvalue, is_paired, principal, signs, spectrum};
+use super::spectrum::{Eigenvalue, principal, signs, spectrum};
 use crate::model::Model;
 
 /// A part of a second variation by which it may fail to be symmetric.
@@ -45,8 +45,6 @@ pub enum Doubt {
     MixedSigns,
     /// The symmetries that keep the momentum are not compact: motions may drift along them.
     NonCompact,
-    /// Eigenvalues are too close to be told apart.
-    Cluster,
     /// Neither damped nor growing.
     Neutral,
 }
@@ -143,7 +141,7 @@ impl<const N: usize> Stability<N> {
 /// The directions that keep all momenta, without those along the orbit of the group that keeps them.
 struct Slice {
     /// Orthonormal columns.
-    columns: DMatrix<f64>,
+    columns: Dense,
     /// Dimension of what was left out of the kernel of the momenta.
     along_orbit: usize,
     is_compact: bool,
@@ -160,17 +158,17 @@ impl Slice {
         Self { columns, along_orbit: along.ncols(), is_compact: is_compact(&at.symmetries, &stays) }
     }
 
-    fn form(&self, form: &DMatrix<f64>) -> DMatrix<f64> {
+    fn form(&self, form: &Dense) -> Dense {
         let form = self.columns.tr_mul(form) * &self.columns;
         (&form + form.transpose()) * 0.5
     }
 
-    fn motion<const N: usize>(&self, at: &Linearised<N>) -> DMatrix<f64> {
+    fn motion<const N: usize>(&self, at: &Linearised<N>) -> Dense {
         self.columns.tr_mul(&at.motion) * &self.columns
     }
 
     /// The second variation, where the motion is Hamiltonian.
-    fn energy<const N: usize>(&self, at: &Linearised<N>) -> Option<DMatrix<f64>> {
+    fn energy<const N: usize>(&self, at: &Linearised<N>) -> Option<Dense> {
         let whole = at.second_variation();
         let defect = (&whole - whole.transpose()).norm();
         (defect <= ASYMMETRY * whole.norm()).then(|| self.form(&whole))
@@ -178,7 +176,7 @@ impl Slice {
 }
 
 /// The algebra has an inner product that its group keeps: Killing's form is negative beside the centre.
-fn is_compact<const N: usize>(symmetries: &[Generator<N>], stays: &DMatrix<f64>) -> bool {
+fn is_compact<const N: usize>(symmetries: &[Generator<N>], stays: &Dense) -> bool {
     let element = |column: usize| {
         let factors = stays.column(column);
         let terms = symmetries.iter().zip(factors.iter());
@@ -190,7 +188,7 @@ fn is_compact<const N: usize>(symmetries: &[Generator<N>], stays: &DMatrix<f64>)
     }
     let components = DMatrix::from_columns(&elements.iter().map(Generator::components).collect::<Vec<_>>());
     let Ok(inverse) = components.pseudo_inverse(RANK) else { return false };
-    let adjoint: Vec<DMatrix<f64>> = elements
+    let adjoint: Vec<Dense> = elements
         .iter()
         .map(|a| {
             let brackets: Vec<_> = elements.iter().map(|b| &inverse * a.bracket(b).components()).collect();
@@ -213,8 +211,8 @@ fn isotropic<const N: usize, M: Model<N>>(
     model: &M,
     turn: &RelativeEquilibrium<N, M::Point<f64>>,
     at: &Linearised<N>,
-    isotropy: &DMatrix<f64>,
-) -> Vec<(Generator<N>, DMatrix<f64>)> {
+    isotropy: &Dense,
+) -> Vec<(Generator<N>, Dense)> {
     let z = vector(&model.flatten(&turn.point));
     let of = |column: usize| {
         let terms = at.symmetries.iter().zip(isotropy.column(column).iter().copied().collect::<Vec<_>>());
@@ -233,14 +231,14 @@ fn isotropic<const N: usize, M: Model<N>>(
 }
 
 /// The factors of variations for which the least eigenvalue of a form, or of its negative, is largest: a concave function.
-fn nearest_to_definite(energy: &DMatrix<f64>, variations: &[DMatrix<f64>]) -> (Vec<f64>, DMatrix<f64>) {
+fn nearest_to_definite(energy: &Dense, variations: &[Dense]) -> (Vec<f64>, Dense) {
     let mut best = (vec![0.0; variations.len()], energy.clone());
     if energy.is_empty() || variations.is_empty() {
         return best;
     }
     let mut height = f64::NEG_INFINITY;
     for sign in [1.0, -1.0] {
-        let least = |form: &DMatrix<f64>| (form * sign).symmetric_eigenvalues().min();
+        let least = |form: &Dense| (form * sign).symmetric_eigenvalues().min();
         if least(energy) > 0.0 {
             return (vec![0.0; variations.len()], energy.clone());
         }
@@ -279,19 +277,13 @@ fn growth(eigenvalues: &[Eigenvalue]) -> Option<f64> {
 }
 
 fn conservative(eigenvalues: &[Eigenvalue]) -> StabilityVerdict {
-    if let Some(rate) = growth(eigenvalues) {
-        return StabilityVerdict::Unstable { rate };
-    }
-    let zero = |value: Complex<f64>, error: f64| value.norm() <= error;
-    if eigenvalues.iter().any(|one| zero(one.value, one.error)) {
-        return StabilityVerdict::Undecided(Doubt::ZeroMode);
-    }
-    if eigenvalues.iter().any(|one| one.is_mixed) {
-        return StabilityVerdict::Undecided(Doubt::MixedSigns);
-    }
-    match is_paired(eigenvalues) {
-        true => StabilityVerdict::LinearlyStable,
-        false => StabilityVerdict::Undecided(Doubt::Cluster),
+    match growth(eigenvalues) {
+        Some(rate) => StabilityVerdict::Unstable { rate },
+        None if eigenvalues.iter().any(|one| one.value.norm() <= one.error) => {
+            StabilityVerdict::Undecided(Doubt::ZeroMode)
+        }
+        None if eigenvalues.iter().any(|one| one.is_mixed) => StabilityVerdict::Undecided(Doubt::MixedSigns),
+        None => StabilityVerdict::LinearlyStable,
     }
 }
 

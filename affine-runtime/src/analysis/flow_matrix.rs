@@ -1,0 +1,231 @@
+//! How motions depend on where they start, and on the fields of their model.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::error::AnalysisError;
+use super::field::{full, normals, symplectic_form, vector};
+use super::jacobian::JacobianMatrix;
+use super::linear::{RANK, kernel};
+use super::rates::rates;
+use crate::dual::Dual;
+use crate::integrate::RungeKutta8;
+use crate::model::{Group, Model, Quantity, StateVector};
+use crate::parametric::{Fields, Parametric};
+use crate::simulate::has_multiplier;
+
+/// Components of the largest state with a matrix of as many columns.
+const COMPONENTS: usize = 24 * 25;
+/// The least number of times that columns are made orthonormal.
+const ROUNDS: f64 = 128.0;
+
+/// A state, then its columns one after the other.
+type Wide = [f64; COMPONENTS];
+
+/// Groups of a state, then one of all columns.
+const fn with_columns(groups: &[Group]) -> ([Group; 8], usize) {
+    let mut all = [Group::new(Quantity::TangentVector, COMPONENTS); 8];
+    let (mut k, mut left) = (0, COMPONENTS);
+    while k < groups.len() {
+        all[k] = groups[k];
+        left -= groups[k].len;
+        k += 1;
+    }
+    all[k] = Group::new(Quantity::TangentVector, left);
+    (all, k + 1)
+}
+
+/// The derivative of a motion with respect to its start, in all directions: `M' = A(z(t)) M`, `M(t0) = 1`, over the plain array.
+///
+/// State and matrix are integrated together, so that all columns share the motion. The equations are recorded at the start, see
+/// [`JacobianMatrix`]. Columns along a constraint mean something, others do not.
+///
+/// ```
+/// use affine_runtime::analysis::FlowMatrix;
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(dim = 2, kinetic(dalembert = 1), potential = tr(G)/2)]
+/// struct Oscillator;
+///
+/// let start = Oscillator.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros())?;
+/// let mut flow = FlowMatrix::new(&Oscillator, (0.0, &start), 1e-12);
+/// flow.advance_to(1.0)?;
+/// assert!((flow.matrix()[(0, 0)] - 1.0_f64.cos()).abs() < 1e-11);
+/// assert!(flow.defect() < 1e-11);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct FlowMatrix<'a, const N: usize, M: Model<N>> {
+    model: &'a M,
+    jacobian: JacobianMatrix,
+    start: DVector<f64>,
+    t: f64,
+    state: Box<Wide>,
+    tolerance: f64,
+}
+
+impl<'a, const N: usize, M: Model<N>> FlowMatrix<'a, N, M> {
+    const GROUPS: &'static ([Group; 8], usize) = &with_columns(M::DESCRIPTION.full);
+
+    /// The identity at a point and a time. The tolerance bounds the relative error of each step.
+    pub fn new(model: &'a M, (t, point): (f64, &M::Point<f64>), tolerance: f64) -> Self {
+        let jacobian = JacobianMatrix::of(model, t, point);
+        let start = vector(&model.flatten(point));
+        let mut flow = Self { model, jacobian, start, t, state: Box::new([0.0; COMPONENTS]), tolerance };
+        flow.state[..flow.start.len()].copy_from_slice(flow.start.as_slice());
+        flow.set(&DMatrix::identity(flow.start.len(), flow.start.len()));
+        flow
+    }
+
+    fn set(&mut self, columns: &DMatrix<f64>) {
+        self.state[self.start.len()..].fill(0.0);
+        self.state[self.start.len()..][..columns.len()].copy_from_slice(columns.as_slice());
+    }
+
+    fn columns(&self, count: usize) -> DMatrix<f64> {
+        let own = self.start.len();
+        DMatrix::from_column_slice(own, count, &self.state[own..own * (count + 1)])
+    }
+
+    /// Moves to a time, forward or backward.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Integration`]; the matrix stays where it was.
+    pub fn advance_to(&mut self, t: f64) -> Result<(), AnalysisError> {
+        self.advance(t, |_, _| DMatrix::zeros(0, 0))
+    }
+
+    /// `M' = A M + forcing(t, z)`.
+    fn advance(
+        &mut self,
+        end: f64,
+        forcing: impl Fn(f64, &M::Full<f64>) -> DMatrix<f64>,
+    ) -> Result<(), AnalysisError> {
+        let (own, groups) = (self.start.len(), Self::GROUPS.0.split_at(Self::GROUPS.1).0);
+        let slope = |t: f64, wide: &Wide| {
+            let z = full::<N, M>(&DVector::from_column_slice(&wide[..own]));
+            let columns = DMatrix::from_column_slice(own, own, &wide[own..own * (own + 1)]);
+            let (rates, forced) = (rates(self.model, t, &z), forcing(t, &z));
+            let moved = self.jacobian.at(t, z) * columns;
+            let mut slope = [0.0; COMPONENTS];
+            slope[..own].copy_from_slice(rates.as_ref());
+            slope[own..][..moved.len()].copy_from_slice(moved.as_slice());
+            slope[own..].iter_mut().zip(forced.iter()).for_each(|(slope, forced)| *slope += forced);
+            slope
+        };
+        let mut steps = RungeKutta8::new(slope, groups, (self.t, *self.state), end, self.tolerance)?;
+        while !steps.is_finished() {
+            steps.advance()?;
+        }
+        *self.state = *steps.y();
+        self.t = end;
+        Ok(())
+    }
+
+    /// The phase point.
+    #[must_use]
+    pub fn point(&self) -> M::Point<f64> {
+        self.model.unflatten(&full::<N, M>(&DVector::from_column_slice(&self.state[..self.start.len()])))
+    }
+
+    /// `M`: the derivative of component `i` by component `k` of the start in row `i` and column `k`.
+    #[must_use]
+    pub fn matrix(&self) -> DMatrix<f64> {
+        self.columns(self.start.len())
+    }
+
+    /// How far the matrix is from symplectic, `|M^T W(t) M - W(t0)|` over the size of what cancels, on the directions that a
+    /// constraint leaves: rounding and tolerance where the motion is Hamiltonian.
+    #[must_use]
+    pub fn defect(&self) -> f64 {
+        let z = vector(&self.model.flatten(&self.point()));
+        let basis = kernel(&normals(self.model, &self.start), RANK);
+        let (before, moved) = (symplectic_form(self.model, &self.start), self.matrix() * &basis);
+        let after = symplectic_form(self.model, &z);
+        let difference = moved.tr_mul(&after) * &moved - basis.tr_mul(&before) * &basis;
+        difference.norm() / (moved.norm_squared() * after.norm())
+    }
+}
+
+/// The derivative of the plain array at a time by the fields of a model, one column each in the order of their values, where the
+/// plain array of the start is held: placement and momentum, not the velocity.
+///
+/// # Errors
+/// [`AnalysisError::Model`] where coefficients have no derivative, [`AnalysisError::Integration`];
+/// [`AnalysisError::HasMultiplier`] for an isochoric `dalembert`.
+pub fn field_sensitivities<const N: usize, F: Fields<N>>(
+    fields: &F,
+    model: &F::Prepared,
+    (t0, point): (f64, &<F::Prepared as Model<N>>::Point<f64>),
+    t: f64,
+    tolerance: f64,
+) -> Result<DMatrix<f64>, AnalysisError> {
+    if has_multiplier(&<F::Prepared as Model<N>>::DESCRIPTION) {
+        return Err(AnalysisError::HasMultiplier);
+    }
+    let values = fields.values();
+    let varied = (0..values.as_ref().len()).map(|k| {
+        let mut varied = F::Values::<Dual<f64>>::zeros();
+        varied.as_mut().iter_mut().zip(values.as_ref()).for_each(|(both, value)| *both = Dual::fixed(*value));
+        varied.as_mut()[k].slope = 1.0;
+        F::coefficients_of(&varied)
+    });
+    let coefficients = varied.collect::<Result<Vec<_>, _>>()?;
+    let mut flow = FlowMatrix::new(model, (t0, point), tolerance);
+    flow.set(&DMatrix::zeros(0, 0));
+    flow.advance(t, |t, z| {
+        let mut fixed = <F::Prepared as Model<N>>::Full::<Dual<f64>>::zeros();
+        fixed.as_mut().iter_mut().zip(z.as_ref()).for_each(|(both, value)| *both = Dual::fixed(*value));
+        let slopes = coefficients.iter().flat_map(|coefficients| {
+            let rates = model.hamilton_equations_with(coefficients, Dual::fixed(t), &fixed);
+            rates.as_ref().iter().map(|rate| rate.slope).collect::<Vec<_>>()
+        });
+        DMatrix::from_iterator(z.as_ref().len(), coefficients.len(), slopes)
+    })?;
+    Ok(flow.columns(coefficients.len()))
+}
+
+/// Lyapunov exponents of a motion over a time, from the largest, in the norm of the plain array.
+#[derive(Clone, Debug)]
+pub struct LyapunovSpectrum {
+    /// The exponents.
+    pub exponents: Vec<f64>,
+    /// What they may be off by: their change over the second half of the time, the sum of the pair that should be opposite, and
+    /// `ln t/t` of growth that is no exponential.
+    pub errors: Vec<f64>,
+}
+
+/// The Lyapunov spectrum of a motion, by columns that are made orthonormal again and again (G. Benettin et al., Meccanica 15
+/// (1980) 9). On motions that are not bounded it depends on the layout, see [`Description::full`](crate::model::Description::full).
+///
+/// # Errors
+/// [`AnalysisError::Integration`].
+pub fn lyapunov_spectrum<const N: usize, M: Model<N>>(
+    model: &M,
+    start: &M::Point<f64>,
+    time: f64,
+    tolerance: f64,
+) -> Result<LyapunovSpectrum, AnalysisError> {
+    let mut flow = FlowMatrix::new(model, (0.0, start), tolerance);
+    let mut columns = kernel(&normals(model, &flow.start), RANK);
+    let (count, rounds) = (columns.ncols(), time.abs().max(ROUNDS).ceil());
+    let (mut sums, mut half) = (DVector::<f64>::zeros(count), DVector::<f64>::zeros(count));
+    for round in 1..=rounds as usize {
+        flow.set(&columns);
+        flow.advance_to(time * round as f64 / rounds)?;
+        let decomposition = flow.columns(count).qr();
+        sums += decomposition.r().diagonal().map(|entry| entry.abs().ln());
+        columns = decomposition.q();
+        if 2 * round <= rounds as usize {
+            half.copy_from(&sums);
+        }
+    }
+    let secular = time.abs().max(1.0).ln() / time.abs();
+    let own: Vec<(f64, f64)> =
+        sums.iter().zip(half.iter()).map(|(sum, half)| (sum / time, 2.0 * half / time)).collect();
+    let mut exponents: Vec<f64> = own.iter().map(|(exponent, _)| *exponent).collect();
+    exponents.sort_by(|a, b| b.total_cmp(a));
+    let drift = own.iter().map(|(whole, half)| (whole - half).abs()).fold(0.0, f64::max);
+    let pair = |k: usize| (exponents[k] + exponents[count - 1 - k]).abs();
+    let errors = (0..count).map(|k| drift + pair(k) + secular).collect();
+    Ok(LyapunovSpectrum { exponents, errors })
+}
