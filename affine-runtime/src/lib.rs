@@ -84,6 +84,7 @@
 //! | `analysis` | [`analysis`]: Jacobians, equilibria, stability, branches |
 //! | `parallel` | ensembles on all processors |
 //! | `progress` | a bar that shows how many bodies of an ensemble are done |
+//! | `rand` | starts of ensembles that are drawn, `starts` |
 //! | `serde` | points, tables and checkpoints that can be written and read, runs and descriptions that can be written |
 //! | `approx` | points that `assert_relative_eq!` compares |
 //! | `npy` | tables as archives of NumPy arrays |
@@ -107,6 +108,8 @@ pub mod sampling;
 pub mod signature;
 #[cfg(feature = "std")]
 pub mod simulate;
+#[cfg(feature = "rand")]
+pub mod starts;
 pub mod variation;
 #[cfg(all(feature = "std", not(feature = "report")))]
 mod without_report;

@@ -8,6 +8,7 @@ mod models;
 mod outcomes;
 mod saved;
 mod shards;
+mod starts;
 mod sweeps;
 mod tables;
 mod watched;

@@ -1,0 +1,232 @@
+//! Starts of ensembles, drawn: distributions of the crate `rand` whose values are phase points, and places in boxes of fields.
+//!
+//! ```
+//! use affine_runtime::prelude::*;
+//! use affine_runtime::starts::Gaussian;
+//! use rand::{SeedableRng, distr::Distribution, rngs::StdRng};
+//!
+//! #[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1), emit(lanes))]
+//! struct Disc;
+//!
+//! let rest = Disc.at_momentum(Matrix::<2>::identity(), Comoving(Matrix::<2>::zeros()))?;
+//! let starts = Gaussian::around(&Disc, rest).placement(0.1).momentum(0.3).sample_iter(StdRng::seed_from_u64(1));
+//! let ends = Ensemble::new(&Disc, starts.take(50)).until(1.0).run()?;
+//! assert!(ends.iter().all(Result::is_ok));
+//! # Ok::<(), affine_runtime::Error>(())
+//! ```
+
+use nalgebra::{SMatrix, SVector};
+use rand::distr::Distribution;
+use rand::{Rng, RngExt};
+use rand_distr::StandardNormal;
+
+use crate::inner::LogDeterminant;
+use crate::model::{Model, Quantity};
+use crate::state::Phase;
+
+/// Phase points around one: all numbers of placement, momentum, position and linear momentum are independent, with a normal
+/// distribution around those of the point and the standard deviation that was asked for, 0 if not set. The momentum is that of
+/// the model's own frame, `Sigma`, `Sigma_hat` or `Pi`. Placements without positive determinant are drawn again.
+///
+/// Not for models under a constraint, whose points are no vectors: that does not compile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gaussian<const N: usize, P> {
+    point: P,
+    /// Of placement, momentum, position and linear momentum.
+    deviations: [f64; 4],
+}
+
+impl<const N: usize, P: Phase<N>> Gaussian<N, P> {
+    /// Around a phase point of a model.
+    #[must_use]
+    pub fn around<M: Model<N, Point<f64> = P>>(_model: &M, point: P) -> Self {
+        const { assert!(M::DESCRIPTION.constraint.is_none(), "points under a constraint are no vectors") }
+        Self { point, deviations: [0.0; 4] }
+    }
+
+    /// Standard deviation of each entry of `phi`.
+    #[must_use]
+    pub fn placement(mut self, deviation: f64) -> Self {
+        self.deviations[0] = deviation;
+        self
+    }
+
+    /// Standard deviation of each entry of the momentum.
+    #[must_use]
+    pub fn momentum(mut self, deviation: f64) -> Self {
+        self.deviations[1] = deviation;
+        self
+    }
+
+    /// Standard deviation of each component of `x`; a pinned body has none.
+    #[must_use]
+    pub fn position(mut self, deviation: f64) -> Self {
+        self.deviations[2] = deviation;
+        self
+    }
+
+    /// Standard deviation of each component of `p`; a pinned body has none.
+    #[must_use]
+    pub fn linear_momentum(mut self, deviation: f64) -> Self {
+        self.deviations[3] = deviation;
+        self
+    }
+}
+
+impl<const N: usize, P: Phase<N>> Distribution<P> for Gaussian<N, P> {
+    fn sample<R: Rng + ?Sized>(&self, rng: &mut R) -> P {
+        let numbers = numbers(&self.point);
+        loop {
+            let mut place = 0;
+            let drawn = self.point.with_entries(&mut || {
+                let group = group::<N>(place);
+                let number = numbers[place] + self.deviations[group] * rng.sample::<f64, _>(StandardNormal);
+                place += 1;
+                number
+            });
+            // No number is ever in the way of a placement that stays, and half of all matrices have one at least.
+            if self.deviations[0] == 0.0 || LogDeterminant::of(drawn.phi()).is_positive() {
+                return drawn;
+            }
+        }
+    }
+}
+
+/// Numbers of all momenta, the internal and the linear one.
+const MOMENTA: usize = 12;
+
+/// Phase points with placement and position of one, and momenta of a level of the energy: uniform on the ellipsoid
+/// `T(momenta) = E - U`, as the microcanonical ensemble at a fixed placement has it, `delta(H - E)` over all momenta. With
+/// `T = 1/2 pi^T A pi` and `A = L L^T`, `L^T pi` is uniform on a sphere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnergyLevel<const N: usize, P> {
+    point: P,
+    /// From the unit sphere to momenta.
+    root: SMatrix<f64, MOMENTA, MOMENTA>,
+    momenta: usize,
+}
+
+impl<const N: usize, P: Phase<N>> EnergyLevel<N, P> {
+    /// At the placement and the position of a phase point, at a time. `None` where rest has more energy than that, and where
+    /// the kinetic energy is not quadratic or not positive.
+    #[must_use]
+    pub fn at<M: Model<N, Point<f64> = P>>(model: &M, (t, point): (f64, P), energy: f64) -> Option<Self> {
+        const { assert!(M::DESCRIPTION.constraint.is_none(), "momenta under a constraint are no vectors") }
+        let moves = M::DESCRIPTION.full.iter().any(|group| group.quantity == Quantity::Position);
+        let momenta = N * N + if moves { N } else { 0 };
+        let of = |momenta: &SVector<f64, MOMENTA>| model.hamiltonian(t, &with_momenta(&point, momenta));
+        let rest = of(&SVector::zeros());
+        let unit = |i: usize| SVector::<f64, MOMENTA>::from_fn(|k, _| f64::from(u8::from(i == k)));
+        let single: Vec<f64> = (0..momenta).map(|i| of(&unit(i)) - rest).collect();
+        let mut form = SMatrix::<f64, MOMENTA, MOMENTA>::identity();
+        for i in 0..momenta {
+            form[(i, i)] = 2.0 * single[i];
+            for k in 0..i {
+                form[(i, k)] = of(&(unit(i) + unit(k))) - rest - single[i] - single[k];
+                form[(k, i)] = form[(i, k)];
+            }
+        }
+        let free = energy - rest;
+        let root =
+            form.cholesky().filter(|_| free >= 0.0)?.l().transpose().try_inverse()? * (2.0 * free).sqrt();
+        // Of no quadratic energy a sum of directions has the energy of the form.
+        let probe =
+            root * SVector::from_fn(|k, _| if k < momenta { 1.0 / (momenta as f64).sqrt() } else { 0.0 });
+        let is_quadratic = (of(&probe) - energy).abs() <= NEARLY * (free + rest.abs());
+        is_quadratic.then_some(Self { point, root, momenta })
+    }
+}
+
+/// Part of an energy that rounding may make of the sums of a quadratic form.
+const NEARLY: f64 = 1e-9;
+
+impl<const N: usize, P: Phase<N>> Distribution<P> for EnergyLevel<N, P> {
+    fn sample<R: Rng + ?Sized>(&self, rng: &mut R) -> P {
+        let numbers =
+            SVector::from_fn(|k, _| if k < self.momenta { rng.sample(StandardNormal) } else { 0.0 });
+        with_momenta(&self.point, &(self.root * direction(numbers)))
+    }
+}
+
+/// Phase points with placement, position and linear momentum of one, and momenta of the model's own frame, `Sigma`,
+/// `Sigma_hat` or `Pi`, of a level of their Frobenius norm: uniform on that sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MomentumLevel<const N: usize, P> {
+    point: P,
+    norm: f64,
+}
+
+impl<const N: usize, P: Phase<N>> MomentumLevel<N, P> {
+    /// At the placement of a phase point of a model.
+    #[must_use]
+    pub fn at<M: Model<N, Point<f64> = P>>(_model: &M, point: P, norm: f64) -> Self {
+        const { assert!(M::DESCRIPTION.constraint.is_none(), "momenta under a constraint are no vectors") }
+        Self { point, norm }
+    }
+}
+
+impl<const N: usize, P: Phase<N>> Distribution<P> for MomentumLevel<N, P> {
+    fn sample<R: Rng + ?Sized>(&self, rng: &mut R) -> P {
+        let numbers = SVector::from_fn(|k, _| if k < N * N { rng.sample(StandardNormal) } else { 0.0 });
+        let mut momenta = direction(numbers) * self.norm;
+        self.point.p().iter().enumerate().for_each(|(i, p)| momenta[N * N + i] = *p);
+        with_momenta(&self.point, &momenta)
+    }
+}
+
+/// `count` places in a box, by its lower and upper bounds: of as many equal parts of every side each has one place, at random in
+/// it, the parts of different sides being in random orders (Latin hypercube: McKay, Beckman, Conover, Technometrics 21 (1979)
+/// 239). For sweeps over many fields, where a grid is too large.
+pub fn latin_hypercube<R: Rng + ?Sized>(rng: &mut R, count: usize, bounds: &[(f64, f64)]) -> Vec<Vec<f64>> {
+    let mut places = vec![Vec::with_capacity(bounds.len()); count];
+    for (low, high) in bounds {
+        let mut parts: Vec<usize> = (0..count).collect();
+        // Fisher and Yates.
+        for last in (1..count).rev() {
+            parts.swap(last, rng.random_range(0..=last));
+        }
+        for (place, part) in places.iter_mut().zip(parts) {
+            let within = (part as f64 + rng.random::<f64>()) / count as f64;
+            place.push(low + (high - low) * within);
+        }
+    }
+    places
+}
+
+/// The numbers of a phase point, as [`Phase::entries`] has them.
+fn numbers<const N: usize, P: Phase<N>>(point: &P) -> [f64; 24] {
+    let (mut numbers, mut place) = ([0.0; 24], 0);
+    point.entries(&mut |number| {
+        numbers[place] = number;
+        place += 1;
+    });
+    numbers
+}
+
+/// Placement, momentum, position, linear momentum: the group of a place among these numbers.
+fn group<const N: usize>(place: usize) -> usize {
+    match place / (N * N) {
+        group @ (0 | 1) => group,
+        _ => 2 + usize::from(place >= 2 * N * N + N),
+    }
+}
+
+/// The point with other momenta: those of its own frame, then the linear ones.
+fn with_momenta<const N: usize, P: Phase<N>>(point: &P, momenta: &SVector<f64, MOMENTA>) -> P {
+    let numbers = numbers(point);
+    let mut place = 0;
+    point.with_entries(&mut || {
+        let number = match group::<N>(place) {
+            1 => momenta[place - N * N],
+            3 => momenta[place - N * N - N],
+            _ => numbers[place],
+        };
+        place += 1;
+        number
+    })
+}
+
+/// The vector over its length.
+fn direction(vector: SVector<f64, MOMENTA>) -> SVector<f64, MOMENTA> {
+    vector / vector.norm()
+}

@@ -1,0 +1,120 @@
+//! Starts that are drawn.
+
+use affine_runtime::prelude::*;
+use affine_runtime::starts::{EnergyLevel, Gaussian, MomentumLevel, latin_hypercube};
+use rand::SeedableRng;
+use rand::distr::Distribution;
+use rand::rngs::StdRng;
+
+use crate::models::{DrunkMissile, Elastic, Sampled, Unprotected};
+
+const DRAWN: usize = 20_000;
+/// A mean of that many, over the standard deviation of one: six standard deviations.
+const MEAN: f64 = 6.0 / 141.4;
+
+fn random() -> StdRng {
+    StdRng::seed_from_u64(91)
+}
+
+/// Mean and standard deviation of each kind of number; the placement is so far from the boundary that none is drawn again.
+#[test]
+fn gaussian_starts_have_the_deviations_that_were_asked_for() {
+    let point = Unprotected.samples(1, 92)[0];
+    let around = Gaussian::around(&Unprotected, point)
+        .placement(0.05)
+        .momentum(0.2)
+        .position(0.3)
+        .linear_momentum(0.4);
+    let points: Vec<_> = around.sample_iter(random()).take(DRAWN).collect();
+    let centre = Unprotected.flatten(&point);
+    let deviations = [0.3, 0.3, 0.05, 0.05, 0.05, 0.05, 0.4, 0.4, 0.2, 0.2, 0.2, 0.2];
+    for place in 0..12 {
+        let off: Vec<f64> =
+            points.iter().map(|point| Unprotected.flatten(point)[place] - centre[place]).collect();
+        let mean = off.iter().sum::<f64>() / DRAWN as f64;
+        let square = off.iter().map(|off| off * off).sum::<f64>() / DRAWN as f64;
+        // The order of numbers is that of the model.
+        let deviation = deviations
+            .into_iter()
+            .min_by(|a, b| (a - square.sqrt()).abs().total_cmp(&(b - square.sqrt()).abs()));
+        let deviation = deviation.unwrap();
+        assert!(mean.abs() < MEAN * deviation, "{place}: {mean}");
+        assert!((square.sqrt() / deviation - 1.0).abs() < MEAN, "{place}: {} and {deviation}", square.sqrt());
+    }
+    let of = |number: fn(&<Unprotected as Model<2>>::Point<f64>) -> f64| {
+        let off = points.iter().map(|drawn| (number(drawn) - number(&point)).powi(2));
+        (off.sum::<f64>() / DRAWN as f64).sqrt()
+    };
+    let found = [of(|p| p.phi()[(0, 1)]), of(|p| p.pi().0.0[(1, 0)]), of(|p| p.x()[1]), of(|p| p.p()[0])];
+    for (found, asked) in found.into_iter().zip([0.05, 0.2, 0.3, 0.4]) {
+        assert!((found / asked - 1.0).abs() < MEAN, "{found} and {asked}");
+    }
+    let wide = Gaussian::around(&Unprotected, point).placement(2.0);
+    assert!(wide.sample_iter(random()).take(500).all(|point| point.phi().determinant() > 0.0));
+    assert_eq!(Gaussian::around(&Unprotected, point).sample(&mut random()), point);
+}
+
+/// Energies are those of the level, and each direction has its part of them: `T = |p|^2/2 + |Pi|^2/2`, six directions in all.
+#[test]
+fn starts_of_a_level_of_energy_are_spread_evenly() {
+    let (point, t) = (Unprotected.samples(1, 93)[0], 0.7);
+    let rest = Unprotected
+        .at_momentum(point.x(), *point.phi(), Vector::<2>::zeros(), TwoPoint(Matrix::<2>::zeros()))
+        .unwrap();
+    let free = 1.7;
+    let energy = Unprotected.hamiltonian(t, &rest) + free;
+    let level = EnergyLevel::at(&Unprotected, (t, point), energy).unwrap();
+    let points: Vec<_> = level.sample_iter(random()).take(DRAWN).collect();
+    let mut parts = [0.0; 6];
+    for drawn in &points {
+        assert!((Unprotected.hamiltonian(t, drawn) - energy).abs() < 1e-13);
+        assert_eq!((drawn.phi(), drawn.x()), (point.phi(), point.x()));
+        let pi = drawn.pi().0.0;
+        let momenta = [drawn.p()[0], drawn.p()[1], pi[(0, 0)], pi[(0, 1)], pi[(1, 0)], pi[(1, 1)]];
+        parts.iter_mut().zip(momenta).for_each(|(part, momentum)| *part += 0.5 * momentum * momentum);
+    }
+    for part in parts {
+        assert!((part / DRAWN as f64 - free / 6.0).abs() < MEAN * free / 2.0, "{part}");
+    }
+    assert!(EnergyLevel::at(&Unprotected, (t, point), energy - 1.01 * free).is_none());
+    // Another frame, and a mass matrix that is full; in space.
+    let point = DrunkMissile.samples(1, 94)[0];
+    let energy = DrunkMissile.hamiltonian(0.0, &point);
+    let level = EnergyLevel::at(&DrunkMissile, (0.0, point), energy).unwrap();
+    for drawn in level.sample_iter(random()).take(100) {
+        assert!((DrunkMissile.hamiltonian(0.0, &drawn) / energy - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn starts_of_a_level_of_momentum_are_spread_evenly() {
+    let point = Elastic.samples(1, 95)[0];
+    let level = MomentumLevel::at(&Elastic, point, 0.8);
+    let mut squares = Matrix::<3>::zeros();
+    for drawn in level.sample_iter(random()).take(DRAWN) {
+        let pi = drawn.pi().0.0;
+        assert!((pi.norm() - 0.8).abs() < 1e-14 && drawn.phi() == point.phi());
+        squares += pi.component_mul(&pi);
+    }
+    for square in squares.iter() {
+        assert!((square / DRAWN as f64 - 0.64 / 9.0).abs() < MEAN * 0.64 / 9.0 * 2.0, "{square}");
+    }
+    let moving = Unprotected.samples(1, 95)[0];
+    let drawn = MomentumLevel::at(&Unprotected, moving, 0.8).sample(&mut random());
+    assert_eq!((drawn.x(), drawn.p()), (moving.x(), moving.p()));
+}
+
+#[test]
+fn every_part_of_every_side_has_one_place() {
+    let bounds = [(0.0, 1.0), (-3.0, 5.0), (10.0, 10.5)];
+    let places = latin_hypercube(&mut random(), 40, &bounds);
+    assert_eq!(places.len(), 40);
+    for (side, (low, high)) in bounds.iter().enumerate() {
+        let mut parts: Vec<usize> =
+            places.iter().map(|place| (40.0 * (place[side] - low) / (high - low)) as usize).collect();
+        assert_ne!(parts, (0..40).collect::<Vec<_>>(), "not in order");
+        parts.sort_unstable();
+        assert_eq!(parts, (0..40).collect::<Vec<_>>());
+    }
+    assert!(latin_hypercube(&mut random(), 0, &bounds).is_empty());
+}
