@@ -250,8 +250,7 @@ use proc_macro::TokenStream;
 ///
 /// | refused | beside | why |
 /// |---|---|---|
-/// | `emit(taylor)` | a constraint | coordinates of a group change from step to step, and series with them |
-/// | `emit(tangent)` | `constraint = isochoric` of `dalembert` | there the equations are those of a free body, and the method adds the multiplier step by step |
+/// | `emit(taylor)`, `emit(tangent)` | `constraint = isochoric` of `dalembert` | there the equations are those of a free body, and the method adds the multiplier step by step |
 /// | `emit(taylor)`, `emit(tangent)` | a potential of single stretches | stretches are found by an iteration, and what follows from the operations of a formula does not follow from it |
 /// | `emit(taylor)` | `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential` | what a field computes is not known operation by operation |
 /// | `emit(splitting)` | `constraint = isochoric` of `dalembert` | the force of the multiplier depends on all momenta and positions, and no piece has an exact flow |

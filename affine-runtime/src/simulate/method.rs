@@ -26,6 +26,8 @@ pub enum Method {
     /// (`cargo test -p affine-runtime --test simulation order_5 -- --nocapture`), and what adds up grows with the time.
     RungeKutta5,
     /// Taylor series, [`Taylor`](crate::integrate::Taylor), of a model with `emit(taylor)`; an error for others.
+    /// Under a constraint the steps are in the space around the group and keep it within their error, about rounding at a tolerance
+    /// of 1e-13; [`Method::Automatic`] does not take them there.
     Taylor {
         /// The order, 2 to 32; `None`: the one that suits the tolerance.
         order: Option<usize>,

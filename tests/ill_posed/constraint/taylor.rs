@@ -3,7 +3,7 @@ use affine_runtime::affine_model;
 #[affine_model(
     dim = 2,
     constraint = isochoric,
-    kinetic(body_inertia = 1),
+    kinetic(dalembert = 1),
     potential = tr(G)*cos(t) + pairs(tanh(d)^2),
     emit(taylor)
 )]

@@ -26,10 +26,9 @@ const ACCELERATION: Part = Emitted(Capability::Acceleration);
 const BALANCE: Part = Emitted(Capability::Balance);
 
 /// What does not go together.
-const REFUSED: [Row; 26] = [
-    Row(&[TAYLOR], &[Confined], "coordinates of a group change from step to step, and series with them"),
+const REFUSED: [Row; 25] = [
     Row(
-        &[TANGENT],
+        &[TAYLOR, TANGENT],
         &[Multiplier],
         "there the equations are those of a free body, and the method adds the multiplier step by step",
     ),
