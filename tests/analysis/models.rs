@@ -1,5 +1,6 @@
 //! The models of these tests.
 
+use affine_runtime::analysis::RelativeEquilibrium;
 use affine_runtime::model::Model;
 use affine_runtime::prelude::*;
 
@@ -45,26 +46,28 @@ pub(crate) fn turning<const N: usize>(omega: f64) -> Matrix<N> {
     turn
 }
 
-/// The largest distance of a motion from `exp(t zeta)`, over a time.
+/// `exp(matrix)`, by squaring.
+pub(crate) fn exponential<const N: usize>(matrix: Matrix<N>) -> Matrix<N> {
+    let (mut sum, mut term) = (Matrix::<N>::identity(), Matrix::<N>::identity());
+    for k in 1..12 {
+        term = term * matrix / (1024.0 * f64::from(k));
+        sum += term;
+    }
+    (0..10).fold(sum, |power, _| power * power)
+}
+
+/// The largest distance of a motion from `exp(t zeta)`, over a time, in orthonormal bases.
 pub(crate) fn unrest<const N: usize, M: Model<N>>(
     model: &M,
-    turn: &affine_runtime::analysis::RelativeEquilibrium<N, M::Point<f64>>,
+    turn: &RelativeEquilibrium<N, M::Point<f64>>,
     time: f64,
 ) -> f64 {
     let run =
         Simulation::new(model, turn.point).until(time).every(time / 8.0).tolerance(1e-13).run().unwrap();
-    let exponential = |matrix: Matrix<N>| {
-        let (mut sum, mut term) = (Matrix::<N>::identity(), Matrix::<N>::identity());
-        let small = matrix / 1024.0;
-        for k in 1..12 {
-            term = term * small / f64::from(k);
-            sum += term;
-        }
-        (0..10).fold(sum, |power, _| power * power)
+    let (zeta, start) = (&turn.zeta, *model.orthonormal(&turn.point).phi());
+    let error = |(t, point): (f64, &M::Point<f64>)| {
+        let moved = exponential(zeta.space * t) * start * exponential(zeta.body * t);
+        (model.orthonormal(point).phi() - moved).norm()
     };
-    let zeta = &turn.zeta;
-    let error = |t: f64, phi: &Matrix<N>| {
-        (phi - exponential(zeta.space * t) * turn.point.phi() * exponential(zeta.body * t)).norm()
-    };
-    run.iter().map(|(t, point)| error(t, point.phi())).fold(0.0, f64::max)
+    run.iter().map(error).fold(0.0, f64::max)
 }

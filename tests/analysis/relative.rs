@@ -1,9 +1,11 @@
 //! Equilibria and relative equilibria that are known, and that they stay so.
 
-use affine_runtime::analysis::{AnalysisError, Condition, Generator, equilibrium, relative_equilibrium};
+use affine_runtime::analysis::{
+    AnalysisError, Condition, Generator, StabilityVerdict, equilibrium, relative_equilibrium,
+};
 use affine_runtime::prelude::*;
 
-use crate::models::{Disc, Geodesic, Missile, Soft, turning, unrest};
+use crate::models::{Disc, Geodesic, Missile, Soft, exponential, turning, unrest};
 
 #[test]
 fn a_soft_body_rests_undeformed() {
@@ -85,6 +87,115 @@ fn an_anisotropic_geodesic_needs_a_symmetry() {
     assert!(unrest(&Geodesic, &found, 4.0) < 1e-10);
     let refused = relative_equilibrium(&Geodesic, &guess, &[Generator { body, ..Generator::zero() }], &[]);
     assert!(matches!(refused, Err(AnalysisError::NotASymmetry { .. })), "{refused:?}");
+}
+
+/// Rows "geodesic generator": `phi0 exp(F t)` and `exp(F t) phi0` of isotropic geodesics, where `F` is normal.
+#[test]
+fn normal_matrices_generate_isotropic_geodesics() {
+    #[affine_model(dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1))]
+    struct Left;
+    #[affine_model(dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1))]
+    struct Right;
+    let phi = Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05);
+    let inverse = phi.try_inverse().unwrap();
+    let one = [Condition::Velocity(0, 1.0)];
+
+    let f = Matrix::<3>::new(0.0, -1.0, 0.5, 1.0, 0.0, 0.25, -0.5, -0.25, 0.0);
+    let guess = Left.at_velocity(phi, phi * f).unwrap();
+    let generator = Generator { space: phi * f * inverse, ..Generator::zero() };
+    let found = relative_equilibrium(&Left, &guess, &[generator], &one).unwrap();
+    let end = Matrix::<3>::new(
+        0.6832727441426091,
+        -0.8338622366615205,
+        0.3127493043664125,
+        0.6108854916102383,
+        0.4331338596790195,
+        0.5236544430630499,
+        -0.5491363453678394,
+        0.2489467951421426,
+        0.8882425160869689,
+    );
+    assert!((exponential(found.zeta.space) * found.point.phi() - end).norm() < 1e-12);
+    assert!(unrest(&Left, &found, 10.0) < 1e-10);
+
+    let f = Matrix::<3>::new(0.3, -0.7, 0.0, 0.7, 0.3, 0.0, 0.0, 0.0, -0.4);
+    let guess = Right.at_velocity(phi, f * phi).unwrap();
+    let generator = Generator { body: inverse * f * phi, ..Generator::zero() };
+    let found = relative_equilibrium(&Right, &guess, &[generator], &one).unwrap();
+    let end = Matrix::<3>::new(
+        1.0921917132471257,
+        -0.5761568346203039,
+        -0.2336833341582722,
+        1.0081846591710273,
+        1.1031066504433034,
+        0.06790405252534522,
+        -0.13406400920712785,
+        0.06703200460356393,
+        0.7038360483374213,
+    );
+    assert!((found.point.phi() * exponential(found.zeta.body) - end).norm() < 1e-12);
+    assert!(unrest(&Right, &found, 2.0) < 1e-10);
+}
+
+/// Metrics and momenta in space: symmetries act in orthonormal bases.
+#[test]
+fn metrics_turn_in_their_own_bases() {
+    #[affine_model(
+        dim = 3,
+        metrics(space = diag(4, 1, 2), body = diag(1, 2, 1)),
+        kinetic(casimir2 = 0.2, space_inertia = 1),
+        potential = hyperbolic_dilatation(10) + neo_hookean(0.5)
+    )]
+    struct Measured;
+    // Orthonormal: phi_ij sqrt(g_i/eta_j).
+    let rest = Matrix::<3>::from_diagonal(&Vector::<3>::new(0.5, 2.0_f64.sqrt(), 0.5_f64.sqrt()));
+    let guess = Measured.at_velocity(rest, Matrix::<3>::zeros()).unwrap();
+    let still = equilibrium(&Measured, &guess).unwrap();
+    assert!((still.point.phi() - rest).norm() < 1e-13);
+    let turn = [Generator::rotation(1, 2)];
+    let found = relative_equilibrium(&Measured, &guess, &turn, &[Condition::Velocity(0, 0.6)]).unwrap();
+    assert!(unrest(&Measured, &found, 20.0) < 1e-9);
+    assert!(found.stability(&Measured).unwrap().verdict == StabilityVerdict::Stable);
+}
+
+/// Bodies with drawn inertias and stiffnesses, that turn about a principal axis: what is found stays so for a
+/// long time, unless it is called unstable, and then it leaves.
+#[test]
+fn drawn_bodies_turn_on() {
+    #[affine_model(dim = 3, kinetic(dalembert = diag(j1, j2, j3)), potential = hyperbolic_dilatation(kappa) + neo_hookean(c1))]
+    struct Drawn {
+        j1: f64,
+        j2: f64,
+        j3: f64,
+        kappa: f64,
+        c1: f64,
+    }
+    let mut seed = 11_u64;
+    let mut draw = |low: f64, high: f64| {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        low + (high - low) * (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut ranks = [0; 3];
+    for k in 0..8 {
+        let [j1, j2, j3] = std::array::from_fn(|_| draw(0.5, 2.0));
+        let body = Drawn { j1, j2, j3, kappa: draw(4.0, 20.0), c1: draw(0.5, 2.0) }.prepare().unwrap();
+        let turn = [Generator::<3>::rotation(k % 3 + 1, (k + 1) % 3 + 1)];
+        let omega = draw(0.2, 0.5);
+        let guess = body.at_velocity(Matrix::<3>::identity(), turn[0].space * omega).unwrap();
+        let found = relative_equilibrium(&body, &guess, &turn, &[Condition::Velocity(0, omega)]).unwrap();
+        // Euler's theorem, for bodies that hardly deform: how many moments of inertia are less.
+        let moments = [j1 + j2, j2 + j3, j3 + j1];
+        let rank = moments.iter().filter(|moment| **moment < moments[k % 3]).count();
+        ranks[rank] += 1;
+        match (rank, found.stability(&body).unwrap().verdict) {
+            (2, StabilityVerdict::Stable) | (0, StabilityVerdict::LinearlyStable) => {
+                assert!(unrest(&body, &found, 60.0) < 1e-8);
+            }
+            (1, StabilityVerdict::Unstable { rate }) => assert!(unrest(&body, &found, 2.0 / rate) < 1e-9),
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(ranks.iter().all(|count| *count > 0), "{ranks:?}");
 }
 
 #[test]

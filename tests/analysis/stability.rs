@@ -71,8 +71,9 @@ fn isotropy_lets_zeta_be_chosen() {
     let stability = found.stability(&disc).unwrap();
     assert_eq!(stability.verdict, StabilityVerdict::Stable);
     assert!(stability.zeta.body.norm() > 0.1 * omega, "{:?}", stability.zeta);
-    let own = stability.eigenvalues.iter().filter(|one| one.sign != 0).map(|one| one.sign);
-    assert!(own.clone().any(|sign| sign > 0));
+    assert_eq!(stability.signature.map(|(_, negative, _)| negative), Some(0));
+    let negative = stability.stiffnesses.iter().filter(|stiffness| **stiffness < 0.0).count();
+    assert_eq!(negative, 2, "{:?}", stability.stiffnesses);
 }
 
 /// Rows "sleeping top": stable above `omega = sqrt(4 I1 u)/I3`, with its eigenvalues.

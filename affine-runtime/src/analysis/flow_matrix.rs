@@ -170,18 +170,23 @@ pub fn field_sensitivities<const N: usize, F: Fields<N>>(
         F::coefficients_of(&varied)
     });
     let coefficients = varied.collect::<Result<Vec<_>, _>>()?;
-    let mut flow = FlowMatrix::new(model, (t0, point), tolerance);
-    flow.set(&DMatrix::zeros(0, 0));
-    flow.advance(t, |t, z| {
-        let mut fixed = <F::Prepared as Model<N>>::Full::<Dual<f64>>::zeros();
-        fixed.as_mut().iter_mut().zip(z.as_ref()).for_each(|(both, value)| *both = Dual::fixed(*value));
-        let slopes = coefficients.iter().flat_map(|coefficients| {
-            let rates = model.hamilton_equations_with(coefficients, Dual::fixed(t), &fixed);
-            rates.as_ref().iter().map(|rate| rate.slope).collect::<Vec<_>>()
-        });
-        DMatrix::from_iterator(z.as_ref().len(), coefficients.len(), slopes)
-    })?;
-    Ok(flow.columns(coefficients.len()))
+    let mut columns = Vec::new();
+    // As many at once as the state has components.
+    for coefficients in coefficients.chunks(<F::Prepared as Model<N>>::Full::<f64>::LEN) {
+        let mut flow = FlowMatrix::new(model, (t0, point), tolerance);
+        flow.set(&DMatrix::zeros(0, 0));
+        flow.advance(t, |t, z| {
+            let mut fixed = <F::Prepared as Model<N>>::Full::<Dual<f64>>::zeros();
+            fixed.as_mut().iter_mut().zip(z.as_ref()).for_each(|(both, value)| *both = Dual::fixed(*value));
+            let slopes = coefficients.iter().flat_map(|coefficients| {
+                let rates = model.hamilton_equations_with(coefficients, Dual::fixed(t), &fixed);
+                rates.as_ref().iter().map(|rate| rate.slope).collect::<Vec<_>>()
+            });
+            DMatrix::from_iterator(z.as_ref().len(), coefficients.len(), slopes)
+        })?;
+        columns.extend(flow.columns(coefficients.len()).column_iter().map(|column| column.into_owned()));
+    }
+    Ok(if columns.is_empty() { DMatrix::zeros(0, 0) } else { DMatrix::from_columns(&columns) })
 }
 
 /// Lyapunov exponents of a motion over a time, from the largest, in the norm of the plain array.
