@@ -175,8 +175,24 @@ fn figures_of_equilibrium() -> Result<(), Box<dyn std::error::Error>> {
         |kind: Special| maclaurin.special.iter().find(|(own, _)| *own == kind).map(|(_, point)| point);
     let jacobi = special(Special::Bifurcation).ok_or("no ellipsoids of Jacobi")?;
     let breaking = special(Special::Collision).ok_or("no dynamical instability")?;
-    println!("  Jacobi branches off at e = {:.12} (0.812670010612)", eccentricity(jacobi));
-    println!("  dynamical instability at e = {:.12} (0.952886702034)", eccentricity(breaking));
+    for (name, found, published) in [
+        ("Jacobi branches off", eccentricity(jacobi), 0.812670010612),
+        ("dynamical instability", eccentricity(breaking), 0.952886702034),
+    ] {
+        println!("  {name} at e = {found:.12} ({published})");
+        if (found - published).abs() > 1e-10 {
+            return Err(name.into());
+        }
+    }
+    let is_between = |point: &&BranchPoint<3, Point>| (0.85..0.95).contains(&eccentricity(point));
+    let between = maclaurin.points.iter().find(is_between).ok_or("no point between")?;
+    let negative = between.stability.stiffnesses.iter().filter(|stiffness| **stiffness < 0.0).count();
+    println!("  between, e = {:.3}: {:?}", eccentricity(between), between.stability.verdict);
+    println!(
+        "    directions (up, down, level) where space and body share the turn: {:?}",
+        between.stability.signature
+    );
+    println!("    directions down in the frame that turns: {negative}");
     let elongated = Continuation::new(&turn, (0.0, 0.5), 0.08, along).switch(jacobi, 0.04)?;
     let stable = elongated.points.iter().filter(|point| point.stability.verdict == StabilityVerdict::Stable);
     println!("  ellipsoids of Jacobi: {} of {} points stable", stable.count(), elongated.points.len());
