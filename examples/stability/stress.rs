@@ -3,6 +3,8 @@
 use affine_runtime::prelude::*;
 use affine_runtime::report::{StabilityReport, Stress};
 
+use crate::scenes::Viscous;
+
 /// Stretches and shears as springs.
 #[affine_model(
     dim = 3,
@@ -13,18 +15,6 @@ use affine_runtime::report::{StabilityReport, Stress};
 )]
 struct Vibrating {
     kappa: f64,
-}
-
-/// The same in a viscous medium.
-#[affine_model(
-    dim = 3,
-    symmetry(space = affine, body = metric),
-    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
-    potential = 10/2*sinh(q)^2 + 0.5*(tr(G)*exp(-2*q) - n),
-    dissipation(body_inertia = r),
-)]
-struct Viscous {
-    r: f64,
 }
 
 /// A body without forces, whose motion has a closed form.

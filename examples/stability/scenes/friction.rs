@@ -13,8 +13,8 @@ use super::shared::scene;
     potential = 10/2*sinh(q)^2 + 0.5*(tr(G)*exp(-2*q) - n),
     dissipation(body_inertia = r),
 )]
-struct Viscous {
-    r: f64,
+pub(crate) struct Viscous {
+    pub(crate) r: f64,
 }
 
 /// Viscosity of the volume, and a little of the rest.

@@ -22,6 +22,8 @@ mod units;
 
 use affine_runtime::report::StabilityReport;
 
+pub(crate) use friction::Viscous;
+
 /// How much is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Extent {
