@@ -73,7 +73,7 @@ struct Reduced<'a, T: Lanes, M: InLanes<3>> {
 impl<T: Lanes, M: InLanes<3>> Equations<M::Reduced<T>> for Reduced<'_, T, M> {
     #[inline(always)]
     fn slope(&self, y: &M::Reduced<T>, slope: &mut M::Reduced<T>) {
-        self.model.equations_in_lanes(T::zero(), &self.constants, y, slope);
+        M::equations_in_lanes(|_| self.model, T::zero(), &self.constants, y, slope);
     }
 }
 
