@@ -2,12 +2,14 @@
 //!
 //! Space and body are isotropic, so that spin `S` and vorticity `V` are conserved, and two degrees of freedom are left: the
 //! mean log-stretch `q` and half their difference `x`. At `q = 0`, rising, a motion is a point `(x, x')` of a plane. Where
-//! points of one start lie on a curve, the motion is regular; where they fill an area, it is chaotic.
+//! points of one start lie on a curve, the motion is regular; where they fill an area, it is chaotic. Picture and points, as
+//! arrays of NumPy and as CSV, go to `output/`.
 
 use std::fmt::Write;
 use std::fs;
 
 use affine_runtime::prelude::*;
+use affine_runtime::simulate::Table;
 
 /// D'Alembert's kinetic energy, a stiff dilatation and a soft shear.
 #[affine_model(
@@ -33,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let section = || vec![Event::determinant(1.0).rising().named("section")];
     let ensemble = Ensemble::new(&Disc, starts.iter().copied()).until(T_END).tolerance(TOLERANCE);
     let (mut dots, mut points, mut worst) = (String::new(), 0, 0.0_f64);
-    let mut stopped = 0;
+    let (mut stopped, mut table) = (0, Table::of_bodies::<2, Disc>(&["x", "rate"]));
     ensemble.events(section).progress_bar().fold(
         |_, _| (),
         |(), _, _| (),
@@ -42,6 +44,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let colour = format!("hsl({}, 70%, 45%)", 47 * body.number % 360);
             for event in &body.events {
                 let (x, rate) = of_section(&event.point);
+                table.push::<2, Disc>(body.number, &[x, rate], event.t, &event.point);
                 points += 1;
                 let spin = event.point.spin().0.0[(0, 1)] - SPIN;
                 let energy = Disc.hamiltonian(event.t, &event.point) - ENERGY;
@@ -59,7 +62,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let label = "<text x='300' y='490' font-size='14'>x = (q1 - q2)/2</text><text x='5' y='20' font-size='14'>x'</text>";
     let size = "xmlns='http://www.w3.org/2000/svg' width='720' height='500'";
     fs::write("output/section.svg", format!("<svg {size}>\n{label}\n{dots}</svg>\n"))?;
-    println!("picture: output/section.svg");
+    table.save_npz("output/section.npz")?;
+    table.csv(fs::File::create("output/section.csv")?)?;
+    println!("picture: output/section.svg; numbers: output/section.npz, output/section.csv");
     Ok(())
 }
 
