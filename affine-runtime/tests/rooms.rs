@@ -115,3 +115,14 @@ fn the_core_is_small() {
     let lines: usize = files.map(|file| lines_of_code(&read(file))).sum();
     assert!((4000..=5000).contains(&lines), "{lines} lines");
 }
+
+/// What the feature `analysis` adds.
+#[test]
+fn the_analysis_is_small() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let arrows = arrows("src");
+    let files = arrows.of.keys().filter(|file| stem(file) == "analysis");
+    let lines: usize =
+        files.map(|file| lines_of_code(&std::fs::read_to_string(src.join(file)).unwrap())).sum();
+    assert!((1000..=2000).contains(&lines), "{lines} lines");
+}

@@ -5,7 +5,7 @@ use affine_runtime::analysis::{
 };
 use affine_runtime::prelude::*;
 
-use crate::models::{Disc, FreeTop, Missile, Soft, Top, turning};
+use crate::models::{Disc, FreeTop, Missile, Soft, Top, turning, unrest};
 
 /// Positive frequencies, from the least.
 fn frequencies<const N: usize>(stability: &Stability<N>) -> Vec<f64> {
@@ -95,6 +95,30 @@ fn a_top_sleeps() {
     let critical = 1.02469507659596;
     assert_eq!(asleep(critical + 1e-4).verdict, StabilityVerdict::Stable);
     assert!(matches!(asleep(critical - 1e-4).verdict, StabilityVerdict::Unstable { .. }));
+}
+
+/// Row "steady precession": slow and fast, at the tilt 0.6 with body spin 2, with their nutations.
+#[test]
+fn a_heavy_top_precesses() {
+    let top = Top { j1: 1.0, j3: 0.5, u: 0.7 }.prepare().unwrap();
+    let (sin, cos) = 0.6_f64.sin_cos();
+    let tilted = Matrix::<3>::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos);
+    for (precession, nutation) in
+        [(0.18566947007547783, 2.362514634665743), (3.045339368624033, 2.920147429936328)]
+    {
+        let (space, body) = (Generator::<3>::rotation(1, 2), Generator::<3>::vorticity(1, 2));
+        let own = 2.0 - precession * cos;
+        let guess =
+            top.at_velocity(tilted, space.space * tilted * precession + tilted * body.body * own).unwrap();
+        let conditions = [Condition::Velocity(0, precession), Condition::Velocity(1, own)];
+        let found = relative_equilibrium(&top, &guess, &[space, body], &conditions).unwrap();
+        assert!((found.point.phi()[(2, 2)] - cos).abs() < 1e-12, "{found:?}");
+        let stability = found.stability(&top).unwrap();
+        assert_paired(&stability);
+        assert_near(&frequencies(&stability), &[nutation], 1e-11);
+        assert_eq!(stability.verdict, StabilityVerdict::Stable);
+        assert!(unrest(&top, &found, 30.0) < 1e-9);
+    }
 }
 
 /// Rows "free top, stationary rotation": Euler's theorem, about each axis.
