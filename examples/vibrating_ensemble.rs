@@ -72,14 +72,15 @@ fn main() -> affine_runtime::Result<()> {
         });
     }
     let worst = pairs.iter().map(|(alone, together)| match (alone, together) {
-        (Some(alone), Some(together)) => (alone.phi() - together.phi()).norm() / alone.phi().norm(),
+        (Some((alone, _)), Some(together)) => (alone.phi() - together.phi()).norm() / alone.phi().norm(),
         _ => f64::NAN,
     });
     let worst =
         worst.fold(0.0, |worst: f64, error| if error <= worst || worst.is_nan() { worst } else { error });
     println!("{BODIES} bodies to t = {T_END} at {TOLERANCE:e}, {} lanes", Widest::LANES);
     println!("largest difference between the two ways: {worst:.1e}");
-    println!("{} outputs, {} events", counted[0], counted[1]);
+    let steps: u64 = pairs.iter().flat_map(|(alone, _)| alone.iter().map(|(_, steps)| steps)).sum();
+    println!("{steps} steps, {} outputs, {} events", counted[0], counted[1]);
     let [alone, _, plain, ..] = rates.each_mut().map(|rates| median(rates));
     for (name, rates) in ASKED.iter().zip(&mut rates) {
         let rate = median(rates);
@@ -100,10 +101,12 @@ fn start(model: &PreparedVibratingBody, index: usize) -> affine_runtime::Result<
     model.at_momentum(phi, Comoving(spin.map_with_location(|i, k, entry| entry + vary(9 + 3 * i + k))))
 }
 
-fn one_by_one(model: &PreparedVibratingBody, starts: &[Point]) -> Vec<Option<Point>> {
+/// Ends, with the steps that they took.
+fn one_by_one(model: &PreparedVibratingBody, starts: &[Point]) -> Vec<Option<(Point, u64)>> {
     let run = |start: &Point| {
         let simulation = Simulation::new(model, *start).until(T_END).tolerance(TOLERANCE).output([]);
-        simulation.method(Method::RungeKutta8).run().ok().map(|run| *run.end().1)
+        let run = simulation.method(Method::RungeKutta8).run().ok();
+        run.map(|run| (*run.end().1, run.statistics().steps))
     };
     starts.iter().map(run).collect()
 }
