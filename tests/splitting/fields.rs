@@ -236,6 +236,15 @@ fn work_of_kicks() {
     assert_eq!(count, 9);
 }
 
+/// Nothing is said to be symplectic that is not.
+#[test]
+fn friction_is_no_poisson_map() {
+    let start = Viscous.at_momentum(phi3(), Comoving(spin3())).unwrap();
+    let run = Simulation::new(&Viscous, start).until(1.0).method(Method::Splitting { order: 2, step: 0.1 });
+    let why = run.run().unwrap().why().to_string();
+    assert!(why.contains("the fading of momenta by friction") && !why.contains("Poisson"), "{why}");
+}
+
 #[test]
 fn halves_with_a_field() {
     let model = Halved { field: Field { strength: 0.3 } }.prepare().unwrap();

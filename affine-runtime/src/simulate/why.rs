@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::choice::{NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 use super::friction::STIFF_FRICTION;
+use super::layout::has_work;
 use super::method::Method;
 use super::trajectory::{Computation, Trajectory};
 use crate::inner::ORDER;
@@ -133,6 +134,13 @@ impl Why {
                 ""
             }
         )?;
+        if has_work(self.description) {
+            return writeln!(
+                f,
+                "kicks of forces and the fading of momenta by friction are pieces among the symplectic ones, and their work is exact \
+                 in each; kept up to rounding: momenta that every piece conserves"
+            );
+        }
         writeln!(
             f,
             "symplectic: a Poisson map; kept up to rounding: momenta that every piece conserves (p, spin, vorticity, \
