@@ -8,8 +8,7 @@ use wide::f64x4;
 pub(crate) struct Baseline;
 
 impl Vectors for Baseline {
-    const IS_LAST_RESORT: bool =
-        cfg!(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")));
+    const IS_LAST_RESORT: bool = cfg!(all(feature = "std", target_arch = "x86_64"));
     #[inline(always)]
     fn whole(self, vector: [f64; 4]) -> [f64; 4] {
         vector
@@ -37,12 +36,13 @@ impl Vectors for Baseline {
     }
 }
 
-/// AVX2: found at run time on targets that do not promise it, so nothing is fused there either.
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+/// AVX2, found at run time where the target does not promise it. What the target makes of a multiply-add of numbers is made
+/// of these too: of two roundings one where it promises such an instruction, and nothing elsewhere.
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx2(pub(crate) pulp::x86::V3);
 
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 impl Vectors for Avx2 {
     #[inline(always)]
     fn whole(self, vector: [f64; 4]) -> [f64; 4] {
@@ -50,19 +50,27 @@ impl Vectors for Avx2 {
         pulp::cast(self.0.mul_f64x4(pulp::cast(vector), self.0.splat_f64x4(1.0)))
     }
     #[inline(always)]
-    fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        let [one, other] = [one, other].map(|[a, b]| self.0.mul_f64x4(pulp::cast(a), pulp::cast(b)));
-        pulp::cast(self.0.add_f64x4(one, other))
+    fn pair(self, [a, b]: [[f64; 4]; 2], [c, d]: [[f64; 4]; 2]) -> [f64; 4] {
+        let product = pulp::cast(self.0.mul_f64x4(pulp::cast(c), pulp::cast(d)));
+        self.plus_product(product, a, b)
     }
     #[inline(always)]
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        let product = self.0.mul_f64x4(pulp::cast(left), pulp::cast(right));
-        pulp::cast(self.0.add_f64x4(pulp::cast(sum), product))
+        let [sum, left, right] = [sum, left, right].map(pulp::cast);
+        pulp::cast(if cfg!(target_feature = "fma") {
+            self.0.mul_add_f64x4(left, right, sum)
+        } else {
+            self.0.add_f64x4(sum, self.0.mul_f64x4(left, right))
+        })
     }
     #[inline(always)]
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        let product = self.0.mul_f64x4(pulp::cast(left), pulp::cast(right));
-        pulp::cast(self.0.sub_f64x4(pulp::cast(sum), product))
+        let [sum, left, right] = [sum, left, right].map(pulp::cast);
+        pulp::cast(if cfg!(target_feature = "fma") {
+            self.0.negate_mul_add_f64x4(left, right, sum)
+        } else {
+            self.0.sub_f64x4(sum, self.0.mul_f64x4(left, right))
+        })
     }
     #[inline(always)]
     fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
@@ -75,11 +83,11 @@ impl Vectors for Avx2 {
 }
 
 /// AVX-512, of which the vectors of AVX2 have use for the registers.
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx512(pub(crate) pulp::x86::V4);
 
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 impl Vectors for Avx512 {
     #[inline(always)]
     fn whole(self, vector: [f64; 4]) -> [f64; 4] {

@@ -1,11 +1,13 @@
 //! Hot code for the vectors that the processor has, not only those that every processor of the target has.
 //!
 //! On x86-64 the default target has vectors of two doubles and instructions that overwrite an operand. What goes
-//! through [`widest`] is compiled a second time for AVX2 and runs so where the processor, asked once, has it. Nothing
-//! is fused and no sum is reordered in either: the results are the same to the last bit.
+//! through [`widest`] is compiled a second time for AVX2 and runs so where the processor, asked once, has it. No sum is
+//! reordered, and a multiply-add is fused where the target promises such an instruction: the results are the same to the
+//! last bit. A target that promises AVX2 takes the same copies, which name their vectors: what leaves them to the compiler
+//! keeps them in memory.
 
 use super::vectors::Baseline;
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 use super::vectors::{Avx2, Avx512};
 use affine_core::__private::Vectors;
 
@@ -18,7 +20,7 @@ pub(crate) trait Work {
 }
 
 /// The work done, with the widest vectors there are.
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[inline(always)]
 pub(crate) fn widest<W: Work>(work: W) -> W::Output {
     match pulp::x86::V3::try_new() {
@@ -28,7 +30,7 @@ pub(crate) fn widest<W: Work>(work: W) -> W::Output {
 }
 
 /// The work done: the target says what vectors there are.
-#[cfg(not(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2"))))]
+#[cfg(not(all(feature = "std", target_arch = "x86_64")))]
 #[inline(always)]
 pub(crate) fn widest<W: Work>(work: W) -> W::Output {
     work.run(Baseline)
@@ -36,7 +38,7 @@ pub(crate) fn widest<W: Work>(work: W) -> W::Output {
 
 /// The work done, with the most registers there are: a loop over more vectors than sixteen is worth a third time. With
 /// AVX-512 there are thirty-two of any width, and an operand that one number of memory fills needs none.
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[inline(always)]
 pub(crate) fn roomiest<W: Work>(work: W) -> W::Output {
     match pulp::x86::V4::try_new() {
@@ -46,19 +48,19 @@ pub(crate) fn roomiest<W: Work>(work: W) -> W::Output {
 }
 
 /// The work done: the target says what registers there are.
-#[cfg(not(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2"))))]
+#[cfg(not(all(feature = "std", target_arch = "x86_64")))]
 #[inline(always)]
 pub(crate) fn roomiest<W: Work>(work: W) -> W::Output {
     widest(work)
 }
 
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 struct Once<W, V> {
     work: W,
     vectors: V,
 }
 
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx2")))]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 impl<W: Work, V: Vectors> pulp::NullaryFnOnce for Once<W, V> {
     type Output = W::Output;
     #[inline(always)]
