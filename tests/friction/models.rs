@@ -103,3 +103,15 @@ pub(crate) struct Isochoric {
 pub(crate) struct Crowd {
     pub(crate) r: f64,
 }
+
+/// Friction in the frame of the body, `r/2 |phi^-1 phi_dot|^2`, beside a kinetic energy that is not: where the body is small
+/// friction is fast, at the rate `r/Q^2`. It shrinks to stretches of `sqrt(0.002)`.
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1),
+    potential = 5*tr(G) - 0.02*log(det),
+    dissipation(body_inertia = r)
+)]
+pub(crate) struct Shrinking {
+    pub(crate) r: f64,
+}

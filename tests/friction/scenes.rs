@@ -4,7 +4,7 @@
 use affine_runtime::prelude::*;
 use affine_runtime::state::Phase;
 
-use crate::models::{Crowd, Everywhere, Isochoric, Moving, Spatial, Viscous};
+use crate::models::{Crowd, Everywhere, Isochoric, Moving, Shrinking, Spatial, Viscous};
 
 const PHI: [f64; 9] = [1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05];
 const SPIN: [f64; 9] = [0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05];
@@ -189,4 +189,45 @@ fn backward_in_time() {
     assert_eq!(near.computation().method, Method::RungeKutta8);
     let again = Simulation::new(&model, *near.end().1).until(1e-5).tolerance(1e-10).run().unwrap();
     assert!((again.end().1.phi() - phi()).norm() < 1e-8);
+}
+
+/// At the start friction takes velocities away some fifty times in the run, and 25000 times where the body has shrunk: the implicit steps take over on the way, with
+/// outputs, work, interruptions and events as if nothing had happened.
+#[test]
+fn friction_that_grows_stiff_on_the_way() {
+    let model = Shrinking { r: 1.0 }.prepare().unwrap();
+    let phi = Matrix::<2>::new(1.1, 0.2, -0.1, 0.95);
+    let start = model.at_velocity(phi, Matrix::<2>::new(0.1, 0.4, -0.3, 0.2)).unwrap();
+    let to = |method: Method, tolerance: f64| {
+        Simulation::new(&model, start).until(50.0).method(method).tolerance(tolerance)
+    };
+    let run = to(Method::Automatic, 1e-9).run().unwrap();
+    let tight = to(Method::RungeKutta8, 1e-12).run().unwrap();
+    assert!(matches!(run.computation().method, Method::Radau { .. }), "{}", run.why());
+    let since = run.computation().stiff_since.unwrap();
+    assert!(run.why().to_string().contains(&format!("from t = {since} on")), "{}", run.why());
+    assert!(run.statistics().steps < 1024 && tight.statistics().steps > 2500, "{}", run.why());
+    let (point, exact) = (run.end().1, tight.end().1);
+    let error = (point.phi() - exact.phi()).norm() / exact.phi().norm();
+    assert!(error < 1e-7, "{error:e}");
+    let balance = run.power_balance().unwrap();
+    assert!(balance.relative() < 1e-8, "{balance}");
+    // Each time once, and the change of method between two of them.
+    let times: Vec<f64> = run.iter().map(|(t, _)| t).collect();
+    assert!(times.windows(2).all(|pair| pair[0] < pair[1]) && times.contains(&since));
+    let at = |run: Simulation<'_, 2, _>| run.output([0.2 * since, since, 50.0]).run().unwrap();
+    let seldom = at(to(Method::Automatic, 1e-9));
+    assert_eq!(seldom.iter().count(), 3);
+    assert_eq!(seldom.end().1, point);
+    // Interrupted before and after, and gone on with.
+    for max_steps in [500, 520] {
+        let halt = to(Method::Automatic, 1e-9).max_steps(max_steps).run().unwrap_err();
+        let checkpoint = halt.trajectory.checkpoint().unwrap();
+        let rest = to(Method::Automatic, 1e-9).resume(checkpoint).run().unwrap();
+        assert_eq!((rest.end().1, rest.statistics().steps), (point, run.statistics().steps));
+    }
+    // Soft until the end, nothing changes.
+    let soft = Simulation::new(&model, start).until(0.1).tolerance(1e-12).run().unwrap();
+    assert_eq!(soft.computation().method, Method::RungeKutta8);
+    assert_eq!(soft.end().1, to(Method::RungeKutta8, 1e-12).until(0.1).run().unwrap().end().1);
 }

@@ -2,11 +2,14 @@
 
 use super::domain::turns;
 use super::failed::failed;
+use super::friction::is_stiff;
 use super::guard::{Guard, collapse, explained};
+use super::layout::has_work;
+use super::method::Method;
 use super::motion::Motion;
 use super::output::Schedule;
 use super::point::is_clearly_positive;
-use super::recorder::Recorder;
+use super::recorder::{Recorder, Turn};
 use super::trajectory::{Computation, Trajectory};
 use super::watcher::Sampling;
 use crate::error::Reason;
@@ -15,6 +18,9 @@ use crate::state::Phase;
 
 /// Equal parts of a step at whose ends events are looked at, where its length follows the error.
 pub(super) const WITHIN_A_STEP: u32 = 4;
+/// Explicit steps after which friction is looked at again, and after twice as many, and so on: a look costs the evaluations of
+/// eight.
+const STEPS_UNTIL_A_LOOK: u64 = 512;
 
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Steps to the end with output on the way, and the expansion of the last good step.
@@ -107,10 +113,30 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             if is_watched {
                 self.pass(motion);
             }
+            if self.has_stiffened(motion) {
+                return Ok(());
+            }
             self.steps += 1;
             self.report(t)?;
         }
         Ok(())
+    }
+
+    /// Friction has become stiff on the way, and the method is chosen anew: where the choice is free, and took explicit steps.
+    fn has_stiffened(&mut self, motion: &dyn Motion<P>) -> bool {
+        let steps = motion.statistics().steps;
+        let Computation { asked, method, .. } = self.trajectory.computation;
+        let is_explicit = matches!(method, Method::RungeKutta8 | Method::Taylor { .. });
+        let is_due = steps >= STEPS_UNTIL_A_LOOK && steps.is_power_of_two() && !motion.is_finished();
+        if !(is_due && asked == Method::Automatic && is_explicit && has_work(self.model.description())) {
+            return false;
+        }
+        let (t, (point, work)) = (motion.t(), motion.reached());
+        let stiff = self.model.rate_of_friction(t, &point).is_some_and(|rate| is_stiff(rate, self.t_end - t));
+        if stiff {
+            self.turn = Some(Turn::Anew { t, point, work: self.place.work() + work });
+        }
+        stiff
     }
 
     /// Keeps the step in which the time turns an angle of the potential furthest.

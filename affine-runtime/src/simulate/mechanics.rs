@@ -1,6 +1,7 @@
 //! What a run asks of a model.
 
 use super::course::{Choice, Course};
+use super::friction::rate_of_friction;
 use super::motion::{Boxed, Motion, PointOf, Purpose};
 use crate::error::Reason;
 use crate::frames::Matrix;
@@ -20,6 +21,8 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn regularity(&self, phi: &Matrix<N>) -> Option<Regularity>;
     fn hamiltonian(&self, t: f64, point: &P) -> f64;
     fn power(&self, t: f64, point: &P) -> f64;
+    /// How fast friction takes velocities away at a point, where that is known.
+    fn rate_of_friction(&self, t: f64, point: &P) -> Option<f64>;
     fn domain(&self, t: f64, point: &P, each: &mut dyn FnMut(f64));
     fn velocity(&self, point: &P) -> Velocity<N>;
     fn geodesic(&self, t0: f64, point: &P) -> Option<Geodesic<N>>;
@@ -65,6 +68,9 @@ impl<'a, const N: usize, M: Model<N>, H: Purpose<'a, N, Model = M>> Mechanics<N,
     }
     fn power(&self, t: f64, point: &M::Point<f64>) -> f64 {
         self.handle.model().power(t, point)
+    }
+    fn rate_of_friction(&self, t: f64, point: &M::Point<f64>) -> Option<f64> {
+        rate_of_friction::<N, M>(self.handle.model(), (t, point)).rate
     }
     fn domain(&self, t: f64, point: &M::Point<f64>, each: &mut dyn FnMut(f64)) {
         self.handle.model().domain(t, point, each);

@@ -67,6 +67,8 @@ pub(super) enum Turn<P> {
         /// Its changes accumulate: that is where the run ends.
         accumulation: Option<Reason>,
     },
+    /// It goes on from where it is by a method that is chosen anew.
+    Anew { t: f64, point: P, work: f64 },
 }
 
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
@@ -152,7 +154,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Where the motion ends that is integrated: where an event changes the point, or at the last good one.
     pub(super) fn turned_at(&self) -> f64 {
         match &self.turn {
-            Some(Turn::Changed { t, .. }) => *t,
+            Some(Turn::Changed { t, .. } | Turn::Anew { t, .. }) => *t,
             _ => self.trajectory.end.0,
         }
     }

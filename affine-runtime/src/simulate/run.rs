@@ -155,6 +155,10 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             self.leg(from, recorder)?;
             let (t, point, work, accumulation) = match recorder.turn.take() {
                 Some(Turn::Changed { t, point, work, accumulation }) => (t, point, work, accumulation),
+                Some(Turn::Anew { t, point, work }) => {
+                    recorder.trajectory.computation.stiff_since = Some(t);
+                    (t, point, work, None)
+                }
                 Some(Turn::Stopped) => return Ok(()),
                 None => return recorder.arrive(),
             };
@@ -165,7 +169,8 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             recorder.trajectory.computation.at_rest &= point.p().iter().all(|p| *p == 0.0);
             let cost = recorder.trajectory.statistics;
             let events = recorder.watcher.memory().to_vec();
-            recorder.place = Place::starting(events, (cost, work));
+            let recorded = recorder.trajectory.computation.stiff_since == Some(t);
+            recorder.place = Place { recorded, ..Place::starting(events, (cost, work)) };
             if let Some(reason) = accumulation {
                 return Err(reason);
             }
@@ -249,6 +254,7 @@ pub(super) fn empty_trajectory<const N: usize, P: Phase<N>>(
             missing: None,
             stiffness: None,
             friction: None,
+            stiff_since: None,
             condition: model.condition(start.phi()),
             residual: None,
             energy_defect: 0.0,

@@ -65,6 +65,8 @@ pub struct Computation {
     pub stiffness: Option<f64>,
     /// The rate at which friction takes velocities away, where that is why [`Method::Automatic`] takes [`Method::Radau`].
     pub friction: Option<f64>,
+    /// From when on, where another method took the motion there.
+    pub stiff_since: Option<f64>,
     /// Condition number of a kinetic energy whose coefficients are fields, [`Model::condition`](crate::model::Model::condition),
     /// at the start; `None` where they are numbers, which were checked when the model was compiled.
     pub condition: Option<f64>,

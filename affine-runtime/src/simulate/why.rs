@@ -96,16 +96,22 @@ impl Why {
     }
 
     fn radau(&self, f: &mut fmt::Formatter<'_>, stages: Option<usize>) -> fmt::Result {
-        let Computation { tolerance, friction, .. } = self.computation;
+        let Computation { tolerance, friction, stiff_since, .. } = self.computation;
         let stages = stages.unwrap_or(Tableau::for_tolerance(tolerance).stages());
         let order = 2 * stages - 1;
         write!(f, "Radau IIA of {stages} stages, order {order}, relative error {tolerance:e} per step: ")?;
         match friction {
-            Some(rate) => writeln!(
-                f,
-                "friction takes velocities away at a rate of {rate:.2e}, more than {STIFF_FRICTION} times in this run: explicit \
-                 steps would have to follow that, and these do not"
-            ),
+            Some(rate) => {
+                write!(
+                    f,
+                    "friction takes velocities away at a rate of {rate:.2e}, more than {STIFF_FRICTION} times "
+                )?;
+                match stiff_since {
+                    Some(t) => write!(f, "from t = {t} on, where these steps began")?,
+                    None => write!(f, "in this run")?,
+                }
+                writeln!(f, ": explicit steps would have to follow that, and these do not")
+            }
             None => writeln!(f, "as asked for"),
         }
     }
